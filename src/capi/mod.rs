@@ -1,0 +1,1 @@
+//! The C interface: the only place where `unsafe` is allowed.

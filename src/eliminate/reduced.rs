@@ -1,0 +1,78 @@
+//! The problem without its constraints.
+
+use super::Expansion;
+use crate::linalg::Sparse;
+
+/// `minimise 1/2 y'Hy + g'y + c`, some entries of `y` integer, nothing else.
+///
+/// Reduced unknowns stand in the order of the caller's unknowns that they are; integers that the
+/// elimination had to introduce follow at the end.
+#[derive(Debug, Clone)]
+pub struct ReducedModel {
+    pub(crate) hessian: Sparse,
+    pub(crate) gradient: Vec<f64>,
+    pub(crate) constant: f64,
+    pub(crate) integers: Vec<u32>,
+    pub(crate) continuous: Vec<u32>,
+    pub(crate) guess: Vec<f64>,
+    pub(crate) expansion: Expansion,
+}
+
+impl ReducedModel {
+    /// Number of reduced unknowns.
+    pub fn dim(&self) -> usize {
+        self.gradient.len()
+    }
+
+    /// Lower triangle of the reduced Hessian, every diagonal entry stored.
+    pub fn hessian(&self) -> &Sparse {
+        &self.hessian
+    }
+
+    /// The reduced linear term.
+    pub fn gradient(&self) -> &[f64] {
+        &self.gradient
+    }
+
+    /// The reduced constant.
+    pub fn constant(&self) -> f64 {
+        self.constant
+    }
+
+    /// The integer reduced unknowns, increasing.
+    pub fn integers(&self) -> &[u32] {
+        &self.integers
+    }
+
+    /// The continuous reduced unknowns, increasing.
+    pub fn continuous(&self) -> &[u32] {
+        &self.continuous
+    }
+
+    /// Where reduced unknowns stay that the objective does not decide.
+    pub fn guess(&self) -> &[f64] {
+        &self.guess
+    }
+
+    /// The way back to the caller's unknowns.
+    pub fn expansion(&self) -> &Expansion {
+        &self.expansion
+    }
+
+    /// The objective at `y`. Terms are summed with compensation: on real problems the constant is
+    /// a million times the result.
+    pub fn energy(&self, y: &[f64]) -> f64 {
+        use crate::linalg::CompensatedSum;
+        let mut sum = CompensatedSum::new(self.constant);
+        for (g, y) in self.gradient.iter().zip(y) {
+            sum.add_product(*g, *y);
+        }
+        for i in 0..self.dim() {
+            for (j, v) in self.hessian.row(i) {
+                let half = if i == j { 0.5 } else { 1.0 };
+                sum.add_product(half * v * y[i], y[j]);
+            }
+        }
+        sum.value()
+    }
+}

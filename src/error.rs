@@ -1,0 +1,198 @@
+//! The errors of the library: one type, each variant naming the element at fault.
+
+/// What every fallible function of the library returns.
+pub type Result<T> = std::result::Result<T, Error>;
+
+/// Why a call failed. Nothing was changed by a call that failed.
+///
+/// The text names the element at fault in words; [`Error::index`] and [`Error::line`] give it as
+/// a number. Elements are counted from 0, lines of a file from 1.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// A value that is not allowed in itself, such as a negative weight.
+    #[error("{what}")]
+    InvalidArgument {
+        /// What is wrong, in words.
+        what: String,
+        /// Position of the value in its array, where it has one.
+        index: Option<usize>,
+    },
+    /// Two arrays that belong together differ in length.
+    #[error("{what}: expected {expected} entries, got {actual}")]
+    LengthMismatch {
+        /// The array.
+        what: &'static str,
+        /// The length that it should have.
+        expected: usize,
+        /// The length that it has.
+        actual: usize,
+    },
+    /// An index that is negative or too large.
+    #[error("{what}: entry {position} is {value}, outside 0..{len}")]
+    IndexOutOfRange {
+        /// The array.
+        what: &'static str,
+        /// Position of the index in its array.
+        position: usize,
+        /// The index given.
+        value: i64,
+        /// One more than the largest index allowed.
+        len: usize,
+    },
+    /// NaN or infinity where a number is needed.
+    #[error("{what}: entry {position} is not a finite number")]
+    NotFinite {
+        /// The array.
+        what: &'static str,
+        /// Position of the number in its array.
+        position: usize,
+    },
+    /// A problem without unknowns.
+    #[error("the problem has no variables")]
+    Empty,
+    /// A count, or an integer that the solution needs, is beyond what can be represented.
+    #[error("{what}")]
+    Overflow {
+        /// What overflows, in words.
+        what: String,
+        /// The element at fault, where there is one.
+        index: Option<usize>,
+    },
+    /// Memory for a large array could not be had.
+    #[error("not enough memory for {what}")]
+    OutOfMemory {
+        /// The array.
+        what: &'static str,
+    },
+    /// No option has this name.
+    #[error("there is no option '{name}'")]
+    UnknownOption {
+        /// The name given.
+        name: String,
+    },
+    /// The option exists, but takes another type of value.
+    #[error("option '{name}' takes {expected}")]
+    OptionType {
+        /// The option.
+        name: &'static str,
+        /// The type that it takes.
+        expected: &'static str,
+    },
+    /// The option exists and has this type, but not this value.
+    #[error("option '{name}': {value} is outside {range}")]
+    OptionRange {
+        /// The option.
+        name: &'static str,
+        /// The value given.
+        value: String,
+        /// The values allowed.
+        range: &'static str,
+    },
+    /// The constraints contradict each other.
+    #[error("constraint {constraint}: {row} contradicts the other constraints")]
+    Infeasible {
+        /// The row that cannot hold when the others do.
+        constraint: usize,
+        /// The row as the caller gave it.
+        row: String,
+    },
+    /// Integer unknowns that a constraint forces off the integers.
+    #[error("constraint {constraint}: {row} has no integer solution")]
+    NoIntegerSolution {
+        /// The row at fault.
+        constraint: usize,
+        /// The row as the caller gave it.
+        row: String,
+    },
+    /// The objective falls without limit.
+    #[error(
+        "the objective is unbounded below: it falls forever along a direction that moves variable {variable}"
+    )]
+    Unbounded {
+        /// A variable that the direction moves (the one it moves most).
+        variable: usize,
+        /// The direction, one number a variable, largest entry 1 in absolute value.
+        direction: Vec<f64>,
+    },
+    /// The objective curves downwards: Q is not positive semi-definite where the constraints hold.
+    #[error(
+        "the objective is not convex: it curves downwards along a direction that moves variable {variable}"
+    )]
+    NotConvex {
+        /// A variable that the direction moves (the one it moves most).
+        variable: usize,
+        /// The direction, one number a variable, largest entry 1 in absolute value.
+        direction: Vec<f64>,
+    },
+    /// Something that the library does not solve (yet).
+    #[error("not supported: {what}")]
+    NotSupported {
+        /// What is not supported.
+        what: String,
+        /// The element at fault, where there is one.
+        index: Option<usize>,
+        /// The line of the file, where there is one.
+        line: Option<usize>,
+    },
+    /// A file that does not follow its format.
+    #[error("line {line}: {message}")]
+    Parse {
+        /// The line, counted from 1.
+        line: usize,
+        /// What is wrong with it.
+        message: String,
+    },
+    /// A file that cannot be read or written.
+    #[error("{message}")]
+    Io {
+        /// The system's reason, with the file's name.
+        message: String,
+    },
+    /// Cancelled by the caller before a first solution was found.
+    #[error("cancelled before a first solution was found")]
+    Cancelled,
+    /// Out of time before a first solution was found.
+    #[error("the time limit passed before a first solution was found")]
+    TimeLimit,
+}
+
+impl Error {
+    /// The element at fault: position in the array, constraint, or variable.
+    pub fn index(&self) -> Option<usize> {
+        match self {
+            Error::InvalidArgument { index, .. }
+            | Error::Overflow { index, .. }
+            | Error::NotSupported { index, .. } => *index,
+            Error::IndexOutOfRange { position, .. } | Error::NotFinite { position, .. } => {
+                Some(*position)
+            }
+            Error::Infeasible { constraint, .. } | Error::NoIntegerSolution { constraint, .. } => {
+                Some(*constraint)
+            }
+            Error::Unbounded { variable, .. } | Error::NotConvex { variable, .. } => {
+                Some(*variable)
+            }
+            _ => None,
+        }
+    }
+
+    /// The line of the file at fault, counted from 1.
+    pub fn line(&self) -> Option<usize> {
+        match self {
+            Error::Parse { line, .. } => Some(*line),
+            Error::NotSupported { line, .. } => *line,
+            _ => None,
+        }
+    }
+
+    /// For [`Error::Unbounded`] and [`Error::NotConvex`], the direction that proves it.
+    pub fn direction(&self) -> Option<&[f64]> {
+        match self {
+            Error::Unbounded { direction, .. } | Error::NotConvex { direction, .. } => {
+                Some(direction)
+            }
+            _ => None,
+        }
+    }
+}

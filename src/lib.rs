@@ -1,0 +1,50 @@
+//! Roundel: mixed-integer quadratic problems of geometry processing.
+//!
+//! ```text
+//! minimise   E(x) = 1/2 x'Qx + q'x + c + sum_k w_k (a_k . x - r_k)^2
+//! subject to C x = d
+//!            x_i integer for i in I
+//! ```
+//!
+//! `Q` is symmetric positive semi-definite and sparse; the constraints may be redundant. These
+//! are the signs of MPS, OSQP and Clarabel. A problem flows through the library one way:
+//!
+//! ```text
+//! Problem --validate--> Model --eliminate--> ReducedModel --(strategy, Search)--> Solution
+//! ```
+//!
+//! ```
+//! use roundel::{solve, Options, Problem, Strategy};
+//!
+//! // (x0 - 0.4)^2 + (x0 - x1)^2 with x1 an integer
+//! let mut problem = Problem::new(2)?;
+//! problem.add_least_squares(&[0], &[1.0], 0.4, 1.0)?;
+//! problem.add_least_squares(&[0, 1], &[1.0, -1.0], 0.0, 1.0)?;
+//! problem.set_integers(&[1])?;
+//! let options = Options { strategy: Strategy::Greedy, ..Options::default() };
+//! let solution = solve(&problem, &options)?;
+//! assert_eq!(solution.values(), &[0.2, 0.0]);
+//! # Ok::<(), roundel::Error>(())
+//! ```
+//!
+//! Where to find what: [`problem`] states and validates, [`eliminate`] removes the equality
+//! constraints, [`round`] and [`solve`] search, [`linalg`] holds what faer lacks, [`capi`] is the
+//! C interface.
+
+#![deny(unsafe_code)]
+#![deny(missing_docs)]
+
+pub mod capi;
+pub mod eliminate;
+mod error;
+pub mod linalg;
+pub mod problem;
+pub mod round;
+pub mod solve;
+
+pub use error::{Error, Result};
+pub use problem::{Layout, Model, Problem, Triangle};
+pub use solve::{
+    CancelToken, Event, Flow, Monitor, Options, Seconds, Solution, SolveStatus, Strategy, solve,
+    solve_with,
+};

@@ -1,0 +1,147 @@
+//! Matrices as callers have them: compressed columns or rows, one triangle or both.
+
+use super::check::{all_finite, same_length};
+use crate::linalg::Sparse;
+use crate::{Error, Result};
+
+/// Two mirrored entries of a full symmetric matrix may differ by this, relative to the larger.
+const SYMMETRY_TOLERANCE: f64 = 1e-9;
+
+/// Which entries of a symmetric matrix are given.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Triangle {
+    /// Both triangles, which must agree.
+    Full,
+    /// Only entries with row <= column.
+    Upper,
+    /// Only entries with row >= column.
+    Lower,
+}
+
+/// Whether a compressed matrix is stored column by column (CSC) or row by row (CSR).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Layout {
+    /// CSC: SciPy's `csc_matrix`, Eigen's default.
+    Columns,
+    /// CSR: SciPy's `csr_matrix`, Eigen's `RowMajor`.
+    Rows,
+}
+
+/// A compressed sparse matrix in the caller's arrays.
+///
+/// Column (or row) `k` has the entries `offsets[k]..offsets[k + 1]` of `indices` and `values`.
+/// Indices within it need not be sorted, and duplicates are summed.
+#[derive(Debug, Clone, Copy)]
+pub struct MatrixRef<'a> {
+    /// Columns or rows.
+    pub layout: Layout,
+    /// One more number than there are columns (or rows), from 0, not decreasing.
+    pub offsets: &'a [usize],
+    /// Row (or column) of each entry.
+    pub indices: &'a [usize],
+    /// Value of each entry.
+    pub values: &'a [f64],
+}
+
+impl MatrixRef<'_> {
+    pub(super) fn validate(&self, what: &'static str, rows: usize, cols: usize) -> Result<()> {
+        let (major, minor) = match self.layout {
+            Layout::Columns => (cols, rows),
+            Layout::Rows => (rows, cols),
+        };
+        same_length("matrix offsets", major + 1, self.offsets.len())?;
+        same_length("matrix values", self.indices.len(), self.values.len())?;
+        let decreases = |k: usize| self.offsets[k] > self.offsets[k + 1];
+        if self.offsets[0] != 0 || (0..major).any(decreases) {
+            let at = (0..major).find(|&k| decreases(k)).map_or(0, |k| k + 1);
+            return Err(Error::InvalidArgument {
+                what: format!(
+                    "{what} matrix: offset {at} is {}, which does not start at 0 and grow",
+                    self.offsets[at]
+                ),
+                index: Some(at),
+            });
+        }
+        same_length("matrix indices", self.offsets[major], self.indices.len())?;
+        super::check::in_range("matrix indices", self.indices, minor)?;
+        all_finite("matrix values", self.values)
+    }
+
+    /// All entries `(row, column, value)`.
+    pub(super) fn entries(&self) -> impl Iterator<Item = (u32, u32, f64)> + Clone + '_ {
+        let by_columns = self.layout == Layout::Columns;
+        self.offsets.windows(2).enumerate().flat_map(move |(k, w)| {
+            let range = w[0]..w[1];
+            let pairs = self.indices[range.clone()].iter().zip(&self.values[range]);
+            pairs.map(move |(&i, &v)| {
+                if by_columns {
+                    (i as u32, k as u32, v)
+                } else {
+                    (k as u32, i as u32, v)
+                }
+            })
+        })
+    }
+}
+
+/// The lower triangle of the symmetric matrix that `entries` describe.
+pub(super) fn lower_triangle(
+    triangle: Triangle,
+    size: usize,
+    entries: impl Iterator<Item = (u32, u32, f64)> + Clone,
+) -> Result<Vec<(u32, u32, f64)>> {
+    if triangle == Triangle::Full {
+        check_symmetry(&Sparse::from_triplets(size, size, entries.clone())?)?;
+        return Ok(entries.filter(|&(i, j, _)| i >= j).collect());
+    }
+    let mirrored = triangle == Triangle::Upper;
+    let mut lower = Vec::new();
+    for (position, (i, j, v)) in entries.enumerate() {
+        let (i, j) = if mirrored { (j, i) } else { (i, j) };
+        if i < j {
+            return Err(Error::InvalidArgument {
+                what: format!(
+                    "quadratic entry {position} is not in the {} triangle",
+                    if mirrored { "upper" } else { "lower" }
+                ),
+                index: Some(position),
+            });
+        }
+        lower.push((i, j, v));
+    }
+    Ok(lower)
+}
+
+fn check_symmetry(a: &Sparse) -> Result<()> {
+    let mirror = a.transpose();
+    for i in 0..a.rows() {
+        let mut theirs = mirror.row(i).peekable();
+        for (j, v) in a.row(i) {
+            while theirs.next_if(|&(k, w)| k < j && w == 0.0).is_some() {}
+            let w = match theirs.peek() {
+                Some(&(k, w)) if k == j => {
+                    theirs.next();
+                    w
+                }
+                Some(&(k, w)) if k < j => return Err(asymmetric(i, k, 0.0, w)),
+                _ => 0.0,
+            };
+            if (v - w).abs() > SYMMETRY_TOLERANCE * v.abs().max(w.abs()) {
+                return Err(asymmetric(i, j, v, w));
+            }
+        }
+        if let Some((k, w)) = theirs.find(|&(_, w)| w != 0.0) {
+            return Err(asymmetric(i, k, 0.0, w));
+        }
+    }
+    Ok(())
+}
+
+fn asymmetric(i: usize, j: usize, v: f64, w: f64) -> Error {
+    Error::InvalidArgument {
+        what: format!(
+            "the full quadratic matrix is not symmetric: ({i}, {j}) is {v}, ({j}, {i}) is {w}"
+        ),
+        index: Some(i),
+    }
+}

@@ -1,0 +1,270 @@
+//! Stating a problem: the builder, its validation, and the model that the solver works on.
+
+mod check;
+mod matrix;
+mod model;
+pub mod mps;
+mod rows;
+mod text;
+
+pub use matrix::{Layout, MatrixRef, Triangle};
+pub use model::Model;
+pub use rows::RowList;
+pub(crate) use text::row_text;
+
+use crate::{Error, Result};
+use check::{all_finite, finite, in_range, same_length};
+use matrix::lower_triangle;
+
+/// A mixed-integer quadratic problem under construction.
+///
+/// Parts may be given in any order and any number of times: quadratic and linear terms add up.
+/// A call that fails changes nothing. See the [crate] for the problem and its signs.
+#[derive(Debug, Clone)]
+pub struct Problem {
+    variables: usize,
+    /// Entries of the lower triangle of Q, duplicates not yet summed.
+    quadratic: Vec<(u32, u32, f64)>,
+    linear: Vec<f64>,
+    constant: f64,
+    least_squares: RowList,
+    weights: Vec<f64>,
+    constraints: RowList,
+    integer: Vec<bool>,
+    pinned: Vec<Option<f64>>,
+    guess: Vec<f64>,
+}
+
+impl Problem {
+    /// A problem of `variables` unknowns with objective zero, no constraint and no integers.
+    ///
+    /// # Errors
+    /// [`Error::Empty`] for no unknowns, [`Error::Overflow`] beyond 2^31 - 1 of them,
+    /// [`Error::OutOfMemory`].
+    pub fn new(variables: usize) -> Result<Self> {
+        if variables == 0 {
+            return Err(Error::Empty);
+        }
+        if variables > i32::MAX as usize {
+            return Err(Error::Overflow {
+                what: format!("{variables} variables are more than 2^31 - 1"),
+                index: None,
+            });
+        }
+        Ok(Problem {
+            variables,
+            quadratic: Vec::new(),
+            linear: filled(variables, 0.0)?,
+            constant: 0.0,
+            least_squares: RowList::default(),
+            weights: Vec::new(),
+            constraints: RowList::default(),
+            integer: filled(variables, false)?,
+            pinned: filled(variables, None)?,
+            guess: filled(variables, 0.0)?,
+        })
+    }
+
+    /// Number of unknowns.
+    pub fn variables(&self) -> usize {
+        self.variables
+    }
+
+    /// Number of equality constraints given so far.
+    pub fn constraints(&self) -> usize {
+        self.constraints.len()
+    }
+
+    /// Adds entries to Q (which stands in the objective as 1/2 x'Qx), in any order, duplicates
+    /// summed.
+    ///
+    /// With [`Triangle::Full`] both triangles must be given and agree; with the others the entry
+    /// of the given triangle stands for both.
+    ///
+    /// # Errors
+    /// [`Error::LengthMismatch`], [`Error::IndexOutOfRange`], [`Error::NotFinite`], and
+    /// [`Error::InvalidArgument`] for an entry of the wrong triangle or without its mirror image.
+    pub fn add_quadratic_triplets(
+        &mut self,
+        triangle: Triangle,
+        rows: &[usize],
+        cols: &[usize],
+        values: &[f64],
+    ) -> Result<()> {
+        same_length("quadratic columns", rows.len(), cols.len())?;
+        same_length("quadratic values", rows.len(), values.len())?;
+        in_range("quadratic rows", rows, self.variables)?;
+        in_range("quadratic columns", cols, self.variables)?;
+        all_finite("quadratic values", values)?;
+        let entries = rows.iter().zip(cols).zip(values);
+        let entries = entries.map(|((&i, &j), &v)| (i as u32, j as u32, v));
+        self.append_quadratic(triangle, entries)
+    }
+
+    /// Adds a matrix in compressed columns or rows to Q. See
+    /// [`add_quadratic_triplets`](Self::add_quadratic_triplets); positions in errors are positions
+    /// in `indices` and `values`.
+    ///
+    /// # Errors
+    /// As for triplets, and [`Error::InvalidArgument`] for offsets that decrease.
+    pub fn add_quadratic_matrix(&mut self, triangle: Triangle, matrix: &MatrixRef) -> Result<()> {
+        matrix.validate("quadratic", self.variables, self.variables)?;
+        self.append_quadratic(triangle, matrix.entries())
+    }
+
+    fn append_quadratic(
+        &mut self,
+        triangle: Triangle,
+        entries: impl Iterator<Item = (u32, u32, f64)> + Clone,
+    ) -> Result<()> {
+        let mut lower = lower_triangle(triangle, self.variables, entries)?;
+        self.quadratic.append(&mut lower);
+        Ok(())
+    }
+
+    /// Adds `values` (one an unknown) to the linear term q.
+    ///
+    /// # Errors
+    /// [`Error::LengthMismatch`], [`Error::NotFinite`].
+    pub fn add_linear(&mut self, values: &[f64]) -> Result<()> {
+        same_length("linear terms", self.variables, values.len())?;
+        all_finite("linear terms", values)?;
+        for (q, v) in self.linear.iter_mut().zip(values) {
+            *q += v;
+        }
+        Ok(())
+    }
+
+    /// Adds `value` to the linear coefficient of one unknown.
+    ///
+    /// # Errors
+    /// [`Error::IndexOutOfRange`], [`Error::NotFinite`].
+    pub fn add_linear_term(&mut self, variable: usize, value: f64) -> Result<()> {
+        in_range("variable", &[variable], self.variables)?;
+        finite("linear term", value)?;
+        self.linear[variable] += value;
+        Ok(())
+    }
+
+    /// Adds `value` to the constant of the objective.
+    ///
+    /// # Errors
+    /// [`Error::NotFinite`].
+    pub fn add_constant(&mut self, value: f64) -> Result<()> {
+        finite("constant", value)?;
+        self.constant += value;
+        Ok(())
+    }
+
+    /// Adds `weight * (sum_k coefficients[k] x[indices[k]] - rhs)^2` to the objective (without a
+    /// factor of 1/2) and returns the row's number. The row itself is kept.
+    ///
+    /// # Errors
+    /// [`Error::LengthMismatch`], [`Error::IndexOutOfRange`], [`Error::NotFinite`], and
+    /// [`Error::InvalidArgument`] for a negative weight.
+    pub fn add_least_squares(
+        &mut self,
+        indices: &[usize],
+        coefficients: &[f64],
+        rhs: f64,
+        weight: f64,
+    ) -> Result<usize> {
+        finite("least-squares weight", weight)?;
+        if weight < 0.0 {
+            return Err(Error::InvalidArgument {
+                what: format!("least-squares weight {weight} is negative"),
+                index: None,
+            });
+        }
+        let row = self.least_squares.push(
+            "least-squares row",
+            self.variables,
+            indices,
+            coefficients,
+            rhs,
+        )?;
+        self.weights.push(weight);
+        Ok(row)
+    }
+
+    /// Adds the constraint `sum_k coefficients[k] x[indices[k]] = rhs` and returns its number, by
+    /// which errors will name it. Duplicate indices are summed.
+    ///
+    /// # Errors
+    /// [`Error::LengthMismatch`], [`Error::IndexOutOfRange`], [`Error::NotFinite`].
+    pub fn add_constraint(
+        &mut self,
+        indices: &[usize],
+        coefficients: &[f64],
+        rhs: f64,
+    ) -> Result<usize> {
+        self.constraints
+            .push("constraint", self.variables, indices, coefficients, rhs)
+    }
+
+    /// Adds the constraints `C x = rhs`, one a row of the matrix, and returns the first one's
+    /// number.
+    ///
+    /// # Errors
+    /// As for one constraint; positions are positions in the matrix' arrays.
+    pub fn add_constraint_matrix(&mut self, matrix: &MatrixRef, rhs: &[f64]) -> Result<usize> {
+        matrix.validate("constraint", rhs.len(), self.variables)?;
+        all_finite("constraint right sides", rhs)?;
+        Ok(self.constraints.append(matrix, rhs))
+    }
+
+    /// Makes unknowns integer. Naming one twice is no error.
+    ///
+    /// # Errors
+    /// [`Error::IndexOutOfRange`].
+    pub fn set_integers(&mut self, variables: &[usize]) -> Result<()> {
+        in_range("integer variables", variables, self.variables)?;
+        for &i in variables {
+            self.integer[i] = true;
+        }
+        Ok(())
+    }
+
+    /// Fixes one unknown to a value; an integer unknown must be given an integer by the time of
+    /// the solve.
+    ///
+    /// # Errors
+    /// [`Error::IndexOutOfRange`], [`Error::NotFinite`].
+    pub fn pin(&mut self, variable: usize, value: f64) -> Result<()> {
+        in_range("variable", &[variable], self.variables)?;
+        finite("pinned value", value)?;
+        self.pinned[variable] = Some(value);
+        Ok(())
+    }
+
+    /// Frees a pinned unknown again; one that is free stays so.
+    ///
+    /// # Errors
+    /// [`Error::IndexOutOfRange`].
+    pub fn unpin(&mut self, variable: usize) -> Result<()> {
+        in_range("variable", &[variable], self.variables)?;
+        self.pinned[variable] = None;
+        Ok(())
+    }
+
+    /// Sets the point that unknowns keep to where the objective does not decide them (zero unless
+    /// set), one value an unknown.
+    ///
+    /// # Errors
+    /// [`Error::LengthMismatch`], [`Error::NotFinite`].
+    pub fn set_guess(&mut self, values: &[f64]) -> Result<()> {
+        same_length("initial guess", self.variables, values.len())?;
+        all_finite("initial guess", values)?;
+        self.guess.copy_from_slice(values);
+        Ok(())
+    }
+}
+
+fn filled<T: Clone>(len: usize, value: T) -> Result<Vec<T>> {
+    let mut v = Vec::new();
+    v.try_reserve_exact(len).map_err(|_| Error::OutOfMemory {
+        what: "the variables",
+    })?;
+    v.resize(len, value);
+    Ok(v)
+}

@@ -1,0 +1,145 @@
+//! The validated problem, as the solver reads it.
+
+use super::{Problem, RowList};
+use crate::linalg::Sparse;
+use crate::linalg::sparse::reserve;
+use crate::{Error, Result};
+
+/// A problem that has been checked and assembled. It does not change once made.
+///
+/// The least-squares rows are summed into Q, q and c, and also kept, for what can be read off them.
+#[derive(Debug, Clone)]
+pub struct Model {
+    hessian: Sparse,
+    gradient: Vec<f64>,
+    constant: f64,
+    least_squares: RowList,
+    weights: Vec<f64>,
+    constraints: Sparse,
+    constraint_rhs: Vec<f64>,
+    integer: Vec<bool>,
+    pinned: Vec<Option<f64>>,
+    guess: Vec<f64>,
+}
+
+impl Model {
+    /// Checks and assembles `problem`.
+    ///
+    /// # Errors
+    /// [`Error::InvalidArgument`] for an integer unknown pinned
+    /// to a fraction, [`Error::NotFinite`] where sums overflow, [`Error::OutOfMemory`].
+    pub fn new(problem: &Problem) -> Result<Self> {
+        let n = problem.variables;
+        for i in 0..n {
+            if let (true, Some(v)) = (problem.integer[i], problem.pinned[i])
+                && v != v.round()
+            {
+                return Err(Error::InvalidArgument {
+                    what: format!("integer variable {i} is pinned to {v}"),
+                    index: Some(i),
+                });
+            }
+        }
+        let mut entries = reserve(problem.quadratic.len() + 3 * problem.least_squares.len())?;
+        entries.extend_from_slice(&problem.quadratic);
+        let mut gradient = problem.linear.clone();
+        let mut constant = problem.constant;
+        for (k, &w) in problem.weights.iter().enumerate() {
+            let rhs = problem.least_squares.rhs()[k];
+            let row = problem.least_squares.row(k);
+            for (a, (i, u)) in row.clone().enumerate() {
+                gradient[i] -= 2.0 * w * rhs * u;
+                // Each unordered pair once; a repeated variable meets itself twice.
+                entries.push((i as u32, i as u32, 2.0 * w * u * u));
+                for (j, v) in row.clone().take(a) {
+                    let twice = if i == j { 2.0 } else { 1.0 };
+                    entries.push((i.max(j) as u32, i.min(j) as u32, twice * 2.0 * w * u * v));
+                }
+            }
+            constant += w * rhs * rhs;
+        }
+        let hessian = Sparse::from_triplets(n, n, entries.iter().copied())?;
+        for (i, j, v) in hessian.entries() {
+            if !v.is_finite() {
+                return Err(Error::Overflow {
+                    what: format!("the sum of quadratic entries ({i}, {j}) overflows"),
+                    index: Some(i as usize),
+                });
+            }
+        }
+        if let Some(i) = gradient.iter().position(|v| !v.is_finite()) {
+            return Err(Error::Overflow {
+                what: format!("the sum of linear terms of variable {i} overflows"),
+                index: Some(i),
+            });
+        }
+        if !constant.is_finite() {
+            return Err(Error::Overflow {
+                what: "the constant of the objective overflows".into(),
+                index: None,
+            });
+        }
+        Ok(Model {
+            hessian,
+            gradient,
+            constant,
+            least_squares: problem.least_squares.clone(),
+            weights: problem.weights.clone(),
+            constraints: problem.constraints.to_sparse(n)?,
+            constraint_rhs: problem.constraints.rhs().to_vec(),
+            integer: problem.integer.clone(),
+            pinned: problem.pinned.clone(),
+            guess: problem.guess.clone(),
+        })
+    }
+
+    /// Number of unknowns.
+    pub fn variables(&self) -> usize {
+        self.gradient.len()
+    }
+
+    /// Lower triangle of Q, least-squares rows included.
+    pub fn hessian(&self) -> &Sparse {
+        &self.hessian
+    }
+
+    /// q, least-squares rows included.
+    pub fn gradient(&self) -> &[f64] {
+        &self.gradient
+    }
+
+    /// c, least-squares rows included.
+    pub fn constant(&self) -> f64 {
+        self.constant
+    }
+
+    /// The least-squares rows as given, and their weights.
+    pub fn least_squares(&self) -> (&RowList, &[f64]) {
+        (&self.least_squares, &self.weights)
+    }
+
+    /// C, one row a constraint.
+    pub fn constraints(&self) -> &Sparse {
+        &self.constraints
+    }
+
+    /// d, one number a constraint.
+    pub fn constraint_rhs(&self) -> &[f64] {
+        &self.constraint_rhs
+    }
+
+    /// Whether each unknown is integer.
+    pub fn integer(&self) -> &[bool] {
+        &self.integer
+    }
+
+    /// The value of each pinned unknown.
+    pub fn pinned(&self) -> &[Option<f64>] {
+        &self.pinned
+    }
+
+    /// Where unknowns stay that the objective does not decide.
+    pub fn guess(&self) -> &[f64] {
+        &self.guess
+    }
+}

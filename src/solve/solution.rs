@@ -1,0 +1,95 @@
+//! What a solve gives back.
+
+use super::SolveStatus;
+use super::monitor::gap;
+
+/// Sizes of a problem before and after elimination.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Counts {
+    /// Unknowns.
+    pub variables: usize,
+    /// Integer unknowns.
+    pub integers: usize,
+    /// Equality constraints.
+    pub constraints: usize,
+    /// Integer unknowns left after elimination.
+    pub reduced_integers: usize,
+    /// Continuous unknowns left after elimination.
+    pub reduced_continuous: usize,
+}
+
+/// Wall-clock seconds by phase.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Seconds {
+    /// Validation and elimination of the constraints.
+    pub eliminate: f64,
+    /// Orderings and factorizations.
+    pub factor: f64,
+    /// The search for integers.
+    pub round: f64,
+    /// All of the solve, verification included.
+    pub total: f64,
+}
+
+/// A solution: values, what they cost, and how far from the best they can be.
+///
+/// Energy and violations are recomputed from the caller's own arrays by code that shares nothing
+/// with the solver.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Solution {
+    pub(super) values: Vec<f64>,
+    pub(super) energy: f64,
+    pub(super) lower_bound: Option<f64>,
+    pub(super) status: SolveStatus,
+    pub(super) counts: Counts,
+    pub(super) seconds: Seconds,
+    pub(super) max_constraint_violation: f64,
+    pub(super) max_integrality_violation: f64,
+}
+
+impl Solution {
+    /// One value an unknown. Integer unknowns hold exact integers, except after a relaxation.
+    pub fn values(&self) -> &[f64] {
+        &self.values
+    }
+
+    /// The objective, in the caller's units.
+    pub fn energy(&self) -> f64 {
+        self.energy
+    }
+
+    /// No integer solution has less energy than this.
+    pub fn lower_bound(&self) -> Option<f64> {
+        self.lower_bound
+    }
+
+    /// `(energy - lower_bound) / max(1, |energy|)`, where there is a bound.
+    pub fn gap(&self) -> Option<f64> {
+        self.lower_bound.map(|bound| gap(self.energy, bound))
+    }
+
+    /// How the solve ended.
+    pub fn status(&self) -> SolveStatus {
+        self.status
+    }
+
+    /// Sizes before and after elimination.
+    pub fn counts(&self) -> &Counts {
+        &self.counts
+    }
+
+    /// Seconds by phase.
+    pub fn seconds(&self) -> &Seconds {
+        &self.seconds
+    }
+
+    /// The largest `|c . x - d| / max(1, sum_j |c_j x_j|)` over the constraints.
+    pub fn max_constraint_violation(&self) -> f64 {
+        self.max_constraint_violation
+    }
+
+    /// The largest distance of an integer unknown from an integer.
+    pub fn max_integrality_violation(&self) -> f64 {
+        self.max_integrality_violation
+    }
+}
