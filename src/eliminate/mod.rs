@@ -2,9 +2,37 @@
 //!
 //! Continuous unknowns are eliminated by pivots, integer ones by unimodular steps only, so that
 //! the integer points of `y` are exactly the integer solutions of the constraints.
+//!
+//! The plan is that of Bommes 2012 (chapter 5): a Gaussian elimination that always takes the row
+//! with the fewest entries, and in it a continuous unknown before an integer one. There, integer
+//! rows without a unit coefficient may fail; here Euclid's algorithm takes care of them.
+//!
+//! | step | file |
+//! | --- | --- |
+//! | rows, whose turn it is, and substitution into the others | `tableau`, `row`, `occurrences` |
+//! | a row with continuous unknowns | `continuous` |
+//! | a row of integers | `integral`, `ratio` |
+//! | long rows | `sweep`, `subtree` |
+//! | back substitution, T and t | `stack`, `back` |
+//! | the objective in y | `project` |
 
+mod back;
+mod continuous;
 mod expansion;
+mod integral;
+mod occurrences;
+mod project;
+mod ratio;
 mod reduced;
+mod row;
+mod run;
+mod stack;
+mod subtree;
+mod sweep;
+mod tableau;
+mod tolerance;
+mod unknowns;
 
 pub use expansion::Expansion;
 pub use reduced::ReducedModel;
+pub use run::eliminate;
