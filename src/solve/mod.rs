@@ -2,6 +2,7 @@
 
 mod monitor;
 mod options;
+pub mod replay;
 mod solution;
 mod status;
 
