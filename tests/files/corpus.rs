@@ -6,7 +6,6 @@ use roundel::Model;
 use roundel::problem::mps;
 
 #[test]
-#[cfg(feature = "gzip")]
 fn every_problem_of_the_corpus_has_the_sizes_of_its_reference() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let corpus = root.join("../shared/corpus");

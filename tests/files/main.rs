@@ -1,6 +1,7 @@
 //! Files: what is written reads back as itself, what is broken is told with its line.
 
 mod broken;
+#[cfg(feature = "gzip")]
 mod corpus;
 mod random;
 mod reading;
