@@ -1,0 +1,75 @@
+//! The readable summary of a solution, for people: one line a phase, what came out and how long.
+
+use std::fmt;
+
+use roundel::Solution;
+
+/// Three lines: what was read, what is left after elimination, what was found.
+pub struct Summary<'a> {
+    /// The strategy's name.
+    pub strategy: &'a str,
+    /// Seconds that reading took.
+    pub read: f64,
+    /// What was found.
+    pub solution: &'a Solution,
+}
+
+impl fmt::Display for Summary<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let counts = self.solution.counts();
+        let seconds = self.solution.seconds();
+        let read = format!(
+            "{} unknowns, {} of them integer, {} constraints",
+            thousands(counts.variables),
+            thousands(counts.integers),
+            thousands(counts.constraints)
+        );
+        let reduced = format!(
+            "{} integers, {} continuous left",
+            thousands(counts.reduced_integers),
+            thousands(counts.reduced_continuous)
+        );
+        let found = format!("energy {:.9}, {}", self.solution.energy(), self.verdict());
+        line(f, "read", &read, self.read)?;
+        line(f, "eliminate", &reduced, seconds.eliminate)?;
+        line(f, self.strategy, &found, seconds.factor + seconds.round)
+    }
+}
+
+impl Summary<'_> {
+    fn verdict(&self) -> String {
+        let status = self.solution.status().name();
+        match self.solution.gap() {
+            Some(gap) if gap.is_finite() => format!("{status}, gap {:.2} %", 100.0 * gap),
+            _ => status.into(),
+        }
+    }
+}
+
+fn line(f: &mut fmt::Formatter, phase: &str, text: &str, seconds: f64) -> fmt::Result {
+    writeln!(f, "{phase:<10} {text:<56} {seconds:8.3} s")
+}
+
+/// A count with commas: 20,088.
+fn thousands(count: usize) -> String {
+    let digits = count.to_string();
+    let mut text = String::with_capacity(digits.len() + digits.len() / 3);
+    for (i, digit) in digits.chars().enumerate() {
+        if i > 0 && (digits.len() - i).is_multiple_of(3) {
+            text.push(',');
+        }
+        text.push(digit);
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::thousands;
+
+    #[test]
+    fn counts_have_a_comma_every_three_digits_from_the_right() {
+        let written = [0, 999, 1_000, 20_088, 1_234_567].map(thousands);
+        assert_eq!(written, ["0", "999", "1,000", "20,088", "1,234,567"]);
+    }
+}
