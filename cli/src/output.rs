@@ -39,8 +39,13 @@ pub fn print(text: &str) -> Result<()> {
 
 /// Tells a person what went wrong, on stderr.
 pub fn complain(file: &Path, error: &Error) {
+    let text = match error {
+        // The message names the file that could not be read or written.
+        Error::Io { message } => message.clone(),
+        _ => format!("{}: {error}", file.display()),
+    };
     // Where stderr is closed there is nobody left to tell.
-    let _ = writeln!(io::stderr(), "roundel: {}: {error}", file.display());
+    let _ = writeln!(io::stderr(), "roundel: {text}");
 }
 
 fn io_error(name: &str, reason: &io::Error) -> Error {

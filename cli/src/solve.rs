@@ -64,9 +64,9 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
     let mps = mps::read(&arguments.file)?;
     let read = started.elapsed().as_secs_f64();
     let monitor = progress.monitor().cancel_token(token);
-    let solution = roundel::solve_with(&mps.problem, &arguments.solver.0, monitor)?;
+    let solution = roundel::solve_with(mps.problem(), &arguments.solver.0, monitor)?;
     if let Some(path) = &arguments.solution {
-        output::write_values(path, &mps.names, solution.values())?;
+        output::write_values(path, mps.variables(), solution.values())?;
     }
     Ok(Solved { read, solution })
 }

@@ -19,14 +19,14 @@ impl fmt::Display for Summary<'_> {
         let counts = self.solution.counts();
         let seconds = self.solution.seconds();
         let read = format!(
-            "{} unknowns, {} of them integer, {} constraints",
-            thousands(counts.variables),
+            "{}, {} of them integer, {}",
+            counted(counts.variables, "unknown"),
             thousands(counts.integers),
-            thousands(counts.constraints)
+            counted(counts.constraints, "constraint")
         );
         let reduced = format!(
-            "{} integers, {} continuous left",
-            thousands(counts.reduced_integers),
+            "{}, {} continuous left",
+            counted(counts.reduced_integers, "integer"),
             thousands(counts.reduced_continuous)
         );
         let found = format!("energy {:.9}, {}", self.solution.energy(), self.verdict());
@@ -48,6 +48,11 @@ impl Summary<'_> {
 
 fn line(f: &mut fmt::Formatter, phase: &str, text: &str, seconds: f64) -> fmt::Result {
     writeln!(f, "{phase:<10} {text:<56} {seconds:8.3} s")
+}
+
+fn counted(count: usize, noun: &str) -> String {
+    let plural = if count == 1 { "" } else { "s" };
+    format!("{} {noun}{plural}", thousands(count))
 }
 
 /// A count with commas: 20,088.
