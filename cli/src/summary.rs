@@ -29,7 +29,7 @@ impl fmt::Display for Summary<'_> {
             counted(counts.reduced_integers, "integer"),
             thousands(counts.reduced_continuous)
         );
-        let found = format!("energy {:.9}, {}", self.solution.energy(), self.verdict());
+        let found = format!("{}, {}", energy(self.solution.energy()), self.verdict());
         line(f, "read", &read, self.read)?;
         line(f, "eliminate", &reduced, seconds.eliminate)?;
         line(f, self.strategy, &found, seconds.factor + seconds.round)
@@ -44,6 +44,12 @@ impl Summary<'_> {
             _ => status.into(),
         }
     }
+}
+
+/// Nine decimals; rounding noise below them has no sign.
+fn energy(value: f64) -> String {
+    let shown = if value.abs() < 5e-10 { 0.0 } else { value };
+    format!("energy {shown:.9}")
 }
 
 fn line(f: &mut fmt::Formatter, phase: &str, text: &str, seconds: f64) -> fmt::Result {
@@ -70,7 +76,14 @@ fn thousands(count: usize) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::thousands;
+    use super::{energy, thousands};
+
+    #[test]
+    fn rounding_noise_of_an_energy_has_no_sign() {
+        let written = [-1e-14, -6e-10, -25.5].map(energy);
+        let expected = ["0.000000000", "-0.000000001", "-25.500000000"];
+        assert_eq!(written, expected.map(|e| format!("energy {e}")));
+    }
 
     #[test]
     fn counts_have_a_comma_every_three_digits_from_the_right() {

@@ -1,9 +1,9 @@
 //! Every way a solve can end: status word, exit code, and what is told of it.
 
-mod common;
-
-use common::{Scratch, finish, mps, only_object, solve};
 use serde_json::{Value, json};
+
+use crate::problem::mps;
+use crate::run::{Scratch, finish, only_object, solve};
 
 /// Solves the problem `text` with `--json` and `flags`: the exit code and the object printed.
 fn solve_json(test: &str, text: &str, flags: &[&str]) -> (i32, Value) {

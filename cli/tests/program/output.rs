@@ -1,13 +1,13 @@
 //! What the program writes: the JSON object, the summary, the solution file, the help.
 
-mod common;
-
 use std::fs;
 use std::process::Command;
 
-use common::{Scratch, finish, mps, only_object, solve};
 use roundel::solve::OPTIONS;
 use serde_json::{Value, json};
+
+use crate::problem::mps;
+use crate::run::{Scratch, finish, only_object, solve};
 
 /// (A - I / 3)^2 + (I - 5.2)^2 + J^2 subject to I + J = 5: I = 5, J = 0, A = 5/3.
 fn problem() -> String {

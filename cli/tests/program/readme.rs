@@ -1,14 +1,13 @@
 //! The README against the program: its first command runs, its tables are complete.
 
-mod common;
-
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use common::{finish, only_object, solve};
 use roundel::solve::{OPTIONS, OptionKind};
 
-const README: &str = include_str!("../../README.md");
+use crate::run::{finish, only_object, solve};
+
+const README: &str = include_str!("../../../README.md");
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
@@ -63,7 +62,7 @@ fn the_table_of_exit_codes_is_the_programs() {
 
 #[test]
 fn the_table_of_errors_has_every_code() {
-    let source = include_str!("../../src/error.rs");
+    let source = include_str!("../../../src/error.rs");
     let body = source.split("fn code(&self)").nth(1).unwrap();
     let body = body.split("\n    }").next().unwrap();
     let codes: Vec<&str> = body.split('"').skip(1).step_by(2).collect();
