@@ -64,6 +64,32 @@ proptest! {
 }
 
 #[test]
+fn a_loaded_solve_has_the_same_values_bit_for_bit() {
+    let mut problem = Problem::new(4).unwrap();
+    for i in 0..3 {
+        let rhs = 0.3 + 0.4 * i as f64;
+        problem
+            .add_least_squares(&[i, i + 1], &[1.0, -1.7], rhs, 1.3)
+            .unwrap();
+    }
+    problem.set_integers(&[1, 2]).unwrap();
+    problem.set_guess(&[0.7, 0.0, 0.0, 0.0]).unwrap();
+    let options = Options {
+        strategy: Rounding::Greedy,
+        ..Options::default()
+    };
+    let scratch = Scratch::new("values");
+    let path = scratch.file("p.mps");
+    replay::save(&path, &problem, &options).unwrap();
+    let (loaded, loaded_options) = replay::load(&path).unwrap();
+    let first = roundel::solve(&problem, &options).unwrap();
+    let second = roundel::solve(&loaded, &loaded_options).unwrap();
+    let bits = |values: &[f64]| values.iter().map(|v| v.to_bits()).collect::<Vec<_>>();
+    assert_eq!(bits(first.values()), bits(second.values()));
+    assert!((first.energy() - second.energy()).abs() <= 1e-14 * first.energy().abs().max(1.0));
+}
+
+#[test]
 fn what_the_file_says_is_taken() {
     let (problem, options) = load("taken", SAVED).unwrap();
     let mut expected = Problem::new(2).unwrap();

@@ -39,7 +39,7 @@ pub(super) fn parse_text(reader: impl BufRead) -> Result<MpsProblem> {
 
 /// What the sections said so far.
 struct Content {
-    name: String,
+    title: String,
     has_sense: bool,
     rows: Rows,
     columns: Columns,
@@ -52,7 +52,7 @@ impl Content {
     fn new() -> Self {
         let rows = Rows::new();
         Content {
-            name: String::new(),
+            title: String::new(),
             has_sense: false,
             columns: Columns::new(&rows),
             rows,
@@ -68,7 +68,7 @@ impl Content {
             Section::Name => {
                 let title = line.rest();
                 check_title(title).map_err(|fault| line.fault(fault))?;
-                self.name = title.to_owned();
+                self.title = title.to_owned();
             }
             Section::ObjSense if line.fields().len() > 1 => self.read_sense(line, 1)?,
             Section::Columns => {
@@ -140,7 +140,7 @@ impl Content {
         problem.set_integers(&columns.integers)?;
         let (objective, constraints) = self.rows.into_names();
         let names = MpsNames {
-            title: self.name,
+            title: self.title,
             objective,
             variables: columns.names.into_vec(),
             constraints,

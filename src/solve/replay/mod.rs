@@ -3,8 +3,10 @@
 //! The habit is Clarabel's, and the first thing to ask for in a bug report. The problem goes into
 //! an MPS file, `NAME.mps` or `NAME.mps.gz`, and what MPS cannot state into `NAME.replay.json`
 //! beside it: options, pins, initial guess. All numbers are written such that they read back as
-//! themselves, so that the [`Model`] of the problem read is that of the problem saved, bit for
-//! bit; only that least-squares rows come back as the part of Q, q and c that they are.
+//! themselves, so that Q, q, c and the constraints of the [`Model`] are the same bit for bit, and
+//! with them the values of a solve. Least-squares rows come back as the part of Q, q and c that
+//! they are, without the cycles hinted at among them; an energy summed row by row may therefore
+//! differ in its last digits.
 
 mod entries;
 mod format;
@@ -48,8 +50,9 @@ pub fn save(path: &Path, problem: &Problem, options: &Options) -> Result<()> {
 ///
 /// # Errors
 /// As [`mps::read`]; for the replay file [`Error::Io`], [`Error::Parse`] with the line at fault,
-/// [`Error::NotSupported`] for the format of another version, and [`Error::InvalidArgument`] for
-/// one that belongs to another problem.
+/// [`Error::NotSupported`] for the format of another version, [`Error::IndexOutOfRange`] for
+/// variables that the problem does not have, and [`Error::InvalidArgument`] for a file that belongs
+/// to another problem.
 pub fn load(path: &Path) -> Result<(Problem, Options)> {
     let replay_path = replay_path(path)?;
     let bytes = std::fs::read(&replay_path).map_err(|e| mps::io_error(&replay_path, e))?;
