@@ -4,14 +4,27 @@
 //! with its range, default and text, and nothing is to be written here.
 
 use clap::builder::{PossibleValuesParser, TypedValueParser, ValueParser};
-use clap::error::ErrorKind;
+use clap::parser::ValueSource;
 use clap::{Arg, ArgMatches, Args, Command, FromArgMatches};
 use roundel::Options;
 use roundel::solve::{OPTIONS, OptionInfo, OptionKind, OptionValue};
 
 /// Options of the solver, from flags named as the options are, `-` for `_`.
-#[derive(Debug, Clone)]
-pub struct SolverOptions(pub Options);
+#[derive(Debug, Clone, Default)]
+pub struct SolverOptions {
+    /// What the command line says; what it does not is the default, which is not here.
+    given: Vec<(&'static str, OptionValue)>,
+}
+
+impl SolverOptions {
+    /// `options` with what the command line says put over them.
+    pub fn over(&self, mut options: Options) -> roundel::Result<Options> {
+        for (name, value) in &self.given {
+            options.set(name, value)?;
+        }
+        Ok(options)
+    }
+}
 
 impl Args for SolverOptions {
     fn augment_args(command: Command) -> Command {
@@ -27,17 +40,18 @@ impl Args for SolverOptions {
 
 impl FromArgMatches for SolverOptions {
     fn from_arg_matches(matches: &ArgMatches) -> Result<Self, clap::Error> {
-        let mut options = SolverOptions(Options::default());
+        let mut options = SolverOptions::default();
         options.update_from_arg_matches(matches)?;
         Ok(options)
     }
 
     fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), clap::Error> {
         for info in OPTIONS {
-            if let Some(value) = matches.get_one::<OptionValue>(info.name) {
-                self.0
-                    .set(info.name, value)
-                    .map_err(|e| clap::Error::raw(ErrorKind::ValueValidation, e))?;
+            let is_given = matches.value_source(info.name) == Some(ValueSource::CommandLine);
+            if let Some(value) = matches.get_one::<OptionValue>(info.name)
+                && is_given
+            {
+                self.given.push((info.name, value.clone()));
             }
         }
         Ok(())
@@ -84,16 +98,17 @@ fn number(info: &OptionInfo, text: &str) -> Result<OptionValue, String> {
 
 #[cfg(test)]
 mod tests {
+    use roundel::Strategy;
+
     use super::*;
 
     fn command() -> Command {
         SolverOptions::augment_args(Command::new("test"))
     }
 
-    fn parse(arguments: &[&str]) -> Result<Options, clap::Error> {
+    fn parse(arguments: &[&str]) -> Result<SolverOptions, clap::Error> {
         let line = ["test"].iter().chain(arguments);
-        let matches = command().try_get_matches_from(line)?;
-        Ok(SolverOptions::from_arg_matches(&matches)?.0)
+        SolverOptions::from_arg_matches(&command().try_get_matches_from(line)?)
     }
 
     #[test]
@@ -120,18 +135,34 @@ mod tests {
     }
 
     #[test]
-    fn no_flag_given_means_the_defaults_of_the_library() {
-        assert_eq!(parse(&[]).unwrap(), Options::default());
+    fn the_defaults_that_the_help_tells_are_the_librarys() {
+        let mut options = Options::default();
+        for info in OPTIONS {
+            let value = match info.kind {
+                OptionKind::Text => OptionValue::Text(info.default.into()),
+                _ => number(info, info.default).unwrap(),
+            };
+            options.set(info.name, &value).unwrap();
+        }
+        assert_eq!(options, Options::default());
     }
 
     #[test]
     fn a_flag_sets_its_option_and_no_other() {
-        let options = parse(&["--time-limit", "2.5"]).unwrap();
-        let expected = Options {
-            time_limit: 2.5,
+        let base = Options {
+            threads: 7,
             ..Options::default()
         };
-        assert_eq!(options, expected);
+        let none = parse(&[]).unwrap().over(base.clone()).unwrap();
+        assert_eq!(none, base);
+        let flags = ["--time-limit", "2.5", "--strategy", "direct"];
+        let two = parse(&flags).unwrap().over(base.clone()).unwrap();
+        let expected = Options {
+            time_limit: 2.5,
+            strategy: Strategy::Direct,
+            ..base
+        };
+        assert_eq!(two, expected);
     }
 
     #[test]

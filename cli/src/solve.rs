@@ -3,8 +3,9 @@
 use std::path::PathBuf;
 use std::time::Instant;
 
-use roundel::problem::mps;
-use roundel::{Result, Solution};
+use roundel::problem::mps::{self, MpsProblem};
+use roundel::solve::replay;
+use roundel::{Options, Result, Solution, Strategy};
 
 use crate::exit::{self, Exit};
 use crate::interrupt;
@@ -22,6 +23,11 @@ pub struct Arguments {
     /// The problem: free-format MPS, also compressed (.gz)
     #[arg(value_name = "FILE")]
     file: PathBuf,
+
+    /// Take options, pinned variables and initial guess from the replay file beside FILE; flags
+    /// given here come first
+    #[arg(long)]
+    replay: bool,
 
     /// Print one JSON object instead of the summary
     #[arg(long)]
@@ -51,8 +57,32 @@ pub fn run(arguments: &Arguments) -> Exit {
     })
 }
 
-/// A solution, and the seconds that reading its problem took.
+/// What was read.
+struct Input {
+    mps: MpsProblem,
+    options: Options,
+    seconds: f64,
+}
+
+fn read(arguments: &Arguments) -> Result<Input> {
+    let started = Instant::now();
+    let file = &arguments.file;
+    let (mps, options) = if arguments.replay {
+        let (problem, options) = replay::load(file)?;
+        (MpsProblem::new(problem), options)
+    } else {
+        (mps::read(file)?, Options::default())
+    };
+    Ok(Input {
+        mps,
+        options: arguments.solver.over(options)?,
+        seconds: started.elapsed().as_secs_f64(),
+    })
+}
+
+/// A solution, and how it was come by.
 struct Solved {
+    strategy: Strategy,
     read: f64,
     solution: Solution,
 }
@@ -60,19 +90,21 @@ struct Solved {
 fn solve(arguments: &Arguments) -> Result<Solved> {
     let token = interrupt::cancel_token()?;
     let progress = Progress::start();
-    let started = Instant::now();
-    let mps = mps::read(&arguments.file)?;
-    let read = started.elapsed().as_secs_f64();
+    let input = read(arguments)?;
     let monitor = progress.monitor().cancel_token(token);
-    let solution = roundel::solve_with(mps.problem(), &arguments.solver.0, monitor)?;
+    let solution = roundel::solve_with(input.mps.problem(), &input.options, monitor)?;
     if let Some(path) = &arguments.solution {
-        output::write_values(path, mps.variables(), solution.values())?;
+        output::write_values(path, input.mps.variables(), solution.values())?;
     }
-    Ok(Solved { read, solution })
+    Ok(Solved {
+        strategy: input.options.strategy,
+        read: input.seconds,
+        solution,
+    })
 }
 
 fn tell(arguments: &Arguments, solved: &Solved) -> Result<()> {
-    let strategy = arguments.solver.0.strategy.name();
+    let strategy = solved.strategy.name();
     if arguments.json {
         output::print_json(&Report::new(
             &arguments.file,
@@ -82,13 +114,11 @@ fn tell(arguments: &Arguments, solved: &Solved) -> Result<()> {
             memory::peak_bytes(),
         ))
     } else {
-        output::print(
-            &Summary {
-                strategy,
-                read: solved.read,
-                solution: &solved.solution,
-            }
-            .to_string(),
-        )
+        let summary = Summary {
+            strategy,
+            read: solved.read,
+            solution: &solved.solution,
+        };
+        output::print(&summary.to_string())
     }
 }

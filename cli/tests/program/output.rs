@@ -3,7 +3,8 @@
 use std::fs;
 use std::process::Command;
 
-use roundel::solve::OPTIONS;
+use roundel::solve::{OPTIONS, replay};
+use roundel::{Options, Problem, Strategy};
 use serde_json::{Value, json};
 
 use crate::problem::mps;
@@ -149,6 +150,43 @@ fn a_failed_solve_leaves_no_solution_file() {
     let (code, _) = finish(solve(&file, &flags));
     assert_eq!(code, 5);
     assert!(!out.exists());
+}
+
+/// (x0 - x1)^2 + (x1 - 0.4)^2 with x1 an integer and x0 pinned to 3: x1 = 2.
+#[test]
+fn a_replay_repeats_a_solve_with_its_pins_and_options_unless_a_flag_says_otherwise() {
+    let mut problem = Problem::new(2).unwrap();
+    problem
+        .add_least_squares(&[0, 1], &[1.0, -1.0], 0.0, 1.0)
+        .unwrap();
+    problem.add_least_squares(&[1], &[1.0], 0.4, 1.0).unwrap();
+    problem.set_integers(&[1]).unwrap();
+    problem.pin(0, 3.0).unwrap();
+    let options = Options {
+        strategy: Strategy::Direct,
+        ..Options::default()
+    };
+    let scratch = Scratch::new("replay");
+    let file = scratch.path("problem.mps");
+    replay::save(&file, &problem, &options).unwrap();
+    let out = scratch.path("values.txt");
+    for (flags, strategy, x1) in [
+        (&[][..], "direct", 2.0),
+        (&["--strategy", "relax"], "relax", 1.7),
+    ] {
+        let mut command = solve(&file, &["--json", "--replay"]);
+        command.args(flags).arg("--solution").arg(&out);
+        let (code, output) = finish(command);
+        let report = only_object(&output);
+        assert_eq!(
+            (code, &report["strategy"]),
+            (0, &json!(strategy)),
+            "{report}"
+        );
+        let text = fs::read_to_string(&out).unwrap();
+        let value = text.lines().find_map(|l| l.strip_prefix("x1 ")).unwrap();
+        assert!((value.parse::<f64>().unwrap() - x1).abs() < 1e-12, "{text}");
+    }
 }
 
 #[cfg(feature = "gzip")]
