@@ -70,6 +70,36 @@ impl Problem {
         self.variables
     }
 
+    /// Entries of the lower triangle of Q as given, duplicates not summed.
+    pub(crate) fn quadratic(&self) -> &[(u32, u32, f64)] {
+        &self.quadratic
+    }
+
+    pub(crate) fn linear(&self) -> &[f64] {
+        &self.linear
+    }
+
+    pub(crate) fn constant(&self) -> f64 {
+        self.constant
+    }
+
+    /// The least-squares rows as given, and their weights.
+    pub(crate) fn least_squares(&self) -> (&RowList, &[f64]) {
+        (&self.least_squares, &self.weights)
+    }
+
+    pub(crate) fn constraint_rows(&self) -> &RowList {
+        &self.constraints
+    }
+
+    pub(crate) fn integers(&self) -> &[bool] {
+        &self.integer
+    }
+
+    pub(crate) fn pins(&self) -> &[Option<f64>] {
+        &self.pinned
+    }
+
     /// Number of equality constraints given so far.
     pub fn constraints(&self) -> usize {
         self.constraints.len()
