@@ -1,12 +1,14 @@
 //! Stating a problem: the builder, its validation, and the model that the solver works on.
 
 mod check;
+mod cycles;
 mod matrix;
 mod model;
 pub mod mps;
 mod rows;
 mod text;
 
+pub use cycles::CycleHint;
 pub use matrix::{Layout, MatrixRef, Triangle};
 pub use model::Model;
 pub use rows::RowList;
@@ -33,6 +35,7 @@ pub struct Problem {
     integer: Vec<bool>,
     pinned: Vec<Option<f64>>,
     guess: Vec<f64>,
+    cycles: CycleHint,
 }
 
 impl Problem {
@@ -62,6 +65,7 @@ impl Problem {
             integer: filled(variables, false)?,
             pinned: filled(variables, None)?,
             guess: filled(variables, 0.0)?,
+            cycles: CycleHint::default(),
         })
     }
 
@@ -286,6 +290,21 @@ impl Problem {
         same_length("initial guess", self.variables, values.len())?;
         all_finite("initial guess", values)?;
         self.guess.copy_from_slice(values);
+        Ok(())
+    }
+
+    /// Hands over short cycles that the caller knows: sums of least-squares rows, each with sign 1
+    /// or -1, in which all continuous unknowns cancel, such as the rings around the vertices of a
+    /// mesh. Cycle `k` has the entries `offsets[k]..offsets[k + 1]` of `rows` and `signs`.
+    ///
+    /// A hint never changes what is solved. One that does not hold (unknowns do not cancel) is
+    /// ignored by the solve, which says so in its log. A later hint replaces an earlier one.
+    ///
+    /// # Errors
+    /// [`Error::LengthMismatch`], [`Error::IndexOutOfRange`] for a row that does not exist yet,
+    /// [`Error::InvalidArgument`] for other signs or offsets that do not grow.
+    pub fn hint_cycles(&mut self, offsets: &[usize], rows: &[usize], signs: &[i8]) -> Result<()> {
+        self.cycles = CycleHint::new(self.least_squares.len(), offsets, rows, signs)?;
         Ok(())
     }
 }

@@ -4,6 +4,7 @@ mod factors;
 mod monitor;
 mod options;
 mod relax;
+pub mod replay;
 mod run;
 mod search;
 mod solution;

@@ -198,6 +198,11 @@ impl<'a> Monitor<'a> {
         self.check()
     }
 
+    /// Tells one line of text.
+    pub(crate) fn log(&mut self, line: &str) {
+        self.tell(EventKind::Log(line));
+    }
+
     /// Tells of a better solution.
     pub(crate) fn improved(&mut self, energy: f64) {
         self.energy = energy;

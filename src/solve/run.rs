@@ -30,6 +30,11 @@ pub fn solve_with(problem: &Problem, options: &Options, mut monitor: Monitor) ->
     monitor.start(options.time_limit);
     monitor.check()?;
     let model = Model::new(problem)?;
+    if let Some(cycle) = model.ignored_hint() {
+        monitor.log(&format!(
+            "cycle hint ignored: unknowns of cycle {cycle} do not cancel"
+        ));
+    }
     let reduced = eliminate(&model, &mut monitor)?;
     let eliminated = monitor.seconds();
 
