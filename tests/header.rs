@@ -15,12 +15,14 @@ const SOURCES: &[&str] = &[
     "objective",
     "constraints",
     "unknowns",
+    "hints",
     "options",
     "option_list",
     "cancel",
     "event",
     "solution",
     "solve",
+    "files",
 ];
 
 /// Files without anything that C sees.

@@ -810,6 +810,32 @@ roundel_status roundel_problem_set_guess(struct roundel_problem *problem,
                                          size_t length);
 
 /**
+ * Hands over short cycles that the caller knows: sums of least-squares rows, each with sign 1 or
+ * -1, in which all continuous variables cancel, such as the rings around the vertices of a mesh.
+ * Cycle k has the entries from offsets[k] to before offsets[k + 1]; `offset_count` is one more
+ * than the number of cycles, `count` the number of entries.
+ *
+ * A hint never changes what is solved. One that does not hold is ignored by the solve, which says
+ * so in a log event. A later hint replaces an earlier one.
+ */
+roundel_status roundel_problem_hint_cycles(struct roundel_problem *problem,
+                                           size_t offset_count,
+                                           const int32_t *offsets,
+                                           size_t count,
+                                           const int32_t *rows,
+                                           const int8_t *signs);
+
+/**
+ * roundel_problem_hint_cycles with 64-bit indices.
+ */
+roundel_status roundel_problem_hint_cycles_i64(struct roundel_problem *problem,
+                                               size_t offset_count,
+                                               const int64_t *offsets,
+                                               size_t count,
+                                               const int64_t *rows,
+                                               const int8_t *signs);
+
+/**
  * Makes a set of options with their default values.
  */
 roundel_status roundel_options_new(struct roundel_options **options);
@@ -992,6 +1018,40 @@ roundel_status roundel_solve_with(const struct roundel_problem *problem,
                                   const struct roundel_options *options,
                                   const struct roundel_monitor *monitor,
                                   struct roundel_solution **solution);
+
+/**
+ * Makes a problem from a file in free-format MPS, gzipped or not. Variables and constraints are
+ * numbered in the order of the file; their names are not kept.
+ *
+ * Fails with ROUNDEL_ERROR_PARSE and ROUNDEL_ERROR_NOT_SUPPORTED with the line at fault,
+ * ROUNDEL_ERROR_IO.
+ */
+roundel_status roundel_problem_read_mps(const char *file, struct roundel_problem **problem);
+
+/**
+ * Writes a problem as free-format MPS, gzipped if the file's name ends in ".gz". Variables are
+ * named x0, x1, ..., constraints c0, c1, ....
+ *
+ * MPS has no place for some parts: pins become constraints, least-squares rows are summed into Q,
+ * q and c, and the guess is lost. roundel_problem_save_replay keeps pins and guess.
+ */
+roundel_status roundel_problem_write_mps(const struct roundel_problem *problem, const char *file);
+
+/**
+ * Writes a problem and how to solve it, so that the solve can be repeated elsewhere: `file`, which
+ * ends in ".mps" or ".mps.gz", and beside it a file that ends in ".replay.json" for options, pins
+ * and guess. `options` may be NULL for the default options.
+ */
+roundel_status roundel_problem_save_replay(const struct roundel_problem *problem,
+                                           const struct roundel_options *options,
+                                           const char *file);
+
+/**
+ * Makes the problem and the options that roundel_problem_save_replay wrote to `file`.
+ */
+roundel_status roundel_problem_load_replay(const char *file,
+                                           struct roundel_problem **problem,
+                                           struct roundel_options **options);
 
 #ifdef __cplusplus
 }  // extern "C"

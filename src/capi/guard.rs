@@ -134,6 +134,21 @@ pub(super) unsafe fn value<'a, H: Object + 'a>(handle: *const H) -> Outcome<&'a 
     Ok(&guarded.value)
 }
 
+/// The value behind a handle, or `default` where that is NULL.
+///
+/// # Safety
+/// As [`value`].
+pub(super) unsafe fn value_or<'a, H: Object + 'a>(
+    handle: *const H,
+    default: &'a H::Value,
+) -> Outcome<&'a H::Value> {
+    if handle.is_null() {
+        return Ok(default);
+    }
+    // SAFETY: handed on.
+    unsafe { value(handle) }
+}
+
 /// An entry that reads one handle. A panic in `body` gives the handle up.
 ///
 /// # Safety

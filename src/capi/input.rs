@@ -1,6 +1,7 @@
 //! What comes in from C: pointers, lengths, indices and texts, checked before they are trusted.
 
 use std::ffi::{CStr, c_char};
+use std::path::Path;
 
 use super::error::{Failure, Outcome};
 use crate::Error;
@@ -81,6 +82,26 @@ pub(super) unsafe fn text<'a>(what: &'static str, pointer: *const c_char) -> Out
             index: None,
         })
     })
+}
+
+/// The caller's name of a file: any bytes where the system takes them, else UTF-8.
+///
+/// # Safety
+/// As [`text`].
+pub(super) unsafe fn path<'a>(what: &'static str, pointer: *const c_char) -> Outcome<&'a Path> {
+    aligned(what, pointer)?;
+    #[cfg(unix)]
+    {
+        use std::os::unix::ffi::OsStrExt;
+        // SAFETY: not NULL by the line above; ends in a NUL by the caller's word.
+        let bytes = unsafe { CStr::from_ptr(pointer) }.to_bytes();
+        Ok(Path::new(std::ffi::OsStr::from_bytes(bytes)))
+    }
+    #[cfg(not(unix))]
+    {
+        // SAFETY: handed on.
+        unsafe { text(what, pointer) }.map(Path::new)
+    }
 }
 
 /// The two integer types that indices come in.

@@ -40,18 +40,12 @@ pub unsafe extern "C" fn roundel_solve_with(
     solution: *mut *mut roundel_solution,
 ) -> roundel_status {
     let body = |problem: &Problem| {
-        let default;
+        let default = Options::default();
         // SAFETY: the caller gives a live handle or NULL, a monitor as its members say or NULL,
         // and a place for the solution or NULL.
         let (options, monitor, out) = unsafe {
-            let options = if options.is_null() {
-                default = Options::default();
-                &default
-            } else {
-                guard::value(options)?
-            };
             (
-                options,
+                guard::value_or(options, &default)?,
                 watched_by(monitor)?,
                 Out::new("solution", solution)?,
             )

@@ -171,3 +171,43 @@ impl From<SolveStatus> for roundel_solve_status {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_word_for_a_status_is_the_rust_errors_code() {
+        let direction = vec![1.0];
+        for error in [
+            Error::Empty,
+            Error::Cancelled,
+            Error::TimeLimit,
+            Error::OutOfMemory { what: "" },
+            Error::UnknownOption { name: "".into() },
+            Error::NotConvex {
+                variable: 0,
+                direction,
+            },
+            Error::NotFinite {
+                what: "",
+                position: 0,
+            },
+            Error::Io { message: "".into() },
+            Error::LengthMismatch {
+                what: "",
+                expected: 0,
+                actual: 0,
+            },
+            Error::NoIntegerSolution {
+                constraint: 0,
+                row: "".into(),
+            },
+        ] {
+            let number = roundel_status::from(&error) as i32;
+            // SAFETY: the function gives a static text.
+            let word = unsafe { CStr::from_ptr(roundel_status_name(number)) };
+            assert_eq!(word.to_str(), Ok(error.code()));
+        }
+    }
+}

@@ -109,6 +109,11 @@ impl Problem {
         self.constraints.len()
     }
 
+    /// Number of least-squares rows given so far.
+    pub fn least_squares_rows(&self) -> usize {
+        self.least_squares.len()
+    }
+
     /// Adds entries to Q (which stands in the objective as 1/2 x'Qx), in any order, duplicates
     /// summed.
     ///
