@@ -134,7 +134,7 @@ pycparser.CParser().parse(sys.stdin.read(), 'roundel.h')
     let shims = std::env::temp_dir().join(format!("roundel-shims-{}", std::process::id()));
     fs::create_dir_all(&shims).unwrap();
     fs::write(shims.join("stddef.h"), "typedef unsigned long size_t;\n").unwrap();
-    let ints = "typedef int int32_t; typedef long int64_t;\n";
+    let ints = "typedef signed char int8_t; typedef int int32_t; typedef long int64_t;\n";
     fs::write(shims.join("stdint.h"), ints).unwrap();
     let preprocessed = Command::new(compiler("CC", "cc"))
         .args(["-E", "-P", "-nostdinc", "-I"])

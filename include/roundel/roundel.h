@@ -368,7 +368,7 @@ typedef struct roundel_option {
     /**
      * The type of its value, a roundel_option_type.
      */
-    int32_t type_;
+    int32_t value_type;
     /**
      * Zero, for later use.
      */

@@ -34,7 +34,7 @@ pub struct roundel_option {
     /// What it does.
     pub text: *const c_char,
     /// The type of its value, a roundel_option_type.
-    pub type_: i32,
+    pub value_type: i32,
     /// Zero, for later use.
     pub reserved: [i32; 7],
 }
@@ -77,7 +77,7 @@ pub unsafe extern "C" fn roundel_option_info(
             })?
         };
         let [name, default_value, range, text] = texts.each_ref().map(|t| t.as_ptr());
-        let type_ = match info.kind {
+        let value_type = match info.kind {
             OptionKind::Integer => roundel_option_type::ROUNDEL_OPTION_INT,
             OptionKind::Real => roundel_option_type::ROUNDEL_OPTION_REAL,
             OptionKind::Text => roundel_option_type::ROUNDEL_OPTION_TEXT,
@@ -87,7 +87,7 @@ pub unsafe extern "C" fn roundel_option_info(
             default_value,
             range,
             text,
-            type_: type_ as i32,
+            value_type: value_type as i32,
             reserved: [0; 7],
         });
         Ok(())
