@@ -11,6 +11,8 @@ install(FILES "${ROUNDEL_STATIC}" ${ROUNDEL_SHARED_LINK_FILES}
 install(DIRECTORY include/roundel DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}"
         FILES_MATCHING PATTERN "*.h" PATTERN "*.hpp")
 
+install(FILES LICENSE-MIT LICENSE-APACHE THIRD-PARTY.md DESTINATION "${CMAKE_INSTALL_DOCDIR}")
+
 set(config_dir "${CMAKE_INSTALL_LIBDIR}/cmake/Roundel")
 configure_package_config_file(
     cmake/RoundelConfig.cmake.in "${PROJECT_BINARY_DIR}/RoundelConfig.cmake"

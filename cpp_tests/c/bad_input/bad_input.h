@@ -38,8 +38,8 @@ void fine(const char* call, int holds);
 
 #define BAD(f, call, status, part, index)                                                          \
     held((f), #call, (call), (expectation){(status), (part), (index), NONE})
-#define BAD_LINE(f, name, call, status, part, line)                                                \
-    held((f), (name), (call), (expectation){(status), (part), NONE, (line)})
+#define BAD_LINE(f, name, call, status, part, index, line)                                         \
+    held((f), (name), (call), (expectation){(status), (part), (index), (line)})
 #define GOOD(call) fine(#call, (call) == ROUNDEL_OK)
 #define HOLDS(condition) fine(#condition, (condition))
 

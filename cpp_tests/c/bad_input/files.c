@@ -19,27 +19,30 @@ typedef struct {
     roundel_status status;
     const char* part;
     int64_t line;
+    int64_t column;
 } broken;
 
 static const broken cases[] = {
-    {"empty", "", ROUNDEL_ERROR_PARSE, "", 1},
-    {"no end", HEAD COLUMNS_PART RHS_PART BOUNDS_PART QUAD_PART, ROUNDEL_ERROR_PARSE, "ENDATA", 18},
-    {"unknown section", HEAD "COLUMNZ\n", ROUNDEL_ERROR_PARSE, "COLUMNZ", 5},
-    {"unknown row", HEAD "COLUMNS\n x d 1\n", ROUNDEL_ERROR_PARSE, "'d'", 6},
-    {"no number", HEAD "COLUMNS\n x c one\n", ROUNDEL_ERROR_PARSE, "'one'", 6},
-    {"not finite", HEAD "COLUMNS\n x c 1e999\n", ROUNDEL_ERROR_PARSE, "'1e999'", 6},
-    {"too few fields", HEAD "COLUMNS\n x c\n", ROUNDEL_ERROR_PARSE, "2 fields", 6},
-    {"open marker", HEAD "COLUMNS\n M 'MARKER' 'INTEND'\n", ROUNDEL_ERROR_PARSE, "INTEND", 6},
-    {"row twice", "NAME p\nROWS\n N f\n E c\n E c\n", ROUNDEL_ERROR_PARSE, "'c'", 5},
-    {"inequality", "NAME p\nROWS\n N f\n L c\n", ROUNDEL_ERROR_NOT_SUPPORTED, "'c'", 4},
-    {"ranges", HEAD COLUMNS_PART RHS_PART "RANGES\n", ROUNDEL_ERROR_NOT_SUPPORTED, "RANGES", 12},
+    {"empty", "", ROUNDEL_ERROR_PARSE, "", 1, NONE},
+    {"no end", HEAD COLUMNS_PART RHS_PART BOUNDS_PART QUAD_PART, ROUNDEL_ERROR_PARSE, "ENDATA", 17,
+     NONE},
+    {"unknown section", HEAD "COLUMNZ\n", ROUNDEL_ERROR_PARSE, "COLUMNZ", 5, NONE},
+    {"unknown row", HEAD "COLUMNS\n x d 1\n", ROUNDEL_ERROR_PARSE, "'d'", 6, NONE},
+    {"no number", HEAD "COLUMNS\n x c one\n", ROUNDEL_ERROR_PARSE, "'one'", 6, NONE},
+    {"not finite", HEAD "COLUMNS\n x c 1e999\n", ROUNDEL_ERROR_PARSE, "'1e999'", 6, NONE},
+    {"too few fields", HEAD "COLUMNS\n x c\n", ROUNDEL_ERROR_PARSE, "2 fields", 6, NONE},
+    {"open marker", HEAD "COLUMNS\n M 'MARKER' 'INTEND'\n", ROUNDEL_ERROR_PARSE, "INTEND", 6, NONE},
+    {"row twice", "NAME p\nROWS\n N f\n E c\n E c\n", ROUNDEL_ERROR_PARSE, "'c'", 5, NONE},
+    {"inequality", "NAME p\nROWS\n N f\n L c\n", ROUNDEL_ERROR_NOT_SUPPORTED, "'c'", 4, NONE},
+    {"ranges", HEAD COLUMNS_PART RHS_PART "RANGES\n", ROUNDEL_ERROR_NOT_SUPPORTED, "RANGES", 12,
+     NONE},
     {"bound", HEAD COLUMNS_PART RHS_PART "BOUNDS\n UP B x 4\n", ROUNDEL_ERROR_NOT_SUPPORTED, "UP",
-     13},
+     13, NONE},
     {"not free", HEAD COLUMNS_PART RHS_PART "BOUNDS\n FR B x\nENDATA\n",
-     ROUNDEL_ERROR_NOT_SUPPORTED, "'y'", 8},
-    {"maximise", "NAME p\nOBJSENSE MAX\n", ROUNDEL_ERROR_NOT_SUPPORTED, "maxim", 2},
+     ROUNDEL_ERROR_NOT_SUPPORTED, "'y'", 8, 1},
+    {"maximise", "NAME p\nOBJSENSE MAX\n", ROUNDEL_ERROR_NOT_SUPPORTED, "maxim", 2, NONE},
     {"both triangles", HEAD COLUMNS_PART RHS_PART BOUNDS_PART "QUADOBJ\n x y 1\n y x 1\nENDATA\n",
-     ROUNDEL_ERROR_PARSE, "one triangle", 17},
+     ROUNDEL_ERROR_PARSE, "one triangle", 17, NONE},
 };
 
 static void write(const char* name, const char* text) {
@@ -57,7 +60,8 @@ static void contents(fixture* f) {
     for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
         const broken* c = &cases[i];
         write(file, c->text);
-        BAD_LINE(f, c->name, roundel_problem_read_mps(file, &p), c->status, c->part, c->line);
+        BAD_LINE(f, c->name, roundel_problem_read_mps(file, &p), c->status, c->part, c->column,
+                 c->line);
         HOLDS(p == NULL);
     }
     write(file, HEAD COLUMNS_PART RHS_PART BOUNDS_PART QUAD_PART "ENDATA\n");
@@ -107,7 +111,7 @@ static void replay(fixture* f) {
     o = NULL;
     write("bad_input.replay.json", "{");
     BAD_LINE(f, "a broken replay file", roundel_problem_load_replay(file, &p, &o),
-             ROUNDEL_ERROR_PARSE, "", 1);
+             ROUNDEL_ERROR_PARSE, "", NONE, 1);
     HOLDS(p == NULL && o == NULL);
     remove(file);
     remove("bad_input.replay.json");

@@ -51,9 +51,15 @@ void bad_monitors(fixture* f) {
     GOOD(roundel_solution_free(found));
     found = NULL;
 
-    GOOD(roundel_options_set_int(f->options, "time_limit", 0));
-    BAD(f, roundel_solve(p, f->options, &found), ROUNDEL_ERROR_TIME_LIMIT, "time limit", NONE);
-    GOOD(roundel_options_set_real(f->options, "time_limit", (double)INFINITY));
+    roundel_options* hurried = NULL;
+    GOOD(roundel_options_new(&hurried));
+    GOOD(roundel_options_set_int(hurried, "time_limit", 0));
+    BAD(f, roundel_solve(p, hurried, &found), ROUNDEL_ERROR_TIME_LIMIT, "time limit", NONE);
+    GOOD(roundel_options_set_real(hurried, "time_limit", (double)INFINITY));
+    GOOD(roundel_solve(p, hurried, &found));
+    GOOD(roundel_solution_free(found));
+    GOOD(roundel_options_free(hurried));
+    found = NULL;
     HOLDS(found == NULL);
 
     /* A callback that stops at its first event: told so, or the best so far. */

@@ -19,6 +19,7 @@ int main() {
     options_follow_the_librarys_list();
     callbacks_stop_and_throw();
     tokens_cancel_from_other_threads();
+    threads_share_a_problem_and_keep_their_errors();
     files_keep_the_problem();
     return failures != 0;
 }

