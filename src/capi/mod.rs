@@ -2,7 +2,7 @@
 //!
 //! One file an object; the header `include/roundel/roundel.h` is generated from these files by
 //! cbindgen, comments included, and `tests/header.rs` holds the two together. Every entry goes
-//! through [`guard`], which keeps panics in, and every array through [`input`], which checks
+//! through `guard`, which keeps panics in, and every array through `input`, which checks
 //! pointers, lengths and indices before a slice is made of them.
 //!
 //! What callers owe, for every function: a pointer that is not NULL points to live memory of the
