@@ -109,6 +109,11 @@ impl Problem {
         self.constraints.len()
     }
 
+    /// Number of least-squares rows given so far.
+    pub fn least_squares_rows(&self) -> usize {
+        self.least_squares.len()
+    }
+
     /// Adds entries to Q (which stands in the objective as 1/2 x'Qx), in any order, duplicates
     /// summed.
     ///
@@ -152,6 +157,11 @@ impl Problem {
         entries: impl Iterator<Item = (u32, u32, f64)> + Clone,
     ) -> Result<()> {
         let mut lower = lower_triangle(triangle, self.variables, entries)?;
+        self.quadratic
+            .try_reserve(lower.len())
+            .map_err(|_| Error::OutOfMemory {
+                what: "quadratic entries",
+            })?;
         self.quadratic.append(&mut lower);
         Ok(())
     }
@@ -210,6 +220,11 @@ impl Problem {
                 index: None,
             });
         }
+        self.weights
+            .try_reserve(1)
+            .map_err(|_| Error::OutOfMemory {
+                what: "the weights",
+            })?;
         let row = self.least_squares.push(
             "least-squares row",
             self.variables,
@@ -244,7 +259,7 @@ impl Problem {
     pub fn add_constraint_matrix(&mut self, matrix: &MatrixRef, rhs: &[f64]) -> Result<usize> {
         matrix.validate("constraint", rhs.len(), self.variables)?;
         all_finite("constraint right sides", rhs)?;
-        Ok(self.constraints.append(matrix, rhs))
+        self.constraints.append(matrix, rhs)
     }
 
     /// Makes unknowns integer. Naming one twice is no error.
