@@ -55,10 +55,7 @@ pub(super) fn check(vertices: &[Vec3], triangles: &[[u32; 3]]) -> Result<(), Mes
 
 fn has_no_area([a, b, c]: [Vec3; 3]) -> bool {
     let edges = [sub(b, a), sub(c, b), sub(a, c)];
-    let largest = edges
-        .iter()
-        .flatten()
-        .fold(0.0, |m: f64, x| m.max(x.abs()));
+    let largest = edges.iter().flatten().fold(0.0, |m: f64, x| m.max(x.abs()));
     if largest == 0.0 || !largest.is_finite() {
         return true;
     }

@@ -37,3 +37,8 @@ pub use jitter::jitter;
 pub use subdivide::subdivide;
 pub use topology::Components;
 pub use triangle_mesh::{Edge, TriangleMesh};
+
+#[cfg(test)]
+mod error_tests;
+#[cfg(test)]
+mod tests;

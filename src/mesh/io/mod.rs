@@ -87,10 +87,7 @@ pub fn parse(bytes: &[u8], format: Format) -> Result<TriangleMesh, MeshError> {
 ///
 /// [`MeshError::UnknownFormat`], [`MeshError::Io`], and [`MeshError::InvalidArgument`] where
 /// colours and elements differ in number.
-pub fn write<'a>(
-    path: impl AsRef<Path>,
-    drawing: impl Into<Drawing<'a>>,
-) -> Result<(), MeshError> {
+pub fn write<'a>(path: impl AsRef<Path>, drawing: impl Into<Drawing<'a>>) -> Result<(), MeshError> {
     let path = path.as_ref();
     let format = Format::of(path)?;
     let drawing = drawing.into();

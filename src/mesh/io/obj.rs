@@ -57,7 +57,11 @@ pub(super) fn encode(drawing: &Drawing) -> Vec<u8> {
         }
         out.push(b'\n');
     }
-    for [a, b, c] in drawing.triangles.iter().map(|t| t.map(|v| u64::from(v) + 1)) {
+    for [a, b, c] in drawing
+        .triangles
+        .iter()
+        .map(|t| t.map(|v| u64::from(v) + 1))
+    {
         let _ = writeln!(out, "f {a} {b} {c}");
     }
     out
@@ -157,10 +161,10 @@ fn without_color(line: &[u8]) -> &[u8] {
 
 /// The error of `tobj` with what it leaves out: the line, or the face and the vertex.
 fn explain(error: &LoadError, bytes: &[u8], line: usize, vertices: usize) -> MeshError {
-    if matches!(error, LoadError::FaceVertexOutOfBounds) {
-        if let Some(found) = out_of_range(bytes, vertices) {
-            return found;
-        }
+    if matches!(error, LoadError::FaceVertexOutOfBounds)
+        && let Some(found) = out_of_range(bytes, vertices)
+    {
+        return found;
     }
     let message = match error {
         LoadError::PositionParseError => "a vertex needs three numbers",
@@ -183,7 +187,11 @@ fn out_of_range(bytes: &[u8], vertices: usize) -> Option<MeshError> {
                 let line = std::str::from_utf8(line).ok()?;
                 for corner in line.split_ascii_whitespace().skip(1) {
                     let number: i64 = corner.split('/').next()?.parse().ok()?;
-                    let vertex = if number < 0 { seen + number } else { number - 1 };
+                    let vertex = if number < 0 {
+                        seen + number
+                    } else {
+                        number - 1
+                    };
                     if vertex < 0 || vertex >= vertices as i64 {
                         return Some(MeshError::IndexOutOfRange {
                             face,

@@ -67,7 +67,9 @@ fn header(lines: &mut Lines) -> Result<(usize, usize), MeshError> {
     let mut words = lines.next_words(&|| "the word OFF".to_owned())?.peekable();
     let keyword = words.next().unwrap_or_default();
     let variant = keyword.strip_suffix("OFF");
-    if !variant.is_some_and(|prefix| ["", "C", "N", "CN", "ST", "STC", "STN", "STCN"].contains(&prefix)) {
+    if !variant
+        .is_some_and(|prefix| ["", "C", "N", "CN", "ST", "STC", "STN", "STCN"].contains(&prefix))
+    {
         return Err(lines.wrong("the file does not start with OFF, COFF, NOFF or STOFF"));
     }
     if words.peek() == Some(&"BINARY") {

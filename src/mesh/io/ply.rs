@@ -26,12 +26,18 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Soup, MeshError> {
         // Every element takes a byte at least, but for those without properties.
         if element.count > bytes.len() {
             return Err(MeshError::Malformed {
-                message: format!("there are not {} elements '{name}' in the file", element.count),
+                message: format!(
+                    "there are not {} elements '{name}' in the file",
+                    element.count
+                ),
             });
         }
         match name.as_str() {
             "vertex" => {
-                if !["x", "y", "z"].iter().all(|axis| element.properties.contains_key(*axis)) {
+                if !["x", "y", "z"]
+                    .iter()
+                    .all(|axis| element.properties.contains_key(*axis))
+                {
                     return Err(MeshError::Malformed {
                         message: "the vertices have no x, y and z".to_owned(),
                     });
