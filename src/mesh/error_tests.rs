@@ -1,5 +1,8 @@
 //! Every way in which vertices and faces fail to be a mesh, and the element named.
 
+use proptest::collection::vec;
+use proptest::prelude::*;
+
 use super::{MeshError, TriangleMesh, jitter, shape};
 
 const TETRAHEDRON: [[u32; 3]; 4] = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
@@ -158,4 +161,61 @@ fn jitter_takes_finite_amplitudes_from_zero() {
         jitter(&mesh, 0.0, 0).expect("unmoved").vertices(),
         mesh.vertices()
     );
+}
+
+/// What is wrong by definition, in the documented order, found by looking at all pairs of faces.
+fn fault(faces: &[[u32; 3]], vertices: u32) -> Option<&'static str> {
+    if faces.iter().any(|&[a, b, c]| a == b || b == c || c == a) {
+        return Some("repeated_vertex");
+    }
+    let directed = |a: u32, b: u32| {
+        let runs = |f: &&[u32; 3]| (0..3).any(|k| f[k] == a && f[(k + 1) % 3] == b);
+        faces.iter().filter(runs).count()
+    };
+    let pairs = || (0..vertices).flat_map(|a| (0..vertices).map(move |b| (a, b)));
+    if pairs().any(|(a, b)| directed(a, b) + directed(b, a) > 2) {
+        return Some("non_manifold_edge");
+    }
+    if pairs().any(|(a, b)| directed(a, b) > 1) {
+        return Some("inconsistent_orientation");
+    }
+    if (0..vertices).any(|v| !faces.as_flattened().contains(&v)) {
+        return Some("isolated_vertex");
+    }
+    let one_fan = |v: u32| {
+        let around: Vec<_> = faces.iter().filter(|f| f.contains(&v)).collect();
+        let mut reached = vec![around[0]];
+        while let Some(more) = around.iter().find(|f| {
+            let adjacent = |g: &&&[u32; 3]| g.iter().filter(|&&w| w != v && f.contains(&w)).count();
+            !reached.iter().any(|g| std::ptr::eq(*g, **f))
+                && reached.iter().any(|g| adjacent(&g) > 0)
+        }) {
+            reached.push(more);
+        }
+        reached.len() == around.len()
+    };
+    (!(0..vertices).all(one_fan)).then_some("non_manifold_vertex")
+}
+
+proptest! {
+    #[test]
+    fn faces_are_a_mesh_exactly_when_the_definition_says_so(
+        faces in vec([0..5u32, 0..5u32, 0..5u32], 1..7),
+    ) {
+        let found = TriangleMesh::new(points(5), faces.clone()).err();
+        prop_assert_eq!(found.map(|e| e.code()), fault(&faces, 5));
+    }
+
+    #[test]
+    fn a_tetrahedron_with_faces_taken_away_or_turned_is_judged_by_the_definition(
+        keep in vec(0..3u8, 4..=4),
+    ) {
+        let faces: Vec<_> = std::iter::zip(TETRAHEDRON, keep)
+            .filter(|(_, keep)| *keep > 0)
+            .map(|([a, b, c], keep)| if keep == 1 { [a, b, c] } else { [a, c, b] })
+            .collect();
+        prop_assume!(!faces.is_empty());
+        let found = TriangleMesh::new(points(4), faces.clone()).err();
+        prop_assert_eq!(found.map(|e| e.code()), fault(&faces, 4));
+    }
 }

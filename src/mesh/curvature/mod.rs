@@ -1,6 +1,6 @@
 //! Principal curvatures and directions of every face, smoothed.
 //!
-//! Tensors of single faces ([`face_tensor`], Rusinkiewicz 2004) are averaged with those of the
+//! Tensors of single faces (Rusinkiewicz 2004) are averaged with those of the
 //! neighbours, weighted by area, several times over. A neighbour's tensor is first turned into
 //! the face's frame by unfolding over the common edge, as directions are everywhere in the
 //! library; a symmetric tensor is its mean and a deviator that turns by twice the angle.

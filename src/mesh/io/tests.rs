@@ -1,5 +1,7 @@
 //! Properties of the readers and writers.
 
+use proptest::prelude::*;
+
 use super::{Drawing, Format, encode, parse, read, write};
 use crate::mesh::{MeshError, TriangleMesh, jitter, shape};
 
@@ -319,4 +321,28 @@ fn ply_errors_name_the_line_or_the_face() {
     assert_eq!(refused(&lies, Format::Ply).code(), "malformed");
     let flat = PLY.replace("property uchar z\n", "");
     assert_eq!(refused(&flat, Format::Ply).code(), "malformed");
+}
+
+proptest! {
+    #[test]
+    fn a_damaged_file_is_read_or_refused_but_never_a_panic(
+        damage in proptest::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..6),
+        cut in any::<prop::sample::Index>(),
+    ) {
+        let mesh = shape::by_name("disk", 24).expect("a shape");
+        let ascii = format!("{PLY}0 0 0 1\n1 0 0 1\n0 1 0 1\n2 5 6\n3 0 1 2 9\n").into_bytes();
+        let mut files: Vec<_> = FORMATS.iter().map(|&f| (encode(&(&mesh).into(), f), f)).collect();
+        files.push((ascii, Format::Ply));
+        for (mut bytes, format) in files {
+            for (place, value) in &damage {
+                let place = place.index(bytes.len());
+                bytes[place] = *value;
+            }
+            for bytes in [&bytes[..], &bytes[..cut.index(bytes.len())]] {
+                if let Err(error) = parse(bytes, format) {
+                    prop_assert!(!error.to_string().is_empty());
+                }
+            }
+        }
+    }
 }
