@@ -49,3 +49,8 @@ pub use solve::{
     CancelToken, Event, Flow, Monitor, Options, Seconds, Solution, SolveStatus, Strategy, solve,
     solve_with,
 };
+
+/// The README's Rust example is one of the tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

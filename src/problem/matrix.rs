@@ -5,7 +5,7 @@ use crate::linalg::Sparse;
 use crate::{Error, Result};
 
 /// Two mirrored entries of a full symmetric matrix may differ by this, relative to the larger.
-const SYMMETRY_TOLERANCE: f64 = 1e-9;
+pub(super) const SYMMETRY_TOLERANCE: f64 = 1e-9;
 
 /// Which entries of a symmetric matrix are given.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,6 +1,6 @@
 //! The validated problem, as the solver reads it.
 
-use super::{Problem, RowList};
+use super::{CycleHint, Problem, RowList};
 use crate::linalg::Sparse;
 use crate::linalg::sparse::reserve;
 use crate::{Error, Result};
@@ -20,6 +20,8 @@ pub struct Model {
     integer: Vec<bool>,
     pinned: Vec<Option<f64>>,
     guess: Vec<f64>,
+    cycles: CycleHint,
+    ignored_hint: Option<usize>,
 }
 
 impl Model {
@@ -79,7 +81,15 @@ impl Model {
                 index: None,
             });
         }
+        let ignored_hint = problem
+            .cycles
+            .fault(&problem.least_squares, &problem.integer);
         Ok(Model {
+            cycles: match ignored_hint {
+                None => problem.cycles.clone(),
+                Some(_) => CycleHint::default(),
+            },
+            ignored_hint,
             hessian,
             gradient,
             constant,
@@ -141,5 +151,15 @@ impl Model {
     /// Where unknowns stay that the objective does not decide.
     pub fn guess(&self) -> &[f64] {
         &self.guess
+    }
+
+    /// Short cycles that the caller knows, checked; none if the hint did not hold.
+    pub fn cycles(&self) -> &CycleHint {
+        &self.cycles
+    }
+
+    /// The cycle for which the caller's hint was ignored.
+    pub fn ignored_hint(&self) -> Option<usize> {
+        self.ignored_hint
     }
 }
