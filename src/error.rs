@@ -158,6 +158,31 @@ pub enum Error {
 }
 
 impl Error {
+    /// A word for the kind of error that stays the same from version to version.
+    pub fn code(&self) -> &'static str {
+        match self {
+            Error::InvalidArgument { .. } => "invalid_argument",
+            Error::LengthMismatch { .. } => "length_mismatch",
+            Error::IndexOutOfRange { .. } => "index_out_of_range",
+            Error::NotFinite { .. } => "not_finite",
+            Error::Empty => "empty",
+            Error::Overflow { .. } => "overflow",
+            Error::OutOfMemory { .. } => "out_of_memory",
+            Error::UnknownOption { .. } => "unknown_option",
+            Error::OptionType { .. } => "option_type",
+            Error::OptionRange { .. } => "option_range",
+            Error::Infeasible { .. } => "infeasible",
+            Error::NoIntegerSolution { .. } => "no_integer_solution",
+            Error::Unbounded { .. } => "unbounded",
+            Error::NotConvex { .. } => "not_convex",
+            Error::NotSupported { .. } => "not_supported",
+            Error::Parse { .. } => "parse",
+            Error::Io { .. } => "io",
+            Error::Cancelled => "cancelled",
+            Error::TimeLimit => "time_limit",
+        }
+    }
+
     /// The element at fault: position in the array, constraint, or variable.
     pub fn index(&self) -> Option<usize> {
         match self {

@@ -28,8 +28,8 @@
 //! ```
 //!
 //! Where to find what: [`problem`] states and validates, [`eliminate`] removes the equality
-//! constraints, [`round`] and [`solve`] search, [`linalg`] holds what faer lacks, [`capi`] is the
-//! C interface.
+//! constraints, [`round`] and [`solve`] search, [`linalg`] holds what faer lacks, [`mesh`] holds
+//! triangle meshes, [`capi`] is the C interface.
 
 #![deny(unsafe_code)]
 #![deny(missing_docs)]
@@ -38,6 +38,7 @@ pub mod capi;
 pub mod eliminate;
 mod error;
 pub mod linalg;
+pub mod mesh;
 pub mod problem;
 pub mod round;
 pub mod solve;
@@ -48,3 +49,8 @@ pub use solve::{
     CancelToken, Event, Flow, Monitor, Options, Seconds, Solution, SolveStatus, Strategy, solve,
     solve_with,
 };
+
+/// The README's Rust example is one of the tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

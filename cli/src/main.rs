@@ -1,1 +1,35 @@
-fn main() {}
+//! The `roundel` program: one command a task, each in a module of its name.
+
+mod exit;
+mod interrupt;
+mod memory;
+mod options;
+mod output;
+mod progress;
+mod report;
+mod solve;
+mod summary;
+
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+/// Mixed-integer quadratic problems of geometry processing.
+#[derive(Parser)]
+#[command(version, after_help = exit::HELP)]
+struct Program {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    Solve(solve::Arguments),
+}
+
+fn main() -> ExitCode {
+    match Program::parse().command {
+        Command::Solve(arguments) => solve::run(&arguments),
+    }
+    .into()
+}

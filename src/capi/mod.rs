@@ -1,1 +1,62 @@
 //! The C interface: the only place where `unsafe` is allowed.
+//!
+//! One file an object; the header `include/roundel/roundel.h` is generated from these files by
+//! cbindgen, comments included, and `tests/header.rs` holds the two together. Every entry goes
+//! through `guard`, which keeps panics in, and every array through `input`, which checks
+//! pointers, lengths and indices before a slice is made of them.
+//!
+//! What callers owe, for every function: a pointer that is not NULL points to live memory of the
+//! type and length given, a handle comes from this library and has not been freed, and nobody
+//! writes to either during the call.
+
+#![allow(unsafe_code)]
+#![allow(non_camel_case_types, reason = "the types carry their C names")]
+#![allow(
+    clippy::missing_safety_doc,
+    reason = "what callers owe is the same everywhere and said above and in the header"
+)]
+#![allow(
+    rustdoc::broken_intra_doc_links,
+    reason = "the comments are C's, where x[k] is an entry and no link"
+)]
+
+mod abi;
+mod cancel;
+mod constraints;
+mod error;
+mod event;
+mod files;
+mod guard;
+mod hints;
+mod input;
+mod objective;
+mod option_list;
+mod options;
+mod output;
+mod problem;
+mod solution;
+mod solve;
+mod status;
+#[cfg(feature = "test-panic")]
+mod test_panic;
+mod unknowns;
+mod version;
+
+pub use abi::*;
+pub use cancel::*;
+pub use constraints::*;
+pub use error::*;
+pub use event::*;
+pub use files::*;
+pub use hints::*;
+pub use objective::*;
+pub use option_list::*;
+pub use options::*;
+pub use problem::*;
+pub use solution::*;
+pub use solve::*;
+pub use status::*;
+#[cfg(feature = "test-panic")]
+pub use test_panic::*;
+pub use unknowns::*;
+pub use version::*;

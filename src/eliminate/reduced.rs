@@ -1,7 +1,7 @@
 //! The problem without its constraints.
 
 use super::Expansion;
-use crate::linalg::Sparse;
+use crate::linalg::{CompensatedSum, Sparse};
 
 /// `minimise 1/2 y'Hy + g'y + c`, some entries of `y` integer, nothing else.
 ///
@@ -59,20 +59,26 @@ impl ReducedModel {
         &self.expansion
     }
 
-    /// The objective at `y`. Terms are summed with compensation: on real problems the constant is
-    /// a million times the result.
-    pub fn energy(&self, y: &[f64]) -> f64 {
-        use crate::linalg::CompensatedSum;
+    /// The objective at `y`, and the sum of the absolute values of its terms.
+    ///
+    /// Terms are summed with compensation: on real problems the constant is a million times the
+    /// result.
+    pub fn energy(&self, y: &[f64]) -> (f64, f64) {
         let mut sum = CompensatedSum::new(self.constant);
+        let mut size = self.constant.abs();
+        let mut add = |a: f64, b: f64| {
+            sum.add_product(a, b);
+            size += (a * b).abs();
+        };
         for (g, y) in self.gradient.iter().zip(y) {
-            sum.add_product(*g, *y);
+            add(*g, *y);
         }
         for i in 0..self.dim() {
             for (j, v) in self.hessian.row(i) {
                 let half = if i == j { 0.5 } else { 1.0 };
-                sum.add_product(half * v * y[i], y[j]);
+                add(half * v * y[i], y[j]);
             }
         }
-        sum.value()
+        (sum.value(), size)
     }
 }

@@ -1,8 +1,20 @@
-//! What faer lacks: orderings kept for path solves, fixing unknowns in a sparse factor,
-//! semi-definite systems with a documented choice of minimiser.
+//! What faer lacks: fixing unknowns in a sparse factor, semi-definite systems with a documented
+//! choice of minimiser, sums whose terms cancel.
 
+mod cholesky;
 mod compensated;
+mod fix;
+mod ldl;
+mod minimise;
+mod ordering;
+mod scaling;
 pub mod sparse;
 
+pub use cholesky::{Cholesky, NULL_PIVOT, PIVOT_TOLERANCE};
 pub use compensated::CompensatedSum;
+pub use fix::FixedSolve;
+pub use ldl::Ldl;
+pub use minimise::{CURVATURE_TOLERANCE, Minimum, SLOPE_TOLERANCE, minimise};
+pub use ordering::{EliminationTree, minimum_degree};
+pub use scaling::equilibrate;
 pub use sparse::Sparse;

@@ -2,10 +2,11 @@
 
 use super::check::{all_finite, same_length};
 use crate::linalg::Sparse;
+use crate::linalg::sparse::reserve;
 use crate::{Error, Result};
 
 /// Two mirrored entries of a full symmetric matrix may differ by this, relative to the larger.
-const SYMMETRY_TOLERANCE: f64 = 1e-9;
+pub(super) const SYMMETRY_TOLERANCE: f64 = 1e-9;
 
 /// Which entries of a symmetric matrix are given.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -92,10 +93,12 @@ pub(super) fn lower_triangle(
 ) -> Result<Vec<(u32, u32, f64)>> {
     if triangle == Triangle::Full {
         check_symmetry(&Sparse::from_triplets(size, size, entries.clone())?)?;
-        return Ok(entries.filter(|&(i, j, _)| i >= j).collect());
+        let mut lower = reserve(entries.clone().filter(|&(i, j, _)| i >= j).count())?;
+        lower.extend(entries.filter(|&(i, j, _)| i >= j));
+        return Ok(lower);
     }
     let mirrored = triangle == Triangle::Upper;
-    let mut lower = Vec::new();
+    let mut lower = reserve(entries.clone().count())?;
     for (position, (i, j, v)) in entries.enumerate() {
         let (i, j) = if mirrored { (j, i) } else { (i, j) };
         if i < j {

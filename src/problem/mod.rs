@@ -1,12 +1,14 @@
 //! Stating a problem: the builder, its validation, and the model that the solver works on.
 
 mod check;
+mod cycles;
 mod matrix;
 mod model;
 pub mod mps;
 mod rows;
 mod text;
 
+pub use cycles::CycleHint;
 pub use matrix::{Layout, MatrixRef, Triangle};
 pub use model::Model;
 pub use rows::RowList;
@@ -33,6 +35,7 @@ pub struct Problem {
     integer: Vec<bool>,
     pinned: Vec<Option<f64>>,
     guess: Vec<f64>,
+    cycles: CycleHint,
 }
 
 impl Problem {
@@ -62,6 +65,7 @@ impl Problem {
             integer: filled(variables, false)?,
             pinned: filled(variables, None)?,
             guess: filled(variables, 0.0)?,
+            cycles: CycleHint::default(),
         })
     }
 
@@ -70,9 +74,44 @@ impl Problem {
         self.variables
     }
 
+    /// Entries of the lower triangle of Q as given, duplicates not summed.
+    pub(crate) fn quadratic(&self) -> &[(u32, u32, f64)] {
+        &self.quadratic
+    }
+
+    pub(crate) fn linear(&self) -> &[f64] {
+        &self.linear
+    }
+
+    pub(crate) fn constant(&self) -> f64 {
+        self.constant
+    }
+
+    /// The least-squares rows as given, and their weights.
+    pub(crate) fn least_squares(&self) -> (&RowList, &[f64]) {
+        (&self.least_squares, &self.weights)
+    }
+
+    pub(crate) fn constraint_rows(&self) -> &RowList {
+        &self.constraints
+    }
+
+    pub(crate) fn integers(&self) -> &[bool] {
+        &self.integer
+    }
+
+    pub(crate) fn pins(&self) -> &[Option<f64>] {
+        &self.pinned
+    }
+
     /// Number of equality constraints given so far.
     pub fn constraints(&self) -> usize {
         self.constraints.len()
+    }
+
+    /// Number of least-squares rows given so far.
+    pub fn least_squares_rows(&self) -> usize {
+        self.least_squares.len()
     }
 
     /// Adds entries to Q (which stands in the objective as 1/2 x'Qx), in any order, duplicates
@@ -118,6 +157,11 @@ impl Problem {
         entries: impl Iterator<Item = (u32, u32, f64)> + Clone,
     ) -> Result<()> {
         let mut lower = lower_triangle(triangle, self.variables, entries)?;
+        self.quadratic
+            .try_reserve(lower.len())
+            .map_err(|_| Error::OutOfMemory {
+                what: "quadratic entries",
+            })?;
         self.quadratic.append(&mut lower);
         Ok(())
     }
@@ -176,6 +220,11 @@ impl Problem {
                 index: None,
             });
         }
+        self.weights
+            .try_reserve(1)
+            .map_err(|_| Error::OutOfMemory {
+                what: "the weights",
+            })?;
         let row = self.least_squares.push(
             "least-squares row",
             self.variables,
@@ -210,7 +259,7 @@ impl Problem {
     pub fn add_constraint_matrix(&mut self, matrix: &MatrixRef, rhs: &[f64]) -> Result<usize> {
         matrix.validate("constraint", rhs.len(), self.variables)?;
         all_finite("constraint right sides", rhs)?;
-        Ok(self.constraints.append(matrix, rhs))
+        self.constraints.append(matrix, rhs)
     }
 
     /// Makes unknowns integer. Naming one twice is no error.
@@ -256,6 +305,21 @@ impl Problem {
         same_length("initial guess", self.variables, values.len())?;
         all_finite("initial guess", values)?;
         self.guess.copy_from_slice(values);
+        Ok(())
+    }
+
+    /// Hands over short cycles that the caller knows: sums of least-squares rows, each with sign 1
+    /// or -1, in which all continuous unknowns cancel, such as the rings around the vertices of a
+    /// mesh. Cycle `k` has the entries `offsets[k]..offsets[k + 1]` of `rows` and `signs`.
+    ///
+    /// A hint never changes what is solved. One that does not hold (unknowns do not cancel) is
+    /// ignored by the solve, which says so in its log. A later hint replaces an earlier one.
+    ///
+    /// # Errors
+    /// [`Error::LengthMismatch`], [`Error::IndexOutOfRange`] for a row that does not exist yet,
+    /// [`Error::InvalidArgument`] for other signs or offsets that do not grow.
+    pub fn hint_cycles(&mut self, offsets: &[usize], rows: &[usize], signs: &[i8]) -> Result<()> {
+        self.cycles = CycleHint::new(self.least_squares.len(), offsets, rows, signs)?;
         Ok(())
     }
 }

@@ -1,6 +1,6 @@
 //! The validated problem, as the solver reads it.
 
-use super::{Problem, RowList};
+use super::{CycleHint, Problem, RowList};
 use crate::linalg::Sparse;
 use crate::linalg::sparse::reserve;
 use crate::{Error, Result};
@@ -20,6 +20,8 @@ pub struct Model {
     integer: Vec<bool>,
     pinned: Vec<Option<f64>>,
     guess: Vec<f64>,
+    cycles: CycleHint,
+    ignored_hint: Option<usize>,
 }
 
 impl Model {
@@ -27,7 +29,7 @@ impl Model {
     ///
     /// # Errors
     /// [`Error::InvalidArgument`] for an integer unknown pinned
-    /// to a fraction, [`Error::NotFinite`] where sums overflow, [`Error::OutOfMemory`].
+    /// to a fraction, [`Error::Overflow`] where sums overflow, [`Error::OutOfMemory`].
     pub fn new(problem: &Problem) -> Result<Self> {
         let n = problem.variables;
         for i in 0..n {
@@ -79,13 +81,28 @@ impl Model {
                 index: None,
             });
         }
+        let ignored_hint = problem
+            .cycles
+            .fault(&problem.least_squares, &problem.integer);
+        let constraints = problem.constraints.to_sparse(n)?;
+        if let Some((i, j, _)) = constraints.entries().find(|(_, _, v)| !v.is_finite()) {
+            return Err(Error::Overflow {
+                what: format!("constraint {i}: the sum of coefficients of variable {j} overflows"),
+                index: Some(i as usize),
+            });
+        }
         Ok(Model {
+            cycles: match ignored_hint {
+                None => problem.cycles.clone(),
+                Some(_) => CycleHint::default(),
+            },
+            ignored_hint,
             hessian,
             gradient,
             constant,
             least_squares: problem.least_squares.clone(),
             weights: problem.weights.clone(),
-            constraints: problem.constraints.to_sparse(n)?,
+            constraints,
             constraint_rhs: problem.constraints.rhs().to_vec(),
             integer: problem.integer.clone(),
             pinned: problem.pinned.clone(),
@@ -141,5 +158,33 @@ impl Model {
     /// Where unknowns stay that the objective does not decide.
     pub fn guess(&self) -> &[f64] {
         &self.guess
+    }
+
+    /// Short cycles that the caller knows, checked; none if the hint did not hold.
+    pub fn cycles(&self) -> &CycleHint {
+        &self.cycles
+    }
+
+    /// The cycle for which the caller's hint was ignored.
+    pub fn ignored_hint(&self) -> Option<usize> {
+        self.ignored_hint
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_constraint_whose_coefficients_overflow_is_named() {
+        let mut problem = Problem::new(2).unwrap();
+        problem.add_constraint(&[0], &[1.0], 0.0).unwrap();
+        let huge = [f64::MAX, f64::MAX];
+        problem.add_constraint(&[1, 1], &huge, 0.0).unwrap();
+        let error = Model::new(&problem).unwrap_err();
+        assert!(
+            matches!(error, Error::Overflow { index: Some(1), .. }),
+            "{error}"
+        );
     }
 }

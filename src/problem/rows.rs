@@ -2,8 +2,9 @@
 
 use super::check::{all_finite, finite, in_range, same_length};
 use super::{Layout, MatrixRef};
-use crate::Result;
 use crate::linalg::Sparse;
+use crate::linalg::sparse::reserve;
+use crate::{Error, Result};
 
 /// A growing list of sparse rows with a right side each. Indices within a row are as given:
 /// unsorted, duplicates not yet summed.
@@ -63,6 +64,7 @@ impl RowList {
         in_range(what, indices, variables)?;
         all_finite(what, coefficients)?;
         finite("right side", rhs)?;
+        self.reserve(1, indices.len())?;
         self.indices.extend(indices.iter().map(|&i| i as u32));
         self.values.extend_from_slice(coefficients);
         self.offsets.push(self.indices.len());
@@ -71,35 +73,51 @@ impl RowList {
     }
 
     /// Appends the rows of a validated matrix and returns the first one's number.
-    pub(super) fn append(&mut self, matrix: &MatrixRef, rhs: &[f64]) -> usize {
-        let first = self.rhs.len();
-        let mut push_row = |row: &mut dyn Iterator<Item = (u32, f64)>| {
-            for (j, v) in row {
-                self.indices.push(j);
-                self.values.push(v);
-            }
-            self.offsets.push(self.indices.len());
-        };
+    pub(super) fn append(&mut self, matrix: &MatrixRef, rhs: &[f64]) -> Result<usize> {
+        self.reserve(rhs.len(), matrix.indices.len())?;
+        let (first, base) = (self.rhs.len(), self.indices.len());
         match matrix.layout {
             Layout::Rows => {
-                for w in matrix.offsets.windows(2) {
-                    let range = w[0]..w[1];
-                    let indices = matrix.indices[range.clone()].iter().map(|&j| j as u32);
-                    push_row(&mut indices.zip(matrix.values[range].iter().copied()));
-                }
+                self.indices
+                    .extend(matrix.indices.iter().map(|&j| j as u32));
+                self.values.extend_from_slice(matrix.values);
+                let ends = matrix.offsets[1..].iter().map(|&end| base + end);
+                self.offsets.extend(ends);
             }
             Layout::Columns => {
-                let mut by_row: Vec<Vec<(u32, f64)>> = vec![Vec::new(); rhs.len()];
-                for (i, j, v) in matrix.entries() {
-                    by_row[i as usize].push((j, v));
+                // A counting sort by rows, which leaves each row in the order of the columns.
+                let mut next: Vec<usize> = reserve(rhs.len() + 1)?;
+                next.resize(rhs.len() + 1, base);
+                for &i in matrix.indices {
+                    next[i + 1] += 1;
                 }
-                for row in by_row {
-                    push_row(&mut row.into_iter());
+                for i in 0..rhs.len() {
+                    next[i + 1] += next[i] - base;
+                }
+                self.offsets.extend_from_slice(&next[1..]);
+                self.indices.resize(base + matrix.indices.len(), 0);
+                self.values.resize(base + matrix.indices.len(), 0.0);
+                for (i, j, v) in matrix.entries() {
+                    let at = &mut next[i as usize];
+                    self.indices[*at] = j;
+                    self.values[*at] = v;
+                    *at += 1;
                 }
             }
         }
         self.rhs.extend_from_slice(rhs);
-        first
+        Ok(first)
+    }
+
+    /// Makes room for so many more rows and entries, or changes nothing.
+    fn reserve(&mut self, rows: usize, entries: usize) -> Result<()> {
+        let reserved = self
+            .offsets
+            .try_reserve(rows)
+            .and_then(|()| self.rhs.try_reserve(rows))
+            .and_then(|()| self.indices.try_reserve(entries))
+            .and_then(|()| self.values.try_reserve(entries));
+        reserved.map_err(|_| Error::OutOfMemory { what: "the rows" })
     }
 
     /// The rows as a matrix of `cols` columns: sorted, duplicates summed.

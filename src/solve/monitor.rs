@@ -161,6 +161,11 @@ impl<'a> Monitor<'a> {
         self.started.elapsed().as_secs_f64()
     }
 
+    /// Why the solve was told to end, if it was.
+    pub(crate) fn stopped(&self) -> Option<Stop> {
+        self.stopped
+    }
+
     /// Whether to go on. Every loop of the library that may run long asks this.
     pub(crate) fn check(&mut self) -> Result<(), Stop> {
         if self.stopped.is_none() {

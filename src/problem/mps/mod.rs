@@ -1,1 +1,73 @@
 //! Free-format MPS, reading and writing.
+//!
+//! MPS is IBM's format for linear programs of the 1960s, since extended by everyone; what is read
+//! here is the part that states the problems of this library:
+//!
+//! | section | what is read |
+//! | --- | --- |
+//! | `NAME` | the rest of the line, which may be left out |
+//! | `OBJSENSE` | `MIN`, on the same line or the next |
+//! | `ROWS` | `N` (the first is the objective, others are ignored) and `E` |
+//! | `COLUMNS` | one or two entries a line; integer columns between `'MARKER' 'INTORG'` and `'MARKER' 'INTEND'` |
+//! | `RHS` | right sides; that of the objective is minus the constant c |
+//! | `BOUNDS` | `FR`, which every column needs: without it MPS means x >= 0 |
+//! | `QUADOBJ` | one triangle of Q in 1/2 x'Qx: an off-diagonal entry stands for its mirror image too |
+//! | `QMATRIX` | instead of `QUADOBJ`: both triangles, which must agree |
+//! | `ENDATA` | needed |
+//!
+//! The sections come in this order. Section names start in the first column, all else behind a
+//! blank; names are any text without blanks, and lines that start with `*` are comments.
+//! Everything else that MPS can say (inequalities, ranges, other bounds, maximisation, ...) is
+//! [`Error::NotSupported`] with its line, and what MPS cannot say is [`Error::Parse`] with its
+//! line: nothing is skipped or guessed, no entry may be given twice.
+//!
+//! Files compressed by gzip are known by their content when reading, and by a name that ends in
+//! `.gz` when writing (feature `gzip`).
+
+mod columns;
+mod compression;
+mod content;
+mod lines;
+mod named;
+mod names;
+mod quadratic;
+mod rows;
+mod sections;
+mod write;
+
+use std::io::BufRead;
+use std::path::Path;
+
+pub(crate) use named::MpsNames;
+pub use named::MpsProblem;
+pub(crate) use write::{Pins, write_model};
+pub use write::{write, write_to};
+
+use crate::{Error, Result};
+
+/// Reads the file at `path`.
+///
+/// # Errors
+/// [`Error::Io`] for a file that cannot be read, a damaged archive included; [`Error::Parse`] and
+/// [`Error::NotSupported`] with the line at fault; [`Error::OutOfMemory`], [`Error::Overflow`].
+pub fn read(path: &Path) -> Result<MpsProblem> {
+    let file = std::fs::File::open(path).map_err(|e| io_error(path, e))?;
+    match parse(std::io::BufReader::with_capacity(1 << 16, file)) {
+        Err(Error::Io { message }) => Err(io_error(path, message)),
+        other => other,
+    }
+}
+
+/// Reads from `reader`, compressed or not.
+///
+/// # Errors
+/// As [`read`].
+pub fn parse(reader: impl BufRead) -> Result<MpsProblem> {
+    compression::parse(reader)
+}
+
+pub(crate) fn io_error(path: &Path, reason: impl std::fmt::Display) -> Error {
+    Error::Io {
+        message: format!("{}: {reason}", path.display()),
+    }
+}

@@ -1,0 +1,48 @@
+//! Exit codes: what a script learns without reading the output.
+
+use std::process::ExitCode;
+
+use roundel::Error;
+
+/// How a run of the program ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Exit {
+    /// There is a solution.
+    Solved = 0,
+    /// A file that cannot be read or written, bad input, or something not supported.
+    Failed = 1,
+    /// No point satisfies the constraints and the integralities.
+    Infeasible = 3,
+    /// The objective has no least value.
+    Unbounded = 4,
+    /// Out of time, or cancelled, before a first solution.
+    Stopped = 5,
+}
+
+/// The codes as `--help` prints them. Code 2 is given by clap.
+pub const HELP: &str = "\
+Exit codes:
+  0  solved: the program has a solution to show, proved or not
+  1  error: a file, bad input, or something that is not supported
+  2  usage: the command line is wrong
+  3  infeasible: the constraints contradict each other, or have no integer solution
+  4  unbounded: the objective has no least value, or is not convex
+  5  stopped: time limit or cancel, before a first solution";
+
+impl Exit {
+    /// The code of a run that ended in `error`.
+    pub fn of(error: &Error) -> Self {
+        match error {
+            Error::Infeasible { .. } | Error::NoIntegerSolution { .. } => Exit::Infeasible,
+            Error::Unbounded { .. } | Error::NotConvex { .. } => Exit::Unbounded,
+            Error::Cancelled | Error::TimeLimit => Exit::Stopped,
+            _ => Exit::Failed,
+        }
+    }
+}
+
+impl From<Exit> for ExitCode {
+    fn from(exit: Exit) -> Self {
+        ExitCode::from(exit as u8)
+    }
+}

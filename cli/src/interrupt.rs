@@ -1,0 +1,24 @@
+//! Ctrl-C: the first one asks the solver to end with what it has, the second ends the program.
+
+use roundel::{CancelToken, Error, Result};
+
+/// What a shell reports of a program that SIGINT killed: 128 and the number of the signal.
+const KILLED: i32 = 130;
+
+/// A token that Ctrl-C sets.
+///
+/// A second Ctrl-C ends the program at once, for the parts that ask no token, such as reading.
+pub fn cancel_token() -> Result<CancelToken> {
+    let token = CancelToken::new();
+    let set = token.clone();
+    ctrlc::set_handler(move || {
+        if set.is_cancelled() {
+            std::process::exit(KILLED);
+        }
+        set.cancel();
+    })
+    .map_err(|reason| Error::Io {
+        message: format!("Ctrl-C cannot be caught: {reason}"),
+    })?;
+    Ok(token)
+}

@@ -1,0 +1,55 @@
+//! Writing: to files and to standard output, with the file's name in every failure.
+
+use std::fs::File;
+use std::io::{self, BufWriter, Write};
+use std::path::Path;
+
+use roundel::{Error, Result};
+use serde::Serialize;
+
+/// Writes one `NAME VALUE` line a variable, with the 17 significant digits that give every double
+/// back exactly.
+pub fn write_values(path: &Path, names: &[String], values: &[f64]) -> Result<()> {
+    let write = || -> io::Result<()> {
+        let mut file = BufWriter::new(File::create(path)?);
+        for (name, value) in names.iter().zip(values) {
+            writeln!(file, "{name} {value:.16e}")?;
+        }
+        file.flush()
+    };
+    write().map_err(|reason| io_error(&path.to_string_lossy(), &reason))
+}
+
+/// Prints one JSON object and a line end.
+pub fn print_json(object: &impl Serialize) -> Result<()> {
+    let text = serde_json::to_string_pretty(object).map_err(|reason| Error::Io {
+        message: reason.to_string(),
+    })?;
+    print(&format!("{text}\n"))
+}
+
+/// Prints `text`. Unlike `print!`, does not panic when nobody reads any more.
+pub fn print(text: &str) -> Result<()> {
+    let mut stdout = io::stdout().lock();
+    stdout
+        .write_all(text.as_bytes())
+        .and_then(|()| stdout.flush())
+        .map_err(|reason| io_error("standard output", &reason))
+}
+
+/// Tells a person what went wrong, on stderr.
+pub fn complain(file: &Path, error: &Error) {
+    let text = match error {
+        // The message names the file that could not be read or written.
+        Error::Io { message } => message.clone(),
+        _ => format!("{}: {error}", file.display()),
+    };
+    // Where stderr is closed there is nobody left to tell.
+    let _ = writeln!(io::stderr(), "roundel: {text}");
+}
+
+fn io_error(name: &str, reason: &io::Error) -> Error {
+    Error::Io {
+        message: format!("{name}: {reason}"),
+    }
+}

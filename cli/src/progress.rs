@@ -1,0 +1,82 @@
+//! Progress: one line on stderr while a person watches, nothing otherwise.
+
+use std::borrow::Cow;
+use std::time::Duration;
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use roundel::solve::{EventKind, Phase};
+use roundel::{Event, Flow, Monitor};
+
+/// The line. It is gone once this is dropped.
+pub struct Progress(ProgressBar);
+
+/// Often enough to look alive, seldom enough to cost nothing.
+const TICK: Duration = Duration::from_millis(100);
+
+impl Progress {
+    /// Starts the line with the word for reading a file. indicatif draws on terminals only.
+    pub fn start() -> Self {
+        let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr());
+        bar.set_style(ProgressStyle::default_spinner());
+        if !bar.is_hidden() {
+            bar.enable_steady_tick(TICK);
+        }
+        bar.set_message("read");
+        Progress(bar)
+    }
+
+    /// A monitor that keeps the line up to date.
+    pub fn monitor(&self) -> Monitor<'_> {
+        if self.0.is_hidden() {
+            return Monitor::default();
+        }
+        let mut phase = "";
+        Monitor::default().on_event(move |event| {
+            match event.kind {
+                EventKind::Progress {
+                    phase: now,
+                    fraction,
+                } => {
+                    phase = word(now);
+                    self.0.set_message(format!(
+                        "{phase} {:.0} %{}",
+                        100.0 * fraction,
+                        found(event)
+                    ));
+                }
+                EventKind::Improved => self.0.set_message(format!("{phase}{}", found(event))),
+                EventKind::Log(line) => self.0.println(line),
+                _ => {}
+            }
+            Flow::Continue
+        })
+    }
+}
+
+impl Drop for Progress {
+    fn drop(&mut self) {
+        self.0.finish_and_clear();
+    }
+}
+
+fn word(phase: Phase) -> &'static str {
+    match phase {
+        Phase::Eliminate => "eliminate",
+        Phase::Factor => "factor",
+        Phase::Round => "round",
+        _ => "solve",
+    }
+}
+
+/// What has been found so far, if anything has.
+fn found(event: &Event) -> Cow<'static, str> {
+    if !event.energy.is_finite() {
+        return "".into();
+    }
+    let gap = event.gap;
+    if gap.is_finite() {
+        format!(", energy {:.6}, gap {:.2} %", event.energy, 100.0 * gap).into()
+    } else {
+        format!(", energy {:.6}", event.energy).into()
+    }
+}

@@ -1,0 +1,178 @@
+//! The JSON objects: one a run, of a solution or of a failure.
+
+use std::path::Path;
+
+use roundel::{Error, Solution};
+use serde::Serialize;
+
+/// What `--json` prints of a solution.
+#[derive(Serialize)]
+pub struct Report<'a> {
+    file: String,
+    strategy: &'a str,
+    status: &'a str,
+    energy: Option<f64>,
+    lower_bound: Option<f64>,
+    gap: Option<f64>,
+    variables: usize,
+    integers: usize,
+    constraints: usize,
+    reduced_integers: usize,
+    reduced_continuous: usize,
+    seconds: Seconds,
+    peak_memory_bytes: Option<u64>,
+    max_constraint_violation: Option<f64>,
+    max_integrality_violation: Option<f64>,
+}
+
+/// Wall-clock seconds by phase; `total` includes `read`.
+#[derive(Serialize)]
+struct Seconds {
+    read: f64,
+    eliminate: f64,
+    factor: f64,
+    round: f64,
+    total: f64,
+}
+
+impl<'a> Report<'a> {
+    /// The report of `solution`, found by `strategy` for the problem in `file` that took `read`
+    /// seconds to read.
+    pub fn new(
+        file: &Path,
+        strategy: &'a str,
+        read: f64,
+        solution: &Solution,
+        peak_memory_bytes: Option<u64>,
+    ) -> Self {
+        let counts = solution.counts();
+        let seconds = solution.seconds();
+        Report {
+            file: name(file),
+            strategy,
+            status: solution.status().name(),
+            energy: finite(solution.energy()),
+            lower_bound: solution.lower_bound().and_then(finite),
+            gap: solution.gap().and_then(finite),
+            variables: counts.variables,
+            integers: counts.integers,
+            constraints: counts.constraints,
+            reduced_integers: counts.reduced_integers,
+            reduced_continuous: counts.reduced_continuous,
+            seconds: Seconds {
+                read,
+                eliminate: seconds.eliminate,
+                factor: seconds.factor,
+                round: seconds.round,
+                total: read + seconds.total,
+            },
+            peak_memory_bytes,
+            max_constraint_violation: finite(solution.max_constraint_violation()),
+            max_integrality_violation: finite(solution.max_integrality_violation()),
+        }
+    }
+}
+
+/// What `--json` prints of a run without a solution.
+#[derive(Serialize)]
+pub struct Failure {
+    file: String,
+    status: &'static str,
+    error: Details,
+}
+
+#[derive(Serialize)]
+struct Details {
+    code: &'static str,
+    message: String,
+    index: Option<usize>,
+    line: Option<usize>,
+}
+
+impl Failure {
+    /// The report of a run for `file` that ended in `error`.
+    pub fn new(file: &Path, error: &Error) -> Self {
+        Failure {
+            file: name(file),
+            status: status(error),
+            error: Details {
+                code: error.code(),
+                message: error.to_string(),
+                index: error.index(),
+                line: error.line(),
+            },
+        }
+    }
+}
+
+/// The status word of a run without a solution: how the solve ended where it says something about
+/// the problem, else `error`.
+fn status(error: &Error) -> &'static str {
+    match error {
+        Error::Infeasible { .. } | Error::NoIntegerSolution { .. } => "infeasible",
+        Error::Unbounded { .. } => "unbounded",
+        Error::Cancelled => "cancelled",
+        Error::TimeLimit => "limit",
+        _ => "error",
+    }
+}
+
+/// JSON has no infinities and no NaN: they become null.
+fn finite(x: f64) -> Option<f64> {
+    x.is_finite().then_some(x)
+}
+
+fn name(file: &Path) -> String {
+    file.to_string_lossy().into_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_that_are_not_finite_become_null() {
+        assert_eq!(finite(f64::INFINITY), None);
+        assert_eq!(finite(f64::NAN), None);
+        assert_eq!(finite(-0.5), Some(-0.5));
+    }
+
+    #[test]
+    fn a_status_word_says_what_is_known_of_the_problem() {
+        let row = String::from("2 x0 + 4 x1 = 3");
+        let direction = vec![1.0];
+        let cases = [
+            (
+                Error::Infeasible {
+                    constraint: 0,
+                    row: row.clone(),
+                },
+                "infeasible",
+            ),
+            (
+                Error::NoIntegerSolution { constraint: 0, row },
+                "infeasible",
+            ),
+            (
+                Error::Unbounded {
+                    variable: 0,
+                    direction: direction.clone(),
+                },
+                "unbounded",
+            ),
+            (
+                Error::NotConvex {
+                    variable: 0,
+                    direction,
+                },
+                "error",
+            ),
+            (Error::Cancelled, "cancelled"),
+            (Error::TimeLimit, "limit"),
+            (Error::Empty, "error"),
+        ];
+        for (error, word) in cases {
+            assert_eq!(status(&error), word, "{error}");
+        }
+    }
+}

@@ -1,0 +1,124 @@
+//! `roundel solve`: reads an MPS file, solves it, tells what came out.
+
+use std::path::PathBuf;
+use std::time::Instant;
+
+use roundel::problem::mps::{self, MpsProblem};
+use roundel::solve::replay;
+use roundel::{Options, Result, Solution, Strategy};
+
+use crate::exit::{self, Exit};
+use crate::interrupt;
+use crate::memory;
+use crate::options::SolverOptions;
+use crate::output;
+use crate::progress::Progress;
+use crate::report::{Failure, Report};
+use crate::summary::Summary;
+
+/// Solve a problem from an MPS file.
+#[derive(clap::Args)]
+#[command(after_help = exit::HELP)]
+pub struct Arguments {
+    /// The problem: free-format MPS, also compressed (.gz)
+    #[arg(value_name = "FILE")]
+    file: PathBuf,
+
+    /// Take options, pinned variables and initial guess from the replay file beside FILE; flags
+    /// given here come first
+    #[arg(long)]
+    replay: bool,
+
+    /// Print one JSON object instead of the summary
+    #[arg(long)]
+    json: bool,
+
+    /// Write one line `NAME VALUE` a variable to this file, 17 digits each
+    #[arg(long, value_name = "OUT")]
+    solution: Option<PathBuf>,
+
+    #[command(flatten)]
+    solver: SolverOptions,
+}
+
+/// Runs the command: every outcome is told once, on stdout with `--json` or if there is a
+/// solution, else on stderr.
+pub fn run(arguments: &Arguments) -> Exit {
+    let told = match solve(arguments) {
+        Ok(solved) => tell(arguments, &solved).map(|()| Exit::Solved),
+        Err(error) => Err(error),
+    };
+    told.unwrap_or_else(|error| {
+        let failure = Failure::new(&arguments.file, &error);
+        if !arguments.json || output::print_json(&failure).is_err() {
+            output::complain(&arguments.file, &error);
+        }
+        Exit::of(&error)
+    })
+}
+
+/// What was read.
+struct Input {
+    mps: MpsProblem,
+    options: Options,
+    seconds: f64,
+}
+
+fn read(arguments: &Arguments) -> Result<Input> {
+    let started = Instant::now();
+    let file = &arguments.file;
+    let (mps, options) = if arguments.replay {
+        let (problem, options) = replay::load(file)?;
+        (MpsProblem::new(problem), options)
+    } else {
+        (mps::read(file)?, Options::default())
+    };
+    Ok(Input {
+        mps,
+        options: arguments.solver.over(options)?,
+        seconds: started.elapsed().as_secs_f64(),
+    })
+}
+
+/// A solution, and how it was come by.
+struct Solved {
+    strategy: Strategy,
+    read: f64,
+    solution: Solution,
+}
+
+fn solve(arguments: &Arguments) -> Result<Solved> {
+    let token = interrupt::cancel_token()?;
+    let progress = Progress::start();
+    let input = read(arguments)?;
+    let monitor = progress.monitor().cancel_token(token);
+    let solution = roundel::solve_with(input.mps.problem(), &input.options, monitor)?;
+    if let Some(path) = &arguments.solution {
+        output::write_values(path, input.mps.variables(), solution.values())?;
+    }
+    Ok(Solved {
+        strategy: input.options.strategy,
+        read: input.seconds,
+        solution,
+    })
+}
+
+fn tell(arguments: &Arguments, solved: &Solved) -> Result<()> {
+    let strategy = solved.strategy.name();
+    if arguments.json {
+        output::print_json(&Report::new(
+            &arguments.file,
+            strategy,
+            solved.read,
+            &solved.solution,
+            memory::peak_bytes(),
+        ))
+    } else {
+        let summary = Summary {
+            strategy,
+            read: solved.read,
+            solution: &solved.solution,
+        };
+        output::print(&summary.to_string())
+    }
+}

@@ -1,0 +1,93 @@
+//! The readable summary of a solution, for people: one line a phase, what came out and how long.
+
+use std::fmt;
+
+use roundel::Solution;
+
+/// Three lines: what was read, what is left after elimination, what was found.
+pub struct Summary<'a> {
+    /// The strategy's name.
+    pub strategy: &'a str,
+    /// Seconds that reading took.
+    pub read: f64,
+    /// What was found.
+    pub solution: &'a Solution,
+}
+
+impl fmt::Display for Summary<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let counts = self.solution.counts();
+        let seconds = self.solution.seconds();
+        let read = format!(
+            "{}, {} of them integer, {}",
+            counted(counts.variables, "unknown"),
+            thousands(counts.integers),
+            counted(counts.constraints, "constraint")
+        );
+        let reduced = format!(
+            "{}, {} continuous left",
+            counted(counts.reduced_integers, "integer"),
+            thousands(counts.reduced_continuous)
+        );
+        let found = format!("{}, {}", energy(self.solution.energy()), self.verdict());
+        line(f, "read", &read, self.read)?;
+        line(f, "eliminate", &reduced, seconds.eliminate)?;
+        line(f, self.strategy, &found, seconds.factor + seconds.round)
+    }
+}
+
+impl Summary<'_> {
+    fn verdict(&self) -> String {
+        let status = self.solution.status().name();
+        match self.solution.gap() {
+            Some(gap) if gap.is_finite() => format!("{status}, gap {:.2} %", 100.0 * gap),
+            _ => status.into(),
+        }
+    }
+}
+
+/// Nine decimals; rounding noise below them has no sign.
+fn energy(value: f64) -> String {
+    let shown = if value.abs() < 5e-10 { 0.0 } else { value };
+    format!("energy {shown:.9}")
+}
+
+fn line(f: &mut fmt::Formatter, phase: &str, text: &str, seconds: f64) -> fmt::Result {
+    writeln!(f, "{phase:<10} {text:<56} {seconds:8.3} s")
+}
+
+fn counted(count: usize, noun: &str) -> String {
+    let plural = if count == 1 { "" } else { "s" };
+    format!("{} {noun}{plural}", thousands(count))
+}
+
+/// A count with commas: 20,088.
+fn thousands(count: usize) -> String {
+    let digits = count.to_string();
+    let mut text = String::with_capacity(digits.len() + digits.len() / 3);
+    for (i, digit) in digits.chars().enumerate() {
+        if i > 0 && (digits.len() - i).is_multiple_of(3) {
+            text.push(',');
+        }
+        text.push(digit);
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{energy, thousands};
+
+    #[test]
+    fn rounding_noise_of_an_energy_has_no_sign() {
+        let written = [-1e-14, -6e-10, -25.5].map(energy);
+        let expected = ["0.000000000", "-0.000000001", "-25.500000000"];
+        assert_eq!(written, expected.map(|e| format!("energy {e}")));
+    }
+
+    #[test]
+    fn counts_have_a_comma_every_three_digits_from_the_right() {
+        let written = [0, 999, 1_000, 20_088, 1_234_567].map(thousands);
+        assert_eq!(written, ["0", "999", "1,000", "20,088", "1,234,567"]);
+    }
+}

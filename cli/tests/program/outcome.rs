@@ -1,0 +1,237 @@
+//! Every way a solve can end: status word, exit code, and what is told of it.
+
+use serde_json::{Value, json};
+
+use crate::problem::mps;
+use crate::run::{Scratch, finish, only_object, solve};
+
+/// Solves the problem `text` with `--json` and `flags`: the exit code and the object printed.
+fn solve_json(test: &str, text: &str, flags: &[&str]) -> (i32, Value) {
+    let scratch = Scratch::new(test);
+    let file = scratch.write("problem.mps", text);
+    let (code, output) = finish(solve(&file, &[&["--json"], flags].concat()));
+    (code, only_object(&output))
+}
+
+/// (A - I)^2 + (I - 0.4)^2 + J^2: rounding I from 0.4 to 0 costs 0.16.
+fn fractional() -> String {
+    mps(
+        &[],
+        &[("I", "OBJ", -0.8)],
+        &[("OBJ", -0.16)],
+        &[
+            ("A", "A", 2.0),
+            ("I", "A", -2.0),
+            ("I", "I", 4.0),
+            ("J", "J", 2.0),
+        ],
+    )
+}
+
+/// A^2 + I^2 + J^2 subject to `rows`, the coefficients of I and J and the right side of each.
+fn constrained(rows: &[(f64, f64, f64)]) -> String {
+    let names: Vec<String> = (0..rows.len()).map(|k| format!("C{k}")).collect();
+    let names: Vec<&str> = names.iter().map(String::as_str).collect();
+    let mut columns = Vec::new();
+    let mut rhs = Vec::new();
+    for (name, &(i, j, r)) in names.iter().zip(rows) {
+        columns.extend([("I", *name, i), ("J", *name, j)]);
+        rhs.push((*name, r));
+    }
+    let q = [("A", "A", 2.0), ("I", "I", 2.0), ("J", "J", 2.0)];
+    mps(&names, &columns, &rhs, &q)
+}
+
+/// A failure's status, code and index.
+fn told(report: &Value) -> (&str, &str, &Value) {
+    let error = &report["error"];
+    for key in ["code", "message", "index", "line"] {
+        assert!(error.get(key).is_some(), "{key} is missing: {report}");
+    }
+    let status = report["status"].as_str().unwrap();
+    (status, error["code"].as_str().unwrap(), &error["index"])
+}
+
+#[test]
+fn a_relaxation_is_relaxed() {
+    let (code, report) = solve_json("relaxed", &fractional(), &["--strategy", "relax"]);
+    assert_eq!((code, &report["status"]), (0, &json!("relaxed")));
+    assert!(report["energy"].as_f64().unwrap().abs() < 1e-12, "{report}");
+    let off = report["max_integrality_violation"].as_f64().unwrap();
+    assert!((off - 0.4).abs() < 1e-12, "{report}");
+}
+
+#[test]
+fn rounding_that_costs_something_is_feasible() {
+    for strategy in ["direct", "greedy"] {
+        let test = format!("feasible-{strategy}");
+        let (code, report) = solve_json(&test, &fractional(), &["--strategy", strategy]);
+        assert_eq!((code, &report["status"]), (0, &json!("feasible")));
+        let number = |key: &str| report[key].as_f64().unwrap();
+        let (energy, bound) = (number("energy"), number("lower_bound"));
+        assert!((energy - 0.16).abs() < 1e-12, "{report}");
+        assert!(bound <= energy, "{report}");
+        assert_eq!(number("gap"), (energy - bound) / energy.abs().max(1.0));
+    }
+}
+
+#[test]
+fn rounding_that_costs_nothing_is_optimal() {
+    let (code, report) = solve_json("optimal", &constrained(&[(1.0, 0.0, 3.0)]), &[]);
+    assert_eq!((code, &report["status"]), (0, &json!("optimal")));
+    assert!((report["energy"].as_f64().unwrap() - 9.0).abs() < 1e-12);
+}
+
+#[test]
+fn contradictory_constraints_are_infeasible() {
+    let text = constrained(&[(1.0, 1.0, 1.0), (1.0, 1.0, 2.0)]);
+    let (code, report) = solve_json("infeasible", &text, &[]);
+    let (status, error, index) = told(&report);
+    assert_eq!((code, status, error), (3, "infeasible", "infeasible"));
+    assert!(matches!(index.as_u64(), Some(0 | 1)), "{report}");
+}
+
+#[test]
+fn constraints_without_an_integer_solution_are_infeasible() {
+    let text = constrained(&[(1.0, -1.0, 0.0), (2.0, 4.0, 3.0)]);
+    let (code, report) = solve_json("no-integers", &text, &[]);
+    let (status, error, index) = told(&report);
+    assert_eq!(
+        (code, status, error),
+        (3, "infeasible", "no_integer_solution")
+    );
+    assert!(index.is_u64(), "{report}");
+}
+
+#[test]
+fn an_objective_that_falls_forever_is_unbounded() {
+    let q = [("I", "I", 2.0), ("J", "J", 2.0)];
+    let text = mps(&[], &[("A", "OBJ", 1.0)], &[], &q);
+    let (code, report) = solve_json("unbounded", &text, &[]);
+    let told = told(&report);
+    assert_eq!((code, told), (4, ("unbounded", "unbounded", &json!(0))));
+}
+
+#[test]
+fn an_objective_that_curves_downwards_is_an_error_of_its_own() {
+    let q = [("A", "A", -2.0), ("I", "I", 2.0), ("J", "J", 2.0)];
+    let (code, report) = solve_json("not-convex", &mps(&[], &[], &[], &q), &[]);
+    let told = told(&report);
+    assert_eq!((code, told), (4, ("error", "not_convex", &json!(0))));
+}
+
+#[test]
+fn no_time_at_all_is_a_limit_before_a_first_solution() {
+    let (code, report) = solve_json("limit", &fractional(), &["--time-limit", "0"]);
+    let told = told(&report);
+    assert_eq!((code, told), (5, ("limit", "time_limit", &Value::Null)));
+}
+
+#[test]
+fn a_file_that_is_not_there_is_an_error_that_names_it() {
+    let scratch = Scratch::new("no-file");
+    let file = scratch.path("nothing.mps");
+    let (code, output) = finish(solve(&file, &["--json"]));
+    let report = only_object(&output);
+    assert_eq!((code, told(&report)), (1, ("error", "io", &Value::Null)));
+    assert_eq!(report["file"], json!(file.to_str().unwrap()));
+    let message = report["error"]["message"].as_str().unwrap();
+    assert!(message.contains("nothing.mps"), "{message}");
+}
+
+#[test]
+fn a_broken_file_is_an_error_that_names_the_line() {
+    let text = fractional().replace(" J J 2\n", " J K 2\n");
+    let line = 1 + text.lines().position(|l| l == " J K 2").unwrap();
+    let (code, report) = solve_json("broken", &text, &[]);
+    assert_eq!((code, told(&report).1), (1, "parse"));
+    assert_eq!(report["error"]["line"], json!(line));
+}
+
+#[test]
+fn an_inequality_is_an_error_that_says_what_is_not_supported() {
+    let text = constrained(&[(1.0, 0.0, 3.0)]).replace(" E C0\n", " L C0\n");
+    let (code, report) = solve_json("inequality", &text, &[]);
+    assert_eq!((code, told(&report).1), (1, "not_supported"));
+    assert_eq!(report["error"]["line"], json!(4));
+}
+
+#[test]
+fn without_json_a_failure_is_one_line_on_stderr() {
+    let scratch = Scratch::new("plain-failure");
+    let file = scratch.write("problem.mps", constrained(&[(2.0, 4.0, 3.0)]));
+    let (code, output) = finish(solve(&file, &[]));
+    assert_eq!((code, output.stdout.as_slice()), (3, &b""[..]));
+    let text = String::from_utf8(output.stderr).unwrap();
+    assert!(text.starts_with("roundel: "), "{text}");
+    assert!(text.contains("problem.mps: constraint 0: "), "{text}");
+    assert_eq!(text.lines().count(), 1, "{text}");
+}
+
+#[test]
+fn a_wrong_command_line_is_a_usage_error() {
+    let scratch = Scratch::new("usage");
+    let file = scratch.write("problem.mps", fractional());
+    for flags in [
+        &["--strategy", "guess"][..],
+        &["--colour"],
+        &["another.mps"],
+    ] {
+        let (code, output) = finish(solve(&file, flags));
+        assert_eq!((code, output.stdout.as_slice()), (2, &b""[..]), "{flags:?}");
+    }
+}
+
+/// Ctrl-C is sent while the program waits for its file, a pipe: it is seen before the solve
+/// begins, however fast the machine.
+#[cfg(unix)]
+#[test]
+fn ctrl_c_before_a_first_solution_is_cancelled() {
+    use std::fs::OpenOptions;
+    use std::io::Write;
+    use std::process::{Command, Stdio};
+    use std::time::Duration;
+
+    let scratch = Scratch::new("cancelled");
+    let pipe = scratch.path("problem.mps");
+    assert!(
+        Command::new("mkfifo")
+            .arg(&pipe)
+            .status()
+            .unwrap()
+            .success()
+    );
+    let mut command = solve(&pipe, &["--json"]);
+    let program = command.stdout(Stdio::piped()).stderr(Stdio::piped());
+    let program = program.spawn().unwrap();
+    // Opens when the program does, which by then has its handler.
+    let mut writer = OpenOptions::new().write(true).open(&pipe).unwrap();
+    let kill = Command::new("kill")
+        .args(["-INT", &program.id().to_string()])
+        .status();
+    assert!(kill.unwrap().success());
+    std::thread::sleep(Duration::from_millis(300));
+    writer.write_all(fractional().as_bytes()).unwrap();
+    drop(writer);
+    let output = program.wait_with_output().unwrap();
+    let report = only_object(&output);
+    assert_eq!(output.status.code(), Some(5), "{report}");
+    assert_eq!(told(&report), ("cancelled", "cancelled", &Value::Null));
+}
+
+/// A full disk behind stdout.
+#[cfg(target_os = "linux")]
+#[test]
+fn output_that_cannot_be_written_is_an_error() {
+    let scratch = Scratch::new("full");
+    let file = scratch.write("problem.mps", fractional());
+    for flags in [&["--json"][..], &[]] {
+        let full = std::fs::OpenOptions::new().write(true).open("/dev/full");
+        let mut command = solve(&file, flags);
+        command.stdout(full.unwrap());
+        let (code, output) = finish(command);
+        let text = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(code, 1, "{text}");
+        assert!(text.starts_with("roundel: standard output: "), "{text}");
+    }
+}

@@ -1,0 +1,62 @@
+# Builds the library with cargo, which alone knows what has changed: the target always runs, and
+# copies what cargo made only when it differs.
+
+find_program(CARGO cargo HINTS "$ENV{HOME}/.cargo/bin" REQUIRED)
+
+set(ROUNDEL_CARGO_TARGET_DIR "" CACHE PATH "Where cargo builds; empty for cargo's own choice")
+if(ROUNDEL_CARGO_TARGET_DIR)
+    set(cargo_dir "${ROUNDEL_CARGO_TARGET_DIR}")
+elseif(DEFINED ENV{CARGO_TARGET_DIR})
+    get_filename_component(cargo_dir "$ENV{CARGO_TARGET_DIR}" ABSOLUTE
+                           BASE_DIR "${PROJECT_SOURCE_DIR}")
+else()
+    set(cargo_dir "${PROJECT_SOURCE_DIR}/target")
+endif()
+
+file(STRINGS src/capi/abi.rs abi_line REGEX "ROUNDEL_ABI_VERSION: i32 = [0-9]+")
+string(REGEX MATCH "= ([0-9]+)" abi_match "${abi_line}")
+set(ROUNDEL_ABI_VERSION "${CMAKE_MATCH_1}")
+if(NOT ROUNDEL_ABI_VERSION)
+    message(FATAL_ERROR "src/capi/abi.rs does not say the ABI number")
+endif()
+
+set(ROUNDEL_LIB_DIR "${PROJECT_BINARY_DIR}/lib")
+if(WIN32)
+    message(FATAL_ERROR "Roundel's CMake package does not know Windows yet; cargo build does")
+elseif(APPLE)
+    set(ROUNDEL_SHARED_NAME libroundel.${PROJECT_VERSION}.dylib)
+    set(ROUNDEL_SONAME @rpath/libroundel.${ROUNDEL_ABI_VERSION}.dylib)
+    set(ROUNDEL_SHARED_LINKS libroundel.${ROUNDEL_ABI_VERSION}.dylib libroundel.dylib)
+    set(cargo_shared libroundel.dylib)
+else()
+    set(ROUNDEL_SHARED_NAME libroundel.so.${PROJECT_VERSION})
+    set(ROUNDEL_SONAME libroundel.so.${ROUNDEL_ABI_VERSION})
+    set(ROUNDEL_SHARED_LINKS ${ROUNDEL_SONAME} libroundel.so)
+    set(cargo_shared libroundel.so)
+endif()
+set(ROUNDEL_STATIC_NAME libroundel.a)
+set(ROUNDEL_SHARED "${ROUNDEL_LIB_DIR}/${ROUNDEL_SHARED_NAME}")
+set(ROUNDEL_STATIC "${ROUNDEL_LIB_DIR}/${ROUNDEL_STATIC_NAME}")
+
+set(link_commands "")
+set(ROUNDEL_SHARED_LINK_FILES "")
+foreach(link IN LISTS ROUNDEL_SHARED_LINKS)
+    list(APPEND link_commands COMMAND "${CMAKE_COMMAND}" -E create_symlink
+         ${ROUNDEL_SHARED_NAME} "${ROUNDEL_LIB_DIR}/${link}")
+    list(APPEND ROUNDEL_SHARED_LINK_FILES "${ROUNDEL_LIB_DIR}/${link}")
+endforeach()
+
+add_custom_target(
+    roundel_cargo ALL
+    COMMAND "${CMAKE_COMMAND}" -E env "CARGO_TARGET_DIR=${cargo_dir}"
+            "${CARGO}" build --quiet --locked --release --package roundel --lib
+    COMMAND "${CMAKE_COMMAND}" -E make_directory "${ROUNDEL_LIB_DIR}"
+    COMMAND "${CMAKE_COMMAND}" -E copy_if_different
+            "${cargo_dir}/release/${cargo_shared}" "${ROUNDEL_SHARED}"
+    COMMAND "${CMAKE_COMMAND}" -E copy_if_different
+            "${cargo_dir}/release/${ROUNDEL_STATIC_NAME}" "${ROUNDEL_STATIC}"
+    ${link_commands}
+    BYPRODUCTS "${ROUNDEL_SHARED}" "${ROUNDEL_STATIC}"
+    WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}"
+    COMMENT "Building roundel with cargo"
+    USES_TERMINAL VERBATIM)

@@ -1,0 +1,43 @@
+# Installs libraries, headers, the CMake package and the pkg-config module. Nothing in them names
+# the place they were installed to: the tree can be moved.
+
+include(CMakePackageConfigHelpers)
+
+install(FILES "${ROUNDEL_SHARED}" DESTINATION "${CMAKE_INSTALL_LIBDIR}"
+        PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ
+                    WORLD_EXECUTE)
+install(FILES "${ROUNDEL_STATIC}" ${ROUNDEL_SHARED_LINK_FILES}
+        DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+install(DIRECTORY include/roundel DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}"
+        FILES_MATCHING PATTERN "*.h" PATTERN "*.hpp")
+
+install(FILES LICENSE-MIT LICENSE-APACHE THIRD-PARTY.md DESTINATION "${CMAKE_INSTALL_DOCDIR}")
+
+set(config_dir "${CMAKE_INSTALL_LIBDIR}/cmake/Roundel")
+configure_package_config_file(
+    cmake/RoundelConfig.cmake.in "${PROJECT_BINARY_DIR}/RoundelConfig.cmake"
+    INSTALL_DESTINATION "${config_dir}"
+    PATH_VARS CMAKE_INSTALL_INCLUDEDIR CMAKE_INSTALL_LIBDIR
+    NO_CHECK_REQUIRED_COMPONENTS_MACRO)
+# While the major version is 0, a minor version may break what a patch may not.
+if(PROJECT_VERSION_MAJOR EQUAL 0)
+    set(compatibility SameMinorVersion)
+else()
+    set(compatibility SameMajorVersion)
+endif()
+write_basic_package_version_file("${PROJECT_BINARY_DIR}/RoundelConfigVersion.cmake"
+                                 COMPATIBILITY ${compatibility})
+install(FILES "${PROJECT_BINARY_DIR}/RoundelConfig.cmake"
+              "${PROJECT_BINARY_DIR}/RoundelConfigVersion.cmake"
+        DESTINATION "${config_dir}")
+
+# From lib/pkgconfig back to the prefix, whatever the depth of lib.
+file(RELATIVE_PATH pc_up "${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig" "${CMAKE_INSTALL_PREFIX}")
+string(REGEX REPLACE "/$" "" pc_up "${pc_up}")
+set(pc_private "")
+foreach(lib IN LISTS ROUNDEL_STATIC_LIBS)
+    string(APPEND pc_private " -l${lib}")
+endforeach()
+configure_file(cmake/roundel.pc.in "${PROJECT_BINARY_DIR}/roundel.pc" @ONLY)
+install(FILES "${PROJECT_BINARY_DIR}/roundel.pc"
+        DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig")

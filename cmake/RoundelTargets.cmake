@@ -1,0 +1,26 @@
+# Roundel::roundel and Roundel::roundel_static inside of this build, for add_subdirectory.
+
+# What Rust's standard library needs from the system when it is linked in.
+if(APPLE)
+    set(ROUNDEL_STATIC_LIBS System iconv m)
+else()
+    set(ROUNDEL_STATIC_LIBS gcc_s util rt pthread m dl c)
+endif()
+
+add_library(Roundel::roundel SHARED IMPORTED GLOBAL)
+set_target_properties(
+    Roundel::roundel
+    PROPERTIES IMPORTED_LOCATION "${ROUNDEL_SHARED}"
+               IMPORTED_SONAME "${ROUNDEL_SONAME}"
+               INTERFACE_INCLUDE_DIRECTORIES "${PROJECT_SOURCE_DIR}/include")
+
+add_library(Roundel::roundel_static STATIC IMPORTED GLOBAL)
+set_target_properties(
+    Roundel::roundel_static
+    PROPERTIES IMPORTED_LOCATION "${ROUNDEL_STATIC}"
+               INTERFACE_LINK_LIBRARIES "${ROUNDEL_STATIC_LIBS}"
+               INTERFACE_INCLUDE_DIRECTORIES "${PROJECT_SOURCE_DIR}/include")
+
+foreach(target IN ITEMS Roundel::roundel Roundel::roundel_static)
+    add_dependencies(${target} roundel_cargo)
+endforeach()

@@ -1,0 +1,56 @@
+/* Bad input through the C interface: what every group of cases needs.
+ *
+ * A case is one call that must fail. It is held to its status, a part of its message and its index,
+ * and after each the same handle must serve a valid call as if nothing had happened. */
+
+#ifndef BAD_INPUT_H
+#define BAD_INPUT_H
+
+#include <roundel/roundel.h>
+
+#include <math.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/* No index, or no line. */
+#define NONE (-1)
+
+/* A small valid problem in three variables, the last an integer, solved once. */
+typedef struct {
+    roundel_problem* problem;
+    roundel_options* options;
+    roundel_solution* solution;
+    roundel_cancel_token* token;
+    double energy;
+    double values[3];
+} fixture;
+
+/* What a failed call is held to. */
+typedef struct {
+    roundel_status status;
+    const char* part;
+    int64_t index;
+    int64_t line;
+} expectation;
+
+void held(fixture* f, const char* call, roundel_status status, expectation expected);
+void fine(const char* call, int holds);
+
+#define BAD(f, call, status, part, index)                                                          \
+    held((f), #call, (call), (expectation){(status), (part), (index), NONE})
+#define BAD_LINE(f, name, call, status, part, index, line)                                         \
+    held((f), (name), (call), (expectation){(status), (part), (index), (line)})
+#define GOOD(call) fine(#call, (call) == ROUNDEL_OK)
+#define HOLDS(condition) fine(#condition, (condition))
+
+void bad_handles(fixture* f);
+void bad_objective(fixture* f);
+void bad_constraints(fixture* f);
+void bad_unknowns(fixture* f);
+void bad_options(fixture* f);
+void bad_monitors(fixture* f);
+void bad_problems(fixture* f);
+void bad_files(fixture* f);
+void bad_sizes(fixture* f);
+
+#endif

@@ -1,0 +1,25 @@
+#include "wrapper.hpp"
+
+roundel::Problem chain(std::int32_t n) {
+    roundel::Problem problem(static_cast<std::size_t>(n));
+    problem.least_squares({0}, {1.0}, 0.2);
+    for (std::int32_t i = 0; i + 1 < n; ++i) {
+        problem.least_squares({i + 1, i}, {1.0, -1.0}, 0.3);
+        if (i % 2 == 0) {
+            problem.integer({i + 1});
+        }
+    }
+    return problem;
+}
+
+int main() {
+    ownership_moves_and_does_not_copy();
+    every_part_of_a_problem_counts();
+    failures_throw_or_are_told();
+    options_follow_the_librarys_list();
+    callbacks_stop_and_throw();
+    tokens_cancel_from_other_threads();
+    threads_share_a_problem_and_keep_their_errors();
+    files_keep_the_problem();
+    return failures != 0;
+}

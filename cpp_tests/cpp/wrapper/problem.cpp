@@ -1,0 +1,136 @@
+// Problems: ownership, every part counts, failures, files.
+
+#include "wrapper.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+template <class T>
+constexpr bool moves_only =
+    std::is_nothrow_move_constructible_v<T>&& std::is_nothrow_move_assignable_v<T> &&
+    !std::is_copy_constructible_v<T>;
+
+static_assert(moves_only<roundel::Problem>);
+static_assert(moves_only<roundel::Solution>);
+static_assert(moves_only<roundel::CancelToken>);
+static_assert(std::is_nothrow_copy_constructible_v<roundel::Error>);
+
+template <class Call> roundel_status thrown_by(Call&& call) {
+    try {
+        call();
+    } catch (const roundel::Error& error) {
+        CHECK(std::string(error.what()).size() > 0);
+        return error.code();
+    }
+    return ROUNDEL_OK;
+}
+
+void ownership_moves_and_does_not_copy() {
+    roundel::Problem one = chain(4);
+    const roundel::Problem other = one.clone();
+    one.constant(5.0);
+    const roundel::Problem moved = std::move(one);
+    CHECK(roundel::solve(moved).energy() == roundel::solve(other).energy() + 5.0);
+    CHECK(thrown_by([&] { one.constant(1.0); }) == ROUNDEL_ERROR_NULL_POINTER);
+    CHECK(thrown_by([&] { roundel::solve(one); }) == ROUNDEL_ERROR_NULL_POINTER);
+    roundel::Solution solution = roundel::solve(moved);
+    const std::vector<double> values(solution.values().begin(), solution.values().end());
+    roundel::Solution taken;
+    CHECK(!taken);
+    taken = std::move(solution);
+    CHECK(taken && values.size() == 4 && taken.values()[3] == values[3]);
+}
+
+// E(x) = 1/2 x'Qx + q'x + c with every way to give Q, at a minimiser known by hand.
+void every_part_of_a_problem_counts() {
+    const std::vector<std::int32_t> offsets = {0, 2, 4}, indices = {0, 1, 0, 1};
+    const std::vector<std::int64_t> offsets64 = {0, 2, 4}, indices64 = {0, 1, 0, 1};
+    const std::vector<double> values = {2.0, 1.0, 1.0, 3.0};
+    const std::vector<std::int32_t> rows = {0, 1, 1}, columns = {0, 0, 1};
+    const std::vector<std::int64_t> rows64 = {0, 0, 1}, columns64 = {0, 1, 1};
+    const std::vector<double> half = {2.0, 1.0, 3.0};
+    roundel::Problem given[6] = {roundel::Problem(2), roundel::Problem(2), roundel::Problem(2),
+                                 roundel::Problem(2), roundel::Problem(2), roundel::Problem(2)};
+    using roundel::Compressed;
+    using roundel::Layout;
+    using roundel::Triangle;
+    given[0].quadratic(Compressed<std::int32_t>{Layout::columns, offsets, indices, values},
+                       Triangle::full);
+    given[1].quadratic(Compressed<std::int64_t>{Layout::rows, offsets64, indices64, values},
+                       Triangle::full);
+    given[2].quadratic(Triangle::lower, rows, columns, half);
+    given[3].quadratic(Triangle::upper, rows64, columns64, half);
+    given[4].quadratic(Compressed<std::int32_t>{Layout::rows, offsets, indices, values},
+                       Triangle::full);
+    given[5].quadratic(Compressed<std::int64_t>{Layout::columns, offsets64, indices64, values},
+                       Triangle::full);
+    for (roundel::Problem& problem : given) {
+        problem.linear(std::vector<double>{-3.0, -3.0});
+        problem.linear(1, -1.0);
+        problem.constant(10.0);
+        // Q x = -q: 2 x0 + x1 = 3, x0 + 3 x1 = 4.
+        const roundel::Solution solution = roundel::solve(problem);
+        CHECK(std::abs(solution.values()[0] - 1.0) < 1e-12);
+        CHECK(std::abs(solution.values()[1] - 1.0) < 1e-12);
+        CHECK(std::abs(solution.energy() - 6.5) < 1e-12);
+        CHECK(solution.status() == roundel::SolveStatus::optimal);
+        CHECK(std::string(roundel::name(solution.status())) == "optimal");
+        CHECK(solution.gap().value_or(1.0) < 1e-9);
+        CHECK(solution.counts().variables == 2 && solution.seconds().total >= 0.0);
+        CHECK(solution.violations().integrality == 0.0);
+    }
+
+    // x0 - x1 = 1 and x1 - x2 = 1 as a matrix, x0 pinned to 5; the guess decides nothing.
+    roundel::Problem problem(3);
+    const std::vector<std::int32_t> row_offsets = {0, 2, 4}, column_of = {0, 1, 1, 2};
+    const std::vector<double> signs = {1.0, -1.0, 1.0, -1.0}, ones = {1.0, 1.0};
+    const Compressed<std::int32_t> C{Layout::rows, row_offsets, column_of, signs};
+    CHECK(problem.constrain(C, ones) == 0);
+    CHECK(problem.constraints() == 2 && problem.variables() == 3);
+    problem.pin(0, 5.0);
+    problem.guess(std::vector<double>{1.0, 2.0, 3.0});
+    const roundel::Solution pinned = roundel::solve(problem);
+    CHECK(pinned.values()[0] == 5.0 && std::abs(pinned.values()[2] - 3.0) < 1e-12);
+    problem.unpin(0);
+    problem.pin(2, 0.0);
+    CHECK(std::abs(roundel::solve(problem).energy()) < 1e-12);
+}
+
+void failures_throw_or_are_told() {
+    roundel::Problem problem(3);
+    try {
+        problem.constrain({0, 7}, {1.0, 1.0}, 0.0);
+        CHECK(!"reached");
+    } catch (const roundel::Error& error) {
+        CHECK(error.code() == ROUNDEL_ERROR_INDEX_OUT_OF_RANGE && error.index() == 1);
+        CHECK(error.line() == -1 && error.direction().empty());
+        CHECK(std::string(error.what()).find("is 7") != std::string::npos);
+    }
+    roundel::Status status;
+    problem.constrain({0, 1}, {1.0}, 0.0, &status);
+    CHECK(status.code == ROUNDEL_ERROR_LENGTH_MISMATCH && !status.message.empty());
+    problem.linear(2, -1.0, &status);
+    CHECK(status && status.message.empty());
+    const roundel::Solution none = roundel::solve(problem, {}, &status);
+    CHECK(!none && status.code == ROUNDEL_ERROR_UNBOUNDED && status.index == 2);
+    CHECK(status.direction == std::vector<double>({0.0, 0.0, 1.0}));
+}
+
+void files_keep_the_problem() {
+    const std::string file = "wrapper.mps";
+    const roundel::Problem problem = chain(6);
+    const double energy = roundel::solve(problem).energy();
+    problem.write_mps(file);
+    CHECK(std::abs(roundel::solve(roundel::Problem::read_mps(file)).energy() - energy) < 1e-12);
+    roundel::Options options;
+    roundel::save_replay(problem, options.set_strategy("direct"), file);
+    std::remove(file.c_str());
+    std::remove("wrapper.replay.json");
+    roundel::Status status;
+    const roundel::Problem gone = roundel::Problem::read_mps(file, &status);
+    CHECK(status.code == ROUNDEL_ERROR_IO && gone.get() == nullptr);
+}

@@ -1,0 +1,22 @@
+// The groups of checks of the C++ layer, built as C++17 and as C++20.
+
+#ifndef WRAPPER_HPP
+#define WRAPPER_HPP
+
+#include "../check.hpp"
+
+#include <roundel/roundel.hpp>
+
+void ownership_moves_and_does_not_copy();
+void every_part_of_a_problem_counts();
+void failures_throw_or_are_told();
+void options_follow_the_librarys_list();
+void callbacks_stop_and_throw();
+void tokens_cancel_from_other_threads();
+void threads_share_a_problem_and_keep_their_errors();
+void files_keep_the_problem();
+
+/// A chain of `n` variables at distances of 0.3, every second one an integer.
+roundel::Problem chain(std::int32_t n);
+
+#endif

@@ -1,0 +1,23 @@
+# Installs to FIRST and moves the tree to PREFIX: nothing in it may know where it was.
+
+file(REMOVE_RECURSE "${FIRST}" "${PREFIX}")
+execute_process(COMMAND "${CMAKE_COMMAND}" --install "${BUILD}" --prefix "${FIRST}"
+                RESULT_VARIABLE failed)
+if(failed)
+    message(FATAL_ERROR "the installation failed")
+endif()
+file(RENAME "${FIRST}" "${PREFIX}")
+
+file(GLOB_RECURSE texts "${PREFIX}/*.cmake" "${PREFIX}/*.pc" "${PREFIX}/*.h" "${PREFIX}/*.hpp")
+if(NOT texts)
+    message(FATAL_ERROR "nothing was installed")
+endif()
+foreach(file IN LISTS texts)
+    file(READ "${file}" text)
+    foreach(place IN ITEMS "${FIRST}" "${BUILD}")
+        string(FIND "${text}" "${place}" at)
+        if(NOT at EQUAL -1)
+            message(FATAL_ERROR "${file} names ${place}")
+        endif()
+    endforeach()
+endforeach()

@@ -1,0 +1,135 @@
+/// How to solve, and who watches: options, events, the cancel token.
+
+#ifndef ROUNDEL_DETAIL_OPTIONS_HPP
+#define ROUNDEL_DETAIL_OPTIONS_HPP
+
+#include <roundel/detail/error.hpp>
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+ROUNDEL_NAMESPACE_BEGIN
+
+/// A flag by which any thread may cancel a solve.
+class CancelToken {
+  public:
+    explicit CancelToken(Status* status = nullptr) {
+        roundel_cancel_token* made = nullptr;
+        detail::check(roundel_cancel_token_new(&made), status);
+        handle_.reset(made);
+    }
+
+    /// Asks every solve that holds this token to end, those yet to begin included.
+    void cancel(Status* status = nullptr) const {
+        detail::check(roundel_cancel_token_cancel(get()), status);
+    }
+
+    /// Takes the request back, so that the token can be used again.
+    void reset(Status* status = nullptr) const {
+        detail::check(roundel_cancel_token_reset(get()), status);
+    }
+
+    bool is_cancelled(Status* status = nullptr) const {
+        std::int32_t set = 0;
+        detail::check(roundel_cancel_token_is_cancelled(get(), &set), status);
+        return set != 0;
+    }
+
+    const roundel_cancel_token* get() const noexcept { return handle_.get(); }
+
+  private:
+    detail::Handle<roundel_cancel_token, roundel_cancel_token_free> handle_;
+};
+
+/// What a callback answers.
+enum class Flow : std::int32_t { go_on = 0, stop = 1 };
+/// Go on.
+inline constexpr Flow go_on = Flow::go_on;
+/// End the solve; the best solution so far is kept.
+inline constexpr Flow stop = Flow::stop;
+
+/// What an event tells.
+enum class EventKind : std::int32_t {
+    progress = ROUNDEL_EVENT_PROGRESS,
+    log = ROUNDEL_EVENT_LOG,
+    improved = ROUNDEL_EVENT_IMPROVED,
+};
+
+/// A part of the solve.
+enum class Phase : std::int32_t {
+    none = ROUNDEL_PHASE_NONE,
+    eliminate = ROUNDEL_PHASE_ELIMINATE,
+    factor = ROUNDEL_PHASE_FACTOR,
+    round = ROUNDEL_PHASE_ROUND,
+};
+
+/// One message to the callback, with where the solve stands.
+struct Event {
+    EventKind kind;
+    /// For progress, the part of the solve and how much of it is done, from 0 to 1.
+    Phase phase;
+    double fraction;
+    /// For a log line, its text, which lives as long as the callback runs.
+    std::string_view text;
+    /// Seconds since the solve began.
+    double seconds;
+    /// Energy of the best solution so far; infinite before the first.
+    double energy;
+    /// The best lower bound so far; minus infinity before the first.
+    double lower_bound;
+    /// (energy - lower_bound) / max(1, |energy|), infinite while either is.
+    double gap;
+};
+
+/// How to solve. What is not set has the library's default.
+struct Options {
+    /// How integers are decided: "relax", "direct", "greedy".
+    std::optional<std::string> strategy = std::nullopt;
+    /// Seconds after which the best solution so far is returned.
+    std::optional<double> time_limit = std::nullopt;
+    /// Threads that may be used at most; 0 means as many as there are cores.
+    std::optional<std::int64_t> threads = std::nullopt;
+    /// Called for every event, on the thread that called solve. What it throws ends the solve and
+    /// is thrown again by solve.
+    std::function<Flow(const Event&)> on_event = nullptr;
+    /// Ends the solve when it is set.
+    const CancelToken* cancel = nullptr;
+    /// Any option by its name, after those above.
+    std::vector<std::pair<std::string, std::variant<std::int64_t, double, std::string>>> more = {};
+
+    Options& set_strategy(std::string value) {
+        strategy = std::move(value);
+        return *this;
+    }
+    Options& set_time_limit(double seconds) {
+        time_limit = seconds;
+        return *this;
+    }
+    Options& set_threads(std::int64_t value) {
+        threads = value;
+        return *this;
+    }
+    Options& set_on_event(std::function<Flow(const Event&)> value) {
+        on_event = std::move(value);
+        return *this;
+    }
+    Options& set_cancel(const CancelToken& token) {
+        cancel = &token;
+        return *this;
+    }
+    /// Sets any option by its name, as roundel_option_info lists them.
+    Options& set(std::string name, std::variant<std::int64_t, double, std::string> value) {
+        more.emplace_back(std::move(name), std::move(value));
+        return *this;
+    }
+};
+
+ROUNDEL_NAMESPACE_END
+
+#endif // ROUNDEL_DETAIL_OPTIONS_HPP

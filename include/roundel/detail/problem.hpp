@@ -1,0 +1,267 @@
+/// The problem under construction.
+
+#ifndef ROUNDEL_DETAIL_PROBLEM_HPP
+#define ROUNDEL_DETAIL_PROBLEM_HPP
+
+#include <roundel/detail/error.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <string>
+#include <type_traits>
+
+ROUNDEL_NAMESPACE_BEGIN
+
+/// Which entries of a symmetric matrix are given.
+enum class Triangle : std::int32_t {
+    /// Both triangles, which must agree.
+    full = ROUNDEL_TRIANGLE_FULL,
+    /// Only entries with row <= column, which stand for both.
+    upper = ROUNDEL_TRIANGLE_UPPER,
+    /// Only entries with row >= column, which stand for both.
+    lower = ROUNDEL_TRIANGLE_LOWER,
+};
+
+/// Whether a compressed matrix is stored column by column (CSC) or row by row (CSR).
+enum class Layout { columns, rows };
+
+/// A compressed sparse matrix in the caller's arrays: column (or row) k has the entries from
+/// offsets[k] to before offsets[k + 1]. Index is std::int32_t or std::int64_t.
+template <class Index> struct Compressed {
+    static_assert(std::is_same_v<Index, std::int32_t> || std::is_same_v<Index, std::int64_t>,
+                  "indices are std::int32_t or std::int64_t");
+    Layout layout;
+    span<const Index> offsets;
+    span<const Index> indices;
+    span<const double> values;
+};
+
+/// A mixed-integer quadratic problem under construction: minimise
+/// 1/2 x'Qx + q'x + c + sum_k w_k (a_k . x - r_k)^2 subject to C x = d, x_i integer for i in I.
+///
+/// Parts may be given in any order and any number of times: terms add up. A call that fails
+/// changes nothing.
+class Problem {
+  public:
+    using Indices = span<const std::int32_t>;
+    using Numbers = span<const double>;
+
+    /// A problem of `variables` unknowns with objective zero.
+    explicit Problem(std::size_t variables, Status* status = nullptr) {
+        roundel_problem* made = nullptr;
+        detail::check(roundel_problem_new(variables, &made), status);
+        handle_.reset(made);
+    }
+
+    /// Takes over a problem of the C interface.
+    explicit Problem(roundel_problem* owned) noexcept : handle_(owned) {}
+
+    /// A copy that lives on its own.
+    Problem clone(Status* status = nullptr) const {
+        roundel_problem* copy = nullptr;
+        detail::check(roundel_problem_clone(get(), &copy), status);
+        return Problem(copy);
+    }
+
+    std::size_t variables(Status* status = nullptr) const {
+        std::size_t count = 0;
+        detail::check(roundel_problem_variables(get(), &count), status);
+        return count;
+    }
+
+    /// Number of constraints so far, which is the number of the next one.
+    std::size_t constraints(Status* status = nullptr) const {
+        std::size_t count = 0;
+        detail::check(roundel_problem_constraints(get(), &count), status);
+        return count;
+    }
+
+    /// Adds entries to Q, duplicates summed.
+    void quadratic(Triangle triangle, Indices rows, Indices columns, Numbers values,
+                   Status* status = nullptr) {
+        add_triplets(roundel_problem_add_quadratic_triplets, triangle, rows, columns, values,
+                     status);
+    }
+
+    /// As above with 64-bit indices.
+    void quadratic(Triangle triangle, span<const std::int64_t> rows,
+                   span<const std::int64_t> columns, Numbers values, Status* status = nullptr) {
+        add_triplets(roundel_problem_add_quadratic_triplets_i64, triangle, rows, columns, values,
+                     status);
+    }
+
+    /// Adds a compressed matrix to Q.
+    template <class Index>
+    void quadratic(const Compressed<Index>& matrix, Triangle triangle, Status* status = nullptr) {
+        if (!detail::same_length(matrix.indices.size(), matrix.values.size(), status)) {
+            return;
+        }
+        constexpr bool wide = std::is_same_v<Index, std::int64_t>;
+        const auto add = [&](auto function) {
+            return function(get(), static_cast<std::int32_t>(triangle), matrix.offsets.size(),
+                            matrix.offsets.data(), matrix.indices.size(), matrix.indices.data(),
+                            matrix.values.data());
+        };
+        const bool columns = matrix.layout == Layout::columns;
+        roundel_status code;
+        if constexpr (wide) {
+            code = columns ? add(roundel_problem_add_quadratic_csc_i64)
+                           : add(roundel_problem_add_quadratic_csr_i64);
+        } else {
+            code = columns ? add(roundel_problem_add_quadratic_csc)
+                           : add(roundel_problem_add_quadratic_csr);
+        }
+        detail::check(code, status);
+    }
+
+    /// Adds to the linear term, one number a variable.
+    void linear(Numbers values, Status* status = nullptr) {
+        detail::check(roundel_problem_add_linear(get(), values.data(), values.size()), status);
+    }
+
+    /// Adds to the linear term of one variable.
+    void linear(std::int64_t variable, double coefficient, Status* status = nullptr) {
+        detail::check(roundel_problem_add_linear_term(get(), variable, coefficient), status);
+    }
+
+    /// Adds a constant to the objective.
+    void constant(double value, Status* status = nullptr) {
+        detail::check(roundel_problem_add_constant(get(), value), status);
+    }
+
+    /// Adds weight (sum_k coefficients[k] x[indices[k]] - rhs)^2 to the objective, without a factor
+    /// of 1/2, and returns the row's number.
+    std::size_t least_squares(Indices indices, Numbers coefficients, double rhs = 0.0,
+                              double weight = 1.0, Status* status = nullptr) {
+        std::size_t row = 0;
+        if (detail::same_length(indices.size(), coefficients.size(), status)) {
+            detail::check(roundel_problem_add_least_squares(get(), indices.size(), indices.data(),
+                                                            coefficients.data(), rhs, weight, &row),
+                          status);
+        }
+        return row;
+    }
+
+    std::size_t least_squares(std::initializer_list<std::int32_t> indices,
+                              std::initializer_list<double> coefficients, double rhs = 0.0,
+                              double weight = 1.0, Status* status = nullptr) {
+        return least_squares(Indices(indices.begin(), indices.size()),
+                             Numbers(coefficients.begin(), coefficients.size()), rhs, weight,
+                             status);
+    }
+
+    /// Adds the constraint sum_k coefficients[k] x[indices[k]] = rhs.
+    void constrain(Indices indices, Numbers coefficients, double rhs, Status* status = nullptr) {
+        if (detail::same_length(indices.size(), coefficients.size(), status)) {
+            detail::check(roundel_problem_add_constraint(get(), indices.size(), indices.data(),
+                                                         coefficients.data(), rhs),
+                          status);
+        }
+    }
+
+    void constrain(std::initializer_list<std::int32_t> indices,
+                   std::initializer_list<double> coefficients, double rhs,
+                   Status* status = nullptr) {
+        constrain(Indices(indices.begin(), indices.size()),
+                  Numbers(coefficients.begin(), coefficients.size()), rhs, status);
+    }
+
+    /// Adds the constraints C x = rhs, one a row of the matrix, and returns the first one's number.
+    template <class Index>
+    std::size_t constrain(const Compressed<Index>& matrix, Numbers rhs, Status* status = nullptr) {
+        std::size_t first = 0;
+        if (!detail::same_length(matrix.indices.size(), matrix.values.size(), status)) {
+            return first;
+        }
+        constexpr bool wide = std::is_same_v<Index, std::int64_t>;
+        const auto add = [&](auto function) {
+            return function(get(), matrix.offsets.size(), matrix.offsets.data(),
+                            matrix.indices.size(), matrix.indices.data(), matrix.values.data(),
+                            rhs.size(), rhs.data(), &first);
+        };
+        const bool columns = matrix.layout == Layout::columns;
+        roundel_status code;
+        if constexpr (wide) {
+            code = columns ? add(roundel_problem_add_constraints_csc_i64)
+                           : add(roundel_problem_add_constraints_csr_i64);
+        } else {
+            code = columns ? add(roundel_problem_add_constraints_csc)
+                           : add(roundel_problem_add_constraints_csr);
+        }
+        detail::check(code, status);
+        return first;
+    }
+
+    /// Makes variables integer.
+    void integer(Indices variables, Status* status = nullptr) {
+        detail::check(roundel_problem_set_integers(get(), variables.size(), variables.data()),
+                      status);
+    }
+
+    void integer(std::initializer_list<std::int32_t> variables, Status* status = nullptr) {
+        integer(Indices(variables.begin(), variables.size()), status);
+    }
+
+    /// Fixes one variable to a value.
+    void pin(std::int64_t variable, double value, Status* status = nullptr) {
+        detail::check(roundel_problem_pin(get(), variable, value), status);
+    }
+
+    /// Frees a pinned variable again.
+    void unpin(std::int64_t variable, Status* status = nullptr) {
+        detail::check(roundel_problem_unpin(get(), variable), status);
+    }
+
+    /// Sets the point that variables keep to where the objective does not decide them.
+    void guess(Numbers values, Status* status = nullptr) {
+        detail::check(roundel_problem_set_guess(get(), values.data(), values.size()), status);
+    }
+
+    /// Hands over short cycles that the caller knows: sums of least-squares rows with sign 1 or -1
+    /// in which all continuous variables cancel. Cycle k has the entries from offsets[k] to before
+    /// offsets[k + 1]. A hint never changes what is solved.
+    void hint_cycles(Indices offsets, Indices rows, span<const std::int8_t> signs,
+                     Status* status = nullptr) {
+        if (detail::same_length(rows.size(), signs.size(), status)) {
+            detail::check(roundel_problem_hint_cycles(get(), offsets.size(), offsets.data(),
+                                                      rows.size(), rows.data(), signs.data()),
+                          status);
+        }
+    }
+
+    /// A problem from a file in free-format MPS, gzipped or not.
+    static Problem read_mps(const std::string& file, Status* status = nullptr) {
+        roundel_problem* made = nullptr;
+        detail::check(roundel_problem_read_mps(file.c_str(), &made), status);
+        return Problem(made);
+    }
+
+    /// Writes free-format MPS, gzipped if the name ends in ".gz". Pins become constraints, and the
+    /// guess is lost.
+    void write_mps(const std::string& file, Status* status = nullptr) const {
+        detail::check(roundel_problem_write_mps(get(), file.c_str()), status);
+    }
+
+    /// The object of the C interface; nullptr after a move.
+    roundel_problem* get() noexcept { return handle_.get(); }
+    const roundel_problem* get() const noexcept { return handle_.get(); }
+
+  private:
+    template <class Function, class Index>
+    void add_triplets(Function function, Triangle triangle, span<const Index> rows,
+                      span<const Index> columns, Numbers values, Status* status) {
+        if (detail::same_length(rows.size(), columns.size(), status) &&
+            detail::same_length(rows.size(), values.size(), status)) {
+            detail::check(function(get(), static_cast<std::int32_t>(triangle), rows.size(),
+                                   rows.data(), columns.data(), values.data()),
+                          status);
+        }
+    }
+
+    detail::Handle<roundel_problem, roundel_problem_free> handle_;
+};
+
+ROUNDEL_NAMESPACE_END
+
+#endif // ROUNDEL_DETAIL_PROBLEM_HPP

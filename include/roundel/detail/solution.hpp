@@ -1,0 +1,118 @@
+/// What a solve gives back.
+
+#ifndef ROUNDEL_DETAIL_SOLUTION_HPP
+#define ROUNDEL_DETAIL_SOLUTION_HPP
+
+#include <roundel/detail/error.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+ROUNDEL_NAMESPACE_BEGIN
+
+/// How a solve ended.
+enum class SolveStatus : std::int32_t {
+    optimal = ROUNDEL_SOLVE_OPTIMAL,
+    feasible = ROUNDEL_SOLVE_FEASIBLE,
+    limit = ROUNDEL_SOLVE_LIMIT,
+    cancelled = ROUNDEL_SOLVE_CANCELLED,
+    relaxed = ROUNDEL_SOLVE_RELAXED,
+};
+
+/// The word for how a solve ended.
+inline const char* name(SolveStatus status) noexcept {
+    return roundel_solve_status_name(static_cast<std::int32_t>(status));
+}
+
+/// The largest violations of a solution.
+struct Violations {
+    double constraint = 0.0;
+    double integrality = 0.0;
+};
+
+/// A solution: values, what they cost, and how far from the best they can be.
+class Solution {
+  public:
+    /// None: what solve returns when it reports a failure to a Status.
+    Solution() noexcept = default;
+
+    /// Takes over a solution of the C interface.
+    explicit Solution(roundel_solution* owned, Status* status = nullptr) : handle_(owned) {
+        std::size_t variables = 0;
+        if (detail::check(roundel_solution_variables(get(), &variables), status)) {
+            values_.resize(variables);
+            detail::check(roundel_solution_values(get(), values_.data(), variables), status);
+        }
+    }
+
+    /// Whether there is one.
+    explicit operator bool() const noexcept { return handle_ != nullptr; }
+
+    /// One value a variable, as long as the solution lives.
+    span<const double> values() const& noexcept { return {values_.data(), values_.size()}; }
+    span<const double> values() const&& = delete;
+
+    /// The objective, in the caller's units.
+    double energy(Status* status = nullptr) const {
+        double value = 0.0;
+        detail::check(roundel_solution_energy(get(), &value), status);
+        return value;
+    }
+
+    /// No integer solution has less energy than this.
+    std::optional<double> lower_bound(Status* status = nullptr) const {
+        return maybe(roundel_solution_lower_bound, status);
+    }
+
+    /// (energy - lower_bound) / max(1, |energy|), where there is a bound.
+    std::optional<double> gap(Status* status = nullptr) const {
+        return maybe(roundel_solution_gap, status);
+    }
+
+    /// How the solve ended.
+    SolveStatus status(Status* status = nullptr) const {
+        auto value = ROUNDEL_SOLVE_FEASIBLE;
+        detail::check(roundel_solution_status(get(), &value), status);
+        return static_cast<SolveStatus>(value);
+    }
+
+    /// Sizes of the problem before and after elimination.
+    roundel_counts counts(Status* status = nullptr) const {
+        roundel_counts value{};
+        detail::check(roundel_solution_counts(get(), &value), status);
+        return value;
+    }
+
+    /// Wall-clock seconds by phase.
+    roundel_seconds seconds(Status* status = nullptr) const {
+        roundel_seconds value{};
+        detail::check(roundel_solution_seconds(get(), &value), status);
+        return value;
+    }
+
+    Violations violations(Status* status = nullptr) const {
+        Violations value;
+        detail::check(roundel_solution_violations(get(), &value.constraint, &value.integrality),
+                      status);
+        return value;
+    }
+
+    const roundel_solution* get() const noexcept { return handle_.get(); }
+
+  private:
+    template <class Function> std::optional<double> maybe(Function function, Status* status) const {
+        std::int32_t known = 0;
+        double value = 0.0;
+        detail::check(function(get(), &known, &value), status);
+        return known != 0 ? std::optional<double>(value) : std::nullopt;
+    }
+
+    detail::Handle<roundel_solution, roundel_solution_free> handle_;
+    std::vector<double> values_;
+};
+
+ROUNDEL_NAMESPACE_END
+
+#endif // ROUNDEL_DETAIL_SOLUTION_HPP

@@ -1,0 +1,136 @@
+/// The solve.
+
+#ifndef ROUNDEL_DETAIL_SOLVE_HPP
+#define ROUNDEL_DETAIL_SOLVE_HPP
+
+#include <roundel/detail/options.hpp>
+#include <roundel/detail/problem.hpp>
+#include <roundel/detail/solution.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <functional>
+#include <string>
+#include <variant>
+
+ROUNDEL_NAMESPACE_BEGIN
+
+namespace detail {
+
+/// Carries events to a std::function, and what it throws around the C frames in between.
+struct Watcher {
+    const std::function<Flow(const Event&)>& on_event;
+    std::exception_ptr thrown = nullptr;
+
+    static std::int32_t callback(const roundel_event* event, void* user_data) noexcept {
+        auto& self = *static_cast<Watcher*>(user_data);
+        const Event view{static_cast<EventKind>(event->kind),
+                         static_cast<Phase>(event->phase),
+                         event->fraction,
+                         event->text,
+                         event->seconds,
+                         event->energy,
+                         event->lower_bound,
+                         event->gap};
+#if ROUNDEL_HPP_EXCEPTIONS
+        try {
+            return static_cast<std::int32_t>(self.on_event(view));
+        } catch (...) {
+            // A solve that has been told to stop may still send an event: keep the first.
+            if (!self.thrown) {
+                self.thrown = std::current_exception();
+            }
+            return static_cast<std::int32_t>(stop);
+        }
+#else
+        return static_cast<std::int32_t>(self.on_event(view));
+#endif
+    }
+};
+
+inline roundel_status set(roundel_options* options, const char* name, const std::string& value) {
+    return roundel_options_set_text(options, name, value.c_str());
+}
+inline roundel_status set(roundel_options* options, const char* name, double value) {
+    return roundel_options_set_real(options, name, value);
+}
+inline roundel_status set(roundel_options* options, const char* name, std::int64_t value) {
+    return roundel_options_set_int(options, name, value);
+}
+
+using OptionsHandle = Handle<roundel_options, roundel_options_free>;
+
+/// The C interface's options for `options`; none after a failure.
+inline OptionsHandle handle_for(const Options& options, Status* status) {
+    roundel_options* made = nullptr;
+    if (!check(roundel_options_new(&made), status)) {
+        return nullptr;
+    }
+    OptionsHandle handle(made);
+    const auto one = [&](const char* name, const auto& value) {
+        return !value || check(set(made, name, *value), status);
+    };
+    if (!one("strategy", options.strategy) || !one("time_limit", options.time_limit) ||
+        !one("threads", options.threads)) {
+        return nullptr;
+    }
+    for (const auto& [name, value] : options.more) {
+        const auto code = std::visit(
+            [made, key = name.c_str()](const auto& v) { return set(made, key, v); }, value);
+        if (!check(code, status)) {
+            return nullptr;
+        }
+    }
+    return handle;
+}
+
+} // namespace detail
+
+/// Solves a problem. It may be solved again, as it is or after changes.
+inline Solution solve(const Problem& problem, const Options& options = {},
+                      Status* status = nullptr) {
+    const auto handle = detail::handle_for(options, status);
+    if (!handle) {
+        return {};
+    }
+    // The length of the direction that comes with some failures; 0 for a problem moved away.
+    std::size_t variables = 0;
+    if (problem.get()) {
+        roundel_problem_variables(problem.get(), &variables);
+    }
+    detail::Watcher watcher{options.on_event};
+    roundel_monitor monitor{};
+    monitor.size = sizeof monitor;
+    if (options.on_event) {
+        monitor.callback = detail::Watcher::callback;
+        monitor.user_data = &watcher;
+    }
+    monitor.cancel_token = options.cancel ? options.cancel->get() : nullptr;
+    roundel_solution* found = nullptr;
+    const auto code = roundel_solve_with(problem.get(), handle.get(), &monitor, &found);
+    detail::Handle<roundel_solution, roundel_solution_free> owned(found);
+#if ROUNDEL_HPP_EXCEPTIONS
+    if (watcher.thrown) {
+        std::rethrow_exception(watcher.thrown);
+    }
+#endif
+    if (!detail::check(code, status, variables)) {
+        return {};
+    }
+    return Solution(owned.release(), status);
+}
+
+/// Writes a problem and how to solve it, so that the solve can be repeated elsewhere: `file`, which
+/// ends in ".mps" or ".mps.gz", and beside it a file that ends in ".replay.json".
+inline void save_replay(const Problem& problem, const Options& options, const std::string& file,
+                        Status* status = nullptr) {
+    if (const auto handle = detail::handle_for(options, status)) {
+        detail::check(roundel_problem_save_replay(problem.get(), handle.get(), file.c_str()),
+                      status);
+    }
+}
+
+ROUNDEL_NAMESPACE_END
+
+#endif // ROUNDEL_DETAIL_SOLVE_HPP

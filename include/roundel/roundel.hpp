@@ -1,0 +1,30 @@
+/// Roundel for C++17 and later: a header-only layer over the C interface.
+///
+///     roundel::Problem problem(3);
+///     problem.least_squares({0, 1}, {1.0, -1.0}, 0.4);   // (x0 - x1 - 0.4)^2
+///     problem.constrain({0, 2}, {1.0, -1.0}, 0.0);       // x0 = x2
+///     problem.integer({1});
+///     auto solution = roundel::solve(problem, {.strategy = "greedy"});   // C++20
+///     for (double x : solution.values()) ...
+///
+/// In C++17: `roundel::Options options; options.set_strategy("greedy");`.
+///
+/// Errors. A call that fails throws roundel::Error, which names the element at fault. Every call
+/// also takes a `Status*` as its last argument; given one, it throws nothing and reports there
+/// instead. Built with exceptions turned off, a failure without a Status ends the program.
+///
+/// Problem, Solution and CancelToken own their C objects, move and do not copy. A const object may
+/// be used from several threads at once, any other from one.
+
+#ifndef ROUNDEL_HPP
+#define ROUNDEL_HPP
+
+#include <roundel/detail/error.hpp>
+#include <roundel/detail/options.hpp>
+#include <roundel/detail/problem.hpp>
+#include <roundel/detail/solution.hpp>
+#include <roundel/detail/solve.hpp>
+#include <roundel/detail/span.hpp>
+#include <roundel/roundel.h>
+
+#endif // ROUNDEL_HPP

@@ -1,0 +1,141 @@
+//! The last error of each thread: its text, and the element at fault as a number.
+
+use std::cell::RefCell;
+use std::ffi::c_char;
+
+use super::guard::boundary;
+use super::input::slice_mut;
+use super::output::copy_truncated;
+use super::status::roundel_status::{self, *};
+use crate::Error;
+
+/// Why a call failed: what the library says, or what only the C interface can get wrong.
+#[derive(Debug)]
+pub(super) enum Failure {
+    Library(Error),
+    Null(&'static str),
+    Panic(String),
+    Unusable,
+}
+
+/// What the body of an entry gives back.
+pub(super) type Outcome<T = ()> = Result<T, Failure>;
+
+impl From<Error> for Failure {
+    fn from(error: Error) -> Self {
+        Failure::Library(error)
+    }
+}
+
+#[derive(Default)]
+struct LastError {
+    message: String,
+    index: Option<usize>,
+    line: Option<usize>,
+    direction: Vec<f64>,
+}
+
+thread_local! {
+    static LAST: RefCell<LastError> = RefCell::default();
+}
+
+impl Failure {
+    /// Keeps the failure as this thread's last error and gives its number.
+    pub(super) fn record(self) -> roundel_status {
+        let (status, message) = match &self {
+            Failure::Library(error) => (error.into(), error.to_string()),
+            Failure::Null(what) => (ROUNDEL_ERROR_NULL_POINTER, format!("{what} is NULL")),
+            Failure::Panic(text) => (
+                ROUNDEL_ERROR_PANIC,
+                format!("a defect of the library, please report it: {text}"),
+            ),
+            Failure::Unusable => (
+                ROUNDEL_ERROR_UNUSABLE,
+                "the handle was given up in an earlier error and can only be freed".into(),
+            ),
+        };
+        let error = match self {
+            Failure::Library(error) => Some(error),
+            _ => None,
+        };
+        let last = LastError {
+            message,
+            index: error.as_ref().and_then(Error::index),
+            line: error.as_ref().and_then(Error::line),
+            direction: match error {
+                Some(Error::Unbounded { direction, .. } | Error::NotConvex { direction, .. }) => {
+                    direction
+                }
+                _ => Vec::new(),
+            },
+        };
+        // Fails only while the thread ends, when nobody can ask any more.
+        let _ = LAST.try_with(|slot| slot.replace(last));
+        status
+    }
+}
+
+fn last<T>(read: impl FnOnce(&LastError) -> T) -> Option<T> {
+    LAST.try_with(|slot| read(&slot.borrow())).ok()
+}
+
+fn number(n: Option<usize>) -> i64 {
+    n.and_then(|n| i64::try_from(n).ok()).unwrap_or(-1)
+}
+
+/// Copies the message of the last call that failed on this thread, which names the element at
+/// fault, to `buffer`: at most `capacity` bytes with the NUL that ends it, cut if need be. UTF-8.
+///
+/// Returns the length of the whole message without its NUL, as snprintf does; 0 if no call has
+/// failed. `buffer` may be NULL if `capacity` is 0. Calls that succeed leave the message alone.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_last_error_message(buffer: *mut c_char, capacity: usize) -> usize {
+    last(|error| {
+        // SAFETY: the caller gives `capacity` writable bytes, or NULL, which is checked.
+        unsafe { copy_truncated(&error.message, buffer, capacity) };
+        error.message.len()
+    })
+    .unwrap_or(0)
+}
+
+/// The element at fault in the last call that failed on this thread, counted from 0: a position
+/// in the array given, a constraint, or a variable, as the status says. -1 if there is none.
+#[unsafe(no_mangle)]
+pub extern "C" fn roundel_last_error_index() -> i64 {
+    number(last(|error| error.index).flatten())
+}
+
+/// The line of the file at fault in the last call that failed on this thread, counted from 1.
+/// -1 if there is none.
+#[unsafe(no_mangle)]
+pub extern "C" fn roundel_last_error_line() -> i64 {
+    number(last(|error| error.line).flatten())
+}
+
+/// Copies the direction that goes with ROUNDEL_ERROR_UNBOUNDED and ROUNDEL_ERROR_NOT_CONVEX: one
+/// number a variable, largest entry 1 in absolute value. `length` must be the number of variables.
+///
+/// Fails with ROUNDEL_ERROR_LENGTH_MISMATCH if the last error had no direction, or one of another
+/// length. Being a failure, that takes the place of the last error.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_last_error_direction(
+    direction: *mut f64,
+    length: usize,
+) -> roundel_status {
+    boundary(None, || {
+        // SAFETY: the caller gives `length` writable numbers.
+        let out = unsafe { slice_mut("direction", direction, length) }?;
+        last(|error| {
+            if error.direction.len() != out.len() || out.is_empty() {
+                return Err(Failure::Library(Error::LengthMismatch {
+                    what: "direction of the last error",
+                    expected: error.direction.len(),
+                    actual: out.len(),
+                }));
+            }
+            out.copy_from_slice(&error.direction);
+            Ok(())
+        })
+        .unwrap_or(Ok(()))
+    })
+}

@@ -1,0 +1,191 @@
+//! Who watches a solve: one callback for everything, and a cancel token.
+
+use std::ffi::{CString, c_char, c_void};
+use std::mem::offset_of;
+
+use super::cancel::roundel_cancel_token;
+use super::error::{Failure, Outcome};
+use super::guard;
+use super::input::{aligned, slice};
+use crate::solve::{EventKind, Phase};
+use crate::{Error, Event, Flow, Monitor};
+
+/// What an event tells.
+#[repr(i32)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum roundel_event_kind {
+    /// A part of the solve has got so far: see `phase` and `fraction`.
+    ROUNDEL_EVENT_PROGRESS = 1,
+    /// Something worth a line in a log: see `text`.
+    ROUNDEL_EVENT_LOG = 2,
+    /// A better solution than any before: see `energy`.
+    ROUNDEL_EVENT_IMPROVED = 3,
+}
+
+/// A part of the solve.
+#[repr(i32)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum roundel_phase {
+    /// Not a progress event.
+    ROUNDEL_PHASE_NONE = 0,
+    /// Elimination of the constraints.
+    ROUNDEL_PHASE_ELIMINATE = 1,
+    /// Ordering and factorization.
+    ROUNDEL_PHASE_FACTOR = 2,
+    /// The search for integers.
+    ROUNDEL_PHASE_ROUND = 3,
+}
+
+/// One message to the callback, with where the solve stands. It lives as long as the callback runs.
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct roundel_event {
+    /// Bytes of this struct in the library that is linked: later versions add members at its end.
+    pub size: usize,
+    /// What happened, a roundel_event_kind.
+    pub kind: i32,
+    /// The part of the solve, a roundel_phase.
+    pub phase: i32,
+    /// How much of the part is done, from 0 to 1.
+    pub fraction: f64,
+    /// A line of UTF-8 text; empty where there is none, never NULL.
+    pub text: *const c_char,
+    /// Seconds since the solve began.
+    pub seconds: f64,
+    /// Energy of the best solution so far; infinite before the first.
+    pub energy: f64,
+    /// The best lower bound so far; minus infinity before the first.
+    pub lower_bound: f64,
+    /// (energy - lower_bound) / max(1, |energy|), infinite while either is.
+    pub gap: f64,
+}
+
+/// Hears of progress, log lines and better solutions, on the thread that called solve. 0 goes on;
+/// anything else ends the solve and keeps the best solution. It must return: no exception and no
+/// longjmp may leave it.
+pub type roundel_callback =
+    Option<unsafe extern "C" fn(event: *const roundel_event, user_data: *mut c_void) -> i32>;
+
+/// Who watches a solve.
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct roundel_monitor {
+    /// sizeof(roundel_monitor), by which a later library knows the members that you know.
+    pub size: usize,
+    /// Called for every event; may be NULL.
+    pub callback: roundel_callback,
+    /// Handed to the callback as it is.
+    pub user_data: *mut c_void,
+    /// Ends the solve when it is set; may be NULL.
+    pub cancel_token: *const roundel_cancel_token,
+}
+
+/// A struct longer than this is taken for one whose size was never set.
+const LARGEST: usize = 4096;
+
+const _: () = {
+    let word = size_of::<usize>();
+    assert!(size_of::<roundel_monitor>() == 4 * word);
+    assert!(offset_of!(roundel_monitor, callback) == word);
+    assert!(offset_of!(roundel_monitor, user_data) == 2 * word);
+    assert!(offset_of!(roundel_monitor, cancel_token) == 3 * word);
+    assert!(offset_of!(roundel_event, kind) == word);
+    assert!(offset_of!(roundel_event, phase) == word + 4);
+    assert!(offset_of!(roundel_event, fraction) == word + 8);
+    assert!(offset_of!(roundel_event, text) == word + 16);
+    assert!(size_of::<roundel_event>() == if word == 8 { 64 } else { 56 });
+};
+
+/// The library's monitor for the caller's, which may be NULL: nobody watches then.
+///
+/// # Safety
+/// `monitor` is NULL or points to a struct of the size that its first member says, whose token is
+/// NULL or live; its callback may be called until `'a` ends.
+pub(super) unsafe fn monitor<'a>(monitor: *const roundel_monitor) -> Outcome<Monitor<'a>> {
+    if monitor.is_null() {
+        return Ok(Monitor::default());
+    }
+    aligned("monitor", monitor)?;
+    // SAFETY: not NULL and aligned by the lines above; it has at least its first member.
+    let size = unsafe { (&raw const (*monitor).size).read() };
+    let known = size_of::<roundel_monitor>();
+    if !(known..=LARGEST).contains(&size) {
+        return Err(Failure::Library(Error::InvalidArgument {
+            what: format!("monitor: size is {size}, not sizeof(roundel_monitor)"),
+            index: None,
+        }));
+    }
+    // SAFETY: the struct has `size` bytes by the caller's word, at least the ones read here.
+    let (given, rest) = unsafe {
+        let rest = monitor.cast::<u8>().add(known);
+        (monitor.read(), slice("monitor", rest, size - known)?)
+    };
+    if rest.iter().any(|&byte| byte != 0) {
+        return Err(Failure::Library(Error::NotSupported {
+            what: "a member of roundel_monitor that this library does not know".into(),
+            index: None,
+            line: None,
+        }));
+    }
+    let mut result = Monitor::default();
+    if !given.cancel_token.is_null() {
+        // SAFETY: a live token by the caller's word.
+        let token = unsafe { guard::value(given.cancel_token) }?;
+        result = result.cancel_token(token.clone());
+    }
+    if let Some(callback) = given.callback {
+        result = result.on_event(move |event| {
+            let text = text_of(event);
+            let event = for_c(event, text.as_ptr());
+            // SAFETY: a function by the caller's word; the event outlives the call.
+            match unsafe { callback(&raw const event, given.user_data) } {
+                0 => Flow::Continue,
+                _ => Flow::Cancel,
+            }
+        });
+    }
+    Ok(result)
+}
+
+/// The text of an event with the NUL that C wants.
+fn text_of(event: &Event) -> CString {
+    match event.kind {
+        // A NUL inside a line, as a variable's name might hold, must not cut it.
+        EventKind::Log(line) => CString::new(line.replace('\0', " ")).unwrap_or_default(),
+        _ => CString::default(),
+    }
+}
+
+fn for_c(event: &Event, text: *const c_char) -> roundel_event {
+    use roundel_event_kind::*;
+    let (kind, phase, fraction) = match event.kind {
+        EventKind::Progress { phase, fraction } => (ROUNDEL_EVENT_PROGRESS, phase.into(), fraction),
+        EventKind::Log(_) => (ROUNDEL_EVENT_LOG, roundel_phase::ROUNDEL_PHASE_NONE, 0.0),
+        EventKind::Improved => (
+            ROUNDEL_EVENT_IMPROVED,
+            roundel_phase::ROUNDEL_PHASE_NONE,
+            0.0,
+        ),
+    };
+    roundel_event {
+        size: size_of::<roundel_event>(),
+        kind: kind as i32,
+        phase: phase as i32,
+        fraction,
+        text,
+        seconds: event.seconds,
+        energy: event.energy,
+        lower_bound: event.lower_bound,
+        gap: event.gap,
+    }
+}
+
+impl From<Phase> for roundel_phase {
+    fn from(phase: Phase) -> Self {
+        match phase {
+            Phase::Eliminate => roundel_phase::ROUNDEL_PHASE_ELIMINATE,
+            Phase::Factor => roundel_phase::ROUNDEL_PHASE_FACTOR,
+            Phase::Round => roundel_phase::ROUNDEL_PHASE_ROUND,
+        }
+    }
+}

@@ -1,0 +1,92 @@
+//! Problems from and to files: MPS, and replay files that hold options and hints beside it.
+
+use std::ffi::c_char;
+
+use super::guard::{self, boundary};
+use super::input::path;
+use super::options::roundel_options;
+use super::output::Out;
+use super::problem::roundel_problem;
+use super::status::roundel_status;
+use crate::problem::mps::{self, MpsProblem};
+use crate::solve::replay;
+use crate::{Options, Problem};
+
+/// Makes a problem from a file in free-format MPS, gzipped or not. Variables and constraints are
+/// numbered in the order of the file; their names are not kept.
+///
+/// Fails with ROUNDEL_ERROR_PARSE and ROUNDEL_ERROR_NOT_SUPPORTED with the line at fault,
+/// ROUNDEL_ERROR_IO.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_problem_read_mps(
+    file: *const c_char,
+    problem: *mut *mut roundel_problem,
+) -> roundel_status {
+    boundary(None, || {
+        // SAFETY: the caller gives a text and a place for the handle, or NULL.
+        let (file, out) = unsafe { (path("file", file)?, Out::new("problem", problem)?) };
+        out.set(guard::handle(mps::read(file)?.into_problem()));
+        Ok(())
+    })
+}
+
+/// Writes a problem as free-format MPS, gzipped if the file's name ends in ".gz". Variables are
+/// named x0, x1, ..., constraints c0, c1, ....
+///
+/// MPS has no place for some parts: pins become constraints, least-squares rows are summed into Q,
+/// q and c, and the guess is lost. roundel_problem_save_replay keeps pins and guess.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_problem_write_mps(
+    problem: *const roundel_problem,
+    file: *const c_char,
+) -> roundel_status {
+    let body = |value: &Problem| {
+        // SAFETY: the caller gives a text, or NULL.
+        let file = unsafe { path("file", file) }?;
+        Ok(mps::write(file, &MpsProblem::new(value.clone()))?)
+    };
+    // SAFETY: the caller gives a live handle, or NULL.
+    unsafe { guard::read(problem, body) }
+}
+
+/// Writes a problem and how to solve it, so that the solve can be repeated elsewhere: `file`, which
+/// ends in ".mps" or ".mps.gz", and beside it a file that ends in ".replay.json" for options, pins
+/// and guess. `options` may be NULL for the default options.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_problem_save_replay(
+    problem: *const roundel_problem,
+    options: *const roundel_options,
+    file: *const c_char,
+) -> roundel_status {
+    let body = |value: &Problem| {
+        let default = Options::default();
+        // SAFETY: the caller gives a text or NULL, and a live handle or NULL.
+        let (options, file) = unsafe { (guard::value_or(options, &default)?, path("file", file)?) };
+        Ok(replay::save(file, value, options)?)
+    };
+    // SAFETY: the caller gives a live handle, or NULL.
+    unsafe { guard::read(problem, body) }
+}
+
+/// Makes the problem and the options that roundel_problem_save_replay wrote to `file`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_problem_load_replay(
+    file: *const c_char,
+    problem: *mut *mut roundel_problem,
+    options: *mut *mut roundel_options,
+) -> roundel_status {
+    boundary(None, || {
+        // SAFETY: the caller gives a text and places for the handles, or NULL.
+        let (file, problem_out, options_out) = unsafe {
+            (
+                path("file", file)?,
+                Out::new("problem", problem)?,
+                Out::new("options", options)?,
+            )
+        };
+        let (problem, options) = replay::load(file)?;
+        problem_out.set(guard::handle(problem));
+        options_out.set(guard::handle(options));
+        Ok(())
+    })
+}

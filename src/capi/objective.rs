@@ -1,0 +1,329 @@
+//! The objective: quadratic, linear and constant terms, least-squares rows.
+
+use super::error::{Failure, Outcome};
+use super::guard;
+use super::input::{Index, index, indices, slice};
+use super::output::optional;
+use super::problem::roundel_problem;
+use super::status::roundel_status;
+use crate::problem::MatrixRef;
+use crate::{Error, Layout, Problem, Triangle};
+
+/// Which entries of a symmetric matrix are given.
+#[repr(i32)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum roundel_triangle {
+    /// Both triangles, which must agree.
+    ROUNDEL_TRIANGLE_FULL = 0,
+    /// Only entries with row <= column, which stand for both.
+    ROUNDEL_TRIANGLE_UPPER = 1,
+    /// Only entries with row >= column, which stand for both.
+    ROUNDEL_TRIANGLE_LOWER = 2,
+}
+
+fn triangle(number: i32) -> Outcome<Triangle> {
+    const FULL: i32 = roundel_triangle::ROUNDEL_TRIANGLE_FULL as i32;
+    const UPPER: i32 = roundel_triangle::ROUNDEL_TRIANGLE_UPPER as i32;
+    const LOWER: i32 = roundel_triangle::ROUNDEL_TRIANGLE_LOWER as i32;
+    match number {
+        FULL => Ok(Triangle::Full),
+        UPPER => Ok(Triangle::Upper),
+        LOWER => Ok(Triangle::Lower),
+        _ => Err(Failure::Library(Error::InvalidArgument {
+            what: format!("triangle {number} is none of full (0), upper (1), lower (2)"),
+            index: None,
+        })),
+    }
+}
+
+/// # Safety
+/// The arrays are as the caller of the entry says.
+unsafe fn add_triplets<I: Index>(
+    problem: &mut Problem,
+    number: i32,
+    count: usize,
+    rows: *const I,
+    columns: *const I,
+    values: *const f64,
+) -> Outcome {
+    let n = problem.variables();
+    let triangle = triangle(number)?;
+    // SAFETY: handed on.
+    let (rows, columns, values) = unsafe {
+        (
+            indices("quadratic rows", rows, count, n)?,
+            indices("quadratic columns", columns, count, n)?,
+            slice("quadratic values", values, count)?,
+        )
+    };
+    Ok(problem.add_quadratic_triplets(triangle, &rows, &columns, values)?)
+}
+
+/// A matrix in the caller's arrays: where each column (or row) starts and ends, and the entries.
+pub(super) struct Compressed<I> {
+    pub layout: Layout,
+    pub offset_count: usize,
+    pub offsets: *const I,
+    pub count: usize,
+    pub minor: *const I,
+    pub values: *const f64,
+}
+
+impl<I: Index> Compressed<I> {
+    /// Hands the matrix, whose row (or column) indices are below `bound`, to `body`.
+    ///
+    /// # Safety
+    /// The arrays are as the caller of the entry says.
+    pub(super) unsafe fn with<T>(
+        &self,
+        bound: usize,
+        body: impl FnOnce(&MatrixRef) -> crate::Result<T>,
+    ) -> Outcome<T> {
+        // An offset may equal the number of entries, and an array of no offsets has none to check.
+        let end = self.count.saturating_add(1);
+        // SAFETY: handed on.
+        let (offsets, minor, values) = unsafe {
+            (
+                indices("matrix offsets", self.offsets, self.offset_count, end)?,
+                indices("matrix indices", self.minor, self.count, bound)?,
+                slice("matrix values", self.values, self.count)?,
+            )
+        };
+        let matrix = MatrixRef {
+            layout: self.layout,
+            offsets: &offsets,
+            indices: &minor,
+            values,
+        };
+        Ok(body(&matrix)?)
+    }
+}
+
+/// # Safety
+/// The arrays are as the caller of the entry says.
+unsafe fn add_matrix<I: Index>(
+    problem: *mut roundel_problem,
+    number: i32,
+    matrix: Compressed<I>,
+) -> roundel_status {
+    let body = |value: &mut Problem| {
+        let triangle = triangle(number)?;
+        let n = value.variables();
+        // SAFETY: handed on.
+        unsafe { matrix.with(n, |m| value.add_quadratic_matrix(triangle, m)) }
+    };
+    // SAFETY: the caller gives a live handle, or NULL.
+    unsafe { guard::write(problem, body) }
+}
+
+/// Adds `count` entries to Q, which stands in the objective as 1/2 x'Qx, in any order, duplicates
+/// summed. `triangle` is a roundel_triangle.
+///
+/// Errors give the position of the entry at fault as their index.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_problem_add_quadratic_triplets(
+    problem: *mut roundel_problem,
+    triangle: i32,
+    count: usize,
+    rows: *const i32,
+    columns: *const i32,
+    values: *const f64,
+) -> roundel_status {
+    // SAFETY: the caller gives a live handle and arrays of `count` entries, or NULL.
+    unsafe {
+        guard::write(problem, |value| {
+            add_triplets(value, triangle, count, rows, columns, values)
+        })
+    }
+}
+
+/// roundel_problem_add_quadratic_triplets with 64-bit indices.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_problem_add_quadratic_triplets_i64(
+    problem: *mut roundel_problem,
+    triangle: i32,
+    count: usize,
+    rows: *const i64,
+    columns: *const i64,
+    values: *const f64,
+) -> roundel_status {
+    // SAFETY: the caller gives a live handle and arrays of `count` entries, or NULL.
+    unsafe {
+        guard::write(problem, |value| {
+            add_triplets(value, triangle, count, rows, columns, values)
+        })
+    }
+}
+
+/// Adds a matrix in compressed columns to Q: the entries of column k are those from offsets[k] to
+/// before offsets[k + 1]. `offset_count` is one more than the number of variables, `count` the
+/// number of entries. Entries of a column may be in any order, duplicates are summed.
+///
+/// Errors give a position in the array at fault as their index.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_problem_add_quadratic_csc(
+    problem: *mut roundel_problem,
+    triangle: i32,
+    offset_count: usize,
+    offsets: *const i32,
+    count: usize,
+    rows: *const i32,
+    values: *const f64,
+) -> roundel_status {
+    let matrix = Compressed {
+        layout: Layout::Columns,
+        offset_count,
+        offsets,
+        count,
+        minor: rows,
+        values,
+    };
+    // SAFETY: the caller gives a live handle and arrays of the lengths given, or NULL.
+    unsafe { add_matrix(problem, triangle, matrix) }
+}
+
+/// roundel_problem_add_quadratic_csc with 64-bit indices.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_problem_add_quadratic_csc_i64(
+    problem: *mut roundel_problem,
+    triangle: i32,
+    offset_count: usize,
+    offsets: *const i64,
+    count: usize,
+    rows: *const i64,
+    values: *const f64,
+) -> roundel_status {
+    let matrix = Compressed {
+        layout: Layout::Columns,
+        offset_count,
+        offsets,
+        count,
+        minor: rows,
+        values,
+    };
+    // SAFETY: the caller gives a live handle and arrays of the lengths given, or NULL.
+    unsafe { add_matrix(problem, triangle, matrix) }
+}
+
+/// Adds a matrix in compressed rows to Q: the entries of row k are those from offsets[k] to
+/// before offsets[k + 1]. `offset_count` is one more than the number of variables, `count` the
+/// number of entries. Entries of a row may be in any order, duplicates are summed.
+///
+/// Errors give a position in the array at fault as their index.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_problem_add_quadratic_csr(
+    problem: *mut roundel_problem,
+    triangle: i32,
+    offset_count: usize,
+    offsets: *const i32,
+    count: usize,
+    columns: *const i32,
+    values: *const f64,
+) -> roundel_status {
+    let matrix = Compressed {
+        layout: Layout::Rows,
+        offset_count,
+        offsets,
+        count,
+        minor: columns,
+        values,
+    };
+    // SAFETY: the caller gives a live handle and arrays of the lengths given, or NULL.
+    unsafe { add_matrix(problem, triangle, matrix) }
+}
+
+/// roundel_problem_add_quadratic_csr with 64-bit indices.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_problem_add_quadratic_csr_i64(
+    problem: *mut roundel_problem,
+    triangle: i32,
+    offset_count: usize,
+    offsets: *const i64,
+    count: usize,
+    columns: *const i64,
+    values: *const f64,
+) -> roundel_status {
+    let matrix = Compressed {
+        layout: Layout::Rows,
+        offset_count,
+        offsets,
+        count,
+        minor: columns,
+        values,
+    };
+    // SAFETY: the caller gives a live handle and arrays of the lengths given, or NULL.
+    unsafe { add_matrix(problem, triangle, matrix) }
+}
+
+/// Adds `values`, one a variable, to the linear term q. `length` is the number of variables.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_problem_add_linear(
+    problem: *mut roundel_problem,
+    values: *const f64,
+    length: usize,
+) -> roundel_status {
+    let body = |value: &mut Problem| {
+        // SAFETY: the caller gives an array of `length` numbers, or NULL.
+        let values = unsafe { slice("linear terms", values, length) }?;
+        Ok(value.add_linear(values)?)
+    };
+    // SAFETY: the caller gives a live handle, or NULL.
+    unsafe { guard::write(problem, body) }
+}
+
+/// Adds `coefficient` to the linear term of one variable.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_problem_add_linear_term(
+    problem: *mut roundel_problem,
+    variable: i64,
+    coefficient: f64,
+) -> roundel_status {
+    let body = |value: &mut Problem| {
+        let variable = index("variable", variable, value.variables())?;
+        Ok(value.add_linear_term(variable, coefficient)?)
+    };
+    // SAFETY: the caller gives a live handle, or NULL.
+    unsafe { guard::write(problem, body) }
+}
+
+/// Adds `constant` to the objective.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_problem_add_constant(
+    problem: *mut roundel_problem,
+    constant: f64,
+) -> roundel_status {
+    // SAFETY: the caller gives a live handle, or NULL.
+    unsafe { guard::write(problem, |value| Ok(value.add_constant(constant)?)) }
+}
+
+/// Adds weight * (sum_k coefficients[k] x[indices[k]] - rhs)^2 to the objective, without a factor
+/// of 1/2. The row itself is kept, and its number goes to `row`, which may be NULL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_problem_add_least_squares(
+    problem: *mut roundel_problem,
+    count: usize,
+    indices: *const i32,
+    coefficients: *const f64,
+    rhs: f64,
+    weight: f64,
+    row: *mut usize,
+) -> roundel_status {
+    let body = |value: &mut Problem| {
+        const WHAT: &str = "least-squares row";
+        // SAFETY: the caller gives arrays of `count` entries and a place for the number, or NULL.
+        let (at, coefficients, row) = unsafe {
+            (
+                self::indices(WHAT, indices, count, value.variables())?,
+                slice("least-squares coefficients", coefficients, count)?,
+                optional("row", row)?,
+            )
+        };
+        let number = value.add_least_squares(&at, coefficients, rhs, weight)?;
+        if let Some(row) = row {
+            row.set(number);
+        }
+        Ok(())
+    };
+    // SAFETY: the caller gives a live handle, or NULL.
+    unsafe { guard::write(problem, body) }
+}

@@ -1,0 +1,95 @@
+//! The options that there are, listed for C.
+
+use std::ffi::{CString, c_char};
+use std::sync::OnceLock;
+
+use super::guard::boundary;
+use super::output::Out;
+use super::status::roundel_status;
+use crate::Error;
+use crate::solve::{OPTIONS, OptionKind};
+
+/// The type of an option's value.
+#[repr(i32)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum roundel_option_type {
+    /// A whole number: roundel_options_set_int.
+    ROUNDEL_OPTION_INT = 1,
+    /// A real number: roundel_options_set_real.
+    ROUNDEL_OPTION_REAL = 2,
+    /// One of several words: roundel_options_set_text.
+    ROUNDEL_OPTION_TEXT = 3,
+}
+
+/// What there is to know about one option. The texts live as long as the library is loaded.
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct roundel_option {
+    /// Its name.
+    pub name: *const c_char,
+    /// Its default value.
+    pub default_value: *const c_char,
+    /// The values allowed: an interval, or words with a bar between them.
+    pub range: *const c_char,
+    /// What it does.
+    pub text: *const c_char,
+    /// The type of its value, a roundel_option_type.
+    pub value_type: i32,
+    /// Zero, for later use.
+    pub reserved: [i32; 7],
+}
+
+const _: () = assert!(size_of::<roundel_option>() == 4 * size_of::<usize>() + 32);
+
+/// The table's texts with the NUL that C wants: name, default, range, text.
+fn texts() -> &'static [[CString; 4]] {
+    static TEXTS: OnceLock<Vec<[CString; 4]>> = OnceLock::new();
+    TEXTS.get_or_init(|| {
+        let texts = OPTIONS.iter().map(|o| [o.name, o.default, o.range, o.text]);
+        // The table is ours and holds no NUL, which would show as an empty text.
+        texts
+            .map(|t| t.map(|s| CString::new(s).unwrap_or_default()))
+            .collect()
+    })
+}
+
+/// How many options there are.
+#[unsafe(no_mangle)]
+pub extern "C" fn roundel_option_count() -> usize {
+    OPTIONS.len()
+}
+
+/// Describes option number `index`, from 0 to below roundel_option_count.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_option_info(
+    index: usize,
+    option: *mut roundel_option,
+) -> roundel_status {
+    boundary(None, || {
+        // SAFETY: the caller gives a place for the description, or NULL.
+        let out = unsafe { Out::new("option", option) }?;
+        let Some((info, texts)) = OPTIONS.iter().zip(texts()).nth(index) else {
+            Err(Error::IndexOutOfRange {
+                what: "options",
+                position: 0,
+                value: i64::try_from(index).unwrap_or(i64::MAX),
+                len: OPTIONS.len(),
+            })?
+        };
+        let [name, default_value, range, text] = texts.each_ref().map(|t| t.as_ptr());
+        let value_type = match info.kind {
+            OptionKind::Integer => roundel_option_type::ROUNDEL_OPTION_INT,
+            OptionKind::Real => roundel_option_type::ROUNDEL_OPTION_REAL,
+            OptionKind::Text => roundel_option_type::ROUNDEL_OPTION_TEXT,
+        };
+        out.set(roundel_option {
+            name,
+            default_value,
+            range,
+            text,
+            value_type: value_type as i32,
+            reserved: [0; 7],
+        });
+        Ok(())
+    })
+}

@@ -1,0 +1,213 @@
+//! The numbers by which calls say how they went, and solves how they ended.
+
+use std::ffi::{CStr, c_char};
+
+use crate::{Error, SolveStatus};
+
+/// How a call went. The numbers never change; new ones may be added, so treat every number other
+/// than ROUNDEL_OK as a failure.
+#[repr(i32)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum roundel_status {
+    /// The call did what it says.
+    ROUNDEL_OK = 0,
+    /// A pointer is NULL that must not be.
+    ROUNDEL_ERROR_NULL_POINTER = 1,
+    /// A value that is not allowed in itself; the index is its position, where it has one.
+    ROUNDEL_ERROR_INVALID_ARGUMENT = 2,
+    /// A length does not fit the problem, or two arrays that belong together differ in length.
+    ROUNDEL_ERROR_LENGTH_MISMATCH = 3,
+    /// An index is negative or too large; the error's index is its position in the array.
+    ROUNDEL_ERROR_INDEX_OUT_OF_RANGE = 4,
+    /// NaN or infinity; the index is its position in the array.
+    ROUNDEL_ERROR_NOT_FINITE = 5,
+    /// A problem without variables.
+    ROUNDEL_ERROR_EMPTY = 6,
+    /// A count or a sum is beyond what can be represented.
+    ROUNDEL_ERROR_OVERFLOW = 7,
+    /// Memory for a large array could not be had.
+    ROUNDEL_ERROR_OUT_OF_MEMORY = 8,
+    /// There is no option of this name.
+    ROUNDEL_ERROR_UNKNOWN_OPTION = 20,
+    /// The option takes another type of value.
+    ROUNDEL_ERROR_OPTION_TYPE = 21,
+    /// The option does not take this value.
+    ROUNDEL_ERROR_OPTION_RANGE = 22,
+    /// Something that the library does not solve (yet); the line names it in a file.
+    ROUNDEL_ERROR_NOT_SUPPORTED = 30,
+    /// A file that does not follow its format, at the line given.
+    ROUNDEL_ERROR_PARSE = 31,
+    /// A file that cannot be read or written.
+    ROUNDEL_ERROR_IO = 32,
+    /// The constraint of this index contradicts the others.
+    ROUNDEL_ERROR_INFEASIBLE = 40,
+    /// The constraint of this index has no solution in integers.
+    ROUNDEL_ERROR_NO_INTEGER_SOLUTION = 41,
+    /// The objective falls without limit along the direction given; the index is a variable that
+    /// it moves.
+    ROUNDEL_ERROR_UNBOUNDED = 42,
+    /// The objective curves downwards along the direction given; the index is a variable that it
+    /// moves.
+    ROUNDEL_ERROR_NOT_CONVEX = 43,
+    /// Cancelled before a first solution was found.
+    ROUNDEL_ERROR_CANCELLED = 60,
+    /// The time limit passed before a first solution was found.
+    ROUNDEL_ERROR_TIME_LIMIT = 61,
+    /// A defect of the library, kept inside. The handle can only be freed from now on.
+    ROUNDEL_ERROR_PANIC = 90,
+    /// The handle was given up in an earlier ROUNDEL_ERROR_PANIC.
+    ROUNDEL_ERROR_UNUSABLE = 91,
+}
+
+/// How a solve ended that gave a solution. The numbers never change; new ones may be added.
+#[repr(i32)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum roundel_solve_status {
+    /// The energy is the least possible, and that is proved.
+    ROUNDEL_SOLVE_OPTIMAL = 1,
+    /// Every constraint and integrality holds; a better solution may exist.
+    ROUNDEL_SOLVE_FEASIBLE = 2,
+    /// As feasible, but the time limit ended the search early.
+    ROUNDEL_SOLVE_LIMIT = 3,
+    /// As feasible, but the caller ended the search early.
+    ROUNDEL_SOLVE_CANCELLED = 4,
+    /// The relaxation was asked for: integers may be fractions.
+    ROUNDEL_SOLVE_RELAXED = 5,
+    /// Reserved. A problem without a solution is an error of the solve, which names the row.
+    ROUNDEL_SOLVE_INFEASIBLE = 10,
+    /// Reserved. An unbounded problem is an error of the solve, which gives the direction.
+    ROUNDEL_SOLVE_UNBOUNDED = 11,
+}
+
+use roundel_solve_status::*;
+use roundel_status::*;
+
+const NAMES: &[(roundel_status, &CStr)] = &[
+    (ROUNDEL_OK, c"ok"),
+    (ROUNDEL_ERROR_NULL_POINTER, c"null_pointer"),
+    (ROUNDEL_ERROR_INVALID_ARGUMENT, c"invalid_argument"),
+    (ROUNDEL_ERROR_LENGTH_MISMATCH, c"length_mismatch"),
+    (ROUNDEL_ERROR_INDEX_OUT_OF_RANGE, c"index_out_of_range"),
+    (ROUNDEL_ERROR_NOT_FINITE, c"not_finite"),
+    (ROUNDEL_ERROR_EMPTY, c"empty"),
+    (ROUNDEL_ERROR_OVERFLOW, c"overflow"),
+    (ROUNDEL_ERROR_OUT_OF_MEMORY, c"out_of_memory"),
+    (ROUNDEL_ERROR_UNKNOWN_OPTION, c"unknown_option"),
+    (ROUNDEL_ERROR_OPTION_TYPE, c"option_type"),
+    (ROUNDEL_ERROR_OPTION_RANGE, c"option_range"),
+    (ROUNDEL_ERROR_NOT_SUPPORTED, c"not_supported"),
+    (ROUNDEL_ERROR_PARSE, c"parse"),
+    (ROUNDEL_ERROR_IO, c"io"),
+    (ROUNDEL_ERROR_INFEASIBLE, c"infeasible"),
+    (ROUNDEL_ERROR_NO_INTEGER_SOLUTION, c"no_integer_solution"),
+    (ROUNDEL_ERROR_UNBOUNDED, c"unbounded"),
+    (ROUNDEL_ERROR_NOT_CONVEX, c"not_convex"),
+    (ROUNDEL_ERROR_CANCELLED, c"cancelled"),
+    (ROUNDEL_ERROR_TIME_LIMIT, c"time_limit"),
+    (ROUNDEL_ERROR_PANIC, c"panic"),
+    (ROUNDEL_ERROR_UNUSABLE, c"unusable"),
+];
+
+const SOLVE_NAMES: &[(roundel_solve_status, &CStr)] = &[
+    (ROUNDEL_SOLVE_OPTIMAL, c"optimal"),
+    (ROUNDEL_SOLVE_FEASIBLE, c"feasible"),
+    (ROUNDEL_SOLVE_LIMIT, c"limit"),
+    (ROUNDEL_SOLVE_CANCELLED, c"cancelled"),
+    (ROUNDEL_SOLVE_RELAXED, c"relaxed"),
+    (ROUNDEL_SOLVE_INFEASIBLE, c"infeasible"),
+    (ROUNDEL_SOLVE_UNBOUNDED, c"unbounded"),
+];
+
+/// The word for a status, such as "index_out_of_range"; "unknown" for a number that is none.
+#[unsafe(no_mangle)]
+pub extern "C" fn roundel_status_name(status: i32) -> *const c_char {
+    let mut names = NAMES.iter();
+    let found = names.find(|(s, _)| *s as i32 == status);
+    found.map_or(c"unknown", |(_, name)| name).as_ptr()
+}
+
+/// The word for the end of a solve, such as "optimal"; "unknown" for a number that is none.
+#[unsafe(no_mangle)]
+pub extern "C" fn roundel_solve_status_name(status: i32) -> *const c_char {
+    let mut names = SOLVE_NAMES.iter();
+    let found = names.find(|(s, _)| *s as i32 == status);
+    found.map_or(c"unknown", |(_, name)| name).as_ptr()
+}
+
+impl From<&Error> for roundel_status {
+    fn from(error: &Error) -> Self {
+        match error {
+            Error::InvalidArgument { .. } => ROUNDEL_ERROR_INVALID_ARGUMENT,
+            Error::LengthMismatch { .. } => ROUNDEL_ERROR_LENGTH_MISMATCH,
+            Error::IndexOutOfRange { .. } => ROUNDEL_ERROR_INDEX_OUT_OF_RANGE,
+            Error::NotFinite { .. } => ROUNDEL_ERROR_NOT_FINITE,
+            Error::Empty => ROUNDEL_ERROR_EMPTY,
+            Error::Overflow { .. } => ROUNDEL_ERROR_OVERFLOW,
+            Error::OutOfMemory { .. } => ROUNDEL_ERROR_OUT_OF_MEMORY,
+            Error::UnknownOption { .. } => ROUNDEL_ERROR_UNKNOWN_OPTION,
+            Error::OptionType { .. } => ROUNDEL_ERROR_OPTION_TYPE,
+            Error::OptionRange { .. } => ROUNDEL_ERROR_OPTION_RANGE,
+            Error::NotSupported { .. } => ROUNDEL_ERROR_NOT_SUPPORTED,
+            Error::Parse { .. } => ROUNDEL_ERROR_PARSE,
+            Error::Io { .. } => ROUNDEL_ERROR_IO,
+            Error::Infeasible { .. } => ROUNDEL_ERROR_INFEASIBLE,
+            Error::NoIntegerSolution { .. } => ROUNDEL_ERROR_NO_INTEGER_SOLUTION,
+            Error::Unbounded { .. } => ROUNDEL_ERROR_UNBOUNDED,
+            Error::NotConvex { .. } => ROUNDEL_ERROR_NOT_CONVEX,
+            Error::Cancelled => ROUNDEL_ERROR_CANCELLED,
+            Error::TimeLimit => ROUNDEL_ERROR_TIME_LIMIT,
+        }
+    }
+}
+
+impl From<SolveStatus> for roundel_solve_status {
+    fn from(status: SolveStatus) -> Self {
+        match status {
+            SolveStatus::Optimal => ROUNDEL_SOLVE_OPTIMAL,
+            SolveStatus::Feasible => ROUNDEL_SOLVE_FEASIBLE,
+            SolveStatus::Limit => ROUNDEL_SOLVE_LIMIT,
+            SolveStatus::Cancelled => ROUNDEL_SOLVE_CANCELLED,
+            SolveStatus::Relaxed => ROUNDEL_SOLVE_RELAXED,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_word_for_a_status_is_the_rust_errors_code() {
+        let direction = vec![1.0];
+        for error in [
+            Error::Empty,
+            Error::Cancelled,
+            Error::TimeLimit,
+            Error::OutOfMemory { what: "" },
+            Error::UnknownOption { name: "".into() },
+            Error::NotConvex {
+                variable: 0,
+                direction,
+            },
+            Error::NotFinite {
+                what: "",
+                position: 0,
+            },
+            Error::Io { message: "".into() },
+            Error::LengthMismatch {
+                what: "",
+                expected: 0,
+                actual: 0,
+            },
+            Error::NoIntegerSolution {
+                constraint: 0,
+                row: "".into(),
+            },
+        ] {
+            let number = roundel_status::from(&error) as i32;
+            // SAFETY: the function gives a static text.
+            let word = unsafe { CStr::from_ptr(roundel_status_name(number)) };
+            assert_eq!(word.to_str(), Ok(error.code()));
+        }
+    }
+}

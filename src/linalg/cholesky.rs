@@ -1,0 +1,236 @@
+//! The supernodal factor of a positive semi-definite matrix, by faer.
+//!
+//! A pivot that vanishes belongs to an unknown that the earlier ones already determine, so its
+//! whole column of the Schur complement vanishes with it. Such a pivot is replaced by
+//! [`NULL_PIVOT`], which is the factor of `A + sum_j NULL_PIVOT e_j e_j'` over these *null
+//! unknowns* j. As long as a system is consistent, its solution then has exactly 0 there, and
+//! solves the original system as well: a minimiser, chosen by the order of elimination.
+//!
+//! This is L D L' and not L L' because faer 0.24 leaves the old value on the diagonal of a pivot that
+//! it replaces in the latter.
+
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::cholesky::ldlt::factor::LdltRegularization;
+use faer::sparse::linalg::SupernodalThreshold;
+use faer::sparse::linalg::cholesky::{
+    CholeskySymbolicParams, LdltRef, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
+    factorize_symbolic_cholesky, supernodal::SupernodalLdltRef,
+};
+use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
+use faer::{Conj, MatMut, Par, Side};
+
+use super::Sparse;
+use super::scaling::equilibrate;
+use crate::{Error, Result};
+
+/// A pivot of the scaled matrix (diagonal in [1/2, 2)) at or below this counts as zero.
+///
+/// Rounding leaves about 1e-15 of a pivot that cancels; the weakest honest pivots of mesh
+/// problems (the regularisation 1e-6 of seam translations) stay above 1e-7.
+pub const PIVOT_TOLERANCE: f64 = 1e-12;
+
+/// What a vanished pivot of the scaled matrix is replaced by. No honest pivot is as large.
+pub const NULL_PIVOT: f64 = 9.0;
+
+/// `A = L D L'` of the scaled and permuted matrix.
+#[derive(Debug)]
+pub struct Cholesky {
+    symbolic: SymbolicCholesky<u32>,
+    values: Vec<f64>,
+    scale: Vec<f64>,
+    null: Vec<u32>,
+}
+
+impl Cholesky {
+    /// Factors the symmetric matrix with lower triangle `lower`, every diagonal entry stored.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`], and [`Error::Overflow`] where the factor would exceed 2^32 entries.
+    pub fn new(lower: &Sparse) -> Result<Self> {
+        let n = lower.rows();
+        let scale = equilibrate(lower);
+        let col_ptr = offsets_u32(lower)?;
+        let mut scaled = super::sparse::reserve(lower.len())?;
+        for i in 0..n {
+            scaled.extend(lower.row(i).map(|(j, v)| v * scale[i] * scale[j]));
+        }
+        // Rows of the lower triangle are columns of the upper one.
+        let pattern = SymbolicSparseColMatRef::new_checked(n, n, &col_ptr, None, lower.indices());
+        let symbolic = factorize_symbolic_cholesky(
+            pattern,
+            Side::Upper,
+            SymmetricOrdering::Amd,
+            CholeskySymbolicParams {
+                supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
+                ..Default::default()
+            },
+        )
+        .map_err(|_| too_large())?;
+        let mut values = super::sparse::reserve(symbolic.len_val())?;
+        values.resize(symbolic.len_val(), 0.0);
+        let mut memory = MemBuffer::try_new(
+            symbolic.factorize_numeric_ldlt_scratch::<f64>(Par::Seq, Default::default()),
+        )
+        .map_err(|_| out_of_memory())?;
+        let signs = vec![1; n];
+        let regularization = LdltRegularization {
+            dynamic_regularization_signs: Some(&signs),
+            dynamic_regularization_delta: NULL_PIVOT,
+            dynamic_regularization_epsilon: PIVOT_TOLERANCE,
+        };
+        symbolic
+            .factorize_numeric_ldlt(
+                &mut values,
+                SparseColMatRef::new(pattern, &scaled),
+                Side::Upper,
+                regularization,
+                Par::Seq,
+                MemStack::new(&mut memory),
+                Default::default(),
+            )
+            .map_err(|_| Error::Overflow {
+                what: "the factorization of the objective overflows".into(),
+                index: None,
+            })?;
+        let null = null_unknowns(&symbolic, &values);
+        Ok(Cholesky {
+            symbolic,
+            values,
+            scale,
+            null,
+        })
+    }
+
+    /// Number of unknowns.
+    pub fn dim(&self) -> usize {
+        self.scale.len()
+    }
+
+    /// The scale of each unknown: the factor is that of the matrix with entries
+    /// `scale_i A_ij scale_j`.
+    pub fn scale(&self) -> &[f64] {
+        &self.scale
+    }
+
+    /// Unknowns whose pivot vanished, in order of elimination.
+    pub fn null_unknowns(&self) -> &[u32] {
+        &self.null
+    }
+
+    /// Solves `A x = b` in place; null unknowns get 0 where `b` is consistent.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`].
+    pub fn solve(&self, b: &mut [f64]) -> Result<()> {
+        let n = self.dim();
+        for (b, s) in b.iter_mut().zip(&self.scale) {
+            *b *= s;
+        }
+        let mut memory =
+            MemBuffer::try_new(self.symbolic.solve_in_place_scratch::<f64>(1, Par::Seq))
+                .map_err(|_| out_of_memory())?;
+        LdltRef::new(&self.symbolic, &self.values).solve_in_place_with_conj(
+            Conj::No,
+            MatMut::from_column_major_slice_mut(b, n, 1),
+            Par::Seq,
+            MemStack::new(&mut memory),
+        );
+        for (b, s) in b.iter_mut().zip(&self.scale) {
+            *b *= s;
+        }
+        Ok(())
+    }
+}
+
+/// Unknowns whose diagonal in the factor is [`NULL_PIVOT`].
+fn null_unknowns(symbolic: &SymbolicCholesky<u32>, values: &[f64]) -> Vec<u32> {
+    let mut null = Vec::new();
+    let (forward, _) = symbolic.perm().expect("AMD gives a permutation").arrays();
+    match symbolic.raw() {
+        SymbolicCholeskyRaw::Supernodal(raw) => {
+            let factor = SupernodalLdltRef::new(raw, values);
+            for s in 0..raw.n_supernodes() {
+                let block = factor.supernode(s);
+                let diagonals = 0..block.val().ncols();
+                let vanished = diagonals.filter(|&k| block.val()[(k, k)] == NULL_PIVOT);
+                null.extend(vanished.map(|k| forward[block.start() + k]));
+            }
+        }
+        // What faer chooses for a diagonal matrix.
+        SymbolicCholeskyRaw::Simplicial(raw) => {
+            let starts = raw.col_ptr()[..raw.nrows()].iter().zip(forward);
+            let vanished = starts.filter(|&(&start, _)| values[start as usize] == NULL_PIVOT);
+            null.extend(vanished.map(|(_, &i)| i));
+        }
+    }
+    null
+}
+
+fn offsets_u32(lower: &Sparse) -> Result<Vec<u32>> {
+    let convert = |&o: &usize| u32::try_from(o).map_err(|_| too_large());
+    lower.offsets().iter().map(convert).collect()
+}
+
+fn too_large() -> Error {
+    Error::Overflow {
+        what: "the factor would have more than 2^32 entries".into(),
+        index: None,
+    }
+}
+
+fn out_of_memory() -> Error {
+    Error::OutOfMemory {
+        what: "a factorization",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A ring of `n` springs with stiffness `k`, and a spring of 1 to the ground at unknown 0 if
+    /// `grounded`.
+    fn ring(n: u32, k: f64, grounded: bool) -> Sparse {
+        let springs = (0..n).flat_map(move |i| {
+            let j = (i + 1) % n;
+            [(i, i, k), (j, j, k), (i.max(j), i.min(j), -k)]
+        });
+        let ground = grounded.then_some((0, 0, 1.0));
+        let n = n as usize;
+        Sparse::from_triplets(n, n, springs.chain(ground)).unwrap()
+    }
+
+    #[test]
+    fn a_definite_system_is_solved() {
+        for k in [1.0, 3e9, 1e-9] {
+            let a = ring(50, k, true);
+            let x: Vec<f64> = (0..50).map(|i| f64::from(i).sin()).collect();
+            let mut b = a.mul_symmetric(&x);
+            let factor = Cholesky::new(&a).unwrap();
+            assert!(factor.null_unknowns().is_empty());
+            factor.solve(&mut b).unwrap();
+            let error = b
+                .iter()
+                .zip(&x)
+                .map(|(b, x)| (b - x).abs())
+                .fold(0.0, f64::max);
+            assert!(error < 1e-12 * (k + 1.0 / k) * 50.0, "{k}: {error}");
+        }
+    }
+
+    #[test]
+    fn a_free_ring_has_one_null_unknown_that_stays_at_zero() {
+        let a = ring(50, 2.0, false);
+        let factor = Cholesky::new(&a).unwrap();
+        let &[null] = factor.null_unknowns() else {
+            panic!("{:?}", factor.null_unknowns());
+        };
+        let x: Vec<f64> = (0..50).map(|i| f64::from(i).cos()).collect();
+        let mut b = a.mul_symmetric(&x);
+        factor.solve(&mut b).unwrap();
+        let shift = x[null as usize];
+        for (b, x) in b.iter().zip(&x) {
+            assert!((b - (x - shift)).abs() < 1e-12);
+        }
+    }
+}

@@ -1,0 +1,191 @@
+//! A simplicial `A = L D L'` of a positive semi-definite matrix, kept open for changes.
+//!
+//! Up-looking, row by row along the elimination tree (Davis 2006, "Direct Methods for Sparse
+//! Linear Systems", section 4.7). faer has this factorization too, but its values cannot be
+//! changed in place afterwards, and a vanished pivot must stay zero here: see [`super::fix`].
+
+use super::cholesky::PIVOT_TOLERANCE;
+use super::ordering::{EliminationTree, NONE};
+use super::scaling::equilibrate;
+use super::{Sparse, sparse::reserve};
+use crate::Result;
+
+/// `P S A S P' = L D L'` with S a diagonal scaling and P an order of elimination.
+///
+/// Everything inside is in scaled unknowns at their positions: unknown `i` stands at
+/// `tree.position[i]` and has the value `x_i / scale_i`. A pivot of zero marks an unknown that the
+/// others determine; its column is zero, and so is its part of every solution.
+#[derive(Debug, Clone)]
+pub struct Ldl {
+    pub(super) tree: EliminationTree,
+    pub(super) scale: Vec<f64>,
+    /// Column `j` of L below the diagonal: `offsets[j]..ends[j]`, rows increasing.
+    pub(super) offsets: Vec<usize>,
+    pub(super) ends: Vec<usize>,
+    pub(super) indices: Vec<u32>,
+    pub(super) values: Vec<f64>,
+    pub(super) pivots: Vec<f64>,
+}
+
+impl Ldl {
+    /// Factors the symmetric matrix with lower triangle `lower`, eliminating in `order`.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+    pub fn new(lower: &Sparse, order: &[u32]) -> Result<Self> {
+        let tree = EliminationTree::new(lower, order);
+        let scale = equilibrate(lower);
+        let rows = permuted_rows(lower, &tree, &scale)?;
+        let (offsets, total) = column_offsets(&rows, &tree);
+        let mut indices = reserve(total)?;
+        indices.resize(total, 0);
+        let mut values = reserve(total)?;
+        values.resize(total, 0.0);
+        let n = order.len();
+        let mut ldl = Ldl {
+            ends: offsets[..n].to_vec(),
+            tree,
+            scale,
+            offsets,
+            indices,
+            values,
+            pivots: vec![0.0; n],
+        };
+        ldl.factor(&rows);
+        Ok(ldl)
+    }
+
+    fn factor(&mut self, rows: &Sparse) {
+        let n = rows.rows();
+        let mut row = vec![0.0; n];
+        let mut seen = vec![NONE; n];
+        let mut reach = Vec::new();
+        for k in 0..n {
+            let mut pivot = 0.0;
+            for (j, v) in rows.row(k) {
+                if j == k {
+                    pivot = v;
+                } else {
+                    row[j] = v;
+                }
+            }
+            row_reach(rows, &self.tree.parent, k, &mut seen, &mut reach);
+            for &j in &reach {
+                let j = j as usize;
+                let v = std::mem::take(&mut row[j]);
+                let d = self.pivots[j];
+                let entry = if d == 0.0 { 0.0 } else { v / d };
+                if entry != 0.0 {
+                    for p in self.offsets[j]..self.ends[j] {
+                        row[self.indices[p] as usize] -= self.values[p] * v;
+                    }
+                    pivot -= entry * v;
+                }
+                self.indices[self.ends[j]] = k as u32;
+                self.values[self.ends[j]] = entry;
+                self.ends[j] += 1;
+            }
+            self.pivots[k] = if pivot <= PIVOT_TOLERANCE { 0.0 } else { pivot };
+        }
+    }
+
+    /// Number of unknowns.
+    pub fn dim(&self) -> usize {
+        self.pivots.len()
+    }
+
+    /// The order of elimination and its tree.
+    pub fn tree(&self) -> &EliminationTree {
+        &self.tree
+    }
+
+    /// The value of a scaled unknown is its value times this, by unknown.
+    pub fn scale(&self) -> &[f64] {
+        &self.scale
+    }
+
+    /// Number of entries of L below the diagonal.
+    pub fn len(&self) -> usize {
+        self.values.len()
+    }
+
+    /// Whether L has no entry below the diagonal.
+    pub fn is_empty(&self) -> bool {
+        self.values.is_empty()
+    }
+}
+
+/// The scaled matrix in positions: row `k` has its entries at or before `k`.
+fn permuted_rows(lower: &Sparse, tree: &EliminationTree, scale: &[f64]) -> Result<Sparse> {
+    let n = lower.rows();
+    let entries = lower.entries().map(|(i, j, v)| {
+        let v = v * scale[i as usize] * scale[j as usize];
+        let (a, b) = (tree.position[i as usize], tree.position[j as usize]);
+        (a.max(b), a.min(b), v)
+    });
+    Sparse::from_triplets(n, n, entries)
+}
+
+/// The columns in which row `k` of L has an entry, in topological order: increasing, since
+/// positions are post-ordered.
+fn row_reach(rows: &Sparse, parent: &[u32], k: usize, seen: &mut [u32], reach: &mut Vec<u32>) {
+    reach.clear();
+    seen[k] = k as u32;
+    for (j, _) in rows.row(k) {
+        let mut j = j as u32;
+        while seen[j as usize] != k as u32 {
+            seen[j as usize] = k as u32;
+            reach.push(j);
+            j = parent[j as usize];
+        }
+    }
+    reach.sort_unstable();
+}
+
+fn column_offsets(rows: &Sparse, tree: &EliminationTree) -> (Vec<usize>, usize) {
+    let n = rows.rows();
+    let mut counts = vec![0usize; n + 1];
+    let mut seen = vec![NONE; n];
+    let mut reach = Vec::new();
+    for k in 0..n {
+        row_reach(rows, &tree.parent, k, &mut seen, &mut reach);
+        for &j in &reach {
+            counts[j as usize + 1] += 1;
+        }
+    }
+    for j in 0..n {
+        counts[j + 1] += counts[j];
+    }
+    let total = counts[n];
+    (counts, total)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::minimum_degree;
+    use super::*;
+
+    #[test]
+    fn the_factor_multiplies_back_to_the_matrix() {
+        let n = 30u32;
+        let off = (1..n).flat_map(|i| [(i, i - 1, -1.0), (i, (i * 5) % i, -0.5)]);
+        let diagonal = (0..n).map(|i| (i, i, 8.0 * f64::from(i + 1)));
+        let a = Sparse::from_triplets(30, 30, off.chain(diagonal)).unwrap();
+        let ldl = Ldl::new(&a, &minimum_degree(&a).unwrap()).unwrap();
+        let n = n as usize;
+        let mut l = vec![vec![0.0; n]; n];
+        for j in 0..n {
+            l[j][j] = 1.0;
+            for p in ldl.offsets[j]..ldl.ends[j] {
+                l[ldl.indices[p] as usize][j] = ldl.values[p];
+            }
+        }
+        for i in 0..n {
+            for (j, v) in a.row(i) {
+                let (r, c) = (ldl.tree.position[i] as usize, ldl.tree.position[j] as usize);
+                let product: f64 = (0..n).map(|k| l[r][k] * ldl.pivots[k] * l[c][k]).sum();
+                assert!((product - v * ldl.scale[i] * ldl.scale[j]).abs() < 1e-13);
+            }
+        }
+    }
+}

@@ -1,0 +1,221 @@
+//! A minimiser of a convex quadratic, or the direction that shows that there is none.
+
+use super::{Cholesky, Sparse};
+use crate::Result;
+
+/// Curvature along a direction (scaled to a largest entry of one, in the scaled unknowns) below
+/// minus this proves that the quadratic is not convex.
+pub const CURVATURE_TOLERANCE: f64 = 1e-9;
+
+/// A slope along a direction without curvature counts as zero up to this, relative to the sum of
+/// the absolute values of its terms.
+pub const SLOPE_TOLERANCE: f64 = 1e-9;
+
+/// How many vanished pivots are examined for a bad direction, the most suspicious first.
+const EXAMINED: usize = 16;
+
+/// What minimisation of a quadratic ends in.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Minimum {
+    /// A minimiser. Unknowns that the objective does not decide stay at the guess.
+    At {
+        /// The point.
+        point: Vec<f64>,
+        /// At most this far (an estimate of `r' A^-1 r / 2` for the residual r) above the minimum.
+        excess: f64,
+    },
+    /// The quadratic falls without limit along this direction.
+    Unbounded(Vec<f64>),
+    /// The quadratic curves downwards along this direction.
+    NotConvex(Vec<f64>),
+}
+
+/// Minimises `1/2 x'Ax + g'x` for the `A` with lower triangle `lower`, which `factor` belongs to.
+///
+/// # Errors
+/// Only for lack of memory: everything else is a [`Minimum`].
+pub fn minimise(
+    lower: &Sparse,
+    gradient: &[f64],
+    guess: &[f64],
+    factor: &Cholesky,
+) -> Result<Minimum> {
+    let mut point = guess.to_vec();
+    let mut step = residual(lower, gradient, &point);
+    factor.solve(&mut step)?;
+    if !factor.null_unknowns().is_empty() {
+        if let Some(direction) = downward_curvature(lower, factor)? {
+            return Ok(Minimum::NotConvex(direction));
+        }
+        if let Some(direction) = endless_slope(gradient, &step, factor)? {
+            return Ok(Minimum::Unbounded(direction));
+        }
+    }
+    for (x, s) in point.iter_mut().zip(&step) {
+        *x += s;
+    }
+    // One step of refinement gains the digits that an ill-conditioned factor loses.
+    let r = residual(lower, gradient, &point);
+    let mut step = r.clone();
+    factor.solve(&mut step)?;
+    let excess = 0.5 * r.iter().zip(&step).map(|(r, s)| r * s).sum::<f64>().abs();
+    for (x, s) in point.iter_mut().zip(&step) {
+        *x += s;
+    }
+    Ok(Minimum::At { point, excess })
+}
+
+/// Minus the gradient at `x`.
+fn residual(lower: &Sparse, gradient: &[f64], x: &[f64]) -> Vec<f64> {
+    let mut r = lower.mul_symmetric(x);
+    for (r, g) in r.iter_mut().zip(gradient) {
+        *r = -(*r + g);
+    }
+    r
+}
+
+/// The column of the inverse that belongs to null unknown `j`: where `A` is singular, a direction
+/// without curvature.
+fn null_direction(factor: &Cholesky, j: u32) -> Result<Vec<f64>> {
+    let mut v = vec![0.0; factor.dim()];
+    v[j as usize] = 1.0;
+    factor.solve(&mut v)?;
+    Ok(v)
+}
+
+/// A direction of negative curvature, if some pivot that counted as zero was in truth negative.
+///
+/// With negative pivots `p_j` the factor belongs to `A + sum_j (NULL_PIVOT - p_j) e_j e_j'`, so
+/// one solve with a random right side shows all `p_j` at once as residuals.
+fn downward_curvature(lower: &Sparse, factor: &Cholesky) -> Result<Option<Vec<f64>>> {
+    let scale = factor.scale();
+    let b: Vec<f64> = (0..factor.dim())
+        .map(|i| pseudo_random(i) / scale[i])
+        .collect();
+    let mut s = b.clone();
+    factor.solve(&mut s)?;
+    let product = lower.mul_symmetric(&s);
+    let mut suspects: Vec<(f64, u32)> = factor
+        .null_unknowns()
+        .iter()
+        .filter_map(|&j| {
+            let i = j as usize;
+            let (s, r) = (s[i] / scale[i], (b[i] - product[i]) * scale[i]);
+            let pivot = super::cholesky::NULL_PIVOT - r / s;
+            (pivot < -CURVATURE_TOLERANCE).then_some((pivot, j))
+        })
+        .collect();
+    suspects.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    for (_, j) in suspects.into_iter().take(EXAMINED) {
+        let v = null_direction(factor, j)?;
+        let curvature: f64 = v
+            .iter()
+            .zip(lower.mul_symmetric(&v))
+            .map(|(v, av)| v * av)
+            .sum();
+        let largest = v
+            .iter()
+            .zip(scale)
+            .map(|(v, s)| (v / s).abs())
+            .fold(0.0, f64::max);
+        if curvature < -CURVATURE_TOLERANCE * largest * largest {
+            return Ok(Some(v));
+        }
+    }
+    Ok(None)
+}
+
+/// A direction without curvature along which the objective falls, if there is one: then some null
+/// unknown was moved by the first step.
+fn endless_slope(gradient: &[f64], step: &[f64], factor: &Cholesky) -> Result<Option<Vec<f64>>> {
+    let scale = factor.scale();
+    let pull = |j: u32| (step[j as usize] / scale[j as usize]).abs();
+    let mut suspects: Vec<u32> = factor.null_unknowns().to_vec();
+    suspects.retain(|&j| pull(j) > 0.0);
+    suspects.sort_by(|&a, &b| pull(b).total_cmp(&pull(a)).then(a.cmp(&b)));
+    for j in suspects.into_iter().take(EXAMINED) {
+        let mut v = null_direction(factor, j)?;
+        let terms = || v.iter().zip(gradient).map(|(v, g)| v * g);
+        let slope: f64 = terms().sum();
+        let size: f64 = terms().map(f64::abs).sum();
+        if slope.abs() > SLOPE_TOLERANCE * size {
+            if slope > 0.0 {
+                v.iter_mut().for_each(|v| *v = -*v);
+            }
+            return Ok(Some(v));
+        }
+    }
+    Ok(None)
+}
+
+/// A fixed sequence in [1/2, 1) with random signs (Weyl's golden-ratio sequence).
+fn pseudo_random(i: usize) -> f64 {
+    let bits = (i as u64 + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15);
+    let size = 0.5 + (bits >> 12) as f64 / (1u64 << 53) as f64;
+    if bits.count_ones() % 2 == 0 {
+        size
+    } else {
+        -size
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn solve(lower: &[(u32, u32, f64)], gradient: &[f64], guess: &[f64]) -> Minimum {
+        let n = gradient.len();
+        let a = Sparse::from_triplets(n, n, lower.iter().copied()).unwrap();
+        let factor = Cholesky::new(&a).unwrap();
+        minimise(&a, gradient, guess, &factor).unwrap()
+    }
+
+    #[test]
+    fn unknowns_that_do_not_matter_stay_at_the_guess() {
+        // (x0 - x1 - 1)^2: only the difference is decided; x2 not at all.
+        let a = [(0, 0, 2.0), (1, 0, -2.0), (1, 1, 2.0), (2, 2, 0.0)];
+        let Minimum::At { point, .. } = solve(&a, &[-2.0, 2.0, 0.0], &[5.0, 5.0, 7.0]) else {
+            panic!()
+        };
+        assert!((point[0] - point[1] - 1.0).abs() < 1e-12);
+        assert!(point[0] == 5.0 || point[1] == 5.0);
+        assert_eq!(point[2], 7.0);
+    }
+
+    #[test]
+    fn a_slope_without_curvature_is_unbounded() {
+        let a = [(0, 0, 2.0), (1, 0, -2.0), (1, 1, 2.0)];
+        let Minimum::Unbounded(v) = solve(&a, &[-2.0, 1.0], &[0.0, 0.0]) else {
+            panic!()
+        };
+        assert!((v[0] - v[1]).abs() < 1e-12, "no curvature");
+        assert!(-2.0 * v[0] + v[1] < 0.0, "downhill");
+    }
+
+    #[test]
+    fn negative_curvature_is_found_wherever_it_hides() {
+        for a in [
+            vec![(0, 0, -1.0), (1, 1, 1.0)],
+            vec![(0, 0, 1.0), (1, 0, 2.0), (1, 1, 1.0)],
+            vec![(0, 0, 0.0), (1, 0, 1.0), (1, 1, 0.0)],
+        ] {
+            let Minimum::NotConvex(v) = solve(&a, &[0.0, 0.0], &[0.0, 0.0]) else {
+                panic!("{a:?}")
+            };
+            let m = Sparse::from_triplets(2, 2, a.iter().copied()).unwrap();
+            let curvature: f64 = v.iter().zip(m.mul_symmetric(&v)).map(|(v, w)| v * w).sum();
+            assert!(curvature < 0.0, "{a:?}: {v:?}");
+        }
+    }
+
+    #[test]
+    fn a_scale_of_1e8_between_unknowns_is_no_semi_definiteness() {
+        let a = [(0, 0, 1e8), (1, 0, 0.5), (1, 1, 1e-8)];
+        let Minimum::At { point, .. } = solve(&a, &[1.0, 0.0], &[0.0, 0.0]) else {
+            panic!()
+        };
+        // Exact: determinant 1 - 0.25.
+        assert!((point[0] + 1e-8 / 0.75).abs() < 1e-20);
+        assert!((point[1] - 0.5 / 0.75).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,180 @@
+//! The order of elimination, and the tree that it makes.
+//!
+//! Minimum degree (Amestoy, Davis, Duff 1996) by faer; the elimination tree by Liu 1990,
+//! section 4; a post-order, so that every subtree is a contiguous range of positions. faer does
+//! not post-order what it is given, and its trees cannot be walked from outside.
+
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::sparse::SymbolicSparseColMatRef;
+use faer::sparse::linalg::amd;
+
+use super::Sparse;
+use crate::{Error, Result};
+
+/// No parent: a root.
+pub const NONE: u32 = u32::MAX;
+
+/// A fill-reducing order: entry k is the unknown that is eliminated k-th.
+///
+/// # Errors
+/// [`Error::OutOfMemory`].
+pub fn minimum_degree(lower: &Sparse) -> Result<Vec<u32>> {
+    let n = lower.rows();
+    let memory_error = || Error::OutOfMemory {
+        what: "an ordering",
+    };
+    let offsets: Vec<u32> = lower.offsets().iter().map(|&o| o as u32).collect();
+    if lower.len() > u32::MAX as usize / 4 {
+        return Err(memory_error());
+    }
+    let pattern = SymbolicSparseColMatRef::new_checked(n, n, &offsets, None, lower.indices());
+    let (mut order, mut inverse) = (vec![0u32; n], vec![0u32; n]);
+    let mut memory = MemBuffer::try_new(amd::order_scratch::<u32>(n, lower.len()))
+        .map_err(|_| memory_error())?;
+    let stack = MemStack::new(&mut memory);
+    amd::order(
+        &mut order,
+        &mut inverse,
+        pattern,
+        amd::Control::default(),
+        stack,
+    )
+    .map_err(|_| memory_error())?;
+    Ok(order)
+}
+
+/// The elimination tree of a permuted matrix, post-ordered.
+#[derive(Debug, Clone)]
+pub struct EliminationTree {
+    /// Unknown at each position.
+    pub order: Vec<u32>,
+    /// Position of each unknown.
+    pub position: Vec<u32>,
+    /// Parent position of each position, or [`NONE`].
+    pub parent: Vec<u32>,
+    /// The lowest position in the subtree of each position: the subtree is `first[j]..=j`.
+    pub first: Vec<u32>,
+}
+
+impl EliminationTree {
+    /// The tree of the matrix with lower triangle `lower`, eliminated in `order` up to a
+    /// post-order of its tree, which changes neither fill nor work.
+    pub fn new(lower: &Sparse, order: &[u32]) -> Self {
+        let position = inverse(order);
+        let permuted = permute_pattern(lower, &position);
+        let parent = parents(&permuted);
+        let post = post_order(&parent);
+        let place = inverse(&post);
+        let parent: Vec<u32> = post
+            .iter()
+            .map(|&j| match parent[j as usize] {
+                NONE => NONE,
+                p => place[p as usize],
+            })
+            .collect();
+        let order: Vec<u32> = post.iter().map(|&j| order[j as usize]).collect();
+        let mut first: Vec<u32> = (0..order.len() as u32).collect();
+        for j in 0..order.len() {
+            if parent[j] != NONE {
+                let p = parent[j] as usize;
+                first[p] = first[p].min(first[j]);
+            }
+        }
+        EliminationTree {
+            position: inverse(&order),
+            order,
+            parent,
+            first,
+        }
+    }
+}
+
+fn inverse(order: &[u32]) -> Vec<u32> {
+    let mut position = vec![0; order.len()];
+    for (k, &i) in order.iter().enumerate() {
+        position[i as usize] = k as u32;
+    }
+    position
+}
+
+/// For each position, the lower positions that it shares an entry with.
+fn permute_pattern(lower: &Sparse, position: &[u32]) -> Vec<Vec<u32>> {
+    let mut rows: Vec<Vec<u32>> = vec![Vec::new(); position.len()];
+    for (i, j, _) in lower.entries() {
+        let (a, b) = (position[i as usize], position[j as usize]);
+        if a != b {
+            rows[a.max(b) as usize].push(a.min(b));
+        }
+    }
+    rows
+}
+
+/// Liu 1990, algorithm 4.2: path compression through virtual ancestors.
+fn parents(rows: &[Vec<u32>]) -> Vec<u32> {
+    let mut parent = vec![NONE; rows.len()];
+    let mut ancestor = vec![NONE; rows.len()];
+    for (i, row) in rows.iter().enumerate() {
+        for &j in row {
+            let mut j = j as usize;
+            while ancestor[j] != NONE && ancestor[j] != i as u32 {
+                let next = ancestor[j] as usize;
+                ancestor[j] = i as u32;
+                j = next;
+            }
+            if ancestor[j] == NONE {
+                ancestor[j] = i as u32;
+                parent[j] = i as u32;
+            }
+        }
+    }
+    parent
+}
+
+fn post_order(parent: &[u32]) -> Vec<u32> {
+    let n = parent.len();
+    let (mut child, mut sibling) = (vec![NONE; n], vec![NONE; n]);
+    for j in (0..n).rev() {
+        if parent[j] != NONE {
+            let p = parent[j] as usize;
+            sibling[j] = child[p];
+            child[p] = j as u32;
+        }
+    }
+    let mut post = Vec::with_capacity(n);
+    let mut stack = Vec::new();
+    for root in (0..n).filter(|&j| parent[j] == NONE) {
+        stack.push(root as u32);
+        while let Some(&j) = stack.last() {
+            let c = child[j as usize];
+            if c == NONE {
+                post.push(j);
+                stack.pop();
+            } else {
+                child[j as usize] = sibling[c as usize];
+                stack.push(c);
+            }
+        }
+    }
+    post
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn subtrees_are_ranges_that_end_at_their_root() {
+        let n = 40u32;
+        let edges = (1..n).map(|i| (i, (i * 7 + 3) % i, 1.0));
+        let diagonal = (0..n).map(|i| (i, i, 4.0));
+        let a = Sparse::from_triplets(40, 40, edges.chain(diagonal)).unwrap();
+        let tree = EliminationTree::new(&a, &minimum_degree(&a).unwrap());
+        for j in 0..40 {
+            assert_eq!(tree.order[tree.position[j] as usize] as usize, j);
+            if tree.parent[j] != NONE {
+                let p = tree.parent[j] as usize;
+                assert!(p > j && tree.first[p] <= tree.first[j]);
+            }
+        }
+    }
+}

@@ -1,0 +1,31 @@
+//! Symmetric scaling to a diagonal near one, so that one tolerance fits all pivots.
+
+use super::Sparse;
+
+/// Powers of two `s` with `s_i^2 A_ii` in [1/2, 2), and 1 where the diagonal is not positive.
+///
+/// Powers of two scale without rounding, so that pivots which cancel exactly still do.
+pub fn equilibrate(lower: &Sparse) -> Vec<f64> {
+    (0..lower.rows())
+        .map(|i| match lower.row(i).last() {
+            Some((j, d)) if j == i && d > 0.0 => (-0.5 * d.log2()).round().exp2(),
+            _ => 1.0,
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn diagonals_of_any_size_come_near_one() {
+        let entries = [(0, 0, 1e-30), (1, 0, 7.0), (1, 1, 3e20), (2, 0, 1.0)];
+        let a = Sparse::from_triplets(3, 3, entries.into_iter()).unwrap();
+        let s = equilibrate(&a);
+        for (s, d) in s.iter().zip([1e-30, 3e20]) {
+            assert!((0.5..2.0).contains(&(s * s * d)));
+        }
+        assert_eq!(s[2], 1.0);
+    }
+}

@@ -1,0 +1,67 @@
+//! What can be said of vertices and faces before anything is known of their neighbours.
+//!
+//! Order of the checks of a mesh, each over all elements before the next: size, faces at all,
+//! coordinates, vertex numbers, repeated vertices, areas (this file); edges with more than two
+//! faces, orientation ([`super::connectivity`]); isolated vertices, fans of faces
+//! ([`super::rings`]). Within a check the lowest element is named. Areas come before edges
+//! because a sliver that collapsed is the cause, and the edge it spoils the consequence.
+
+use super::MeshError;
+use super::vector::{Vec3, cross, dot, sub};
+
+/// A face counts as without area when twice its area is at most this part of its longest edge
+/// squared.
+///
+/// Rounding of the coordinates alone leaves a collinear triangle about 1e-16 of it. Needles
+/// above are kept: they are valid, and their angles are still right to a few digits.
+pub const ZERO_AREA_TOLERANCE: f64 = 1e-14;
+
+/// Checks sizes, coordinates and faces one by one.
+pub(super) fn check(vertices: &[Vec3], triangles: &[[u32; 3]]) -> Result<(), MeshError> {
+    if vertices.len() >= u32::MAX as usize || triangles.len() >= u32::MAX as usize / 3 {
+        return Err(MeshError::TooLarge {
+            vertices: vertices.len(),
+            faces: triangles.len(),
+        });
+    }
+    if triangles.is_empty() {
+        return Err(MeshError::NoFaces);
+    }
+    let infinite = |p: &Vec3| p.iter().any(|x| !x.is_finite());
+    if let Some(vertex) = vertices.iter().position(infinite) {
+        return Err(MeshError::NotFinite { vertex });
+    }
+    for (face, corners) in triangles.iter().enumerate() {
+        if let Some(&vertex) = corners.iter().find(|&&v| v as usize >= vertices.len()) {
+            return Err(MeshError::IndexOutOfRange {
+                face,
+                vertex: vertex.into(),
+                vertices: vertices.len(),
+            });
+        }
+    }
+    for (face, &[a, b, c]) in triangles.iter().enumerate() {
+        if a == b || b == c || c == a {
+            let vertex = if b == c { b } else { a } as usize;
+            return Err(MeshError::RepeatedVertex { face, vertex });
+        }
+    }
+    let flat = |&corners: &[u32; 3]| has_no_area(corners.map(|v| vertices[v as usize]));
+    match triangles.iter().position(flat) {
+        Some(face) => Err(MeshError::ZeroArea { face }),
+        None => Ok(()),
+    }
+}
+
+fn has_no_area([a, b, c]: [Vec3; 3]) -> bool {
+    let edges = [sub(b, a), sub(c, b), sub(a, c)];
+    let largest = edges.iter().flatten().fold(0.0, |m: f64, x| m.max(x.abs()));
+    if largest == 0.0 || !largest.is_finite() {
+        return true;
+    }
+    // Scaled first, so that neither tiny nor huge coordinates leave the range of the squares.
+    let [u, v, w] = edges.map(|e| e.map(|x| x / largest));
+    let normal = cross(u, v);
+    let longest = dot(u, u).max(dot(v, v)).max(dot(w, w));
+    dot(normal, normal).sqrt() <= ZERO_AREA_TOLERANCE * longest
+}

@@ -1,0 +1,59 @@
+//! The corners around every vertex, in counter-clockwise order.
+//!
+//! Corner k of face f and half-edge 3 f + k, which leaves that corner, share a number. Around a
+//! vertex the corner after (f, k) is where the half-edge that enters it, (f, k + 2), has its
+//! opposite.
+
+use super::MeshError;
+use super::connectivity::NONE;
+
+/// Corners by vertex: those of `v` are `corner[start[v]..start[v + 1]]`.
+pub(super) struct Rings {
+    pub(super) start: Vec<u32>,
+    pub(super) corner: Vec<u32>,
+}
+
+/// Walks around every vertex; fails at an isolated vertex, then at one with several fans.
+///
+/// The fan of a boundary vertex starts at the corner whose half-edge lies on the boundary, the
+/// ring of an interior vertex at its corner in the lowest face.
+pub(super) fn rings(
+    vertex_count: usize,
+    triangles: &[[u32; 3]],
+    twin: &[u32],
+) -> Result<Rings, MeshError> {
+    let mut start = vec![0u32; vertex_count + 1];
+    let mut first = vec![NONE; vertex_count];
+    for (h, &v) in triangles.as_flattened().iter().enumerate().rev() {
+        start[v as usize + 1] += 1;
+        let lies_on_boundary = twin[h] == NONE;
+        let keep = &mut first[v as usize];
+        if lies_on_boundary || *keep == NONE || twin[*keep as usize] != NONE {
+            *keep = h as u32;
+        }
+    }
+    if let Some(vertex) = first.iter().position(|&h| h == NONE) {
+        return Err(MeshError::IsolatedVertex { vertex });
+    }
+    for v in 0..vertex_count {
+        start[v + 1] += start[v];
+    }
+    let mut corner = vec![NONE; twin.len()];
+    for vertex in 0..vertex_count {
+        let ring = &mut corner[start[vertex] as usize..start[vertex + 1] as usize];
+        let mut h = first[vertex];
+        for (i, slot) in ring.iter_mut().enumerate() {
+            if h == NONE || (i > 0 && h == first[vertex]) {
+                return Err(MeshError::NonManifoldVertex { vertex });
+            }
+            *slot = h;
+            h = twin[previous(h) as usize];
+        }
+    }
+    Ok(Rings { start, corner })
+}
+
+/// The half-edge before `h` in its face.
+fn previous(h: u32) -> u32 {
+    if h.is_multiple_of(3) { h + 2 } else { h - 1 }
+}

@@ -1,0 +1,162 @@
+//! The mesh itself: vertices, faces, and who is next to whom.
+
+use super::connectivity::{Connectivity, NONE, connect};
+use super::rings::{Rings, rings};
+use super::vector::Vec3;
+use super::{MeshError, check};
+
+/// An oriented triangle mesh, with or without boundary, that is known to be a 2-manifold.
+#[derive(Clone)]
+pub struct TriangleMesh {
+    vertices: Vec<Vec3>,
+    triangles: Vec<[u32; 3]>,
+    pub(super) twin: Vec<u32>,
+    edge_half: Vec<u32>,
+    half_edge: Vec<u32>,
+    ring_start: Vec<u32>,
+    ring: Vec<u32>,
+}
+
+/// An undirected edge.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Edge {
+    /// The end points, in the direction of the first side.
+    pub vertices: [usize; 2],
+    /// The side in the lower face: (face, local edge).
+    pub first: (usize, usize),
+    /// The side in the other face; none at the boundary.
+    pub second: Option<(usize, usize)>,
+}
+
+impl TriangleMesh {
+    /// The mesh of these vertices and faces (corners counter-clockwise seen from outside).
+    ///
+    /// # Errors
+    ///
+    /// Checked in this order, each over the whole mesh, the lowest element named: too large, no
+    /// faces, coordinates not finite, vertex numbers out of range, a vertex twice in a face,
+    /// faces without area ([`ZERO_AREA_TOLERANCE`](super::ZERO_AREA_TOLERANCE)), edges with more
+    /// than two faces, inconsistent orientation, isolated vertices, vertices whose faces form
+    /// more than one fan.
+    pub fn new(vertices: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> Result<TriangleMesh, MeshError> {
+        check::check(&vertices, &triangles)?;
+        let Connectivity {
+            twin,
+            edge_half,
+            half_edge,
+        } = connect(vertices.len(), &triangles)?;
+        let Rings { start, corner } = rings(vertices.len(), &triangles, &twin)?;
+        Ok(TriangleMesh {
+            vertices,
+            triangles,
+            twin,
+            edge_half,
+            half_edge,
+            ring_start: start,
+            ring: corner,
+        })
+    }
+
+    /// Number of vertices.
+    pub fn vertex_count(&self) -> usize {
+        self.vertices.len()
+    }
+
+    /// Number of faces.
+    pub fn face_count(&self) -> usize {
+        self.triangles.len()
+    }
+
+    /// Number of undirected edges.
+    pub fn edge_count(&self) -> usize {
+        self.edge_half.len()
+    }
+
+    /// Positions of all vertices.
+    pub fn vertices(&self) -> &[Vec3] {
+        &self.vertices
+    }
+
+    /// Corners of all faces.
+    pub fn triangles(&self) -> &[[u32; 3]] {
+        &self.triangles
+    }
+
+    /// Position of a vertex.
+    pub fn position(&self, vertex: usize) -> Vec3 {
+        self.vertices[vertex]
+    }
+
+    /// Corners of a face.
+    pub fn corners(&self, face: usize) -> [usize; 3] {
+        self.triangles[face].map(|v| v as usize)
+    }
+
+    /// Positions of the corners of a face.
+    pub fn corner_positions(&self, face: usize) -> [Vec3; 3] {
+        self.triangles[face].map(|v| self.vertices[v as usize])
+    }
+
+    /// What lies across local edge `k` of a face: (face, local edge), or none at the boundary.
+    pub fn neighbor(&self, face: usize, k: usize) -> Option<(usize, usize)> {
+        debug_assert!(k < 3, "a face has three edges");
+        side(self.twin[3 * face + k])
+    }
+
+    /// All edges, in increasing order of (lower face, local edge there).
+    pub fn edges(&self) -> impl ExactSizeIterator<Item = Edge> + '_ {
+        (0..self.edge_count()).map(|e| self.edge(e))
+    }
+
+    /// Edge number `edge` of [`edges`](Self::edges).
+    pub fn edge(&self, edge: usize) -> Edge {
+        let half = self.edge_half[edge];
+        let (face, k) = (half as usize / 3, half as usize % 3);
+        let corners = self.corners(face);
+        Edge {
+            vertices: [corners[k], corners[(k + 1) % 3]],
+            first: (face, k),
+            second: side(self.twin[half as usize]),
+        }
+    }
+
+    /// The number in [`edges`](Self::edges) of local edge `k` of a face.
+    pub fn edge_of(&self, face: usize, k: usize) -> usize {
+        debug_assert!(k < 3, "a face has three edges");
+        self.half_edge[3 * face + k] as usize
+    }
+
+    /// The corners (face, corner) around a vertex, counter-clockwise.
+    ///
+    /// At a boundary vertex from the corner whose edge (corner to next corner) lies on the
+    /// boundary to the one whose previous edge does; else from the corner in the lowest face.
+    pub fn ring(&self, vertex: usize) -> impl ExactSizeIterator<Item = (usize, usize)> + '_ {
+        let range = self.ring_start[vertex] as usize..self.ring_start[vertex + 1] as usize;
+        self.ring[range]
+            .iter()
+            .map(|&h| (h as usize / 3, h as usize % 3))
+    }
+
+    /// Number of faces around a vertex.
+    pub fn face_degree(&self, vertex: usize) -> usize {
+        (self.ring_start[vertex + 1] - self.ring_start[vertex]) as usize
+    }
+
+    /// Whether a vertex lies on the boundary.
+    pub fn is_boundary_vertex(&self, vertex: usize) -> bool {
+        self.twin[self.ring[self.ring_start[vertex] as usize] as usize] == NONE
+    }
+}
+
+impl std::fmt::Debug for TriangleMesh {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("TriangleMesh")
+            .field("vertices", &self.vertex_count())
+            .field("faces", &self.face_count())
+            .finish_non_exhaustive()
+    }
+}
+
+fn side(half: u32) -> Option<(usize, usize)> {
+    (half != NONE).then_some((half as usize / 3, half as usize % 3))
+}

@@ -1,0 +1,163 @@
+//! The section COLUMNS with its integer markers, and the section BOUNDS.
+
+use super::lines::{Line, quoted, unsupported};
+use super::names::Names;
+use super::rows::{Row, Rows, VectorName};
+use crate::Result;
+
+/// The columns read so far, and their entries by columns.
+pub(super) struct Columns {
+    pub names: Names,
+    /// Coefficients of the objective.
+    pub linear: Vec<f64>,
+    /// The integer columns.
+    pub integers: Vec<usize>,
+    /// Where each column starts in `rows` and `values`.
+    pub offsets: Vec<usize>,
+    /// The constraint of each entry.
+    pub rows: Vec<usize>,
+    pub values: Vec<f64>,
+    /// For each row, one more than the last column with an entry in it.
+    entered: Vec<usize>,
+    /// The name of the last column.
+    current: String,
+    /// The line of the integer marker that is open.
+    integer_since: Option<usize>,
+}
+
+impl Columns {
+    pub fn new(rows: &Rows) -> Self {
+        Columns {
+            names: Names::new("column"),
+            linear: Vec::new(),
+            integers: Vec::new(),
+            offsets: Vec::new(),
+            rows: Vec::new(),
+            values: Vec::new(),
+            entered: vec![0; rows.len()],
+            current: String::new(),
+            integer_since: None,
+        }
+    }
+
+    /// Reads `COLUMN ROW VALUE [ROW VALUE]` or `NAME 'MARKER' 'INTORG'`.
+    pub fn read(&mut self, line: &Line, rows: &Rows) -> Result<()> {
+        if let [_, "'MARKER'", rest @ ..] = line.fields() {
+            return self.read_marker(line, rest);
+        }
+        let (name, entries) = line.named_pairs()?;
+        if self.current != name {
+            self.begin(line, name)?;
+        }
+        let column = self.names.len() - 1;
+        for (name, value) in entries {
+            let (number, row) = rows.find(line, name)?;
+            let value = line.value(value)?;
+            if std::mem::replace(&mut self.entered[number], column + 1) == column + 1 {
+                let (row, column) = (quoted(name), quoted(&self.current));
+                return Err(
+                    line.fault(format!("column {column} already has an entry in row {row}"))
+                );
+            }
+            match row {
+                Row::Objective => self.linear[column] = value,
+                Row::Ignored => {}
+                Row::Constraint(i) => {
+                    self.rows.push(i);
+                    self.values.push(value);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn begin(&mut self, line: &Line, name: &str) -> Result<()> {
+        let column = self.names.insert(line, name)?;
+        self.current.clear();
+        self.current.push_str(name);
+        self.linear.push(0.0);
+        self.offsets.push(self.rows.len());
+        if self.integer_since.is_some() {
+            self.integers.push(column);
+        }
+        Ok(())
+    }
+
+    fn read_marker(&mut self, line: &Line, rest: &[&str]) -> Result<()> {
+        // No column goes on behind a marker: it would be on both sides.
+        self.current.clear();
+        self.integer_since = match (rest, self.integer_since) {
+            (["'INTORG'"], None) => Some(line.number),
+            (["'INTEND'"], Some(_)) => None,
+            (["'INTORG'"], Some(open)) => {
+                return Err(line.fault(format!("'INTORG' inside that of line {open}")));
+            }
+            (["'INTEND'"], None) => return Err(line.fault("'INTEND' without 'INTORG'")),
+            ([other], _) => return Err(line.unsupported(format!("marker {}", quoted(other)))),
+            _ => return Err(line.wrong_length("a name, 'MARKER', and 'INTORG' or 'INTEND'")),
+        };
+        Ok(())
+    }
+
+    /// Ends the section at the header `line` of the next.
+    pub fn end(&mut self, line: &Line) -> Result<()> {
+        if let Some(open) = self.integer_since {
+            return Err(line.fault(format!("'INTORG' of line {open} has no 'INTEND'")));
+        }
+        if self.names.len() == 0 {
+            return Err(line.fault("section COLUMNS is empty: the problem has no variables"));
+        }
+        self.offsets.push(self.rows.len());
+        Ok(())
+    }
+}
+
+/// Which columns are free. No other bounds are solved, and without one x >= 0 holds in MPS.
+#[derive(Default)]
+pub(super) struct Bounds {
+    set: VectorName,
+    free: Vec<bool>,
+}
+
+impl Bounds {
+    pub fn new(columns: &Columns) -> Self {
+        Bounds {
+            free: vec![false; columns.names.len()],
+            ..Self::default()
+        }
+    }
+
+    /// Reads `FR [SET] COLUMN`.
+    pub fn read(&mut self, line: &Line, columns: &Columns) -> Result<()> {
+        match line.fields()[0] {
+            "FR" => {}
+            kind @ ("LO" | "UP" | "FX" | "MI" | "PL" | "BV" | "LI" | "UI" | "SC" | "SI") => {
+                return Err(line.unsupported(format!("bounds of type {kind}; only FR is")));
+            }
+            kind => return Err(line.fault(format!("there is no bound type {}", quoted(kind)))),
+        }
+        let (set, name) = match line.fields() {
+            [_, name] => (&[][..], name),
+            [_, set @ .., name] if set.len() == 1 => (set, name),
+            _ => return Err(line.wrong_length("FR and a column")),
+        };
+        self.set.check(line, set)?;
+        let column = columns.names.find(line, name)?;
+        if std::mem::replace(&mut self.free[column], true) {
+            return Err(line.fault(format!("column {} is already free", quoted(name))));
+        }
+        Ok(())
+    }
+
+    /// Whether all columns are free; if not, which is not.
+    pub fn end(&self, columns: Columns) -> Result<Columns> {
+        let bounded = (0..columns.names.len()).find(|&j| self.free.get(j) != Some(&true));
+        let Some(column) = bounded else {
+            return Ok(columns);
+        };
+        let line = columns.names.lines()[column];
+        let name = quoted(&columns.names.into_vec()[column]);
+        let what = format!("column {name} is not free (no FR in BOUNDS), so that x >= 0 holds");
+        Err(unsupported(line, what, Some(column)))
+    }
+}

@@ -1,0 +1,95 @@
+//! gzip, by the feature of that name.
+
+use std::fs::File;
+use std::io::{BufRead, BufWriter, Read, Write};
+use std::path::Path;
+
+use super::content::parse_text;
+use super::{MpsProblem, io_error};
+use crate::{Error, Result};
+
+/// The first bytes of every gzip file (RFC 1952, section 2.3.1).
+const MAGIC: [u8; 2] = [0x1f, 0x8b];
+
+/// Reads from `reader`, compressed or not.
+pub(super) fn parse(mut reader: impl BufRead) -> Result<MpsProblem> {
+    let mut head = Vec::with_capacity(MAGIC.len());
+    let peeked = reader
+        .by_ref()
+        .take(MAGIC.len() as u64)
+        .read_to_end(&mut head);
+    peeked.map_err(|e| Error::Io {
+        message: e.to_string(),
+    })?;
+    let compressed = head == MAGIC;
+    let reader = head.chain(reader);
+    if compressed {
+        inflate(reader)
+    } else {
+        parse_text(reader)
+    }
+}
+
+#[cfg(feature = "gzip")]
+fn inflate(reader: impl BufRead) -> Result<MpsProblem> {
+    // A file may be several archives one after the other.
+    let inflated = flate2::bufread::MultiGzDecoder::new(reader);
+    parse_text(std::io::BufReader::with_capacity(1 << 16, inflated))
+}
+
+#[cfg(not(feature = "gzip"))]
+fn inflate(_: impl BufRead) -> Result<MpsProblem> {
+    Err(no_gzip())
+}
+
+/// Creates the file at `path`, has `content` fill it, and closes it; compressed if its name ends
+/// in `.gz`.
+pub(super) fn create(
+    path: &Path,
+    content: impl FnOnce(&mut dyn Write) -> std::io::Result<()>,
+) -> Result<()> {
+    let compressed = path
+        .extension()
+        .is_some_and(|e| e.eq_ignore_ascii_case("gz"));
+    if compressed && cfg!(not(feature = "gzip")) {
+        return Err(no_gzip());
+    }
+    let fill = || {
+        let mut file = BufWriter::with_capacity(1 << 16, File::create(path)?);
+        if compressed {
+            deflate(&mut file, content)?;
+        } else {
+            content(&mut file)?;
+        }
+        file.flush()
+    };
+    fill().map_err(|e| io_error(path, e))
+}
+
+#[cfg(feature = "gzip")]
+fn deflate(
+    file: &mut impl Write,
+    content: impl FnOnce(&mut dyn Write) -> std::io::Result<()>,
+) -> std::io::Result<()> {
+    let encoder = flate2::write::GzEncoder::new(file, flate2::Compression::default());
+    let mut buffered = BufWriter::with_capacity(1 << 16, encoder);
+    content(&mut buffered)?;
+    let encoder = buffered.into_inner().map_err(|e| e.into_error())?;
+    encoder.finish().map(|_| ())
+}
+
+#[cfg(not(feature = "gzip"))]
+fn deflate(
+    _: &mut impl Write,
+    _: impl FnOnce(&mut dyn Write) -> std::io::Result<()>,
+) -> std::io::Result<()> {
+    Err(std::io::ErrorKind::Unsupported.into())
+}
+
+fn no_gzip() -> Error {
+    Error::NotSupported {
+        what: "files compressed by gzip (this build is without the feature `gzip`)".into(),
+        index: None,
+        line: None,
+    }
+}

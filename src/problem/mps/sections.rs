@@ -1,0 +1,86 @@
+//! The sections of an MPS file and the order in which they come.
+
+use super::lines::{Line, quoted};
+use crate::Result;
+
+/// A section, or the state before the first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Section {
+    Start,
+    Name,
+    ObjSense,
+    Rows,
+    Columns,
+    Rhs,
+    Bounds,
+    QuadObj,
+    QMatrix,
+    EndData,
+}
+
+impl Section {
+    fn word(self) -> &'static str {
+        match self {
+            Section::Start => "",
+            Section::Name => "NAME",
+            Section::ObjSense => "OBJSENSE",
+            Section::Rows => "ROWS",
+            Section::Columns => "COLUMNS",
+            Section::Rhs => "RHS",
+            Section::Bounds => "BOUNDS",
+            Section::QuadObj => "QUADOBJ",
+            Section::QMatrix => "QMATRIX",
+            Section::EndData => "ENDATA",
+        }
+    }
+
+    /// Sections come in the order of these numbers; two of the same number exclude each other.
+    fn step(self) -> usize {
+        match self {
+            Section::QMatrix => Section::QuadObj as usize,
+            other => other as usize,
+        }
+    }
+
+    /// The section that the header `line` opens when `self` was the one before.
+    pub fn next(self, line: &Line) -> Result<Section> {
+        let word = line.fields()[0];
+        let next = match word {
+            "NAME" => Section::Name,
+            "OBJSENSE" => Section::ObjSense,
+            "ROWS" => Section::Rows,
+            "COLUMNS" => Section::Columns,
+            "RHS" => Section::Rhs,
+            "BOUNDS" => Section::Bounds,
+            "QUADOBJ" => Section::QuadObj,
+            "QMATRIX" => Section::QMatrix,
+            "ENDATA" => Section::EndData,
+            "RANGES" => return Err(line.unsupported("ranges (section RANGES)")),
+            "OBJNAME" | "OBJECTIVE" | "USERCUTS" | "LAZYCONS" | "SOS" | "SOS1" | "SOS2"
+            | "SETS" | "QSECTION" | "QCMATRIX" | "CSECTION" | "INDICATORS" | "GENCONS"
+            | "PWLOBJ" | "BRANCH" => {
+                return Err(line.unsupported(format!("section {word}")));
+            }
+            _ => return Err(line.fault(format!("there is no section {}", quoted(word)))),
+        };
+        if next == self {
+            return Err(line.fault(format!("section {word} is already open")));
+        }
+        if next.step() <= self.step() {
+            return Err(line.fault(format!("section {word} may not follow {}", self.word())));
+        }
+        let needed = match next {
+            Section::Start | Section::Name | Section::ObjSense | Section::Rows => Section::Start,
+            Section::Columns => Section::Rows,
+            _ => Section::Columns,
+        };
+        if self.step() < needed.step() {
+            return Err(line.fault(format!("section {word} before {}", needed.word())));
+        }
+        if line.fields().len() > 1 && !matches!(next, Section::Name | Section::ObjSense) {
+            let text = quoted(line.fields()[1]);
+            return Err(line.fault(format!("{text} stands behind the section's name {word}")));
+        }
+        Ok(next)
+    }
+}

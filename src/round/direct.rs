@@ -1,0 +1,24 @@
+//! Direct rounding: every integer to its nearest value in the relaxation, all at once.
+//!
+//! Bommes' thesis, section 5.3, the first of the solvers compared. The fastest and the worst.
+
+use super::nearest;
+use crate::Result;
+use crate::eliminate::ReducedModel;
+use crate::solve::{Factors, Search};
+
+/// Rounds the relaxation once.
+///
+/// # Errors
+/// Of the evaluation of its one offer.
+pub(crate) fn direct(
+    model: &ReducedModel,
+    factors: &mut Factors,
+    search: &mut Search,
+) -> Result<()> {
+    let integers = model.integers().iter();
+    let rounded = integers.map(|&k| nearest(search.relaxed()[k as usize]));
+    let rounded: Vec<f64> = rounded.collect();
+    search.offer(factors, &rounded)?;
+    Ok(())
+}

@@ -1,0 +1,70 @@
+//! Exact greedy rounding: fix the integer that is closest to one, re-optimise, repeat.
+//!
+//! Bommes' thesis, section 5.3 ("naive greedy rounding"), with the re-optimisation exact at every
+//! step but never a factorization anew: see [`crate::linalg::FixedSolve`].
+
+use super::nearest;
+use crate::Result;
+use crate::eliminate::ReducedModel;
+use crate::linalg::FixedSolve;
+use crate::solve::{Factors, Phase, Search};
+
+/// Deviations this close to the least one are a tie, which the lowest variable wins.
+pub const TIE: f64 = 1e-9;
+
+/// Rounds one integer at a time.
+///
+/// When it has to stop early, it offers the integers as they stand, the undecided ones rounded.
+///
+/// # Errors
+/// For lack of memory, and those of the evaluation of its offer.
+pub(crate) fn greedy(
+    model: &ReducedModel,
+    factors: &mut Factors,
+    search: &mut Search,
+) -> Result<()> {
+    let integers = model.integers();
+    let mut ldl = factors.updatable(model)?;
+    let mut solve = FixedSolve::new(&mut ldl, search.relaxed(), integers)?;
+    let mut rounded = vec![0.0; integers.len()];
+    // Places in `integers`, increasing.
+    let mut free: Vec<u32> = (0..integers.len() as u32).collect();
+    while !free.is_empty() {
+        let done = 1.0 - free.len() as f64 / integers.len() as f64;
+        if search.monitor.progress(Phase::Round, done).is_err() {
+            for &place in &free {
+                rounded[place as usize] = nearest(solve.value(integers[place as usize]));
+            }
+            break;
+        }
+        let at = closest(&free, |place| solve.value(integers[place as usize]));
+        let place = free.remove(at) as usize;
+        rounded[place] = nearest(solve.value(integers[place]));
+        solve.fix(integers[place], rounded[place]);
+    }
+    search.offer(factors, &rounded)?;
+    Ok(())
+}
+
+/// Position in `free` of the value closest to an integer, the first among ties.
+fn closest(free: &[u32], value: impl Fn(u32) -> f64) -> usize {
+    let deviation = |&place: &u32| {
+        let x = value(place);
+        (x - nearest(x)).abs()
+    };
+    let least = free.iter().map(deviation).fold(f64::INFINITY, f64::min);
+    let tied = |place: &u32| deviation(place) <= least + TIE;
+    free.iter().position(tied).unwrap_or(0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_lowest_of_tied_deviations_wins() {
+        let values = [0.3, 1.2 + 5e-10, 0.8, 3.5];
+        assert_eq!(closest(&[0, 1, 2, 3], |p| values[p as usize]), 1);
+        assert_eq!(closest(&[0, 2, 3], |p| values[p as usize]), 1);
+    }
+}

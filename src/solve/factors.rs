@@ -1,0 +1,107 @@
+//! Factorizations, each made when it is first asked for and kept.
+//!
+//! There is no single factor: the relaxation wants a supernodal one, greedy a simplicial one that
+//! can fix unknowns, and an offer of integers one of the continuous block.
+
+use std::time::Instant;
+
+use crate::Result;
+use crate::eliminate::ReducedModel;
+use crate::linalg::{Cholesky, Ldl, Sparse, minimum_degree};
+
+/// The factors of one reduced model.
+#[derive(Debug, Default)]
+pub(crate) struct Factors {
+    full: Option<Cholesky>,
+    continuous: Option<ContinuousBlock>,
+    seconds: f64,
+}
+
+/// The Hessian seen by the continuous unknowns when the integers are given.
+#[derive(Debug)]
+pub(crate) struct ContinuousBlock {
+    /// Lower triangle of the continuous block.
+    pub hessian: Sparse,
+    /// One row a continuous unknown, one column an integer.
+    pub coupling: Sparse,
+    pub factor: Cholesky,
+}
+
+impl Factors {
+    /// Seconds spent in factorizations so far.
+    pub fn seconds(&self) -> f64 {
+        self.seconds
+    }
+
+    /// The factor of the whole reduced Hessian.
+    pub fn full(&mut self, model: &ReducedModel) -> Result<&Cholesky> {
+        let factor = match self.full.take() {
+            Some(factor) => factor,
+            None => timed(&mut self.seconds, || Cholesky::new(model.hessian()))?,
+        };
+        Ok(self.full.insert(factor))
+    }
+
+    /// A factor of the whole reduced Hessian in which unknowns can be fixed. Made anew each time,
+    /// since fixing uses it up.
+    pub fn updatable(&mut self, model: &ReducedModel) -> Result<Ldl> {
+        timed(&mut self.seconds, || {
+            Ldl::new(model.hessian(), &minimum_degree(model.hessian())?)
+        })
+    }
+
+    /// The continuous block and its factor.
+    pub fn continuous(&mut self, model: &ReducedModel) -> Result<&ContinuousBlock> {
+        let block = match self.continuous.take() {
+            Some(block) => block,
+            None => timed(&mut self.seconds, || ContinuousBlock::new(model))?,
+        };
+        Ok(self.continuous.insert(block))
+    }
+}
+
+impl ContinuousBlock {
+    fn new(model: &ReducedModel) -> Result<Self> {
+        /// Place of an unknown among the integers or the continuous.
+        #[derive(Clone, Copy)]
+        enum Place {
+            Integer(u32),
+            Continuous(u32),
+        }
+        let mut place = vec![Place::Continuous(0); model.dim()];
+        for (k, &i) in model.integers().iter().enumerate() {
+            place[i as usize] = Place::Integer(k as u32);
+        }
+        for (k, &i) in model.continuous().iter().enumerate() {
+            place[i as usize] = Place::Continuous(k as u32);
+        }
+        let entries = model.hessian().entries();
+        let pair = |i: u32, j: u32| (place[i as usize], place[j as usize]);
+        let own = entries.clone().filter_map(|(i, j, v)| match pair(i, j) {
+            (Place::Continuous(a), Place::Continuous(b)) => Some((a, b, v)),
+            _ => None,
+        });
+        let mixed = entries.filter_map(|(i, j, v)| match pair(i, j) {
+            (Place::Continuous(a), Place::Integer(b)) => Some((a, b, v)),
+            (Place::Integer(b), Place::Continuous(a)) => Some((a, b, v)),
+            _ => None,
+        });
+        let (n, m) = (model.continuous().len(), model.integers().len());
+        let hessian = Sparse::from_triplets(n, n, own)?;
+        let coupling = Sparse::from_triplets(n, m, mixed)?;
+        let factor = Cholesky::new(&hessian)?;
+        Ok(ContinuousBlock {
+            hessian,
+            coupling,
+            factor,
+        })
+    }
+}
+
+/// What `make` gives; the seconds it took are added to `seconds`.
+fn timed<T>(seconds: &mut f64, make: impl FnOnce() -> Result<T>) -> Result<T> {
+    let started = Instant::now();
+    let made = make();
+    *seconds += started.elapsed().as_secs_f64();
+    made
+}

@@ -1,0 +1,52 @@
+//! The relaxation: all integers real. Its minimum is a lower bound for every solution.
+
+use super::Factors;
+use super::search::{not_convex, unbounded};
+use crate::Result;
+use crate::eliminate::ReducedModel;
+use crate::linalg::{Minimum, minimise};
+
+/// Rounding errors of the energy's own evaluation, relative to the sum of its absolute terms:
+/// the terms were themselves rounded when the model was assembled.
+const EVALUATION_ERROR: f64 = 4.0 * f64::EPSILON;
+
+/// The relaxation's minimiser and the bound that it proves.
+#[derive(Debug, Clone)]
+pub(crate) struct Relaxation {
+    pub point: Vec<f64>,
+    pub lower_bound: f64,
+}
+
+/// Minimises the reduced objective over real unknowns.
+///
+/// # Errors
+/// [`Error::Unbounded`](crate::Error::Unbounded) and
+/// [`Error::NotConvex`](crate::Error::NotConvex), each with a direction, and for lack of memory.
+pub(crate) fn relax(model: &ReducedModel, factors: &mut Factors) -> Result<Relaxation> {
+    if let Some(i) = negative_diagonal(model) {
+        let mut direction = vec![0.0; model.dim()];
+        direction[i] = 1.0;
+        return Err(not_convex(model, &direction));
+    }
+    let factor = factors.full(model)?;
+    match minimise(model.hessian(), model.gradient(), model.guess(), factor)? {
+        Minimum::At { point, excess } => {
+            let (energy, terms) = model.energy(&point);
+            Ok(Relaxation {
+                point,
+                lower_bound: energy - 2.0 * excess - EVALUATION_ERROR * terms,
+            })
+        }
+        Minimum::Unbounded(v) => Err(unbounded(model, &v)),
+        Minimum::NotConvex(v) => Err(not_convex(model, &v)),
+    }
+}
+
+/// A diagonal entry that is negative beyond what the rounding of its row explains.
+fn negative_diagonal(model: &ReducedModel) -> Option<usize> {
+    (0..model.dim()).find(|&i| {
+        let row = model.hessian().row(i);
+        let size: f64 = row.clone().map(|(_, v)| v.abs()).sum();
+        row.last().is_some_and(|(j, d)| j == i && d < -1e-9 * size)
+    })
+}

@@ -1,0 +1,111 @@
+//! Replay files: a problem and how it was solved, so that the solve can be repeated elsewhere.
+//!
+//! The habit is Clarabel's, and the first thing to ask for in a bug report. The problem goes into
+//! an MPS file, `NAME.mps` or `NAME.mps.gz`, and what MPS cannot state into `NAME.replay.json`
+//! beside it: options, pins, initial guess. All numbers are written such that they read back as
+//! themselves, so that Q, q, c and the constraints of the [`Model`] are the same bit for bit, and
+//! with them the values of a solve. Least-squares rows come back as the part of Q, q and c that
+//! they are, without the cycles hinted at among them; an energy summed row by row may therefore
+//! differ in its last digits.
+
+mod entries;
+mod format;
+
+use std::path::{Path, PathBuf};
+
+use super::Options;
+use crate::problem::mps;
+use crate::{Error, Model, Problem, Result};
+
+use format::{Replay, Values};
+
+/// Writes `problem` to the file at `path`, which ends in `.mps` or `.mps.gz`, and the replay file
+/// beside it.
+///
+/// # Errors
+/// As [`Model::new`], [`Error::InvalidArgument`] for another ending, [`Error::Io`] for a file that
+/// cannot be written, [`Error::NotSupported`] for compression without the feature `gzip`.
+pub fn save(path: &Path, problem: &Problem, options: &Options) -> Result<()> {
+    let replay_path = replay_path(path)?;
+    let model = Model::new(problem)?;
+    let pins = model.pinned().iter().enumerate();
+    // By bits, so that minus zero is kept.
+    let guess = model.guess().iter().copied().enumerate();
+    let guess = guess.filter(|(_, v)| v.to_bits() != 0);
+    let replay = Replay {
+        variables: model.variables(),
+        constraints: model.constraints().rows(),
+        options: options.clone(),
+        pins: Values(pins.filter_map(|(i, v)| v.map(|v| (i, v))).collect()),
+        guess: Values(guess.collect()),
+        ..Replay::default()
+    };
+    let text = replay.to_text()?;
+    let names = mps::MpsNames::numbered(replay.variables, replay.constraints);
+    mps::write_model(path, &model, &names, mps::Pins::Elsewhere)?;
+    std::fs::write(&replay_path, text).map_err(|e| mps::io_error(&replay_path, e))
+}
+
+/// Reads the problem at `path`, which ends in `.mps` or `.mps.gz`, and the replay file beside it.
+///
+/// # Errors
+/// As [`mps::read`]; for the replay file [`Error::Io`], [`Error::Parse`] with the line at fault,
+/// [`Error::NotSupported`] for the format of another version, [`Error::IndexOutOfRange`] for
+/// variables that the problem does not have, and [`Error::InvalidArgument`] for a file that belongs
+/// to another problem.
+pub fn load(path: &Path) -> Result<(Problem, Options)> {
+    let replay_path = replay_path(path)?;
+    let bytes = std::fs::read(&replay_path).map_err(|e| mps::io_error(&replay_path, e))?;
+    let replay = Replay::parse(&bytes)?;
+    let mut problem = mps::read(path)?.into_problem();
+    let sizes = (problem.variables(), problem.constraints());
+    if sizes != (replay.variables, replay.constraints) {
+        return Err(Error::InvalidArgument {
+            what: format!(
+                "{} is for {} variables and {} constraints, the problem has {} and {}",
+                replay_path.display(),
+                replay.variables,
+                replay.constraints,
+                sizes.0,
+                sizes.1
+            ),
+            index: None,
+        });
+    }
+    for (&variable, &value) in &replay.pins.0 {
+        problem.pin(variable, value)?;
+    }
+    let mut guess = vec![0.0; problem.variables()];
+    for (position, (&variable, &value)) in replay.guess.0.iter().enumerate() {
+        *guess.get_mut(variable).ok_or(Error::IndexOutOfRange {
+            what: "guess",
+            position,
+            value: i64::try_from(variable).unwrap_or(i64::MAX),
+            len: sizes.0,
+        })? = value;
+    }
+    problem.set_guess(&guess)?;
+    Ok((problem, replay.options))
+}
+
+/// The file that stands beside the problem at `path`.
+///
+/// # Errors
+/// [`Error::InvalidArgument`] unless `path` ends in `.mps` or `.mps.gz`.
+pub fn replay_path(path: &Path) -> Result<PathBuf> {
+    let ends_in = |path: &Path, ending: &str| {
+        path.extension()
+            .is_some_and(|e| e.eq_ignore_ascii_case(ending))
+    };
+    let mut plain = path.to_owned();
+    if ends_in(&plain, "gz") {
+        plain.set_extension("");
+    }
+    if ends_in(&plain, "mps") {
+        return Ok(plain.with_extension("replay.json"));
+    }
+    Err(Error::InvalidArgument {
+        what: format!("{} ends neither in .mps nor in .mps.gz", path.display()),
+        index: None,
+    })
+}

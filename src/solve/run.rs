@@ -1,0 +1,116 @@
+//! One solve from beginning to end: validate, eliminate, relax, search, expand, verify.
+
+use super::factors::Factors;
+use super::monitor::Monitor;
+use super::relax::relax;
+use super::search::Search;
+use super::solution::{Counts, Seconds, Solution};
+use super::verify::verify;
+use super::{Options, SolveStatus, Strategy};
+use crate::eliminate::{ReducedModel, eliminate};
+use crate::round;
+use crate::{Model, Problem, Result};
+
+/// Solves `problem`, watched by nobody.
+///
+/// # Errors
+/// Everything that [`Error`](crate::Error) names: bad input, contradictory constraints, an
+/// objective that is unbounded or not convex, out of time before a first solution.
+pub fn solve(problem: &Problem, options: &Options) -> Result<Solution> {
+    solve_with(problem, options, Monitor::default())
+}
+
+/// Solves `problem` under the eyes of `monitor`, which hears of progress and of every better
+/// solution, and may cancel.
+///
+/// # Errors
+/// As [`solve`], and [`Error::Cancelled`](crate::Error::Cancelled) when cancelled before a first
+/// solution was found.
+pub fn solve_with(problem: &Problem, options: &Options, mut monitor: Monitor) -> Result<Solution> {
+    monitor.start(options.time_limit);
+    monitor.check()?;
+    let model = Model::new(problem)?;
+    if let Some(cycle) = model.ignored_hint() {
+        monitor.log(&format!(
+            "cycle hint ignored: unknowns of cycle {cycle} do not cancel"
+        ));
+    }
+    let reduced = eliminate(&model, &mut monitor)?;
+    let eliminated = monitor.seconds();
+
+    let mut factors = Factors::default();
+    let (point, lower_bound, status) = decide(&reduced, options, &mut factors, &mut monitor)?;
+    let searched = monitor.seconds();
+
+    let values = expand(&reduced, &model, options.strategy, &point);
+    let verdict = verify(problem, &values);
+    let total = monitor.seconds();
+    Ok(Solution {
+        values,
+        energy: verdict.energy,
+        lower_bound: Some(lower_bound.min(verdict.energy)),
+        status,
+        counts: counts(&model, &reduced),
+        seconds: Seconds {
+            eliminate: eliminated,
+            factor: factors.seconds(),
+            round: searched - eliminated - factors.seconds(),
+            total,
+        },
+        max_constraint_violation: verdict.constraint_violation,
+        max_integrality_violation: verdict.integrality_violation,
+    })
+}
+
+/// The reduced point, the lower bound and how the search ended.
+fn decide(
+    reduced: &ReducedModel,
+    options: &Options,
+    factors: &mut Factors,
+    monitor: &mut Monitor,
+) -> Result<(Vec<f64>, f64, SolveStatus)> {
+    let relaxation = relax(reduced, factors)?;
+    if reduced.integers().is_empty() {
+        let bound = relaxation.lower_bound;
+        return Ok((relaxation.point, bound, SolveStatus::Optimal));
+    }
+    if options.strategy == Strategy::Relax {
+        let bound = relaxation.lower_bound;
+        return Ok((relaxation.point, bound, SolveStatus::Relaxed));
+    }
+    monitor.check()?;
+    let mut search = Search::new(reduced, relaxation.point, relaxation.lower_bound, monitor);
+    match options.strategy {
+        Strategy::Relax => {}
+        Strategy::Direct => round::direct(reduced, factors, &mut search)?,
+        Strategy::Greedy => round::greedy(reduced, factors, &mut search)?,
+    }
+    let (bound, status) = (search.lower_bound(), search.status());
+    let best = search.into_best()?;
+    Ok((best.point, bound, status))
+}
+
+/// The caller's unknowns; pins and integers exact to the last bit.
+fn expand(reduced: &ReducedModel, model: &Model, strategy: Strategy, point: &[f64]) -> Vec<f64> {
+    let mut values = reduced.expansion().expand(point);
+    for (i, x) in values.iter_mut().enumerate() {
+        if let Some(pin) = model.pinned()[i] {
+            *x = pin;
+        } else if model.integer()[i] && strategy != Strategy::Relax {
+            *x = x.round();
+        }
+        // No minus zero in anybody's output.
+        *x += 0.0;
+    }
+    values
+}
+
+fn counts(model: &Model, reduced: &ReducedModel) -> Counts {
+    Counts {
+        variables: model.variables(),
+        integers: model.integer().iter().filter(|&&i| i).count(),
+        constraints: model.constraints().rows(),
+        reduced_integers: reduced.integers().len(),
+        reduced_continuous: reduced.continuous().len(),
+    }
+}

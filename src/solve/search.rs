@@ -1,0 +1,179 @@
+//! What a strategy talks to: it offers integers, and the search does the rest.
+//!
+//! The search re-optimises the continuous unknowns exactly for every offer and evaluates it
+//! itself, so that energies never come from a strategy and every strategy can be stopped at any
+//! time.
+
+use super::monitor::Monitor;
+use super::{Factors, SolveStatus};
+use crate::eliminate::ReducedModel;
+use crate::linalg::{Minimum, minimise};
+use crate::{Error, Result};
+
+/// Integers are kept as floats; beyond this they would no longer be exact.
+const LARGEST_INTEGER: f64 = 9_007_199_254_740_992.0;
+
+/// The best solution so far, in reduced unknowns.
+#[derive(Debug, Clone)]
+pub(crate) struct Incumbent {
+    pub point: Vec<f64>,
+    pub energy: f64,
+}
+
+/// Incumbent, bound, and who watches.
+pub(crate) struct Search<'s, 'm> {
+    model: &'s ReducedModel,
+    relaxed: Vec<f64>,
+    lower_bound: f64,
+    incumbent: Option<Incumbent>,
+    /// Progress, cancel, time limit.
+    pub monitor: &'s mut Monitor<'m>,
+}
+
+impl<'s, 'm> Search<'s, 'm> {
+    /// A search that starts from the relaxation's minimiser and the bound that it proves.
+    pub fn new(
+        model: &'s ReducedModel,
+        relaxed: Vec<f64>,
+        lower_bound: f64,
+        monitor: &'s mut Monitor<'m>,
+    ) -> Self {
+        monitor.bounded(lower_bound);
+        Search {
+            model,
+            relaxed,
+            lower_bound,
+            incumbent: None,
+            monitor,
+        }
+    }
+
+    /// The minimiser with all integers real.
+    pub fn relaxed(&self) -> &[f64] {
+        &self.relaxed
+    }
+
+    /// No solution has less energy than this.
+    pub fn lower_bound(&self) -> f64 {
+        self.lower_bound
+    }
+
+    /// The best solution that was offered.
+    ///
+    /// # Errors
+    /// Why the search was stopped, if that was before the first offer.
+    pub fn into_best(self) -> Result<Incumbent> {
+        let stopped = self.monitor.stopped();
+        self.incumbent
+            .ok_or_else(|| stopped.map_or(Error::Cancelled, Error::from))
+    }
+
+    /// Offers one value an integer unknown, in their order; returns whether it is the best so far.
+    ///
+    /// # Errors
+    /// [`Error::Overflow`] for integers beyond 2^53, and for lack of memory.
+    pub fn offer(&mut self, factors: &mut Factors, integers: &[f64]) -> Result<bool> {
+        let model = self.model;
+        let too_large = |z: &f64| z.abs().is_nan() || z.abs() > LARGEST_INTEGER;
+        if let Some(k) = integers.iter().position(too_large) {
+            return Err(Error::Overflow {
+                what: "an integer of the solution is beyond 2^53".into(),
+                index: Some(model.integers()[k] as usize),
+            });
+        }
+        let mut point = self.relaxed.clone();
+        for (&i, &z) in model.integers().iter().zip(integers) {
+            point[i as usize] = z;
+        }
+        if !model.continuous().is_empty() {
+            let block = factors.continuous(model)?;
+            let pull = block.coupling.mul(integers);
+            let of_continuous = |v: &[f64]| -> Vec<f64> {
+                model.continuous().iter().map(|&i| v[i as usize]).collect()
+            };
+            let mut gradient = of_continuous(model.gradient());
+            for (g, p) in gradient.iter_mut().zip(pull) {
+                *g += p;
+            }
+            let start = of_continuous(&self.relaxed);
+            match minimise(&block.hessian, &gradient, &start, &block.factor)? {
+                Minimum::At { point: best, .. } => {
+                    for (&i, x) in model.continuous().iter().zip(best) {
+                        point[i as usize] = x;
+                    }
+                }
+                Minimum::Unbounded(v) => return Err(unbounded(model, &self.embed(&v))),
+                Minimum::NotConvex(v) => return Err(not_convex(model, &self.embed(&v))),
+            }
+        }
+        let energy = model.energy(&point).0;
+        let better = self
+            .incumbent
+            .as_ref()
+            .is_none_or(|best| energy < best.energy);
+        if better {
+            self.incumbent = Some(Incumbent { point, energy });
+            self.monitor.improved(energy);
+        }
+        Ok(better)
+    }
+
+    /// A direction of the continuous unknowns as one of all reduced unknowns.
+    fn embed(&self, direction: &[f64]) -> Vec<f64> {
+        let mut all = vec![0.0; self.model.dim()];
+        for (&i, &v) in self.model.continuous().iter().zip(direction) {
+            all[i as usize] = v;
+        }
+        all
+    }
+
+    /// How the search stands, were it to end now.
+    pub fn status(&self) -> SolveStatus {
+        let Some(best) = &self.incumbent else {
+            return SolveStatus::Relaxed;
+        };
+        let gap = super::monitor::gap(best.energy, self.lower_bound);
+        if gap <= super::status::GAP_TOLERANCE {
+            return SolveStatus::Optimal;
+        }
+        match self.monitor.stopped() {
+            Some(super::monitor::Stop::Cancelled) => SolveStatus::Cancelled,
+            Some(super::monitor::Stop::TimeLimit) => SolveStatus::Limit,
+            None => SolveStatus::Feasible,
+        }
+    }
+}
+
+/// The error for a reduced direction along which the objective falls forever.
+pub(crate) fn unbounded(model: &ReducedModel, direction: &[f64]) -> Error {
+    let (variable, direction) = in_callers_unknowns(model, direction);
+    Error::Unbounded {
+        variable,
+        direction,
+    }
+}
+
+/// The error for a reduced direction along which the objective curves downwards.
+pub(crate) fn not_convex(model: &ReducedModel, direction: &[f64]) -> Error {
+    let (variable, direction) = in_callers_unknowns(model, direction);
+    Error::NotConvex {
+        variable,
+        direction,
+    }
+}
+
+/// The direction expanded and scaled to a largest entry of one, and where that is.
+fn in_callers_unknowns(model: &ReducedModel, direction: &[f64]) -> (usize, Vec<f64>) {
+    let mut v = model.expansion().expand_direction(direction);
+    let mut at = 0;
+    for i in 1..v.len() {
+        if v[i].abs() > v[at].abs() {
+            at = i;
+        }
+    }
+    let largest = v[at].abs();
+    if largest > 0.0 {
+        v.iter_mut().for_each(|v| *v /= largest);
+    }
+    (at, v)
+}

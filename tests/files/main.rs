@@ -1,0 +1,33 @@
+//! Files: what is written reads back as itself, what is broken is told with its line.
+
+mod broken;
+#[cfg(feature = "gzip")]
+mod corpus;
+mod random;
+mod reading;
+mod replay;
+mod round_trip;
+
+use std::path::PathBuf;
+
+/// A directory of its own for the files of one test, removed at the end.
+struct Scratch(PathBuf);
+
+impl Scratch {
+    fn new(test: &str) -> Self {
+        let name = format!("roundel-{test}-{}", std::process::id());
+        let dir = std::env::temp_dir().join(name);
+        std::fs::create_dir_all(&dir).unwrap();
+        Scratch(dir)
+    }
+
+    fn file(&self, name: &str) -> PathBuf {
+        self.0.join(name)
+    }
+}
+
+impl Drop for Scratch {
+    fn drop(&mut self) {
+        let _ = std::fs::remove_dir_all(&self.0);
+    }
+}

@@ -1,0 +1,118 @@
+//! Writing and reading again changes nothing.
+
+use proptest::prelude::*;
+use roundel::problem::mps::{self, MpsProblem};
+use roundel::{Error, Model, Problem};
+
+use crate::Scratch;
+use crate::random::{fingerprint, problem};
+
+fn text(problem: &MpsProblem) -> String {
+    let mut bytes = Vec::new();
+    mps::write_to(&mut bytes, problem).unwrap();
+    String::from_utf8(bytes).unwrap()
+}
+
+proptest! {
+    #[test]
+    fn a_problem_written_and_read_is_the_same_model_bit_for_bit(problem in problem()) {
+        let written = text(&MpsProblem::new(problem.clone()));
+        let read = mps::parse(written.as_bytes()).unwrap();
+        prop_assert_eq!(fingerprint(read.problem()), fingerprint(&problem), "{}", written);
+        prop_assert_eq!(text(&read), written);
+    }
+
+    #[test]
+    fn a_damaged_file_is_read_or_refused_with_a_line_of_the_file(
+        problem in problem(),
+        edits in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>(), 0..4), 1..4),
+    ) {
+        let mut bytes = text(&MpsProblem::new(problem)).into_bytes();
+        for (at, byte, edit) in edits {
+            let at = at.index(bytes.len());
+            match edit {
+                0 => bytes[at] = byte,
+                1 => bytes.insert(at, byte),
+                2 => drop(bytes.remove(at)),
+                _ => bytes.truncate(at + 1),
+            }
+        }
+        let lines = bytes.split(|&b| b == b'\n').count();
+        if let Err(error) = mps::parse(bytes.as_slice()) {
+            let fault = matches!(error, Error::Parse { .. } | Error::NotSupported { .. });
+            prop_assert!(fault, "{}", error);
+            prop_assert!((1..=lines).contains(&error.line().unwrap()), "{}", error);
+        }
+    }
+}
+
+fn named() -> MpsProblem {
+    let mut p = Problem::new(3).unwrap();
+    p.add_constraint(&[2, 0], &[2.0, -1.0], 0.5).unwrap();
+    p.add_constraint(&[1], &[1.0], 0.0).unwrap();
+    p.set_integers(&[1]).unwrap();
+    let variables = ["*x", "ENDATA", "größe"].map(String::from).to_vec();
+    let rows = ["RHS", "'INTORG'"].map(String::from).to_vec();
+    MpsProblem::with_names(p, "two words", "$cost", variables, rows).unwrap()
+}
+
+#[test]
+fn names_that_look_like_something_else_survive() {
+    let problem = named();
+    let read = mps::parse(text(&problem).as_bytes()).unwrap();
+    assert_eq!(read.title(), "two words");
+    assert_eq!(read.objective(), "$cost");
+    assert_eq!(read.variables(), problem.variables());
+    assert_eq!(read.constraints(), problem.constraints());
+    assert_eq!(fingerprint(read.problem()), fingerprint(problem.problem()));
+}
+
+#[test]
+fn a_pin_is_written_as_a_constraint_that_takes_no_name_in_use() {
+    let mut p = Problem::new(2).unwrap();
+    p.add_constraint(&[0, 1], &[1.0, 1.0], 3.0).unwrap();
+    p.pin(1, 0.25).unwrap();
+    let variables = vec!["a".into(), "b".into()];
+    let p = MpsProblem::with_names(p, "", "f", variables, vec!["PIN_1".into()]).unwrap();
+    let read = mps::parse(text(&p).as_bytes()).unwrap();
+    assert_eq!(read.constraints(), ["PIN_1", "PIN_1_"]);
+    let model = Model::new(read.problem()).unwrap();
+    assert_eq!(model.constraint_rhs(), [3.0, 0.25]);
+    assert_eq!(model.constraints().row(1).collect::<Vec<_>>(), [(1, 1.0)]);
+}
+
+#[test]
+fn compressed_and_plain_files_hold_the_same() {
+    let scratch = Scratch::new("compressed");
+    let problem = named();
+    let plain = scratch.file("p.mps");
+    mps::write(&plain, &problem).unwrap();
+    let expected = fingerprint(problem.problem());
+    assert_eq!(fingerprint(mps::read(&plain).unwrap().problem()), expected);
+
+    let packed = scratch.file("p.mps.gz");
+    let written = mps::write(&packed, &problem);
+    if cfg!(not(feature = "gzip")) {
+        assert!(matches!(written, Err(Error::NotSupported { .. })));
+        return;
+    }
+    written.unwrap();
+    assert_eq!(std::fs::read(&packed).unwrap()[..2], [0x1f, 0x8b]);
+    assert_eq!(fingerprint(mps::read(&packed).unwrap().problem()), expected);
+    // By content, not by name.
+    let renamed = scratch.file("renamed.mps");
+    std::fs::rename(&packed, &renamed).unwrap();
+    assert_eq!(
+        fingerprint(mps::read(&renamed).unwrap().problem()),
+        expected
+    );
+}
+
+#[test]
+fn a_file_that_cannot_be_written_is_named() {
+    let scratch = Scratch::new("unwritable");
+    let path = scratch.file("none/p.mps");
+    let error = mps::write(&path, &named()).unwrap_err();
+    assert!(matches!(error, Error::Io { .. }));
+    assert!(error.to_string().contains("p.mps"), "{error}");
+}

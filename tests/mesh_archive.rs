@@ -1,0 +1,165 @@
+//! The meshes that Debian ships with CGAL's demos: the sound ones load with their face count and
+//! genus, the broken ones are refused for the right reason.
+//!
+//! `ROUNDEL_CGAL_DATA` names the archive or the folder it was unpacked to; without it the place
+//! where Debian's `libcgal-demo` puts the archive is tried. The test says so where there is none.
+
+#![cfg(feature = "mesh-io")]
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use roundel::mesh::{MeshError, TriangleMesh, io};
+
+const DEBIAN: &str = "/usr/share/doc/libcgal-dev/data.tar.gz";
+
+/// Closed and connected: file, faces, genus.
+const CLOSED: &[(&str, usize, usize)] = &[
+    ("bunny00", 75408, 0),
+    ("armadillo", 52000, 0),
+    ("diplodocus", 47960, 0),
+    ("man", 34986, 0),
+    ("fandisk_large", 31682, 0),
+    ("bear", 27648, 0),
+    ("bear_bis", 20188, 0),
+    ("camel", 19536, 0),
+    ("fandisk", 12946, 0),
+    ("bull", 12396, 0),
+    ("homer", 9856, 0),
+    ("dino", 7828, 0),
+    ("retinal", 7282, 0),
+    ("cow", 5804, 0),
+    ("triceratops", 5660, 0),
+    ("blobby", 4050, 0),
+    ("ellipe0.003", 3108, 0),
+    ("hand", 2390, 0),
+    ("sphere966", 1848, 0),
+    ("cube-meshed", 1728, 0),
+    ("larger_sphere", 1620, 0),
+    ("spool", 1294, 0),
+    ("cactus", 1236, 0),
+    ("part", 346, 0),
+    ("ellipsoid", 320, 0),
+    ("geosphere", 320, 0),
+    ("itemb", 320, 0),
+    ("sphere", 320, 0),
+    ("dragknob", 318, 0),
+    ("knot1", 6400, 1),
+    ("rotor_small", 4800, 1),
+    ("knot", 4160, 1),
+    ("elk", 3290, 1),
+    ("rotor", 1200, 1),
+    ("femur", 7798, 2),
+    ("eight", 634, 2),
+    ("refined_elephant", 88928, 3),
+    ("elephant", 5558, 3),
+    ("helmet", 1000, 3),
+    ("anchor_dense", 7598, 4),
+    ("couplingdown", 3714, 9),
+    ("turbine", 18460, 11),
+    ("pinion", 1300, 1),
+    ("cheese", 17786, 133),
+];
+
+/// With boundary: file, faces, boundary loops.
+const BOUNDED: &[(&str, usize, usize)] = &[
+    ("mannequin-devil", 25888, 1),
+    ("ChineseDragon-10kv", 19994, 2),
+    ("lion-head", 16674, 1),
+    ("cylinder_locally_refined", 16442, 1),
+    ("blade", 16222, 2),
+    ("lion", 14859, 5),
+    ("mech-holes-shark", 10192, 4),
+    ("holes", 8288, 7),
+    ("mushroom", 4608, 1),
+    ("elephant-with-holes", 4463, 106),
+    ("three_peaks", 3671, 1),
+    ("head", 2918, 3),
+    ("cylinder", 2262, 1),
+    ("plane", 1600, 1),
+    ("mesh_with_border", 1014, 1),
+    ("pig", 891, 7),
+    ("nefertiti", 562, 1),
+];
+
+/// Several components: file, faces, components.
+const SCATTERED: &[(&str, usize, usize)] = &[
+    ("bones", 4204, 26),
+    ("knot2", 11520, 2),
+    ("horizons", 3200, 2),
+    ("mask_cone", 2332, 2),
+    ("blobby_3cc", 3417, 3),
+    ("boeing", 2564, 122),
+];
+
+/// Broken: file, code, element named. Two of them are not of triangles to begin with.
+const BROKEN: &[(&str, &str, usize)] = &[
+    ("blobby-shuffled", "inconsistent_orientation", 0),
+    ("cube-shuffled", "inconsistent_orientation", 0),
+    ("oblong-shuffled", "inconsistent_orientation", 1),
+    ("tet-shuffled", "inconsistent_orientation", 0),
+    ("cube4-shuffled", "not_a_triangle", 0),
+    ("polygon_mesh", "non_manifold_vertex", 4113),
+    ("degtri_sliding", "zero_area", 2),
+    ("prim", "not_a_triangle", 2),
+    ("cube-ouvert", "isolated_vertex", 8),
+];
+
+/// The folder of the meshes, unpacked if need be.
+fn archive() -> Option<PathBuf> {
+    let given = std::env::var_os("ROUNDEL_CGAL_DATA").map(PathBuf::from);
+    let place = given.clone().unwrap_or_else(|| PathBuf::from(DEBIAN));
+    if place.is_dir() {
+        let inner = place.join("data/meshes");
+        return Some(if inner.is_dir() { inner } else { place });
+    }
+    if !place.is_file() {
+        assert!(
+            given.is_none(),
+            "ROUNDEL_CGAL_DATA names nothing: {}",
+            place.display()
+        );
+        return None;
+    }
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("cgal-data");
+    std::fs::create_dir_all(&folder).expect("a folder");
+    let unpacked = Command::new("tar")
+        .args([Path::new("-xzf"), &place, Path::new("-C"), &folder])
+        .status()
+        .expect("tar");
+    assert!(unpacked.success());
+    Some(folder.join("data/meshes"))
+}
+
+fn load(folder: &Path, name: &str) -> Result<TriangleMesh, MeshError> {
+    io::read(folder.join(format!("{name}.off")))
+}
+
+#[test]
+fn sound_meshes_load_and_broken_ones_are_refused_for_the_right_reason() {
+    let Some(folder) = archive() else {
+        eprintln!("skipped: no {DEBIAN}, and ROUNDEL_CGAL_DATA is not set");
+        return;
+    };
+    for &(name, faces, genus) in CLOSED {
+        let mesh = load(&folder, name).unwrap_or_else(|e| panic!("{name}: {e}"));
+        assert_eq!((mesh.face_count(), mesh.genus()), (faces, genus), "{name}");
+        assert!(mesh.is_closed() && mesh.components().count == 1, "{name}");
+    }
+    for &(name, faces, loops) in BOUNDED {
+        let mesh = load(&folder, name).unwrap_or_else(|e| panic!("{name}: {e}"));
+        let found = (mesh.face_count(), mesh.boundary_loop_count());
+        assert_eq!(found, (faces, loops), "{name}");
+    }
+    for &(name, faces, components) in SCATTERED {
+        let mesh = load(&folder, name).unwrap_or_else(|e| panic!("{name}: {e}"));
+        let found = (mesh.face_count(), mesh.components().count);
+        assert_eq!(found, (faces, components), "{name}");
+    }
+    for &(name, code, index) in BROKEN {
+        let error = load(&folder, name).expect_err(name);
+        assert_eq!((error.code(), error.index()), (code, Some(index)), "{name}");
+    }
+    let ply = io::read(folder.join("sphere.ply")).expect("a ply file");
+    assert_eq!((ply.face_count(), ply.genus()), (320, 0));
+}
