@@ -20,13 +20,13 @@ use crate::solve::Monitor;
 
 /// Frees row `r` of all unknowns that have been replaced.
 pub(super) fn sweep(tableau: &mut Tableau, r: usize, monitor: &mut Monitor) -> Result<()> {
-    let mut scatter = Scatter::new(&tableau.unknowns);
     let Tableau {
         rows,
         stack,
         unknowns,
         ..
     } = &mut *tableau;
+    let mut scatter = Scatter::new(unknowns);
     let row = &mut rows[r];
     let integral = row.integral;
     for &(j, v) in &row.entries {
