@@ -108,7 +108,7 @@ fn determinant(a: &[Vec<i128>]) -> i128 {
             .map(|row| [&row[..j], &row[j + 1..]].concat())
             .collect()
     };
-    let sign = |j: usize| if j % 2 == 0 { 1 } else { -1 };
+    let sign = |j: usize| [1, -1][j % 2];
     (0..a.len())
         .map(|j| sign(j) * a[0][j] * determinant(&without(j)))
         .sum()
