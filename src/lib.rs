@@ -40,6 +40,7 @@ mod error;
 pub mod linalg;
 pub mod mesh;
 pub mod problem;
+pub mod quad;
 pub mod round;
 pub mod solve;
 
