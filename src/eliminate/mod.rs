@@ -1,42 +1,38 @@
 //! Equality constraints are eliminated before anything else: `x = T y + t`, with `y` free.
+//!
+//! Continuous unknowns are eliminated by pivots, integer ones by unimodular steps only, so that
+//! the integer points of `y` are exactly the integer solutions of the constraints.
+//!
+//! The plan is that of Bommes 2012 (chapter 5): a Gaussian elimination that always takes the row
+//! with the fewest entries, and in it a continuous unknown before an integer one. There, integer
+//! rows without a unit coefficient may fail; here Euclid's algorithm takes care of them.
+//!
+//! | step | file |
+//! | --- | --- |
+//! | rows, whose turn it is, and substitution into the others | `tableau`, `row`, `occurrences` |
+//! | a row with continuous unknowns | `continuous` |
+//! | a row of integers | `integral`, `ratio` |
+//! | long rows | `sweep`, `subtree` |
+//! | back substitution, T and t | `stack`, `back` |
+//! | the objective in y | `project` |
 
+mod back;
+mod continuous;
 mod expansion;
+mod integral;
+mod occurrences;
+mod project;
+mod ratio;
 mod reduced;
+mod row;
+mod run;
+mod stack;
+mod subtree;
+mod sweep;
+mod tableau;
+mod tolerance;
+mod unknowns;
 
 pub use expansion::Expansion;
 pub use reduced::ReducedModel;
-
-use crate::solve::Monitor;
-use crate::{Error, Model, Result};
-
-/// The reduced model of a problem without constraints and pins.
-///
-/// # Errors
-/// [`Error::NotSupported`] for constraints and pins.
-pub fn eliminate(model: &Model, _: &mut Monitor) -> Result<ReducedModel> {
-    if model.constraints().rows() > 0 || model.pinned().iter().any(Option::is_some) {
-        return Err(Error::NotSupported {
-            what: "constraints".into(),
-            index: Some(0),
-            line: None,
-        });
-    }
-    let n = model.variables();
-    let diag = (0..n as u32).map(|i| (i, i, 0.0));
-    let h =
-        crate::linalg::Sparse::from_triplets(n, n, model.hessian().entries().chain(diag.clone()))?;
-    let id = crate::linalg::Sparse::from_triplets(n, n, diag.map(|(i, j, _)| (i, j, 1.0)))?;
-    Ok(ReducedModel {
-        hessian: h,
-        gradient: model.gradient().to_vec(),
-        constant: model.constant(),
-        integers: (0..n as u32)
-            .filter(|&i| model.integer()[i as usize])
-            .collect(),
-        continuous: (0..n as u32)
-            .filter(|&i| !model.integer()[i as usize])
-            .collect(),
-        guess: model.guess().to_vec(),
-        expansion: Expansion::new(id, vec![0.0; n]),
-    })
-}
+pub use run::eliminate;

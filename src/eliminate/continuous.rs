@@ -1,0 +1,23 @@
+//! Rows with a continuous unknown are solved for one.
+
+use super::tableau::Tableau;
+use super::tolerance::PIVOT;
+use crate::Result;
+
+/// Solves row `r`, which has a continuous unknown, for the one that fewest other rows have, among
+/// those whose coefficient is not small (threshold pivoting; ties to the lowest unknown).
+pub(super) fn eliminate(tableau: &mut Tableau, r: usize) -> Result<()> {
+    let entries = &tableau.rows[r].entries;
+    let integer = &tableau.unknowns.integer;
+    let continuous = (0..entries.len()).filter(|&at| !integer[entries[at].0 as usize]);
+    let largest = continuous
+        .clone()
+        .fold(0.0, |m: f64, at| m.max(entries[at].1.abs()));
+    let at = continuous
+        .filter(|&at| entries[at].1.abs() >= PIVOT * largest)
+        .min_by_key(|&at| tableau.occurrences.count(entries[at].0));
+    match at {
+        Some(at) => tableau.solve_for(r, at),
+        None => Err(tableau.overflow(r)),
+    }
+}

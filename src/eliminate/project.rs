@@ -1,0 +1,167 @@
+//! The objective in the reduced unknowns.
+//!
+//! With `x = T y + t`, the objective `1/2 x'Qx + q'x + c` becomes
+//!
+//! ```text
+//! 1/2 y' (T'QT) y + (T'(Qt + q))' y + (c + q't + 1/2 t'Qt).
+//! ```
+
+use super::Expansion;
+use crate::linalg::sparse::reserve;
+use crate::linalg::{CompensatedSum, Sparse};
+use crate::solve::Monitor;
+use crate::{Error, Model, Result};
+
+/// The lower triangle of `T'QT` with every diagonal entry stored, by rows (Gustavson 1978): first
+/// `W = QT`, then row `a` of the result as the sum of the rows of `W` that column `a` of `T` names.
+pub(super) fn hessian(lower: &Sparse, expansion: &Sparse, monitor: &mut Monitor) -> Result<Sparse> {
+    let upper = lower.transpose();
+    let by_unknown = expansion.transpose();
+    let dim = expansion.cols();
+    let mut row = RowSum::new(dim);
+    let mut w = Rows::new(expansion.rows(), lower.len())?;
+    for i in 0..expansion.rows() {
+        monitor.check()?;
+        let mirrored = upper.row(i).filter(|&(j, _)| j > i);
+        for (j, q) in lower.row(i).chain(mirrored) {
+            for (b, t) in expansion.row(j) {
+                row.add(b, q * t);
+            }
+        }
+        w.push(&mut row)?;
+    }
+    let mut h = Rows::new(dim, lower.len())?;
+    for a in 0..dim {
+        monitor.check()?;
+        row.add(a, 0.0);
+        for (i, t) in by_unknown.row(a) {
+            for (&b, v) in w.indices[w.offsets[i]..w.offsets[i + 1]]
+                .iter()
+                .zip(&w.values[w.offsets[i]..w.offsets[i + 1]])
+            {
+                if b as usize <= a {
+                    row.add(b as usize, t * v);
+                }
+            }
+        }
+        row.present.sort_unstable();
+        h.push(&mut row)?;
+    }
+    if h.values.iter().any(|v| !v.is_finite()) {
+        return Err(overflow());
+    }
+    Ok(Sparse::from_parts(dim, h.offsets, h.indices, h.values))
+}
+
+/// The lower triangle as it is, but with every diagonal entry stored.
+pub(super) fn with_diagonal(lower: &Sparse) -> Result<Sparse> {
+    let n = lower.rows();
+    let mut offsets = reserve(n + 1)?;
+    let mut indices = reserve(lower.len() + n)?;
+    let mut values = reserve(lower.len() + n)?;
+    offsets.push(0);
+    for i in 0..n {
+        let range = lower.offsets()[i]..lower.offsets()[i + 1];
+        let row = &lower.indices()[range.clone()];
+        indices.extend_from_slice(row);
+        values.extend_from_slice(&lower.values()[range]);
+        if row.last() != Some(&(i as u32)) {
+            indices.push(i as u32);
+            values.push(0.0);
+        }
+        offsets.push(indices.len());
+    }
+    Ok(Sparse::from_parts(n, offsets, indices, values))
+}
+
+/// The linear term and the constant. Both cancel badly on real problems, so both are summed with
+/// compensation.
+pub(super) fn linear(model: &Model, expansion: &Expansion) -> Result<(Vec<f64>, f64)> {
+    let offset = expansion.offset();
+    let pulled = model.hessian().mul_symmetric(offset);
+    let mut gradient = vec![CompensatedSum::new(0.0); expansion.matrix().cols()];
+    let mut constant = CompensatedSum::new(model.constant());
+    for (i, (&q, &qt)) in model.gradient().iter().zip(&pulled).enumerate() {
+        for (a, t) in expansion.matrix().row(i) {
+            gradient[a].add_product(t, q);
+            gradient[a].add_product(t, qt);
+        }
+        constant.add_product(offset[i], q);
+        constant.add_product(offset[i], 0.5 * qt);
+    }
+    let gradient: Vec<f64> = gradient.iter().map(CompensatedSum::value).collect();
+    let constant = constant.value();
+    if !constant.is_finite() || gradient.iter().any(|g| !g.is_finite()) {
+        return Err(overflow());
+    }
+    Ok((gradient, constant))
+}
+
+fn overflow() -> Error {
+    Error::Overflow {
+        what: "the objective overflows when the constraints are put into it".into(),
+        index: None,
+    }
+}
+
+/// A sparse row being summed.
+struct RowSum {
+    value: Vec<f64>,
+    marked: Vec<bool>,
+    present: Vec<u32>,
+}
+
+impl RowSum {
+    fn new(len: usize) -> Self {
+        RowSum {
+            value: vec![0.0; len],
+            marked: vec![false; len],
+            present: Vec::new(),
+        }
+    }
+
+    fn add(&mut self, j: usize, v: f64) {
+        if !self.marked[j] {
+            self.marked[j] = true;
+            self.present.push(j as u32);
+        }
+        self.value[j] += v;
+    }
+}
+
+/// Sparse rows, one after the other.
+struct Rows {
+    offsets: Vec<usize>,
+    indices: Vec<u32>,
+    values: Vec<f64>,
+}
+
+impl Rows {
+    fn new(rows: usize, entries: usize) -> Result<Self> {
+        let mut offsets = reserve(rows + 1)?;
+        offsets.push(0);
+        Ok(Rows {
+            offsets,
+            indices: reserve(entries)?,
+            values: reserve(entries)?,
+        })
+    }
+
+    /// Appends `row` in the order of its list, and empties it.
+    fn push(&mut self, row: &mut RowSum) -> Result<()> {
+        let out_of_memory = |_| Error::OutOfMemory {
+            what: "the reduced Hessian",
+        };
+        let more = row.present.len();
+        self.indices.try_reserve(more).map_err(out_of_memory)?;
+        self.values.try_reserve(more).map_err(out_of_memory)?;
+        for &j in &row.present {
+            row.marked[j as usize] = false;
+            self.indices.push(j);
+            self.values.push(std::mem::take(&mut row.value[j as usize]));
+        }
+        row.present.clear();
+        self.offsets.push(self.indices.len());
+        Ok(())
+    }
+}

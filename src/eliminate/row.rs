@@ -1,0 +1,121 @@
+//! One equation while it is being worked on.
+
+use super::stack::Substitution;
+use super::tolerance::{LARGEST, RANK};
+
+/// `sum of coefficients times unknowns = rhs`.
+#[derive(Debug, Clone)]
+pub(super) struct Row {
+    /// Unknowns, increasing, with their coefficients, none of them zero.
+    pub entries: Vec<(u32, f64)>,
+    pub rhs: f64,
+    /// Largest coefficient that took part in making this row: what noise is measured against.
+    pub magnitude: f64,
+    /// The same for the right side.
+    pub rhs_magnitude: f64,
+    /// The power of two that the caller's row was multiplied by.
+    pub scale: f64,
+    /// How many of the unknowns are continuous.
+    pub continuous: u32,
+    /// Only integer unknowns, and only integers below 2^53 as numbers: nothing here is rounded.
+    pub integral: bool,
+    pub state: State,
+}
+
+/// Where a row is on its way.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum State {
+    /// Short, kept free of substituted unknowns at every step.
+    Waiting,
+    /// Long, freed of substituted unknowns when its turn comes.
+    Long,
+    /// Used or dropped.
+    Done,
+}
+
+/// A number outgrew what can be represented: 2^53 among integers, infinity otherwise.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct TooLarge;
+
+/// What a substitution did to the pattern of a row.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Change {
+    Appeared,
+    Vanished,
+}
+
+/// `value` if it may stand in a row.
+pub(super) fn representable(value: f64, integral: bool) -> Result<f64, TooLarge> {
+    let limit = if integral { LARGEST } else { f64::INFINITY };
+    if value.abs() < limit {
+        Ok(value)
+    } else {
+        Err(TooLarge)
+    }
+}
+
+/// `a + b c`, exactly if all are integers.
+pub(super) fn add_product(a: f64, b: f64, c: f64, integral: bool) -> Result<f64, TooLarge> {
+    let product = representable(b * c, integral)?;
+    representable(a + product, integral)
+}
+
+impl Row {
+    /// Where the entry of `unknown` stands, if there is one.
+    pub fn position(&self, unknown: u32) -> Option<usize> {
+        self.entries.binary_search_by_key(&unknown, |e| e.0).ok()
+    }
+
+    /// Takes note of what a substitution brings, times `factor`.
+    pub fn grow(&mut self, factor: f64, by: &Substitution) {
+        let factor = factor.abs();
+        self.magnitude = self.magnitude.max(factor * by.magnitude);
+        self.rhs_magnitude = self.rhs_magnitude.max(factor * by.constant_magnitude);
+    }
+
+    /// Puts `constant + terms` in the place of the unknown at position `at`, and tells which
+    /// unknowns came and went. `buffer` is scratch space.
+    pub fn substitute(
+        &mut self,
+        at: usize,
+        by: &Substitution,
+        terms: &[(u32, f64)],
+        buffer: &mut Vec<(u32, f64)>,
+        mut changed: impl FnMut(u32, Change),
+    ) -> Result<(), TooLarge> {
+        let integral = self.integral;
+        let (pivot, factor) = self.entries[at];
+        self.grow(factor, by);
+        self.rhs = add_product(self.rhs, -factor, by.constant, integral)?;
+        changed(pivot, Change::Vanished);
+        let noise = if integral { 0.0 } else { RANK * self.magnitude };
+        buffer.clear();
+        let mut old = self.entries.iter().filter(|e| e.0 != pivot).peekable();
+        for &(unknown, term) in terms {
+            while let Some(&entry) = old.next_if(|e| e.0 < unknown) {
+                buffer.push(entry);
+            }
+            match old.next_if(|e| e.0 == unknown) {
+                Some(&(_, a)) => {
+                    let sum = add_product(a, factor, term, integral)?;
+                    if sum.abs() > noise {
+                        buffer.push((unknown, sum));
+                    } else {
+                        changed(unknown, Change::Vanished);
+                    }
+                }
+                None => {
+                    let product = representable(factor * term, integral)?;
+                    // Underflow is the only way to a zero here.
+                    if product != 0.0 {
+                        buffer.push((unknown, product));
+                        changed(unknown, Change::Appeared);
+                    }
+                }
+            }
+        }
+        buffer.extend(old);
+        std::mem::swap(&mut self.entries, buffer);
+        Ok(())
+    }
+}

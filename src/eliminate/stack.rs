@@ -1,0 +1,63 @@
+//! The substitutions made so far, in the order made.
+
+use super::row::Row;
+
+/// An unknown expressed by others: `x_pivot = constant + terms`, the terms being unknowns that were
+/// free when it was made.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Substitution {
+    pub pivot: u32,
+    /// The constraint it comes from; [`NO_CONSTRAINT`](Self::NO_CONSTRAINT) for a pin.
+    pub constraint: u32,
+    pub constant: f64,
+    /// The largest number that took part in making the terms, and the constant.
+    pub magnitude: f64,
+    pub constant_magnitude: f64,
+}
+
+impl Substitution {
+    /// Where a pinned unknown says that it comes from.
+    pub const NO_CONSTRAINT: u32 = u32::MAX;
+}
+
+/// A list of substitutions; later ones never mention an unknown that an earlier one replaced.
+#[derive(Debug, Default)]
+pub(super) struct Stack {
+    list: Vec<Substitution>,
+    ends: Vec<usize>,
+    terms: Vec<(u32, f64)>,
+}
+
+impl Stack {
+    pub fn len(&self) -> usize {
+        self.list.len()
+    }
+
+    pub fn get(&self, k: usize) -> (&Substitution, &[(u32, f64)]) {
+        let start = if k == 0 { 0 } else { self.ends[k - 1] };
+        (&self.list[k], &self.terms[start..self.ends[k]])
+    }
+
+    /// Adds `x_pivot = constant + terms`. Terms are kept by increasing unknown.
+    pub fn push(&mut self, by: Substitution, terms: impl IntoIterator<Item = (u32, f64)>) {
+        let start = self.terms.len();
+        self.terms.extend(terms);
+        self.terms[start..].sort_unstable_by_key(|t| t.0);
+        self.list.push(by);
+        self.ends.push(self.terms.len());
+    }
+
+    /// Solves `row` for the unknown at position `at`.
+    pub fn solve(&mut self, constraint: usize, row: &Row, at: usize) {
+        let (pivot, a) = row.entries[at];
+        let by = Substitution {
+            pivot,
+            constraint: constraint as u32,
+            constant: row.rhs / a,
+            magnitude: row.magnitude / a.abs(),
+            constant_magnitude: row.rhs_magnitude / a.abs(),
+        };
+        let others = row.entries.iter().filter(|e| e.0 != pivot);
+        self.push(by, others.map(|&(j, v)| (j, -v / a)));
+    }
+}

@@ -1,0 +1,135 @@
+//! Long rows are freed of substituted unknowns in one go, when the short rows are gone.
+//!
+//! A row of thousands of entries that were kept up to date would be copied once for every short
+//! row that touches it. Instead all substitutions are put into it at the end, in the order in
+//! which they were made: the left-looking form of the elimination, as in Gilbert and Peierls 1988,
+//! with a heap for the order in place of a search of the graph. Its cost is that of the entries
+//! touched.
+
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+use super::integral::make_integral;
+use super::row::{TooLarge, add_product};
+
+use super::tableau::Tableau;
+use super::tolerance::RANK;
+use super::unknowns::Unknowns;
+use crate::Result;
+use crate::solve::Monitor;
+
+/// Frees row `r` of all unknowns that have been replaced.
+pub(super) fn sweep(tableau: &mut Tableau, r: usize, monitor: &mut Monitor) -> Result<()> {
+    let Tableau {
+        rows,
+        stack,
+        unknowns,
+        ..
+    } = &mut *tableau;
+    let mut scatter = Scatter::new(unknowns);
+    let row = &mut rows[r];
+    let integral = row.integral;
+    for &(j, v) in &row.entries {
+        scatter.insert(j, v);
+    }
+    let mut swept = Ok(());
+    while let Some((k, factor)) = scatter.next_replaced(RANK * row.magnitude, integral) {
+        monitor.check()?;
+        let (by, terms) = stack.get(k);
+        row.grow(factor, by);
+        swept = add_product(row.rhs, -factor, by.constant, integral)
+            .map(|rhs| row.rhs = rhs)
+            .and_then(|()| scatter.add(factor, terms, integral));
+        if swept.is_err() {
+            break;
+        }
+    }
+    row.entries = scatter.gather(RANK * row.magnitude, integral);
+    let integer = &unknowns.integer;
+    row.continuous = row
+        .entries
+        .iter()
+        .filter(|e| !integer[e.0 as usize])
+        .count() as u32;
+    let becomes_integral = row.continuous == 0 && !integral && !row.entries.is_empty();
+    swept.map_err(|TooLarge| tableau.overflow(r))?;
+    if becomes_integral {
+        make_integral(tableau, r)?;
+    }
+    Ok(())
+}
+
+/// A row spread over all unknowns, with the substitutions it calls for in order.
+struct Scatter<'a> {
+    replaced: &'a [u32],
+    value: Vec<f64>,
+    /// 0: absent; 1: one term; 2: several terms, which may have cancelled.
+    terms: Vec<u8>,
+    present: Vec<u32>,
+    order: BinaryHeap<Reverse<(u32, u32)>>,
+}
+
+impl<'a> Scatter<'a> {
+    fn new(unknowns: &'a Unknowns) -> Self {
+        Scatter {
+            replaced: &unknowns.replaced,
+            value: vec![0.0; unknowns.len()],
+            terms: vec![0; unknowns.len()],
+            present: Vec::new(),
+            order: BinaryHeap::new(),
+        }
+    }
+
+    fn insert(&mut self, unknown: u32, value: f64) {
+        let u = unknown as usize;
+        self.value[u] = value;
+        self.terms[u] = 1;
+        match self.replaced[u] {
+            Unknowns::FREE => self.present.push(unknown),
+            k => self.order.push(Reverse((k, unknown))),
+        }
+    }
+
+    fn add(
+        &mut self,
+        factor: f64,
+        terms: &[(u32, f64)],
+        exact: bool,
+    ) -> std::result::Result<(), TooLarge> {
+        for &(unknown, term) in terms {
+            let u = unknown as usize;
+            let sum = add_product(self.value[u], factor, term, exact)?;
+            if self.terms[u] == 0 {
+                self.insert(unknown, sum);
+            } else {
+                self.value[u] = sum;
+                self.terms[u] = 2;
+            }
+        }
+        Ok(())
+    }
+
+    fn is_noise(&self, unknown: u32, noise: f64, exact: bool) -> bool {
+        let u = unknown as usize;
+        let size = self.value[u].abs();
+        size == 0.0 || (!exact && self.terms[u] > 1 && size <= noise)
+    }
+
+    /// The earliest substitution still to be made, and the coefficient of what it replaces.
+    fn next_replaced(&mut self, noise: f64, exact: bool) -> Option<(usize, f64)> {
+        while let Some(Reverse((k, unknown))) = self.order.pop() {
+            if !self.is_noise(unknown, noise, exact) {
+                return Some((k as usize, self.value[unknown as usize]));
+            }
+        }
+        None
+    }
+
+    fn gather(mut self, noise: f64, exact: bool) -> Vec<(u32, f64)> {
+        let mut present = std::mem::take(&mut self.present);
+        present.sort_unstable();
+        present.retain(|&unknown| !self.is_noise(unknown, noise, exact));
+        let value = |unknown: u32| (unknown, self.value[unknown as usize]);
+        present.into_iter().map(value).collect()
+    }
+}

@@ -1,0 +1,53 @@
+//! The constants of the elimination, each with its reason.
+//!
+//! Every row is first multiplied by the power of two that brings its largest coefficient into
+//! [1, 2). That costs no accuracy, and makes all that follows independent of the units in which
+//! the caller wrote the row.
+
+/// A coefficient in which two terms met is rounding noise when it is below this times the largest
+/// number that took part in its row. Sums of a few thousand terms in double precision carry noise
+/// of about 1e-13; data given in single precision, which must not pass for noise, differ by 1e-7.
+pub(super) const RANK: f64 = 1e-10;
+
+/// A row without unknowns holds when its right side is below this times the largest number that
+/// took part in it. Ten times [`RANK`], since dropped coefficients leave a trace in right sides.
+pub(super) const CONSISTENT: f64 = 1e-9;
+
+/// A continuous pivot is at least this times the largest continuous coefficient of its row: the
+/// threshold of Markowitz pivoting (Duff, Erisman, Reid 1986, section 5.4), low enough to leave a
+/// choice among short columns.
+pub(super) const PIVOT: f64 = 0.1;
+
+/// Numbers this close to an integer are that integer; design.md's tie rule uses the same.
+pub(super) const INTEGRAL: f64 = 1e-9;
+
+/// Of large numbers, this share may be noise on top of [`INTEGRAL`].
+pub(super) const INTEGRAL_RELATIVE: f64 = 1e-12;
+
+/// What is further from an integer than this is none, whatever its size.
+pub(super) const INTEGRAL_LIMIT: f64 = 1e-3;
+
+/// The common denominator of a row's coefficient ratios is at most this. Any real is within
+/// `RATIO` of such a fraction with a chance of one in a thousand, so accidents are rare.
+pub(super) const DENOMINATOR: f64 = 1e4;
+
+/// Two ratios are the same when they differ by this, relative to one plus their size.
+pub(super) const RATIO: f64 = 1e-11;
+
+/// Integers are kept below 2^53, where sums and products of doubles are exact.
+pub(super) const LARGEST: f64 = 9_007_199_254_740_992.0;
+
+/// Entries of the expansion this small against their summands are rounding noise.
+pub(super) const NOISE: f64 = 64.0 * f64::EPSILON;
+
+/// Rows with more entries than this wait until the short ones are gone. As a pivot, a row of `k`
+/// entries couples `k` unknowns with each other: 64 of them cost what a few hundred mesh vertices
+/// cost, thousands would fill the Hessian.
+pub(super) const LONG: usize = 64;
+
+/// `value` if it is an integer up to the noise of a computation with numbers up to `magnitude`.
+pub(super) fn near_integer(value: f64, magnitude: f64) -> Option<f64> {
+    let rounded = value.round();
+    let tolerance = (INTEGRAL_RELATIVE * magnitude).clamp(INTEGRAL, INTEGRAL_LIMIT);
+    ((value - rounded).abs() <= tolerance).then_some(rounded)
+}

@@ -1,0 +1,51 @@
+//! The caller's unknowns and those that the elimination introduces, under one numbering.
+
+/// What is known of each unknown; the caller's come first.
+#[derive(Debug)]
+pub(super) struct Unknowns {
+    pub integer: Vec<bool>,
+    pub guess: Vec<f64>,
+    /// The substitution that replaced it, or [`FREE`](Self::FREE).
+    pub replaced: Vec<u32>,
+    /// The caller's unknown whose place it took, or [`NOWHERE`](Self::NOWHERE): neighbours are
+    /// looked up there.
+    pub place: Vec<u32>,
+    /// How many sums of sums it is; see `subtree`.
+    pub depth: Vec<u8>,
+}
+
+impl Unknowns {
+    /// Not replaced.
+    pub const FREE: u32 = u32::MAX;
+    /// Without a place in the Hessian.
+    pub const NOWHERE: u32 = u32::MAX;
+
+    pub fn new(integer: &[bool], guess: &[f64]) -> Self {
+        let n = integer.len();
+        Unknowns {
+            integer: integer.to_vec(),
+            guess: guess.to_vec(),
+            replaced: vec![Self::FREE; n],
+            place: (0..n as u32).collect(),
+            depth: vec![0; n],
+        }
+    }
+
+    pub fn len(&self) -> usize {
+        self.integer.len()
+    }
+
+    pub fn is_free(&self, unknown: u32) -> bool {
+        self.replaced[unknown as usize] == Self::FREE
+    }
+
+    /// Introduces an unknown and returns its number.
+    pub fn introduce(&mut self, integer: bool, guess: f64, place: u32, depth: u8) -> u32 {
+        self.integer.push(integer);
+        self.guess.push(guess);
+        self.replaced.push(Self::FREE);
+        self.place.push(place);
+        self.depth.push(depth);
+        self.len() as u32 - 1
+    }
+}
