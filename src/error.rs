@@ -149,6 +149,9 @@ pub enum Error {
         /// The system's reason, with the file's name.
         message: String,
     },
+    /// A mesh that is refused.
+    #[error(transparent)]
+    Mesh(#[from] crate::mesh::MeshError),
     /// Cancelled by the caller before a first solution was found.
     #[error("cancelled before a first solution was found")]
     Cancelled,
@@ -178,6 +181,7 @@ impl Error {
             Error::NotSupported { .. } => "not_supported",
             Error::Parse { .. } => "parse",
             Error::Io { .. } => "io",
+            Error::Mesh(error) => error.code(),
             Error::Cancelled => "cancelled",
             Error::TimeLimit => "time_limit",
         }
@@ -198,6 +202,7 @@ impl Error {
             Error::Unbounded { variable, .. } | Error::NotConvex { variable, .. } => {
                 Some(*variable)
             }
+            Error::Mesh(error) => error.index(),
             _ => None,
         }
     }
@@ -207,6 +212,7 @@ impl Error {
         match self {
             Error::Parse { line, .. } => Some(*line),
             Error::NotSupported { line, .. } => *line,
+            Error::Mesh(error) => error.line(),
             _ => None,
         }
     }

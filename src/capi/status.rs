@@ -148,6 +148,7 @@ impl From<&Error> for roundel_status {
             Error::OptionType { .. } => ROUNDEL_ERROR_OPTION_TYPE,
             Error::OptionRange { .. } => ROUNDEL_ERROR_OPTION_RANGE,
             Error::NotSupported { .. } => ROUNDEL_ERROR_NOT_SUPPORTED,
+            Error::Mesh(_) => ROUNDEL_ERROR_INVALID_ARGUMENT,
             Error::Parse { .. } => ROUNDEL_ERROR_PARSE,
             Error::Io { .. } => ROUNDEL_ERROR_IO,
             Error::Infeasible { .. } => ROUNDEL_ERROR_INFEASIBLE,

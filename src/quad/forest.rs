@@ -1,0 +1,44 @@
+//! The spanning forest of the dual graph along which period jumps are zero.
+//!
+//! Every tree of dual edges can have all its jumps moved to zero by turning the frames of its
+//! faces by quarter turns, as long as no two constrained faces lie in one tree (Bommes, Zimmer,
+//! Kobbelt 2009, section 4.1: "reducing the search space").
+
+use std::collections::VecDeque;
+
+use crate::mesh::TriangleMesh;
+
+/// Whether each edge of the mesh belongs to the forest.
+///
+/// Breadth-first from the constrained faces in increasing number, neighbours in increasing
+/// number; a component without a constrained face grows from its lowest face.
+pub(super) fn spanning_forest(mesh: &TriangleMesh, constrained: &[bool]) -> Vec<bool> {
+    let mut in_forest = vec![false; mesh.edge_count()];
+    let mut reached = constrained.to_vec();
+    let roots = (0..mesh.face_count()).filter(|&f| constrained[f]);
+    let mut queue: VecDeque<usize> = roots.collect();
+    let mut lowest = 0;
+    loop {
+        while let Some(face) = queue.pop_front() {
+            let mut next: Vec<(usize, usize)> = (0..3)
+                .filter_map(|k| Some((mesh.neighbor(face, k)?.0, mesh.edge_of(face, k))))
+                .collect();
+            next.sort_unstable();
+            for (neighbor, edge) in next {
+                if !reached[neighbor] {
+                    reached[neighbor] = true;
+                    in_forest[edge] = true;
+                    queue.push_back(neighbor);
+                }
+            }
+        }
+        match (lowest..mesh.face_count()).find(|&f| !reached[f]) {
+            Some(face) => {
+                reached[face] = true;
+                lowest = face + 1;
+                queue.push_back(face);
+            }
+            None => return in_forest,
+        }
+    }
+}

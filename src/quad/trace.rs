@@ -1,0 +1,65 @@
+//! Vertex indices by following an arm of the cross around the vertex in space.
+//!
+//! Independent of [`super::index`]: no kappa, no frames unfolded in the plane. An arm is carried
+//! from face to face as a vector, turned over each edge into the next face's plane, and compared
+//! with the arm that it is matched with there; the angles between them add up to the turning of
+//! the field.
+
+use std::f64::consts::{FRAC_PI_2, TAU};
+
+use super::OrientationField;
+use crate::mesh::TriangleMesh;
+use crate::mesh::vector::{Vec3, add, cross, dot, normalize, scale, sub};
+
+impl OrientationField {
+    /// The index of every vertex, in full turns, by tracing. Boundary vertices have none: 0.
+    pub fn traced_indices(&self, mesh: &TriangleMesh) -> Vec<f64> {
+        (0..mesh.vertex_count())
+            .map(|v| match mesh.is_boundary_vertex(v) {
+                true => 0.0,
+                false => self.trace(mesh, v),
+            })
+            .collect()
+    }
+
+    fn trace(&self, mesh: &TriangleMesh, vertex: usize) -> f64 {
+        let mut defect = TAU;
+        let mut turning = 0.0;
+        // Quarter turns between the arm that is followed and the angle that the face stores.
+        let mut quarters = 0;
+        for (face, corner) in mesh.ring(vertex) {
+            let corners = mesh.corner_positions(face);
+            let apex = corners[corner];
+            let to_next = normalize(sub(corners[(corner + 1) % 3], apex));
+            let to_last = normalize(sub(corners[(corner + 2) % 3], apex));
+            defect -= dot(to_next, to_last).clamp(-1.0, 1.0).acos();
+
+            let k = (corner + 2) % 3;
+            let Some((across, _)) = mesh.neighbor(face, k) else {
+                continue;
+            };
+            let arm = self.arm(mesh, face, quarters);
+            let e = mesh.edge_of(face, k);
+            quarters += match mesh.edge(e).first == (face, k) {
+                true => -self.period_jumps[e],
+                false => self.period_jumps[e],
+            };
+            let matched = self.arm(mesh, across, quarters);
+            let (from, to) = (mesh.normal(face), mesh.normal(across));
+            // Over the edge: what lies along it stays, what lies across it turns with the plane.
+            let carried = add(
+                scale(to_last, dot(arm, to_last)),
+                scale(cross(to, to_last), dot(arm, cross(from, to_last))),
+            );
+            turning += dot(cross(carried, matched), to).atan2(dot(carried, matched));
+        }
+        (defect + turning) / TAU
+    }
+
+    /// An arm of the cross of a face, as a unit vector in space.
+    fn arm(&self, mesh: &TriangleMesh, face: usize, quarters: i32) -> Vec3 {
+        let [x, y] = mesh.frame(face);
+        let angle = self.angles[face] + FRAC_PI_2 * f64::from(quarters);
+        add(scale(x, angle.cos()), scale(y, angle.sin()))
+    }
+}
