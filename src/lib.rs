@@ -39,6 +39,8 @@ pub mod eliminate;
 mod error;
 pub mod linalg;
 pub mod mesh;
+#[cfg(feature = "pictures")]
+pub mod picture;
 pub mod problem;
 pub mod quad;
 pub mod round;
