@@ -39,6 +39,16 @@ pub struct Arguments {
     #[arg(long, value_name = "WIDTHxHEIGHT", default_value = "1600x1200", value_parser = size)]
     pub picture_size: [usize; 2],
 
+    /// The direction from which the picture looks at the mesh
+    #[arg(long, value_name = "X,Y,Z", default_value = "0.55,0.42,0.8", value_parser = direction)]
+    #[arg(allow_hyphen_values = true)]
+    pub picture_from: [f64; 3],
+
+    /// The direction that is upwards in the picture
+    #[arg(long, value_name = "X,Y,Z", default_value = "0,1,0", value_parser = direction)]
+    #[arg(allow_hyphen_values = true)]
+    pub picture_up: [f64; 3],
+
     /// Write the mixed-integer problem to this file: MPS, compressed if it ends in .gz
     #[arg(long, value_name = "P.mps[.gz]")]
     pub write_problem: Option<PathBuf>,
@@ -83,9 +93,15 @@ fn size(text: &str) -> Result<[usize; 2], String> {
     Ok([pixels(width)?, pixels(height)?])
 }
 
+fn direction(text: &str) -> Result<[f64; 3], String> {
+    let numbers: Result<Vec<f64>, _> = text.split(',').map(str::parse).collect();
+    let numbers = numbers.map_err(|_| "not X,Y,Z")?;
+    numbers.try_into().map_err(|_| String::from("not X,Y,Z"))
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{constraint, fraction, size};
+    use super::{constraint, direction, fraction, size};
 
     #[test]
     fn a_direction_is_a_face_and_finite_degrees() {
@@ -103,6 +119,14 @@ mod tests {
         assert_eq!((fraction("0"), fraction("1")), (Ok(0.0), Ok(1.0)));
         for text in ["-0.1", "1.01", "nan", "a tenth", ""] {
             assert!(fraction(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn a_direction_of_view_is_three_numbers() {
+        assert_eq!(direction("-1,0.5,2"), Ok([-1.0, 0.5, 2.0]));
+        for text in ["", "1,2", "1,2,3,4", "1,2,z"] {
+            assert!(direction(text).is_err(), "{text}");
         }
     }
 
