@@ -28,7 +28,7 @@
 //! ```
 //!
 //! Where to find what: [`problem`] states and validates, [`eliminate`] removes the equality
-//! constraints, [`round`] and [`solve`] search, [`linalg`] holds what faer lacks, [`mesh`] holds
+//! constraints, [`round`] and [`mod@solve`] search, [`linalg`] holds what faer lacks, [`mesh`] holds
 //! triangle meshes, [`capi`] is the C interface.
 
 #![deny(unsafe_code)]

@@ -149,8 +149,7 @@ impl Options {
     }
 
     fn set_time_limit(&mut self, info: &'static OptionInfo, seconds: f64) -> Result<()> {
-        // NaN fails this as well.
-        if !(seconds >= 0.0) {
+        if seconds.is_nan() || seconds < 0.0 {
             return Err(out_of_range(info, seconds));
         }
         self.time_limit = seconds;
