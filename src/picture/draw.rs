@@ -25,14 +25,14 @@ const LINE_WIDTH: f64 = 0.14;
 const TAPER: f64 = 0.6;
 const BALL_RADIUS: f64 = 0.5;
 /// The largest image, in pixels a side.
-const LARGEST: usize = 16_384;
+const LARGEST: usize = 8_192;
 
 /// Size of the image, and where it is seen from.
 #[derive(Debug, Clone, PartialEq)]
 pub struct View {
-    /// Width in pixels, 1 to 16384.
+    /// Width in pixels, 1 to 8192.
     pub width: usize,
-    /// Height in pixels, 1 to 16384.
+    /// Height in pixels, 1 to 8192.
     pub height: usize,
     /// From the mesh towards the eye.
     pub from: [f64; 3],
@@ -55,7 +55,7 @@ impl Default for View {
 /// Draws a field on its mesh.
 ///
 /// # Errors
-/// [`Error::InvalidArgument`] for a size outside 1 to 16384, and for directions that are null, not
+/// [`Error::InvalidArgument`] for a size outside 1 to 8192, and for directions that are null, not
 /// finite or parallel to each other.
 pub fn draw_field(mesh: &TriangleMesh, field: &OrientationField, view: &View) -> Result<Image> {
     view.check()?;

@@ -87,8 +87,8 @@ fn constraint(text: &str) -> Result<Constraint, String> {
 fn size(text: &str) -> Result<[usize; 2], String> {
     let (width, height) = text.split_once('x').ok_or("not WIDTHxHEIGHT")?;
     let pixels = |text: &str| match text.parse() {
-        Ok(pixels) if (1..=16_384).contains(&pixels) => Ok(pixels),
-        _ => Err(format!("'{text}' is not a number of pixels, 1 to 16384")),
+        Ok(pixels) if (1..=8_192).contains(&pixels) => Ok(pixels),
+        _ => Err(format!("'{text}' is not a number of pixels, 1 to 8192")),
     };
     Ok([pixels(width)?, pixels(height)?])
 }
@@ -133,7 +133,7 @@ mod tests {
     #[test]
     fn a_size_is_two_numbers_of_pixels() {
         assert_eq!(size("640x480"), Ok([640, 480]));
-        for text in ["640", "640x", "0x480", "640x16385", "-1x2", "640x480x2"] {
+        for text in ["640", "640x", "0x480", "640x8193", "-1x2", "640x480x2"] {
             assert!(size(text).is_err(), "{text}");
         }
     }

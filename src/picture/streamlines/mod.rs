@@ -10,8 +10,8 @@ mod walk;
 
 use std::collections::VecDeque;
 
-use super::streamlines::spacing::{Index, Sample};
-use super::streamlines::walk::{Stand, Walker};
+use self::spacing::{Index, Sample};
+use self::walk::{Stand, Walker};
 use crate::mesh::TriangleMesh;
 use crate::mesh::vector::{Vec3, dot, norm, sub};
 use crate::quad::OrientationField;
