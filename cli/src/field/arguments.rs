@@ -11,12 +11,13 @@ use crate::options::SolverOptions;
 #[derive(clap::Args)]
 #[command(after_help = exit::HELP)]
 pub struct Arguments {
-    /// The mesh: a file (.obj, .off, .ply) or shape:NAME[:TRIANGLES], see `roundel shape --help`
+    /// The mesh: a file (.obj, .off, .ply), or shape:NAME or shape:NAME:TRIANGLES for one of the
+    /// shapes that `roundel shape --help` lists
     #[arg(value_name = "MESH")]
     pub mesh: PathBuf,
 
     /// Give this part of the faces, those with the most reliable curvature, the direction of least
-    /// curvature; in [0, 1]
+    /// curvature; from 0 to 1
     #[arg(long, value_name = "FRACTION", default_value_t = 0.1, value_parser = fraction)]
     #[arg(allow_negative_numbers = true)]
     pub constrain_curvature: f64,
