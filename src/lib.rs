@@ -28,7 +28,7 @@
 //! ```
 //!
 //! Where to find what: [`problem`] states and validates, [`eliminate`] removes the equality
-//! constraints, [`round`] and [`solve`] search, [`linalg`] holds what faer lacks, [`mesh`] holds
+//! constraints, [`round`] and [`mod@solve`] search, [`linalg`] holds what faer lacks, [`mesh`] holds
 //! triangle meshes, [`capi`] is the C interface.
 
 #![deny(unsafe_code)]
@@ -39,6 +39,8 @@ pub mod eliminate;
 mod error;
 pub mod linalg;
 pub mod mesh;
+#[cfg(feature = "pictures")]
+pub mod picture;
 pub mod problem;
 pub mod quad;
 pub mod round;

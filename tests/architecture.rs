@@ -18,7 +18,7 @@ const SOLVER: [&str; 7] = [
 ];
 
 /// The parts that use the solver.
-const CLIENTS: [&str; 3] = ["mesh", "quad", "capi"];
+const CLIENTS: [&str; 4] = ["mesh", "quad", "picture", "capi"];
 
 /// No file is longer, in lines.
 const LONGEST: usize = 600;

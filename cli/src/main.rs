@@ -1,12 +1,15 @@
 //! The `roundel` program: one command a task, each in a module of its name.
 
 mod exit;
+mod field;
 mod interrupt;
 mod memory;
+mod mesh;
 mod options;
 mod output;
 mod progress;
 mod report;
+mod shape;
 mod solve;
 mod summary;
 
@@ -25,11 +28,15 @@ struct Program {
 #[derive(Subcommand)]
 enum Command {
     Solve(solve::Arguments),
+    Field(field::Arguments),
+    Shape(shape::Arguments),
 }
 
 fn main() -> ExitCode {
     match Program::parse().command {
         Command::Solve(arguments) => solve::run(&arguments),
+        Command::Field(arguments) => field::run(&arguments),
+        Command::Shape(arguments) => shape::run(&arguments),
     }
     .into()
 }

@@ -25,23 +25,33 @@ pub struct Report<'a> {
     max_integrality_violation: Option<f64>,
 }
 
-/// Wall-clock seconds by phase; `total` includes `read`.
+/// Wall-clock seconds by phase; `total` includes them all.
 #[derive(Serialize)]
 struct Seconds {
     read: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    assemble: Option<f64>,
     eliminate: f64,
     factor: f64,
     round: f64,
     total: f64,
 }
 
+/// Seconds before the solver begins.
+#[derive(Debug, Clone, Copy)]
+pub struct Preparation {
+    /// Reading the file.
+    pub read: f64,
+    /// Making the problem of it, where the file is not the problem.
+    pub assemble: Option<f64>,
+}
+
 impl<'a> Report<'a> {
-    /// The report of `solution`, found by `strategy` for the problem in `file` that took `read`
-    /// seconds to read.
+    /// The report of `solution`, found by `strategy` for what is in `file`.
     pub fn new(
         file: &Path,
         strategy: &'a str,
-        read: f64,
+        before: Preparation,
         solution: &Solution,
         peak_memory_bytes: Option<u64>,
     ) -> Self {
@@ -60,11 +70,12 @@ impl<'a> Report<'a> {
             reduced_integers: counts.reduced_integers,
             reduced_continuous: counts.reduced_continuous,
             seconds: Seconds {
-                read,
+                read: before.read,
+                assemble: before.assemble,
                 eliminate: seconds.eliminate,
                 factor: seconds.factor,
                 round: seconds.round,
-                total: read + seconds.total,
+                total: before.read + before.assemble.unwrap_or(0.0) + seconds.total,
             },
             peak_memory_bytes,
             max_constraint_violation: finite(solution.max_constraint_violation()),

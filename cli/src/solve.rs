@@ -13,7 +13,7 @@ use crate::memory;
 use crate::options::SolverOptions;
 use crate::output;
 use crate::progress::Progress;
-use crate::report::{Failure, Report};
+use crate::report::{Failure, Preparation, Report};
 use crate::summary::Summary;
 
 /// Solve a problem from an MPS file.
@@ -109,7 +109,10 @@ fn tell(arguments: &Arguments, solved: &Solved) -> Result<()> {
         output::print_json(&Report::new(
             &arguments.file,
             strategy,
-            solved.read,
+            Preparation {
+                read: solved.read,
+                assemble: None,
+            },
             &solved.solution,
             memory::peak_bytes(),
         ))

@@ -29,40 +29,45 @@ impl fmt::Display for Summary<'_> {
             counted(counts.reduced_integers, "integer"),
             thousands(counts.reduced_continuous)
         );
-        let found = format!("{}, {}", energy(self.solution.energy()), self.verdict());
+        let found = format!(
+            "{}, {}",
+            energy(self.solution.energy()),
+            verdict(self.solution)
+        );
         line(f, "read", &read, self.read)?;
         line(f, "eliminate", &reduced, seconds.eliminate)?;
         line(f, self.strategy, &found, seconds.factor + seconds.round)
     }
 }
 
-impl Summary<'_> {
-    fn verdict(&self) -> String {
-        let status = self.solution.status().name();
-        match self.solution.gap() {
-            Some(gap) if gap.is_finite() => format!("{status}, gap {:.2} %", 100.0 * gap),
-            _ => status.into(),
-        }
+/// How a solve ended and how far the energy is from the bound.
+pub fn verdict(solution: &Solution) -> String {
+    let status = solution.status().name();
+    match solution.gap() {
+        Some(gap) if gap.is_finite() => format!("{status}, gap {:.2} %", 100.0 * gap),
+        _ => status.into(),
     }
 }
 
 /// Nine decimals; rounding noise below them has no sign.
-fn energy(value: f64) -> String {
+pub fn energy(value: f64) -> String {
     let shown = if value.abs() < 5e-10 { 0.0 } else { value };
     format!("energy {shown:.9}")
 }
 
-fn line(f: &mut fmt::Formatter, phase: &str, text: &str, seconds: f64) -> fmt::Result {
+/// One line: phase, what came out, seconds.
+pub fn line(f: &mut fmt::Formatter, phase: &str, text: &str, seconds: f64) -> fmt::Result {
     writeln!(f, "{phase:<10} {text:<56} {seconds:8.3} s")
 }
 
-fn counted(count: usize, noun: &str) -> String {
+/// A count and its noun, in the plural unless it is one.
+pub fn counted(count: usize, noun: &str) -> String {
     let plural = if count == 1 { "" } else { "s" };
     format!("{} {noun}{plural}", thousands(count))
 }
 
 /// A count with commas: 20,088.
-fn thousands(count: usize) -> String {
+pub fn thousands(count: usize) -> String {
     let digits = count.to_string();
     let mut text = String::with_capacity(digits.len() + digits.len() / 3);
     for (i, digit) in digits.chars().enumerate() {

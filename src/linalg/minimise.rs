@@ -152,7 +152,7 @@ fn endless_slope(gradient: &[f64], step: &[f64], factor: &Cholesky) -> Result<Op
 fn pseudo_random(i: usize) -> f64 {
     let bits = (i as u64 + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15);
     let size = 0.5 + (bits >> 12) as f64 / (1u64 << 53) as f64;
-    if bits.count_ones() % 2 == 0 {
+    if bits.count_ones().is_multiple_of(2) {
         size
     } else {
         -size

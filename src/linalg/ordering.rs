@@ -50,7 +50,7 @@ pub struct EliminationTree {
     pub order: Vec<u32>,
     /// Position of each unknown.
     pub position: Vec<u32>,
-    /// Parent position of each position, or [`NONE`].
+    /// Parent position of each position, or `u32::MAX` for a root.
     pub parent: Vec<u32>,
     /// The lowest position in the subtree of each position: the subtree is `first[j]..=j`.
     pub first: Vec<u32>,

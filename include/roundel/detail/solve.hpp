@@ -72,7 +72,13 @@ inline OptionsHandle handle_for(const Options& options, Status* status) {
         return !value || check(set(made, name, *value), status);
     };
     if (!one("strategy", options.strategy) || !one("time_limit", options.time_limit) ||
-        !one("threads", options.threads)) {
+        !one("threads", options.threads) ||
+        !one("rounding_threshold", options.rounding_threshold) ||
+        !one("exact_integers", options.exact_integers) ||
+        !one("gauss_seidel_updates", options.gauss_seidel_updates) ||
+        !one("gauss_seidel_tolerance", options.gauss_seidel_tolerance) ||
+        !one("cg_iterations", options.cg_iterations) ||
+        !one("cg_tolerance", options.cg_tolerance) || !one("exact_steps", options.exact_steps)) {
         return nullptr;
     }
     for (const auto& [name, value] : options.more) {

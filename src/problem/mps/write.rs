@@ -37,7 +37,7 @@ pub fn write(path: &Path, problem: &MpsProblem) -> Result<()> {
 /// Writes `problem` to `writer`, not compressed.
 ///
 /// # Errors
-/// As [`write`].
+/// As [`write()`].
 pub fn write_to(mut writer: impl Write, problem: &MpsProblem) -> Result<()> {
     let model = Model::new(&problem.problem)?;
     let document = Document::new(&model, &problem.names, Pins::Rows);

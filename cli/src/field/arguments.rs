@@ -1,0 +1,116 @@
+//! The command line of `roundel field`.
+
+use std::path::PathBuf;
+
+use roundel::quad::Constraint;
+
+use crate::exit;
+use crate::options::SolverOptions;
+
+/// Compute the smoothest cross field of a triangle mesh.
+#[derive(clap::Args)]
+#[command(after_help = exit::HELP)]
+pub struct Arguments {
+    /// The mesh: a file (.obj, .off, .ply) or shape:NAME[:TRIANGLES], see `roundel shape --help`
+    #[arg(value_name = "MESH")]
+    pub mesh: PathBuf,
+
+    /// Give this part of the faces, those with the most reliable curvature, the direction of least
+    /// curvature; in [0, 1]
+    #[arg(long, value_name = "FRACTION", default_value_t = 0.1, value_parser = fraction)]
+    #[arg(allow_negative_numbers = true)]
+    pub constrain_curvature: f64,
+
+    /// Give this face this direction, in degrees counter-clockwise from its first edge; may be
+    /// repeated, and comes before curvature
+    #[arg(long, value_name = "FACE:DEGREES", value_parser = constraint)]
+    pub fix: Vec<Constraint>,
+
+    /// Write the mesh with crosses and irregular vertices to this file, to be looked at in MeshLab
+    /// or Blender (.ply and .obj have colours, .off not)
+    #[arg(short, long, value_name = "OUT")]
+    pub out: Option<PathBuf>,
+
+    /// Draw a picture to this PNG file
+    #[arg(long, value_name = "OUT.png")]
+    pub picture: Option<PathBuf>,
+
+    /// Width and height of the picture in pixels
+    #[arg(long, value_name = "WIDTHxHEIGHT", default_value = "1600x1200", value_parser = size)]
+    pub picture_size: [usize; 2],
+
+    /// Write the mixed-integer problem to this file: MPS, compressed if it ends in .gz
+    #[arg(long, value_name = "P.mps[.gz]")]
+    pub write_problem: Option<PathBuf>,
+
+    /// Print one JSON object instead of the summary
+    #[arg(long)]
+    pub json: bool,
+
+    #[command(flatten)]
+    pub solver: SolverOptions,
+}
+
+fn fraction(text: &str) -> Result<f64, String> {
+    let value: f64 = text.parse().map_err(|_| "not a number")?;
+    match (0.0..=1.0).contains(&value) {
+        true => Ok(value),
+        false => Err("outside [0, 1]".into()),
+    }
+}
+
+fn constraint(text: &str) -> Result<Constraint, String> {
+    let (face, degrees) = text.split_once(':').ok_or("not FACE:DEGREES")?;
+    let face = face
+        .parse()
+        .map_err(|_| "FACE is not the number of a face")?;
+    let degrees: f64 = degrees.parse().map_err(|_| "DEGREES is not a number")?;
+    match degrees.is_finite() {
+        true => Ok(Constraint {
+            face,
+            angle: degrees.to_radians(),
+        }),
+        false => Err("DEGREES is not finite".into()),
+    }
+}
+
+fn size(text: &str) -> Result<[usize; 2], String> {
+    let (width, height) = text.split_once('x').ok_or("not WIDTHxHEIGHT")?;
+    let pixels = |text: &str| match text.parse() {
+        Ok(pixels) if (1..=16_384).contains(&pixels) => Ok(pixels),
+        _ => Err(format!("'{text}' is not a number of pixels, 1 to 16384")),
+    };
+    Ok([pixels(width)?, pixels(height)?])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{constraint, fraction, size};
+
+    #[test]
+    fn a_direction_is_a_face_and_finite_degrees() {
+        let given = constraint("7:-90").unwrap();
+        assert_eq!((given.face, given.angle), (7, -std::f64::consts::FRAC_PI_2));
+        for text in [
+            "", "7", "7:", ":3", "-1:3", "1.5:3", "7:nan", "7:inf", "7:3:4",
+        ] {
+            assert!(constraint(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn a_fraction_is_at_most_one() {
+        assert_eq!((fraction("0"), fraction("1")), (Ok(0.0), Ok(1.0)));
+        for text in ["-0.1", "1.01", "nan", "a tenth", ""] {
+            assert!(fraction(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn a_size_is_two_numbers_of_pixels() {
+        assert_eq!(size("640x480"), Ok([640, 480]));
+        for text in ["640", "640x", "0x480", "640x16385", "-1x2", "640x480x2"] {
+            assert!(size(text).is_err(), "{text}");
+        }
+    }
+}

@@ -1,0 +1,118 @@
+//! `roundel field`: the smoothest cross field of a mesh, its figures, files and picture.
+
+mod arguments;
+mod report;
+mod summary;
+
+use std::time::Instant;
+
+use roundel::mesh::{TriangleMesh, io};
+use roundel::picture::{FieldModel, View, draw_field};
+use roundel::problem::mps::{self, MpsProblem};
+use roundel::quad::{Constraint, FieldProblem, OrientationField, curvature_constraints};
+use roundel::{Options, Result, Solution, Strategy};
+
+use crate::exit::Exit;
+use crate::progress::Progress;
+use crate::report::{Failure, Preparation};
+use crate::{interrupt, mesh, output};
+pub use arguments::Arguments;
+use report::FieldReport;
+use summary::FieldSummary;
+
+/// Runs the command: every outcome is told once, on stdout with `--json` or if there is a
+/// solution, else on stderr.
+pub fn run(arguments: &Arguments) -> Exit {
+    let told = match solve(arguments) {
+        Ok(solved) => tell(arguments, &solved).map(|()| Exit::Solved),
+        Err(error) => Err(error),
+    };
+    told.unwrap_or_else(|error| {
+        let failure = Failure::new(&arguments.mesh, &error);
+        if !arguments.json || output::print_json(&failure).is_err() {
+            output::complain(&arguments.mesh, &error);
+        }
+        Exit::of(&error)
+    })
+}
+
+/// A field, and how it was come by.
+struct Solved {
+    strategy: Strategy,
+    mesh: TriangleMesh,
+    field: OrientationField,
+    solution: Solution,
+    before: Preparation,
+    /// Seconds that files and picture took.
+    written: f64,
+}
+
+fn solve(arguments: &Arguments) -> Result<Solved> {
+    let token = interrupt::cancel_token()?;
+    let progress = Progress::start();
+    let options = arguments.solver.over(Options::default())?;
+    let started = Instant::now();
+    let mesh = mesh::read(&arguments.mesh)?;
+    let read = started.elapsed().as_secs_f64();
+    let started = Instant::now();
+    let problem = FieldProblem::new(&mesh, &constraints(arguments, &mesh)?)?;
+    let assemble = started.elapsed().as_secs_f64();
+    if let Some(path) = &arguments.write_problem {
+        mps::write(path, &MpsProblem::new(problem.problem().clone()))?;
+    }
+    let monitor = progress.monitor().cancel_token(token);
+    let solution = roundel::solve_with(problem.problem(), &options, monitor)?;
+    let field = problem.field(&mesh, &solution)?;
+    let started = Instant::now();
+    write(arguments, &mesh, &field)?;
+    Ok(Solved {
+        strategy: options.strategy,
+        mesh,
+        field,
+        solution,
+        before: Preparation {
+            read,
+            assemble: Some(assemble),
+        },
+        written: started.elapsed().as_secs_f64(),
+    })
+}
+
+/// The directions given on the command line, and those of curvature for other faces.
+fn constraints(arguments: &Arguments, mesh: &TriangleMesh) -> Result<Vec<Constraint>> {
+    let mut constraints = arguments.fix.clone();
+    let mut free = vec![true; mesh.face_count()];
+    for given in &constraints {
+        if let Some(free) = free.get_mut(given.face) {
+            *free = false;
+        }
+    }
+    let mut curved = curvature_constraints(mesh, arguments.constrain_curvature)?;
+    curved.retain(|c| free[c.face]);
+    constraints.extend(curved);
+    Ok(constraints)
+}
+
+fn write(arguments: &Arguments, mesh: &TriangleMesh, field: &OrientationField) -> Result<()> {
+    if let Some(path) = &arguments.out {
+        io::write(path, FieldModel::new(mesh, field).drawing())?;
+    }
+    if let Some(path) = &arguments.picture {
+        let [width, height] = arguments.picture_size;
+        let view = View {
+            width,
+            height,
+            ..View::default()
+        };
+        draw_field(mesh, field, &view)?.write_png(path)?;
+    }
+    Ok(())
+}
+
+fn tell(arguments: &Arguments, solved: &Solved) -> Result<()> {
+    if arguments.json {
+        output::print_json(&FieldReport::new(&arguments.mesh, solved))
+    } else {
+        output::print(&FieldSummary { arguments, solved }.to_string())
+    }
+}

@@ -1,0 +1,58 @@
+//! The readable summary of a field: one line a phase, what came out and how long.
+
+use std::fmt;
+
+use super::{Arguments, Solved};
+use crate::summary::{counted, energy, line, thousands, verdict};
+
+/// Lines for the mesh, the problem, the solution and the field, and one for what was written.
+pub(super) struct FieldSummary<'a> {
+    pub(super) arguments: &'a Arguments,
+    pub(super) solved: &'a Solved,
+}
+
+impl fmt::Display for FieldSummary<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let Solved {
+            mesh,
+            field,
+            solution,
+            before,
+            written,
+            strategy,
+        } = self.solved;
+        let (counts, seconds) = (solution.counts(), solution.seconds());
+        let given = field.constrained().iter().filter(|&&given| given).count();
+        let read = format!(
+            "{}, {}, Euler characteristic {}",
+            counted(mesh.face_count(), "face"),
+            counted_vertices(mesh.vertex_count(), ""),
+            mesh.euler_characteristic()
+        );
+        let assemble = format!(
+            "{}, {} given",
+            counted(counts.integers, "integer"),
+            counted(given, "direction")
+        );
+        let found = format!("{}, {}", energy(solution.energy()), verdict(solution));
+        line(f, "read", &read, before.read)?;
+        line(f, "assemble", &assemble, before.assemble.unwrap_or(0.0))?;
+        line(f, strategy.name(), &found, seconds.total)?;
+        let irregular = counted_vertices(field.irregular_vertices(mesh).len(), "irregular ");
+        let files: Vec<String> = [&self.arguments.out, &self.arguments.picture]
+            .into_iter()
+            .flatten()
+            .map(|path| path.display().to_string())
+            .collect();
+        if files.is_empty() {
+            return writeln!(f, "{:<10} {irregular}", "field");
+        }
+        let field = format!("{irregular}: {}", files.join(", "));
+        line(f, "field", &field, *written)
+    }
+}
+
+fn counted_vertices(count: usize, kind: &str) -> String {
+    let noun = if count == 1 { "vertex" } else { "vertices" };
+    format!("{} {kind}{noun}", thousands(count))
+}

@@ -1,0 +1,71 @@
+//! Irregular vertices as balls, coloured by index.
+
+use crate::mesh::TriangleMesh;
+use crate::mesh::vector::{Vec3, add, normalize, scale};
+use crate::quad::OrientationField;
+
+/// Index +1/4, and what is larger by whole turns of the sign alone.
+const POSITIVE: [u8; 3] = [214, 48, 38];
+const NEGATIVE: [u8; 3] = [30, 92, 205];
+const OTHER: [u8; 3] = [240, 168, 12];
+
+/// A ball: red for an index of a quarter, blue for minus a quarter, amber for all others.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Ball {
+    pub(super) centre: Vec3,
+    pub(super) color: [u8; 3],
+}
+
+/// One ball an irregular vertex, in increasing order of vertices.
+pub(super) fn balls(mesh: &TriangleMesh, field: &OrientationField) -> Vec<Ball> {
+    let indices = field.vertex_indices(mesh);
+    let quarters = indices.iter().map(|index| (4.0 * index).round() as i64);
+    let irregular = quarters.enumerate().filter(|&(_, quarters)| quarters != 0);
+    let ball = |(vertex, quarters)| Ball {
+        centre: mesh.position(vertex),
+        color: match quarters {
+            1 => POSITIVE,
+            -1 => NEGATIVE,
+            _ => OTHER,
+        },
+    };
+    irregular.map(ball).collect()
+}
+
+/// A sphere of radius 1 about the origin, whose points are its normals: an octahedron, each edge
+/// cut in `steps`.
+pub(super) fn unit_sphere(steps: usize) -> (Vec<Vec3>, Vec<[u32; 3]>) {
+    let (mut points, mut triangles) = (Vec::new(), Vec::new());
+    for octant in 0..8u8 {
+        let sign = [0, 1, 2].map(|k| if octant >> k & 1 == 0 { 1.0 } else { -1.0 });
+        let mirrored = sign.iter().product::<f64>() < 0.0;
+        let first = points.len();
+        // Row i of the octant's triangle has i + 1 points.
+        let number = |i: usize, j: usize| (first + i * (i + 1) / 2 + j) as u32;
+        for i in 0..=steps {
+            for j in 0..=i {
+                let corner = [(steps - i) as f64, (i - j) as f64, j as f64];
+                let bent = corner.map(|x| (x / steps as f64 * std::f64::consts::FRAC_PI_2).sin());
+                points.push(normalize(std::array::from_fn(|k| sign[k] * bent[k])));
+                if i == steps {
+                    continue;
+                }
+                let mut add = |[a, b, c]: [u32; 3]| {
+                    triangles.push(if mirrored { [a, c, b] } else { [a, b, c] });
+                };
+                add([number(i, j), number(i + 1, j), number(i + 1, j + 1)]);
+                if j < i {
+                    add([number(i, j), number(i + 1, j + 1), number(i, j + 1)]);
+                }
+            }
+        }
+    }
+    (points, triangles)
+}
+
+impl Ball {
+    /// The point of the ball of this radius in the direction of a unit vector.
+    pub(super) fn point(&self, radius: f64, towards: Vec3) -> Vec3 {
+        add(self.centre, scale(towards, radius))
+    }
+}

@@ -1,0 +1,30 @@
+//! Pictures of orientation fields: a shaded view for paper and page, a model for mesh viewers.
+//!
+//! A small software renderer, since a field is looked at far more often than it is computed and a
+//! graphics library would be the largest dependency of all. [`draw_field`] gives an [`Image`]:
+//! streamlines of the field, evenly spaced, on a softly lit surface, and irregular vertices as
+//! balls. [`FieldModel`] is what MeshLab and Blender open: the mesh, a cross in every face and
+//! the same balls. Everything is the same on every run.
+//!
+//! Irregular vertices of positive index are red, as at the corner of a cube, those of negative
+//! index blue; where the index is not a quarter turn they are of a stronger third colour, amber.
+
+mod ambient;
+mod balls;
+mod camera;
+mod draw;
+mod model;
+mod normals;
+mod png;
+mod raster;
+mod ribbons;
+mod scene;
+mod shading;
+mod streamlines;
+
+pub use draw::{View, draw_field};
+pub use model::FieldModel;
+pub use png::Image;
+
+#[cfg(test)]
+mod tests;
