@@ -43,11 +43,12 @@ template <class G> using Halfedge = typename boost::graph_traits<G>::halfedge_de
 template <class G> using Elements = Adapted<Vertex<G>, Face<G>, Halfedge<G>>;
 template <class G> using Field = AdaptedField<Vertex<G>, Face<G>, Halfedge<G>>;
 
+// A FaceGraph has faces(graph); boost::graph_traits cannot be asked of a type that is no graph.
 // CGAL makes FaceGraphs of OpenMesh's types too; those belong to openmesh.hpp.
 template <class G>
-using enable =
-    std::enable_if_t<!std::is_base_of_v<OpenMesh::PolyConnectivity, G> && sizeof(Face<G>) != 0,
-                     int>;
+using enable = std::enable_if_t<!std::is_base_of_v<OpenMesh::PolyConnectivity, G> &&
+                                    sizeof(faces(std::declval<const G&>())) != 0,
+                                int>;
 
 /// The property maps of a field on a CGAL::Surface_mesh, under the names "f:roundel_angle",
 /// "h:roundel_period_jump", "h:roundel_kappa" and "v:roundel_index".

@@ -1,5 +1,6 @@
 // What must hold of a field, however it was assembled, on the meshes named by the arguments: OFF
-// files, or shape:NAME:TRIANGLES, which are jittered so that nothing ties.
+// files, jittered:FILE for those whose symmetry makes integers tie, or shape:NAME:TRIANGLES, which
+// are always jittered.
 //
 //     fields [--reference] DIRECTORY MESH...
 //
@@ -38,6 +39,9 @@ void raise(double& largest, double value) {
 }
 
 roundel::Mesh load(const std::string& directory, const std::string& name) {
+    if (name.rfind("jittered:", 0) == 0) {
+        return load(directory, name.substr(9)).jittered(1e-3, 7);
+    }
     if (name.rfind("shape:", 0) != 0) {
         return roundel::Mesh::read(directory + "/" + name + ".off");
     }
@@ -46,6 +50,19 @@ roundel::Mesh load(const std::string& directory, const std::string& name) {
         roundel::Mesh::shape(name.substr(6, colon - 6), std::stoul(name.substr(colon + 1)));
     return shape.jittered(1e-3, 7);
 }
+
+/// Counts differences and tells the first.
+struct Differences {
+    const char* what;
+    std::size_t count = 0;
+
+    void add(bool same, const Dual& a, double kappa, std::int32_t one, std::int32_t other) {
+        if (!same && count++ == 0) {
+            std::printf("%s: faces %d and %d, kappa %.17g and %.17g, jumps %d and %d\n", what,
+                        a.first, a.second, a.kappa, kappa, one, other);
+        }
+    }
+};
 
 /// Every 32nd face or so, along one direction of space; or one face alone.
 Fixed fixed_faces(const Soup& soup, bool single) {
@@ -96,7 +113,8 @@ void holds_of_the_librarys_field(const roundel::Mesh& mesh, const Assembly& asse
     raise(worst.field, relative(field.solution().energy(), solved.energy));
 
     const auto faces = mesh.edge_faces();
-    std::size_t dual = 0, different = 0;
+    std::size_t dual = 0;
+    Differences different{"library's own field"};
     for (std::size_t e = 0; e < field.period_jumps().size(); ++e) {
         if (faces[2 * e + 1] < 0) {
             CHECK(field.period_jumps()[e] == 0);
@@ -108,10 +126,11 @@ void holds_of_the_librarys_field(const roundel::Mesh& mesh, const Assembly& asse
         const bool same = faces[2 * e] == assembly.edges[dual].first &&
                           faces[2 * e + 1] == assembly.edges[dual].second &&
                           field.period_jumps()[e] == solved.jumps[dual];
-        different += !same;
+        different.add(same, assembly.edges[dual], field.kappa()[e], solved.jumps[dual],
+                      field.period_jumps()[e]);
         ++dual;
     }
-    CHECK(dual == assembly.edges.size() && different == 0);
+    CHECK(dual == assembly.edges.size() && different.count == 0);
 
     const auto traced = field.traced_indices();
     double sum = 0.0;
@@ -156,15 +175,15 @@ void holds_of(const std::string& name, const roundel::Mesh& mesh, bool single, b
     const int before = failures;
 
     CHECK(one.variables == other.variables && one.edges.size() == other.edges.size());
-    std::size_t different = 0;
+    Differences different{"OpenMesh and CGAL"};
     for (std::size_t e = 0; e < one.edges.size() && e < other.edges.size(); ++e) {
         const Dual &a = one.edges[e], &b = other.edges[e];
         const bool same = a.from == b.from && a.to == b.to && a.first == b.first &&
                           a.second == b.second && a.variable == b.variable &&
                           solved.jumps[e] == again.jumps[e];
-        different += !same;
+        different.add(same, a, b.kappa, solved.jumps[e], again.jumps[e]);
     }
-    CHECK(different == 0);
+    CHECK(different.count == 0);
     raise(worst.libraries, relative(solved.energy, again.energy));
     // Each library's numbers with the other's solution.
     raise(worst.on_mesh, relative(energy_of(one, again), again.energy));
