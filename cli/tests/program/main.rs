@@ -1,7 +1,9 @@
 //! The program as its users meet it: run from outside, on files.
 
+mod field;
 mod outcome;
 mod output;
 mod problem;
 mod readme;
 mod run;
+mod shape;

@@ -51,6 +51,7 @@ void bad_options(fixture* f);
 void bad_monitors(fixture* f);
 void bad_problems(fixture* f);
 void bad_files(fixture* f);
+void bad_meshes(fixture* f);
 void bad_sizes(fixture* f);
 
 #endif

@@ -105,6 +105,7 @@ int main(void) {
     bad_monitors(&f);
     bad_problems(&f);
     bad_files(&f);
+    bad_meshes(&f);
     bad_sizes(&f);
     HOLDS(roundel_solution_free(f.solution) == ROUNDEL_OK);
     HOLDS(roundel_options_free(f.options) == ROUNDEL_OK);

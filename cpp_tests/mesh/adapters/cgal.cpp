@@ -1,0 +1,155 @@
+// <roundel/cgal.hpp>: fields of CGAL's FaceGraphs, removed elements, property maps written back.
+
+#include "../../cpp/check.hpp"
+
+#include <roundel/cgal.hpp>
+
+#include <CGAL/Polyhedron_3.h>
+#include <CGAL/Simple_cartesian.h>
+#include <CGAL/Surface_mesh.h>
+#include <CGAL/boost/graph/Euler_operations.h>
+#include <CGAL/boost/graph/copy_face_graph.h>
+#include <CGAL/boost/graph/graph_traits_Polyhedron_3.h>
+
+#include <cmath>
+#include <map>
+#include <vector>
+
+namespace {
+
+using Kernel = CGAL::Simple_cartesian<double>;
+using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
+using Polyhedron = CGAL::Polyhedron_3<Kernel>;
+
+constexpr double half_pi = 1.57079632679489661923;
+
+Mesh build(const roundel::Mesh& from) {
+    Mesh mesh;
+    const auto xyz = from.coordinates();
+    const auto corners = from.corners();
+    const auto vertex = [](std::int32_t v) {
+        return Mesh::Vertex_index(static_cast<Mesh::size_type>(v));
+    };
+    for (std::size_t v = 0; v < xyz.size(); v += 3) {
+        mesh.add_vertex(Kernel::Point_3(xyz[v], xyz[v + 1], xyz[v + 2]));
+    }
+    for (std::size_t f = 0; f < corners.size(); f += 3) {
+        mesh.add_face(vertex(corners[f]), vertex(corners[f + 1]), vertex(corners[f + 2]));
+    }
+    return mesh;
+}
+
+/// The energy, from whatever maps hold the field.
+template <class G, class Angle, class Jump, class Kappa>
+double energy_in(const G& graph, Angle angle, Jump jump, Kappa kappa) {
+    double energy = 0.0;
+    for (const auto h : halfedges(graph)) {
+        const auto back = opposite(h, graph);
+        if (is_border(h, graph) || is_border(back, graph)) {
+            continue;
+        }
+        CHECK(get(jump, h) == -get(jump, back));
+        const double residual = get(angle, face(h, graph)) + get(kappa, h) +
+                                half_pi * get(jump, h) - get(angle, face(back, graph));
+        energy += 0.5 * residual * residual;
+    }
+    return energy;
+}
+
+void property_maps_hold_the_field() {
+    auto mesh = build(roundel::Mesh::shape("torus", 900).jittered(1e-3, 1));
+    const auto field = roundel::orientation_field(
+        mesh, roundel::FieldOptions().set_constraints({{5, 0.25}, {400, 1.0}}));
+    const auto p = roundel::store(field, mesh);
+    const double energy = energy_in(mesh, p.angle, p.period_jump, p.kappa);
+    CHECK(energy > 0.0 && std::abs(energy - field.energy()) <= 1e-9 * energy);
+    double sum = 0.0;
+    for (const auto v : mesh.vertices()) {
+        sum += p.index[v];
+    }
+    CHECK(std::abs(sum) < 1e-6);
+    CHECK((mesh.property_map<Mesh::Face_index, double>("f:roundel_angle").second));
+    CHECK(roundel::store(field, mesh).angle[Mesh::Face_index(3)] == p.angle[Mesh::Face_index(3)]);
+}
+
+/// With garbage inside, numbers skip what is removed and the maps are of what is left.
+void removed_elements_are_skipped() {
+    auto mesh = build(roundel::Mesh::shape("sphere", 500).jittered(1e-3, 1));
+    CGAL::Euler::remove_center_vertex(mesh.halfedge(Mesh::Vertex_index(17)), mesh);
+    CGAL::Euler::remove_face(mesh.halfedge(Mesh::Vertex_index(100)), mesh);
+    std::vector<Mesh::Face_index> polygons;
+    for (const auto f : mesh.faces()) {
+        if (mesh.degree(f) > 3) {
+            polygons.push_back(f);
+        }
+    }
+    CHECK(polygons.size() == 1);
+    for (const auto f : polygons) {
+        CGAL::Euler::remove_face(mesh.halfedge(f), mesh);
+    }
+    CHECK(mesh.has_garbage());
+    const auto field =
+        roundel::orientation_field(mesh, roundel::FieldOptions().set_constraints({{400, 0.5}}));
+    CHECK(field.angles().size() == mesh.number_of_faces());
+    CHECK(field.boundary_indices().size() == 2);
+    const auto p = roundel::store(field, mesh);
+    const auto fixed = field.elements().faces[400];
+    CHECK(!mesh.is_removed(fixed) && fixed.idx() > 400 && p.angle[fixed] == 0.5);
+    mesh.collect_garbage();
+    const auto angle = mesh.property_map<Mesh::Face_index, double>("f:roundel_angle").first;
+    const auto jump =
+        mesh.property_map<Mesh::Halfedge_index, std::int32_t>("h:roundel_period_jump").first;
+    const auto kappa = mesh.property_map<Mesh::Halfedge_index, double>("h:roundel_kappa").first;
+    const double energy = energy_in(mesh, angle, jump, kappa);
+    CHECK(std::abs(energy - field.energy()) <= 1e-9 * energy);
+}
+
+/// A FaceGraph that is no Surface_mesh, with maps of the caller's own.
+void other_face_graphs_have_fields() {
+    Polyhedron polyhedron;
+    CGAL::copy_face_graph(build(roundel::Mesh::shape("genus-2", 700).jittered(1e-3, 1)),
+                          polyhedron);
+    const auto field = roundel::orientation_field(
+        polyhedron, roundel::FieldOptions().set_constraints({{0, 0.125}}));
+    CHECK(field.angles().size() == num_faces(polyhedron));
+    std::map<roundel::cgal::Face<Polyhedron>, double> angle;
+    std::map<roundel::cgal::Halfedge<Polyhedron>, std::int32_t> jump;
+    std::map<roundel::cgal::Halfedge<Polyhedron>, double> kappa;
+    std::map<roundel::cgal::Vertex<Polyhedron>, double> index;
+    const auto angles = boost::make_assoc_property_map(angle);
+    const auto jumps = boost::make_assoc_property_map(jump);
+    const auto kappas = boost::make_assoc_property_map(kappa);
+    roundel::store(field, polyhedron, angles, jumps, kappas, boost::make_assoc_property_map(index));
+    const double energy = energy_in(polyhedron, angles, jumps, kappas);
+    CHECK(energy > 0.0 && std::abs(energy - field.energy()) <= 1e-9 * energy);
+    double sum = 0.0;
+    for (const auto& entry : index) {
+        sum += entry.second;
+    }
+    CHECK(index.size() == num_vertices(polyhedron) && std::abs(sum + 2.0) < 1e-6);
+}
+
+void polygons_are_refused_by_number() {
+    Mesh mesh;
+    std::vector<Mesh::Vertex_index> v;
+    for (double x : {0.0, 1.0, 2.0}) {
+        v.push_back(mesh.add_vertex(Kernel::Point_3(x, 0.0, 0.0)));
+        v.push_back(mesh.add_vertex(Kernel::Point_3(x, 1.0, 0.0)));
+    }
+    mesh.add_face(v[0], v[2], v[3]);
+    mesh.add_face(v[0], v[3], v[1]);
+    mesh.add_face(v[2], v[4], v[5], v[3]);
+    roundel::Status status;
+    const auto field = roundel::orientation_field(mesh, {}, &status);
+    CHECK(!field && status.code == ROUNDEL_ERROR_NOT_A_TRIANGLE && status.index == 2);
+}
+
+} // namespace
+
+int main() {
+    property_maps_hold_the_field();
+    removed_elements_are_skipped();
+    other_face_graphs_have_fields();
+    polygons_are_refused_by_number();
+    return failures != 0;
+}
