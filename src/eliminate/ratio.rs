@@ -1,27 +1,48 @@
 //! Integers in proportion to given real coefficients.
 
 use super::row::Row;
-use super::tolerance::{DENOMINATOR, RATIO, near_integer};
+use super::tolerance::{DENOMINATOR, LARGEST, RATIO, TELLING, near_integer};
 
-/// Replaces the coefficients of `row` by integers in the same proportion, and returns what one of
-/// the new units was worth. `None`, and nothing changed, if there are no such integers.
+/// Replaces the coefficients of `row` by coprime integers in the same proportion, and returns what
+/// one of the new units was worth. `None`, and nothing changed, if there are no such integers.
 ///
-/// Coefficients that are integers in the caller's own units are taken as they are. Failing that,
+/// Coefficients that are integers in the caller's own units are taken as they are, provided that
+/// this says something: after a computation, large numbers are integers by accident. Failing that,
 /// their ratios to the smallest one are developed in continued fractions (Khinchin 1935), whose
-/// convergents are the best approximations there are for their denominators.
+/// convergents are the best approximations there are for their denominators. Last, integers in the
+/// caller's units up to noise will do.
 pub(super) fn integer_multiples(row: &mut Row) -> Option<f64> {
-    let in_callers_units = |v: f64| {
-        near_integer(v / row.scale, row.magnitude / row.scale).filter(|rounded| *rounded != 0.0)
-    };
-    let as_given: Option<Vec<f64>> = row.entries.iter().map(|e| in_callers_units(e.1)).collect();
-    let (integers, unit) = match as_given {
-        Some(integers) => (integers, row.scale),
-        None => from_ratios(row)?,
-    };
+    let limit = if row.touched { TELLING } else { LARGEST };
+    let exact = |v: f64| (v.fract() == 0.0 && v.abs() < limit).then_some(v);
+    let near = |v: f64| near_integer(v, row.magnitude / row.scale).filter(|v| *v != 0.0);
+    let (mut integers, unit) = as_given(row, exact)
+        .or_else(|| from_ratios(row))
+        .or_else(|| as_given(row, near))?;
+    let factor = integers.iter().fold(0.0, |g, &v| gcd(g, v));
+    integers.iter_mut().for_each(|v| *v /= factor);
     for (entry, integer) in row.entries.iter_mut().zip(integers) {
         entry.1 = integer;
     }
-    Some(unit)
+    Some(unit * factor)
+}
+
+/// All coefficients in the caller's units, if `integer` accepts them.
+fn as_given(row: &Row, integer: impl Fn(f64) -> Option<f64>) -> Option<(Vec<f64>, f64)> {
+    let integers: Option<Vec<f64>> = row
+        .entries
+        .iter()
+        .map(|e| integer(e.1 / row.scale))
+        .collect();
+    Some((integers?, row.scale))
+}
+
+/// Greatest common divisor of two integers, not negative. Remainders of doubles are exact.
+pub(super) fn gcd(a: f64, b: f64) -> f64 {
+    let (mut a, mut b) = (a.abs(), b.abs());
+    while b != 0.0 {
+        (a, b) = (b, a % b);
+    }
+    a
 }
 
 fn from_ratios(row: &Row) -> Option<(Vec<f64>, f64)> {
@@ -58,7 +79,7 @@ fn denominator_of(ratio: f64, limit: f64) -> Option<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::denominator_of;
+    use super::{denominator_of, gcd};
 
     #[test]
     fn fractions_are_recognised_through_rounding() {
@@ -80,5 +101,12 @@ mod tests {
         for ratio in [2f64.sqrt(), std::f64::consts::PI, 1.0 / 5f64.sqrt()] {
             assert_eq!(denominator_of(ratio, 1e4), None);
         }
+    }
+
+    #[test]
+    fn the_common_divisor_of_large_numbers_is_exact() {
+        let p = 94_906_249.0; // prime, and near the root of 2^53
+        assert_eq!(gcd(p * 94_906_260.0, -p * 7.0), p);
+        assert_eq!(gcd(0.0, -6.0), 6.0);
     }
 }

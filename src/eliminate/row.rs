@@ -17,6 +17,8 @@ pub(super) struct Row {
     pub scale: f64,
     /// How many of the unknowns are continuous.
     pub continuous: u32,
+    /// Whether anything was substituted.
+    pub touched: bool,
     /// Only integer unknowns, and only integers below 2^53 as numbers: nothing here is rounded.
     pub integral: bool,
     pub state: State,
@@ -66,8 +68,9 @@ impl Row {
         self.entries.binary_search_by_key(&unknown, |e| e.0).ok()
     }
 
-    /// Takes note of what a substitution brings, times `factor`.
+    /// Takes note that a substitution comes in, times `factor`.
     pub fn grow(&mut self, factor: f64, by: &Substitution) {
+        self.touched = true;
         let factor = factor.abs();
         // As in Wilkinson's analysis (1961), noise is that of the largest numbers seen. Multiplying
         // it up along chains of substitutions would be a bound too, but one that grows without

@@ -81,6 +81,7 @@ impl<'a> Tableau<'a> {
             rhs_magnitude: rhs.abs(),
             scale,
             continuous: 0,
+            touched: false,
             integral: false,
             state: State::Waiting,
         };

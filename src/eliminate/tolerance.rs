@@ -30,6 +30,10 @@ pub(super) const INTEGRAL_RELATIVE: f64 = 1e-12;
 /// What is further from an integer than this is none, whatever its size.
 pub(super) const INTEGRAL_LIMIT: f64 = 1e-3;
 
+/// After a computation, coefficients below this that come out as integers to the last bit are
+/// integers: with 2^23 numbers between neighbours, chance has no part in it.
+pub(super) const TELLING: f64 = 1_073_741_824.0;
+
 /// The common denominator of a row's coefficient ratios is at most this. Any real is within
 /// `RATIO` of such a fraction with a chance of one in a thousand, so accidents are rare.
 pub(super) const DENOMINATOR: f64 = 1e4;

@@ -74,20 +74,20 @@ fn incommensurable_integer_coefficients_are_not_supported() {
 
 #[test]
 fn integers_that_meet_through_continuous_unknowns_are_still_solved_exactly() {
-    // 0.3 c + z0 = 0.1 and 0.9 c + 2 z1 + z2 = 0.3 leave 3 z0 = 2 z1 + z2.
-    let mut problem = Problem::new(4).unwrap();
-    problem.set_integers(&[1, 2, 3]).unwrap();
-    problem.add_constraint(&[0, 1], &[0.3, 1.0], 0.1).unwrap();
-    problem
-        .add_constraint(&[0, 2, 3], &[0.9, 2.0, 1.0], 0.3)
-        .unwrap();
-    let reduced = reduce(&problem).unwrap();
-    assert_eq!(
-        (reduced.integers().len(), reduced.continuous().len()),
-        (2, 0)
-    );
-    let x = reduced.expansion().expand(&[4.0, -3.0]);
-    assert_eq!(3.0 * x[1], 2.0 * x[2] + x[3]);
+    // 0.3 c + z0 = 0.1 and 0.9 c + 2 z1 + z2 = 0.3 leave 3 z0 = 2 z1 + z2, in whatever units.
+    for unit in [1.0, 1e-7, 1e6, 1e15, 1e20] {
+        let mut problem = Problem::new(4).unwrap();
+        problem.set_integers(&[1, 2, 3]).unwrap();
+        problem.add_constraint(&[0, 1], &[0.3, 1.0], 0.1).unwrap();
+        problem
+            .add_constraint(&[0, 2, 3], &[0.9 * unit, 2.0 * unit, unit], 0.3 * unit)
+            .unwrap();
+        let reduced = reduce(&problem).unwrap();
+        let counts = (reduced.integers().len(), reduced.continuous().len());
+        assert_eq!(counts, (2, 0), "in units of {unit}");
+        let x = reduced.expansion().expand(&[4.0, -3.0]);
+        assert_eq!(3.0 * x[1], 2.0 * x[2] + x[3], "in units of {unit}");
+    }
 }
 
 #[test]
