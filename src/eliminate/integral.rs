@@ -112,16 +112,17 @@ fn euclidean_step(tableau: &mut Tableau, r: usize) -> Result<()> {
         .unknowns
         .introduce(true, guess, Unknowns::NOWHERE, 0);
     remainders.push((t, divisor));
-    let magnitude = terms.iter().fold(1.0, |m: f64, e| m.max(e.1.abs()));
-    representable(magnitude, true).map_err(|_| tableau.overflow(r))?;
+    let largest = terms.iter().fold(1.0, |m: f64, e| m.max(e.1.abs()));
+    representable(largest, true).map_err(|_| tableau.overflow(r))?;
     terms.push((t, 1.0));
     tableau.rows[r].entries = remainders;
     let by = Substitution {
         pivot,
         constraint: r as u32,
         constant: 0.0,
-        magnitude,
-        constant_magnitude: 0.0,
+        largest,
+        magnitude: largest,
+        rhs_magnitude: 0.0,
     };
     tableau.stack.push(by, terms);
     tableau.apply_last()

@@ -1,7 +1,7 @@
 //! One equation while it is being worked on.
 
 use super::stack::Substitution;
-use super::tolerance::{LARGEST, RANK};
+use super::tolerance::{LARGEST, NOISE, RANK};
 
 /// `sum of coefficients times unknowns = rhs`.
 #[derive(Debug, Clone)]
@@ -69,8 +69,31 @@ impl Row {
     /// Takes note of what a substitution brings, times `factor`.
     pub fn grow(&mut self, factor: f64, by: &Substitution) {
         let factor = factor.abs();
-        self.magnitude = self.magnitude.max(factor * by.magnitude);
-        self.rhs_magnitude = self.rhs_magnitude.max(factor * by.constant_magnitude);
+        // As in Wilkinson's analysis (1961), noise is that of the largest numbers seen. Multiplying
+        // it up along chains of substitutions would be a bound too, but one that grows without
+        // any relation to the error, until everything passes for noise.
+        let inherited = factor.min(1.0);
+        let largest = (factor * by.largest).max(inherited * by.magnitude);
+        let constant = (factor * by.constant.abs()).max(inherited * by.rhs_magnitude);
+        self.magnitude = self.magnitude.max(largest);
+        self.rhs_magnitude = self.rhs_magnitude.max(constant);
+    }
+
+    /// Drops what rounding left behind where it would decide something: continuous coefficients
+    /// when none of them is more than noise, and integer ones in a row of integers.
+    pub fn drop_noise(&mut self, integer: &[bool], mut dropped: impl FnMut(u32)) {
+        let noise = RANK * self.magnitude;
+        let decides = |e: &(u32, f64)| !integer[e.0 as usize] && e.1.abs() > noise;
+        if self.integral || self.entries.iter().any(decides) {
+            return;
+        }
+        self.entries.retain(|&(unknown, a)| {
+            let keep = a.abs() > noise;
+            if !keep {
+                dropped(unknown);
+            }
+            keep
+        });
     }
 
     /// Puts `constant + terms` in the place of the unknown at position `at`, and tells which
@@ -88,7 +111,11 @@ impl Row {
         self.grow(factor, by);
         self.rhs = add_product(self.rhs, -factor, by.constant, integral)?;
         changed(pivot, Change::Vanished);
-        let noise = if integral { 0.0 } else { RANK * self.magnitude };
+        let noise = if integral {
+            0.0
+        } else {
+            NOISE * self.magnitude
+        };
         buffer.clear();
         let mut old = self.entries.iter().filter(|e| e.0 != pivot).peekable();
         for &(unknown, term) in terms {

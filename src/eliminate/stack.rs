@@ -10,9 +10,11 @@ pub(super) struct Substitution {
     /// The constraint it comes from; [`NO_CONSTRAINT`](Self::NO_CONSTRAINT) for a pin.
     pub constraint: u32,
     pub constant: f64,
-    /// The largest number that took part in making the terms, and the constant.
+    /// The largest coefficient among the terms.
+    pub largest: f64,
+    /// The magnitudes of the row that it comes from; see [`Row`].
     pub magnitude: f64,
-    pub constant_magnitude: f64,
+    pub rhs_magnitude: f64,
 }
 
 impl Substitution {
@@ -50,14 +52,16 @@ impl Stack {
     /// Solves `row` for the unknown at position `at`.
     pub fn solve(&mut self, constraint: usize, row: &Row, at: usize) {
         let (pivot, a) = row.entries[at];
+        let others = row.entries.iter().filter(|e| e.0 != pivot);
+        let terms = others.map(|&(j, v)| (j, -v / a));
         let by = Substitution {
             pivot,
             constraint: constraint as u32,
             constant: row.rhs / a,
-            magnitude: row.magnitude / a.abs(),
-            constant_magnitude: row.rhs_magnitude / a.abs(),
+            largest: terms.clone().fold(0.0, |m: f64, t| m.max(t.1.abs())),
+            magnitude: row.magnitude,
+            rhs_magnitude: row.rhs_magnitude,
         };
-        let others = row.entries.iter().filter(|e| e.0 != pivot);
-        self.push(by, others.map(|&(j, v)| (j, -v / a)));
+        self.push(by, terms);
     }
 }

@@ -106,8 +106,9 @@ fn shorten_group(
             pivot,
             constraint: r as u32,
             constant: 0.0,
+            largest: 1.0,
             magnitude: 1.0,
-            constant_magnitude: 0.0,
+            rhs_magnitude: 0.0,
         };
         tableau.unknowns.replaced[pivot as usize] = tableau.stack.len() as u32;
         tableau.stack.push(by, terms);

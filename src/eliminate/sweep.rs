@@ -13,7 +13,7 @@ use super::integral::make_integral;
 use super::row::{TooLarge, add_product};
 
 use super::tableau::Tableau;
-use super::tolerance::RANK;
+use super::tolerance::NOISE;
 use super::unknowns::Unknowns;
 use crate::Result;
 use crate::solve::Monitor;
@@ -33,7 +33,7 @@ pub(super) fn sweep(tableau: &mut Tableau, r: usize, monitor: &mut Monitor) -> R
         scatter.insert(j, v);
     }
     let mut swept = Ok(());
-    while let Some((k, factor)) = scatter.next_replaced(RANK * row.magnitude, integral) {
+    while let Some((k, factor)) = scatter.next_replaced(NOISE * row.magnitude, integral) {
         monitor.check()?;
         let (by, terms) = stack.get(k);
         row.grow(factor, by);
@@ -44,8 +44,9 @@ pub(super) fn sweep(tableau: &mut Tableau, r: usize, monitor: &mut Monitor) -> R
             break;
         }
     }
-    row.entries = scatter.gather(RANK * row.magnitude, integral);
+    row.entries = scatter.gather(NOISE * row.magnitude, integral);
     let integer = &unknowns.integer;
+    row.drop_noise(integer, |_| ());
     row.continuous = row
         .entries
         .iter()

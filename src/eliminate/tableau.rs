@@ -37,8 +37,9 @@ impl<'a> Tableau<'a> {
                     pivot: i as u32,
                     constraint: Substitution::NO_CONSTRAINT,
                     constant: value,
+                    largest: 0.0,
                     magnitude: 0.0,
-                    constant_magnitude: value.abs(),
+                    rhs_magnitude: value.abs(),
                 };
                 unknowns.replaced[i] = stack.len() as u32;
                 stack.push(by, []);
@@ -170,6 +171,8 @@ impl<'a> Tableau<'a> {
                 && let Some(at) = self.rows[r].position(pivot)
             {
                 self.substitute(r, at, last).map_err(|_| self.overflow(r))?;
+                let occurrences = &mut self.occurrences;
+                self.rows[r].drop_noise(&self.unknowns.integer, |u| occurrences.remove(u));
                 self.settle(r)?;
             }
         }

@@ -4,19 +4,22 @@
 //! [1, 2). That costs no accuracy, and makes all that follows independent of the units in which
 //! the caller wrote the row.
 
-/// A coefficient in which two terms met is rounding noise when it is below this times the largest
-/// number that took part in its row. Sums of a few thousand terms in double precision carry noise
-/// of about 1e-13; data given in single precision, which must not pass for noise, differ by 1e-7.
+/// What is left of a row carries no information when it is below this times the largest number
+/// that took part in it: coefficients by which a continuous unknown, an integer, or none at all
+/// remains. Sums of a few thousand terms in double precision carry noise of about 1e-13; data given
+/// in single precision, which must not pass for noise, differ by 1e-7.
 pub(super) const RANK: f64 = 1e-10;
 
 /// A row without unknowns holds when its right side is below this times the largest number that
-/// took part in it. Ten times [`RANK`], since dropped coefficients leave a trace in right sides.
+/// took part in it. Ten times [`RANK`], since right sides cancel as coefficients do, and a little
+/// later.
 pub(super) const CONSISTENT: f64 = 1e-9;
 
 /// A continuous pivot is at least this times the largest continuous coefficient of its row: the
 /// threshold of Markowitz pivoting (Duff, Erisman, Reid 1986, section 5.4), low enough to leave a
-/// choice among short columns.
-pub(super) const PIVOT: f64 = 0.1;
+/// choice among short columns. The usual 0.1 lets coefficients grow to 1e11 along random bands of
+/// ten thousand rows, which costs the accuracy of the constraints; 0.3 keeps them below 1e3.
+pub(super) const PIVOT: f64 = 0.3;
 
 /// Numbers this close to an integer are that integer; design.md's tie rule uses the same.
 pub(super) const INTEGRAL: f64 = 1e-9;
@@ -37,7 +40,9 @@ pub(super) const RATIO: f64 = 1e-11;
 /// Integers are kept below 2^53, where sums and products of doubles are exact.
 pub(super) const LARGEST: f64 = 9_007_199_254_740_992.0;
 
-/// Entries of the expansion this small against their summands are rounding noise.
+/// A sum this small against its terms is taken for zero at once, which keeps the pattern sparse.
+/// No more than rounding: a larger number dropped while other coefficients of its row remain would
+/// be an error in the solution, multiplied by whatever follows.
 pub(super) const NOISE: f64 = 64.0 * f64::EPSILON;
 
 /// Rows with more entries than this wait until the short ones are gone. As a pivot, a row of `k`

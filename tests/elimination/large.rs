@@ -255,3 +255,67 @@ fn uneven_weights_of_a_mean_do_not_cost_accuracy() {
     let (a, b) = (relaxed(&pinned), relaxed(&with_mean));
     assert!((a - b).abs() <= 1e-10 * a, "{a} against {b}");
 }
+
+/// Numbers in [-1, 1), the same every time (xorshift, Marsaglia 2003).
+fn random() -> impl FnMut() -> f64 {
+    let mut state = 0x9E37_79B9_7F4A_7C15u64;
+    move || {
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        (state >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    }
+}
+
+/// `rows` rows of `width` real coefficients, each `step` further, that a known point solves.
+fn band(n: usize, rows: usize, width: usize, step: usize) -> Problem {
+    let mut random = random();
+    let mut problem = Problem::new(n).unwrap();
+    let point: Vec<f64> = (0..n).map(|_| random()).collect();
+    for r in 0..rows {
+        let indices: Vec<usize> = (r * step..r * step + width).map(|j| j % n).collect();
+        let row: Vec<f64> = indices.iter().map(|_| random()).collect();
+        let rhs = indices.iter().zip(&row).map(|(&j, a)| a * point[j]).sum();
+        problem.add_constraint(&indices, &row, rhs).unwrap();
+    }
+    problem
+}
+
+#[test]
+fn the_rank_of_a_dense_system_is_seen_through_hundreds_of_pivots() {
+    let (n, rows) = (200, 150);
+    let mut problem = band(n, rows, n, 0);
+    let model = Model::new(&problem).unwrap();
+    // Each of these follows from ten others.
+    for k in 0..20 {
+        let mut sum = vec![0.0; n];
+        let mut rhs = 0.0;
+        for r in 0..10 {
+            let r = (k + 7 * r) % rows;
+            rhs += model.constraint_rhs()[r];
+            for (j, a) in model.constraints().row(r) {
+                sum[j] += a;
+            }
+        }
+        let all: Vec<usize> = (0..n).collect();
+        problem.add_constraint(&all, &sum, rhs).unwrap();
+    }
+    let reduced = reduce_in_time(&problem);
+    assert_eq!(reduced.dim(), n - rows);
+    let x = reduced.expansion().expand(&vec![0.5; n - rows]);
+    assert!(violation(&Model::new(&problem).unwrap(), &x) < 1e-9);
+}
+
+#[test]
+fn coefficients_do_not_grow_along_a_band() {
+    let (n, rows) = (20_000, 9_990);
+    let problem = band(n, rows, 4, 2);
+    let reduced = reduce_in_time(&problem);
+    assert_eq!(reduced.dim(), n - rows);
+    let matrix = reduced.expansion().matrix();
+    let largest = matrix.values().iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+    assert!(largest < 1e6, "{largest}");
+    assert!(matrix.len() < 100 * n, "{}", matrix.len());
+    let x = reduced.expansion().expand(&vec![0.5; n - rows]);
+    assert!(violation(&Model::new(&problem).unwrap(), &x) < 1e-9);
+}
