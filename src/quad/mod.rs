@@ -18,6 +18,7 @@ mod seamless;
 mod seams;
 mod sectors;
 mod trace;
+mod uv_obj;
 
 pub use comb::Combing;
 pub use constrain::curvature_constraints;
