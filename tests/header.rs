@@ -23,6 +23,10 @@ const SOURCES: &[&str] = &[
     "solution",
     "solve",
     "files",
+    "mesh",
+    "mesh_files",
+    "field",
+    "field_problem",
 ];
 
 /// Files without anything that C sees.

@@ -92,7 +92,7 @@ fn euler_characteristic(mesh: &TriangleMesh, cut: &CutGraph) -> i64 {
 
 #[test]
 fn the_cut_leaves_one_disk_and_runs_through_every_cone() {
-    for case in cases(1500) {
+    for case in cases(600) {
         let cut = case.problem.cut();
         assert!(is_cut_to_disks(&case.mesh, cut), "{}", case.name);
         let degrees = cut.degrees(&case.mesh);
@@ -145,7 +145,7 @@ fn every_component_is_cut_and_pinned_by_itself() {
 
 #[test]
 fn combed_arms_match_over_all_edges_that_are_not_cut() {
-    for case in cases(1500) {
+    for case in cases(600) {
         let Case { mesh, field, .. } = &case;
         let combing = case.problem.combing();
         for (e, edge) in mesh.edges().enumerate() {
@@ -163,7 +163,7 @@ fn combed_arms_match_over_all_edges_that_are_not_cut() {
 
 #[test]
 fn transitions_around_a_vertex_compose_to_its_index() {
-    for case in cases(1500) {
+    for case in cases(600) {
         let Case { mesh, field, .. } = &case;
         let combing: &Combing = case.problem.combing();
         let indices = field.vertex_indices(mesh);
@@ -180,7 +180,7 @@ fn transitions_around_a_vertex_compose_to_its_index() {
 
 #[test]
 fn coordinates_turn_by_quarters_and_shift_by_integers_over_the_cut() {
-    for case in cases(800) {
+    for case in cases(600) {
         let (map, _) = map(&case, Strategy::Greedy);
         let mesh = &case.mesh;
         let cut: Vec<usize> = case.problem.cut().edges().collect();
@@ -220,7 +220,7 @@ fn sides(mesh: &TriangleMesh, map: &SeamlessMap, edge: usize) -> [[[f64; 2]; 2];
 
 #[test]
 fn cones_lie_on_integers_in_every_face_around_them() {
-    for case in cases(800) {
+    for case in cases(600) {
         let (map, _) = map(&case, Strategy::Greedy);
         for &cone in map.cones() {
             for (face, corner) in case.mesh.ring(cone) {
@@ -238,7 +238,7 @@ fn cones_lie_on_integers_in_every_face_around_them() {
 
 #[test]
 fn the_energy_on_the_mesh_is_that_of_the_solution_but_for_the_translations() {
-    for case in cases(800) {
+    for case in cases(600) {
         for strategy in [Strategy::Relax, Strategy::Greedy] {
             let (map, solution) = map(&case, strategy);
             let integers = solution.values()[2 * map.vertex_uvs().len()..].iter();
@@ -280,7 +280,7 @@ fn a_flat_square_is_mapped_by_a_scaled_isometry() {
 
 #[test]
 fn a_map_covers_as_many_squares_as_asked_for() {
-    for case in cases(1500) {
+    for case in cases(600) {
         let (map, _) = map(&case, Strategy::Relax);
         let area = |[a, b, c]: [[f64; 2]; 3]| {
             0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]))
@@ -300,7 +300,7 @@ fn a_map_covers_as_many_squares_as_asked_for() {
 
 #[test]
 fn reduced_integers_are_as_many_as_topology_says() {
-    for case in cases(800).filter(|case| case.mesh.is_closed()) {
+    for case in cases(600).filter(|case| case.mesh.is_closed()) {
         let (_, solution) = map(&case, Strategy::Relax);
         let cones = case.problem.cones().len() as i64;
         if cones > 0 {

@@ -71,11 +71,11 @@ enum roundel_status
      */
     ROUNDEL_ERROR_INDEX_OUT_OF_RANGE = 4,
     /**
-     * NaN or infinity; the index is its position in the array.
+     * NaN or infinity; the index is its position in the array, or the vertex of a mesh.
      */
     ROUNDEL_ERROR_NOT_FINITE = 5,
     /**
-     * A problem without variables.
+     * A problem without variables, or a mesh without faces.
      */
     ROUNDEL_ERROR_EMPTY = 6,
     /**
@@ -128,6 +128,34 @@ enum roundel_status
      * moves.
      */
     ROUNDEL_ERROR_NOT_CONVEX = 43,
+    /**
+     * An edge of a mesh has more than two faces; the index is the lowest of them.
+     */
+    ROUNDEL_ERROR_NON_MANIFOLD_EDGE = 50,
+    /**
+     * The faces of a vertex form more than one fan; the index is the vertex.
+     */
+    ROUNDEL_ERROR_NON_MANIFOLD_VERTEX = 51,
+    /**
+     * Two faces run along their common edge in the same direction; the index is the lower face.
+     */
+    ROUNDEL_ERROR_INCONSISTENT_ORIENTATION = 52,
+    /**
+     * A face without area; the index is the face.
+     */
+    ROUNDEL_ERROR_ZERO_AREA = 53,
+    /**
+     * A vertex that no face uses; the index is the vertex.
+     */
+    ROUNDEL_ERROR_ISOLATED_VERTEX = 54,
+    /**
+     * A face with another number of corners than three; the index is the face.
+     */
+    ROUNDEL_ERROR_NOT_A_TRIANGLE = 55,
+    /**
+     * A face that visits a vertex twice; the index is the face.
+     */
+    ROUNDEL_ERROR_REPEATED_VERTEX = 56,
     /**
      * Cancelled before a first solution was found.
      */
@@ -323,6 +351,22 @@ typedef int32_t roundel_phase;
  * threads use it; only free it when nobody does.
  */
 typedef struct roundel_cancel_token roundel_cancel_token;
+
+/**
+ * A 4-symmetric direction field of a mesh: a cross in every face, and how crosses match over
+ * edges. It does not need the mesh any more.
+ */
+typedef struct roundel_field roundel_field;
+
+/**
+ * An oriented triangle mesh, with or without boundary, of any genus and any number of components.
+ * It does not change once made.
+ *
+ * Vertices and faces keep the numbers of the arrays or the file. Local edge k of a face runs from
+ * its corner k to its corner k + 1. Edges are numbered in increasing order of (lower face, local
+ * edge there); the side in the lower face is their first.
+ */
+typedef struct roundel_mesh roundel_mesh;
 
 /**
  * How to solve. roundel_option_info lists the options that there are.
@@ -1052,6 +1096,257 @@ roundel_status roundel_problem_save_replay(const struct roundel_problem *problem
 roundel_status roundel_problem_load_replay(const char *file,
                                            struct roundel_problem **problem,
                                            struct roundel_options **options);
+
+/**
+ * Makes a mesh of `vertex_count` vertices, whose `coordinates` are x, y, z in turn, and
+ * `face_count` triangles, whose `corners` are three vertices each, counter-clockwise seen from
+ * outside.
+ *
+ * What is not an oriented manifold fails, the whole mesh being looked at for each reason in turn:
+ * ROUNDEL_ERROR_INDEX_OUT_OF_RANGE with the position in `corners`, ROUNDEL_ERROR_EMPTY,
+ * ROUNDEL_ERROR_NOT_FINITE with the vertex, ROUNDEL_ERROR_REPEATED_VERTEX,
+ * ROUNDEL_ERROR_ZERO_AREA, ROUNDEL_ERROR_NON_MANIFOLD_EDGE,
+ * ROUNDEL_ERROR_INCONSISTENT_ORIENTATION, ROUNDEL_ERROR_ISOLATED_VERTEX,
+ * ROUNDEL_ERROR_NON_MANIFOLD_VERTEX.
+ */
+roundel_status roundel_mesh_new(size_t vertex_count,
+                                const double *coordinates,
+                                size_t face_count,
+                                const int32_t *corners,
+                                struct roundel_mesh **mesh);
+
+/**
+ * roundel_mesh_new with 64-bit corners.
+ */
+roundel_status roundel_mesh_new_i64(size_t vertex_count,
+                                    const double *coordinates,
+                                    size_t face_count,
+                                    const int64_t *corners,
+                                    struct roundel_mesh **mesh);
+
+/**
+ * Makes a procedural shape of about `faces` triangles: "rounded-cube", "sphere", "torus",
+ * "genus-N", "gear", "plane", "disk", "plate-with-holes".
+ *
+ * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for another name or a number that cannot be served.
+ */
+roundel_status roundel_mesh_make_shape(const char *name, size_t faces, struct roundel_mesh **mesh);
+
+/**
+ * Makes a copy whose vertices are moved by a reproducible noise, uniform in +-`amplitude` times
+ * the shortest edge of each vertex, so that nothing in a symmetric mesh is equal any more.
+ */
+roundel_status roundel_mesh_jitter(const struct roundel_mesh *mesh,
+                                   double amplitude,
+                                   int64_t seed,
+                                   struct roundel_mesh **copy);
+
+/**
+ * Frees a mesh. NULL is allowed.
+ */
+roundel_status roundel_mesh_free(struct roundel_mesh *mesh);
+
+/**
+ * Gives the number of vertices.
+ */
+roundel_status roundel_mesh_vertex_count(const struct roundel_mesh *mesh, size_t *count);
+
+/**
+ * Gives the number of undirected edges, boundary included.
+ */
+roundel_status roundel_mesh_edge_count(const struct roundel_mesh *mesh, size_t *count);
+
+/**
+ * Gives the number of faces.
+ */
+roundel_status roundel_mesh_face_count(const struct roundel_mesh *mesh, size_t *count);
+
+/**
+ * Gives the number of boundary loops.
+ */
+roundel_status roundel_mesh_boundary_loop_count(const struct roundel_mesh *mesh, size_t *count);
+
+/**
+ * Gives vertices minus edges plus faces.
+ */
+roundel_status roundel_mesh_euler_characteristic(const struct roundel_mesh *mesh,
+                                                 int64_t *characteristic);
+
+/**
+ * Copies x, y, z of every vertex. `length` is three times the number of vertices.
+ */
+roundel_status roundel_mesh_coordinates(const struct roundel_mesh *mesh,
+                                        double *coordinates,
+                                        size_t length);
+
+/**
+ * Copies the three corners of every face. `length` is three times the number of faces.
+ */
+roundel_status roundel_mesh_corners(const struct roundel_mesh *mesh,
+                                    int32_t *corners,
+                                    size_t length);
+
+/**
+ * Copies the two faces of every edge, first and second, the second -1 at the boundary. `length`
+ * is twice the number of edges.
+ */
+roundel_status roundel_mesh_edge_faces(const struct roundel_mesh *mesh,
+                                       int32_t *faces,
+                                       size_t length);
+
+/**
+ * Copies the edges of every face, in the order of its local edges. `length` is three times the
+ * number of faces.
+ */
+roundel_status roundel_mesh_face_edges(const struct roundel_mesh *mesh,
+                                       int32_t *edges,
+                                       size_t length);
+
+/**
+ * Makes a mesh from a file in OBJ, OFF or PLY, told apart by extension. Only triangles are read.
+ *
+ * Apart from what roundel_mesh_new refuses, fails with ROUNDEL_ERROR_IO, ROUNDEL_ERROR_PARSE with
+ * the line at fault, ROUNDEL_ERROR_NOT_A_TRIANGLE and ROUNDEL_ERROR_INDEX_OUT_OF_RANGE with the
+ * face, ROUNDEL_ERROR_NOT_SUPPORTED for another extension.
+ */
+roundel_status roundel_mesh_read(const char *file, struct roundel_mesh **mesh);
+
+/**
+ * Writes a mesh as OBJ, OFF or binary PLY, told apart by extension. Reading gives back the same
+ * numbers.
+ */
+roundel_status roundel_mesh_write(const struct roundel_mesh *mesh, const char *file);
+
+/**
+ * Finds the smoothest field of a mesh with the directions of `constraint_count` faces given (see
+ * roundel_field_make_problem), under the eyes of `monitor`. `options` and `monitor` may be NULL.
+ *
+ * Fails as roundel_field_make_problem and roundel_solve do.
+ */
+roundel_status roundel_field_solve(const struct roundel_mesh *mesh,
+                                   size_t constraint_count,
+                                   const int32_t *faces,
+                                   const double *angles,
+                                   const struct roundel_options *options,
+                                   const struct roundel_monitor *monitor,
+                                   struct roundel_field **field);
+
+/**
+ * Frees a field. NULL is allowed.
+ */
+roundel_status roundel_field_free(struct roundel_field *field);
+
+/**
+ * Copies the angle of one arm of every face's cross: radians, counter-clockwise about the normal
+ * from the face's first edge. Not reduced to a quarter turn: the period jumps belong to these very
+ * angles. `length` is the number of faces.
+ */
+roundel_status roundel_field_angles(const struct roundel_field *field,
+                                    double *angles,
+                                    size_t length);
+
+/**
+ * Copies the period jump of every edge, from its first to its second face: angle + kappa + pi/2
+ * jump is the matching arm of the second. Zero at the boundary. `length` is the number of edges.
+ */
+roundel_status roundel_field_period_jumps(const struct roundel_field *field,
+                                          int32_t *jumps,
+                                          size_t length);
+
+/**
+ * Copies kappa of every edge: the angle of the frame of its first face seen in that of its second,
+ * after unfolding, in (-pi, pi]. Zero at the boundary. `length` is the number of edges.
+ */
+roundel_status roundel_field_kappa(const struct roundel_field *field, double *kappa, size_t length);
+
+/**
+ * Copies the index of every vertex in full turns, from the period jumps: a multiple of 1/4, and
+ * +1/4 at the corner of a cube. Zero for vertices of the boundary. `length` is the number of
+ * vertices.
+ */
+roundel_status roundel_field_vertex_indices(const struct roundel_field *field,
+                                            double *indices,
+                                            size_t length);
+
+/**
+ * roundel_field_vertex_indices found another way: by following an arm of the cross in space around
+ * each vertex.
+ */
+roundel_status roundel_field_traced_indices(const struct roundel_field *field,
+                                            double *indices,
+                                            size_t length);
+
+/**
+ * Copies the index of every boundary loop. With the indices of the vertices they sum to the Euler
+ * characteristic. `length` is the number of boundary loops.
+ */
+roundel_status roundel_field_boundary_indices(const struct roundel_field *field,
+                                              double *indices,
+                                              size_t length);
+
+/**
+ * Gives the energy, recomputed on the mesh from angles and period jumps: the sum over interior
+ * edges, not between two constrained faces, of (angle + kappa + pi/2 jump - other angle)^2.
+ */
+roundel_status roundel_field_energy(const struct roundel_field *field, double *energy);
+
+/**
+ * Gives the number of irregular vertices: those whose index is not zero.
+ */
+roundel_status roundel_field_irregular_count(const struct roundel_field *field, size_t *count);
+
+/**
+ * Makes a copy of the solution behind a field, which tells how the solve ended, its lower bound
+ * and its times. To be freed with roundel_solution_free.
+ */
+roundel_status roundel_field_solution(const struct roundel_field *field,
+                                      struct roundel_solution **solution);
+
+/**
+ * Makes the mixed-integer problem of the smoothest field of a mesh with the directions of
+ * `constraint_count` faces given: `angles` of one arm, in radians, counter-clockwise about the
+ * normal from the face's first edge. A face may be constrained once.
+ *
+ * Variable f is the angle of face f. Period jumps follow in the order of the edges, without those
+ * of the boundary, between two constrained faces, and of a spanning forest, where they are zero:
+ * breadth-first from the constrained faces (else the lowest face of a component) in increasing
+ * number, neighbours in increasing number.
+ */
+roundel_status roundel_field_make_problem(const struct roundel_mesh *mesh,
+                                          size_t constraint_count,
+                                          const int32_t *faces,
+                                          const double *angles,
+                                          struct roundel_problem **problem);
+
+/**
+ * Makes the field that a solution of roundel_field_make_problem's problem stands for; mesh and
+ * constraints are those of the problem.
+ *
+ * Fails with ROUNDEL_ERROR_LENGTH_MISMATCH for the solution of another problem,
+ * ROUNDEL_ERROR_OVERFLOW for a period jump beyond 2^31.
+ */
+roundel_status roundel_field_from_solution(const struct roundel_mesh *mesh,
+                                           size_t constraint_count,
+                                           const int32_t *faces,
+                                           const double *angles,
+                                           const struct roundel_solution *solution,
+                                           struct roundel_field **field);
+
+/**
+ * Gives constraints that the surface itself suggests: `fraction` of the faces (rounded to the
+ * nearest count), those whose direction of least absolute curvature is most reliable, in
+ * increasing order. `faces` and `angles` have room for `capacity` entries, and as many as the mesh
+ * has faces are always enough; `count` tells how many were written.
+ *
+ * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for a fraction outside of 0 to 1,
+ * ROUNDEL_ERROR_LENGTH_MISMATCH where the room is too small.
+ */
+roundel_status roundel_mesh_curvature_constraints(const struct roundel_mesh *mesh,
+                                                  double fraction,
+                                                  size_t capacity,
+                                                  int32_t *faces,
+                                                  double *angles,
+                                                  size_t *count);
 
 #ifdef __cplusplus
 }  // extern "C"

@@ -7,19 +7,26 @@
 ///     auto solution = roundel::solve(problem, {.strategy = "greedy"});   // C++20
 ///     for (double x : solution.values()) ...
 ///
+///     auto mesh = roundel::Mesh::read("rocker-arm.obj");
+///     auto field = roundel::orientation_field(mesh, {.constrain_curvature = 0.1});
+///
 /// In C++17: `roundel::Options options; options.set_strategy("greedy");`.
 ///
 /// Errors. A call that fails throws roundel::Error, which names the element at fault. Every call
 /// also takes a `Status*` as its last argument; given one, it throws nothing and reports there
 /// instead. Built with exceptions turned off, a failure without a Status ends the program.
 ///
-/// Problem, Solution and CancelToken own their C objects, move and do not copy. A const object may
-/// be used from several threads at once, any other from one.
+/// Problem, Solution, Mesh, Field and CancelToken own their C objects, move and do not copy. A
+/// const object may be used from several threads at once, any other from one.
+///
+/// Meshes of other libraries: <roundel/openmesh.hpp>, <roundel/cgal.hpp>, <roundel/eigen.hpp>.
 
 #ifndef ROUNDEL_HPP
 #define ROUNDEL_HPP
 
 #include <roundel/detail/error.hpp>
+#include <roundel/detail/field.hpp>
+#include <roundel/detail/mesh.hpp>
 #include <roundel/detail/options.hpp>
 #include <roundel/detail/problem.hpp>
 #include <roundel/detail/solution.hpp>

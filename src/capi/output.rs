@@ -4,7 +4,7 @@ use std::ffi::c_char;
 use std::ptr;
 
 use super::error::{Failure, Outcome};
-use super::input::aligned;
+use super::input::{aligned, slice_mut};
 use crate::Error;
 
 /// A place for one result, which must be there.
@@ -86,6 +86,31 @@ pub(super) unsafe fn copy_whole(
     }
     if let Some(length) = length {
         length.set(text.len());
+    }
+    Ok(())
+}
+
+/// Copies all of `values` to the caller's array, which must have exactly their number.
+///
+/// # Safety
+/// `to` is NULL or has `length` writable numbers.
+pub(super) unsafe fn copy_numbers<T>(
+    what: &'static str,
+    values: impl ExactSizeIterator<Item = T>,
+    to: *mut T,
+    length: usize,
+) -> Outcome {
+    if length != values.len() {
+        return Err(Failure::Library(Error::LengthMismatch {
+            what,
+            expected: values.len(),
+            actual: length,
+        }));
+    }
+    // SAFETY: handed on.
+    let places = unsafe { slice_mut(what, to, length) }?;
+    for (place, value) in places.iter_mut().zip(values) {
+        *place = value;
     }
     Ok(())
 }

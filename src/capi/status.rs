@@ -2,6 +2,7 @@
 
 use std::ffi::{CStr, c_char};
 
+use crate::mesh::MeshError;
 use crate::{Error, SolveStatus};
 
 /// How a call went. The numbers never change; new ones may be added, so treat every number other
@@ -19,9 +20,9 @@ pub enum roundel_status {
     ROUNDEL_ERROR_LENGTH_MISMATCH = 3,
     /// An index is negative or too large; the error's index is its position in the array.
     ROUNDEL_ERROR_INDEX_OUT_OF_RANGE = 4,
-    /// NaN or infinity; the index is its position in the array.
+    /// NaN or infinity; the index is its position in the array, or the vertex of a mesh.
     ROUNDEL_ERROR_NOT_FINITE = 5,
-    /// A problem without variables.
+    /// A problem without variables, or a mesh without faces.
     ROUNDEL_ERROR_EMPTY = 6,
     /// A count or a sum is beyond what can be represented.
     ROUNDEL_ERROR_OVERFLOW = 7,
@@ -49,6 +50,20 @@ pub enum roundel_status {
     /// The objective curves downwards along the direction given; the index is a variable that it
     /// moves.
     ROUNDEL_ERROR_NOT_CONVEX = 43,
+    /// An edge of a mesh has more than two faces; the index is the lowest of them.
+    ROUNDEL_ERROR_NON_MANIFOLD_EDGE = 50,
+    /// The faces of a vertex form more than one fan; the index is the vertex.
+    ROUNDEL_ERROR_NON_MANIFOLD_VERTEX = 51,
+    /// Two faces run along their common edge in the same direction; the index is the lower face.
+    ROUNDEL_ERROR_INCONSISTENT_ORIENTATION = 52,
+    /// A face without area; the index is the face.
+    ROUNDEL_ERROR_ZERO_AREA = 53,
+    /// A vertex that no face uses; the index is the vertex.
+    ROUNDEL_ERROR_ISOLATED_VERTEX = 54,
+    /// A face with another number of corners than three; the index is the face.
+    ROUNDEL_ERROR_NOT_A_TRIANGLE = 55,
+    /// A face that visits a vertex twice; the index is the face.
+    ROUNDEL_ERROR_REPEATED_VERTEX = 56,
     /// Cancelled before a first solution was found.
     ROUNDEL_ERROR_CANCELLED = 60,
     /// The time limit passed before a first solution was found.
@@ -102,6 +117,16 @@ const NAMES: &[(roundel_status, &CStr)] = &[
     (ROUNDEL_ERROR_NO_INTEGER_SOLUTION, c"no_integer_solution"),
     (ROUNDEL_ERROR_UNBOUNDED, c"unbounded"),
     (ROUNDEL_ERROR_NOT_CONVEX, c"not_convex"),
+    (ROUNDEL_ERROR_NON_MANIFOLD_EDGE, c"non_manifold_edge"),
+    (ROUNDEL_ERROR_NON_MANIFOLD_VERTEX, c"non_manifold_vertex"),
+    (
+        ROUNDEL_ERROR_INCONSISTENT_ORIENTATION,
+        c"inconsistent_orientation",
+    ),
+    (ROUNDEL_ERROR_ZERO_AREA, c"zero_area"),
+    (ROUNDEL_ERROR_ISOLATED_VERTEX, c"isolated_vertex"),
+    (ROUNDEL_ERROR_NOT_A_TRIANGLE, c"not_a_triangle"),
+    (ROUNDEL_ERROR_REPEATED_VERTEX, c"repeated_vertex"),
     (ROUNDEL_ERROR_CANCELLED, c"cancelled"),
     (ROUNDEL_ERROR_TIME_LIMIT, c"time_limit"),
     (ROUNDEL_ERROR_PANIC, c"panic"),
@@ -148,7 +173,7 @@ impl From<&Error> for roundel_status {
             Error::OptionType { .. } => ROUNDEL_ERROR_OPTION_TYPE,
             Error::OptionRange { .. } => ROUNDEL_ERROR_OPTION_RANGE,
             Error::NotSupported { .. } => ROUNDEL_ERROR_NOT_SUPPORTED,
-            Error::Mesh(_) => ROUNDEL_ERROR_INVALID_ARGUMENT,
+            Error::Mesh(error) => error.into(),
             Error::Parse { .. } => ROUNDEL_ERROR_PARSE,
             Error::Io { .. } => ROUNDEL_ERROR_IO,
             Error::Infeasible { .. } => ROUNDEL_ERROR_INFEASIBLE,
@@ -157,6 +182,30 @@ impl From<&Error> for roundel_status {
             Error::NotConvex { .. } => ROUNDEL_ERROR_NOT_CONVEX,
             Error::Cancelled => ROUNDEL_ERROR_CANCELLED,
             Error::TimeLimit => ROUNDEL_ERROR_TIME_LIMIT,
+        }
+    }
+}
+
+impl From<&MeshError> for roundel_status {
+    fn from(error: &MeshError) -> Self {
+        match error {
+            MeshError::NoFaces => ROUNDEL_ERROR_EMPTY,
+            MeshError::TooLarge { .. } => ROUNDEL_ERROR_OVERFLOW,
+            MeshError::NotFinite { .. } => ROUNDEL_ERROR_NOT_FINITE,
+            MeshError::NotATriangle { .. } => ROUNDEL_ERROR_NOT_A_TRIANGLE,
+            MeshError::IndexOutOfRange { .. } => ROUNDEL_ERROR_INDEX_OUT_OF_RANGE,
+            MeshError::RepeatedVertex { .. } => ROUNDEL_ERROR_REPEATED_VERTEX,
+            MeshError::ZeroArea { .. } => ROUNDEL_ERROR_ZERO_AREA,
+            MeshError::NonManifoldEdge { .. } => ROUNDEL_ERROR_NON_MANIFOLD_EDGE,
+            MeshError::InconsistentOrientation { .. } => ROUNDEL_ERROR_INCONSISTENT_ORIENTATION,
+            MeshError::IsolatedVertex { .. } => ROUNDEL_ERROR_ISOLATED_VERTEX,
+            MeshError::NonManifoldVertex { .. } => ROUNDEL_ERROR_NON_MANIFOLD_VERTEX,
+            MeshError::Parse { .. } | MeshError::Malformed { .. } => ROUNDEL_ERROR_PARSE,
+            MeshError::Io { .. } => ROUNDEL_ERROR_IO,
+            MeshError::UnknownFormat { .. } => ROUNDEL_ERROR_NOT_SUPPORTED,
+            MeshError::UnknownShape { .. } | MeshError::InvalidArgument { .. } => {
+                ROUNDEL_ERROR_INVALID_ARGUMENT
+            }
         }
     }
 }
@@ -204,6 +253,22 @@ mod tests {
                 constraint: 0,
                 row: "".into(),
             },
+            Error::Mesh(MeshError::NonManifoldVertex { vertex: 0 }),
+            Error::Mesh(MeshError::ZeroArea { face: 0 }),
+            Error::Mesh(MeshError::IsolatedVertex { vertex: 0 }),
+            Error::Mesh(MeshError::RepeatedVertex { face: 0, vertex: 0 }),
+            Error::Mesh(MeshError::NotATriangle {
+                face: 0,
+                corners: 4,
+            }),
+            Error::Mesh(MeshError::NonManifoldEdge {
+                vertices: [0, 1],
+                faces: vec![0, 1, 2],
+            }),
+            Error::Mesh(MeshError::InconsistentOrientation {
+                vertices: [0, 1],
+                faces: [0, 1],
+            }),
         ] {
             let number = roundel_status::from(&error) as i32;
             // SAFETY: the function gives a static text.

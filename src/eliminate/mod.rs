@@ -12,11 +12,12 @@
 //! | rows, whose turn it is, and substitution into the others | `tableau`, `row`, `occurrences` |
 //! | a row with continuous unknowns | `continuous` |
 //! | a row of integers | `integral`, `ratio` |
-//! | long rows | `sweep`, `subtree` |
+//! | long rows | `sweep`, `subtree`, `cluster` |
 //! | back substitution, T and t | `stack`, `back` |
 //! | the objective in y | `project` |
 
 mod back;
+mod cluster;
 mod continuous;
 mod expansion;
 mod integral;

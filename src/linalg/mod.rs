@@ -3,7 +3,11 @@
 
 mod cholesky;
 mod compensated;
+mod condensed;
+mod conjugate_gradient;
 mod fix;
+mod gauss_seidel;
+mod held;
 mod ldl;
 mod minimise;
 mod ordering;
@@ -12,7 +16,10 @@ pub mod sparse;
 
 pub use cholesky::{Cholesky, NULL_PIVOT, PIVOT_TOLERANCE};
 pub use compensated::CompensatedSum;
+pub use conjugate_gradient::conjugate_gradient;
 pub use fix::FixedSolve;
+pub use gauss_seidel::LocalSolve;
+pub use held::minimise_held;
 pub use ldl::Ldl;
 pub use minimise::{CURVATURE_TOLERANCE, Minimum, SLOPE_TOLERANCE, minimise};
 pub use ordering::{EliminationTree, minimum_degree};

@@ -4,7 +4,6 @@ use crate::mesh::TriangleMesh;
 use crate::mesh::vector::{Vec3, add, normalize, scale};
 use crate::quad::OrientationField;
 
-/// Index +1/4, and what is larger by whole turns of the sign alone.
 const POSITIVE: [u8; 3] = [214, 48, 38];
 const NEGATIVE: [u8; 3] = [30, 92, 205];
 const OTHER: [u8; 3] = [240, 168, 12];

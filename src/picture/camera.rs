@@ -17,6 +17,8 @@ pub(super) struct Camera {
     pub(super) up: Vec3,
     /// From the scene to the eye.
     pub(super) back: Vec3,
+    /// From the eye to the middle of the scene.
+    distance: f64,
     focal: f64,
     offset: [f64; 2],
 }
@@ -45,6 +47,7 @@ impl Camera {
             right,
             up: cross(back, right),
             back,
+            distance: DISTANCE * radius,
             focal: 1.0,
             offset: [0.0; 2],
         };
@@ -66,10 +69,10 @@ impl Camera {
     }
 
     /// Column, row (downwards) and nearness of a point: the larger the nearer, and linear on the
-    /// image over every plane.
+    /// image over every plane. 1 at the middle of the scene, whatever its size.
     pub(super) fn project(&self, p: Vec3) -> [f64; 3] {
         let to = sub(p, self.eye);
-        let nearness = -1.0 / dot(to, self.back);
+        let nearness = -self.distance / dot(to, self.back);
         let x = dot(to, self.right) * nearness;
         let y = -dot(to, self.up) * nearness;
         [

@@ -14,23 +14,25 @@ use crate::mesh::vector::{Vec3, add, normalize};
 use crate::quad::OrientationField;
 use crate::{Error, Result};
 
-const SURFACE: [u8; 3] = [236, 232, 224];
-const LINE: [u8; 3] = [58, 76, 104];
+const SURFACE: [u8; 3] = [246, 239, 226];
+const LINE: [u8; 3] = [66, 88, 120];
 /// Squares of streamlines that the surface is meant to have: enough to show where the field goes,
 /// few enough to tell them apart.
 const SQUARES: f64 = 3600.0;
 /// Of a streamline and of a ball, in distances between streamlines.
-const LINE_WIDTH: f64 = 0.17;
+const LINE_WIDTH: f64 = 0.14;
+/// Over which a streamline narrows to its ends, in the same.
+const TAPER: f64 = 0.6;
 const BALL_RADIUS: f64 = 0.5;
 /// The largest image, in pixels a side.
-const LARGEST: usize = 16_384;
+const LARGEST: usize = 8_192;
 
 /// Size of the image, and where it is seen from.
 #[derive(Debug, Clone, PartialEq)]
 pub struct View {
-    /// Width in pixels, 1 to 16384.
+    /// Width in pixels, 1 to 8192.
     pub width: usize,
-    /// Height in pixels, 1 to 16384.
+    /// Height in pixels, 1 to 8192.
     pub height: usize,
     /// From the mesh towards the eye.
     pub from: [f64; 3],
@@ -53,7 +55,7 @@ impl Default for View {
 /// Draws a field on its mesh.
 ///
 /// # Errors
-/// [`Error::InvalidArgument`] for a size outside 1 to 16384, and for directions that are null, not
+/// [`Error::InvalidArgument`] for a size outside 1 to 8192, and for directions that are null, not
 /// finite or parallel to each other.
 pub fn draw_field(mesh: &TriangleMesh, field: &OrientationField, view: &View) -> Result<Image> {
     view.check()?;
@@ -69,7 +71,7 @@ pub fn draw_field(mesh: &TriangleMesh, field: &OrientationField, view: &View) ->
             &line,
             color,
             LINE_WIDTH * spacing,
-            spacing,
+            TAPER * spacing,
         );
     }
     let (sphere, faces) = unit_sphere(8);

@@ -6,8 +6,8 @@
 //! balls. [`FieldModel`] is what MeshLab and Blender open: the mesh, a cross in every face and
 //! the same balls. Everything is the same on every run.
 //!
-//! Irregular vertices of positive index are red, as at the corner of a cube, those of negative
-//! index blue; where the index is not a quarter turn they are of a stronger third colour, amber.
+//! Irregular vertices of index 1/4 are red, as at the corner of a cube, those of index -1/4 blue,
+//! all others amber.
 
 mod ambient;
 mod balls;

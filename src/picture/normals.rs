@@ -3,9 +3,9 @@
 use crate::mesh::TriangleMesh;
 use crate::mesh::vector::{Vec3, add, dot, normalize, scale};
 
-/// Cosine of the angle between two faces beyond which the edge between them looks sharp: 40
-/// degrees.
-const CREASE: f64 = 0.766;
+/// Cosine of the angle between two faces beyond which the edge between them looks sharp: 50
+/// degrees, so that round parts of a coarse mesh stay round.
+const CREASE: f64 = 0.643;
 
 /// One normal a corner of every face: the mean, weighted by angles, of those faces around its
 /// vertex that differ from its own by less than a crease.

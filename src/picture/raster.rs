@@ -47,3 +47,56 @@ fn covered(values: [f64; 3], range: Range<usize>) -> Range<usize> {
     let end = (high + 0.5).floor().clamp(0.0, range.end as f64) as usize;
     first..end.max(first)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The samples of a triangle, and the sums of weights off one.
+    fn samples(corners: [Corner; 3]) -> Vec<(usize, usize)> {
+        let mut found = Vec::new();
+        fill(&corners, 0..16, 0..16, |x, y, w, _| {
+            assert!((w.iter().sum::<f64>() - 1.0).abs() < 1e-12);
+            found.push((x, y));
+        });
+        found
+    }
+
+    #[test]
+    fn two_triangles_of_a_rectangle_cover_its_samples() {
+        let (a, b, c, d) = (
+            [2.2, 3.2, 1.0],
+            [9.7, 3.2, 1.0],
+            [9.7, 7.9, 1.0],
+            [2.2, 7.9, 1.0],
+        );
+        let mut found = samples([a, b, c]);
+        found.extend(samples([a, d, c]));
+        found.sort_unstable();
+        found.dedup();
+        let all = (2..10).flat_map(|x| (3..8).map(move |y| (x, y)));
+        let inside = all.filter(|&(x, _)| x < 10 && x as f64 + 0.5 <= 9.7);
+        assert_eq!(found, inside.collect::<Vec<_>>());
+    }
+
+    #[test]
+    fn what_lies_outside_of_the_image_or_has_no_area_has_no_samples() {
+        let far = [[-9.0, -9.0, 1.0], [-3.0, -9.0, 1.0], [-3.0, -2.0, 1.0]];
+        let behind = [[90.0, 9.0, 1.0], [93.0, 9.0, 1.0], [93.0, 12.0, 1.0]];
+        let line = [[1.0, 1.0, 1.0], [5.0, 5.0, 1.0], [9.0, 9.0, 1.0]];
+        for corners in [far, behind, line] {
+            assert!(samples(corners).is_empty(), "{corners:?}");
+        }
+    }
+
+    #[test]
+    fn nearness_is_that_of_the_plane() {
+        let plane = |x: f64, y: f64| 0.3 * x - 0.1 * y + 2.0;
+        let corner = |x: f64, y: f64| [x, y, plane(x, y)];
+        let corners = [corner(0.5, 1.0), corner(13.0, 3.0), corner(4.0, 15.0)];
+        fill(&corners, 0..16, 0..16, |x, y, _, nearness| {
+            let expected = plane(x as f64 + 0.5, y as f64 + 0.5);
+            assert!((nearness - expected).abs() < 1e-12);
+        });
+    }
+}

@@ -9,10 +9,10 @@ use crate::mesh::vector::{Vec3, add, dot, normalize, scale};
 /// Red, green and blue, linear.
 pub(super) type Color = [f32; 3];
 
-const SKY: f64 = 0.42;
+const SKY: f64 = 0.50;
 const KEY: f64 = 0.62;
-const FILL: f64 = 0.20;
-const GLOSS: f64 = 0.10;
+const FILL: f64 = 0.26;
+const GLOSS: f64 = 0.08;
 const SHARPNESS: i32 = 24;
 /// What the surface loses where it turns away from the eye, so that outlines stand out.
 const RIM: f64 = 0.35;
@@ -32,7 +32,7 @@ impl Lights {
             let sides = add(scale(camera.right, x), scale(camera.up, y));
             normalize(add(sides, scale(camera.back, z)))
         };
-        let key = from(-0.55, 0.75, 0.65);
+        let key = from(-0.45, 0.65, 0.75);
         Lights {
             up: camera.up,
             key,
@@ -51,7 +51,7 @@ impl Lights {
         }
         let facing = dot(normal, self.back);
         let hidden = 0.35 + 0.65 * sky;
-        let light = SKY * sky * (0.65 + 0.35 * dot(normal, self.up))
+        let light = SKY * sky * (0.75 + 0.25 * dot(normal, self.up))
             + KEY * hidden * dot(normal, self.key).max(0.0)
             + FILL * hidden * dot(normal, self.fill).max(0.0);
         let edge = 1.0 - facing;

@@ -1,8 +1,12 @@
-//! Rounding: direct (once) and greedy (one unknown, re-optimise, repeat).
+//! Rounding: direct (once), greedy (one unknown, re-optimise, repeat), and adaptive greedy (several
+//! at a time, re-optimised as far as needed).
 
+mod adaptive;
+mod candidates;
 mod direct;
 mod greedy;
 
+pub(crate) use adaptive::adaptive;
 pub(crate) use direct::direct;
 pub(crate) use greedy::greedy;
 

@@ -9,13 +9,15 @@ mod run;
 mod search;
 mod solution;
 mod status;
+mod strategy;
 mod verify;
 
 pub use monitor::{CancelToken, Event, EventKind, Flow, Monitor, Phase};
-pub use options::{OPTIONS, OptionInfo, OptionKind, OptionValue, Options, Strategy};
+pub use options::{OPTIONS, OptionInfo, OptionKind, OptionValue, Options};
 pub use run::{solve, solve_with};
 pub use solution::{Counts, Seconds, Solution};
 pub use status::{GAP_TOLERANCE, SolveStatus};
+pub use strategy::Strategy;
 
 pub(crate) use factors::Factors;
 pub(crate) use search::Search;

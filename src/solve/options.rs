@@ -1,32 +1,7 @@
 //! Options by name: one table from which C, C++, the program and the documentation take them.
 
+use super::Strategy;
 use crate::{Error, Result};
-
-/// How integers are decided.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum Strategy {
-    /// Not at all: integers stay real. Gives a lower bound.
-    Relax,
-    /// All at once, each to the nearest integer of the relaxation.
-    Direct,
-    /// One after the other, the one closest to an integer first, re-optimising exactly each time.
-    Greedy,
-}
-
-impl Strategy {
-    /// All strategies.
-    pub const ALL: [Strategy; 3] = [Strategy::Relax, Strategy::Direct, Strategy::Greedy];
-
-    /// The name by which options choose it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Strategy::Relax => "relax",
-            Strategy::Direct => "direct",
-            Strategy::Greedy => "greedy",
-        }
-    }
-}
 
 /// How to solve. Every field is also an entry of [`OPTIONS`], under the same name.
 #[derive(Debug, Clone, PartialEq)]
@@ -38,6 +13,21 @@ pub struct Options {
     /// Threads that may be used at most; 0 means as many as there are cores. The result does not
     /// depend on it.
     pub threads: usize,
+    /// `adaptive`: integers are rounded together while their deviations sum up to at most this.
+    pub rounding_threshold: f64,
+    /// `adaptive`: up to this many integers are decided exactly, one at a time.
+    pub exact_integers: usize,
+    /// `adaptive`: Gauss-Seidel updates a pass, after which conjugate gradients take over.
+    pub gauss_seidel_updates: usize,
+    /// `adaptive`: Gauss-Seidel does not push on where an unknown would move by less.
+    pub gauss_seidel_tolerance: f64,
+    /// `adaptive`: conjugate-gradient iterations a pass, after which a factorization takes over.
+    pub cg_iterations: usize,
+    /// `adaptive`: conjugate gradients end where no unknown is further from the minimum, by the
+    /// preconditioner's estimate.
+    pub cg_tolerance: f64,
+    /// `adaptive`: whether a pass may factor when conjugate gradients fail.
+    pub exact_steps: bool,
 }
 
 impl Default for Options {
@@ -46,6 +36,36 @@ impl Default for Options {
             strategy: Strategy::Greedy,
             time_limit: f64::INFINITY,
             threads: 1,
+            rounding_threshold: 0.5,
+            exact_integers: 1000,
+            gauss_seidel_updates: 100_000,
+            gauss_seidel_tolerance: 1e-3,
+            cg_iterations: 50,
+            cg_tolerance: 1e-3,
+            exact_steps: true,
+        }
+    }
+}
+
+impl Options {
+    /// The thesis' parameters for orientation fields (section 5.3): adaptive, by Gauss-Seidel
+    /// (100,000 updates to 1e-3), then 50 conjugate-gradient iterations, then sparse Cholesky.
+    pub fn orientation_field() -> Self {
+        Options {
+            strategy: Strategy::Adaptive,
+            exact_integers: 0,
+            ..Options::default()
+        }
+    }
+
+    /// The thesis' parameters for parametrizations (section 5.3): adaptive, no Gauss-Seidel, 20
+    /// conjugate-gradient iterations, no factorization in between.
+    pub fn parametrization() -> Self {
+        Options {
+            gauss_seidel_updates: 0,
+            cg_iterations: 20,
+            exact_steps: false,
+            ..Options::orientation_field()
         }
     }
 }
@@ -93,7 +113,7 @@ pub const OPTIONS: &[OptionInfo] = &[
         name: "strategy",
         kind: OptionKind::Text,
         default: "greedy",
-        range: "relax|direct|greedy",
+        range: "relax|direct|greedy|adaptive",
         text: "how integers are decided",
     },
     OptionInfo {
@@ -110,6 +130,55 @@ pub const OPTIONS: &[OptionInfo] = &[
         range: "[0, 1024]",
         text: "threads that may be used at most; 0: as many as there are cores",
     },
+    OptionInfo {
+        name: "rounding_threshold",
+        kind: OptionKind::Real,
+        default: "0.5",
+        range: "[0, inf]",
+        text: "adaptive: integers are rounded together while their deviations sum up to at most this",
+    },
+    OptionInfo {
+        name: "exact_integers",
+        kind: OptionKind::Integer,
+        default: "1000",
+        range: "[0, 2147483647]",
+        text: "adaptive: up to this many integers are decided exactly, one at a time",
+    },
+    OptionInfo {
+        name: "gauss_seidel_updates",
+        kind: OptionKind::Integer,
+        default: "100000",
+        range: "[0, 2147483647]",
+        text: "adaptive: Gauss-Seidel updates a pass, after which conjugate gradients take over",
+    },
+    OptionInfo {
+        name: "gauss_seidel_tolerance",
+        kind: OptionKind::Real,
+        default: "0.001",
+        range: "[0, inf]",
+        text: "adaptive: Gauss-Seidel does not push on where an unknown would move by less",
+    },
+    OptionInfo {
+        name: "cg_iterations",
+        kind: OptionKind::Integer,
+        default: "50",
+        range: "[0, 2147483647]",
+        text: "adaptive: conjugate-gradient iterations a pass, after which a factorization takes over",
+    },
+    OptionInfo {
+        name: "cg_tolerance",
+        kind: OptionKind::Real,
+        default: "0.001",
+        range: "[0, inf]",
+        text: "adaptive: conjugate gradients end where no unknown is estimated further from the minimum",
+    },
+    OptionInfo {
+        name: "exact_steps",
+        kind: OptionKind::Integer,
+        default: "1",
+        range: "[0, 1]",
+        text: "adaptive: 1 if a pass may factor when conjugate gradients fail",
+    },
 ];
 
 impl Options {
@@ -119,40 +188,18 @@ impl Options {
     /// [`Error::UnknownOption`], [`Error::OptionType`], [`Error::OptionRange`].
     pub fn set(&mut self, name: &str, value: &OptionValue) -> Result<()> {
         let info = info(name)?;
-        match (info.name, value) {
-            ("strategy", OptionValue::Text(word)) => {
-                let found = Strategy::ALL.into_iter().find(|s| s.name() == word);
-                self.strategy = found.ok_or_else(|| out_of_range(info, word))?;
-            }
-            ("time_limit", OptionValue::Real(seconds)) => self.set_time_limit(info, *seconds)?,
-            ("time_limit", OptionValue::Integer(seconds)) => {
-                self.set_time_limit(info, *seconds as f64)?;
-            }
-            ("threads", OptionValue::Integer(threads)) => {
-                if !(0..=1024).contains(threads) {
-                    return Err(out_of_range(info, threads));
-                }
-                self.threads = *threads as usize;
-            }
-            _ => {
-                return Err(Error::OptionType {
-                    name: info.name,
-                    expected: match info.kind {
-                        OptionKind::Integer => "a whole number",
-                        OptionKind::Real => "a real number",
-                        OptionKind::Text => "a word",
-                    },
-                });
-            }
+        match info.name {
+            "strategy" => self.strategy = strategy(info, value)?,
+            "time_limit" => self.time_limit = real(info, value)?,
+            "threads" => self.threads = integer(info, value, 1024)?,
+            "rounding_threshold" => self.rounding_threshold = real(info, value)?,
+            "exact_integers" => self.exact_integers = integer(info, value, LARGEST)?,
+            "gauss_seidel_updates" => self.gauss_seidel_updates = integer(info, value, LARGEST)?,
+            "gauss_seidel_tolerance" => self.gauss_seidel_tolerance = real(info, value)?,
+            "cg_iterations" => self.cg_iterations = integer(info, value, LARGEST)?,
+            "cg_tolerance" => self.cg_tolerance = real(info, value)?,
+            _ => self.exact_steps = integer(info, value, 1)? == 1,
         }
-        Ok(())
-    }
-
-    fn set_time_limit(&mut self, info: &'static OptionInfo, seconds: f64) -> Result<()> {
-        if seconds.is_nan() || seconds < 0.0 {
-            return Err(out_of_range(info, seconds));
-        }
-        self.time_limit = seconds;
         Ok(())
     }
 
@@ -164,8 +211,61 @@ impl Options {
         Ok(match info(name)?.name {
             "strategy" => OptionValue::Text(self.strategy.name().into()),
             "time_limit" => OptionValue::Real(self.time_limit),
-            _ => OptionValue::Integer(self.threads as i64),
+            "threads" => OptionValue::Integer(self.threads as i64),
+            "rounding_threshold" => OptionValue::Real(self.rounding_threshold),
+            "exact_integers" => OptionValue::Integer(self.exact_integers as i64),
+            "gauss_seidel_updates" => OptionValue::Integer(self.gauss_seidel_updates as i64),
+            "gauss_seidel_tolerance" => OptionValue::Real(self.gauss_seidel_tolerance),
+            "cg_iterations" => OptionValue::Integer(self.cg_iterations as i64),
+            "cg_tolerance" => OptionValue::Real(self.cg_tolerance),
+            _ => OptionValue::Integer(self.exact_steps.into()),
         })
+    }
+}
+
+/// The largest whole number that an option without a limit of its own takes.
+const LARGEST: i64 = i32::MAX as i64;
+
+fn strategy(info: &'static OptionInfo, value: &OptionValue) -> Result<Strategy> {
+    let OptionValue::Text(word) = value else {
+        return Err(wrong_type(info));
+    };
+    let found = Strategy::ALL.into_iter().find(|s| s.name() == word);
+    found.ok_or_else(|| out_of_range(info, word))
+}
+
+/// A real number that is not negative.
+fn real(info: &'static OptionInfo, value: &OptionValue) -> Result<f64> {
+    let number = match *value {
+        OptionValue::Real(number) => number,
+        OptionValue::Integer(number) => number as f64,
+        OptionValue::Text(_) => return Err(wrong_type(info)),
+    };
+    if number.is_nan() || number < 0.0 {
+        return Err(out_of_range(info, number));
+    }
+    Ok(number)
+}
+
+/// A whole number from 0 to `largest`.
+fn integer(info: &'static OptionInfo, value: &OptionValue, largest: i64) -> Result<usize> {
+    let OptionValue::Integer(number) = *value else {
+        return Err(wrong_type(info));
+    };
+    if !(0..=largest).contains(&number) {
+        return Err(out_of_range(info, number));
+    }
+    Ok(number as usize)
+}
+
+fn wrong_type(info: &'static OptionInfo) -> Error {
+    Error::OptionType {
+        name: info.name,
+        expected: match info.kind {
+            OptionKind::Integer => "a whole number",
+            OptionKind::Real => "a real number",
+            OptionKind::Text => "a word",
+        },
     }
 }
 
@@ -181,5 +281,36 @@ fn out_of_range(info: &'static OptionInfo, value: impl ToString) -> Error {
         name: info.name,
         value: value.to_string(),
         range: info.range,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_option_of_the_table_starts_at_its_default_and_comes_back_as_set() {
+        for info in OPTIONS {
+            let defaults = Options::default();
+            let value = defaults.get(info.name).unwrap();
+            let text = match &value {
+                OptionValue::Text(word) => word.clone(),
+                OptionValue::Real(number) => number.to_string(),
+                OptionValue::Integer(number) => number.to_string(),
+            };
+            assert_eq!(text, info.default, "{}", info.name);
+            let other = match &value {
+                OptionValue::Text(_) => OptionValue::Text("direct".into()),
+                OptionValue::Real(_) => OptionValue::Real(0.25),
+                OptionValue::Integer(number) => OptionValue::Integer(1 - number.signum()),
+            };
+            let mut options = Options::default();
+            options.set(info.name, &other).unwrap();
+            assert_eq!(options.get(info.name).unwrap(), other, "{}", info.name);
+            let changed = OPTIONS
+                .iter()
+                .filter(|o| options.get(o.name) != defaults.get(o.name));
+            assert_eq!(changed.count(), 1, "{} changes itself alone", info.name);
+        }
     }
 }

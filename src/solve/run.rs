@@ -84,6 +84,7 @@ fn decide(
         Strategy::Relax => {}
         Strategy::Direct => round::direct(reduced, factors, &mut search)?,
         Strategy::Greedy => round::greedy(reduced, factors, &mut search)?,
+        Strategy::Adaptive => round::adaptive(reduced, options, factors, &mut search)?,
     }
     let (bound, status) = (search.lower_bound(), search.status());
     let best = search.into_best()?;

@@ -8,7 +8,6 @@ use serde_json::Value;
 use super::reduce;
 
 #[test]
-#[cfg(feature = "gzip")]
 fn the_corpus_reduces_to_the_counts_of_its_reference() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/corpus");
     let Ok(text) = std::fs::read_to_string(folder.join("reference.json")) else {

@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use roundel::eliminate::ReducedModel;
-use roundel::{Model, Problem};
+use roundel::{Model, Options, Problem, Strategy, solve};
 
 use super::{reduce, violation};
 
@@ -226,4 +226,32 @@ fn a_long_sum_of_integers_stays_sparse_and_integer() {
     assert!(x.iter().all(|v| v.fract() == 0.0));
     let sum: f64 = x.iter().zip(&signs).map(|(x, s)| x * s).sum();
     assert_eq!(sum, 3.5);
+}
+
+#[test]
+fn uneven_weights_of_a_mean_do_not_cost_accuracy() {
+    let side = 60;
+    let relaxed = |problem: &Problem| {
+        let options = Options {
+            strategy: Strategy::Relax,
+            ..Options::default()
+        };
+        solve(problem, &options).unwrap().energy()
+    };
+    let mut pinned = grid(side, 0);
+    pinned
+        .add_least_squares(&[17, 1234], &[1.0, -1.0], 40.0, 1.0)
+        .unwrap();
+    let mut with_mean = pinned.clone();
+    pinned.pin(5, 1.0).unwrap();
+    let n = side * side;
+    let area: Vec<f64> = (0..n)
+        .map(|i| 10f64.powi((i * 31 % 7) as i32 - 3))
+        .collect();
+    with_mean
+        .add_constraint(&(0..n).collect::<Vec<_>>(), &area, 2.5)
+        .unwrap();
+    // Both only decide where on a line of minimisers the solution lies.
+    let (a, b) = (relaxed(&pinned), relaxed(&with_mean));
+    assert!((a - b).abs() <= 1e-10 * a, "{a} against {b}");
 }

@@ -1,6 +1,7 @@
 //! Elimination of the equality constraints: what it keeps, what it reports, how it scales.
 
 mod brute_force;
+#[cfg(feature = "gzip")]
 mod corpus;
 mod exact;
 mod known;

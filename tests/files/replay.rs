@@ -53,7 +53,12 @@ proptest! {
             // Integers must be pinned to integers; which they are, does not matter here.
             problem.pin(i, values[i].round()).unwrap();
         }
-        let options = Options { time_limit: seconds, threads: 3, strategy: Rounding::Direct };
+        let options = Options {
+            time_limit: seconds,
+            threads: 3,
+            strategy: Rounding::Direct,
+            ..Options::default()
+        };
         let scratch = Scratch::new("same-solve");
         let path = scratch.file("p.mps");
         replay::save(&path, &problem, &options).unwrap();

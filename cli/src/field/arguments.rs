@@ -10,7 +10,8 @@ use crate::options::SolverOptions;
 #[derive(clap::Args)]
 #[command(after_help = exit::HELP)]
 pub struct Arguments {
-    /// The mesh: a file (.obj, .off, .ply) or shape:NAME[:TRIANGLES], see `roundel shape --help`
+    /// The mesh: a file (.obj, .off, .ply), or shape:NAME or shape:NAME:TRIANGLES for one of the
+    /// shapes that `roundel shape --help` lists
     #[arg(value_name = "MESH")]
     pub mesh: PathBuf,
 
@@ -30,6 +31,16 @@ pub struct Arguments {
     #[arg(long, value_name = "WIDTHxHEIGHT", default_value = "1600x1200", value_parser = size)]
     pub picture_size: [usize; 2],
 
+    /// The direction from which the picture looks at the mesh
+    #[arg(long, value_name = "X,Y,Z", default_value = "0.55,0.42,0.8", value_parser = direction)]
+    #[arg(allow_hyphen_values = true)]
+    pub picture_from: [f64; 3],
+
+    /// The direction that is upwards in the picture
+    #[arg(long, value_name = "X,Y,Z", default_value = "0,1,0", value_parser = direction)]
+    #[arg(allow_hyphen_values = true)]
+    pub picture_up: [f64; 3],
+
     /// Write the mixed-integer problem to this file: MPS, compressed if it ends in .gz
     #[arg(long, value_name = "P.mps[.gz]")]
     pub write_problem: Option<PathBuf>,
@@ -45,20 +56,34 @@ pub struct Arguments {
 fn size(text: &str) -> Result<[usize; 2], String> {
     let (width, height) = text.split_once('x').ok_or("not WIDTHxHEIGHT")?;
     let pixels = |text: &str| match text.parse() {
-        Ok(pixels) if (1..=16_384).contains(&pixels) => Ok(pixels),
-        _ => Err(format!("'{text}' is not a number of pixels, 1 to 16384")),
+        Ok(pixels) if (1..=8_192).contains(&pixels) => Ok(pixels),
+        _ => Err(format!("'{text}' is not a number of pixels, 1 to 8192")),
     };
     Ok([pixels(width)?, pixels(height)?])
 }
 
+fn direction(text: &str) -> Result<[f64; 3], String> {
+    let numbers: Result<Vec<f64>, _> = text.split(',').map(str::parse).collect();
+    let numbers = numbers.map_err(|_| "not X,Y,Z")?;
+    numbers.try_into().map_err(|_| String::from("not X,Y,Z"))
+}
+
 #[cfg(test)]
 mod tests {
-    use super::size;
+    use super::{direction, size};
+
+    #[test]
+    fn a_direction_of_view_is_three_numbers() {
+        assert_eq!(direction("-1,0.5,2"), Ok([-1.0, 0.5, 2.0]));
+        for text in ["", "1,2", "1,2,3,4", "1,2,z"] {
+            assert!(direction(text).is_err(), "{text}");
+        }
+    }
 
     #[test]
     fn a_size_is_two_numbers_of_pixels() {
         assert_eq!(size("640x480"), Ok([640, 480]));
-        for text in ["640", "640x", "0x480", "640x16385", "-1x2", "640x480x2"] {
+        for text in ["640", "640x", "0x480", "640x8193", "-1x2", "640x480x2"] {
             assert!(size(text).is_err(), "{text}");
         }
     }

@@ -7,7 +7,7 @@ use roundel::quad::{Constraint, curvature_constraints};
 #[derive(clap::Args)]
 pub struct Directions {
     /// Give this part of the faces, those with the most reliable curvature, the direction of least
-    /// curvature; in [0, 1]
+    /// curvature; from 0 to 1
     #[arg(long, value_name = "FRACTION", default_value_t = 0.1, value_parser = fraction)]
     #[arg(allow_negative_numbers = true)]
     pub constrain_curvature: f64,

@@ -89,7 +89,8 @@ fn write(arguments: &Arguments, mesh: &TriangleMesh, field: &OrientationField) -
         let view = View {
             width,
             height,
-            ..View::default()
+            from: arguments.picture_from,
+            up: arguments.picture_up,
         };
         draw_field(mesh, field, &view)?.write_png(path)?;
     }

@@ -1,7 +1,10 @@
 //! The program as its users meet it: run from outside, on files.
 
+mod field;
 mod outcome;
 mod output;
+mod parametrize;
 mod problem;
 mod readme;
 mod run;
+mod shape;

@@ -54,7 +54,9 @@ fn the_file_written_tears_the_texture_at_the_cut_alone() {
     let (_, report) = parametrize(&[CUBE, "-o", text(&out)]);
     let content = fs::read_to_string(&out).unwrap();
     let lines = |keyword: &str| {
-        let of_kind = content.lines().filter(|l| l.split(' ').next() == Some(keyword));
+        let of_kind = content
+            .lines()
+            .filter(|l| l.split(' ').next() == Some(keyword));
         of_kind.collect::<Vec<_>>()
     };
     assert_eq!(json!(lines("v").len()), report["vertices"]);

@@ -39,8 +39,15 @@ impl Drop for Scratch {
 
 /// `roundel solve FILE FLAGS...`, not yet run.
 pub fn solve(file: &Path, flags: &[&str]) -> Command {
+    let mut command = program(&["solve"]);
+    command.arg(file).args(flags);
+    command
+}
+
+/// `roundel WORDS...`, not yet run.
+pub fn program(words: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_roundel"));
-    command.arg("solve").arg(file).args(flags);
+    command.args(words);
     command
 }
 

@@ -15,7 +15,16 @@ using namespace std::string_literals;
 
 void options_follow_the_librarys_list() {
     // Every option has a member of its name; one that is added here must be added there.
-    const std::set<std::string> members = {"strategy", "time_limit", "threads"};
+    const std::set<std::string> members = {"strategy",
+                                           "time_limit",
+                                           "threads",
+                                           "rounding_threshold",
+                                           "exact_integers",
+                                           "gauss_seidel_updates",
+                                           "gauss_seidel_tolerance",
+                                           "cg_iterations",
+                                           "cg_tolerance",
+                                           "exact_steps"};
     std::set<std::string> listed;
     for (std::size_t i = 0; i < roundel_option_count(); ++i) {
         roundel_option option;
@@ -28,6 +37,11 @@ void options_follow_the_librarys_list() {
     roundel::Options relaxed;
     relaxed.set_strategy("relax").set_time_limit(60.0).set_threads(1);
     CHECK(roundel::solve(problem, relaxed).status() == roundel::SolveStatus::relaxed);
+    roundel::Options local;
+    local.set_strategy("adaptive").set_exact_integers(0).set_rounding_threshold(0.25);
+    local.set_gauss_seidel_updates(1000).set_gauss_seidel_tolerance(1e-6);
+    local.set_cg_iterations(20).set_cg_tolerance(1e-6).set_exact_steps(1);
+    CHECK(roundel::solve(problem, local).violations().integrality == 0.0);
     roundel::Options by_name;
     by_name.set("strategy", "relax"s).set("threads", std::int64_t{1}).set("time_limit", 60.0);
     CHECK(roundel::solve(problem, by_name).status() == roundel::SolveStatus::relaxed);

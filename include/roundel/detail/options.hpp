@@ -89,12 +89,26 @@ struct Event {
 
 /// How to solve. What is not set has the library's default.
 struct Options {
-    /// How integers are decided: "relax", "direct", "greedy".
+    /// How integers are decided: "relax", "direct", "greedy", "adaptive".
     std::optional<std::string> strategy = std::nullopt;
     /// Seconds after which the best solution so far is returned.
     std::optional<double> time_limit = std::nullopt;
     /// Threads that may be used at most; 0 means as many as there are cores.
     std::optional<std::int64_t> threads = std::nullopt;
+    /// adaptive: integers are rounded together while their deviations sum up to at most this.
+    std::optional<double> rounding_threshold = std::nullopt;
+    /// adaptive: up to this many integers are decided exactly, one at a time.
+    std::optional<std::int64_t> exact_integers = std::nullopt;
+    /// adaptive: Gauss-Seidel updates a pass, after which conjugate gradients take over.
+    std::optional<std::int64_t> gauss_seidel_updates = std::nullopt;
+    /// adaptive: Gauss-Seidel does not push on where an unknown would move by less.
+    std::optional<double> gauss_seidel_tolerance = std::nullopt;
+    /// adaptive: conjugate-gradient iterations a pass, before a factorization takes over.
+    std::optional<std::int64_t> cg_iterations = std::nullopt;
+    /// adaptive: how close to the minimum conjugate gradients bring every unknown.
+    std::optional<double> cg_tolerance = std::nullopt;
+    /// adaptive: 1 if a pass may factor when conjugate gradients fail.
+    std::optional<std::int64_t> exact_steps = std::nullopt;
     /// Called for every event, on the thread that called solve. What it throws ends the solve and
     /// is thrown again by solve.
     std::function<Flow(const Event&)> on_event = nullptr;
@@ -113,6 +127,34 @@ struct Options {
     }
     Options& set_threads(std::int64_t value) {
         threads = value;
+        return *this;
+    }
+    Options& set_rounding_threshold(double value) {
+        rounding_threshold = value;
+        return *this;
+    }
+    Options& set_exact_integers(std::int64_t value) {
+        exact_integers = value;
+        return *this;
+    }
+    Options& set_gauss_seidel_updates(std::int64_t value) {
+        gauss_seidel_updates = value;
+        return *this;
+    }
+    Options& set_gauss_seidel_tolerance(double value) {
+        gauss_seidel_tolerance = value;
+        return *this;
+    }
+    Options& set_cg_iterations(std::int64_t value) {
+        cg_iterations = value;
+        return *this;
+    }
+    Options& set_cg_tolerance(double value) {
+        cg_tolerance = value;
+        return *this;
+    }
+    Options& set_exact_steps(std::int64_t value) {
+        exact_steps = value;
         return *this;
     }
     Options& set_on_event(std::function<Flow(const Event&)> value) {

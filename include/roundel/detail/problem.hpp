@@ -10,6 +10,7 @@
 #include <initializer_list>
 #include <string>
 #include <type_traits>
+#include <utility>
 
 ROUNDEL_NAMESPACE_BEGIN
 
@@ -36,6 +37,17 @@ template <class Index> struct Compressed {
     span<const Index> indices;
     span<const double> values;
 };
+
+namespace detail {
+
+/// What another library's sparse matrix looks like to Problem: its adapter specialises this with a
+/// constructor from the matrix and `Compressed<Index> get() const`.
+template <class Matrix> class CompressedView;
+
+template <class Matrix>
+using if_compressed = decltype(CompressedView<Matrix>(std::declval<const Matrix&>()).get());
+
+} // namespace detail
 
 /// A mixed-integer quadratic problem under construction: minimise
 /// 1/2 x'Qx + q'x + c + sum_k w_k (a_k . x - r_k)^2 subject to C x = d, x_i integer for i in I.
@@ -115,6 +127,13 @@ class Problem {
         detail::check(code, status);
     }
 
+    /// Adds another library's matrix to Q: Eigen's with <roundel/eigen.hpp>.
+    template <class Matrix, class = detail::if_compressed<Matrix>>
+    void quadratic(const Matrix& matrix, Triangle triangle, Status* status = nullptr) {
+        const detail::CompressedView<Matrix> view(matrix);
+        quadratic(view.get(), triangle, status);
+    }
+
     /// Adds to the linear term, one number a variable.
     void linear(Numbers values, Status* status = nullptr) {
         detail::check(roundel_problem_add_linear(get(), values.data(), values.size()), status);
@@ -191,6 +210,14 @@ class Problem {
         }
         detail::check(code, status);
         return first;
+    }
+
+    /// Adds the constraints C x = rhs with another library's matrix and vector.
+    template <class Matrix, class Vector, class = detail::if_compressed<Matrix>>
+    std::size_t constrain(const Matrix& matrix, const Vector& rhs, Status* status = nullptr) {
+        const detail::CompressedView<Matrix> view(matrix);
+        return constrain(view.get(), Numbers(rhs.data(), static_cast<std::size_t>(rhs.size())),
+                         status);
     }
 
     /// Makes variables integer.

@@ -72,7 +72,13 @@ inline OptionsHandle handle_for(const Options& options, Status* status) {
         return !value || check(set(made, name, *value), status);
     };
     if (!one("strategy", options.strategy) || !one("time_limit", options.time_limit) ||
-        !one("threads", options.threads)) {
+        !one("threads", options.threads) ||
+        !one("rounding_threshold", options.rounding_threshold) ||
+        !one("exact_integers", options.exact_integers) ||
+        !one("gauss_seidel_updates", options.gauss_seidel_updates) ||
+        !one("gauss_seidel_tolerance", options.gauss_seidel_tolerance) ||
+        !one("cg_iterations", options.cg_iterations) ||
+        !one("cg_tolerance", options.cg_tolerance) || !one("exact_steps", options.exact_steps)) {
         return nullptr;
     }
     for (const auto& [name, value] : options.more) {
@@ -85,40 +91,52 @@ inline OptionsHandle handle_for(const Options& options, Status* status) {
     return handle;
 }
 
-} // namespace detail
-
-/// Solves a problem. It may be solved again, as it is or after changes.
-inline Solution solve(const Problem& problem, const Options& options = {},
-                      Status* status = nullptr) {
-    const auto handle = detail::handle_for(options, status);
+/// Calls `call` with the C interface's options and monitor for `options`, and tells whether it went
+/// well. What a callback threw is thrown again.
+template <class Call>
+bool watched(const Options& options, const Call& call, std::size_t variables, Status* status) {
+    const auto handle = handle_for(options, status);
     if (!handle) {
-        return {};
+        return false;
     }
-    // The length of the direction that comes with some failures; 0 for a problem moved away.
-    std::size_t variables = 0;
-    if (problem.get()) {
-        roundel_problem_variables(problem.get(), &variables);
-    }
-    detail::Watcher watcher{options.on_event};
+    Watcher watcher{options.on_event};
     roundel_monitor monitor{};
     monitor.size = sizeof monitor;
     if (options.on_event) {
-        monitor.callback = detail::Watcher::callback;
+        monitor.callback = Watcher::callback;
         monitor.user_data = &watcher;
     }
     monitor.cancel_token = options.cancel ? options.cancel->get() : nullptr;
-    roundel_solution* found = nullptr;
-    const auto code = roundel_solve_with(problem.get(), handle.get(), &monitor, &found);
-    detail::Handle<roundel_solution, roundel_solution_free> owned(found);
+    const roundel_status code = call(handle.get(), &monitor);
 #if ROUNDEL_HPP_EXCEPTIONS
     if (watcher.thrown) {
         std::rethrow_exception(watcher.thrown);
     }
 #endif
-    if (!detail::check(code, status, variables)) {
+    return check(code, status, variables);
+}
+
+} // namespace detail
+
+/// Solves a problem. It may be solved again, as it is or after changes.
+inline Solution solve(const Problem& problem, const Options& options = {},
+                      Status* status = nullptr) {
+    // The length of the direction that comes with some failures; 0 for a problem moved away.
+    std::size_t variables = 0;
+    if (problem.get()) {
+        roundel_problem_variables(problem.get(), &variables);
+    }
+    detail::Handle<roundel_solution, roundel_solution_free> found;
+    const auto call = [&](const roundel_options* how, const roundel_monitor* monitor) {
+        roundel_solution* made = nullptr;
+        const auto code = roundel_solve_with(problem.get(), how, monitor, &made);
+        found.reset(made);
+        return code;
+    };
+    if (!detail::watched(options, call, variables, status)) {
         return {};
     }
-    return Solution(owned.release(), status);
+    return Solution(found.release(), status);
 }
 
 /// Writes a problem and how to solve it, so that the solve can be repeated elsewhere: `file`, which

@@ -69,14 +69,15 @@ fn smooth(mesh: &TriangleMesh, mut tensors: Vec<Tensor>, rounds: usize) -> Vec<T
     }
     let area: Vec<f64> = (0..mesh.face_count()).map(|f| mesh.area(f)).collect();
     // What each neighbour's deviator is multiplied by: cosine and sine of twice the turn.
-    let turn: Vec<[[f64; 2]; 3]> = (0..mesh.face_count())
-        .map(|f| {
-            [0, 1, 2].map(|k| {
-                let (sin, cos) = (-2.0 * mesh.transport(f, k).unwrap_or(0.0)).sin_cos();
-                [cos, sin]
-            })
-        })
-        .collect();
+    let mut turn = vec![[[1.0, 0.0]; 3]; mesh.face_count()];
+    for edge in mesh.edges() {
+        let ((f, k), Some((g, l))) = (edge.first, edge.second) else {
+            continue;
+        };
+        let (sin, cos) = (-2.0 * mesh.transport(f, k).unwrap_or(0.0)).sin_cos();
+        turn[f][k] = [cos, sin];
+        turn[g][l] = [cos, -sin];
+    }
     let mut before = tensors.clone();
     for _ in 0..rounds {
         std::mem::swap(&mut before, &mut tensors);

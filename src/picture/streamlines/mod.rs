@@ -10,8 +10,8 @@ mod walk;
 
 use std::collections::VecDeque;
 
-use super::streamlines::spacing::{Index, Sample};
-use super::streamlines::walk::{Stand, Walker};
+use self::spacing::{Index, Sample};
+use self::walk::{Stand, Walker};
 use crate::mesh::TriangleMesh;
 use crate::mesh::vector::{Vec3, dot, norm, sub};
 use crate::quad::OrientationField;
@@ -19,11 +19,11 @@ use crate::quad::OrientationField;
 /// Steps in which a line is traced, and between its samples, in distances between lines.
 const STEP: f64 = 0.25;
 /// A line ends where another is nearer than this.
-const TOO_NEAR: f64 = 0.55;
+const TOO_NEAR: f64 = 0.6;
 /// A line may start where no other is nearer than this.
 const ROOM: f64 = 0.92;
 /// The shortest line that is kept.
-const SHORTEST: f64 = 2.0;
+const SHORTEST: f64 = 2.5;
 /// A line that comes back to its start closes when it misses it by no more than this.
 const CLOSING: f64 = 0.3;
 /// The longest line, in distances between lines: a spiral on a torus has no end.

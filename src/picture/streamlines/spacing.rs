@@ -10,6 +10,8 @@ use crate::mesh::vector::{Vec3, dot, sub};
 
 /// Lines run alike if the cosine between them is larger.
 const ALIKE: f64 = 0.71;
+/// Distances along a line count this many times, so that lines that meet head on almost touch.
+const HEAD_ON: f64 = 2.0;
 /// Two places are on the same side if the cosine between their normals is larger; edges of a
 /// cube are.
 const SAME_SIDE: f64 = -0.3;
@@ -86,7 +88,9 @@ impl Index {
 
     fn crowds(&self, other: &Sample, sample: &Sample, distance: f64) -> bool {
         let apart = sub(other.position, sample.position);
-        dot(apart, apart) < distance * distance
+        let along = dot(apart, other.direction);
+        let near = dot(apart, apart) + (HEAD_ON * HEAD_ON - 1.0) * along * along;
+        near < distance * distance
             && dot(other.direction, sample.direction).abs() > ALIKE
             && dot(other.normal, sample.normal) > SAME_SIDE
             && (other.line != sample.line || (other.at - sample.at).abs() > OWN * self.cell)

@@ -1,0 +1,66 @@
+// The field problem as one traversal of one library states it, and what it measures.
+
+#ifndef ASSEMBLY_HPP
+#define ASSEMBLY_HPP
+
+#include "soup.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+/// An interior edge, over which face `first` looks at face `second`.
+struct Dual {
+    /// In the direction in which it runs in its first face.
+    std::int32_t from, to;
+    std::int32_t first, second;
+    /// The frame of the first face seen in that of the second.
+    double kappa;
+    /// The variable of its period jump; -1 where that is known.
+    std::int32_t variable;
+    std::int32_t known;
+    /// Whether its row is part of the energy: not between two fixed faces.
+    bool counted;
+};
+
+/// Interior edges in increasing order of (lower face, local edge there), which is their first.
+struct Assembly {
+    std::vector<Dual> edges;
+    std::size_t variables;
+    Fixed fixed;
+};
+
+/// A solution of an assembly: one angle a face, one jump an interior edge.
+struct Solved {
+    double energy;
+    std::vector<double> angles;
+    std::vector<std::int32_t> jumps;
+};
+
+/// Indices of all vertices (zero at the boundary), and of the boundary loops.
+struct Indices {
+    std::vector<double> vertices;
+    std::vector<bool> interior;
+    std::vector<double> loops;
+    std::int64_t euler_characteristic;
+};
+
+Assembly assemble_with_openmesh(const Soup& soup, const Fixed& fixed);
+/// Indices from the period jumps, by walking around vertices and along boundaries.
+Indices indices_with_openmesh(const Soup& soup, const Assembly& assembly, const Solved& solved);
+
+Assembly assemble_with_cgal(const Soup& soup, const Fixed& fixed);
+/// Indices of vertices by carrying an arm of the cross around each in space.
+std::vector<double> traced_with_cgal(const Soup& soup, const Assembly& assembly,
+                                     const Solved& solved);
+
+/// Decides every jump by factorizing anew for each.
+std::vector<std::int32_t> jumps_of_reference(const Assembly& assembly);
+
+/// Through the plain C problem interface, by greedy rounding.
+Solved solve_plainly(const Assembly& assembly);
+
+/// The energy on the mesh, from angles and jumps.
+double energy_of(const Assembly& assembly, const Solved& solved);
+
+#endif

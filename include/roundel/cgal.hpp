@@ -1,0 +1,148 @@
+/// Roundel for CGAL: fields of every model of its FaceGraph, written back to property maps.
+///
+///     CGAL::Surface_mesh<Kernel::Point_3> mesh = ...;
+///     auto field = roundel::orientation_field(mesh, {.constrain_curvature = 0.1});
+///     auto p = roundel::store(field, mesh);
+///     for (auto face : faces(mesh)) std::cout << p.angle[face] << '\n';
+///
+/// Faces must be triangles. Elements that are marked as removed are left out. A face's first edge
+/// is its halfedge(face, mesh).
+
+#ifndef ROUNDEL_CGAL_HPP
+#define ROUNDEL_CGAL_HPP
+
+#include <roundel/detail/adapted.hpp>
+#include <roundel/roundel.hpp>
+
+#include <CGAL/boost/graph/properties.h>
+#include <CGAL/number_utils.h>
+#include <boost/graph/graph_traits.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+namespace OpenMesh {
+class PolyConnectivity;
+}
+namespace CGAL {
+template <typename P> class Surface_mesh;
+}
+
+ROUNDEL_NAMESPACE_BEGIN
+
+namespace cgal {
+
+template <class G> using Vertex = typename boost::graph_traits<G>::vertex_descriptor;
+template <class G> using Face = typename boost::graph_traits<G>::face_descriptor;
+template <class G> using Halfedge = typename boost::graph_traits<G>::halfedge_descriptor;
+
+template <class G> using Elements = Adapted<Vertex<G>, Face<G>, Halfedge<G>>;
+template <class G> using Field = AdaptedField<Vertex<G>, Face<G>, Halfedge<G>>;
+
+// CGAL makes FaceGraphs of OpenMesh's types too; those belong to openmesh.hpp.
+template <class G>
+using enable =
+    std::enable_if_t<!std::is_base_of_v<OpenMesh::PolyConnectivity, G> && sizeof(Face<G>) != 0,
+                     int>;
+
+/// The property maps of a field on a CGAL::Surface_mesh, under the names "f:roundel_angle",
+/// "h:roundel_period_jump", "h:roundel_kappa" and "v:roundel_index".
+template <class M> struct Properties {
+    /// One arm of the face's cross, counted from its halfedge.
+    typename M::template Property_map<Face<M>, double> angle;
+    /// From the half-edge's face to the opposite one: angle + kappa + pi/2 jump is the matching arm
+    /// there. Zero at the boundary.
+    typename M::template Property_map<Halfedge<M>, std::int32_t> period_jump;
+    /// The frame of the half-edge's face seen in that of the opposite one.
+    typename M::template Property_map<Halfedge<M>, double> kappa;
+    /// The index in full turns; zero at the boundary.
+    typename M::template Property_map<Vertex<M>, double> index;
+};
+
+} // namespace cgal
+
+/// The triangles of a FaceGraph, with the points of `points`.
+template <class G, class Points, cgal::enable<G> = 0>
+cgal::Elements<G> adapt(const G& graph, const Points& points, Status* status) {
+    cgal::Elements<G> elements;
+    std::vector<double> coordinates;
+    std::vector<std::int64_t> corners;
+    std::unordered_map<cgal::Vertex<G>, std::int64_t> number;
+    for (const auto vertex : vertices(graph)) {
+        number.emplace(vertex, static_cast<std::int64_t>(elements.vertices.size()));
+        elements.vertices.push_back(vertex);
+        const auto& point = get(points, vertex);
+        coordinates.push_back(CGAL::to_double(point.x()));
+        coordinates.push_back(CGAL::to_double(point.y()));
+        coordinates.push_back(CGAL::to_double(point.z()));
+    }
+    for (const auto face : faces(graph)) {
+        auto side = halfedge(face, graph);
+        for (int k = 0; k < 3; ++k) {
+            elements.halfedges.push_back(side);
+            corners.push_back(number.at(source(side, graph)));
+            side = next(side, graph);
+        }
+        if (side != halfedge(face, graph)) {
+            detail::not_a_triangle(elements.faces.size(), status);
+            return {};
+        }
+        elements.faces.push_back(face);
+    }
+    elements.mesh = Mesh(span<const double>(coordinates.data(), coordinates.size()),
+                         span<const std::int64_t>(corners.data(), corners.size()), status);
+    return elements;
+}
+
+/// The triangles of a FaceGraph that has points of its own.
+template <class G, cgal::enable<G> = 0>
+cgal::Elements<G> adapt(const G& graph, Status* status = nullptr) {
+    return adapt(graph, get(CGAL::vertex_point, graph), status);
+}
+
+/// The smoothest field of a FaceGraph that follows the constraints, whose faces are numbered in the
+/// order of faces(graph).
+template <class G, cgal::enable<G> = 0>
+cgal::Field<G> orientation_field(const G& graph, const FieldOptions& options = {},
+                                 Status* status = nullptr) {
+    return detail::field_of(adapt(graph, status), options, status);
+}
+
+/// Writes a field to writable property maps: of faces, half-edges twice, and vertices.
+template <class G, class Angle, class Jump, class Kappa, class Index, cgal::enable<G> = 0>
+void store(const cgal::Field<G>& field, const G& graph, Angle angle, Jump period_jump, Kappa kappa,
+           Index index) {
+    detail::hand_out(
+        field, [&](const cgal::Halfedge<G>& h) { return opposite(h, graph); },
+        [&](const cgal::Face<G>& f, double value) { put(angle, f, value); },
+        [&](const cgal::Vertex<G>& v, double value) { put(index, v, value); },
+        [&](const cgal::Halfedge<G>& h, std::int32_t jump, double turn) {
+            put(period_jump, h, jump);
+            put(kappa, h, turn);
+        });
+}
+
+/// Writes a field to property maps of the CGAL::Surface_mesh that it was found on, which are added
+/// unless they are there.
+template <class P>
+cgal::Properties<CGAL::Surface_mesh<P>> store(const cgal::Field<CGAL::Surface_mesh<P>>& field,
+                                              CGAL::Surface_mesh<P>& mesh) {
+    using M = CGAL::Surface_mesh<P>;
+    cgal::Properties<M> to;
+    to.angle = mesh.template add_property_map<cgal::Face<M>, double>("f:roundel_angle").first;
+    to.period_jump =
+        mesh.template add_property_map<cgal::Halfedge<M>, std::int32_t>("h:roundel_period_jump")
+            .first;
+    to.kappa = mesh.template add_property_map<cgal::Halfedge<M>, double>("h:roundel_kappa").first;
+    to.index = mesh.template add_property_map<cgal::Vertex<M>, double>("v:roundel_index").first;
+    store(field, mesh, to.angle, to.period_jump, to.kappa, to.index);
+    return to;
+}
+
+ROUNDEL_NAMESPACE_END
+
+#endif // ROUNDEL_CGAL_HPP

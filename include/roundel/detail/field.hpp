@@ -1,0 +1,227 @@
+/// Orientation fields.
+
+#ifndef ROUNDEL_DETAIL_FIELD_HPP
+#define ROUNDEL_DETAIL_FIELD_HPP
+
+#include <roundel/detail/mesh.hpp>
+#include <roundel/detail/solve.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+ROUNDEL_NAMESPACE_BEGIN
+
+/// What an orientation field should follow, and how it is solved.
+struct FieldOptions {
+    /// Faces whose direction is given, each at most once.
+    std::vector<FieldConstraint> constraints = {};
+    /// The part of the faces, from 0 to 1, that follow the curvature of the surface: those where it
+    /// is most reliable. Faces of `constraints` keep what is given there.
+    double constrain_curvature = 0.0;
+    /// How the problem is solved.
+    Options solve = {};
+
+    FieldOptions& set_constraints(std::vector<FieldConstraint> value) {
+        constraints = std::move(value);
+        return *this;
+    }
+    FieldOptions& set_constrain_curvature(double fraction) {
+        constrain_curvature = fraction;
+        return *this;
+    }
+    FieldOptions& set_solve(Options value) {
+        solve = std::move(value);
+        return *this;
+    }
+};
+
+/// A 4-symmetric direction field: a cross in every face, and how crosses match over edges. It does
+/// not need its mesh any more.
+class Field {
+  public:
+    /// None: what a call returns that reports a failure to a Status.
+    Field() noexcept = default;
+
+    /// Takes over a field of the C interface, found on `mesh`.
+    Field(roundel_field* owned, const Mesh& mesh, Status* status = nullptr) : handle_(owned) {
+        if (copy(roundel_field_angles, angles_, mesh.faces(status), status) &&
+            copy(roundel_field_period_jumps, jumps_, mesh.edges(status), status) &&
+            copy(roundel_field_kappa, kappa_, mesh.edges(status), status) &&
+            copy(roundel_field_vertex_indices, vertex_, mesh.vertices(status), status)) {
+            copy(roundel_field_boundary_indices, boundary_, mesh.boundary_loops(status), status);
+        }
+    }
+
+    /// Whether there is one.
+    explicit operator bool() const noexcept { return handle_ != nullptr; }
+
+    /// One arm of each face's cross: radians, counter-clockwise about the normal from the face's
+    /// first edge.
+    span<const double> angles() const& noexcept { return view(angles_); }
+    span<const double> angles() const&& = delete;
+
+    /// One number an edge, from its first to its second face: angle + kappa + pi/2 jump is the
+    /// matching arm of the second.
+    span<const std::int32_t> period_jumps() const& noexcept { return view(jumps_); }
+    span<const std::int32_t> period_jumps() const&& = delete;
+
+    /// One angle an edge: the frame of its first face seen in that of its second.
+    span<const double> kappa() const& noexcept { return view(kappa_); }
+    span<const double> kappa() const&& = delete;
+
+    /// The index of every vertex in full turns, a multiple of 1/4; zero at the boundary.
+    span<const double> vertex_indices() const& noexcept { return view(vertex_); }
+    span<const double> vertex_indices() const&& = delete;
+
+    /// The index of every boundary loop.
+    span<const double> boundary_indices() const& noexcept { return view(boundary_); }
+    span<const double> boundary_indices() const&& = delete;
+
+    /// The index of every vertex, found by following an arm of the cross around it in space.
+    std::vector<double> traced_indices(Status* status = nullptr) const {
+        std::vector<double> values;
+        copy(roundel_field_traced_indices, values, vertex_.size(), status);
+        return values;
+    }
+
+    /// The energy, recomputed on the mesh from angles and period jumps.
+    double energy(Status* status = nullptr) const {
+        double value = 0.0;
+        detail::check(roundel_field_energy(get(), &value), status);
+        return value;
+    }
+
+    /// How many vertices have an index other than zero.
+    std::size_t irregular_count(Status* status = nullptr) const {
+        std::size_t value = 0;
+        detail::check(roundel_field_irregular_count(get(), &value), status);
+        return value;
+    }
+
+    /// The solution behind the field: how the solve ended, its lower bound and its times.
+    Solution solution(Status* status = nullptr) const {
+        roundel_solution* copy = nullptr;
+        if (!detail::check(roundel_field_solution(get(), &copy), status)) {
+            return {};
+        }
+        return Solution(copy, status);
+    }
+
+    const roundel_field* get() const noexcept { return handle_.get(); }
+
+  private:
+    template <class T> static span<const T> view(const std::vector<T>& values) noexcept {
+        return {values.data(), values.size()};
+    }
+
+    template <class Function, class T>
+    bool copy(Function function, std::vector<T>& to, std::size_t length, Status* status) const {
+        to.resize(length);
+        return detail::check(function(get(), to.data(), length), status);
+    }
+
+    detail::Handle<roundel_field, roundel_field_free> handle_;
+    std::vector<double> angles_;
+    std::vector<std::int32_t> jumps_;
+    std::vector<double> kappa_;
+    std::vector<double> vertex_;
+    std::vector<double> boundary_;
+};
+
+namespace detail {
+
+/// Faces and angles of all constraints, as the C interface takes them.
+struct ConstraintArrays {
+    std::vector<std::int32_t> faces;
+    std::vector<double> angles;
+
+    void add(const FieldConstraint& c) {
+        faces.push_back(c.face);
+        angles.push_back(c.angle);
+    }
+};
+
+inline ConstraintArrays constraints_of(const Mesh& mesh, const FieldOptions& options,
+                                       Status* status) {
+    ConstraintArrays all;
+    for (const auto& given : options.constraints) {
+        all.add(given);
+    }
+    std::vector<std::int32_t> taken = all.faces;
+    std::sort(taken.begin(), taken.end());
+    for (const auto& suggested : mesh.curvature_constraints(options.constrain_curvature, status)) {
+        if (!std::binary_search(taken.begin(), taken.end(), suggested.face)) {
+            all.add(suggested);
+        }
+    }
+    return all;
+}
+
+} // namespace detail
+
+/// The smoothest field of a mesh that follows the constraints.
+inline Field orientation_field(const Mesh& mesh, const FieldOptions& options = {},
+                               Status* status = nullptr) {
+    Status curvature;
+    const auto given = detail::constraints_of(mesh, options, status ? &curvature : nullptr);
+    if (!curvature) {
+        *status = std::move(curvature);
+        return {};
+    }
+    detail::Handle<roundel_field, roundel_field_free> found;
+    const auto call = [&](const roundel_options* how, const roundel_monitor* monitor) {
+        roundel_field* made = nullptr;
+        const auto code = roundel_field_solve(mesh.get(), given.faces.size(), given.faces.data(),
+                                              given.angles.data(), how, monitor, &made);
+        found.reset(made);
+        return code;
+    };
+    if (!detail::watched(options.solve, call, 0, status)) {
+        return {};
+    }
+    return Field(found.release(), mesh, status);
+}
+
+/// The problem of a field as a plain problem, to be kept or solved in another way. Variable f is
+/// the angle of face f; see roundel_field_make_problem.
+inline Problem orientation_problem(const Mesh& mesh, const FieldOptions& options = {},
+                                   Status* status = nullptr) {
+    Status curvature;
+    const auto given = detail::constraints_of(mesh, options, status ? &curvature : nullptr);
+    roundel_problem* made = nullptr;
+    if (!curvature) {
+        *status = std::move(curvature);
+    } else {
+        detail::check(roundel_field_make_problem(mesh.get(), given.faces.size(), given.faces.data(),
+                                                 given.angles.data(), &made),
+                      status);
+    }
+    return Problem(made);
+}
+
+/// The field that a solution of orientation_problem stands for, with the mesh and the options of
+/// the problem.
+inline Field orientation_field(const Mesh& mesh, const Solution& solution,
+                               const FieldOptions& options, Status* status = nullptr) {
+    Status curvature;
+    const auto given = detail::constraints_of(mesh, options, status ? &curvature : nullptr);
+    if (!curvature) {
+        *status = std::move(curvature);
+        return {};
+    }
+    roundel_field* found = nullptr;
+    if (!detail::check(roundel_field_from_solution(mesh.get(), given.faces.size(),
+                                                   given.faces.data(), given.angles.data(),
+                                                   solution.get(), &found),
+                       status)) {
+        return {};
+    }
+    return Field(found, mesh, status);
+}
+
+ROUNDEL_NAMESPACE_END
+
+#endif // ROUNDEL_DETAIL_FIELD_HPP

@@ -1,0 +1,122 @@
+/// Roundel for OpenMesh: fields of its meshes, written back as its properties.
+///
+///     auto field = roundel::orientation_field(mesh, {.constrain_curvature = 0.1});
+///     auto p = roundel::store(field, mesh);
+///     for (auto face : mesh.faces()) std::cout << mesh.property(p.angle, face) << '\n';
+///
+/// For every mesh type of OpenMesh whose faces are triangles. Elements that are marked as deleted
+/// are left out; no garbage collection is needed. A face's first edge is its halfedge_handle.
+
+#ifndef ROUNDEL_OPENMESH_HPP
+#define ROUNDEL_OPENMESH_HPP
+
+#include <roundel/detail/adapted.hpp>
+#include <roundel/roundel.hpp>
+
+#include <OpenMesh/Core/Mesh/PolyConnectivity.hh>
+
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+ROUNDEL_NAMESPACE_BEGIN
+
+namespace openmesh {
+
+using Elements = Adapted<OpenMesh::VertexHandle, OpenMesh::FaceHandle, OpenMesh::HalfedgeHandle>;
+using Field = AdaptedField<OpenMesh::VertexHandle, OpenMesh::FaceHandle, OpenMesh::HalfedgeHandle>;
+
+template <class M>
+using enable = std::enable_if_t<std::is_base_of_v<OpenMesh::PolyConnectivity, M>, int>;
+
+/// Where a field is kept on a mesh, under the names "roundel:angle", "roundel:period_jump",
+/// "roundel:kappa" and "roundel:index".
+struct Properties {
+    /// One arm of the face's cross, counted from its halfedge_handle.
+    OpenMesh::FPropHandleT<double> angle;
+    /// From the half-edge's face to the opposite one: angle + kappa + pi/2 jump is the matching arm
+    /// there. Zero at the boundary.
+    OpenMesh::HPropHandleT<std::int32_t> period_jump;
+    /// The frame of the half-edge's face seen in that of the opposite one.
+    OpenMesh::HPropHandleT<double> kappa;
+    /// The index in full turns; zero at the boundary.
+    OpenMesh::VPropHandleT<double> index;
+};
+
+} // namespace openmesh
+
+/// The triangles of an OpenMesh mesh that are not deleted.
+template <class M, openmesh::enable<M> = 0>
+openmesh::Elements adapt(const M& mesh, Status* status = nullptr) {
+    openmesh::Elements elements;
+    std::vector<double> coordinates;
+    std::vector<std::int64_t> number(mesh.n_vertices(), -1), corners;
+    // The skipping iterators leave out what is deleted.
+    for (auto it = mesh.vertices_sbegin(); it != mesh.vertices_end(); ++it) {
+        const OpenMesh::VertexHandle vertex = *it;
+        number[static_cast<std::size_t>(vertex.idx())] =
+            static_cast<std::int64_t>(elements.vertices.size());
+        elements.vertices.push_back(vertex);
+        const auto& point = mesh.point(vertex);
+        for (unsigned axis = 0; axis < 3; ++axis) {
+            coordinates.push_back(static_cast<double>(point[axis]));
+        }
+    }
+    for (auto it = mesh.faces_sbegin(); it != mesh.faces_end(); ++it) {
+        const OpenMesh::FaceHandle face = *it;
+        OpenMesh::HalfedgeHandle side = mesh.halfedge_handle(face);
+        for (int k = 0; k < 3; ++k) {
+            elements.halfedges.push_back(side);
+            corners.push_back(
+                number[static_cast<std::size_t>(mesh.from_vertex_handle(side).idx())]);
+            side = mesh.next_halfedge_handle(side);
+        }
+        if (side != mesh.halfedge_handle(face)) {
+            detail::not_a_triangle(elements.faces.size(), status);
+            return {};
+        }
+        elements.faces.push_back(face);
+    }
+    elements.mesh = Mesh(span<const double>(coordinates.data(), coordinates.size()),
+                         span<const std::int64_t>(corners.data(), corners.size()), status);
+    return elements;
+}
+
+/// The smoothest field of an OpenMesh mesh that follows the constraints, whose faces are numbered
+/// without the deleted ones.
+template <class M, openmesh::enable<M> = 0>
+openmesh::Field orientation_field(const M& mesh, const FieldOptions& options = {},
+                                  Status* status = nullptr) {
+    return detail::field_of(adapt(mesh, status), options, status);
+}
+
+/// Writes a field to properties of the mesh that it was found on, which are added unless they are
+/// there.
+template <class M, openmesh::enable<M> = 0>
+openmesh::Properties store(const openmesh::Field& field, M& mesh) {
+    openmesh::Properties to;
+    const auto find = [&](auto& handle, const char* name) {
+        if (!mesh.get_property_handle(handle, name)) {
+            mesh.add_property(handle, name);
+        }
+    };
+    find(to.angle, "roundel:angle");
+    find(to.period_jump, "roundel:period_jump");
+    find(to.kappa, "roundel:kappa");
+    find(to.index, "roundel:index");
+    detail::hand_out(
+        field, [&](OpenMesh::HalfedgeHandle h) { return mesh.opposite_halfedge_handle(h); },
+        [&](OpenMesh::FaceHandle f, double angle) { mesh.property(to.angle, f) = angle; },
+        [&](OpenMesh::VertexHandle v, double index) { mesh.property(to.index, v) = index; },
+        [&](OpenMesh::HalfedgeHandle h, std::int32_t jump, double kappa) {
+            mesh.property(to.period_jump, h) = jump;
+            mesh.property(to.kappa, h) = kappa;
+        });
+    return to;
+}
+
+ROUNDEL_NAMESPACE_END
+
+#endif // ROUNDEL_OPENMESH_HPP

@@ -1,0 +1,261 @@
+//! The field handle: an orientation field of a mesh, solved, read and measured.
+
+use super::error::Outcome;
+use super::event::{monitor as watched_by, roundel_monitor};
+use super::field_problem::constraints;
+use super::guard::{self, Guarded, object};
+use super::mesh::roundel_mesh;
+use super::options::roundel_options;
+use super::output::{Out, copy_numbers};
+use super::solution::roundel_solution;
+use super::status::roundel_status;
+use crate::mesh::TriangleMesh;
+use crate::quad::{FieldProblem, OrientationField};
+use crate::{Options, Solution};
+
+/// All that can be asked of a field, so that the mesh need not live as long.
+pub(super) struct Found {
+    field: OrientationField,
+    solution: Solution,
+    energy: f64,
+    irregular: usize,
+    vertex_indices: Vec<f64>,
+    traced_indices: Vec<f64>,
+    boundary_indices: Vec<f64>,
+}
+
+impl Found {
+    pub(super) fn new(mesh: &TriangleMesh, field: OrientationField, solution: Solution) -> Self {
+        Found {
+            energy: field.energy(mesh),
+            irregular: field.irregular_vertices(mesh).len(),
+            vertex_indices: field.vertex_indices(mesh),
+            traced_indices: field.traced_indices(mesh),
+            boundary_indices: field.boundary_indices(mesh),
+            field,
+            solution,
+        }
+    }
+}
+
+/// A 4-symmetric direction field of a mesh: a cross in every face, and how crosses match over
+/// edges. It does not need the mesh any more.
+pub struct roundel_field(Guarded<Found>);
+
+object!(roundel_field, Found, "field");
+
+/// Finds the smoothest field of a mesh with the directions of `constraint_count` faces given (see
+/// roundel_field_make_problem), under the eyes of `monitor`. `options` and `monitor` may be NULL.
+///
+/// Fails as roundel_field_make_problem and roundel_solve do.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_field_solve(
+    mesh: *const roundel_mesh,
+    constraint_count: usize,
+    faces: *const i32,
+    angles: *const f64,
+    options: *const roundel_options,
+    monitor: *const roundel_monitor,
+    field: *mut *mut roundel_field,
+) -> roundel_status {
+    let body = |mesh: &TriangleMesh| {
+        let default = Options::default();
+        // SAFETY: the caller gives arrays of the length given or NULL, live handles or NULL, a
+        // monitor as its members say or NULL, and a place for the field or NULL.
+        let (given, options, monitor, out) = unsafe {
+            (
+                constraints(mesh, constraint_count, faces, angles)?,
+                guard::value_or(options, &default)?,
+                watched_by(monitor)?,
+                Out::new("field", field)?,
+            )
+        };
+        let problem = FieldProblem::new(mesh, &given)?;
+        let solution = crate::solve_with(problem.problem(), options, monitor)?;
+        let found = problem.field(mesh, &solution)?;
+        out.set(guard::handle(Found::new(mesh, found, solution)));
+        Ok(())
+    };
+    // SAFETY: the caller gives a live handle, or NULL.
+    unsafe { guard::read(mesh, body) }
+}
+
+/// Frees a field. NULL is allowed.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_field_free(field: *mut roundel_field) -> roundel_status {
+    // SAFETY: the caller gives up the handle, or NULL.
+    unsafe { guard::free(field) }
+}
+
+/// An entry that copies one list of numbers of a field.
+///
+/// # Safety
+/// `field` is NULL or a live handle, `to` NULL or an array of `length` numbers.
+unsafe fn copy<T: Copy>(
+    field: *const roundel_field,
+    what: &'static str,
+    values: impl FnOnce(&Found) -> &[T],
+    to: *mut T,
+    length: usize,
+) -> roundel_status {
+    let body = |found: &Found| -> Outcome {
+        // SAFETY: handed on.
+        unsafe { copy_numbers(what, values(found).iter().copied(), to, length) }
+    };
+    // SAFETY: handed on.
+    unsafe { guard::read(field, body) }
+}
+
+/// Copies the angle of one arm of every face's cross: radians, counter-clockwise about the normal
+/// from the face's first edge. Not reduced to a quarter turn: the period jumps belong to these very
+/// angles. `length` is the number of faces.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_field_angles(
+    field: *const roundel_field,
+    angles: *mut f64,
+    length: usize,
+) -> roundel_status {
+    // SAFETY: the caller gives a live handle and an array of `length` numbers, or NULL.
+    unsafe { copy(field, "angles", |f| f.field.angles(), angles, length) }
+}
+
+/// Copies the period jump of every edge, from its first to its second face: angle + kappa + pi/2
+/// jump is the matching arm of the second. Zero at the boundary. `length` is the number of edges.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_field_period_jumps(
+    field: *const roundel_field,
+    jumps: *mut i32,
+    length: usize,
+) -> roundel_status {
+    // SAFETY: the caller gives a live handle and an array of `length` numbers, or NULL.
+    unsafe {
+        copy(
+            field,
+            "period jumps",
+            |f| f.field.period_jumps(),
+            jumps,
+            length,
+        )
+    }
+}
+
+/// Copies kappa of every edge: the angle of the frame of its first face seen in that of its second,
+/// after unfolding, in (-pi, pi]. Zero at the boundary. `length` is the number of edges.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_field_kappa(
+    field: *const roundel_field,
+    kappa: *mut f64,
+    length: usize,
+) -> roundel_status {
+    // SAFETY: the caller gives a live handle and an array of `length` numbers, or NULL.
+    unsafe { copy(field, "kappa", |f| f.field.kappa(), kappa, length) }
+}
+
+/// Copies the index of every vertex in full turns, from the period jumps: a multiple of 1/4, and
+/// +1/4 at the corner of a cube. Zero for vertices of the boundary. `length` is the number of
+/// vertices.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_field_vertex_indices(
+    field: *const roundel_field,
+    indices: *mut f64,
+    length: usize,
+) -> roundel_status {
+    // SAFETY: the caller gives a live handle and an array of `length` numbers, or NULL.
+    unsafe {
+        copy(
+            field,
+            "vertex indices",
+            |f| &f.vertex_indices,
+            indices,
+            length,
+        )
+    }
+}
+
+/// roundel_field_vertex_indices found another way: by following an arm of the cross in space around
+/// each vertex.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_field_traced_indices(
+    field: *const roundel_field,
+    indices: *mut f64,
+    length: usize,
+) -> roundel_status {
+    // SAFETY: the caller gives a live handle and an array of `length` numbers, or NULL.
+    unsafe {
+        copy(
+            field,
+            "traced indices",
+            |f| &f.traced_indices,
+            indices,
+            length,
+        )
+    }
+}
+
+/// Copies the index of every boundary loop. With the indices of the vertices they sum to the Euler
+/// characteristic. `length` is the number of boundary loops.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_field_boundary_indices(
+    field: *const roundel_field,
+    indices: *mut f64,
+    length: usize,
+) -> roundel_status {
+    // SAFETY: the caller gives a live handle and an array of `length` numbers, or NULL.
+    unsafe {
+        copy(
+            field,
+            "boundary indices",
+            |f| &f.boundary_indices,
+            indices,
+            length,
+        )
+    }
+}
+
+/// Gives the energy, recomputed on the mesh from angles and period jumps: the sum over interior
+/// edges, not between two constrained faces, of (angle + kappa + pi/2 jump - other angle)^2.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_field_energy(
+    field: *const roundel_field,
+    energy: *mut f64,
+) -> roundel_status {
+    let body = |found: &Found| {
+        // SAFETY: the caller gives a place for the number, or NULL.
+        unsafe { Out::new("energy", energy) }?.set(found.energy);
+        Ok(())
+    };
+    // SAFETY: the caller gives a live handle, or NULL.
+    unsafe { guard::read(field, body) }
+}
+
+/// Gives the number of irregular vertices: those whose index is not zero.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_field_irregular_count(
+    field: *const roundel_field,
+    count: *mut usize,
+) -> roundel_status {
+    let body = |found: &Found| {
+        // SAFETY: the caller gives a place for the number, or NULL.
+        unsafe { Out::new("irregular count", count) }?.set(found.irregular);
+        Ok(())
+    };
+    // SAFETY: the caller gives a live handle, or NULL.
+    unsafe { guard::read(field, body) }
+}
+
+/// Makes a copy of the solution behind a field, which tells how the solve ended, its lower bound
+/// and its times. To be freed with roundel_solution_free.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_field_solution(
+    field: *const roundel_field,
+    solution: *mut *mut roundel_solution,
+) -> roundel_status {
+    let body = |found: &Found| {
+        // SAFETY: the caller gives a place for the handle, or NULL.
+        let out = unsafe { Out::new("solution", solution) }?;
+        out.set(guard::handle(found.solution.clone()));
+        Ok(())
+    };
+    // SAFETY: the caller gives a live handle, or NULL.
+    unsafe { guard::read(field, body) }
+}

@@ -1,0 +1,76 @@
+//! Meshes from and to files: OBJ, OFF and PLY.
+
+use std::ffi::c_char;
+use std::path::Path;
+
+use super::guard::{self, boundary};
+use super::input::path;
+use super::mesh::roundel_mesh;
+use super::output::Out;
+use super::status::roundel_status;
+use crate::mesh::TriangleMesh;
+use crate::{Error, Result};
+
+#[cfg(feature = "mesh-io")]
+fn read(file: &Path) -> Result<TriangleMesh> {
+    crate::mesh::io::read(file).map_err(Error::from)
+}
+
+#[cfg(feature = "mesh-io")]
+fn write(file: &Path, mesh: &TriangleMesh) -> Result<()> {
+    crate::mesh::io::write(file, mesh).map_err(Error::from)
+}
+
+// The exported symbols do not depend on features: programs link against either library.
+#[cfg(not(feature = "mesh-io"))]
+fn without_files<T>(file: &Path) -> Result<T> {
+    Err(Error::NotSupported {
+        what: format!("{}: built without mesh files", file.display()),
+        index: None,
+        line: None,
+    })
+}
+
+#[cfg(not(feature = "mesh-io"))]
+fn read(file: &Path) -> Result<TriangleMesh> {
+    without_files(file)
+}
+
+#[cfg(not(feature = "mesh-io"))]
+fn write(file: &Path, _: &TriangleMesh) -> Result<()> {
+    without_files(file)
+}
+
+/// Makes a mesh from a file in OBJ, OFF or PLY, told apart by extension. Only triangles are read.
+///
+/// Apart from what roundel_mesh_new refuses, fails with ROUNDEL_ERROR_IO, ROUNDEL_ERROR_PARSE with
+/// the line at fault, ROUNDEL_ERROR_NOT_A_TRIANGLE and ROUNDEL_ERROR_INDEX_OUT_OF_RANGE with the
+/// face, ROUNDEL_ERROR_NOT_SUPPORTED for another extension.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_mesh_read(
+    file: *const c_char,
+    mesh: *mut *mut roundel_mesh,
+) -> roundel_status {
+    boundary(None, || {
+        // SAFETY: the caller gives a text and a place for the handle, or NULL.
+        let (file, out) = unsafe { (path("file", file)?, Out::new("mesh", mesh)?) };
+        out.set(guard::handle(read(file)?));
+        Ok(())
+    })
+}
+
+/// Writes a mesh as OBJ, OFF or binary PLY, told apart by extension. Reading gives back the same
+/// numbers.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_mesh_write(
+    mesh: *const roundel_mesh,
+    file: *const c_char,
+) -> roundel_status {
+    let body = |mesh: &TriangleMesh| {
+        // SAFETY: the caller gives a text, or NULL.
+        let file = unsafe { path("file", file) }?;
+        Ok(write(file, mesh)?)
+    };
+    // SAFETY: the caller gives a live handle, or NULL.
+    unsafe { guard::read(mesh, body) }
+}

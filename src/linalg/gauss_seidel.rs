@@ -1,0 +1,255 @@
+//! Local re-optimisation after unknowns were fixed: Gauss-Seidel that spreads from the neighbours
+//! by a queue and does not push on where the change is below a tolerance.
+//!
+//! Bommes, Zimmer, Kobbelt 2009, section 3 ("adaptive" greedy rounding), with two changes that were
+//! measured on orientation fields of 20,000 faces:
+//!
+//! - *Private* integers, which couple to a few unknowns that are not integer, are not relaxed but
+//!   follow exactly: see [`super::condensed`].
+//! - Over-relaxation (Young 1954) by [`OVERRELAXATION`].
+
+use std::collections::VecDeque;
+
+use super::Sparse;
+use super::condensed::Condensed;
+use crate::Result;
+
+/// Among 1.0, 1.4, 1.6 and 1.8, the factor that left the least error for the least updates.
+const OVERRELAXATION: f64 = 1.6;
+
+/// An unknown whose remaining curvature is at most this part of its diagonal is not decided yet.
+const UNDECIDED: f64 = 1e-10;
+
+/// A minimisation of `1/2 x'Ax + g'x` in which unknowns are being fixed, kept near its minimum.
+#[derive(Debug)]
+pub struct LocalSolve<'a> {
+    gradient: &'a [f64],
+    system: Condensed,
+    integer: Vec<bool>,
+    fixed: Vec<bool>,
+    /// Current at all unknowns but the free private ones, which follow on demand.
+    point: Vec<f64>,
+    /// Slope of the condensed objective at each unknown that is not private.
+    residual: Vec<f64>,
+    queue: VecDeque<u32>,
+    queued: Vec<bool>,
+    moved: Vec<u32>,
+    is_moved: Vec<bool>,
+}
+
+impl<'a> LocalSolve<'a> {
+    /// Starts at `point`, the minimiser for the `A` with lower triangle `lower`.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+    pub fn new(
+        lower: &Sparse,
+        gradient: &'a [f64],
+        point: &[f64],
+        integers: &[u32],
+    ) -> Result<Self> {
+        let n = lower.rows();
+        let mut integer = vec![false; n];
+        integers.iter().for_each(|&i| integer[i as usize] = true);
+        Ok(LocalSolve {
+            gradient,
+            system: Condensed::new(lower, &integer)?,
+            integer,
+            fixed: vec![false; n],
+            point: point.to_vec(),
+            residual: vec![0.0; n],
+            queue: VecDeque::new(),
+            queued: vec![false; n],
+            moved: Vec::new(),
+            is_moved: vec![false; n],
+        })
+    }
+
+    /// The current value of an unknown.
+    pub fn value(&self, unknown: u32) -> f64 {
+        let i = unknown as usize;
+        if self.fixed[i] || !self.system.is_private(i) {
+            return self.point[i];
+        }
+        let pull: f64 = self
+            .system
+            .couplings(i)
+            .map(|(j, v)| v * self.point[j])
+            .sum();
+        -(self.gradient[i] + pull) / self.system.diagonal(i)
+    }
+
+    /// The current values of all unknowns.
+    pub fn point(&self) -> Vec<f64> {
+        (0..self.point.len() as u32)
+            .map(|i| self.value(i))
+            .collect()
+    }
+
+    /// Fixes an unknown to `value` for good and queues its neighbours.
+    pub fn fix(&mut self, unknown: u32, value: f64) {
+        let k = unknown as usize;
+        let step = value - self.value(unknown);
+        self.point[k] = value;
+        self.fixed[k] = true;
+        if self.system.is_private(k) {
+            for at in self.system.coupling_range(k) {
+                let (j, v) = self.system.coupling(at);
+                self.pull(j, v * step);
+            }
+            self.system.release(k);
+        } else {
+            self.spread(k, step);
+        }
+    }
+
+    /// Relaxes the queued unknowns until no step exceeds `tolerance` or `updates` were made;
+    /// returns how many were.
+    pub fn relax(&mut self, tolerance: f64, updates: usize) -> usize {
+        let mut done = 0;
+        while done < updates {
+            let Some(i) = self.queue.pop_front() else {
+                break;
+            };
+            let i = i as usize;
+            self.queued[i] = false;
+            let curvature = self.system.curvature(i);
+            if self.fixed[i] || curvature <= UNDECIDED * self.system.diagonal(i) {
+                continue;
+            }
+            let step = -self.residual[i] / curvature;
+            if step.abs() > tolerance {
+                let step = OVERRELAXATION * step;
+                self.point[i] += step;
+                self.residual[i] += curvature * step;
+                self.spread(i, step);
+                done += 1;
+            }
+        }
+        done
+    }
+
+    /// Whether nothing is left to relax.
+    pub fn is_settled(&self) -> bool {
+        self.queue.is_empty()
+    }
+
+    /// Takes over a point that was computed elsewhere as the minimiser for the unknowns fixed so
+    /// far.
+    pub fn settle_at(&mut self, point: &[f64]) {
+        for i in 0..point.len() {
+            if !self.fixed[i] && self.point[i] != point[i] {
+                self.point[i] = point[i];
+                self.mark_moved(i);
+            }
+        }
+        self.residual.fill(0.0);
+        self.queue.clear();
+        self.queued.fill(false);
+    }
+
+    /// Free integers that may have moved since the last call, increasing.
+    pub fn take_moved(&mut self) -> Vec<u32> {
+        let moved = std::mem::take(&mut self.moved);
+        let mut integers = Vec::new();
+        for i in moved {
+            let i = i as usize;
+            self.is_moved[i] = false;
+            if self.integer[i] && !self.fixed[i] {
+                integers.push(i as u32);
+            }
+            let private = self.system.couplings(i).map(|(j, _)| j);
+            let private = private.filter(|&j| self.system.is_private(j) && !self.fixed[j]);
+            integers.extend(private.map(|j| j as u32));
+        }
+        integers.sort_unstable();
+        integers.dedup();
+        integers
+    }
+
+    /// Carries a step of unknown `i` to its neighbours.
+    fn spread(&mut self, i: usize, step: f64) {
+        self.mark_moved(i);
+        for at in self.system.row_range(i) {
+            let (j, v) = self.system.entry(at);
+            if v != 0.0 {
+                self.pull(j, v * step);
+            }
+        }
+    }
+
+    fn pull(&mut self, j: usize, by: f64) {
+        self.residual[j] += by;
+        if !self.queued[j] && !self.fixed[j] {
+            self.queued[j] = true;
+            self.queue.push_back(j as u32);
+        }
+    }
+
+    fn mark_moved(&mut self, i: usize) {
+        if !self.is_moved[i] {
+            self.is_moved[i] = true;
+            self.moved.push(i as u32);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Cholesky, Minimum, minimise};
+    use super::*;
+
+    /// Angles on a ring with one private unknown a step, all tied weakly to the ground.
+    fn ring(steps: u32) -> Sparse {
+        let rows = (0..steps).map(move |k| [(k, 1.0), ((k + 1) % steps, -1.0), (steps + k, 1.5)]);
+        let squares = rows.flat_map(|row| {
+            let pairs = (0..3).flat_map(move |a| (0..3).map(move |b| (row[a], row[b])));
+            let lower = pairs.filter(|((i, _), (j, _))| j <= i);
+            lower.map(|((i, u), (j, v))| (i, j, 2.0 * u * v))
+        });
+        let ground = (0..2 * steps).map(|i| (i, i, 0.05));
+        let n = 2 * steps as usize;
+        Sparse::from_triplets(n, n, squares.chain(ground)).unwrap()
+    }
+
+    #[test]
+    fn relaxing_ends_at_the_minimiser_with_the_fixed_unknowns_held() {
+        let a = ring(40);
+        let n = a.rows();
+        let integers: Vec<u32> = (40..80).collect();
+        let zero = vec![0.0; n];
+        let mut local = LocalSolve::new(&a, &zero, &zero, &integers).unwrap();
+        // Fixing stiffly in the reference: a very large diagonal and a matching gradient.
+        let (mut held, mut gradient) = (Vec::new(), vec![0.0; n]);
+        for (k, &i) in integers.iter().step_by(3).enumerate() {
+            let value = (k as f64).sin() * 4.0;
+            local.fix(i, value);
+            local.relax(1e-12, usize::MAX);
+            held.push((i, i, 1e9));
+            gradient[i as usize] = -1e9 * value;
+        }
+        assert!(local.is_settled());
+        let stiff = Sparse::from_triplets(n, n, a.entries().chain(held.iter().copied())).unwrap();
+        let factor = Cholesky::new(&stiff).unwrap();
+        let Minimum::At { point, .. } =
+            minimise(&stiff, &gradient, &vec![0.0; n], &factor).unwrap()
+        else {
+            panic!()
+        };
+        for (i, (x, y)) in local.point().iter().zip(&point).enumerate() {
+            assert!((x - y).abs() < 1e-6, "unknown {i}: {x} {y}");
+        }
+    }
+
+    #[test]
+    fn what_has_moved_is_told_once_and_only_while_it_is_free() {
+        let a = ring(10);
+        let integers: Vec<u32> = (10..20).collect();
+        let mut local = LocalSolve::new(&a, &[0.0; 20], &[0.0; 20], &integers).unwrap();
+        local.fix(10, 1.0);
+        local.relax(1e-9, usize::MAX);
+        let moved = local.take_moved();
+        assert!(!moved.is_empty() && !moved.contains(&10));
+        assert!(local.take_moved().is_empty());
+    }
+}

@@ -1,0 +1,55 @@
+//! Exact minimisation with some unknowns held, by a factorization of what is left.
+
+use super::{Cholesky, Minimum, Sparse, minimise};
+use crate::Result;
+
+/// Minimises `1/2 x'Ax + g'x` over the unknowns that are not `held`, from `point`; the held ones
+/// keep their values there.
+///
+/// # Errors
+/// As [`minimise`]. Directions are in all unknowns, zero at the held ones.
+pub fn minimise_held(
+    lower: &Sparse,
+    gradient: &[f64],
+    held: &[bool],
+    point: &[f64],
+) -> Result<Minimum> {
+    let free: Vec<usize> = (0..held.len()).filter(|&i| !held[i]).collect();
+    let mut place = vec![u32::MAX; held.len()];
+    for (k, &i) in free.iter().enumerate() {
+        place[i] = k as u32;
+    }
+    let mut pull = gradient.to_vec();
+    for (i, j, v) in lower.entries() {
+        let (i, j) = (i as usize, j as usize);
+        match (held[i], held[j]) {
+            (true, false) => pull[j] += v * point[i],
+            (false, true) => pull[i] += v * point[j],
+            _ => {}
+        }
+    }
+    let inner = lower
+        .entries()
+        .filter(|&(i, j, _)| !held[i as usize] && !held[j as usize])
+        .map(|(i, j, v)| (place[i as usize], place[j as usize], v));
+    let block = Sparse::from_triplets(free.len(), free.len(), inner)?;
+    let pick = |v: &[f64]| -> Vec<f64> { free.iter().map(|&i| v[i]).collect() };
+    let embed = |values: &[f64], mut all: Vec<f64>| {
+        for (&i, &v) in free.iter().zip(values) {
+            all[i] = v;
+        }
+        all
+    };
+    let minimum = minimise(&block, &pick(&pull), &pick(point), &Cholesky::new(&block)?)?;
+    Ok(match minimum {
+        Minimum::At {
+            point: best,
+            excess,
+        } => Minimum::At {
+            point: embed(&best, point.to_vec()),
+            excess,
+        },
+        Minimum::Unbounded(v) => Minimum::Unbounded(embed(&v, vec![0.0; held.len()])),
+        Minimum::NotConvex(v) => Minimum::NotConvex(embed(&v, vec![0.0; held.len()])),
+    })
+}

@@ -1,0 +1,130 @@
+//! Adaptive greedy rounding: several integers at a time, re-optimised only as far as needed.
+//!
+//! Bommes' thesis, chapter 5; Bommes, Zimmer, Kobbelt 2009, section 3. Each pass rounds the
+//! integers with the least deviations while these sum up to at most a threshold, then re-optimises
+//! by Gauss-Seidel from their neighbours; where its budget ends, by conjugate gradients; where
+//! those fail, by a factorization.
+//!
+//! With few integers the exact method is the faster one as well, and is taken instead.
+
+use super::candidates::Candidates;
+use super::{greedy, nearest};
+use crate::Result;
+use crate::eliminate::ReducedModel;
+use crate::linalg::{LocalSolve, Minimum, conjugate_gradient, minimise_held};
+use crate::solve::{Factors, Options, Phase, Search};
+
+/// Gauss-Seidel updates between two looks at the clock.
+const UPDATES_AT_A_TIME: usize = 10_000;
+
+/// Rounds by passes.
+///
+/// When it has to stop early, it offers the integers as they stand, the undecided ones rounded.
+///
+/// # Errors
+/// For lack of memory, and those of the evaluation of its offer.
+pub(crate) fn adaptive(
+    model: &ReducedModel,
+    options: &Options,
+    factors: &mut Factors,
+    search: &mut Search,
+) -> Result<()> {
+    let integers = model.integers();
+    if integers.len() <= options.exact_integers {
+        return greedy(model, factors, search);
+    }
+    let mut passes = Passes {
+        model,
+        options,
+        solve: LocalSolve::new(
+            model.hessian(),
+            model.gradient(),
+            search.relaxed(),
+            integers,
+        )?,
+        fixed: vec![false; model.dim()],
+        left: integers.len(),
+    };
+    let mut candidates = Candidates::default();
+    for &i in integers {
+        candidates.push(i, search.relaxed()[i as usize]);
+    }
+    while passes.left > 0 {
+        let done = 1.0 - passes.left as f64 / integers.len() as f64;
+        if search.monitor.progress(Phase::Round, done).is_err() {
+            break;
+        }
+        let batch = candidates.take(options.rounding_threshold, |i| passes.undecided(i));
+        for &i in &batch {
+            passes.round(i);
+        }
+        passes.reoptimise(factors, search)?;
+        for i in passes.solve.take_moved() {
+            candidates.push(i, passes.solve.value(i));
+        }
+    }
+    let values = integers.iter().map(|&i| passes.solve.value(i));
+    let rounded: Vec<f64> = values.map(nearest).collect();
+    search.offer(factors, &rounded)?;
+    Ok(())
+}
+
+/// What the passes work on.
+struct Passes<'a> {
+    model: &'a ReducedModel,
+    options: &'a Options,
+    solve: LocalSolve<'a>,
+    fixed: Vec<bool>,
+    left: usize,
+}
+
+impl Passes<'_> {
+    /// The value of an integer that is not decided yet.
+    fn undecided(&self, unknown: u32) -> Option<f64> {
+        let i = unknown as usize;
+        (!self.fixed[i]).then(|| self.solve.value(unknown))
+    }
+
+    fn round(&mut self, unknown: u32) {
+        self.solve.fix(unknown, nearest(self.solve.value(unknown)));
+        self.fixed[unknown as usize] = true;
+        self.left -= 1;
+    }
+
+    /// Local, then iterative, then exact.
+    fn reoptimise(&mut self, factors: &mut Factors, search: &mut Search) -> Result<()> {
+        let options = self.options;
+        let mut budget = options.gauss_seidel_updates;
+        while budget > 0 && !self.solve.is_settled() {
+            let tolerance = options.gauss_seidel_tolerance;
+            budget -= self.solve.relax(tolerance, budget.min(UPDATES_AT_A_TIME));
+            if search.monitor.check().is_err() {
+                return Ok(());
+            }
+        }
+        if self.solve.is_settled() {
+            return Ok(());
+        }
+        let mut point = self.solve.point();
+        let converged = conjugate_gradient(
+            self.model.hessian(),
+            self.model.gradient(),
+            factors.full(self.model)?,
+            &self.fixed,
+            &mut point,
+            options.cg_iterations,
+            options.cg_tolerance,
+        )?;
+        if !converged && options.exact_steps && search.monitor.check().is_ok() {
+            let (hessian, gradient) = (self.model.hessian(), self.model.gradient());
+            // What is bounded and convex with all unknowns free stays so with some held.
+            if let Minimum::At { point: exact, .. } =
+                minimise_held(hessian, gradient, &self.fixed, &point)?
+            {
+                point = exact;
+            }
+        }
+        self.solve.settle_at(&point);
+        Ok(())
+    }
+}

@@ -1,0 +1,76 @@
+//! Integers by their distance from the nearest one: a heap whose stale entries are passed over.
+
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+use super::greedy::TIE;
+use super::nearest;
+
+/// The undecided integers, the closest to an integer first; deviations that agree to [`TIE`] are
+/// told apart by their unknowns, lowest first.
+#[derive(Debug, Default)]
+pub(crate) struct Candidates {
+    heap: BinaryHeap<Reverse<(u64, u32)>>,
+}
+
+impl Candidates {
+    /// Adds an unknown, or what became of one whose value changed.
+    pub fn push(&mut self, unknown: u32, value: f64) {
+        self.heap.push(Reverse((rank(value), unknown)));
+    }
+
+    /// Takes the least deviations whose sum stays at or below `threshold`, at least one.
+    ///
+    /// `value` gives the current value of an unknown, or none once it is decided.
+    pub fn take(&mut self, threshold: f64, value: impl Fn(u32) -> Option<f64>) -> Vec<u32> {
+        let mut taken = Vec::new();
+        let mut sum = 0.0;
+        while let Some(&Reverse((stored, unknown))) = self.heap.peek() {
+            let current = value(unknown).filter(|&x| rank(x) == stored);
+            // The same unknown may stand in the heap twice with the same value.
+            if let Some(x) = current.filter(|_| taken.last() != Some(&unknown)) {
+                sum += (x - nearest(x)).abs();
+                if sum > threshold && !taken.is_empty() {
+                    break;
+                }
+                taken.push(unknown);
+            }
+            self.heap.pop();
+        }
+        taken
+    }
+}
+
+fn rank(value: f64) -> u64 {
+    ((value - nearest(value)).abs() / TIE) as u64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn take(values: &[f64], threshold: f64) -> Vec<u32> {
+        let mut candidates = Candidates::default();
+        for (i, &x) in values.iter().enumerate() {
+            candidates.push(i as u32, 0.49);
+            candidates.push(i as u32, x);
+        }
+        candidates.take(threshold, |i| Some(values[i as usize]))
+    }
+
+    #[test]
+    fn deviations_are_taken_from_the_least_while_their_sum_fits() {
+        assert_eq!(take(&[0.3, 1.1, 2.0, 4.8], 0.5), [2, 1, 3]);
+        assert_eq!(take(&[0.3, 0.4], 0.1), [0], "at least one");
+    }
+
+    #[test]
+    fn stale_and_decided_entries_are_passed_over() {
+        let mut candidates = Candidates::default();
+        candidates.push(0, 0.1);
+        candidates.push(1, 0.2);
+        candidates.push(2, 0.3);
+        let now = [Some(0.4), None, Some(0.3)];
+        assert_eq!(candidates.take(0.0, |i| now[i as usize]), [2]);
+    }
+}
