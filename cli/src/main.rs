@@ -7,6 +7,7 @@ mod memory;
 mod mesh;
 mod options;
 mod output;
+mod parametrize;
 mod progress;
 mod report;
 mod shape;
@@ -29,6 +30,7 @@ struct Program {
 enum Command {
     Solve(solve::Arguments),
     Field(field::Arguments),
+    Parametrize(parametrize::Arguments),
     Shape(shape::Arguments),
 }
 
@@ -36,6 +38,7 @@ fn main() -> ExitCode {
     match Program::parse().command {
         Command::Solve(arguments) => solve::run(&arguments),
         Command::Field(arguments) => field::run(&arguments),
+        Command::Parametrize(arguments) => parametrize::run(&arguments),
         Command::Shape(arguments) => shape::run(&arguments),
     }
     .into()

@@ -66,6 +66,12 @@ pub fn counted(count: usize, noun: &str) -> String {
     format!("{} {noun}{plural}", thousands(count))
 }
 
+/// A count of vertices of some kind: `"irregular "`, or `""`.
+pub fn counted_vertices(count: usize, kind: &str) -> String {
+    let noun = if count == 1 { "vertex" } else { "vertices" };
+    format!("{} {kind}{noun}", thousands(count))
+}
+
 /// A count with commas: 20,088.
 pub fn thousands(count: usize) -> String {
     let digits = count.to_string();

@@ -4,6 +4,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use crate::linalg::CompensatedSum;
 use crate::mesh::TriangleMesh;
+use crate::{Error, Result};
 
 /// A 4-symmetric direction field: a cross in every face, and how crosses match over edges.
 #[derive(Debug, Clone, PartialEq)]
@@ -36,6 +37,21 @@ impl OrientationField {
     /// Which faces had their direction given.
     pub fn constrained(&self) -> &[bool] {
         &self.constrained
+    }
+
+    /// Whether this can be a field on that mesh.
+    pub(super) fn check_mesh(&self, mesh: &TriangleMesh) -> Result<()> {
+        let mismatch = |what, expected, actual| Error::LengthMismatch {
+            what,
+            expected,
+            actual,
+        };
+        let (faces, edges) = (mesh.face_count(), mesh.edge_count());
+        match (self.angles.len(), self.period_jumps.len()) {
+            (angles, _) if angles != faces => Err(mismatch("angles", faces, angles)),
+            (_, jumps) if jumps != edges => Err(mismatch("period jumps", edges, jumps)),
+            _ => Ok(()),
+        }
     }
 
     /// Sum over interior edges, not between two constrained faces, of

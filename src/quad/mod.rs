@@ -1,15 +1,29 @@
-//! From a triangle mesh towards quads: the orientation field as a mixed-integer problem.
+//! From a triangle mesh towards quads: the orientation field and the seamless parametrization that
+//! follows it, each as a mixed-integer problem.
 //!
 //! A client of the solver: it builds a [`Problem`](crate::Problem) and reads a
 //! [`Solution`](crate::Solution).
 
+mod comb;
 mod constrain;
+mod cut;
+mod cut_paths;
+mod dirichlet;
 mod field;
 mod forest;
 mod index;
+mod map;
 mod orientation;
+mod seamless;
+mod seams;
+mod sectors;
 mod trace;
+mod uv_obj;
 
+pub use comb::Combing;
 pub use constrain::curvature_constraints;
+pub use cut::CutGraph;
 pub use field::OrientationField;
+pub use map::{SeamlessMap, Transition};
 pub use orientation::{Constraint, FieldProblem};
+pub use seamless::{SeamlessOptions, SeamlessProblem, TRANSLATION_WEIGHT};

@@ -1,6 +1,7 @@
 //! `roundel field`: the smoothest cross field of a mesh, its figures, files and picture.
 
 mod arguments;
+mod directions;
 mod report;
 mod summary;
 
@@ -9,7 +10,7 @@ use std::time::Instant;
 use roundel::mesh::{TriangleMesh, io};
 use roundel::picture::{FieldModel, View, draw_field};
 use roundel::problem::mps::{self, MpsProblem};
-use roundel::quad::{Constraint, FieldProblem, OrientationField, curvature_constraints};
+use roundel::quad::{FieldProblem, OrientationField};
 use roundel::{Options, Result, Solution, Strategy};
 
 use crate::exit::Exit;
@@ -17,6 +18,7 @@ use crate::progress::Progress;
 use crate::report::{Failure, Preparation};
 use crate::{interrupt, mesh, output};
 pub use arguments::Arguments;
+pub use directions::Directions;
 use report::FieldReport;
 use summary::FieldSummary;
 
@@ -55,7 +57,7 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
     let mesh = mesh::read(&arguments.mesh)?;
     let read = started.elapsed().as_secs_f64();
     let started = Instant::now();
-    let problem = FieldProblem::new(&mesh, &constraints(arguments, &mesh)?)?;
+    let problem = FieldProblem::new(&mesh, &arguments.directions.constraints(&mesh)?)?;
     let assemble = started.elapsed().as_secs_f64();
     if let Some(path) = &arguments.write_problem {
         mps::write(path, &MpsProblem::new(problem.problem().clone()))?;
@@ -76,21 +78,6 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
         },
         written: started.elapsed().as_secs_f64(),
     })
-}
-
-/// The directions given on the command line, and those of curvature for other faces.
-fn constraints(arguments: &Arguments, mesh: &TriangleMesh) -> Result<Vec<Constraint>> {
-    let mut constraints = arguments.fix.clone();
-    let mut free = vec![true; mesh.face_count()];
-    for given in &constraints {
-        if let Some(free) = free.get_mut(given.face) {
-            *free = false;
-        }
-    }
-    let mut curved = curvature_constraints(mesh, arguments.constrain_curvature)?;
-    curved.retain(|c| free[c.face]);
-    constraints.extend(curved);
-    Ok(constraints)
 }
 
 fn write(arguments: &Arguments, mesh: &TriangleMesh, field: &OrientationField) -> Result<()> {

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use super::{Arguments, Solved};
-use crate::summary::{counted, energy, line, thousands, verdict};
+use crate::summary::{counted, counted_vertices, energy, line, verdict};
 
 /// Lines for the mesh, the problem, the solution and the field, and one for what was written.
 pub(super) struct FieldSummary<'a> {
@@ -50,9 +50,4 @@ impl fmt::Display for FieldSummary<'_> {
         let field = format!("{irregular}: {}", files.join(", "));
         line(f, "field", &field, *written)
     }
-}
-
-fn counted_vertices(count: usize, kind: &str) -> String {
-    let noun = if count == 1 { "vertex" } else { "vertices" };
-    format!("{} {kind}{noun}", thousands(count))
 }

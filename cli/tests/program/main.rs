@@ -3,6 +3,7 @@
 mod field;
 mod outcome;
 mod output;
+mod parametrize;
 mod problem;
 mod readme;
 mod run;

@@ -1,0 +1,86 @@
+//! The command line of `roundel parametrize`.
+
+use std::path::PathBuf;
+
+use roundel::Strategy;
+use roundel::quad::SeamlessOptions;
+
+use crate::exit;
+use crate::field::Directions;
+use crate::options::SolverOptions;
+
+/// Compute a seamless parametrization of a triangle mesh that follows its smoothest cross field.
+///
+/// The field is that of `roundel field` with the same directions. The solver's options are those
+/// of the parametrization; time limit and threads hold for each of the two solves.
+#[derive(clap::Args)]
+#[command(after_help = exit::HELP)]
+pub struct Arguments {
+    /// The mesh: a file (.obj, .off, .ply), or shape:NAME or shape:NAME:TRIANGLES for one of the
+    /// shapes that `roundel shape --help` lists
+    #[arg(value_name = "MESH")]
+    pub mesh: PathBuf,
+
+    #[command(flatten)]
+    pub directions: Directions,
+
+    /// How the field's integers are decided
+    #[arg(long, value_name = "WORD", default_value = "greedy", value_parser = strategy)]
+    pub field_strategy: Strategy,
+
+    /// About how many quads the map shall have
+    #[arg(long, value_name = "N", default_value_t = SeamlessOptions::default().quads)]
+    #[arg(value_parser = quads, allow_negative_numbers = true)]
+    pub quads: usize,
+
+    /// Write the mesh with the coordinates of its corners to this file
+    #[arg(short, long, value_name = "UV.obj")]
+    pub out: Option<PathBuf>,
+
+    /// Write the mixed-integer problem to this file: MPS, compressed if it ends in .gz
+    #[arg(long, value_name = "P.mps[.gz]")]
+    pub write_problem: Option<PathBuf>,
+
+    /// Print one JSON object instead of the summary
+    #[arg(long)]
+    pub json: bool,
+
+    #[command(flatten)]
+    pub solver: SolverOptions,
+}
+
+/// A strategy that decides integers: a field without them is none.
+fn strategy(text: &str) -> Result<Strategy, String> {
+    let mut deciding = Strategy::ALL.into_iter().filter(|&s| s != Strategy::Relax);
+    let words: Vec<&str> = deciding.clone().map(Strategy::name).collect();
+    deciding
+        .find(|s| s.name() == text)
+        .ok_or_else(|| format!("not one of {}", words.join(", ")))
+}
+
+fn quads(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        Ok(0) | Err(_) => Err("not a number of quads, 1 or more".into()),
+        Ok(quads) => Ok(quads),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_field_needs_a_strategy_that_decides_integers() {
+        assert_eq!(strategy("direct"), Ok(Strategy::Direct));
+        let refused = strategy("relax").unwrap_err();
+        assert!(refused.contains("greedy"), "{refused}");
+    }
+
+    #[test]
+    fn quads_are_at_least_one() {
+        assert_eq!(quads("250"), Ok(250));
+        for text in ["0", "-3", "1.5", "", "many"] {
+            assert!(quads(text).is_err(), "{text}");
+        }
+    }
+}

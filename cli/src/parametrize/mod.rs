@@ -1,0 +1,105 @@
+//! `roundel parametrize`: a seamless map of a mesh, its figures and its files.
+
+mod arguments;
+mod report;
+mod summary;
+
+use std::time::Instant;
+
+use roundel::mesh::TriangleMesh;
+use roundel::problem::mps::{self, MpsProblem};
+use roundel::quad::{
+    FieldProblem, OrientationField, SeamlessMap, SeamlessOptions, SeamlessProblem,
+};
+use roundel::{Monitor, Options, Result, Solution};
+
+use crate::exit::Exit;
+use crate::progress::Progress;
+use crate::report::{Failure, Preparation};
+use crate::{interrupt, mesh, output};
+pub use arguments::Arguments;
+use report::MapReport;
+use summary::MapSummary;
+
+/// Runs the command: every outcome is told once, on stdout with `--json` or if there is a
+/// solution, else on stderr.
+pub fn run(arguments: &Arguments) -> Exit {
+    let told = match solve(arguments) {
+        Ok(solved) => tell(arguments, &solved).map(|()| Exit::Solved),
+        Err(error) => Err(error),
+    };
+    told.unwrap_or_else(|error| {
+        let failure = Failure::new(&arguments.mesh, &error);
+        if !arguments.json || output::print_json(&failure).is_err() {
+            output::complain(&arguments.mesh, &error);
+        }
+        Exit::of(&error)
+    })
+}
+
+/// A map, and how it was come by.
+struct Solved {
+    options: Options,
+    mesh: TriangleMesh,
+    field: Solution,
+    map: SeamlessMap,
+    solution: Solution,
+    before: Preparation,
+}
+
+fn solve(arguments: &Arguments) -> Result<Solved> {
+    let token = interrupt::cancel_token()?;
+    let progress = Progress::start();
+    let monitor = || progress.monitor().cancel_token(token.clone());
+    let options = arguments.solver.over(Options::default())?;
+    let started = Instant::now();
+    let mesh = mesh::read(&arguments.mesh)?;
+    let read = started.elapsed().as_secs_f64();
+    let (field, field_solution) = solve_field(arguments, &mesh, &options, monitor())?;
+    let started = Instant::now();
+    let quads = arguments.quads;
+    let problem = SeamlessProblem::new(&mesh, &field, &SeamlessOptions { quads })?;
+    let assemble = started.elapsed().as_secs_f64();
+    if let Some(path) = &arguments.write_problem {
+        mps::write(path, &MpsProblem::new(problem.problem().clone()))?;
+    }
+    let solution = roundel::solve_with(problem.problem(), &options, monitor())?;
+    let map = problem.map(&mesh, &solution)?;
+    if let Some(path) = &arguments.out {
+        map.write_obj(&mesh, path)?;
+    }
+    Ok(Solved {
+        options,
+        mesh,
+        field: field_solution,
+        map,
+        solution,
+        before: Preparation {
+            read,
+            assemble: Some(assemble),
+        },
+    })
+}
+
+fn solve_field(
+    arguments: &Arguments,
+    mesh: &TriangleMesh,
+    options: &Options,
+    monitor: Monitor,
+) -> Result<(OrientationField, Solution)> {
+    let options = Options {
+        strategy: arguments.field_strategy,
+        ..options.clone()
+    };
+    let problem = FieldProblem::new(mesh, &arguments.directions.constraints(mesh)?)?;
+    let solution = roundel::solve_with(problem.problem(), &options, monitor)?;
+    Ok((problem.field(mesh, &solution)?, solution))
+}
+
+fn tell(arguments: &Arguments, solved: &Solved) -> Result<()> {
+    if arguments.json {
+        output::print_json(&MapReport::new(arguments, solved))
+    } else {
+        output::print(&MapSummary { arguments, solved }.to_string())
+    }
+}

@@ -1,0 +1,61 @@
+//! The JSON object of a map: that of a solve, and what is known of the mesh and its field.
+
+use serde::Serialize;
+
+use super::{Arguments, Solved};
+use crate::memory;
+use crate::report::Report;
+
+/// What `--json` prints of a map. Times and counts are those of the parametrization, but for
+/// `field`.
+#[derive(Serialize)]
+pub struct MapReport<'a> {
+    #[serde(flatten)]
+    solve: Report<'a>,
+    faces: usize,
+    vertices: usize,
+    quads: usize,
+    irregular_vertices: usize,
+    cut_edges: usize,
+    gradient_energy: f64,
+    flipped: usize,
+    flipped_faces: &'a [usize],
+    field: Field,
+}
+
+/// The field that the map follows.
+#[derive(Serialize)]
+struct Field {
+    strategy: &'static str,
+    energy: f64,
+    seconds: f64,
+}
+
+impl<'a> MapReport<'a> {
+    /// The report of what was found.
+    pub(super) fn new(arguments: &Arguments, solved: &'a Solved) -> Self {
+        let (mesh, map) = (&solved.mesh, &solved.map);
+        MapReport {
+            solve: Report::new(
+                &arguments.mesh,
+                solved.options.strategy.name(),
+                solved.before,
+                &solved.solution,
+                memory::peak_bytes(),
+            ),
+            faces: mesh.face_count(),
+            vertices: mesh.vertex_count(),
+            quads: arguments.quads,
+            irregular_vertices: map.cones().len(),
+            cut_edges: map.transitions().len(),
+            gradient_energy: map.energy(),
+            flipped: map.flipped().len(),
+            flipped_faces: map.flipped(),
+            field: Field {
+                strategy: arguments.field_strategy.name(),
+                energy: solved.field.energy(),
+                seconds: solved.field.seconds().total,
+            },
+        }
+    }
+}

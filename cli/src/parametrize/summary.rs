@@ -1,0 +1,50 @@
+//! The readable summary of a map: one line a phase, what came out and how long.
+
+use std::fmt;
+
+use super::{Arguments, Solved};
+use crate::summary::{counted, counted_vertices, energy, line, thousands, verdict};
+
+/// Lines for the mesh, the field, the problem and the map.
+pub(super) struct MapSummary<'a> {
+    pub(super) arguments: &'a Arguments,
+    pub(super) solved: &'a Solved,
+}
+
+impl fmt::Display for MapSummary<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let Solved {
+            options,
+            mesh,
+            field,
+            map,
+            solution,
+            before,
+        } = self.solved;
+        let (counts, seconds) = (solution.counts(), solution.seconds());
+        let read = counted(mesh.face_count(), "face");
+        line(f, "read", &read, before.read)?;
+        let irregular = counted_vertices(map.cones().len(), "irregular ");
+        line(f, "field", &irregular, field.seconds().total)?;
+        let assemble = format!(
+            "{}, {}",
+            counted(counts.variables, "unknown"),
+            counted(map.transitions().len(), "cut edge")
+        );
+        line(f, "assemble", &assemble, before.assemble.unwrap_or(0.0))?;
+        let reduced = format!(
+            "{}, {} continuous left",
+            counted(counts.reduced_integers, "integer"),
+            thousands(counts.reduced_continuous)
+        );
+        line(f, "eliminate", &reduced, seconds.eliminate)?;
+        let found = format!("{}, {}", energy(solution.energy()), verdict(solution));
+        let search = seconds.factor + seconds.round;
+        line(f, options.strategy.name(), &found, search)?;
+        let flipped = format!("{} flipped", counted(map.flipped().len(), "face"));
+        match &self.arguments.out {
+            Some(path) => writeln!(f, "{:<10} {flipped}: {}", "map", path.display()),
+            None => writeln!(f, "{:<10} {flipped}", "map"),
+        }
+    }
+}

@@ -1,0 +1,113 @@
+//! `roundel parametrize`: what is told of a map, what is written of it, and how it fails.
+
+use std::fs;
+use std::path::Path;
+
+use serde_json::{Value, json};
+
+use crate::run::{Scratch, finish, only_object, program, solve};
+
+const CUBE: &str = "shape:rounded-cube:1200";
+
+/// Runs `roundel parametrize WORDS... --json`.
+fn parametrize(words: &[&str]) -> (i32, Value) {
+    let (code, output) = finish(program(&[&["parametrize"], words, &["--json"]].concat()));
+    (code, only_object(&output))
+}
+
+fn text(path: &Path) -> &str {
+    path.to_str().unwrap()
+}
+
+#[test]
+fn a_rounded_cube_turns_around_its_corners() {
+    let (code, report) = parametrize(&[CUBE, "--quads", "96"]);
+    assert_eq!(code, 0, "{report}");
+    assert_eq!(report["irregular_vertices"], json!(8), "{report}");
+    assert_eq!(report["quads"], json!(96));
+    // Two coordinates for each cone but what the Euler characteristic takes away.
+    assert_eq!(report["reduced_integers"], json!(12));
+    assert_eq!(report["flipped"], json!(0));
+    assert!(report["cut_edges"].as_u64() > Some(0));
+    assert!(report["gradient_energy"].as_f64() <= report["energy"].as_f64());
+    assert_eq!(report["field"]["strategy"], json!("greedy"));
+}
+
+#[test]
+fn the_problem_written_is_the_problem_solved() {
+    let scratch = Scratch::new("parametrize-problem");
+    let problem = scratch.path("problem.mps.gz");
+    let (_, report) = parametrize(&["shape:genus-2:600", "--write-problem", text(&problem)]);
+    let (code, output) = finish(solve(&problem, &["--json"]));
+    let again = only_object(&output);
+    assert_eq!(code, 0, "{again}");
+    assert_eq!(again["integers"], report["integers"]);
+    assert_eq!(again["reduced_integers"], report["reduced_integers"]);
+    let [a, b] = [&report, &again].map(|r| r["energy"].as_f64().unwrap());
+    assert!((a - b).abs() < 1e-8 * a, "{a} {b}");
+}
+
+#[test]
+fn the_file_written_tears_the_texture_at_the_cut_alone() {
+    let scratch = Scratch::new("parametrize-uv");
+    let out = scratch.path("uv.obj");
+    let (_, report) = parametrize(&[CUBE, "-o", text(&out)]);
+    let content = fs::read_to_string(&out).unwrap();
+    let lines = |keyword: &str| {
+        let of_kind = content
+            .lines()
+            .filter(|l| l.split(' ').next() == Some(keyword));
+        of_kind.collect::<Vec<_>>()
+    };
+    assert_eq!(json!(lines("v").len()), report["vertices"]);
+    assert_eq!(json!(lines("f").len()), report["faces"]);
+    // A closed surface of V - E + F = 2, cut open to a disk of V - E + F = 1.
+    let cut_edges = report["cut_edges"].as_u64().unwrap() as usize;
+    assert_eq!(lines("vt").len(), lines("v").len() + cut_edges - 1);
+    let is_covered = |face: &&str| {
+        let corners = face.split(' ').skip(1).map(|c| c.split_once('/').unwrap());
+        let numbers = corners.map(|(v, vt)| (v.parse().unwrap(), vt.parse().unwrap()));
+        numbers.into_iter().all(|(v, vt): (usize, usize)| {
+            (1..=lines("v").len()).contains(&v) && (1..=lines("vt").len()).contains(&vt)
+        })
+    };
+    assert!(lines("f").iter().take(50).all(is_covered));
+    let mesh = roundel::mesh::io::read(&out).unwrap();
+    assert_eq!(json!(mesh.face_count()), report["faces"]);
+}
+
+#[test]
+fn a_relaxation_is_a_map_of_less_energy() {
+    let energy = |strategy| {
+        let (code, report) = parametrize(&["shape:torus:600", "--strategy", strategy]);
+        assert_eq!((code, &report["strategy"]), (0, &json!(strategy)));
+        report["energy"].as_f64().unwrap()
+    };
+    assert!(energy("relax") <= energy("greedy") + 1e-9);
+}
+
+#[test]
+fn the_summary_tells_each_phase() {
+    let (code, output) = finish(program(&["parametrize", CUBE]));
+    let told = String::from_utf8(output.stdout).unwrap();
+    assert_eq!(code, 0, "{told}");
+    let first = |line: &str| line.split(' ').next().map(str::to_owned);
+    let phases: Vec<_> = told.lines().filter_map(first).collect();
+    let expected = ["read", "field", "assemble", "eliminate", "greedy", "map"];
+    assert_eq!(phases, expected, "{told}");
+    assert!(told.contains("8 irregular vertices"), "{told}");
+}
+
+#[test]
+fn what_cannot_be_written_or_asked_for_is_an_error() {
+    let scratch = Scratch::new("parametrize-errors");
+    let nowhere = scratch.path("missing").join("uv.obj");
+    let (code, report) = parametrize(&[CUBE, "-o", text(&nowhere)]);
+    assert_eq!((code, &report["error"]["code"]), (1, &json!("io")));
+    for flags in [["--quads", "0"], ["--field-strategy", "relax"]] {
+        let (code, output) = finish(program(&[&["parametrize", CUBE], &flags[..]].concat()));
+        assert_eq!(code, 2);
+        let told = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(told.contains(flags[0]), "{told}");
+    }
+}

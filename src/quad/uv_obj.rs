@@ -1,0 +1,48 @@
+//! A map as a Wavefront OBJ file: positions `v`, coordinates `vt`, corners `f v/vt`.
+//!
+//! One `vt` a vertex of the cut surface, so that a viewer tears the texture at the cut and nowhere
+//! else.
+
+use std::fs::File;
+use std::io::{self, BufWriter, Write};
+use std::path::Path;
+
+use super::SeamlessMap;
+use crate::mesh::TriangleMesh;
+use crate::{Error, Result};
+
+impl SeamlessMap {
+    /// Writes the mesh with the coordinates of its corners. Numbers are written so that reading
+    /// gives back the same; vertices and faces keep theirs.
+    ///
+    /// # Errors
+    /// [`Error::LengthMismatch`] for another mesh, [`Error::Io`] for a file that cannot be
+    /// written.
+    pub fn write_obj(&self, mesh: &TriangleMesh, path: &Path) -> Result<()> {
+        if self.copies().len() != mesh.face_count() {
+            return Err(Error::LengthMismatch {
+                what: "the faces of the map",
+                expected: mesh.face_count(),
+                actual: self.copies().len(),
+            });
+        }
+        let file = File::create(path).and_then(|file| self.encode(mesh, BufWriter::new(file)));
+        file.map_err(|reason| Error::Io {
+            message: format!("{}: {reason}", path.display()),
+        })
+    }
+
+    fn encode(&self, mesh: &TriangleMesh, mut out: impl Write) -> io::Result<()> {
+        for [x, y, z] in mesh.vertices() {
+            writeln!(out, "v {x} {y} {z}")?;
+        }
+        for [u, v] in self.vertex_uvs() {
+            writeln!(out, "vt {u} {v}")?;
+        }
+        for (corners, copies) in mesh.triangles().iter().zip(self.copies()) {
+            let [a, b, c] = [0, 1, 2].map(|k| (corners[k] + 1, copies[k] + 1));
+            writeln!(out, "f {}/{} {}/{} {}/{}", a.0, a.1, b.0, b.1, c.0, c.1)?;
+        }
+        out.flush()
+    }
+}
