@@ -5,8 +5,8 @@ use crate::linalg::{CompensatedSum, Sparse};
 
 /// `minimise 1/2 y'Hy + g'y + c`, some entries of `y` integer, nothing else.
 ///
-/// Reduced unknowns stand in the order of the caller's unknowns that they are; integers that the
-/// elimination had to introduce follow at the end.
+/// Reduced unknowns stand in the order of the caller's unknowns that they are; those that the
+/// elimination had to introduce, integer or not, follow at the end.
 #[derive(Debug, Clone)]
 pub struct ReducedModel {
     pub(crate) hessian: Sparse,
