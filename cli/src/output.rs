@@ -7,6 +7,9 @@ use std::path::Path;
 use roundel::{Error, Result};
 use serde::Serialize;
 
+use crate::exit::Exit;
+use crate::report::Failure;
+
 /// Writes one `NAME VALUE` line a variable, with the 17 significant digits that give every double
 /// back exactly.
 pub fn write_values(path: &Path, names: &[String], values: &[f64]) -> Result<()> {
@@ -35,6 +38,18 @@ pub fn print(text: &str) -> Result<()> {
         .write_all(text.as_bytes())
         .and_then(|()| stdout.flush())
         .map_err(|reason| io_error("standard output", &reason))
+}
+
+/// Ends a command on `file` that has told its solution, if it found one: a failure is told here, on
+/// stdout as JSON if that is wanted, else on stderr.
+pub fn conclude(file: &Path, json: bool, told: Result<()>) -> Exit {
+    let Err(error) = told else {
+        return Exit::Solved;
+    };
+    if !json || print_json(&Failure::new(file, &error)).is_err() {
+        complain(file, &error);
+    }
+    Exit::of(&error)
 }
 
 /// Tells a person what went wrong, on stderr.

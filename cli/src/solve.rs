@@ -13,7 +13,7 @@ use crate::memory;
 use crate::options::SolverOptions;
 use crate::output;
 use crate::progress::Progress;
-use crate::report::{Failure, Preparation, Report};
+use crate::report::{Preparation, Report};
 use crate::summary::Summary;
 
 /// Solve a problem from an MPS file.
@@ -41,20 +41,10 @@ pub struct Arguments {
     solver: SolverOptions,
 }
 
-/// Runs the command: every outcome is told once, on stdout with `--json` or if there is a
-/// solution, else on stderr.
+/// Runs the command and tells its outcome, once.
 pub fn run(arguments: &Arguments) -> Exit {
-    let told = match solve(arguments) {
-        Ok(solved) => tell(arguments, &solved).map(|()| Exit::Solved),
-        Err(error) => Err(error),
-    };
-    told.unwrap_or_else(|error| {
-        let failure = Failure::new(&arguments.file, &error);
-        if !arguments.json || output::print_json(&failure).is_err() {
-            output::complain(&arguments.file, &error);
-        }
-        Exit::of(&error)
-    })
+    let told = solve(arguments).and_then(|solved| tell(arguments, &solved));
+    output::conclude(&arguments.file, arguments.json, told)
 }
 
 /// What was read.

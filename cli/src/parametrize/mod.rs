@@ -15,26 +15,16 @@ use roundel::{Monitor, Options, Result, Solution};
 
 use crate::exit::Exit;
 use crate::progress::Progress;
-use crate::report::{Failure, Preparation};
+use crate::report::Preparation;
 use crate::{interrupt, mesh, output};
 pub use arguments::Arguments;
 use report::MapReport;
 use summary::MapSummary;
 
-/// Runs the command: every outcome is told once, on stdout with `--json` or if there is a
-/// solution, else on stderr.
+/// Runs the command and tells its outcome, once.
 pub fn run(arguments: &Arguments) -> Exit {
-    let told = match solve(arguments) {
-        Ok(solved) => tell(arguments, &solved).map(|()| Exit::Solved),
-        Err(error) => Err(error),
-    };
-    told.unwrap_or_else(|error| {
-        let failure = Failure::new(&arguments.mesh, &error);
-        if !arguments.json || output::print_json(&failure).is_err() {
-            output::complain(&arguments.mesh, &error);
-        }
-        Exit::of(&error)
-    })
+    let told = solve(arguments).and_then(|solved| tell(arguments, &solved));
+    output::conclude(&arguments.mesh, arguments.json, told)
 }
 
 /// A map, and how it was come by.
