@@ -9,7 +9,8 @@ use super::private::private_integers;
 use super::{Cholesky, Sparse};
 use crate::Result;
 
-/// An entry this small next to the terms that it is the sum of has cancelled.
+/// An entry this small next to the geometric mean of the diagonal entries of its row and column,
+/// before the elimination, has cancelled.
 const CANCELLED: f64 = 1e-12;
 
 /// No place.
@@ -153,26 +154,35 @@ fn schur(
     coupling: &Sparse,
     curvature: &[f64],
 ) -> Result<Sparse> {
-    let own = lower.entries().filter_map(|(i, j, v)| {
-        let (a, b) = (place[i as usize], place[j as usize]);
-        (a != NONE && b != NONE).then_some((a, b, v))
-    });
-    let parts = (0..coupling.rows()).flat_map(|k| {
-        let row = coupling.row(k);
-        row.clone().flat_map(move |(i, u)| {
-            let lower = row.clone().filter(move |&(j, _)| j <= i);
-            lower.map(move |(j, v)| (i as u32, j as u32, -u * v / curvature[k]))
-        })
-    });
-    let sum = Sparse::from_triplets(dim, dim, own.clone().chain(parts.clone()))?;
-    let size = |(i, j, v): (u32, u32, f64)| (i, j, v.abs());
-    let terms = Sparse::from_triplets(dim, dim, own.map(size).chain(parts.map(size)))?;
-    let left = sum.entries().zip(terms.values());
-    let left = left.filter_map(|((i, j, v), &size)| {
-        let cancelled = v.abs() <= CANCELLED * size;
-        (i == j || !cancelled).then_some((i, j, if cancelled { 0.0 } else { v }))
-    });
-    Sparse::from_triplets(dim, dim, left)
+    let mut terms = super::sparse::reserve(lower.len() + 6 * coupling.rows())?;
+    let mut size = vec![0.0; dim];
+    for i in (0..lower.rows()).filter(|&i| place[i] != NONE) {
+        for (j, v) in lower.row(i).filter(|&(j, _)| place[j] != NONE) {
+            terms.push((place[i], place[j], v));
+            if i == j {
+                size[place[i] as usize] = v.abs();
+            }
+        }
+    }
+    for (k, d) in curvature.iter().enumerate() {
+        for (i, u) in coupling.row(k) {
+            let lower = coupling.row(k).take_while(|&(j, _)| j <= i);
+            terms.extend(lower.map(|(j, v)| (i as u32, j as u32, -u * v / d)));
+        }
+    }
+    let sum = Sparse::from_triplets(dim, dim, terms.iter().copied())?;
+    let (mut offsets, mut indices, mut values) = (vec![0], Vec::new(), Vec::new());
+    for i in 0..dim {
+        for (j, v) in sum.row(i) {
+            let cancelled = v * v <= CANCELLED * CANCELLED * size[i] * size[j];
+            if i == j || !cancelled {
+                indices.push(j as u32);
+                values.push(if cancelled { 0.0 } else { v });
+            }
+        }
+        offsets.push(indices.len());
+    }
+    Ok(Sparse::from_parts(dim, offsets, indices, values))
 }
 
 #[cfg(test)]
