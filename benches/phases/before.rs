@@ -2,7 +2,7 @@
 
 use criterion::Criterion;
 use roundel::eliminate::eliminate;
-use roundel::linalg::{Cholesky, minimise};
+use roundel::linalg::RelaxedFactor;
 use roundel::{Model, Monitor, Options, Strategy, solve};
 
 use crate::case::Case;
@@ -17,8 +17,8 @@ pub fn bench(criterion: &mut Criterion, case: &Case) {
     let (hessian, gradient) = (case.reduced.hessian(), case.reduced.gradient());
     group.bench_function("relax: factor and solve", |b| {
         b.iter(|| {
-            let factor = Cholesky::new(hessian)?;
-            minimise(hessian, gradient, case.reduced.guess(), &factor)
+            let factor = RelaxedFactor::new(hessian, case.reduced.integers())?;
+            factor.minimise(gradient, case.reduced.guess())
         })
     });
     let options = Options {

@@ -1,7 +1,7 @@
 //! The two families of problems, each taken as far as its relaxation.
 
 use roundel::eliminate::{ReducedModel, eliminate};
-use roundel::linalg::{Cholesky, Minimum, minimise};
+use roundel::linalg::{Minimum, RelaxedFactor};
 use roundel::mesh::shape;
 use roundel::quad::{FieldProblem, SeamlessOptions, SeamlessProblem, curvature_constraints};
 use roundel::{Error, Model, Monitor, Options, Problem, Result, solve};
@@ -15,7 +15,7 @@ pub struct Case {
     pub problem: Problem,
     pub reduced: ReducedModel,
     pub relaxed: Vec<f64>,
-    pub factor: Cholesky,
+    pub factor: RelaxedFactor,
 }
 
 /// An orientation field (many integers of local influence) and a map (few of global influence).
@@ -34,13 +34,8 @@ pub fn cases() -> Result<[Case; 2]> {
 impl Case {
     fn new(family: &'static str, problem: Problem) -> Result<Self> {
         let reduced = eliminate(&Model::new(&problem)?, &mut Monitor::default())?;
-        let factor = Cholesky::new(reduced.hessian())?;
-        let minimum = minimise(
-            reduced.hessian(),
-            reduced.gradient(),
-            reduced.guess(),
-            &factor,
-        )?;
+        let factor = RelaxedFactor::new(reduced.hessian(), reduced.integers())?;
+        let minimum = factor.minimise(reduced.gradient(), reduced.guess())?;
         let Minimum::At { point, .. } = minimum else {
             return Err(Error::NotSupported {
                 what: "a bench without a minimum".into(),

@@ -16,7 +16,7 @@ pub fn bench(criterion: &mut Criterion, case: &Case) {
     });
     group.bench_function("supernodal", |b| b.iter(|| Cholesky::new(hessian)));
     group.bench_function("simplicial", |b| b.iter(|| Ldl::new(hessian, &order)));
-    group.bench_function("solve", |b| {
+    group.bench_function("solve, all integers real", |b| {
         b.iter_batched(
             || case.reduced.gradient().to_vec(),
             |mut x| case.factor.solve(&mut x),
