@@ -45,7 +45,7 @@ pub(crate) fn adaptive(
         fixed: vec![false; model.dim()],
         left: integers.len(),
     };
-    let mut candidates = Candidates::default();
+    let mut candidates = Candidates::new(model.dim());
     for &i in integers {
         candidates.push(i, search.relaxed()[i as usize]);
     }
