@@ -1,16 +1,11 @@
-//! A quadratic from which *private* integers are eliminated while they are free.
+//! A quadratic from which [private](super::private) integers are eliminated while they are free.
 //!
-//! An integer is private when it couples to few unknowns, none of them integer: a period jump of an
-//! orientation field, which couples to two angles. While it is free it follows them exactly, and
-//! what is left is the Schur complement, in which the row that it absorbs does not even appear:
-//! there Gauss-Seidel converges several times faster, and an update reads a third of the entries.
-//! When it is fixed its part is given back, at a few entries.
+//! In what is left Gauss-Seidel converges several times faster, and an update reads a third of the
+//! entries. When a private integer is fixed its part is given back, at a few entries.
 
 use super::Sparse;
+use super::private::private_integers;
 use crate::Result;
-
-/// More couplings than this would fill the Schur complement.
-const FEW: usize = 4;
 
 /// No entry is this small next to what it is the difference of: it cancelled.
 const CANCELLED: f64 = 1e-12;
@@ -39,13 +34,7 @@ impl Condensed {
         let off = lower.entries().filter(|&(i, j, v)| i != j && v != 0.0);
         let both = off.flat_map(|(i, j, v)| [(i, j, v), (j, i, v)]);
         let matrix = Sparse::from_triplets(n, n, both)?;
-        let private: Vec<bool> = (0..n)
-            .map(|i| {
-                let row = matrix.row(i);
-                let few = integer[i] && diagonal[i] > 0.0 && row.len() <= FEW;
-                few && row.clone().all(|(j, _)| !integer[j])
-            })
-            .collect();
+        let private = private_integers(lower, integer);
         let pairs = (0..n).filter(|&p| private[p]).flat_map(|p| {
             let row = matrix.row(p);
             let inner = move |(i, _)| row.clone().map(move |(j, _)| (i, j));

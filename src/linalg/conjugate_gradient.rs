@@ -4,7 +4,7 @@
 //! free unknowns: exact while nothing is held, and off by a rank that grows with the number of
 //! held unknowns, so that few of them cost few iterations.
 
-use super::{Cholesky, Sparse};
+use super::{RelaxedFactor, Sparse};
 use crate::Result;
 
 /// Moves `point` towards the minimiser of `1/2 x'Ax + g'x` with the `held` unknowns kept, and
@@ -18,7 +18,7 @@ use crate::Result;
 pub fn conjugate_gradient(
     lower: &Sparse,
     gradient: &[f64],
-    factor: &Cholesky,
+    factor: &RelaxedFactor,
     held: &[bool],
     point: &mut [f64],
     iterations: usize,
@@ -80,7 +80,7 @@ mod tests {
         let ground = (0..n).map(|i| (i, i, 0.01));
         let a = Sparse::from_triplets(60, 60, springs.chain(ground)).unwrap();
         let gradient: Vec<f64> = (0..60).map(|i| f64::from(i).sin()).collect();
-        let factor = Cholesky::new(&a).unwrap();
+        let factor = RelaxedFactor::new(&a, &[]).unwrap();
         let mut held = vec![false; 60];
         let mut point = vec![0.0; 60];
         for i in [3, 30, 55] {

@@ -11,6 +11,8 @@ mod held;
 mod ldl;
 mod minimise;
 mod ordering;
+mod private;
+mod relaxed;
 mod scaling;
 pub mod sparse;
 
@@ -23,5 +25,6 @@ pub use held::minimise_held;
 pub use ldl::Ldl;
 pub use minimise::{CURVATURE_TOLERANCE, Minimum, SLOPE_TOLERANCE, minimise};
 pub use ordering::{EliminationTree, Ordering, minimum_degree};
+pub use relaxed::RelaxedFactor;
 pub use scaling::equilibrate;
 pub use sparse::Sparse;

@@ -109,7 +109,7 @@ impl Passes<'_> {
         let converged = conjugate_gradient(
             self.model.hessian(),
             self.model.gradient(),
-            factors.full(self.model)?,
+            factors.relaxed(self.model)?,
             &self.fixed,
             &mut point,
             options.cg_iterations,

@@ -7,12 +7,12 @@ use std::time::Instant;
 
 use crate::Result;
 use crate::eliminate::ReducedModel;
-use crate::linalg::{Cholesky, Ldl, Sparse, minimum_degree};
+use crate::linalg::{Cholesky, Ldl, RelaxedFactor, Sparse, minimum_degree};
 
 /// The factors of one reduced model.
 #[derive(Debug, Default)]
 pub(crate) struct Factors {
-    full: Option<Cholesky>,
+    relaxed: Option<RelaxedFactor>,
     continuous: Option<ContinuousBlock>,
     seconds: f64,
 }
@@ -33,13 +33,15 @@ impl Factors {
         self.seconds
     }
 
-    /// The factor of the whole reduced Hessian.
-    pub fn full(&mut self, model: &ReducedModel) -> Result<&Cholesky> {
-        let factor = match self.full.take() {
+    /// The factor of the whole reduced Hessian, all integers real.
+    pub fn relaxed(&mut self, model: &ReducedModel) -> Result<&RelaxedFactor> {
+        let factor = match self.relaxed.take() {
             Some(factor) => factor,
-            None => timed(&mut self.seconds, || Cholesky::new(model.hessian()))?,
+            None => timed(&mut self.seconds, || {
+                RelaxedFactor::new(model.hessian(), model.integers())
+            })?,
         };
-        Ok(self.full.insert(factor))
+        Ok(self.relaxed.insert(factor))
     }
 
     /// A factor of the whole reduced Hessian in which unknowns can be fixed. Made anew each time,

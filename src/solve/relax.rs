@@ -4,7 +4,7 @@ use super::Factors;
 use super::search::{not_convex, unbounded};
 use crate::Result;
 use crate::eliminate::ReducedModel;
-use crate::linalg::{Minimum, minimise};
+use crate::linalg::Minimum;
 
 /// Rounding errors of the energy's own evaluation, relative to the sum of its absolute terms:
 /// the terms were themselves rounded when the model was assembled.
@@ -28,8 +28,8 @@ pub(crate) fn relax(model: &ReducedModel, factors: &mut Factors) -> Result<Relax
         direction[i] = 1.0;
         return Err(not_convex(model, &direction));
     }
-    let factor = factors.full(model)?;
-    match minimise(model.hessian(), model.gradient(), model.guess(), factor)? {
+    let factor = factors.relaxed(model)?;
+    match factor.minimise(model.gradient(), model.guess())? {
         Minimum::At { point, excess } => {
             let (energy, terms) = model.energy(&point);
             Ok(Relaxation {

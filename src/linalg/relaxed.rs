@@ -1,0 +1,268 @@
+//! The factor of a whole reduced Hessian, all integers real.
+//!
+//! [Private](super::private) integers are eliminated by hand first, which is one division each, and
+//! only their Schur complement is ordered and factored. On an orientation field that is the
+//! Laplacian of a forest, whose factor has no fill at all.
+
+use super::minimise::{Minimum, minimise};
+use super::private::private_integers;
+use super::{Cholesky, Sparse};
+use crate::Result;
+
+/// An entry this small next to the geometric mean of the diagonal entries of its row and column,
+/// before the elimination, has cancelled.
+const CANCELLED: f64 = 1e-12;
+
+/// No place.
+const NONE: u32 = u32::MAX;
+
+/// A factor of `A` in two steps: private integers, then the rest.
+#[derive(Debug)]
+pub struct RelaxedFactor {
+    /// Place of every unknown among the rest; none for the private.
+    place: Vec<u32>,
+    rest: Vec<u32>,
+    private: Vec<u32>,
+    /// `A_pp` of each private integer.
+    curvature: Vec<f64>,
+    /// One row a private integer: its couplings to the rest.
+    coupling: Sparse,
+    /// Lower triangle of the Schur complement of the rest.
+    schur: Sparse,
+    factor: Cholesky,
+}
+
+impl RelaxedFactor {
+    /// Factors the matrix with lower triangle `lower`, of whose unknowns some are `integers`.
+    ///
+    /// # Errors
+    /// As [`Cholesky::new`].
+    pub fn new(lower: &Sparse, integers: &[u32]) -> Result<Self> {
+        let n = lower.rows();
+        let mut integer = vec![false; n];
+        integers.iter().for_each(|&i| integer[i as usize] = true);
+        let is_private = private_integers(lower, &integer);
+        let mut place = vec![NONE; n];
+        let (mut private, mut rest) = (Vec::new(), Vec::new());
+        for i in 0..n {
+            if is_private[i] {
+                private.push(i as u32);
+            } else {
+                place[i] = rest.len() as u32;
+                rest.push(i as u32);
+            }
+        }
+        let mut row_of = vec![NONE; n];
+        for (k, &p) in private.iter().enumerate() {
+            row_of[p as usize] = k as u32;
+        }
+        let mut curvature = vec![0.0; private.len()];
+        for (i, _, v) in lower.entries().filter(|&(i, j, _)| i == j) {
+            if is_private[i as usize] {
+                curvature[row_of[i as usize] as usize] = v;
+            }
+        }
+        let mixed = lower.entries().filter_map(|(i, j, v)| {
+            let (a, b) = (row_of[i as usize], row_of[j as usize]);
+            match (a != NONE, b != NONE) {
+                (true, false) => Some((a, place[j as usize], v)),
+                (false, true) => Some((b, place[i as usize], v)),
+                _ => None,
+            }
+        });
+        let coupling = Sparse::from_triplets(private.len(), rest.len(), mixed)?;
+        let schur = if private.is_empty() {
+            lower.clone()
+        } else {
+            schur(lower, &place, rest.len(), &coupling, &curvature)?
+        };
+        Ok(RelaxedFactor {
+            factor: Cholesky::new(&schur)?,
+            place,
+            rest,
+            private,
+            curvature,
+            coupling,
+            schur,
+        })
+    }
+
+    /// Solves `A x = b` in place, as [`Cholesky::solve`].
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+    pub fn solve(&self, b: &mut [f64]) -> Result<()> {
+        let mut inner = self.condense(b);
+        self.factor.solve(&mut inner)?;
+        self.embed(&inner, b);
+        Ok(())
+    }
+
+    /// Minimises `1/2 x'Ax + g'x`, as [`minimise`].
+    ///
+    /// # Errors
+    /// Only for lack of memory.
+    pub fn minimise(&self, gradient: &[f64], guess: &[f64]) -> Result<Minimum> {
+        let start: Vec<f64> = self.rest.iter().map(|&i| guess[i as usize]).collect();
+        let slope = self.condense(gradient);
+        let all = |inner: &[f64], pull: f64| {
+            let mut whole: Vec<f64> = gradient.iter().map(|g| -pull * g).collect();
+            self.embed(inner, &mut whole);
+            whole
+        };
+        Ok(match minimise(&self.schur, &slope, &start, &self.factor)? {
+            Minimum::At { point, excess } => Minimum::At {
+                point: all(&point, 1.0),
+                excess,
+            },
+            Minimum::Unbounded(v) => Minimum::Unbounded(all(&v, 0.0)),
+            Minimum::NotConvex(v) => Minimum::NotConvex(all(&v, 0.0)),
+        })
+    }
+
+    /// The right side that the rest sees: `b_r - A_rp A_pp^-1 b_p`.
+    fn condense(&self, b: &[f64]) -> Vec<f64> {
+        let mut inner: Vec<f64> = self.rest.iter().map(|&i| b[i as usize]).collect();
+        for (k, &p) in self.private.iter().enumerate() {
+            let pull = b[p as usize] / self.curvature[k];
+            for (i, v) in self.coupling.row(k) {
+                inner[i] -= v * pull;
+            }
+        }
+        inner
+    }
+
+    /// Puts the rest in place and lets the private integers follow, whose right sides are in `b`.
+    fn embed(&self, inner: &[f64], b: &mut [f64]) {
+        for (k, &p) in self.private.iter().enumerate() {
+            let pull: f64 = self.coupling.row(k).map(|(i, v)| v * inner[i]).sum();
+            b[p as usize] = (b[p as usize] - pull) / self.curvature[k];
+        }
+        for (b, &place) in b.iter_mut().zip(&self.place) {
+            if place != NONE {
+                *b = inner[place as usize];
+            }
+        }
+    }
+}
+
+/// Lower triangle of `A_rr - A_rp A_pp^-1 A_pr`, entries that cancel left out.
+fn schur(
+    lower: &Sparse,
+    place: &[u32],
+    dim: usize,
+    coupling: &Sparse,
+    curvature: &[f64],
+) -> Result<Sparse> {
+    let mut terms = super::sparse::reserve(lower.len() + 6 * coupling.rows())?;
+    let mut size = vec![0.0; dim];
+    for i in (0..lower.rows()).filter(|&i| place[i] != NONE) {
+        for (j, v) in lower.row(i).filter(|&(j, _)| place[j] != NONE) {
+            terms.push((place[i], place[j], v));
+            if i == j {
+                size[place[i] as usize] = v.abs();
+            }
+        }
+    }
+    for (k, d) in curvature.iter().enumerate() {
+        for (i, u) in coupling.row(k) {
+            let lower = coupling.row(k).take_while(|&(j, _)| j <= i);
+            terms.extend(lower.map(|(j, v)| (i as u32, j as u32, -u * v / d)));
+        }
+    }
+    let sum = Sparse::from_triplets(dim, dim, terms.iter().copied())?;
+    let (mut offsets, mut indices, mut values) = (vec![0], Vec::new(), Vec::new());
+    for i in 0..dim {
+        for (j, v) in sum.row(i) {
+            let cancelled = v * v <= CANCELLED * CANCELLED * size[i] * size[j];
+            if i == j || !cancelled {
+                indices.push(j as u32);
+                values.push(if cancelled { 0.0 } else { v });
+            }
+        }
+        offsets.push(indices.len());
+    }
+    Ok(Sparse::from_parts(dim, offsets, indices, values))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Squares of rows `x_i - x_(i+1) + 1.5 p_i` on a path, every third without its integer, and
+    /// weak ground at the angles.
+    fn path(n: u32) -> (Sparse, Vec<u32>) {
+        let mut entries = Vec::new();
+        let mut integers = Vec::new();
+        for i in 0..n - 1 {
+            let mut row = vec![(i, 1.0), (i + 1, -1.0)];
+            if i % 3 != 0 {
+                integers.push(n + i);
+                row.push((n + i, 1.5));
+            }
+            for &(i, u) in &row {
+                let lower = row.iter().filter(|&&(j, _)| j <= i);
+                entries.extend(lower.map(|&(j, v)| (i, j, 2.0 * u * v)));
+            }
+        }
+        entries.extend((0..2 * n).map(|i| (i, i, 0.0)));
+        entries.extend((0..n).map(|i| (i, i, 0.1)));
+        let n = 2 * n as usize;
+        let a = Sparse::from_triplets(n, n, entries.into_iter()).unwrap();
+        (a, integers)
+    }
+
+    #[test]
+    fn it_solves_as_the_factor_of_the_whole_does() {
+        let (a, integers) = path(30);
+        let two_steps = RelaxedFactor::new(&a, &integers).unwrap();
+        assert_eq!(two_steps.private.len(), integers.len());
+        let gradient: Vec<f64> = (0..60)
+            .map(|i| match i {
+                // An unknown without curvature must not have a slope either.
+                30.. if !integers.contains(&(i as u32)) => 0.0,
+                _ => f64::from(i).sin(),
+            })
+            .collect();
+        let guess = vec![0.0; 60];
+        let Minimum::At { point: x, .. } = two_steps.minimise(&gradient, &guess).unwrap() else {
+            panic!()
+        };
+        let whole = Cholesky::new(&a).unwrap();
+        let Minimum::At { point: y, .. } = minimise(&a, &gradient, &guess, &whole).unwrap() else {
+            panic!()
+        };
+        let mut z: Vec<f64> = gradient.iter().map(|g| -g).collect();
+        two_steps.solve(&mut z).unwrap();
+        for ((x, y), z) in x.iter().zip(&y).zip(&z) {
+            assert!(
+                (x - y).abs() < 1e-10 && (x - z).abs() < 1e-10,
+                "{x} {y} {z}"
+            );
+        }
+    }
+
+    #[test]
+    fn an_absorbed_row_leaves_no_entry() {
+        let (a, integers) = path(30);
+        let factor = RelaxedFactor::new(&a, &integers).unwrap();
+        let couplings = factor.schur.entries().filter(|(i, j, _)| i != j).count();
+        assert_eq!(couplings, 10, "every third row has no integer");
+    }
+
+    #[test]
+    fn directions_are_told_in_all_unknowns() {
+        // (x0 - x1 + p)^2 with a slope at x0 alone.
+        let row = [(0u32, 1.0), (1, -1.0), (2, 1.0)];
+        let entries = row.iter().flat_map(|&(i, u)| {
+            let lower = row.iter().filter(move |&&(j, _)| j <= i);
+            lower.map(move |&(j, v)| (i, j, 2.0 * u * v))
+        });
+        let a = Sparse::from_triplets(3, 3, entries).unwrap();
+        let factor = RelaxedFactor::new(&a, &[2]).unwrap();
+        let Minimum::Unbounded(v) = factor.minimise(&[1.0, 0.0, 0.0], &[0.0; 3]).unwrap() else {
+            panic!()
+        };
+        assert!(v[0] < 0.0 && (v[0] - v[1] + v[2]).abs() < 1e-12, "{v:?}");
+    }
+}
