@@ -49,8 +49,8 @@ pub mod solve;
 pub use error::{Error, Result};
 pub use problem::{Layout, Model, Problem, Triangle};
 pub use solve::{
-    CancelToken, Event, Flow, Monitor, Options, Seconds, Solution, SolveStatus, Strategy, solve,
-    solve_with,
+    CancelToken, Event, Flow, Monitor, Options, Seconds, Solution, SolveStatus, Solver, Strategy,
+    WarmStart, solve, solve_with,
 };
 
 /// The README's Rust example is one of the tests.

@@ -20,6 +20,7 @@ use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Conj, MatMut, Par, Side};
 
 use super::Sparse;
+use super::ordering::Ordering;
 use super::scaling::equilibrate;
 use crate::{Error, Result};
 
@@ -47,6 +48,14 @@ impl Cholesky {
     /// # Errors
     /// [`Error::OutOfMemory`], and [`Error::Overflow`] where the factor would exceed 2^32 entries.
     pub fn new(lower: &Sparse) -> Result<Self> {
+        Self::ordered(lower, Ordering::FillReducing)
+    }
+
+    /// As [`new`](Self::new), with unknowns eliminated in another order.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn ordered(lower: &Sparse, ordering: Ordering) -> Result<Self> {
         let n = lower.rows();
         let scale = equilibrate(lower);
         let col_ptr = offsets_u32(lower)?;
@@ -59,7 +68,10 @@ impl Cholesky {
         let symbolic = factorize_symbolic_cholesky(
             pattern,
             Side::Upper,
-            SymmetricOrdering::Amd,
+            match ordering {
+                Ordering::FillReducing => SymmetricOrdering::Amd,
+                Ordering::Natural => SymmetricOrdering::Identity,
+            },
             CholeskySymbolicParams {
                 supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
                 ..Default::default()
@@ -112,6 +124,22 @@ impl Cholesky {
         &self.scale
     }
 
+    /// Number of entries of L that are stored below the diagonal, those included that are kept for
+    /// the sake of larger blocks and are zero.
+    pub fn entries(&self) -> usize {
+        match self.symbolic.raw() {
+            SymbolicCholeskyRaw::Supernodal(raw) => (0..raw.n_supernodes())
+                .map(|s| {
+                    let block = raw.supernode(s);
+                    let columns = raw.supernode_end()[s] - raw.supernode_begin()[s];
+                    let columns = columns as usize;
+                    columns * (columns.saturating_sub(1)) / 2 + columns * block.pattern().len()
+                })
+                .sum(),
+            SymbolicCholeskyRaw::Simplicial(raw) => raw.len_val() - raw.nrows(),
+        }
+    }
+
     /// Unknowns whose pivot vanished, in order of elimination.
     pub fn null_unknowns(&self) -> &[u32] {
         &self.null
@@ -145,7 +173,9 @@ impl Cholesky {
 /// Unknowns whose diagonal in the factor is [`NULL_PIVOT`].
 fn null_unknowns(symbolic: &SymbolicCholesky<u32>, values: &[f64]) -> Vec<u32> {
     let mut null = Vec::new();
-    let (forward, _) = symbolic.perm().expect("AMD gives a permutation").arrays();
+    // None stands for the natural order.
+    let forward = symbolic.perm().map(|perm| perm.arrays().0);
+    let unknown = |k: usize| forward.map_or(k as u32, |forward| forward[k]);
     match symbolic.raw() {
         SymbolicCholeskyRaw::Supernodal(raw) => {
             let factor = SupernodalLdltRef::new(raw, values);
@@ -153,14 +183,14 @@ fn null_unknowns(symbolic: &SymbolicCholesky<u32>, values: &[f64]) -> Vec<u32> {
                 let block = factor.supernode(s);
                 let diagonals = 0..block.val().ncols();
                 let vanished = diagonals.filter(|&k| block.val()[(k, k)] == NULL_PIVOT);
-                null.extend(vanished.map(|k| forward[block.start() + k]));
+                null.extend(vanished.map(|k| unknown(block.start() + k)));
             }
         }
         // What faer chooses for a diagonal matrix.
         SymbolicCholeskyRaw::Simplicial(raw) => {
-            let starts = raw.col_ptr()[..raw.nrows()].iter().zip(forward);
-            let vanished = starts.filter(|&(&start, _)| values[start as usize] == NULL_PIVOT);
-            null.extend(vanished.map(|(_, &i)| i));
+            let starts = &raw.col_ptr()[..raw.nrows()];
+            let vanished = (0..starts.len()).filter(|&k| values[starts[k] as usize] == NULL_PIVOT);
+            null.extend(vanished.map(unknown));
         }
     }
     null

@@ -24,7 +24,7 @@ pub use gauss_seidel::LocalSolve;
 pub use held::minimise_held;
 pub use ldl::Ldl;
 pub use minimise::{CURVATURE_TOLERANCE, Minimum, SLOPE_TOLERANCE, minimise};
-pub use ordering::{EliminationTree, minimum_degree};
+pub use ordering::{EliminationTree, Ordering, minimum_degree};
 pub use relaxed::RelaxedFactor;
 pub use scaling::equilibrate;
 pub use sparse::Sparse;

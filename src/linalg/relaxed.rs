@@ -6,7 +6,7 @@
 
 use super::minimise::{Minimum, minimise};
 use super::private::private_integers;
-use super::{Cholesky, Sparse};
+use super::{Cholesky, Ordering, Sparse};
 use crate::Result;
 
 /// An entry this small next to the geometric mean of the diagonal entries of its row and column,
@@ -38,6 +38,18 @@ impl RelaxedFactor {
     /// # Errors
     /// As [`Cholesky::new`].
     pub fn new(lower: &Sparse, integers: &[u32]) -> Result<Self> {
+        Self::ordered(lower, integers, Ordering::FillReducing)
+    }
+
+    /// As [`new`](Self::new), in another order. In the natural one no integer comes first.
+    ///
+    /// # Errors
+    /// As [`Cholesky::new`].
+    pub fn ordered(lower: &Sparse, integers: &[u32], ordering: Ordering) -> Result<Self> {
+        let integers = match ordering {
+            Ordering::FillReducing => integers,
+            Ordering::Natural => &[],
+        };
         let n = lower.rows();
         let mut integer = vec![false; n];
         integers.iter().for_each(|&i| integer[i as usize] = true);
@@ -77,7 +89,7 @@ impl RelaxedFactor {
             schur(lower, &place, rest.len(), &coupling, &curvature)?
         };
         Ok(RelaxedFactor {
-            factor: Cholesky::new(&schur)?,
+            factor: Cholesky::ordered(&schur, ordering)?,
             place,
             rest,
             private,
@@ -85,6 +97,11 @@ impl RelaxedFactor {
             coupling,
             schur,
         })
+    }
+
+    /// Number of entries of the factor below the diagonal, the private integers' included.
+    pub fn entries(&self) -> usize {
+        self.coupling.len() + self.factor.entries()
     }
 
     /// Solves `A x = b` in place, as [`Cholesky::solve`].

@@ -190,6 +190,34 @@ impl Problem {
         Ok(())
     }
 
+    /// Replaces the linear term q by `values`, one an unknown. What least-squares rows add to it is
+    /// not touched.
+    ///
+    /// # Errors
+    /// [`Error::LengthMismatch`], [`Error::NotFinite`].
+    pub fn set_linear(&mut self, values: &[f64]) -> Result<()> {
+        same_length("linear terms", self.variables, values.len())?;
+        all_finite("linear terms", values)?;
+        self.linear.copy_from_slice(values);
+        Ok(())
+    }
+
+    /// Replaces the right sides d of the constraints, one a constraint, in their order.
+    ///
+    /// # Errors
+    /// [`Error::LengthMismatch`], [`Error::NotFinite`].
+    pub fn set_constraint_right_sides(&mut self, rhs: &[f64]) -> Result<()> {
+        self.constraints.set_rhs("constraint right sides", rhs)
+    }
+
+    /// Replaces the right sides r of the least-squares rows, one a row, in their order.
+    ///
+    /// # Errors
+    /// [`Error::LengthMismatch`], [`Error::NotFinite`].
+    pub fn set_least_squares_right_sides(&mut self, rhs: &[f64]) -> Result<()> {
+        self.least_squares.set_rhs("least-squares right sides", rhs)
+    }
+
     /// Adds `value` to the constant of the objective.
     ///
     /// # Errors

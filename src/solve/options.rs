@@ -1,6 +1,7 @@
 //! Options by name: one table from which C, C++, the program and the documentation take them.
 
-use super::Strategy;
+use super::{Strategy, WarmStart};
+use crate::linalg::Ordering;
 use crate::{Error, Result};
 
 /// How to solve. Every field is also an entry of [`OPTIONS`], under the same name.
@@ -28,6 +29,11 @@ pub struct Options {
     pub cg_tolerance: f64,
     /// `adaptive`: whether a pass may factor when conjugate gradients fail.
     pub exact_steps: bool,
+    /// What is made of the integers of an earlier solution: of the solver's last one, or those that
+    /// the initial guess rounds to where there is none.
+    pub warm_start: WarmStart,
+    /// The order in which unknowns are eliminated, from the constraints and in factorizations.
+    pub ordering: Ordering,
 }
 
 impl Default for Options {
@@ -43,29 +49,8 @@ impl Default for Options {
             cg_iterations: 50,
             cg_tolerance: 1e-3,
             exact_steps: true,
-        }
-    }
-}
-
-impl Options {
-    /// The thesis' parameters for orientation fields (section 5.3): adaptive, by Gauss-Seidel
-    /// (100,000 updates to 1e-3), then 50 conjugate-gradient iterations, then sparse Cholesky.
-    pub fn orientation_field() -> Self {
-        Options {
-            strategy: Strategy::Adaptive,
-            exact_integers: 0,
-            ..Options::default()
-        }
-    }
-
-    /// The thesis' parameters for parametrizations (section 5.3): adaptive, no Gauss-Seidel, 20
-    /// conjugate-gradient iterations, no factorization in between.
-    pub fn parametrization() -> Self {
-        Options {
-            gauss_seidel_updates: 0,
-            cg_iterations: 20,
-            exact_steps: false,
-            ..Options::orientation_field()
+            warm_start: WarmStart::Off,
+            ordering: Ordering::FillReducing,
         }
     }
 }
@@ -179,6 +164,20 @@ pub const OPTIONS: &[OptionInfo] = &[
         range: "[0, 1]",
         text: "adaptive: 1 if a pass may factor when conjugate gradients fail",
     },
+    OptionInfo {
+        name: "warm_start",
+        kind: OptionKind::Text,
+        default: "off",
+        range: "off|offer|keep",
+        text: "earlier integers: ignored, offered before the search begins, or kept as they are",
+    },
+    OptionInfo {
+        name: "ordering",
+        kind: OptionKind::Text,
+        default: "fill_reducing",
+        range: "fill_reducing|natural",
+        text: "order of eliminations and factorizations; natural only shows what the other is worth",
+    },
 ];
 
 impl Options {
@@ -189,7 +188,7 @@ impl Options {
     pub fn set(&mut self, name: &str, value: &OptionValue) -> Result<()> {
         let info = info(name)?;
         match info.name {
-            "strategy" => self.strategy = strategy(info, value)?,
+            "strategy" => self.strategy = word(info, value, Strategy::ALL, Strategy::name)?,
             "time_limit" => self.time_limit = real(info, value)?,
             "threads" => self.threads = integer(info, value, 1024)?,
             "rounding_threshold" => self.rounding_threshold = real(info, value)?,
@@ -198,7 +197,9 @@ impl Options {
             "gauss_seidel_tolerance" => self.gauss_seidel_tolerance = real(info, value)?,
             "cg_iterations" => self.cg_iterations = integer(info, value, LARGEST)?,
             "cg_tolerance" => self.cg_tolerance = real(info, value)?,
-            _ => self.exact_steps = integer(info, value, 1)? == 1,
+            "exact_steps" => self.exact_steps = integer(info, value, 1)? == 1,
+            "warm_start" => self.warm_start = word(info, value, WarmStart::ALL, WarmStart::name)?,
+            _ => self.ordering = word(info, value, Ordering::ALL, Ordering::name)?,
         }
         Ok(())
     }
@@ -218,7 +219,9 @@ impl Options {
             "gauss_seidel_tolerance" => OptionValue::Real(self.gauss_seidel_tolerance),
             "cg_iterations" => OptionValue::Integer(self.cg_iterations as i64),
             "cg_tolerance" => OptionValue::Real(self.cg_tolerance),
-            _ => OptionValue::Integer(self.exact_steps.into()),
+            "exact_steps" => OptionValue::Integer(self.exact_steps.into()),
+            "warm_start" => OptionValue::Text(self.warm_start.name().into()),
+            _ => OptionValue::Text(self.ordering.name().into()),
         })
     }
 }
@@ -226,11 +229,17 @@ impl Options {
 /// The largest whole number that an option without a limit of its own takes.
 const LARGEST: i64 = i32::MAX as i64;
 
-fn strategy(info: &'static OptionInfo, value: &OptionValue) -> Result<Strategy> {
+/// The one of `all` whose name is given.
+fn word<T: Copy, const N: usize>(
+    info: &'static OptionInfo,
+    value: &OptionValue,
+    all: [T; N],
+    name: fn(T) -> &'static str,
+) -> Result<T> {
     let OptionValue::Text(word) = value else {
         return Err(wrong_type(info));
     };
-    let found = Strategy::ALL.into_iter().find(|s| s.name() == word);
+    let found = all.into_iter().find(|&one| name(one) == word);
     found.ok_or_else(|| out_of_range(info, word))
 }
 
@@ -300,7 +309,10 @@ mod tests {
             };
             assert_eq!(text, info.default, "{}", info.name);
             let other = match &value {
-                OptionValue::Text(_) => OptionValue::Text("direct".into()),
+                OptionValue::Text(word) => {
+                    let mut words = info.range.split('|');
+                    OptionValue::Text(words.find(|w| w != word).unwrap().into())
+                }
                 OptionValue::Real(_) => OptionValue::Real(0.25),
                 OptionValue::Integer(number) => OptionValue::Integer(1 - number.signum()),
             };
