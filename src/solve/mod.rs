@@ -18,6 +18,7 @@ pub use run::{solve, solve_with};
 pub use solution::{Counts, Seconds, Solution};
 pub use status::{GAP_TOLERANCE, SolveStatus};
 pub use strategy::Strategy;
+pub use verify::{Verdict, verify};
 
 pub(crate) use factors::Factors;
 pub(crate) use search::Search;

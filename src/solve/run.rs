@@ -43,7 +43,7 @@ pub fn solve_with(problem: &Problem, options: &Options, mut monitor: Monitor) ->
     let searched = monitor.seconds();
 
     let values = expand(&reduced, &model, options.strategy, &point);
-    let verdict = verify(problem, &values);
+    let verdict = verify(problem, &values)?;
     let total = monitor.seconds();
     Ok(Solution {
         values,
