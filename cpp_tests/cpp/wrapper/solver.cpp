@@ -11,7 +11,7 @@ bool same(const roundel::Solution& a, const roundel::Solution& b) {
     return a && b && std::equal(a.values().begin(), a.values().end(), b.values().begin());
 }
 
-/// x0 + x1 + x2 = rhs, (x0 - target)^2 + (x1 + 1)^2 + (x2 - 2)^2 + 1/2 x1, x1 and x2 integers.
+/// x0 + x1 + x2 = rhs, (x0 - target)^2 + (x1 + 1)^2 + (x2 - 2)^2, x1 and x2 integers.
 roundel::Problem small(double rhs, double target) {
     roundel::Problem problem(3);
     problem.least_squares({0}, {1.0}, target);
@@ -42,8 +42,9 @@ void a_solver_gives_what_solve_gives() {
     CHECK(offered.energy() <= kept);
 
     const std::vector<double> linear = {0.0, 8.0, 0.0};
-    const double before = solver.solve().values()[1];
-    CHECK(solver.linear(linear).solve().values()[1] < before);
+    const roundel::Solution before = solver.solve();
+    const roundel::Solution after = solver.linear(linear).solve();
+    CHECK(after.values()[1] < before.values()[1]);
 
     roundel::Status status;
     const std::vector<double> one = {1.0};
