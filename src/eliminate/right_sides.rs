@@ -33,9 +33,12 @@ pub(super) fn offset(
 
 /// The constant of every substitution.
 fn constants(elimination: &Elimination, model: &Model, monitor: &mut Monitor) -> Result<Vec<f64>> {
-    let pins = model.pinned().iter().flatten();
+    // Unknowns pinned since are in no row, and no substitution of theirs is on the stack.
+    let pins = model.pinned().iter().enumerate();
     let mut constants: Vec<Side> = pins
-        .map(|&value| Side {
+        .filter(|&(i, _)| elimination.was_pinned(i))
+        .filter_map(|(_, &pin)| pin)
+        .map(|value| Side {
             value,
             magnitude: value.abs(),
         })

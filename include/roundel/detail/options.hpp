@@ -89,6 +89,8 @@ struct Event {
 
 /// How to solve. What is not set has the library's default.
 struct Options {
+    /// A set of options by name, "orientation_field" or "parametrization", set before all others.
+    std::optional<std::string> preset = std::nullopt;
     /// How integers are decided: "relax", "direct", "greedy", "adaptive".
     std::optional<std::string> strategy = std::nullopt;
     /// Seconds after which the best solution so far is returned.
@@ -109,6 +111,10 @@ struct Options {
     std::optional<double> cg_tolerance = std::nullopt;
     /// adaptive: 1 if a pass may factor when conjugate gradients fail.
     std::optional<std::int64_t> exact_steps = std::nullopt;
+    /// Earlier integers: "off", "offer" (before the search begins) or "keep" (no search).
+    std::optional<std::string> warm_start = std::nullopt;
+    /// "fill_reducing", or "natural", which only shows what the other is worth.
+    std::optional<std::string> ordering = std::nullopt;
     /// Called for every event, on the thread that called solve. What it throws ends the solve and
     /// is thrown again by solve.
     std::function<Flow(const Event&)> on_event = nullptr;
@@ -117,6 +123,10 @@ struct Options {
     /// Any option by its name, after those above.
     std::vector<std::pair<std::string, std::variant<std::int64_t, double, std::string>>> more = {};
 
+    Options& set_preset(std::string value) {
+        preset = std::move(value);
+        return *this;
+    }
     Options& set_strategy(std::string value) {
         strategy = std::move(value);
         return *this;
@@ -155,6 +165,14 @@ struct Options {
     }
     Options& set_exact_steps(std::int64_t value) {
         exact_steps = value;
+        return *this;
+    }
+    Options& set_warm_start(std::string value) {
+        warm_start = std::move(value);
+        return *this;
+    }
+    Options& set_ordering(std::string value) {
+        ordering = std::move(value);
         return *this;
     }
     Options& set_on_event(std::function<Flow(const Event&)> value) {
