@@ -1,5 +1,6 @@
 //! The `roundel` program: one command a task, each in a module of its name.
 
+mod evaluate;
 mod exit;
 mod field;
 mod interrupt;
@@ -32,6 +33,7 @@ enum Command {
     Field(field::Arguments),
     Parametrize(parametrize::Arguments),
     Shape(shape::Arguments),
+    Evaluate(evaluate::Arguments),
 }
 
 fn main() -> ExitCode {
@@ -40,6 +42,7 @@ fn main() -> ExitCode {
         Command::Field(arguments) => field::run(&arguments),
         Command::Parametrize(arguments) => parametrize::run(&arguments),
         Command::Shape(arguments) => shape::run(&arguments),
+        Command::Evaluate(arguments) => evaluate::run(&arguments),
     }
     .into()
 }

@@ -5,7 +5,7 @@
 
 use super::Sparse;
 use super::private::private_integers;
-use crate::Result;
+use crate::{Error, Result};
 
 /// No entry is this small next to what it is the difference of: it cancelled.
 const CANCELLED: f64 = 1e-12;
@@ -17,10 +17,23 @@ pub(super) struct Condensed {
     matrix: Sparse,
     diagonal: Vec<f64>,
     private: Vec<bool>,
-    offsets: Vec<usize>,
-    indices: Vec<u32>,
-    values: Vec<f64>,
-    curvature: Vec<f64>,
+    rows: Vec<Row>,
+    entries: Vec<Entry>,
+}
+
+/// A row of the condensed matrix: its diagonal entry, and where the others stand.
+#[derive(Debug, Clone, Copy)]
+struct Row {
+    curvature: f64,
+    start: u32,
+    end: u32,
+}
+
+/// An entry off the diagonal, index and value side by side, since they are always read together.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Entry {
+    pub column: u32,
+    pub value: f64,
 }
 
 impl Condensed {
@@ -47,12 +60,23 @@ impl Condensed {
             .entries()
             .filter(|&(i, j, _)| !private[i as usize] && !private[j as usize]);
         let pattern = Sparse::from_triplets(n, n, kept.chain(pairs))?;
-        let (offsets, indices) = (pattern.offsets().to_vec(), pattern.indices().to_vec());
+        if pattern.len() > u32::MAX as usize {
+            return Err(Error::OutOfMemory {
+                what: "a condensed system",
+            });
+        }
+        let offsets = pattern.offsets();
+        let rows = (0..n).map(|i| Row {
+            curvature: diagonal[i],
+            start: offsets[i] as u32,
+            end: offsets[i + 1] as u32,
+        });
+        let entries = pattern.indices().iter().zip(pattern.values());
         let mut condensed = Condensed {
-            values: pattern.values().to_vec(),
-            offsets,
-            indices,
-            curvature: diagonal.clone(),
+            rows: rows.collect(),
+            entries: entries
+                .map(|(&column, &value)| Entry { column, value })
+                .collect(),
             matrix,
             diagonal,
             private,
@@ -76,7 +100,7 @@ impl Condensed {
 
     /// Curvature along unknown `i` when the free private integers follow.
     pub fn curvature(&self, i: usize) -> f64 {
-        self.curvature[i]
+        self.rows[i].curvature
     }
 
     /// Row `i` of A without its diagonal.
@@ -94,14 +118,10 @@ impl Condensed {
         (self.matrix.indices()[at] as usize, self.matrix.values()[at])
     }
 
-    /// Where row `i` of the condensed matrix stands, for [`entry`](Self::entry).
-    pub fn row_range(&self, i: usize) -> std::ops::Range<usize> {
-        self.offsets[i]..self.offsets[i + 1]
-    }
-
-    /// An entry of a row of the condensed matrix.
-    pub fn entry(&self, at: usize) -> (usize, f64) {
-        (self.indices[at] as usize, self.values[at])
+    /// Row `i` of the condensed matrix without its diagonal.
+    pub fn row(&self, i: usize) -> &[Entry] {
+        let row = self.rows[i];
+        &self.entries[row.start as usize..row.end as usize]
     }
 
     /// Gives back the part of a private integer that is fixed from now on.
@@ -114,20 +134,20 @@ impl Condensed {
         let d = self.diagonal[p];
         for a in self.coupling_range(p) {
             let (i, u) = self.coupling(a);
-            self.curvature[i] += sign * u * u / d;
+            let row = &mut self.rows[i];
+            row.curvature += sign * u * u / d;
+            let row = row.start as usize..row.end as usize;
             for b in self.coupling_range(p) {
                 let (j, v) = self.coupling(b);
                 if i == j {
                     continue;
                 }
-                let row = self.row_range(i);
-                let columns = &self.indices[row.clone()];
-                if let Ok(k) = columns.binary_search(&(j as u32)) {
+                let entries = &mut self.entries[row.clone()];
+                if let Some(entry) = entries.iter_mut().find(|e| e.column == j as u32) {
                     let part = u * v / d;
-                    let value = &mut self.values[row.start + k];
-                    *value += sign * part;
-                    if value.abs() <= CANCELLED * part.abs() {
-                        *value = 0.0;
+                    entry.value += sign * part;
+                    if entry.value.abs() <= CANCELLED * part.abs() {
+                        entry.value = 0.0;
                     }
                 }
             }
@@ -149,7 +169,10 @@ mod tests {
         });
         let a = Sparse::from_triplets(3, 3, entries).unwrap();
         let mut condensed = Condensed::new(&a, &[false, false, true]).unwrap();
-        let values = |c: &Condensed| c.row_range(0).map(|at| c.entry(at)).collect::<Vec<_>>();
+        let values = |c: &Condensed| {
+            let row = c.row(0).iter();
+            row.map(|e| (e.column, e.value)).collect::<Vec<_>>()
+        };
         assert_eq!(values(&condensed), [(1, 0.0)]);
         assert_eq!(condensed.curvature(0), 0.0);
         condensed.release(2);

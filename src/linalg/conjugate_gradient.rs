@@ -7,11 +7,20 @@
 use super::{RelaxedFactor, Sparse};
 use crate::Result;
 
+/// When conjugate gradients end.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Effort {
+    /// At most so many iterations.
+    pub iterations: usize,
+    /// The estimated distance of every unknown from the minimiser that is near enough.
+    pub tolerance: f64,
+}
+
 /// Moves `point` towards the minimiser of `1/2 x'Ax + g'x` with the `held` unknowns kept, and
-/// returns whether the estimated distance of every unknown fell to `tolerance` within
-/// `iterations`.
+/// returns whether that converged within the given effort.
 ///
-/// `lower` is the lower triangle of A, `factor` belongs to it.
+/// `lower` is the lower triangle of A, `factor` belongs to it. Stops where it stands when `go_on`,
+/// asked before each iteration, says no.
 ///
 /// # Errors
 /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
@@ -21,8 +30,8 @@ pub fn conjugate_gradient(
     factor: &RelaxedFactor,
     held: &[bool],
     point: &mut [f64],
-    iterations: usize,
-    tolerance: f64,
+    effort: Effort,
+    mut go_on: impl FnMut() -> bool,
 ) -> Result<bool> {
     let free = |mut v: Vec<f64>| {
         for (v, held) in v.iter_mut().zip(held) {
@@ -43,9 +52,12 @@ pub fn conjugate_gradient(
     let mut z = precondition(&r)?;
     let mut direction = z.clone();
     let mut rz = dot(&r, &z);
-    for _ in 0..iterations {
-        if z.iter().all(|z| z.abs() <= tolerance) {
+    for _ in 0..effort.iterations {
+        if z.iter().all(|z| z.abs() <= effort.tolerance) {
             return Ok(true);
+        }
+        if !go_on() {
+            return Ok(false);
         }
         let product = free(lower.mul_symmetric(&direction));
         let curvature = dot(&direction, &product);
@@ -65,7 +77,7 @@ pub fn conjugate_gradient(
             *d = z + keep * *d;
         }
     }
-    Ok(z.iter().all(|z| z.abs() <= tolerance))
+    Ok(z.iter().all(|z| z.abs() <= effort.tolerance))
 }
 
 #[cfg(test)]
@@ -94,12 +106,22 @@ mod tests {
             panic!()
         };
         let mut found = point.clone();
-        let few = conjugate_gradient(&a, &gradient, &factor, &held, &mut found, 5, 1e-9).unwrap();
+        let tolerance = 1e-9;
+        let few = Effort {
+            iterations: 5,
+            tolerance,
+        };
+        let few =
+            conjugate_gradient(&a, &gradient, &factor, &held, &mut found, few, || true).unwrap();
         assert!(few, "one iteration a held unknown, and one");
         for (x, y) in found.iter().zip(&expected) {
             assert!((x - y).abs() < 1e-8);
         }
-        let none = conjugate_gradient(&a, &gradient, &factor, &held, &mut point, 0, 1e-9);
+        let none = Effort {
+            iterations: 0,
+            tolerance,
+        };
+        let none = conjugate_gradient(&a, &gradient, &factor, &held, &mut point, none, || true);
         assert!(!none.unwrap(), "no iteration, not converged");
     }
 }

@@ -11,7 +11,7 @@
 use std::collections::VecDeque;
 
 use super::Sparse;
-use super::condensed::Condensed;
+use super::condensed::{Condensed, Entry};
 use crate::Result;
 
 /// Among 1.0, 1.4, 1.6 and 1.8, the factor that left the least error for the least updates.
@@ -26,15 +26,21 @@ pub struct LocalSolve<'a> {
     gradient: &'a [f64],
     system: Condensed,
     integer: Vec<bool>,
-    fixed: Vec<bool>,
-    /// Current at all unknowns but the free private ones, which follow on demand.
-    point: Vec<f64>,
-    /// Slope of the condensed objective at each unknown that is not private.
-    residual: Vec<f64>,
+    unknowns: Vec<Unknown>,
     queue: VecDeque<u32>,
-    queued: Vec<bool>,
     moved: Vec<u32>,
-    is_moved: Vec<bool>,
+}
+
+/// All that an update of one unknown reads of it, side by side.
+#[derive(Debug, Clone, Copy)]
+struct Unknown {
+    /// Current, but of a free private integer, which follows on demand.
+    value: f64,
+    /// Slope of the condensed objective, unless it is a private integer.
+    residual: f64,
+    fixed: bool,
+    queued: bool,
+    moved: bool,
 }
 
 impl<'a> LocalSolve<'a> {
@@ -55,33 +61,27 @@ impl<'a> LocalSolve<'a> {
             gradient,
             system: Condensed::new(lower, &integer)?,
             integer,
-            fixed: vec![false; n],
-            point: point.to_vec(),
-            residual: vec![0.0; n],
+            unknowns: point.iter().map(|&x| Unknown::at(x)).collect(),
             queue: VecDeque::new(),
-            queued: vec![false; n],
             moved: Vec::new(),
-            is_moved: vec![false; n],
         })
     }
 
     /// The current value of an unknown.
     pub fn value(&self, unknown: u32) -> f64 {
         let i = unknown as usize;
-        if self.fixed[i] || !self.system.is_private(i) {
-            return self.point[i];
+        let Unknown { value, fixed, .. } = self.unknowns[i];
+        if fixed || !self.system.is_private(i) {
+            return value;
         }
-        let pull: f64 = self
-            .system
-            .couplings(i)
-            .map(|(j, v)| v * self.point[j])
-            .sum();
+        let couplings = self.system.couplings(i);
+        let pull: f64 = couplings.map(|(j, v)| v * self.unknowns[j].value).sum();
         -(self.gradient[i] + pull) / self.system.diagonal(i)
     }
 
     /// The current values of all unknowns.
     pub fn point(&self) -> Vec<f64> {
-        (0..self.point.len() as u32)
+        (0..self.unknowns.len() as u32)
             .map(|i| self.value(i))
             .collect()
     }
@@ -90,12 +90,13 @@ impl<'a> LocalSolve<'a> {
     pub fn fix(&mut self, unknown: u32, value: f64) {
         let k = unknown as usize;
         let step = value - self.value(unknown);
-        self.point[k] = value;
-        self.fixed[k] = true;
+        self.unknowns[k].value = value;
+        self.unknowns[k].fixed = true;
         if self.system.is_private(k) {
             for at in self.system.coupling_range(k) {
-                let (j, v) = self.system.coupling(at);
-                self.pull(j, v * step);
+                let (j, value) = self.system.coupling(at);
+                let column = j as u32;
+                self.unknowns[j].pull(&Entry { column, value }, step, &mut self.queue);
             }
             self.system.release(k);
         } else {
@@ -112,16 +113,16 @@ impl<'a> LocalSolve<'a> {
                 break;
             };
             let i = i as usize;
-            self.queued[i] = false;
             let curvature = self.system.curvature(i);
-            if self.fixed[i] || curvature <= UNDECIDED * self.system.diagonal(i) {
+            let unknown = &mut self.unknowns[i];
+            unknown.queued = false;
+            if unknown.fixed || unknown.residual.abs() <= tolerance * curvature {
                 continue;
             }
-            let step = -self.residual[i] / curvature;
-            if step.abs() > tolerance {
-                let step = OVERRELAXATION * step;
-                self.point[i] += step;
-                self.residual[i] += curvature * step;
+            if curvature > UNDECIDED * self.system.diagonal(i) {
+                let step = -OVERRELAXATION * unknown.residual / curvature;
+                unknown.value += step;
+                unknown.residual += curvature * step;
                 self.spread(i, step);
                 done += 1;
             }
@@ -137,59 +138,76 @@ impl<'a> LocalSolve<'a> {
     /// Takes over a point that was computed elsewhere as the minimiser for the unknowns fixed so
     /// far.
     pub fn settle_at(&mut self, point: &[f64]) {
-        for i in 0..point.len() {
-            if !self.fixed[i] && self.point[i] != point[i] {
-                self.point[i] = point[i];
+        for (i, &value) in point.iter().enumerate() {
+            let unknown = &mut self.unknowns[i];
+            unknown.residual = 0.0;
+            unknown.queued = false;
+            if !unknown.fixed && unknown.value != value {
+                unknown.value = value;
                 self.mark_moved(i);
             }
         }
-        self.residual.fill(0.0);
         self.queue.clear();
-        self.queued.fill(false);
     }
 
-    /// Free integers that may have moved since the last call, increasing.
+    /// Free integers that may have moved since the last call, each once.
     pub fn take_moved(&mut self) -> Vec<u32> {
-        let moved = std::mem::take(&mut self.moved);
         let mut integers = Vec::new();
-        for i in moved {
-            let i = i as usize;
-            self.is_moved[i] = false;
-            if self.integer[i] && !self.fixed[i] {
-                integers.push(i as u32);
+        for i in std::mem::take(&mut self.moved) {
+            let k = i as usize;
+            self.unknowns[k].moved = false;
+            if self.integer[k] && !self.unknowns[k].fixed {
+                integers.push(i);
             }
-            let private = self.system.couplings(i).map(|(j, _)| j);
-            let private = private.filter(|&j| self.system.is_private(j) && !self.fixed[j]);
-            integers.extend(private.map(|j| j as u32));
+            for at in self.system.coupling_range(k) {
+                let (j, _) = self.system.coupling(at);
+                let follower = &mut self.unknowns[j];
+                if self.system.is_private(j) && !follower.fixed && !follower.moved {
+                    follower.moved = true;
+                    integers.push(j as u32);
+                }
+            }
         }
-        integers.sort_unstable();
-        integers.dedup();
+        for &i in &integers {
+            self.unknowns[i as usize].moved = false;
+        }
         integers
     }
 
     /// Carries a step of unknown `i` to its neighbours.
     fn spread(&mut self, i: usize, step: f64) {
         self.mark_moved(i);
-        for at in self.system.row_range(i) {
-            let (j, v) = self.system.entry(at);
-            if v != 0.0 {
-                self.pull(j, v * step);
-            }
-        }
-    }
-
-    fn pull(&mut self, j: usize, by: f64) {
-        self.residual[j] += by;
-        if !self.queued[j] && !self.fixed[j] {
-            self.queued[j] = true;
-            self.queue.push_back(j as u32);
+        for entry in self.system.row(i).iter().filter(|e| e.value != 0.0) {
+            let neighbour = &mut self.unknowns[entry.column as usize];
+            neighbour.pull(entry, step, &mut self.queue);
         }
     }
 
     fn mark_moved(&mut self, i: usize) {
-        if !self.is_moved[i] {
-            self.is_moved[i] = true;
+        if !self.unknowns[i].moved {
+            self.unknowns[i].moved = true;
             self.moved.push(i as u32);
+        }
+    }
+}
+
+impl Unknown {
+    fn at(value: f64) -> Self {
+        Unknown {
+            value,
+            residual: 0.0,
+            fixed: false,
+            queued: false,
+            moved: false,
+        }
+    }
+
+    /// Feels the step of a neighbour through `entry`, whose column it is.
+    fn pull(&mut self, entry: &Entry, step: f64, queue: &mut VecDeque<u32>) {
+        self.residual += entry.value * step;
+        if !self.queued && !self.fixed {
+            self.queued = true;
+            queue.push_back(entry.column);
         }
     }
 }

@@ -18,7 +18,7 @@ pub mod sparse;
 
 pub use cholesky::{Cholesky, NULL_PIVOT, PIVOT_TOLERANCE};
 pub use compensated::CompensatedSum;
-pub use conjugate_gradient::conjugate_gradient;
+pub use conjugate_gradient::{Effort, conjugate_gradient};
 pub use fix::FixedSolve;
 pub use gauss_seidel::LocalSolve;
 pub use held::minimise_held;

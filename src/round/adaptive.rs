@@ -11,7 +11,7 @@ use super::candidates::Candidates;
 use super::{greedy, nearest};
 use crate::Result;
 use crate::eliminate::ReducedModel;
-use crate::linalg::{LocalSolve, Minimum, conjugate_gradient, minimise_held};
+use crate::linalg::{Effort, LocalSolve, Minimum, conjugate_gradient, minimise_held};
 use crate::solve::{Factors, Options, Phase, Search};
 
 /// Gauss-Seidel updates between two looks at the clock.
@@ -33,6 +33,7 @@ pub(crate) fn adaptive(
     if integers.len() <= options.exact_integers {
         return greedy(model, factors, search);
     }
+    search.prepare(factors)?;
     let mut passes = Passes {
         model,
         options,
@@ -45,7 +46,7 @@ pub(crate) fn adaptive(
         fixed: vec![false; model.dim()],
         left: integers.len(),
     };
-    let mut candidates = Candidates::default();
+    let mut candidates = Candidates::new(model.dim());
     for &i in integers {
         candidates.push(i, search.relaxed()[i as usize]);
     }
@@ -112,8 +113,11 @@ impl Passes<'_> {
             factors.relaxed(self.model)?,
             &self.fixed,
             &mut point,
-            options.cg_iterations,
-            options.cg_tolerance,
+            Effort {
+                iterations: options.cg_iterations,
+                tolerance: options.cg_tolerance,
+            },
+            || search.monitor.check().is_ok(),
         )?;
         if !converged && options.exact_steps && search.monitor.check().is_ok() {
             let (hessian, gradient) = (self.model.hessian(), self.model.gradient());

@@ -8,15 +8,36 @@ use super::nearest;
 
 /// The undecided integers, the closest to an integer first; deviations that agree to [`TIE`] are
 /// told apart by their unknowns, lowest first.
-#[derive(Debug, Default)]
+///
+/// The heap holds a lower bound of each deviation: what comes closer to an integer is entered
+/// anew, what moves away is found out when its turn comes.
+#[derive(Debug)]
 pub(crate) struct Candidates {
     heap: BinaryHeap<Reverse<(u64, u32)>>,
+    /// The least rank under which each unknown stands in the heap.
+    entered: Vec<u64>,
 }
 
 impl Candidates {
+    /// None so far, of unknowns below `dim`.
+    pub fn new(dim: usize) -> Self {
+        Candidates {
+            heap: BinaryHeap::new(),
+            entered: vec![u64::MAX; dim],
+        }
+    }
+
     /// Adds an unknown, or what became of one whose value changed.
     pub fn push(&mut self, unknown: u32, value: f64) {
-        self.heap.push(Reverse((rank(value), unknown)));
+        self.enter(rank(value), unknown);
+    }
+
+    fn enter(&mut self, rank: u64, unknown: u32) {
+        let entered = &mut self.entered[unknown as usize];
+        if rank < *entered {
+            *entered = rank;
+            self.heap.push(Reverse((rank, unknown)));
+        }
     }
 
     /// Takes the least deviations whose sum stays at or below `threshold`, at least one.
@@ -26,9 +47,9 @@ impl Candidates {
         let mut taken = Vec::new();
         let mut sum = 0.0;
         while let Some(&Reverse((stored, unknown))) = self.heap.peek() {
-            let current = value(unknown).filter(|&x| rank(x) == stored);
-            // The same unknown may stand in the heap twice with the same value.
-            if let Some(x) = current.filter(|_| taken.last() != Some(&unknown)) {
+            let stale = self.entered[unknown as usize] != stored;
+            let current = value(unknown).filter(|_| !stale);
+            if let Some(x) = current.filter(|&x| rank(x) == stored) {
                 sum += (x - nearest(x)).abs();
                 if sum > threshold && !taken.is_empty() {
                     break;
@@ -36,6 +57,12 @@ impl Candidates {
                 taken.push(unknown);
             }
             self.heap.pop();
+            if !stale {
+                self.entered[unknown as usize] = u64::MAX;
+            }
+            if let Some(x) = current.filter(|&x| rank(x) != stored) {
+                self.enter(rank(x), unknown);
+            }
         }
         taken
     }
@@ -50,7 +77,7 @@ mod tests {
     use super::*;
 
     fn take(values: &[f64], threshold: f64) -> Vec<u32> {
-        let mut candidates = Candidates::default();
+        let mut candidates = Candidates::new(4);
         for (i, &x) in values.iter().enumerate() {
             candidates.push(i as u32, 0.49);
             candidates.push(i as u32, x);
@@ -66,7 +93,7 @@ mod tests {
 
     #[test]
     fn stale_and_decided_entries_are_passed_over() {
-        let mut candidates = Candidates::default();
+        let mut candidates = Candidates::new(4);
         candidates.push(0, 0.1);
         candidates.push(1, 0.2);
         candidates.push(2, 0.3);

@@ -24,6 +24,7 @@ pub(crate) fn greedy(
     search: &mut Search,
 ) -> Result<()> {
     let integers = model.integers();
+    search.prepare(factors)?;
     let mut ldl = factors.updatable(model)?;
     let mut solve = FixedSolve::new(&mut ldl, search.relaxed(), integers)?;
     let mut rounded = vec![0.0; integers.len()];

@@ -23,6 +23,7 @@ pub use solution::{Counts, Seconds, Solution};
 pub use solver::Solver;
 pub use status::{GAP_TOLERANCE, SolveStatus};
 pub use strategy::Strategy;
+pub use verify::{Verdict, verify};
 pub use warm_start::WarmStart;
 
 pub(crate) use factors::Factors;

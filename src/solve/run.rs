@@ -6,7 +6,7 @@ use super::relax::relax;
 use super::search::Search;
 use super::solution::{Counts, Seconds, Solution};
 use super::verify::verify;
-use super::{Options, SolveStatus, Strategy, WarmStart};
+use super::{Options, Phase, SolveStatus, Strategy, WarmStart};
 use crate::eliminate::{Elimination, ReducedModel};
 use crate::round;
 use crate::{Model, Problem, Result};
@@ -84,7 +84,7 @@ impl Prepared<'_> {
         let factored = factors.seconds() - factored_before;
 
         let values = expand(&reduced, model, options.strategy, &point);
-        let verdict = verify(self.problem, &values);
+        let verdict = verify(self.problem, &values)?;
         let total = monitor.seconds();
         Ok(Solution {
             values,
@@ -112,6 +112,7 @@ fn decide(
     factors: &mut Factors,
     monitor: &mut Monitor,
 ) -> Result<(Vec<f64>, f64, SolveStatus)> {
+    monitor.progress(Phase::Factor, 0.0)?;
     let relaxation = relax(reduced, factors)?;
     if reduced.integers().is_empty() {
         let bound = relaxation.lower_bound;

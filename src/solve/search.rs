@@ -5,7 +5,7 @@
 //! time.
 
 use super::monitor::Monitor;
-use super::{Factors, SolveStatus};
+use super::{Factors, Phase, SolveStatus};
 use crate::eliminate::ReducedModel;
 use crate::linalg::{Minimum, minimise};
 use crate::{Error, Result};
@@ -66,6 +66,18 @@ impl<'s, 'm> Search<'s, 'm> {
         let stopped = self.monitor.stopped();
         self.incumbent
             .ok_or_else(|| stopped.map_or(Error::Cancelled, Error::from))
+    }
+
+    /// Makes the factor that offers need, so that an offer costs two solves and no more whenever a
+    /// strategy has to stop.
+    ///
+    /// # Errors
+    /// For lack of memory, and why the search was stopped: there is no solution yet.
+    pub fn prepare(&mut self, factors: &mut Factors) -> Result<()> {
+        self.monitor.progress(Phase::Factor, 0.5)?;
+        factors.continuous(self.model)?;
+        self.monitor.progress(Phase::Factor, 1.0)?;
+        Ok(())
     }
 
     /// Offers one value an integer unknown, in their order; returns whether it is the best so far.

@@ -3,24 +3,43 @@
 //! This shares nothing with the solver: it reads the problem as it was given, term by term and
 //! row by row, before duplicates are summed or rows squared into Q.
 
-use crate::Problem;
 use crate::linalg::CompensatedSum;
+use crate::{Error, Problem, Result};
 
 /// What a point is worth, measured on the problem as given.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Verdict {
+pub struct Verdict {
+    /// The objective, in the caller's units.
     pub energy: f64,
+    /// The largest `|c . x - d| / max(1, sum_j |c_j x_j|)`; a pin counts as a constraint.
     pub constraint_violation: f64,
+    /// The largest distance of an integer unknown from an integer.
     pub integrality_violation: f64,
 }
 
-/// Measures `x`.
-pub(crate) fn verify(problem: &Problem, x: &[f64]) -> Verdict {
-    Verdict {
+/// Measures the point `x`, wherever it comes from: this library, another solver, a file.
+///
+/// # Errors
+/// [`Error::LengthMismatch`] for other than one value an unknown, [`Error::NotFinite`].
+pub fn verify(problem: &Problem, x: &[f64]) -> Result<Verdict> {
+    if x.len() != problem.variables() {
+        return Err(Error::LengthMismatch {
+            what: "the values of the unknowns",
+            expected: problem.variables(),
+            actual: x.len(),
+        });
+    }
+    if let Some(position) = x.iter().position(|x| !x.is_finite()) {
+        return Err(Error::NotFinite {
+            what: "the values of the unknowns",
+            position,
+        });
+    }
+    Ok(Verdict {
         energy: energy(problem, x),
         constraint_violation: constraint_violation(problem, x),
         integrality_violation: integrality_violation(problem, x),
-    }
+    })
 }
 
 fn energy(problem: &Problem, x: &[f64]) -> f64 {
@@ -44,7 +63,6 @@ fn energy(problem: &Problem, x: &[f64]) -> f64 {
     sum.value()
 }
 
-/// The largest `|c . x - d| / max(1, sum_j |c_j x_j|)`; a pin counts as a constraint.
 fn constraint_violation(problem: &Problem, x: &[f64]) -> f64 {
     let rows = problem.constraint_rows();
     let mut worst: f64 = 0.0;
@@ -70,4 +88,40 @@ fn integrality_violation(problem: &Problem, x: &[f64]) -> f64 {
     integers
         .map(|(_, x)| (x - x.round()).abs())
         .fold(0.0, f64::max)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// `(x0 - x1)^2 + x1 x1 / 2 - x0 + 1`, `x0 + 2 x1 = 3`, x2 pinned to 4, x1 an integer.
+    fn problem() -> Result<Problem> {
+        let mut problem = Problem::new(3)?;
+        problem.add_least_squares(&[0, 1], &[1.0, -1.0], 0.0, 1.0)?;
+        problem.add_quadratic_triplets(crate::Triangle::Lower, &[1], &[1], &[1.0])?;
+        problem.add_linear(&[-1.0, 0.0, 0.0])?;
+        problem.add_constant(1.0)?;
+        problem.add_constraint(&[0, 1], &[1.0, 2.0], 3.0)?;
+        problem.pin(2, 4.0)?;
+        problem.set_integers(&[1])?;
+        Ok(problem)
+    }
+
+    #[test]
+    fn any_point_is_measured_on_the_problem_as_given() {
+        let verdict = verify(&problem().unwrap(), &[2.0, 1.25, 3.0]).unwrap();
+        assert_eq!(verdict.energy, 0.5625 + 0.78125 - 2.0 + 1.0);
+        // The row is off by 1.5 of 4.5, the pin by 1 of 4.
+        assert!((verdict.constraint_violation - 1.5 / 4.5).abs() < 1e-15);
+        assert_eq!(verdict.integrality_violation, 0.25);
+    }
+
+    #[test]
+    fn what_is_no_point_is_refused() {
+        let problem = problem().unwrap();
+        let short = verify(&problem, &[1.0, 1.0]);
+        assert!(matches!(short, Err(Error::LengthMismatch { .. })));
+        let error = verify(&problem, &[1.0, 1.0, f64::NAN]).unwrap_err();
+        assert_eq!((error.code(), error.index()), ("not_finite", Some(2)));
+    }
 }

@@ -18,7 +18,8 @@ pub struct Arguments {
     #[command(flatten)]
     pub directions: Directions,
 
-    /// Write the mesh with crosses and irregular vertices to this file, to be looked at in MeshLab
+    /// Write the field to this file: a direction a face, one line each, for `parametrize` and other
+    /// programs (.txt), or the mesh with crosses and irregular vertices, to be looked at in MeshLab
     /// or Blender (.ply and .obj have colours, .off not)
     #[arg(short, long, value_name = "OUT")]
     pub out: Option<PathBuf>,

@@ -72,7 +72,13 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
 
 fn write(arguments: &Arguments, mesh: &TriangleMesh, field: &OrientationField) -> Result<()> {
     if let Some(path) = &arguments.out {
-        io::write(path, FieldModel::new(mesh, field).drawing())?;
+        match path
+            .extension()
+            .is_some_and(|e| e.eq_ignore_ascii_case("txt"))
+        {
+            true => field.write(mesh, path)?,
+            false => io::write(path, FieldModel::new(mesh, field).drawing())?,
+        }
     }
     if let Some(path) = &arguments.picture {
         let [width, height] = arguments.picture_size;

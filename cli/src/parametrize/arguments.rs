@@ -9,10 +9,10 @@ use crate::exit;
 use crate::field::Directions;
 use crate::options::SolverOptions;
 
-/// Compute a seamless parametrization of a triangle mesh that follows its smoothest cross field.
+/// Compute a seamless parametrization of a triangle mesh that follows a cross field.
 ///
-/// The field is that of `roundel field` with the same directions. The solver's options are those
-/// of the parametrization; time limit and threads hold for each of the two solves.
+/// The field comes from a file, or is that of `roundel field` with the same directions. The solver's
+/// options are those of the parametrization; time limit and threads hold for each of the two solves.
 #[derive(clap::Args)]
 #[command(after_help = exit::HELP)]
 pub struct Arguments {
@@ -20,6 +20,12 @@ pub struct Arguments {
     /// shapes that `roundel shape --help` lists
     #[arg(value_name = "MESH")]
     pub mesh: PathBuf,
+
+    /// Take the field from this file, as `roundel field -o FIELD.txt` writes it: a direction X Y Z a
+    /// face, one line each, matched over edges by their nearest arms
+    #[arg(long, value_name = "FIELD.txt")]
+    #[arg(conflicts_with_all = ["constrain_curvature", "fix", "field_strategy"])]
+    pub field: Option<PathBuf>,
 
     #[command(flatten)]
     pub directions: Directions,

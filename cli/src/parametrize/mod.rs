@@ -1,6 +1,7 @@
 //! `roundel parametrize`: a seamless map of a mesh, its figures and its files.
 
 mod arguments;
+mod field;
 mod report;
 mod summary;
 
@@ -8,16 +9,15 @@ use std::time::Instant;
 
 use roundel::mesh::TriangleMesh;
 use roundel::problem::mps::{self, MpsProblem};
-use roundel::quad::{
-    FieldProblem, OrientationField, SeamlessMap, SeamlessOptions, SeamlessProblem,
-};
-use roundel::{Monitor, Options, Result, Solution};
+use roundel::quad::{SeamlessMap, SeamlessOptions, SeamlessProblem};
+use roundel::{Options, Result, Solution};
 
 use crate::exit::Exit;
 use crate::progress::Progress;
 use crate::report::Preparation;
 use crate::{interrupt, mesh, output};
 pub use arguments::Arguments;
+use field::FieldSource;
 use report::MapReport;
 use summary::MapSummary;
 
@@ -31,7 +31,7 @@ pub fn run(arguments: &Arguments) -> Exit {
 struct Solved {
     options: Options,
     mesh: TriangleMesh,
-    field: Solution,
+    field: FieldSource,
     map: SeamlessMap,
     solution: Solution,
     before: Preparation,
@@ -45,10 +45,12 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
     let started = Instant::now();
     let mesh = mesh::read(&arguments.mesh)?;
     let read = started.elapsed().as_secs_f64();
-    let (field, field_solution) = solve_field(arguments, &mesh, &options, monitor())?;
+    let (field, source) = field::of(arguments, &mesh, &options, monitor())?;
     let started = Instant::now();
     let quads = arguments.quads;
     let problem = SeamlessProblem::new(&mesh, &field, &SeamlessOptions { quads })?;
+    // The problem holds what it needs of it.
+    drop(field);
     let assemble = started.elapsed().as_secs_f64();
     if let Some(path) = &arguments.write_problem {
         mps::write(path, &MpsProblem::new(problem.problem().clone()))?;
@@ -61,7 +63,7 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
     Ok(Solved {
         options,
         mesh,
-        field: field_solution,
+        field: source,
         map,
         solution,
         before: Preparation {
@@ -69,21 +71,6 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
             assemble: Some(assemble),
         },
     })
-}
-
-fn solve_field(
-    arguments: &Arguments,
-    mesh: &TriangleMesh,
-    options: &Options,
-    monitor: Monitor,
-) -> Result<(OrientationField, Solution)> {
-    let options = Options {
-        strategy: arguments.field_strategy,
-        ..options.clone()
-    };
-    let problem = FieldProblem::new(mesh, &arguments.directions.constraints(mesh)?)?;
-    let solution = roundel::solve_with(problem.problem(), &options, monitor)?;
-    Ok((problem.field(mesh, &solution)?, solution))
 }
 
 fn tell(arguments: &Arguments, solved: &Solved) -> Result<()> {

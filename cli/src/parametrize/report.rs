@@ -23,10 +23,11 @@ pub struct MapReport<'a> {
     field: Field,
 }
 
-/// The field that the map follows.
+/// The field that the map follows; one from a file has no strategy.
 #[derive(Serialize)]
 struct Field {
-    strategy: &'static str,
+    strategy: Option<&'static str>,
+    file: Option<String>,
     energy: f64,
     seconds: f64,
 }
@@ -35,6 +36,7 @@ impl<'a> MapReport<'a> {
     /// The report of what was found.
     pub(super) fn new(arguments: &Arguments, solved: &'a Solved) -> Self {
         let (mesh, map) = (&solved.mesh, &solved.map);
+        let file = arguments.field.as_ref();
         MapReport {
             solve: Report::new(
                 &arguments.mesh,
@@ -52,9 +54,10 @@ impl<'a> MapReport<'a> {
             flipped: map.flipped().len(),
             flipped_faces: map.flipped(),
             field: Field {
-                strategy: arguments.field_strategy.name(),
-                energy: solved.field.energy(),
-                seconds: solved.field.seconds().total,
+                strategy: solved.field.strategy,
+                file: file.map(|path| path.to_string_lossy().into_owned()),
+                energy: solved.field.energy,
+                seconds: solved.field.seconds,
             },
         }
     }

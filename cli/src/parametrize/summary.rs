@@ -25,7 +25,7 @@ impl fmt::Display for MapSummary<'_> {
         let read = counted(mesh.face_count(), "face");
         line(f, "read", &read, before.read)?;
         let irregular = counted_vertices(map.cones().len(), "irregular ");
-        line(f, "field", &irregular, field.seconds().total)?;
+        line(f, "field", &irregular, field.seconds)?;
         let assemble = format!(
             "{}, {}",
             counted(counts.variables, "unknown"),

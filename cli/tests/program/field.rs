@@ -251,3 +251,21 @@ fn a_failed_solve_leaves_no_files() {
     assert_eq!(code, 5);
     assert!(!model.exists() && !picture.exists());
 }
+
+#[test]
+fn the_field_written_as_text_is_a_direction_in_every_face() {
+    let scratch = Scratch::new("field-text");
+    let out = scratch.path("field.txt");
+    let (code, report) = field(&[CUBE, "-o", text(&out)]);
+    assert_eq!(code, 0, "{report}");
+    let mesh = shape::by_name("rounded-cube", 1200).unwrap();
+    let content = fs::read_to_string(&out).unwrap();
+    let lines: Vec<&str> = content.lines().filter(|l| !l.starts_with("jump")).collect();
+    assert_eq!(lines.len(), mesh.face_count());
+    for (face, line) in lines.into_iter().enumerate() {
+        let numbers: Vec<f64> = line.split(' ').map(|w| w.parse().unwrap()).collect();
+        let along = |v: [f64; 3]| (0..3).map(|i| v[i] * numbers[i]).sum::<f64>();
+        let length: f64 = numbers.iter().map(|x| x * x).sum();
+        assert!((length - 1.0).abs() < 1e-12 && along(mesh.normal(face)).abs() < 1e-12);
+    }
+}

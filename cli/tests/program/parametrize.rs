@@ -111,3 +111,44 @@ fn what_cannot_be_written_or_asked_for_is_an_error() {
         assert!(told.contains(flags[0]), "{told}");
     }
 }
+
+#[test]
+fn a_field_from_a_file_gives_the_map_of_that_field() {
+    let scratch = Scratch::new("parametrize-field");
+    for shape in [CUBE, "shape:plate-with-holes:900"] {
+        let file = scratch.path("field.txt");
+        let words = ["field", shape, "--strategy", "direct", "-o", text(&file)];
+        assert_eq!(finish(program(&words)).0, 0);
+        let (code, from_file) = parametrize(&[shape, "--field", text(&file)]);
+        assert_eq!(code, 0, "{from_file}");
+        assert_eq!(from_file["field"]["strategy"], Value::Null);
+        assert_eq!(from_file["field"]["file"], json!(text(&file)));
+        let solved = parametrize(&[shape, "--field-strategy", "direct"]).1;
+        assert_eq!(
+            from_file["irregular_vertices"],
+            solved["irregular_vertices"]
+        );
+        let [a, b] = [&from_file, &solved].map(|r| r["energy"].as_f64().unwrap());
+        assert!((a - b).abs() < 1e-6 * a, "{shape}: {a} {b}");
+    }
+}
+
+#[test]
+fn a_field_of_something_else_is_an_error_with_its_line() {
+    let scratch = Scratch::new("parametrize-wrong-field");
+    let short = scratch.write("short.txt", "1 0 0\n");
+    let long = scratch.write("long.txt", "0.3 0.5 0.7\n".repeat(1201));
+    let typed = scratch.write("typed.txt", "1 0 0\n1 O 0\n");
+    for (file, line) in [(&short, 1), (&long, 1201), (&typed, 2)] {
+        let (code, report) = parametrize(&[CUBE, "--field", text(file)]);
+        assert_eq!((code, &report["error"]["code"]), (1, &json!("parse")));
+        assert_eq!(report["error"]["line"], json!(line), "{report}");
+        let message = report["error"]["message"].as_str().unwrap();
+        assert!(message.contains(text(file)), "{message}");
+    }
+    let nowhere = scratch.path("none.txt");
+    let (code, report) = parametrize(&[CUBE, "--field", text(&nowhere)]);
+    assert_eq!((code, &report["error"]["code"]), (1, &json!("io")));
+    let both = ["parametrize", CUBE, "--field", text(&short), "--fix", "1:2"];
+    assert_eq!(finish(program(&both)).0, 2);
+}

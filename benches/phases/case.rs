@@ -1,0 +1,66 @@
+//! The two families of problems, each taken as far as its relaxation.
+
+use roundel::eliminate::{ReducedModel, eliminate};
+use roundel::linalg::{Minimum, RelaxedFactor};
+use roundel::mesh::shape;
+use roundel::quad::{FieldProblem, SeamlessOptions, SeamlessProblem, curvature_constraints};
+use roundel::{Error, Model, Monitor, Options, Problem, Result, solve};
+
+/// Faces of the mesh.
+pub const TRIANGLES: usize = 10_000;
+
+/// A problem, what is left of it after elimination, and the minimiser of that.
+pub struct Case {
+    pub family: &'static str,
+    pub problem: Problem,
+    pub reduced: ReducedModel,
+    pub relaxed: Vec<f64>,
+    pub factor: RelaxedFactor,
+}
+
+/// An orientation field (many integers of local influence) and a map (few of global influence).
+pub fn cases() -> Result<[Case; 2]> {
+    let mesh = shape::by_name("genus-2", TRIANGLES)?;
+    let field = FieldProblem::new(&mesh, &curvature_constraints(&mesh, 0.1)?)?;
+    let solution = solve(field.problem(), &Options::orientation_field())?;
+    let options = SeamlessOptions { quads: 1000 };
+    let map = SeamlessProblem::new(&mesh, &field.field(&mesh, &solution)?, &options)?;
+    Ok([
+        Case::new("field", field.problem().clone())?,
+        Case::new("map", map.problem().clone())?,
+    ])
+}
+
+impl Case {
+    fn new(family: &'static str, problem: Problem) -> Result<Self> {
+        let reduced = eliminate(&Model::new(&problem)?, &mut Monitor::default())?;
+        let factor = RelaxedFactor::new(reduced.hessian(), reduced.integers())?;
+        let minimum = factor.minimise(reduced.gradient(), reduced.guess())?;
+        let Minimum::At { point, .. } = minimum else {
+            return Err(Error::NotSupported {
+                what: "a bench without a minimum".into(),
+                index: None,
+                line: None,
+            });
+        };
+        Ok(Case {
+            family,
+            problem,
+            reduced,
+            relaxed: point,
+            factor,
+        })
+    }
+
+    /// The integer unknown that a rounding moves most, and its value then.
+    pub fn rounded(&self) -> (u32, f64) {
+        let deviation = |&i: &u32| {
+            let x = self.relaxed[i as usize];
+            (x - x.round()).abs()
+        };
+        let by_deviation = |a: &u32, b: &u32| deviation(a).total_cmp(&deviation(b));
+        let farthest = self.reduced.integers().iter().copied().max_by(by_deviation);
+        let farthest = farthest.unwrap_or(0);
+        (farthest, self.relaxed[farthest as usize].round())
+    }
+}

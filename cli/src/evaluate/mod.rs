@@ -1,0 +1,65 @@
+//! `roundel evaluate`: the tables of Bommes' thesis, run anew, beside what they were.
+//!
+//! | file | step |
+//! | --- | --- |
+//! | `experiments` | which meshes, how large, which solvers: tables 5.1 to 5.4 and the ordering |
+//! | `meshes` | where they come from, and what stands in for those that are not there |
+//! | `cells` | one solve, in a process of its own so that its peak memory is its own |
+//! | `run` | all solves of a table, row by row |
+//! | `reference` | the figures of the thesis and of the original |
+//! | `table`, `plot`, `page` | CSV, SVG and HTML |
+
+mod arguments;
+mod cells;
+mod experiments;
+mod meshes;
+mod page;
+mod plot;
+mod plots;
+mod reference;
+mod row;
+mod run;
+mod scale;
+mod table;
+
+use std::fs;
+use std::path::Path;
+
+use roundel::{Error, Result};
+
+use crate::exit::Exit;
+use crate::output;
+pub use arguments::Arguments;
+
+/// Runs the command and tells every row as soon as it is there.
+pub fn run(arguments: &Arguments) -> Exit {
+    output::conclude(&arguments.tables, false, evaluate(arguments))
+}
+
+fn evaluate(arguments: &Arguments) -> Result<()> {
+    let out = &arguments.tables;
+    fs::create_dir_all(out).map_err(|reason| failed(out, &reason))?;
+    let scratch = meshes::Scratch::new(out)?;
+    let mut tables = Vec::new();
+    for experiment in experiments::all(arguments.max_triangles) {
+        output::print(&format!("{}\n", experiment.title))?;
+        let rows = run::run(&experiment, arguments, &scratch)?;
+        let file = out.join(format!("{}.csv", experiment.name));
+        write(&file, &table::csv(&rows))?;
+        tables.push((experiment, rows));
+    }
+    let page = out.join("index.html");
+    write(&page, &page::html(&tables, arguments.max_triangles))?;
+    output::print(&format!("{}\n", page.display()))
+}
+
+fn write(path: &Path, content: &str) -> Result<()> {
+    fs::write(path, content).map_err(|reason| failed(path, &reason))
+}
+
+/// The error of a file or folder that cannot be written.
+fn failed(path: &Path, reason: &std::io::Error) -> Error {
+    Error::Io {
+        message: format!("{}: {reason}", path.display()),
+    }
+}

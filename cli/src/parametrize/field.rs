@@ -1,0 +1,75 @@
+//! Where the field comes from that a map follows: a file, or a solve.
+
+use std::path::Path;
+use std::time::Instant;
+
+use roundel::mesh::TriangleMesh;
+use roundel::quad::{FieldProblem, OrientationField};
+use roundel::{Error, Monitor, Options, Result};
+
+use super::Arguments;
+
+/// How a field was come by.
+pub(super) struct FieldSource {
+    /// The strategy that decided it, if it was solved for.
+    pub(super) strategy: Option<&'static str>,
+    /// Sum of squared angles between matched crosses, as `roundel field` tells it.
+    pub(super) energy: f64,
+    /// Seconds of the solve, or of reading.
+    pub(super) seconds: f64,
+}
+
+/// The field of the command line.
+pub(super) fn of(
+    arguments: &Arguments,
+    mesh: &TriangleMesh,
+    options: &Options,
+    monitor: Monitor,
+) -> Result<(OrientationField, FieldSource)> {
+    match &arguments.field {
+        Some(path) => read(path, mesh),
+        None => solve(arguments, mesh, options, monitor),
+    }
+}
+
+fn read(path: &Path, mesh: &TriangleMesh) -> Result<(OrientationField, FieldSource)> {
+    let started = Instant::now();
+    let field = OrientationField::read(mesh, path).map_err(|error| named(path, error))?;
+    let source = FieldSource {
+        strategy: None,
+        energy: field.energy(mesh),
+        seconds: started.elapsed().as_secs_f64(),
+    };
+    Ok((field, source))
+}
+
+/// The error with the name of the file: what is told of a failure begins with the mesh's.
+fn named(path: &Path, error: Error) -> Error {
+    match error {
+        Error::Parse { line, message } => Error::Parse {
+            line,
+            message: format!("{message} ({})", path.display()),
+        },
+        other => other,
+    }
+}
+
+fn solve(
+    arguments: &Arguments,
+    mesh: &TriangleMesh,
+    options: &Options,
+    monitor: Monitor,
+) -> Result<(OrientationField, FieldSource)> {
+    let options = Options {
+        strategy: arguments.field_strategy,
+        ..options.clone()
+    };
+    let problem = FieldProblem::new(mesh, &arguments.directions.constraints(mesh)?)?;
+    let solution = roundel::solve_with(problem.problem(), &options, monitor)?;
+    let source = FieldSource {
+        strategy: Some(options.strategy.name()),
+        energy: solution.energy(),
+        seconds: solution.seconds().total,
+    };
+    Ok((problem.field(mesh, &solution)?, source))
+}

@@ -1,0 +1,90 @@
+//! A field from one direction a face, as other programs have it.
+//!
+//! A direction is one arm of the face's cross; which arms match over an edge it does not say.
+//! Nearest matching decides: of the four arms across, the one that turns least (Ray, Vallet, Li,
+//! Levy 2008, section 3: the period jump that leaves the angle between crosses within a quarter
+//! of a right angle to either side).
+
+use std::f64::consts::FRAC_PI_2;
+
+use super::OrientationField;
+use crate::mesh::TriangleMesh;
+use crate::mesh::vector::{Vec3, add, dot, scale};
+use crate::{Error, Result};
+
+impl OrientationField {
+    /// The field with this direction in every face, matched by the nearest arms over every edge.
+    ///
+    /// Directions are vectors in space of any length; what of them points out of the face is
+    /// dropped. No face counts as constrained.
+    ///
+    /// # Errors
+    /// [`Error::LengthMismatch`] for other than one direction a face; with the face,
+    /// [`Error::NotFinite`], and [`Error::InvalidArgument`] for one across its face.
+    pub fn from_directions(mesh: &TriangleMesh, directions: &[Vec3]) -> Result<Self> {
+        if directions.len() != mesh.face_count() {
+            return Err(Error::LengthMismatch {
+                what: "directions of faces",
+                expected: mesh.face_count(),
+                actual: directions.len(),
+            });
+        }
+        let mut angles = Vec::with_capacity(directions.len());
+        for (face, &direction) in directions.iter().enumerate() {
+            angles.push(angle(mesh, face, direction)?);
+        }
+        let kappa = |(f, k)| mesh.transport(f, k).unwrap_or(0.0);
+        let kappa: Vec<f64> = mesh.edges().map(|edge| kappa(edge.first)).collect();
+        let mut field = OrientationField {
+            period_jumps: vec![0; kappa.len()],
+            constrained: vec![false; angles.len()],
+            angles,
+            kappa,
+        };
+        for e in 0..mesh.edge_count() {
+            field.period_jumps[e] = field.nearest_jump(mesh, e);
+        }
+        Ok(field)
+    }
+
+    /// The arm of a face that its angle is of: a unit vector in space, in the face.
+    pub fn direction(&self, mesh: &TriangleMesh, face: usize) -> Vec3 {
+        let [x, y] = mesh.frame(face);
+        let angle = self.angles[face];
+        add(scale(x, angle.cos()), scale(y, angle.sin()))
+    }
+
+    /// The period jump of an edge that leaves the least angle between the crosses of its faces.
+    pub(super) fn nearest_jump(&self, mesh: &TriangleMesh, edge: usize) -> i32 {
+        let sides = mesh.edge(edge);
+        let Some((j, _)) = sides.second else { return 0 };
+        let turn = self.angles[j] - self.angles[sides.first.0] - self.kappa[edge];
+        (turn / FRAC_PI_2).round() as i32
+    }
+}
+
+/// The angle of a direction in the frame of a face, in (-pi, pi].
+pub(super) fn angle(mesh: &TriangleMesh, face: usize, direction: Vec3) -> Result<f64> {
+    /// Part of a direction that must lie in its face.
+    const IN_FACE: f64 = 1e-6;
+    let largest = direction.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+    if direction.iter().any(|x| !x.is_finite()) {
+        return Err(Error::NotFinite {
+            what: "directions of faces",
+            position: face,
+        });
+    }
+    // Scaled first: squares of tiny and of huge numbers have no digits.
+    let unit = match largest > 0.0 {
+        true => direction.map(|x| x / largest),
+        false => direction,
+    };
+    let [x, y] = mesh.frame(face).map(|axis| dot(unit, axis));
+    if x.hypot(y) < IN_FACE {
+        return Err(Error::InvalidArgument {
+            what: format!("the direction of face {face} does not lie in it"),
+            index: Some(face),
+        });
+    }
+    Ok(y.atan2(x))
+}

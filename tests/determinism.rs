@@ -1,0 +1,59 @@
+//! The same input gives the same bits: from run to run, and whatever the number of threads.
+
+mod common;
+
+use roundel::mesh::{jitter, shape};
+use roundel::quad::{FieldProblem, SeamlessOptions, SeamlessProblem, curvature_constraints};
+use roundel::{Options, Problem, Strategy, solve};
+
+fn problems() -> Vec<Problem> {
+    let mut problems: Vec<Problem> = (1..4)
+        .flat_map(|seed| {
+            [
+                common::orientation_field(7, seed),
+                common::parametrization(6, seed),
+            ]
+        })
+        .map(Result::unwrap)
+        .collect();
+    for name in ["torus", "rounded-cube"] {
+        let mesh = jitter(&shape::by_name(name, 1_200).unwrap(), 1e-3, 3).unwrap();
+        let constraints = curvature_constraints(&mesh, 0.05).unwrap();
+        let problem = FieldProblem::new(&mesh, &constraints).unwrap();
+        problems.push(problem.problem().clone());
+        let solution = solve(problem.problem(), &Options::default()).unwrap();
+        let field = problem.field(&mesh, &solution).unwrap();
+        let map = SeamlessProblem::new(&mesh, &field, &SeamlessOptions { quads: 100 }).unwrap();
+        problems.push(map.problem().clone());
+    }
+    problems
+}
+
+/// FNV-1a over the bits of all values.
+fn digest(values: &[f64]) -> u64 {
+    let bytes = values.iter().flat_map(|x| x.to_bits().to_le_bytes());
+    bytes.fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
+    })
+}
+
+#[test]
+fn every_strategy_gives_the_same_bits_at_any_number_of_threads() {
+    let problems = problems();
+    assert_eq!(problems.len(), 10);
+    for (k, problem) in problems.iter().enumerate() {
+        for strategy in Strategy::ALL {
+            let digests = [1, 1, 2, 4].map(|threads| {
+                let options = Options {
+                    strategy,
+                    threads,
+                    exact_integers: 50,
+                    ..Options::default()
+                };
+                digest(solve(problem, &options).unwrap().values())
+            });
+            let same = digests.iter().all(|d| *d == digests[0]);
+            assert!(same, "problem {k}, {}: {digests:x?}", strategy.name());
+        }
+    }
+}
