@@ -9,20 +9,21 @@ use crate::{Error, Result};
 
 /// A problem that has been checked and assembled. It does not change once made.
 ///
-/// The least-squares rows are summed into Q, q and c, and also kept, for what can be read off them.
+/// The least-squares rows are summed into Q, q and c, and also kept (shared with the problem), for what
+/// can be read off them.
 #[derive(Debug, Clone)]
 pub struct Model {
     hessian: Arc<Sparse>,
     gradient: Vec<f64>,
     constant: f64,
-    least_squares: RowList,
-    weights: Vec<f64>,
+    least_squares: Arc<RowList>,
+    weights: Arc<Vec<f64>>,
     constraints: Arc<Sparse>,
     constraint_rhs: Vec<f64>,
     integer: Vec<bool>,
     pinned: Vec<Option<f64>>,
     guess: Vec<f64>,
-    cycles: CycleHint,
+    cycles: Arc<CycleHint>,
     ignored_hint: Option<usize>,
 }
 
@@ -71,7 +72,7 @@ impl Model {
         Ok(Model {
             cycles: match ignored_hint {
                 None => problem.cycles.clone(),
-                Some(_) => CycleHint::default(),
+                Some(_) => Arc::default(),
             },
             ignored_hint,
             hessian: Arc::new(hessian),
