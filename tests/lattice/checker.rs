@@ -67,8 +67,10 @@ impl Exact {
         self.numerator as f64 / self.denominator as f64
     }
 
+    /// For energies of one instance, which have the same denominator: products would overflow.
     fn is_less(self, other: Self) -> bool {
-        self.numerator * other.denominator < other.numerator * self.denominator
+        assert_eq!(self.denominator, other.denominator);
+        self.numerator < other.numerator
     }
 
     /// Whether they differ by at most `tolerance`, relative where they are larger than one.
@@ -113,14 +115,23 @@ pub fn least_energy(instance: &Instance) -> Option<Exact> {
         let fall = |i: usize| at(base, &[(i, -1)]) - at(base, &[(i, 1)]);
         (0..n).map(|i| 0.5 * number(fall(i))).collect()
     };
-    // Twice, since the first step is long and rounds much.
+    // Until no step is left: the first ones are long and round much. Where the condition is too
+    // bad for that, no box can be trusted.
     let mut rounded = zero.clone();
-    for _ in 0..2 {
+    let mut settled = false;
+    for _ in 0..20 {
         let step = solve(downhill(&rounded));
+        settled = step.iter().all(|s| s.abs() < 0.6);
+        if settled {
+            break;
+        }
         rounded
             .iter_mut()
             .zip(step)
             .for_each(|(y, s)| *y += s.round() as i64);
+    }
+    if !settled {
+        return None;
     }
     let slope = downhill(&rounded);
     let step = solve(slope.clone());

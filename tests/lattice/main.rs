@@ -55,7 +55,6 @@ fn definite_instances_are_solved_and_proved() {
 fn ill_conditioned_instances_are_solved_and_most_are_proved() {
     // Where the model's own rounding exceeds a proof's tolerance, the gap says so.
     let proved = check(Kind::IllConditioned, 400);
-    println!("DBG {proved}");
     assert!(proved >= 200, "{proved}");
 }
 
