@@ -15,6 +15,9 @@ use crate::solve::{Factors, Options, Phase, Search};
 /// A proof that is predicted to need more than so many budgets is not tried.
 const HOPELESS: f64 = 4.0;
 
+/// No proof needs enumerations of more nodes.
+const LAST: f64 = 1e30;
+
 /// Of the budget, what is spent on the bound where a proof is not tried.
 const BOUND_SHARE: u64 = 16;
 
@@ -57,7 +60,11 @@ pub(crate) fn exact(
         left /= BOUND_SHARE;
     }
     let mut goal = FIRST;
-    while left > 0 && !search.is_within(options.gap) && pieces.iter().any(|p| !p.proved) {
+    while left > 0
+        && goal <= LAST
+        && !search.is_within(options.gap)
+        && pieces.iter().any(|p| !p.proved)
+    {
         for at in 0..pieces.len() {
             if pieces[at].proved {
                 continue;
@@ -110,11 +117,12 @@ fn ball(
     let margin = (needed - total).max(0.0) + 4.0 * super::NEARER * total;
     let piece = &pieces[at];
     let others = total - piece.value;
-    let enough = certificate.square_for(search.wanted_bound(gap)) - others;
+    let full = piece.value + margin;
     let largest = if gap > 0.0 {
-        enough.clamp(0.0, piece.value + margin)
+        let enough = certificate.square_for(search.wanted_bound(gap)) * (1.0 + 1e-9) - others;
+        enough.clamp(0.0, full)
     } else {
-        piece.value + margin
+        full
     };
     let radius = radius_for(&piece.basis, goal, largest);
     let limits = Limits {
@@ -122,7 +130,7 @@ fn ball(
         margin,
         nodes: 0,
     };
-    (limits, radius >= largest)
+    (limits, radius >= full)
 }
 
 /// Offers the solution that has `z` in piece `at`, and keeps it if its energy is the least.
