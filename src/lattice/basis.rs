@@ -94,6 +94,11 @@ impl Basis {
         self.r[j * self.dim + i]
     }
 
+    /// Column `j` of R, down to the diagonal.
+    pub fn column(&self, j: usize) -> &[f64] {
+        &self.r[j * self.dim..][..=j]
+    }
+
     /// The way back to the caller's integers.
     pub fn transform(&self) -> &Transform {
         &self.transform
@@ -117,6 +122,41 @@ impl Basis {
     /// [`Error::Overflow`](crate::Error::Overflow) beyond 64 bits.
     pub fn whole_coordinates(&self, integers: &[i64]) -> Result<Vec<i64>> {
         self.inverse.apply_transposed(integers)
+    }
+
+    /// The caller's coordinates of the vector with coordinates `g` in the orthonormal basis in
+    /// which R is triangular: `U R^-1 g`.
+    pub fn from_orthonormal(&self, g: &[f64]) -> Vec<f64> {
+        let mut y = g.to_vec();
+        for j in (0..self.rank).rev() {
+            let column = self.column(j);
+            y[j] /= column[j];
+            let own = y[j];
+            y.iter_mut()
+                .zip(&column[..j])
+                .for_each(|(y, r)| *y -= r * own);
+        }
+        let mut x = vec![0.0; self.dim];
+        for (j, y) in y.into_iter().enumerate() {
+            let column = self.transform.column(j);
+            x.iter_mut().zip(column).for_each(|(x, u)| *x += u * y);
+        }
+        x
+    }
+
+    /// The transpose of [`from_orthonormal`](Self::from_orthonormal): `R^-T U' force`.
+    pub fn to_orthonormal(&self, force: &[f64]) -> Vec<f64> {
+        let mut h = Vec::with_capacity(self.rank);
+        for j in 0..self.rank {
+            let mut sum = CompensatedSum::new(0.0);
+            for (u, f) in self.transform.column(j).into_iter().zip(force) {
+                sum.add_product(u, *f);
+            }
+            let column = self.column(j);
+            let before: f64 = column.iter().zip(&h).map(|(r, h)| r * h).sum();
+            h.push((sum.value() - before) / column[j]);
+        }
+        h
     }
 
     /// Rounds column `k` to within half a basis vector before it, all of them; repeated until

@@ -12,9 +12,9 @@
 use super::{Basis, Target};
 
 /// Points are looked for that are closer than the best one by at least this part of its squared
-/// distance: far above the rounding errors of a distance (m^2 epsilon, m <= 1000), far below
+/// distance: far above the rounding errors of a sum of squares, far below
 /// what a proof is allowed to lack.
-pub const NEARER: f64 = 2e-10;
+pub const NEARER: f64 = 2e-12;
 
 /// Nodes between two looks at who may stop the enumeration.
 const WATCH: u64 = 1 << 14;

@@ -56,6 +56,27 @@ impl Gram {
         (0..self.dim).map(|i| v[i] * row(i)).sum()
     }
 
+    /// A solution of `G x = b`, zero where a pivot vanishes.
+    pub fn solve(&self, b: &[f64]) -> Vec<f64> {
+        let n = self.dim;
+        let (r, _) = self.factor();
+        let mut x = b.to_vec();
+        for j in 0..n {
+            let column = &r[j * n..=j * n + j];
+            let sum: f64 = column[..j].iter().zip(&x).map(|(r, x)| r * x).sum();
+            x[j] = divide(x[j] - sum, column[j]);
+        }
+        for j in (0..n).rev() {
+            let column = &r[j * n..=j * n + j];
+            x[j] = divide(x[j], column[j]);
+            let own = x[j];
+            x.iter_mut()
+                .zip(&column[..j])
+                .for_each(|(x, r)| *x -= r * own);
+        }
+        x
+    }
+
     /// The upper triangular factor by columns, `R'R = G`, and whether no pivot vanished.
     ///
     /// Cholesky by rows of R; a vanished pivot makes its row zero.
@@ -68,11 +89,7 @@ impl Gram {
                 let (left, right) = r.split_at_mut(j * n);
                 let (a, b) = (&left[i * n..i * n + i + 1], &mut right[..n]);
                 let sum: f64 = a[..i].iter().zip(&b[..i]).map(|(a, b)| a * b).sum();
-                b[i] = if a[i] == 0.0 {
-                    0.0
-                } else {
-                    (self.at(i, j) - sum) / a[i]
-                };
+                b[i] = divide(self.at(i, j) - sum, a[i]);
             }
             let column = &mut r[j * n..j * n + j + 1];
             let pivot = self.at(j, j) - column[..j].iter().map(|v| v * v).sum::<f64>();
@@ -84,6 +101,11 @@ impl Gram {
         }
         (r, full)
     }
+}
+
+/// The quotient, zero where the pivot vanished.
+fn divide(value: f64, pivot: f64) -> f64 {
+    if pivot == 0.0 { 0.0 } else { value / pivot }
 }
 
 #[cfg(test)]

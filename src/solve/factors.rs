@@ -7,6 +7,7 @@ use std::time::Instant;
 
 use crate::Result;
 use crate::eliminate::ReducedModel;
+use crate::lattice::schur_factor;
 use crate::linalg::{Cholesky, Ldl, RelaxedFactor, Sparse, minimum_degree};
 
 /// The factors of one reduced model.
@@ -14,6 +15,7 @@ use crate::linalg::{Cholesky, Ldl, RelaxedFactor, Sparse, minimum_degree};
 pub(crate) struct Factors {
     relaxed: Option<RelaxedFactor>,
     continuous: Option<ContinuousBlock>,
+    schur: Option<(Vec<f64>, bool)>,
     seconds: f64,
 }
 
@@ -50,6 +52,16 @@ impl Factors {
         timed(&mut self.seconds, || {
             Ldl::new(model.hessian(), &minimum_degree(model.hessian())?)
         })
+    }
+
+    /// The triangular factor of the Schur complement of the integers, dense and by columns, and
+    /// whether it has no zero on its diagonal.
+    pub fn schur(&mut self, model: &ReducedModel) -> Result<(&[f64], bool)> {
+        let (r, full) = match self.schur.take() {
+            Some(schur) => schur,
+            None => timed(&mut self.seconds, || schur_factor(model))?,
+        };
+        Ok((&self.schur.insert((r, full)).0, full))
     }
 
     /// The continuous block and its factor.

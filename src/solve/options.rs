@@ -28,6 +28,16 @@ pub struct Options {
     pub cg_tolerance: f64,
     /// `adaptive`: whether a pass may factor when conjugate gradients fail.
     pub exact_steps: bool,
+    /// `lattice`, `exact`, `auto`: up to this many integers are decided in a dense lattice.
+    pub dense_integers: usize,
+    /// `lattice`, `exact`, `auto`: beginnings that nearest plane keeps at a time.
+    pub beam_width: usize,
+    /// `lattice`, `exact`, `auto`: perturbation rounds after the blocks.
+    pub lattice_rounds: usize,
+    /// `exact`, `auto`: nodes that the proof may visit.
+    pub nodes: usize,
+    /// `exact`, `auto`: relative gap that ends the proof.
+    pub gap: f64,
 }
 
 impl Default for Options {
@@ -43,6 +53,11 @@ impl Default for Options {
             cg_iterations: 50,
             cg_tolerance: 1e-3,
             exact_steps: true,
+            dense_integers: 1000,
+            beam_width: 256,
+            lattice_rounds: 2,
+            nodes: 20_000_000_000,
+            gap: 0.0,
         }
     }
 }
@@ -113,7 +128,7 @@ pub const OPTIONS: &[OptionInfo] = &[
         name: "strategy",
         kind: OptionKind::Text,
         default: "greedy",
-        range: "relax|direct|greedy|adaptive",
+        range: "relax|direct|greedy|adaptive|lattice|exact|auto",
         text: "how integers are decided",
     },
     OptionInfo {
@@ -179,6 +194,41 @@ pub const OPTIONS: &[OptionInfo] = &[
         range: "[0, 1]",
         text: "adaptive: 1 if a pass may factor when conjugate gradients fail",
     },
+    OptionInfo {
+        name: "dense_integers",
+        kind: OptionKind::Integer,
+        default: "1000",
+        range: "[0, 20000]",
+        text: "lattice, exact, auto: up to this many integers are decided in a dense lattice",
+    },
+    OptionInfo {
+        name: "beam_width",
+        kind: OptionKind::Integer,
+        default: "256",
+        range: "[1, 1000000]",
+        text: "lattice, exact, auto: beginnings that nearest plane keeps at a time",
+    },
+    OptionInfo {
+        name: "lattice_rounds",
+        kind: OptionKind::Integer,
+        default: "2",
+        range: "[0, 2147483647]",
+        text: "lattice, exact, auto: perturbation rounds after the blocks",
+    },
+    OptionInfo {
+        name: "nodes",
+        kind: OptionKind::Integer,
+        default: "20000000000",
+        range: "[0, 9007199254740992]",
+        text: "exact, auto: nodes that the proof may visit",
+    },
+    OptionInfo {
+        name: "gap",
+        kind: OptionKind::Real,
+        default: "0",
+        range: "[0, inf]",
+        text: "exact, auto: relative gap that ends the proof",
+    },
 ];
 
 impl Options {
@@ -198,7 +248,12 @@ impl Options {
             "gauss_seidel_tolerance" => self.gauss_seidel_tolerance = real(info, value)?,
             "cg_iterations" => self.cg_iterations = integer(info, value, LARGEST)?,
             "cg_tolerance" => self.cg_tolerance = real(info, value)?,
-            _ => self.exact_steps = integer(info, value, 1)? == 1,
+            "exact_steps" => self.exact_steps = integer(info, value, 1)? == 1,
+            "dense_integers" => self.dense_integers = integer(info, value, 20_000)?,
+            "beam_width" => self.beam_width = whole(info, value, 1, 1_000_000)?,
+            "lattice_rounds" => self.lattice_rounds = integer(info, value, LARGEST)?,
+            "nodes" => self.nodes = integer(info, value, 1 << 53)?,
+            _ => self.gap = real(info, value)?,
         }
         Ok(())
     }
@@ -218,7 +273,12 @@ impl Options {
             "gauss_seidel_tolerance" => OptionValue::Real(self.gauss_seidel_tolerance),
             "cg_iterations" => OptionValue::Integer(self.cg_iterations as i64),
             "cg_tolerance" => OptionValue::Real(self.cg_tolerance),
-            _ => OptionValue::Integer(self.exact_steps.into()),
+            "exact_steps" => OptionValue::Integer(self.exact_steps.into()),
+            "dense_integers" => OptionValue::Integer(self.dense_integers as i64),
+            "beam_width" => OptionValue::Integer(self.beam_width as i64),
+            "lattice_rounds" => OptionValue::Integer(self.lattice_rounds as i64),
+            "nodes" => OptionValue::Integer(self.nodes as i64),
+            _ => OptionValue::Real(self.gap),
         })
     }
 }
@@ -249,10 +309,20 @@ fn real(info: &'static OptionInfo, value: &OptionValue) -> Result<f64> {
 
 /// A whole number from 0 to `largest`.
 fn integer(info: &'static OptionInfo, value: &OptionValue, largest: i64) -> Result<usize> {
+    whole(info, value, 0, largest)
+}
+
+/// A whole number from `least` to `largest`.
+fn whole(
+    info: &'static OptionInfo,
+    value: &OptionValue,
+    least: i64,
+    largest: i64,
+) -> Result<usize> {
     let OptionValue::Integer(number) = *value else {
         return Err(wrong_type(info));
     };
-    if !(0..=largest).contains(&number) {
+    if !(least..=largest).contains(&number) {
         return Err(out_of_range(info, number));
     }
     Ok(number as usize)

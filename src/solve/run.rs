@@ -8,7 +8,6 @@ use super::solution::{Counts, Seconds, Solution};
 use super::verify::verify;
 use super::{Options, Phase, SolveStatus, Strategy};
 use crate::eliminate::{ReducedModel, eliminate};
-use crate::round;
 use crate::{Model, Problem, Result};
 
 /// Solves `problem`, watched by nobody.
@@ -81,12 +80,7 @@ fn decide(
     }
     monitor.check()?;
     let mut search = Search::new(reduced, relaxation.point, relaxation.lower_bound, monitor);
-    match options.strategy {
-        Strategy::Relax => {}
-        Strategy::Direct => round::direct(reduced, factors, &mut search)?,
-        Strategy::Greedy => round::greedy(reduced, factors, &mut search)?,
-        Strategy::Adaptive => round::adaptive(reduced, options, factors, &mut search)?,
-    }
+    super::decide::search(reduced, options, factors, &mut search)?;
     let (bound, status) = (search.lower_bound(), search.status());
     let best = search.into_best()?;
     Ok((best.point, bound, status))

@@ -130,6 +130,27 @@ impl<'s, 'm> Search<'s, 'm> {
         Ok(better)
     }
 
+    /// Takes note that no solution has less energy than `bound`.
+    pub fn raise_bound(&mut self, bound: f64) {
+        if bound > self.lower_bound {
+            self.lower_bound = bound;
+            self.monitor.raised(bound);
+        }
+    }
+
+    /// The bound that leaves the incumbent a relative gap of `gap`.
+    pub fn wanted_bound(&self, gap: f64) -> f64 {
+        let best = self.incumbent.as_ref();
+        best.map_or(f64::INFINITY, |b| b.energy - gap * b.energy.abs().max(1.0))
+    }
+
+    /// Whether the incumbent's relative gap is at most `gap`, or it counts as proved.
+    pub fn is_within(&self, gap: f64) -> bool {
+        let gap = gap.max(super::status::GAP_TOLERANCE);
+        let best = self.incumbent.as_ref();
+        best.is_some_and(|b| super::monitor::gap(b.energy, self.lower_bound) <= gap)
+    }
+
     /// A direction of the continuous unknowns as one of all reduced unknowns.
     fn embed(&self, direction: &[f64]) -> Vec<f64> {
         let mut all = vec![0.0; self.model.dim()];
