@@ -38,7 +38,8 @@ pub fn solve_with(problem: &Problem, options: &Options, mut monitor: Monitor) ->
     let eliminated = monitor.seconds();
 
     let mut factors = Factors::default();
-    let (point, lower_bound, status) = decide(&reduced, options, &mut factors, &mut monitor)?;
+    let (point, lower_bound, status) =
+        decide(&model, &reduced, options, &mut factors, &mut monitor)?;
     let searched = monitor.seconds();
 
     let values = expand(&reduced, &model, options.strategy, &point);
@@ -63,6 +64,7 @@ pub fn solve_with(problem: &Problem, options: &Options, mut monitor: Monitor) ->
 
 /// The reduced point, the lower bound and how the search ended.
 fn decide(
+    model: &Model,
     reduced: &ReducedModel,
     options: &Options,
     factors: &mut Factors,
@@ -80,7 +82,7 @@ fn decide(
     }
     monitor.check()?;
     let mut search = Search::new(reduced, relaxation.point, relaxation.lower_bound, monitor);
-    super::decide::search(reduced, options, factors, &mut search)?;
+    super::decide::search(model, reduced, options, factors, &mut search)?;
     let (bound, status) = (search.lower_bound(), search.status());
     let best = search.into_best()?;
     Ok((best.point, bound, status))
