@@ -4,15 +4,15 @@
 //! first (Horton 1987), and each is reduced by those before it, in the coordinates of the
 //! fundamental cycles of a spanning forest (one coordinate a chord), with pivots of 1 and -1 only:
 //! integer row operations of determinant one. What reduces to nothing depends on the others; what
-//! has no such entry left is refused. The fundamental cycles of the chords that no candidate was
-//! solved for are unit rows there. They complete the basis, and its determinant is 1 or -1: it is
-//! *integral* (Liebchen, Rizzi 2007).
+//! has no such entry left is refused. The fundamental cycles are candidates where they are short; of
+//! the others, those of the chords that no candidate was solved for complete the basis. They are
+//! unit rows there, so that its determinant is 1 or -1: it is *integral* (Liebchen, Rizzi 2007).
 
 use super::cycles::Cycles;
 use super::forest::Forest;
 use super::fundamental::fundamental_cycle;
 use super::graph::{Graph, NONE};
-use super::short::short_cycles;
+use super::short::{LONGEST, short_cycles};
 
 /// A candidate whose reduction takes more additions is refused; there are enough others.
 const PATIENCE: usize = 20_000;
@@ -24,7 +24,13 @@ const LARGEST: i64 = 1 << 20;
 /// they fit.
 pub(super) fn cycle_basis(graph: &Graph, hinted: Cycles) -> Cycles {
     let forest = Forest::shortest(graph);
-    let candidates = short_cycles(graph, hinted);
+    let mut candidates = short_cycles(graph, hinted);
+    let chords = (0..graph.edges.len() as u32).filter(|&e| !forest.holds(graph, e));
+    for e in chords {
+        if let Some(cycle) = fundamental_cycle(graph, &forest, e, LONGEST) {
+            candidates.push(cycle.into_iter());
+        }
+    }
     let mut order: Vec<u32> = (0..candidates.len() as u32).collect();
     order.sort_by_key(|&k| candidates.get(k as usize).len());
     let mut reduction = Reduction::new(graph, &forest);
@@ -37,7 +43,7 @@ pub(super) fn cycle_basis(graph: &Graph, hinted: Cycles) -> Cycles {
     }
     let missing = (0..graph.edges.len() as u32).filter(|&e| reduction.is_missing(e));
     let mut rest: Vec<_> = missing
-        .map(|e| fundamental_cycle(graph, &forest, e))
+        .filter_map(|e| fundamental_cycle(graph, &forest, e, usize::MAX))
         .collect();
     rest.sort_by_key(Vec::len);
     for cycle in rest {

@@ -9,7 +9,7 @@ use super::cycles::Cycles;
 use super::graph::{Graph, NONE};
 
 /// A cycle of more edges is not looked for.
-const LONGEST: u32 = 12;
+pub(super) const LONGEST: usize = 12;
 
 /// At nodes of a higher degree only the first edges are paired.
 const PAIRED: usize = 8;
@@ -73,7 +73,7 @@ impl Search<'_> {
         if start != target && !self.walk(node, start, target) {
             return;
         }
-        let mut cycle = Vec::with_capacity(LONGEST as usize);
+        let mut cycle = Vec::with_capacity(LONGEST);
         let mut at = target;
         while at != start {
             let e = self.came_by[at as usize];
@@ -101,7 +101,7 @@ impl Search<'_> {
             if at == graph.ground() {
                 continue;
             }
-            if distance + 3 > LONGEST {
+            if distance as usize + 3 > LONGEST {
                 break;
             }
             for &e in graph.incident(at) {

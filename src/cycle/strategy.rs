@@ -20,7 +20,7 @@ const QUICK_WORK: usize = 1_000;
 const THOROUGH_WORK: usize = 10_000;
 
 /// Multiplications that are always granted.
-const LEAST_WORK: usize = 2_000_000;
+const LEAST_WORK: usize = 500_000;
 
 const fn effort(growth: Growth, size: usize, residual: f64) -> Effort {
     Effort {
