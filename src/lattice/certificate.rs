@@ -13,14 +13,14 @@
 //!    Martinsson, Tropp 2011, lemma 4.1).
 //! 3. z*: the target is off by the gradient that is left there, which is measured too.
 //!
-//! So no solution beyond computed distance d has less energy than
+//! So no solution that was not evaluated and is beyond computed distance d has less energy than
 //! `E* + (d (1 - |F|) - shift)^2 / 2`. The rounding of d itself is below
 //! [`NEARER`](super::NEARER), by which the enumeration's bound is smaller already.
 
 use super::Piece;
 use crate::Result;
 use crate::eliminate::ReducedModel;
-use crate::solve::Factors;
+use crate::solve::{Factors, Search};
 
 /// Random vectors that the factor is tried on.
 const PROBES: usize = 8;
@@ -38,8 +38,8 @@ pub(crate) struct Certificate {
 }
 
 impl Certificate {
-    /// Measures the errors of `pieces`, which are those of `model` around the minimiser `relaxed`
-    /// of its relaxation, whose bound is `relaxation`.
+    /// Measures the errors of `pieces`, which are those of `model` around the minimiser of its
+    /// relaxation. The bound of `search` is still the relaxation's.
     ///
     /// # Errors
     /// For lack of memory.
@@ -47,9 +47,9 @@ impl Certificate {
         model: &ReducedModel,
         factors: &mut Factors,
         pieces: &[Piece],
-        relaxed: &[f64],
-        relaxation: f64,
+        search: &Search,
     ) -> Result<Self> {
+        let (relaxed, relaxation) = (search.relaxed(), search.lower_bound());
         let mut gaussian = Gaussian(0x2545_F491_4F6C_DD1D);
         let mut largest: f64 = 0.0;
         for _ in 0..PROBES {
@@ -120,6 +120,20 @@ impl Piece {
         let own: Vec<f64> = self.places.iter().map(|&i| force[i]).collect();
         self.basis.to_orthonormal(&own)
     }
+}
+
+/// What the difference between the energies of two evaluated solutions may be off by.
+///
+/// Energies are summed with compensation. What is left is the rounding of the model's entries,
+/// which counts as far as solutions differ: in the terms of the quadratic form of the step from
+/// `relaxed` to `point`, a few units in the last place of each.
+pub(crate) fn evaluation_error(model: &ReducedModel, relaxed: &[f64], point: &[f64]) -> f64 {
+    let step: Vec<f64> = point.iter().zip(relaxed).map(|(p, r)| p - r).collect();
+    let terms = model.hessian().entries();
+    let size: f64 = terms
+        .map(|(i, j, v)| (v * step[i as usize] * step[j as usize]).abs())
+        .sum();
+    4.0 * f64::EPSILON * size
 }
 
 /// What a force on all unknowns comes to on the integers when the continuous ones give way, with

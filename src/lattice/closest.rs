@@ -40,10 +40,11 @@ pub fn closest(gram: &Gram, target: &[f64], start: Option<&[i64]>, nodes: u64) -
     }
     let limits = Limits {
         radius: value * (1.0 - super::NEARER),
+        margin: 0.0,
         nodes,
     };
     let found = enumerate(&basis, &target, limits, &mut |_| false);
-    if let Some((better, distance)) = found.best {
+    if let Some((better, distance)) = found.near.into_iter().next() {
         (z, value) = (better, distance);
     }
     Ok(Closest {

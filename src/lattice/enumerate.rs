@@ -16,6 +16,9 @@ use super::{Basis, Target};
 /// what a proof is allowed to lack.
 pub const NEARER: f64 = 2e-12;
 
+/// Points that are kept at most.
+pub const MOST: usize = 64;
+
 /// Nodes between two looks at who may stop the enumeration.
 const WATCH: u64 = 1 << 14;
 
@@ -24,6 +27,9 @@ const WATCH: u64 = 1 << 14;
 pub struct Limits {
     /// Squared distance from which on points are not wanted.
     pub radius: f64,
+    /// Squared distance beyond the best point's up to which points are kept as well: 0 where
+    /// only the best one is wanted.
+    pub margin: f64,
     /// Nodes to visit at most.
     pub nodes: u64,
 }
@@ -31,13 +37,14 @@ pub struct Limits {
 /// What an enumeration found out.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Enumerated {
-    /// Steps to the closest point within the radius, with its squared distance.
-    pub best: Option<(Vec<i64>, f64)>,
+    /// Steps to the points within the radius that are the closest or within the margin of it,
+    /// with their squared distances, nearest first. Were they more than [`MOST`], only the closest.
+    pub near: Vec<(Vec<i64>, f64)>,
     /// Nodes visited.
     pub nodes: u64,
     /// Whether the whole ball was searched.
     pub complete: bool,
-    /// No lattice point but `best` has a smaller squared distance (up to [`NEARER`]).
+    /// No lattice point but those in `near` has a smaller squared distance (up to [`NEARER`]).
     pub bound: f64,
 }
 
@@ -52,7 +59,10 @@ pub fn enumerate(
     let m = basis.rank();
     if m == 0 {
         return Enumerated {
-            best: (limits.radius > 0.0).then(|| (Vec::new(), 0.0)),
+            near: (limits.radius > 0.0)
+                .then(|| (Vec::new(), 0.0))
+                .into_iter()
+                .collect(),
             nodes: 0,
             complete: true,
             bound: 0.0,
@@ -61,7 +71,8 @@ pub fn enumerate(
     let mut tree = Tree::new(basis, target);
     let mut found = Found {
         radius: limits.radius,
-        z: None,
+        margin: limits.margin,
+        near: Vec::new(),
     };
     let mut nodes = 0;
     let mut complete = false;
@@ -76,8 +87,11 @@ pub fn enumerate(
     } else {
         tree.unexplored().min(found.radius)
     };
+    let mut near = found.near;
+    near.retain(|(_, d)| *d <= found.radius || found.margin == 0.0);
+    near.sort_by(|a, b| a.1.total_cmp(&b.1));
     Enumerated {
-        best: found.z.map(|(z, d)| (whole(&z), d)),
+        near: near.into_iter().map(|(z, d)| (whole(&z), d)).collect(),
         nodes,
         complete,
         bound,
@@ -88,10 +102,35 @@ fn whole(z: &[f64]) -> Vec<i64> {
     z.iter().map(|&v| v as i64).collect()
 }
 
-/// The best point so far.
+/// The best points so far.
 struct Found {
     radius: f64,
-    z: Option<(Vec<f64>, f64)>,
+    margin: f64,
+    near: Vec<(Vec<f64>, f64)>,
+}
+
+impl Found {
+    /// Takes a point within the radius, which shrinks with it.
+    #[cold]
+    fn take(&mut self, z: &[f64], distance: f64) {
+        if self.margin > 0.0 {
+            self.radius = self.radius.min(distance + self.margin);
+            let radius = self.radius;
+            self.near.retain(|(_, d)| *d <= radius);
+            self.near.push((z.to_vec(), distance));
+            if self.near.len() <= MOST {
+                return;
+            }
+            self.margin = 0.0;
+        } else {
+            self.near.push((z.to_vec(), distance));
+        }
+        // Only the closest, the first of equals.
+        let closest = self.near.iter().map(|n| n.1).fold(f64::INFINITY, f64::min);
+        self.near.retain(|n| n.1 == closest);
+        self.near.truncate(1);
+        self.radius = closest * (1.0 - NEARER);
+    }
 }
 
 /// A path from the root, and what is known along it.
@@ -181,8 +220,9 @@ impl Tree {
                     self.begin(k, centre);
                     continue;
                 }
-                found.radius = distance * (1.0 - NEARER);
-                found.z = Some((self.z.clone(), distance));
+                found.take(&self.z, distance);
+                self.next(0);
+                continue;
             }
             k += 1;
             if k == m {

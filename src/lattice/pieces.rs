@@ -19,8 +19,10 @@ pub struct Piece {
     pub z: Vec<i64>,
     /// The squared distance there.
     pub value: f64,
-    /// No point has a smaller squared distance.
+    /// No point that was not evaluated has a smaller squared distance.
     pub bound: f64,
+    /// Whether every point that may be better than the best one was evaluated.
+    pub proved: bool,
 }
 
 impl Piece {
@@ -32,11 +34,6 @@ impl Piece {
             (self.z, self.value) = (z, value);
         }
         better
-    }
-
-    /// Whether no point is closer than the best one.
-    pub fn is_proved(&self) -> bool {
-        self.bound >= self.value * (1.0 - 2.0 * super::NEARER)
     }
 }
 
@@ -62,6 +59,7 @@ pub fn pieces(m: usize, r: &[f64], full: bool, point: &[f64]) -> Result<Vec<Piec
         Ok(Piece {
             value: target.distance(&basis, &z),
             bound: 0.0,
+            proved: false,
             places,
             basis,
             target,

@@ -91,6 +91,7 @@ mod tests {
         let radius = radius_for(&basis, 3000.0, f64::MAX);
         let limits = Limits {
             radius,
+            margin: 0.0,
             nodes: u64::MAX,
         };
         let found = enumerate(&basis, &target, limits, &mut |_| false);

@@ -4,8 +4,9 @@
 //! Every improvement is offered to the search as soon as it is known, and every proved bound
 //! raised, so that both can be stopped at any time. Budgets count nodes, never seconds.
 
+use super::certificate::{Certificate, evaluation_error};
 use super::prove::{FIRST, GROWTH, predicted_nodes, radius_for};
-use super::{Certificate, Limits, Piece, assemble, beam, enumerate, improve_blocks, pieces};
+use super::{Limits, Piece, assemble, beam, enumerate, improve_blocks, pieces};
 use crate::Result;
 use crate::eliminate::ReducedModel;
 use crate::round;
@@ -13,6 +14,9 @@ use crate::solve::{Factors, Options, Phase, Search};
 
 /// A proof that is predicted to need more than so many budgets is not tried.
 const HOPELESS: f64 = 4.0;
+
+/// No proof needs enumerations of more nodes.
+const LAST: f64 = 1e30;
 
 /// Of the budget, what is spent on the bound where a proof is not tried.
 const BOUND_SHARE: u64 = 16;
@@ -46,54 +50,136 @@ pub(crate) fn exact(
     if search.monitor.check().is_err() {
         return Ok(());
     }
-    let relaxation = search.lower_bound();
-    let relaxed = search.relaxed().to_vec();
-    let certificate = Certificate::measure(model, factors, &pieces, &relaxed, relaxation)?;
+    let certificate = Certificate::measure(model, factors, &pieces, search)?;
     let mut left = nodes;
-    let tried: f64 = pieces
+    let all: f64 = pieces
         .iter()
         .map(|p| predicted_nodes(&p.basis, p.value))
         .sum();
-    if tried > HOPELESS * nodes as f64 {
+    if all > HOPELESS * nodes as f64 {
         left /= BOUND_SHARE;
     }
     let mut goal = FIRST;
-    while pieces.iter().any(|p| !p.is_proved()) && left > 0 {
+    while left > 0
+        && goal <= LAST
+        && !search.is_within(options.gap)
+        && pieces.iter().any(|p| !p.proved)
+    {
         for at in 0..pieces.len() {
-            if pieces[at].is_proved() {
+            if pieces[at].proved {
                 continue;
             }
-            let wanted = certificate.square_for(search.wanted_bound(options.gap));
-            let others: f64 = pieces.iter().map(|p| p.value).sum::<f64>() - pieces[at].value;
-            let piece = &mut pieces[at];
-            let largest = piece.value.min((wanted - others).max(0.0)) * (1.0 + super::NEARER);
+            let (ball, whole) = ball(&pieces, at, goal, &certificate, search, options.gap);
             let limits = Limits {
-                radius: radius_for(&piece.basis, goal, largest),
                 nodes: left,
+                ..ball
             };
-            let (basis, target) = (&piece.basis, &piece.target);
-            let mut stop = |nodes: u64| {
-                let done = nodes as f64 / limits.nodes as f64;
-                search.monitor.progress(Phase::Round, done).is_err()
-            };
-            let found = enumerate(basis, target, limits, &mut stop);
+            let found = enumerate(
+                &pieces[at].basis,
+                &pieces[at].target,
+                limits,
+                &mut |nodes| {
+                    let done = nodes as f64 / limits.nodes as f64;
+                    search.monitor.progress(Phase::Round, done).is_err()
+                },
+            );
             left -= found.nodes;
-            let complete = found.complete;
-            piece.bound = piece.bound.max(found.bound);
-            let better = found.best.is_some_and(|(z, _)| piece.take(z));
-            piece.bound = piece.bound.min(piece.value);
-            if better {
-                search.offer(factors, &assemble(&pieces, model.integers().len())?)?;
+            for (z, distance) in found.near {
+                try_point(model, factors, search, &mut pieces, at, z, distance)?;
             }
-            let proved = pieces.iter().map(|p| p.bound).sum();
-            search.raise_bound(certificate.energy_bound(proved));
-            if !complete || search.is_within(options.gap) {
+            pieces[at].bound = pieces[at].bound.max(found.bound);
+            if !found.complete {
+                raise(model, &pieces, &certificate, search);
                 return Ok(());
             }
+            pieces[at].proved = whole;
         }
+        raise(model, &pieces, &certificate, search);
         goal *= GROWTH;
     }
     Ok(())
+}
+
+/// The ball to search next for piece `at`, and whether that is all that a proof needs.
+///
+/// The proof needs the ball of the best point, enlarged by all that distances may be off: every
+/// solution that could have less energy lies in it, and is evaluated by the search itself.
+fn ball(
+    pieces: &[Piece],
+    at: usize,
+    goal: f64,
+    certificate: &Certificate,
+    search: &Search,
+    gap: f64,
+) -> (Limits, bool) {
+    let total: f64 = pieces.iter().map(|p| p.value).sum();
+    let needed = certificate.square_for(search.wanted_bound(0.0));
+    let margin = (needed - total).max(0.0) + 4.0 * super::NEARER * total;
+    let piece = &pieces[at];
+    let others = total - piece.value;
+    let full = piece.value + margin;
+    let largest = if gap > 0.0 {
+        let enough = certificate.square_for(search.wanted_bound(gap)) * (1.0 + 1e-9) - others;
+        enough.clamp(0.0, full)
+    } else {
+        full
+    };
+    let radius = radius_for(&piece.basis, goal, largest);
+    let limits = Limits {
+        radius,
+        margin,
+        nodes: 0,
+    };
+    (limits, radius >= full)
+}
+
+/// Offers the solution that has `z` in piece `at`, and keeps it if its energy is the least.
+fn try_point(
+    model: &ReducedModel,
+    factors: &mut Factors,
+    search: &mut Search,
+    pieces: &mut [Piece],
+    at: usize,
+    z: Vec<i64>,
+    distance: f64,
+) -> Result<()> {
+    if z == pieces[at].z {
+        return Ok(());
+    }
+    let former = std::mem::replace(&mut pieces[at].z, z);
+    let integers = assemble(pieces, model.integers().len())?;
+    if search.offer(factors, &integers)? {
+        pieces[at].value = distance;
+    } else {
+        pieces[at].z = former;
+    }
+    Ok(())
+}
+
+/// Raises the bound to what the balls prove that have been searched.
+fn raise(model: &ReducedModel, pieces: &[Piece], certificate: &Certificate, search: &mut Search) {
+    let least = |p: &Piece| {
+        if p.proved {
+            p.value
+        } else {
+            p.bound.min(p.value)
+        }
+    };
+    let square = if pieces.iter().all(|p| p.proved) {
+        // A solution that was not evaluated lies beyond the ball of some piece.
+        let values: f64 = pieces.iter().map(|p| p.value).sum();
+        let beyond = pieces
+            .iter()
+            .map(|p| values - p.value + p.bound.max(p.value));
+        beyond.fold(f64::INFINITY, f64::min)
+    } else {
+        pieces.iter().map(least).sum()
+    };
+    let beyond = certificate.energy_bound(square);
+    if let Some(best) = search.best() {
+        let evaluated = best.energy - evaluation_error(model, search.relaxed(), &best.point);
+        search.raise_bound(beyond.min(evaluated));
+    }
 }
 
 /// Direct rounding, nearest plane, beam and blocks, each offered; then perturbation rounds.

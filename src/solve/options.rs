@@ -55,7 +55,7 @@ impl Default for Options {
             exact_steps: true,
             dense_integers: 1000,
             beam_width: 256,
-            lattice_rounds: 2,
+            lattice_rounds: 1,
             nodes: 20_000_000_000,
             gap: 0.0,
         }
@@ -211,7 +211,7 @@ pub const OPTIONS: &[OptionInfo] = &[
     OptionInfo {
         name: "lattice_rounds",
         kind: OptionKind::Integer,
-        default: "2",
+        default: "1",
         range: "[0, 2147483647]",
         text: "lattice, exact, auto: perturbation rounds after the blocks",
     },

@@ -139,6 +139,11 @@ impl<'s, 'm> Search<'s, 'm> {
         Ok(better)
     }
 
+    /// The best solution so far.
+    pub fn best(&self) -> Option<&Incumbent> {
+        self.incumbent.as_ref()
+    }
+
     /// Takes note that no solution has less energy than `bound`.
     pub fn raise_bound(&mut self, bound: f64) {
         if bound > self.lower_bound {

@@ -24,7 +24,7 @@ void options_follow_the_librarys_list() {
                                            "gauss_seidel_tolerance",
                                            "cg_iterations",
                                            "cg_tolerance",
-                                           "exact_steps"};
+                                           "exact_steps","dense_integers","beam_width","lattice_rounds","nodes","gap"};
     std::set<std::string> listed;
     for (std::size_t i = 0; i < roundel_option_count(); ++i) {
         roundel_option option;
@@ -42,6 +42,10 @@ void options_follow_the_librarys_list() {
     local.set_gauss_seidel_updates(1000).set_gauss_seidel_tolerance(1e-6);
     local.set_cg_iterations(20).set_cg_tolerance(1e-6).set_exact_steps(1);
     CHECK(roundel::solve(problem, local).violations().integrality == 0.0);
+    roundel::Options proof;
+    proof.set_strategy("exact").set_dense_integers(500).set_beam_width(16).set_lattice_rounds(2);
+    proof.set_nodes(1000000).set_gap(0.0);
+    CHECK(roundel::solve(problem, proof).status() == roundel::SolveStatus::optimal);
     roundel::Options by_name;
     by_name.set("strategy", "relax"s).set("threads", std::int64_t{1}).set("time_limit", 60.0);
     CHECK(roundel::solve(problem, by_name).status() == roundel::SolveStatus::relaxed);

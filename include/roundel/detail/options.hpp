@@ -89,7 +89,8 @@ struct Event {
 
 /// How to solve. What is not set has the library's default.
 struct Options {
-    /// How integers are decided: "relax", "direct", "greedy", "adaptive".
+    /// How integers are decided: "relax", "direct", "greedy", "adaptive",
+    /// "lattice", "exact", "auto".
     std::optional<std::string> strategy = std::nullopt;
     /// Seconds after which the best solution so far is returned.
     std::optional<double> time_limit = std::nullopt;
@@ -109,6 +110,16 @@ struct Options {
     std::optional<double> cg_tolerance = std::nullopt;
     /// adaptive: 1 if a pass may factor when conjugate gradients fail.
     std::optional<std::int64_t> exact_steps = std::nullopt;
+    /// lattice, exact, auto: up to this many integers are decided in a dense lattice.
+    std::optional<std::int64_t> dense_integers = std::nullopt;
+    /// lattice, exact, auto: beginnings that nearest plane keeps at a time.
+    std::optional<std::int64_t> beam_width = std::nullopt;
+    /// lattice, exact, auto: perturbation rounds after the blocks.
+    std::optional<std::int64_t> lattice_rounds = std::nullopt;
+    /// exact, auto: nodes that the proof may visit.
+    std::optional<std::int64_t> nodes = std::nullopt;
+    /// exact, auto: relative gap that ends the proof.
+    std::optional<double> gap = std::nullopt;
     /// Called for every event, on the thread that called solve. What it throws ends the solve and
     /// is thrown again by solve.
     std::function<Flow(const Event&)> on_event = nullptr;
@@ -155,6 +166,26 @@ struct Options {
     }
     Options& set_exact_steps(std::int64_t value) {
         exact_steps = value;
+        return *this;
+    }
+    Options& set_dense_integers(std::int64_t value) {
+        dense_integers = value;
+        return *this;
+    }
+    Options& set_beam_width(std::int64_t value) {
+        beam_width = value;
+        return *this;
+    }
+    Options& set_lattice_rounds(std::int64_t value) {
+        lattice_rounds = value;
+        return *this;
+    }
+    Options& set_nodes(std::int64_t value) {
+        nodes = value;
+        return *this;
+    }
+    Options& set_gap(double value) {
+        gap = value;
         return *this;
     }
     Options& set_on_event(std::function<Flow(const Event&)> value) {
