@@ -24,10 +24,12 @@ pub(super) fn decide(gram: Vec<f64>, pull: &[f64], nodes: u64) -> Result<Option<
     let value = target.distance(&basis, &stay);
     let limits = Limits {
         radius: value * (1.0 - TOLERANCE),
+        margin: 0.0,
         nodes,
     };
-    match enumerate(&basis, &target, limits, &mut |_| false).best {
-        Some((steps, _)) => target.integers(&basis, &steps).map(Some),
+    let found = enumerate(&basis, &target, limits, &mut |_| false).near;
+    match found.first() {
+        Some((steps, _)) => target.integers(&basis, steps).map(Some),
         None => Ok(None),
     }
 }
