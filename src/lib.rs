@@ -35,6 +35,7 @@
 #![deny(missing_docs)]
 
 pub mod capi;
+mod cycle;
 pub mod eliminate;
 mod error;
 pub mod lattice;

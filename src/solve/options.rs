@@ -384,7 +384,7 @@ mod tests {
                     OptionValue::Text(words.find(|w| w != word).unwrap().into())
                 }
                 OptionValue::Real(_) => OptionValue::Real(0.25),
-                OptionValue::Integer(number) => OptionValue::Integer(1 - number.signum()),
+                OptionValue::Integer(number) => OptionValue::Integer(number - 1),
             };
             let mut options = Options::default();
             options.set(info.name, &other).unwrap();

@@ -78,7 +78,8 @@ impl Prepared<'_> {
         let eliminated = monitor.seconds();
         let factored_before = factors.seconds();
 
-        let (point, lower_bound, status) = decide(&reduced, options, start, factors, monitor)?;
+        let (point, lower_bound, status) =
+            decide(model, &reduced, options, start, factors, monitor)?;
         let searched = monitor.seconds();
         let factored = factors.seconds() - factored_before;
 
@@ -105,6 +106,7 @@ impl Prepared<'_> {
 
 /// The reduced point, the lower bound and how the search ended.
 fn decide(
+    model: &Model,
     reduced: &ReducedModel,
     options: &Options,
     start: Option<Vec<f64>>,
@@ -129,7 +131,7 @@ fn decide(
     // Nothing is better than what is optimal already.
     let done = search.status() == SolveStatus::Optimal || options.warm_start == WarmStart::Keep;
     if !done {
-        super::decide::search(reduced, options, factors, &mut search)?;
+        super::decide::search(model, reduced, options, factors, &mut search)?;
     }
     let (bound, status) = (search.lower_bound(), search.status());
     let best = search.into_best()?;

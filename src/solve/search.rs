@@ -53,6 +53,15 @@ impl<'s, 'm> Search<'s, 'm> {
         &self.relaxed
     }
 
+    /// The integers of the best solution so far, in their order.
+    pub fn incumbent_integers(&self) -> Option<Vec<f64>> {
+        let of = |best: &Incumbent| {
+            let integers = self.model.integers().iter();
+            integers.map(|&i| best.point[i as usize]).collect()
+        };
+        self.incumbent.as_ref().map(of)
+    }
+
     /// No solution has less energy than this.
     pub fn lower_bound(&self) -> f64 {
         self.lower_bound
