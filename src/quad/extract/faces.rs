@@ -50,6 +50,7 @@ pub(super) fn quad_mesh(mesh: &TriangleMesh, refined: &Refined, graph: &Graph) -
         others,
         partial_cells,
         unfolded: 0,
+        repaired: 0,
         expected_euler: mesh.euler_characteristic(),
     };
     place(mesh, refined, graph, &mut result);
@@ -67,23 +68,32 @@ fn place(mesh: &TriangleMesh, refined: &Refined, graph: &Graph, result: &mut Qua
     for (vertex, number) in number.iter_mut().enumerate().filter(|(_, n)| **n == 0) {
         *number = count;
         count += 1;
-        let origin = origin(refined, graph.places[vertex]);
+        let place = &graph.places[vertex];
+        let origin = origin(refined, place);
+        let position = match (origin, place) {
+            (Origin::Middle, Place::Middle(corners)) => {
+                let corners = corners.iter().map(|&v| &graph.places[v as usize]);
+                mean(corners.map(|place| position(mesh, self::origin(refined, place))))
+            }
+            _ => position(mesh, origin),
+        };
         result.origins.push(origin);
-        result.vertices.push(position(mesh, origin));
+        result.vertices.push(position);
     }
     let rename = |v: &mut u32| *v = number[*v as usize];
     result.quads.as_flattened_mut().iter_mut().for_each(rename);
     result.others.iter_mut().flatten().for_each(rename);
 }
 
-fn origin(refined: &Refined, place: Place) -> Origin {
+fn origin(refined: &Refined, place: &Place) -> Origin {
     match place {
-        Place::Vertex(vertex) => Origin::Vertex(vertex as usize),
+        Place::Vertex(vertex) => Origin::Vertex(*vertex as usize),
         Place::Face(face, levels) => {
-            let at = barycentric(refined.corners[face as usize], levels.map(|x| x * ONE));
-            let (face, at) = refined.origin(face as usize, at);
+            let at = barycentric(refined.corners[*face as usize], levels.map(|x| x * ONE));
+            let (face, at) = refined.origin(*face as usize, at);
             Origin::Face(face, at)
         }
+        Place::Middle(_) => Origin::Middle,
     }
 }
 
@@ -94,5 +104,11 @@ fn position(mesh: &TriangleMesh, origin: Origin) -> Vec3 {
             let corners = mesh.corner_positions(face);
             (0..3).fold([0.0; 3], |sum, k| add(sum, scale(corners[k], at[k])))
         }
+        Origin::Middle => [0.0; 3],
     }
+}
+
+fn mean(points: impl Iterator<Item = Vec3>) -> Vec3 {
+    let (sum, count) = points.fold(([0.0; 3], 0), |(sum, n), p| (add(sum, p), n + 1));
+    scale(sum, 1.0 / f64::from(count))
 }

@@ -7,12 +7,14 @@
 use super::refined::NONE;
 
 /// What an integer point is on the mesh.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) enum Place {
     /// In a refined face, with these levels.
     Face(u32, [i64; 2]),
     /// An irregular vertex of the mesh.
     Vertex(u32),
+    /// Put into the middle of a cell with these corners.
+    Middle(Vec<u32>),
 }
 
 /// The graph.
@@ -46,6 +48,15 @@ impl Graph {
             self.turn.push(0);
             self.direction.push(direction);
         }
+    }
+
+    /// How many vertices have ports.
+    pub(super) fn live_vertices(&self) -> usize {
+        let mut is_live = vec![false; self.places.len()];
+        for &vertex in self.vertex.iter().filter(|&&vertex| vertex != NONE) {
+            is_live[vertex as usize] = true;
+        }
+        is_live.into_iter().filter(|&is_live| is_live).count()
     }
 
     pub(super) fn port_count(&self) -> usize {

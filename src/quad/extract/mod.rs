@@ -20,6 +20,7 @@ mod grid_map;
 mod place;
 mod quad_mesh;
 mod refined;
+mod repair;
 mod trace;
 mod unfold;
 
@@ -51,8 +52,9 @@ pub fn extract(mesh: &TriangleMesh, map: &IntegerGridMap, token: &CancelToken) -
     let mut graph = trace::graph(&refined, &mut arrangement);
     go_on()?;
     let unfolded = unfold::unfold(&mut graph);
+    let repaired = repair::repair(&mut graph);
     go_on()?;
     let mut quads = faces::quad_mesh(mesh, &refined, &graph);
-    quads.unfolded = unfolded;
+    (quads.unfolded, quads.repaired) = (unfolded, repaired);
     Ok(quads)
 }

@@ -9,6 +9,8 @@ pub enum Origin {
     Vertex(usize),
     /// In a face, with barycentric coordinates.
     Face(usize, [f64; 3]),
+    /// Off the surface: in the middle of a cell that was no square.
+    Middle,
 }
 
 /// Polygons with shared vertices; all of them quads where extraction succeeded.
@@ -26,6 +28,8 @@ pub struct QuadMesh {
     pub partial_cells: usize,
     /// Integer points that folds of the map had doubled, taken out or joined.
     pub unfolded: usize,
+    /// Moves that made quads of what folds had left: lines taken out, vertices put in.
+    pub repaired: usize,
     /// The Euler characteristic of the triangle mesh.
     pub expected_euler: i64,
 }

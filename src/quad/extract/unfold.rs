@@ -20,7 +20,7 @@ use super::graph::{Graph, Place};
 
 /// Takes folds out until there are none. Returns how many points were taken out or joined.
 pub(super) fn unfold(graph: &mut Graph) -> usize {
-    let before = live_vertices(graph);
+    let before = graph.live_vertices();
     let mut queue: VecDeque<u32> = (0..graph.port_count() as u32)
         .filter(|&port| graph.is_fold(port))
         .collect();
@@ -36,7 +36,7 @@ pub(super) fn unfold(graph: &mut Graph) -> usize {
                 let mate = graph.mate[port as usize];
                 let kept = match graph.places[graph.vertex(port) as usize] {
                     Place::Vertex(_) => port,
-                    Place::Face(..) => mate,
+                    _ => mate,
                 };
                 let around = neighbours(graph, &[port, mate]);
                 if graph.vertex(port) == graph.vertex(mate) {
@@ -52,17 +52,7 @@ pub(super) fn unfold(graph: &mut Graph) -> usize {
             }
         }
     }
-    before - live_vertices(graph)
-}
-
-fn live_vertices(graph: &Graph) -> usize {
-    let mut live = vec![false; graph.places.len()];
-    for port in 0..graph.port_count() {
-        if let Some(is_live) = live.get_mut(graph.vertex[port] as usize) {
-            *is_live = true;
-        }
-    }
-    live.into_iter().filter(|&is_live| is_live).count()
+    before - graph.live_vertices()
 }
 
 /// A line between different vertices, one of them irregular.
