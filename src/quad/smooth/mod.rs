@@ -14,7 +14,7 @@ mod surface;
 
 use super::QuadMesh;
 use crate::mesh::TriangleMesh;
-use crate::mesh::vector::{add, scale};
+use crate::mesh::vector::{add, scale, sub};
 use crate::{CancelToken, Error, Result};
 pub use quality::QuadQuality;
 use surface::Surface;
@@ -26,6 +26,8 @@ pub struct SmoothOptions {
     pub rounds: usize,
     /// From 0 to 1: how much a quad shall have the mean size of all instead of its own.
     pub uniformity: f64,
+    /// From 0 to 1: how much a vertex is held where the map has it.
+    pub hold: f64,
     /// Edges of the triangle mesh that edges of quads shall stay on.
     pub features: Vec<usize>,
 }
@@ -35,6 +37,7 @@ impl Default for SmoothOptions {
         SmoothOptions {
             rounds: 40,
             uniformity: 0.3,
+            hold: 0.1,
             features: Vec::new(),
         }
     }
@@ -55,6 +58,7 @@ pub fn smooth(
 ) -> Result<()> {
     check(mesh, options)?;
     let mut surface = Surface::new(quads, mesh, &options.features);
+    let home = quads.vertices.clone();
     for _ in 0..options.rounds {
         if token.is_cancelled() {
             return Err(Error::Cancelled);
@@ -72,7 +76,11 @@ pub fn smooth(
         }
         for (v, (total, count)) in sum.into_iter().enumerate() {
             if count > 0.0 {
-                quads.vertices[v] = surface.project(v, scale(total, 1.0 / count));
+                quads.vertices[v] = {
+                    let wanted = scale(total, 1.0 / count);
+                    let held = add(wanted, scale(sub(home[v], wanted), options.hold));
+                    surface.project(v, held)
+                };
             }
         }
     }
