@@ -4,6 +4,7 @@
 //! A client of the solver: it builds a [`Problem`](crate::Problem) and reads a
 //! [`Solution`](crate::Solution).
 
+pub mod check;
 mod comb;
 mod constrain;
 mod cut;
@@ -20,6 +21,7 @@ mod seamless;
 mod seams;
 mod sectors;
 mod trace;
+pub mod untangle;
 mod uv_obj;
 
 pub use comb::Combing;
