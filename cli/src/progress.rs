@@ -64,6 +64,7 @@ fn word(phase: Phase) -> &'static str {
         Phase::Eliminate => "eliminate",
         Phase::Factor => "factor",
         Phase::Round => "round",
+        Phase::Untangle => "untangle",
         _ => "solve",
     }
 }

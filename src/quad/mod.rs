@@ -4,6 +4,7 @@
 //! A client of the solver: it builds a [`Problem`](crate::Problem) and reads a
 //! [`Solution`](crate::Solution).
 
+pub mod check;
 mod comb;
 mod constrain;
 mod cut;
@@ -22,6 +23,7 @@ mod seams;
 mod sectors;
 mod smooth;
 mod trace;
+pub mod untangle;
 mod uv_obj;
 
 pub use comb::Combing;
