@@ -34,7 +34,11 @@ const LEAF: usize = 4;
 impl ClosestPoint {
     /// The tree of the faces of a mesh.
     pub fn new(mesh: &TriangleMesh) -> Self {
-        Self::of_triangles((0..mesh.face_count()).map(|f| mesh.corner_positions(f)).collect())
+        Self::of_triangles(
+            (0..mesh.face_count())
+                .map(|f| mesh.corner_positions(f))
+                .collect(),
+        )
     }
 
     /// The tree of any triangles, those without area included.
@@ -62,9 +66,17 @@ impl ClosestPoint {
             }
         }
         let size = sub(high, low);
-        let longest = (1..3).fold(0, |best, axis| if size[axis] > size[best] { axis } else { best });
+        let longest = (1..3).fold(
+            0,
+            |best, axis| if size[axis] > size[best] { axis } else { best },
+        );
         let triangles = &self.triangles;
-        let center = |&t: &u32| triangles[t as usize].iter().map(|p| p[longest]).sum::<f64>();
+        let center = |&t: &u32| {
+            triangles[t as usize]
+                .iter()
+                .map(|p| p[longest])
+                .sum::<f64>()
+        };
         let middle = (last - first) / 2;
         if last - first > LEAF {
             members.select_nth_unstable_by(middle, |a, b| {
@@ -110,7 +122,11 @@ impl ClosestPoint {
             }
             let halves = [node + 1, bounds.second];
             let [a, b] = halves.map(|half| distance(&self.boxes[half as usize], p));
-            open.extend(if a < b { [halves[1], halves[0]] } else { halves });
+            open.extend(if a < b {
+                [halves[1], halves[0]]
+            } else {
+                halves
+            });
         }
         Some(best)
     }
@@ -122,7 +138,11 @@ fn squared(v: Vec3) -> f64 {
 
 /// Squared distance to a box.
 fn distance(bounds: &Node, p: Vec3) -> f64 {
-    let off = |axis: usize| (bounds.low[axis] - p[axis]).max(p[axis] - bounds.high[axis]).max(0.0);
+    let off = |axis: usize| {
+        (bounds.low[axis] - p[axis])
+            .max(p[axis] - bounds.high[axis])
+            .max(0.0)
+    };
     squared([off(0), off(1), off(2)])
 }
 
@@ -176,7 +196,8 @@ mod tests {
                 6.0 * x - 3.0
             });
             let distance = |q: Vec3| squared(sub(q, p));
-            let all = (0..mesh.face_count()).map(|f| distance(closest(mesh.corner_positions(f), p)));
+            let all =
+                (0..mesh.face_count()).map(|f| distance(closest(mesh.corner_positions(f), p)));
             let least = all.fold(f64::INFINITY, f64::min);
             let (face, point) = tree.find(p, (i % 2 == 0).then_some(i)).unwrap();
             assert_eq!(distance(point), least);
@@ -186,6 +207,9 @@ mod tests {
 
     #[test]
     fn of_no_triangles_none_is_closest() {
-        assert_eq!(ClosestPoint::of_triangles(Vec::new()).find([0.0; 3], None), None);
+        assert_eq!(
+            ClosestPoint::of_triangles(Vec::new()).find([0.0; 3], None),
+            None
+        );
     }
 }

@@ -63,7 +63,13 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
     let map = problem.map(&mesh, &solution)?;
     let untangled = match arguments.no_untangle || options.strategy == Strategy::Relax {
         true => Untangled::as_it_is(map),
-        false => untangle(&mesh, &problem, &map, &UntangleOptions::default(), &mut monitor())?,
+        false => untangle(
+            &mesh,
+            &problem,
+            &map,
+            &UntangleOptions::default(),
+            &mut monitor(),
+        )?,
     };
     let untangle_seconds = started.elapsed().as_secs_f64();
     if let Some(path) = &arguments.out {

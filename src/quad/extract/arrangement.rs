@@ -117,7 +117,11 @@ impl Arrangement {
                 };
                 let place = Place::Face(face as u32, [u.line.level, v.line.level]);
                 self.points.add(place, &directions);
-                let [pu, pv] = if u_first { [port, port + 1] } else { [port + 1, port] };
+                let [pu, pv] = if u_first {
+                    [port, port + 1]
+                } else {
+                    [port + 1, port]
+                };
                 along[0].push((i, u.between(v), [pu, pu + 2]));
                 along[1].push((j, v.between(u), [pv, pv + 2]));
             }

@@ -110,6 +110,10 @@ impl Chord {
     pub(super) fn between(&self, other: &Chord) -> usize {
         let [a, b] = self.at;
         let first = other.at[0];
-        if a < first && first < b { first } else { other.at[1] }
+        if a < first && first < b {
+            first
+        } else {
+            other.at[1]
+        }
     }
 }

@@ -37,7 +37,11 @@ pub(super) fn add(mesh: &Refined, rays: &[Ray], graph: &mut Graph) -> Vec<u32> {
         loop {
             found.extend(of_face(corner / 3).filter(|&ray| rays[ray].corner == corner));
             // Counter-clockwise: over the edge that ends at the corner.
-            let before = if corner.is_multiple_of(3) { corner + 2 } else { corner - 1 };
+            let before = if corner.is_multiple_of(3) {
+                corner + 2
+            } else {
+                corner - 1
+            };
             corner = mesh.twin[before as usize];
             if corner == NONE || corner == h as u32 {
                 break;

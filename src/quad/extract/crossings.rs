@@ -71,9 +71,20 @@ impl Crossings {
             false => (mesh.turn[g as usize], mesh.shift(g as usize)),
         };
         (0..count).map(move |i| {
-            let c = if is_owner { start + i } else { start + count - 1 - i };
+            let c = if is_owner {
+                start + i
+            } else {
+                start + count - 1 - i
+            };
             let line = self.lines[c as usize];
-            (c, if is_owner { line } else { line.carried(quarters, shift) })
+            (
+                c,
+                if is_owner {
+                    line
+                } else {
+                    line.carried(quarters, shift)
+                },
+            )
         })
     }
 }
@@ -103,7 +114,9 @@ fn check_size(mesh: &Refined) -> Result<()> {
     for (face, [a, b, c]) in mesh.corners.iter().enumerate() {
         let span = |axis: usize| {
             let x = [a[axis], b[axis], c[axis]];
-            let [low, high] = x.iter().fold([i64::MAX, i64::MIN], |[l, h], &x| [l.min(x), h.max(x)]);
+            let [low, high] = x
+                .iter()
+                .fold([i64::MAX, i64::MIN], |[l, h], &x| [l.min(x), h.max(x)]);
             i128::from(high / ONE - low / ONE)
         };
         let (u, v) = (span(0), span(1));
@@ -132,13 +145,19 @@ fn along(p: [i64; 2], q: [i64; 2], out: &mut Vec<Line>) {
                 _ => 0,
             },
         };
-        out.extend(levels[axis].next().map(|level| Line { axis: axis as u8, level }));
+        out.extend(levels[axis].next().map(|level| Line {
+            axis: axis as u8,
+            level,
+        }));
     }
 }
 
 /// Whole numbers strictly between two coordinates, from the first towards the second.
 fn between(from: i64, to: i64) -> impl Iterator<Item = i64> {
-    let (low, high) = (from.min(to).div_euclid(ONE) + 1, -(-from.max(to)).div_euclid(ONE) - 1);
+    let (low, high) = (
+        from.min(to).div_euclid(ONE) + 1,
+        -(-from.max(to)).div_euclid(ONE) - 1,
+    );
     let count = (high - low + 1).max(0);
     let is_rising = from < to;
     (0..count).map(move |i| if is_rising { low + i } else { high - i })

@@ -1,9 +1,9 @@
 //! Faces: walks along lines that keep to the left.
 
 use super::graph::{Graph, Place};
+use super::grid_map::ONE;
 use super::place::barycentric;
 use super::quad_mesh::{Origin, QuadMesh};
-use super::grid_map::ONE;
 use super::refined::{NONE, Refined};
 use crate::mesh::TriangleMesh;
 use crate::mesh::vector::{Vec3, add, scale};

@@ -79,7 +79,9 @@ impl Graph {
 
     /// Whether a line comes back to the level it left: a fold of the map turned it around.
     pub(super) fn is_fold(&self, port: u32) -> bool {
-        let Some(mate) = self.mate(port) else { return false };
+        let Some(mate) = self.mate(port) else {
+            return false;
+        };
         let p = port as usize;
         (self.direction[p] + self.turn[p]) % 4 == self.direction[mate as usize]
     }

@@ -66,11 +66,14 @@ impl IntegerGridMap {
         for transition in map.transitions() {
             quarters[transition.edge] = transition.quarters;
         }
-        Self::exact(mesh, &uvs, |edge| quarters[mesh.edge_of(edge[0].0, edge[0].1)])
+        Self::exact(mesh, &uvs, |edge| {
+            quarters[mesh.edge_of(edge[0].0, edge[0].1)]
+        })
     }
 
     pub(super) fn check_mesh(&self, mesh: &TriangleMesh) -> Result<()> {
-        match self.corners.len() == mesh.face_count() && self.is_irregular.len() == mesh.vertex_count()
+        match self.corners.len() == mesh.face_count()
+            && self.is_irregular.len() == mesh.vertex_count()
         {
             true => Ok(()),
             false => Err(Error::LengthMismatch {
@@ -127,9 +130,9 @@ impl IntegerGridMap {
                 [0, 1].map(|axis| off_line(given[axis], outward[axis]))
             }
             false => {
-                let around = mesh
-                    .ring(v)
-                    .fold(Step::default(), |sum, (f, k)| sum.then(steps[f][(k + 2) % 3]));
+                let around = mesh.ring(v).fold(Step::default(), |sum, (f, k)| {
+                    sum.then(steps[f][(k + 2) % 3])
+                });
                 let fixed = around.fixed_point().ok_or_else(|| Error::InvalidArgument {
                     what: format!("the coordinates around vertex {v} close at no integer point"),
                     index: Some(v),
@@ -202,10 +205,13 @@ fn check(mesh: &TriangleMesh, uvs: &[[[f64; 2]; 3]]) -> Result<()> {
         });
     }
     for (face, uv) in uvs.iter().enumerate() {
-        let largest = uv.as_flattened().iter().fold(0.0, |m: f64, x| match x.is_nan() {
-            true => f64::INFINITY,
-            false => m.max(x.abs()),
-        });
+        let largest = uv
+            .as_flattened()
+            .iter()
+            .fold(0.0, |m: f64, x| match x.is_nan() {
+                true => f64::INFINITY,
+                false => m.max(x.abs()),
+            });
         if largest == f64::INFINITY {
             return Err(Error::NotFinite {
                 what: "coordinates of the corners of faces",

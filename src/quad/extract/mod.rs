@@ -15,15 +15,18 @@ mod chords;
 mod cones;
 mod crossings;
 mod faces;
+mod figures;
 mod graph;
 mod grid_map;
 mod place;
 mod quad_mesh;
+mod quad_obj;
 mod refined;
 mod repair;
 mod trace;
 mod unfold;
 
+pub use figures::QuadFigures;
 pub use grid_map::{IntegerGridMap, RANGE, SEAM_TOLERANCE};
 pub use quad_mesh::{Origin, QuadMesh};
 

@@ -27,7 +27,10 @@ pub(super) struct Refined {
 impl Refined {
     pub(super) fn new(mesh: &TriangleMesh, map: &IntegerGridMap) -> Self {
         let sides = (0..mesh.face_count()).flat_map(|f| [(f, 0), (f, 1), (f, 2)]);
-        let twin = sides.map(|(f, k)| mesh.neighbor(f, k).map_or(NONE, |(g, l)| (3 * g + l) as u32));
+        let twin = sides.map(|(f, k)| {
+            mesh.neighbor(f, k)
+                .map_or(NONE, |(g, l)| (3 * g + l) as u32)
+        });
         let mut refined = Refined {
             corners: map.corners.clone(),
             vertices: mesh.triangles().to_vec(),
@@ -98,7 +101,10 @@ impl Refined {
         let new = self.corners.len();
         let (parent, places) = match self.parts.get(&(face as u32)) {
             Some(&part) => part,
-            None => (face as u32, [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]),
+            None => (
+                face as u32,
+                [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+            ),
         };
         let [a, b] = [places[k], places[(k + 1) % 3]];
         let place = [0, 1, 2].map(|i| 0.5 * (a[i] + b[i]));

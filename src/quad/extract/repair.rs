@@ -14,7 +14,7 @@
 use super::graph::{Graph, Place};
 use super::refined::NONE;
 
-/// Fewer vertices than this are left as they are: the least closed surface of quads, a cube.
+/// So few vertices are left as they are: those of the least closed surface of quads, a cube.
 const LEAST: usize = 8;
 
 /// Makes the moves until there are none. Returns how many there were.
@@ -23,7 +23,9 @@ pub(super) fn repair(graph: &mut Graph) -> usize {
     let mut queue: Vec<u32> = (0..graph.port_count() as u32).rev().collect();
     let mut vertices = graph.live_vertices();
     while let Some(port) = queue.pop() {
-        let Some(mate) = graph.mate(port) else { continue };
+        let Some(mate) = graph.mate(port) else {
+            continue;
+        };
         let around = [port, mate].map(|p| [p, graph.next(p), graph.previous(p)]);
         let closes_nothing = graph.vertex(port) == graph.vertex(mate) && graph.next(port) == mate;
         let is_end = graph.next(port) == port;
@@ -49,7 +51,8 @@ pub(super) fn repair(graph: &mut Graph) -> usize {
     moves + part_doubles(graph)
 }
 
-/// A vertex of two lines between two quads, to different vertices that have three lines or more.
+/// A vertex of two lines between two quads, to different vertices that keep three lines or more:
+/// one doublet that made the next would unzip the tip of every finger.
 fn is_doublet(graph: &Graph, port: u32) -> bool {
     let other = graph.next(port);
     let (Some(a), Some(b)) = (graph.mate(port), graph.mate(other)) else {
@@ -59,8 +62,10 @@ fn is_doublet(graph: &Graph, port: u32) -> bool {
     other != port
         && graph.next(other) == port
         && graph.vertex(a) != graph.vertex(b)
-        && [a, b].into_iter().all(|p| valence(p) >= 3)
-        && [port, other].into_iter().all(|p| sides(graph, p, 4) == Some(4))
+        && [a, b].into_iter().all(|p| valence(p) >= 4)
+        && [port, other]
+            .into_iter()
+            .all(|p| sides(graph, p, 4) == Some(4))
 }
 
 /// The sides of the cell to the left of a line, if they are at most so many.
@@ -89,8 +94,12 @@ fn part_doubles(graph: &mut Graph) -> usize {
     let mut parted = 0;
     for pair in lines.windows(2).filter(|pair| pair[0].0 == pair[1].0) {
         let port = pair[1].1;
-        let Some(mate) = graph.mate(port) else { continue };
-        let is_between_quads = [port, mate].into_iter().all(|p| sides(graph, p, 4) == Some(4));
+        let Some(mate) = graph.mate(port) else {
+            continue;
+        };
+        let is_between_quads = [port, mate]
+            .into_iter()
+            .all(|p| sides(graph, p, 4) == Some(4));
         let after = graph.previous(mate);
         let cell = ring_of_six(graph, port, mate);
         let is_simple = cell.is_some_and(|cell| {
@@ -146,7 +155,9 @@ fn fill(graph: &mut Graph) -> usize {
         let is_closed = loop {
             is_seen[port as usize] = true;
             cell.push(port);
-            let Some(mate) = graph.mate(port) else { break false };
+            let Some(mate) = graph.mate(port) else {
+                break false;
+            };
             port = graph.previous(mate);
             if port == first {
                 break true;

@@ -74,7 +74,11 @@ fn places(quads: &QuadMesh, v: usize, around: &[usize]) -> Vec<Vec3> {
     for &q in around {
         let corners = quads.quads[q].map(|v| quads.vertices[v as usize]);
         let targets = square::closest(corners, 0.0, 0.0);
-        for (k, _) in quads.quads[q].iter().enumerate().filter(|(_, w)| **w as usize == v) {
+        for (k, _) in quads.quads[q]
+            .iter()
+            .enumerate()
+            .filter(|(_, w)| **w as usize == v)
+        {
             let next = corners[(k + 1) % 4];
             ring = add(ring, add(next, corners[(k + 3) % 4]));
             asked = add(asked, targets[k]);

@@ -21,7 +21,10 @@ pub struct QuadQuality {
 impl QuadQuality {
     /// The figures of these quads; all zero where there are none.
     pub fn new(quads: &QuadMesh) -> Self {
-        let corners = quads.quads.iter().map(|quad| quad.map(|v| quads.vertices[v as usize]));
+        let corners = quads
+            .quads
+            .iter()
+            .map(|quad| quad.map(|v| quads.vertices[v as usize]));
         let corners: Vec<[Vec3; 4]> = corners.collect();
         if corners.is_empty() {
             return QuadQuality::default();
@@ -29,9 +32,13 @@ impl QuadQuality {
         let mut jacobians: Vec<f64> = corners.iter().copied().map(scaled_jacobian).collect();
         jacobians.sort_unstable_by(f64::total_cmp);
         let count = (4 * corners.len()) as f64;
-        let deviations = corners.iter().flat_map(|c| [0, 1, 2, 3].map(|k| deviation(*c, k)));
+        let deviations = corners
+            .iter()
+            .flat_map(|c| [0, 1, 2, 3].map(|k| deviation(*c, k)));
         let length = |c: &[Vec3; 4], k: usize| norm(sub(c[(k + 1) % 4], c[k]));
-        let lengths = corners.iter().flat_map(|c| [0, 1, 2, 3].map(|k| length(c, k)));
+        let lengths = corners
+            .iter()
+            .flat_map(|c| [0, 1, 2, 3].map(|k| length(c, k)));
         let (sum, squares) = lengths.fold((0.0, 0.0), |(s, q), l| (s + l, q + l * l));
         let mean = sum / count;
         QuadQuality {

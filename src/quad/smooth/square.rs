@@ -29,7 +29,10 @@ pub(super) fn closest(corners: [Vec3; 4], edge: f64, uniformity: f64) -> [Vec3; 
 
 /// Mean length of the edges of quads.
 pub(super) fn mean_edge(quads: &QuadMesh) -> f64 {
-    let corners = quads.quads.iter().map(|quad| quad.map(|v| quads.vertices[v as usize]));
+    let corners = quads
+        .quads
+        .iter()
+        .map(|quad| quad.map(|v| quads.vertices[v as usize]));
     let lengths = corners.flat_map(|c| [0, 1, 2, 3].map(|k| norm(sub(c[(k + 1) % 4], c[k]))));
     let (sum, count) = lengths.fold((0.0, 0), |(sum, n), length| (sum + length, n + 1));
     sum / f64::from(count.max(1))
@@ -41,7 +44,12 @@ mod tests {
 
     #[test]
     fn a_square_of_the_wanted_size_is_closest_to_itself() {
-        let corners = [[1.0, 2.0, 3.0], [3.0, 2.0, 3.0], [3.0, 4.0, 3.0], [1.0, 4.0, 3.0]];
+        let corners = [
+            [1.0, 2.0, 3.0],
+            [3.0, 2.0, 3.0],
+            [3.0, 4.0, 3.0],
+            [1.0, 4.0, 3.0],
+        ];
         for (corner, found) in corners.into_iter().zip(closest(corners, 2.0, 0.7)) {
             assert!(norm(sub(corner, found)) < 1e-14);
         }
@@ -49,7 +57,12 @@ mod tests {
 
     #[test]
     fn what_is_asked_for_is_a_square() {
-        let corners = [[0.0, 0.0, 0.1], [1.3, 0.2, -0.1], [1.1, 0.9, 0.2], [-0.2, 1.4, 0.0]];
+        let corners = [
+            [0.0, 0.0, 0.1],
+            [1.3, 0.2, -0.1],
+            [1.1, 0.9, 0.2],
+            [-0.2, 1.4, 0.0],
+        ];
         let [a, b, c, d] = closest(corners, 1.0, 0.5);
         let lengths = [[a, b], [b, c], [c, d], [d, a]].map(|[p, q]| norm(sub(q, p)));
         assert!(lengths.iter().all(|l| (l - lengths[0]).abs() < 1e-14));

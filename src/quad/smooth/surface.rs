@@ -1,6 +1,6 @@
 //! Where each vertex may go: over the surface, along a curve on it, or nowhere.
 
-use crate::mesh::vector::{Vec3, normalize, dot, sub};
+use crate::mesh::vector::{Vec3, dot, normalize, sub};
 use crate::mesh::{ClosestPoint, TriangleMesh};
 use crate::quad::{Origin, QuadMesh};
 
@@ -28,7 +28,10 @@ impl Surface {
         for &edge in features {
             is_curve[edge] = true;
         }
-        let segments = mesh.edges().zip(&is_curve).filter(|(_, is_curve)| **is_curve);
+        let segments = mesh
+            .edges()
+            .zip(&is_curve)
+            .filter(|(_, is_curve)| **is_curve);
         let segments = segments.map(|(edge, _)| {
             let [a, b] = edge.vertices.map(|v| mesh.position(v));
             [a, b, b]
@@ -63,7 +66,11 @@ impl Surface {
 fn corners(mesh: &TriangleMesh, is_curve: &[bool]) -> Vec<bool> {
     const STRAIGHT: f64 = std::f64::consts::FRAC_1_SQRT_2;
     let mut along: Vec<Vec<Vec3>> = vec![Vec::new(); mesh.vertex_count()];
-    for (edge, _) in mesh.edges().zip(is_curve).filter(|(_, is_curve)| **is_curve) {
+    for (edge, _) in mesh
+        .edges()
+        .zip(is_curve)
+        .filter(|(_, is_curve)| **is_curve)
+    {
         let [a, b] = edge.vertices;
         let [p, q] = edge.vertices.map(|v| mesh.position(v));
         along[a].push(normalize(sub(q, p)));
@@ -80,7 +87,9 @@ fn corners(mesh: &TriangleMesh, is_curve: &[bool]) -> Vec<bool> {
 fn bond(mesh: &TriangleMesh, is_curve: &[bool], is_corner: &[bool], origin: &Origin) -> Bond {
     let of_vertex = |v: usize| {
         let on_curve = mesh.ring(v).any(|(f, k)| {
-            [k, (k + 2) % 3].into_iter().any(|edge| is_curve[mesh.edge_of(f, edge)])
+            [k, (k + 2) % 3]
+                .into_iter()
+                .any(|edge| is_curve[mesh.edge_of(f, edge)])
         });
         match (is_corner[v], on_curve) {
             (true, _) => Bond::Fixed,

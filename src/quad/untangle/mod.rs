@@ -184,7 +184,10 @@ impl<'a> Untangling<'a> {
         }
         let rest = |face: usize| at_rest(self.mesh, self.density, face);
         let system = System::new(&self.freedom, region, rest, &self.place)?;
-        region.unknowns.iter().for_each(|&y| self.place[y as usize] = NONE);
+        region
+            .unknowns
+            .iter()
+            .for_each(|&y| self.place[y as usize] = NONE);
         let before = system.folded(&self.values);
         if before == 0 {
             return Ok(());
