@@ -272,7 +272,7 @@ fn garbage_is_refused_by_the_element_at_fault() {
     assert_eq!((error.code(), error.index()), ("overflow", Some(11)));
     let error = refused(3, 0.77);
     assert_eq!(error.code(), "invalid_argument");
-    let short = IntegerGridMap::new(&mesh, &uvs[1..].to_vec()).unwrap_err();
+    let short = IntegerGridMap::new(&mesh, &uvs[1..]).unwrap_err();
     assert_eq!(short.code(), "length_mismatch");
     let huge = uvs
         .iter()

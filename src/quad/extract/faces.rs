@@ -64,10 +64,8 @@ fn place(mesh: &TriangleMesh, refined: &Refined, graph: &Graph, result: &mut Qua
     for vertex in used {
         number[vertex as usize] = 0;
     }
-    let mut count = 0;
     for (vertex, number) in number.iter_mut().enumerate().filter(|(_, n)| **n == 0) {
-        *number = count;
-        count += 1;
+        *number = result.vertices.len() as u32;
         let place = &graph.places[vertex];
         let origin = origin(refined, place);
         let position = match (origin, place) {

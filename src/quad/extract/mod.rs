@@ -4,11 +4,11 @@
 //! robust quad mesh extraction": make the map exact, find its integer points, trace the integer
 //! lines between them, walk around faces. What differs is how robustness is had. Coordinates are
 //! fixed-point numbers, and every vertex but the irregular ones is kept off the integer lines by
-//! parity ([`grid_map`]), so a line meets triangles only through the interior of edges. All that
+//! parity (`grid_map`), so a line meets triangles only through the interior of edges. All that
 //! is ever decided is the sign of a vertex and the order of two crossings along one edge; the rest
-//! ([`arrangement`]) is the combinatorics of chords in a triangle, which is consistent whatever the
+//! (`arrangement`) is the combinatorics of chords in a triangle, which is consistent whatever the
 //! map looks like, folded and collapsed triangles included. Folds then show up as lines that cross
-//! once forth and once back, and are taken out by moves that keep the topology ([`unfold`]).
+//! once forth and once back, and are taken out by moves that keep the topology (`unfold`).
 
 mod arrangement;
 mod chords;
