@@ -28,15 +28,17 @@
 //! ```
 //!
 //! Where to find what: [`problem`] states and validates, [`eliminate`] removes the equality
-//! constraints, [`round`] and [`mod@solve`] search, [`linalg`] holds what faer lacks, [`mesh`] holds
-//! triangle meshes, [`capi`] is the C interface.
+//! constraints, [`round`] and [`mod@solve`] search, [`lattice`] finds closest lattice points,
+//! [`linalg`] holds what faer lacks, [`mesh`] holds triangle meshes, [`capi`] is the C interface.
 
 #![deny(unsafe_code)]
 #![deny(missing_docs)]
 
 pub mod capi;
+mod cycle;
 pub mod eliminate;
 mod error;
+pub mod lattice;
 pub mod linalg;
 pub mod mesh;
 #[cfg(feature = "pictures")]

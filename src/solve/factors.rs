@@ -7,6 +7,7 @@ use std::time::Instant;
 
 use crate::Result;
 use crate::eliminate::ReducedModel;
+use crate::lattice::schur_factor;
 use crate::linalg::{Cholesky, Ldl, Ordering, RelaxedFactor, Sparse};
 
 /// The factors of one reduced model.
@@ -18,6 +19,7 @@ pub(crate) struct Factors {
     updatable: Option<Ldl>,
     ordering: Ordering,
     keep: bool,
+    schur: Option<(Vec<f64>, bool)>,
     seconds: f64,
 }
 
@@ -82,6 +84,16 @@ impl Factors {
             *kept = keep.then(|| made.clone());
             Ok(made)
         })
+    }
+
+    /// The triangular factor of the Schur complement of the integers, dense and by columns, and
+    /// whether it has no zero on its diagonal.
+    pub fn schur(&mut self, model: &ReducedModel) -> Result<(&[f64], bool)> {
+        let (r, full) = match self.schur.take() {
+            Some(schur) => schur,
+            None => timed(&mut self.seconds, || schur_factor(model))?,
+        };
+        Ok((&self.schur.insert((r, full)).0, full))
     }
 
     /// The continuous block and its factor.

@@ -1,5 +1,6 @@
 //! Orchestration: options, budgets, progress and cancel, the search, the solution.
 
+mod decide;
 mod factors;
 mod monitor;
 mod options;

@@ -34,6 +34,16 @@ pub struct Options {
     pub warm_start: WarmStart,
     /// The order in which unknowns are eliminated, from the constraints and in factorizations.
     pub ordering: Ordering,
+    /// `lattice`, `exact`, `auto`: up to this many integers are decided in a dense lattice.
+    pub dense_integers: usize,
+    /// `lattice`, `exact`, `auto`: beginnings that nearest plane keeps at a time.
+    pub beam_width: usize,
+    /// `lattice`, `exact`, `auto`: perturbation rounds after the blocks.
+    pub lattice_rounds: usize,
+    /// `exact`, `auto`: nodes that the proof may visit.
+    pub nodes: usize,
+    /// `exact`, `auto`: relative gap that ends the proof.
+    pub gap: f64,
 }
 
 impl Default for Options {
@@ -51,6 +61,11 @@ impl Default for Options {
             exact_steps: true,
             warm_start: WarmStart::Off,
             ordering: Ordering::FillReducing,
+            dense_integers: 1000,
+            beam_width: 256,
+            lattice_rounds: 1,
+            nodes: 20_000_000_000,
+            gap: 0.0,
         }
     }
 }
@@ -98,7 +113,7 @@ pub const OPTIONS: &[OptionInfo] = &[
         name: "strategy",
         kind: OptionKind::Text,
         default: "greedy",
-        range: "relax|direct|greedy|adaptive",
+        range: "relax|direct|greedy|adaptive|lattice|exact|auto",
         text: "how integers are decided",
     },
     OptionInfo {
@@ -178,6 +193,41 @@ pub const OPTIONS: &[OptionInfo] = &[
         range: "fill_reducing|natural",
         text: "order of eliminations and factorizations; natural only shows what the other is worth",
     },
+    OptionInfo {
+        name: "dense_integers",
+        kind: OptionKind::Integer,
+        default: "1000",
+        range: "[0, 20000]",
+        text: "lattice, exact, auto: up to this many integers are decided in a dense lattice",
+    },
+    OptionInfo {
+        name: "beam_width",
+        kind: OptionKind::Integer,
+        default: "256",
+        range: "[1, 1000000]",
+        text: "lattice, exact, auto: beginnings that nearest plane keeps at a time",
+    },
+    OptionInfo {
+        name: "lattice_rounds",
+        kind: OptionKind::Integer,
+        default: "1",
+        range: "[0, 2147483647]",
+        text: "lattice, exact, auto: perturbation rounds after the blocks",
+    },
+    OptionInfo {
+        name: "nodes",
+        kind: OptionKind::Integer,
+        default: "20000000000",
+        range: "[0, 9007199254740992]",
+        text: "exact, auto: nodes that the proof may visit",
+    },
+    OptionInfo {
+        name: "gap",
+        kind: OptionKind::Real,
+        default: "0",
+        range: "[0, inf]",
+        text: "exact, auto: relative gap that ends the proof",
+    },
 ];
 
 impl Options {
@@ -199,7 +249,12 @@ impl Options {
             "cg_tolerance" => self.cg_tolerance = real(info, value)?,
             "exact_steps" => self.exact_steps = integer(info, value, 1)? == 1,
             "warm_start" => self.warm_start = word(info, value, WarmStart::ALL, WarmStart::name)?,
-            _ => self.ordering = word(info, value, Ordering::ALL, Ordering::name)?,
+            "ordering" => self.ordering = word(info, value, Ordering::ALL, Ordering::name)?,
+            "dense_integers" => self.dense_integers = integer(info, value, 20_000)?,
+            "beam_width" => self.beam_width = whole(info, value, 1, 1_000_000)?,
+            "lattice_rounds" => self.lattice_rounds = integer(info, value, LARGEST)?,
+            "nodes" => self.nodes = integer(info, value, 1 << 53)?,
+            _ => self.gap = real(info, value)?,
         }
         Ok(())
     }
@@ -221,7 +276,12 @@ impl Options {
             "cg_tolerance" => OptionValue::Real(self.cg_tolerance),
             "exact_steps" => OptionValue::Integer(self.exact_steps.into()),
             "warm_start" => OptionValue::Text(self.warm_start.name().into()),
-            _ => OptionValue::Text(self.ordering.name().into()),
+            "ordering" => OptionValue::Text(self.ordering.name().into()),
+            "dense_integers" => OptionValue::Integer(self.dense_integers as i64),
+            "beam_width" => OptionValue::Integer(self.beam_width as i64),
+            "lattice_rounds" => OptionValue::Integer(self.lattice_rounds as i64),
+            "nodes" => OptionValue::Integer(self.nodes as i64),
+            _ => OptionValue::Real(self.gap),
         })
     }
 }
@@ -258,10 +318,20 @@ fn real(info: &'static OptionInfo, value: &OptionValue) -> Result<f64> {
 
 /// A whole number from 0 to `largest`.
 fn integer(info: &'static OptionInfo, value: &OptionValue, largest: i64) -> Result<usize> {
+    whole(info, value, 0, largest)
+}
+
+/// A whole number from `least` to `largest`.
+fn whole(
+    info: &'static OptionInfo,
+    value: &OptionValue,
+    least: i64,
+    largest: i64,
+) -> Result<usize> {
     let OptionValue::Integer(number) = *value else {
         return Err(wrong_type(info));
     };
-    if !(0..=largest).contains(&number) {
+    if !(least..=largest).contains(&number) {
         return Err(out_of_range(info, number));
     }
     Ok(number as usize)
@@ -314,7 +384,7 @@ mod tests {
                     OptionValue::Text(words.find(|w| w != word).unwrap().into())
                 }
                 OptionValue::Real(_) => OptionValue::Real(0.25),
-                OptionValue::Integer(number) => OptionValue::Integer(1 - number.signum()),
+                OptionValue::Integer(number) => OptionValue::Integer(number - 1),
             };
             let mut options = Options::default();
             options.set(info.name, &other).unwrap();

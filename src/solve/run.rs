@@ -8,8 +8,7 @@ use super::solution::{Counts, Seconds, Solution};
 use super::verify::verify;
 use super::{Options, Phase, SolveStatus, Strategy, WarmStart};
 use crate::eliminate::{Elimination, ReducedModel};
-use crate::round;
-use crate::{Model, Problem, Result};
+use crate::{Model, Problem, Result, round};
 
 /// Solves `problem`, watched by nobody.
 ///
@@ -79,7 +78,8 @@ impl Prepared<'_> {
         let eliminated = monitor.seconds();
         let factored_before = factors.seconds();
 
-        let (point, lower_bound, status) = decide(&reduced, options, start, factors, monitor)?;
+        let (point, lower_bound, status) =
+            decide(model, &reduced, options, start, factors, monitor)?;
         let searched = monitor.seconds();
         let factored = factors.seconds() - factored_before;
 
@@ -106,6 +106,7 @@ impl Prepared<'_> {
 
 /// The reduced point, the lower bound and how the search ended.
 fn decide(
+    model: &Model,
     reduced: &ReducedModel,
     options: &Options,
     start: Option<Vec<f64>>,
@@ -130,12 +131,7 @@ fn decide(
     // Nothing is better than what is optimal already.
     let done = search.status() == SolveStatus::Optimal || options.warm_start == WarmStart::Keep;
     if !done {
-        match options.strategy {
-            Strategy::Relax => {}
-            Strategy::Direct => round::direct(reduced, factors, &mut search)?,
-            Strategy::Greedy => round::greedy(reduced, factors, &mut search)?,
-            Strategy::Adaptive => round::adaptive(reduced, options, factors, &mut search)?,
-        }
+        super::decide::search(model, reduced, options, factors, &mut search)?;
     }
     let (bound, status) = (search.lower_bound(), search.status());
     let best = search.into_best()?;

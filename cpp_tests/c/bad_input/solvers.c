@@ -1,4 +1,5 @@
-/* Solvers and presets: NULL, lengths, NaN, right sides that cannot hold; the solver stays usable. */
+/* Solvers and presets: NULL, lengths, NaN, right sides that cannot hold; the solver stays usable.
+ */
 
 #include "bad_input.h"
 

@@ -26,7 +26,12 @@ void options_follow_the_librarys_list() {
                                            "cg_tolerance",
                                            "exact_steps",
                                            "warm_start",
-                                           "ordering"};
+                                           "ordering",
+                                           "dense_integers",
+                                           "beam_width",
+                                           "lattice_rounds",
+                                           "nodes",
+                                           "gap"};
     std::set<std::string> listed;
     for (std::size_t i = 0; i < roundel_option_count(); ++i) {
         roundel_option option;
@@ -47,6 +52,10 @@ void options_follow_the_librarys_list() {
     roundel::Options preset;
     preset.set_preset("parametrization").set_ordering("natural").set_warm_start("offer");
     CHECK(roundel::solve(problem, preset).counts().factor_nonzeros > 0);
+    roundel::Options proof;
+    proof.set_strategy("exact").set_dense_integers(500).set_beam_width(16).set_lattice_rounds(2);
+    proof.set_nodes(1000000).set_gap(0.0);
+    CHECK(roundel::solve(problem, proof).status() == roundel::SolveStatus::optimal);
     roundel::Options by_name;
     by_name.set("strategy", "relax"s).set("threads", std::int64_t{1}).set("time_limit", 60.0);
     CHECK(roundel::solve(problem, by_name).status() == roundel::SolveStatus::relaxed);

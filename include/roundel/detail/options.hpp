@@ -91,7 +91,8 @@ struct Event {
 struct Options {
     /// A set of options by name, "orientation_field" or "parametrization", set before all others.
     std::optional<std::string> preset = std::nullopt;
-    /// How integers are decided: "relax", "direct", "greedy", "adaptive".
+    /// How integers are decided: "relax", "direct", "greedy", "adaptive",
+    /// "lattice", "exact", "auto".
     std::optional<std::string> strategy = std::nullopt;
     /// Seconds after which the best solution so far is returned.
     std::optional<double> time_limit = std::nullopt;
@@ -115,6 +116,16 @@ struct Options {
     std::optional<std::string> warm_start = std::nullopt;
     /// "fill_reducing", or "natural", which only shows what the other is worth.
     std::optional<std::string> ordering = std::nullopt;
+    /// lattice, exact, auto: up to this many integers are decided in a dense lattice.
+    std::optional<std::int64_t> dense_integers = std::nullopt;
+    /// lattice, exact, auto: beginnings that nearest plane keeps at a time.
+    std::optional<std::int64_t> beam_width = std::nullopt;
+    /// lattice, exact, auto: perturbation rounds after the blocks.
+    std::optional<std::int64_t> lattice_rounds = std::nullopt;
+    /// exact, auto: nodes that the proof may visit.
+    std::optional<std::int64_t> nodes = std::nullopt;
+    /// exact, auto: relative gap that ends the proof.
+    std::optional<double> gap = std::nullopt;
     /// Called for every event, on the thread that called solve. What it throws ends the solve and
     /// is thrown again by solve.
     std::function<Flow(const Event&)> on_event = nullptr;
@@ -173,6 +184,26 @@ struct Options {
     }
     Options& set_ordering(std::string value) {
         ordering = std::move(value);
+        return *this;
+    }
+    Options& set_dense_integers(std::int64_t value) {
+        dense_integers = value;
+        return *this;
+    }
+    Options& set_beam_width(std::int64_t value) {
+        beam_width = value;
+        return *this;
+    }
+    Options& set_lattice_rounds(std::int64_t value) {
+        lattice_rounds = value;
+        return *this;
+    }
+    Options& set_nodes(std::int64_t value) {
+        nodes = value;
+        return *this;
+    }
+    Options& set_gap(double value) {
+        gap = value;
         return *this;
     }
     Options& set_on_event(std::function<Flow(const Event&)> value) {

@@ -83,7 +83,10 @@ inline OptionsHandle handle_for(const Options& options, Status* status) {
         !one("gauss_seidel_tolerance", options.gauss_seidel_tolerance) ||
         !one("cg_iterations", options.cg_iterations) ||
         !one("cg_tolerance", options.cg_tolerance) || !one("exact_steps", options.exact_steps) ||
-        !one("warm_start", options.warm_start) || !one("ordering", options.ordering)) {
+        !one("warm_start", options.warm_start) || !one("ordering", options.ordering) ||
+        !one("dense_integers", options.dense_integers) || !one("beam_width", options.beam_width) ||
+        !one("lattice_rounds", options.lattice_rounds) || !one("nodes", options.nodes) ||
+        !one("gap", options.gap)) {
         return nullptr;
     }
     for (const auto& [name, value] : options.more) {

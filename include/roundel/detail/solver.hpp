@@ -36,8 +36,8 @@ class Solver {
 
     /// Replaces the right sides of the constraints, one a constraint.
     Solver& constraint_right_sides(span<const double> values, Status* status = nullptr) {
-        return told(
-            roundel_solver_set_constraint_right_sides(get(), values.data(), values.size()), status);
+        return told(roundel_solver_set_constraint_right_sides(get(), values.data(), values.size()),
+                    status);
     }
 
     /// Replaces the right sides of the least-squares rows, one a row.
