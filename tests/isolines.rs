@@ -55,9 +55,12 @@ fn every_feature_edge_lies_exactly_on_an_integer_isoline() {
         let sizing = Sizing::Quads(triangles / 4);
         let problem = SeamlessProblem::with_features(&mesh, &field, &sizing, &features).unwrap();
         let map = map(&mesh, &problem);
-        assert_eq!(off_isolines(&mesh, &map, &features), [], "{name}");
+        let off = off_isolines(&mesh, &map, &features);
+        assert!(off.is_empty(), "{name}: {off:?}");
         // Without being told, hardly any does.
-        let plain = SeamlessOptions { quads: triangles / 4 };
+        let plain = SeamlessOptions {
+            quads: triangles / 4,
+        };
         let plain = SeamlessProblem::new(&mesh, &field, &plain).unwrap();
         let plain = crate::map(&mesh, &plain);
         let off = off_isolines(&mesh, &plain, &features).len();
@@ -108,7 +111,11 @@ fn an_edge_length_is_the_reciprocal_of_the_gradients() {
         // The same directions of space in every face, whichever arm its field stores.
         let turned = (0..mesh.face_count()).map(|face| {
             let d = field.direction(&mesh, face);
-            if d[0].abs() > d[1].abs() { sizes } else { [sizes[1], sizes[0]] }
+            if d[0].abs() > d[1].abs() {
+                sizes
+            } else {
+                [sizes[1], sizes[0]]
+            }
         });
         let sizing = Sizing::Lengths(turned.collect());
         let problem = SeamlessProblem::with_features(&mesh, &field, &sizing, &none).unwrap();
@@ -142,12 +149,16 @@ fn a_graded_size_is_followed_from_end_to_end() {
         let along = size(mesh.face_centroid(f)[0]);
         // Graded along x alone, so that no cone is called for.
         let d = field.direction(&mesh, f);
-        if d[0].abs() > d[1].abs() { [along, 0.1] } else { [0.1, along] }
+        if d[0].abs() > d[1].abs() {
+            [along, 0.1]
+        } else {
+            [0.1, along]
+        }
     });
     let sizing = Sizing::Lengths(lengths.collect());
     let problem = SeamlessProblem::with_features(&mesh, &field, &sizing, &graph).unwrap();
     let map = map(&mesh, &problem);
-    assert_eq!(off_isolines(&mesh, &map, &graph), []);
+    assert!(off_isolines(&mesh, &map, &graph).is_empty());
     let mut worst: f64 = 1.0;
     for face in 0..mesh.face_count() {
         let along = 1.0 / size(mesh.face_centroid(face)[0]);
@@ -163,9 +174,8 @@ fn another_density_is_solved_from_what_was_kept_with_the_same_result() {
     let mesh = shape::by_name("gear", 2_000).unwrap();
     let features = features(&mesh);
     let field = field(&mesh, &features);
-    let make = |sizing: &Sizing| {
-        SeamlessProblem::with_features(&mesh, &field, sizing, &features).unwrap()
-    };
+    let make =
+        |sizing: &Sizing| SeamlessProblem::with_features(&mesh, &field, sizing, &features).unwrap();
     let mut problem = make(&Sizing::Quads(300));
     let mut solver = Solver::new(problem.problem()).unwrap();
     solver.solve(&Options::default()).unwrap();
@@ -195,15 +205,24 @@ fn sizes_and_features_that_make_no_sense_are_refused() {
     };
     assert_eq!(refused(Sizing::Quads(0)), ("invalid_argument", None));
     for length in [0.0, -1.0] {
-        assert_eq!(refused(Sizing::EdgeLength(length)), ("invalid_argument", None));
+        assert_eq!(
+            refused(Sizing::EdgeLength(length)),
+            ("invalid_argument", None)
+        );
     }
     for length in [f64::NAN, f64::INFINITY, 1e-320] {
         assert_eq!(refused(Sizing::EdgeLength(length)).0, "not_finite");
     }
-    assert_eq!(refused(Sizing::Lengths(vec![[1.0; 2]; 3])).0, "length_mismatch");
+    assert_eq!(
+        refused(Sizing::Lengths(vec![[1.0; 2]; 3])).0,
+        "length_mismatch"
+    );
     let mut lengths = vec![[0.1; 2]; mesh.face_count()];
     lengths[5] = [0.1, 0.0];
-    assert_eq!(refused(Sizing::Lengths(lengths)), ("invalid_argument", Some(5)));
+    assert_eq!(
+        refused(Sizing::Lengths(lengths)),
+        ("invalid_argument", Some(5))
+    );
     let foreign = FeatureGraph::none(&other);
     let sizing = Sizing::Quads(10);
     let error = SeamlessProblem::with_features(&mesh, &field, &sizing, &foreign).unwrap_err();

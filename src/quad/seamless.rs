@@ -24,7 +24,7 @@ use super::sizing::Density;
 use super::{Combing, CutGraph, OrientationField, SeamlessMap, Sizing};
 use crate::mesh::TriangleMesh;
 use crate::mesh::features::FeatureGraph;
-use crate::{Error, Problem, Result, Solution, Triangle};
+use crate::{Error, Problem, Result, Solution, Solver, Triangle};
 
 /// What the square of an integer translation costs: enough to decide those that nothing else does,
 /// too little to change any other.
@@ -130,6 +130,30 @@ impl SeamlessProblem {
         this.set_integers()?;
         this.pin_origins(mesh)?;
         Ok(this)
+    }
+
+    /// Aims at another size of quads. Only linear terms change: the solver of this problem keeps
+    /// elimination, orderings and factors, and its next solve is that of a new problem of that size.
+    ///
+    /// # Errors
+    /// [`Error::LengthMismatch`] for another mesh or the solver of another problem, and those of
+    /// [`with_features`](Self::with_features) for sizes.
+    pub fn resize(
+        &mut self,
+        mesh: &TriangleMesh,
+        sizing: &Sizing,
+        solver: &mut Solver,
+    ) -> Result<()> {
+        self.field.check_mesh(mesh)?;
+        let before = std::mem::replace(&mut self.density, Density::new(mesh, sizing)?);
+        let energy = Dirichlet::new(self, mesh);
+        let told = solver.set_linear(&energy.linear);
+        if let Err(error) = told.and_then(|()| solver.set_constant(energy.constant)) {
+            self.density = before;
+            return Err(error);
+        }
+        self.problem.set_linear(&energy.linear)?;
+        self.problem.set_constant(energy.constant)
     }
 
     /// The problem, to be solved by any strategy.
