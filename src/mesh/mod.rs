@@ -21,6 +21,7 @@ mod closest;
 mod connectivity;
 pub mod curvature;
 mod error;
+pub mod features;
 #[cfg(feature = "mesh-io")]
 pub mod io;
 mod jitter;

@@ -136,7 +136,7 @@ pub fn untangle(
 /// The state of the work.
 struct Untangling<'a> {
     mesh: &'a TriangleMesh,
-    density: f64,
+    problem: &'a SeamlessProblem,
     freedom: Freedom,
     values: Vec<f64>,
     /// Where in the region at hand each free unknown is.
@@ -147,14 +147,14 @@ struct Untangling<'a> {
 impl<'a> Untangling<'a> {
     fn new(
         mesh: &'a TriangleMesh,
-        problem: &SeamlessProblem,
+        problem: &'a SeamlessProblem,
         map: &SeamlessMap,
         monitor: &mut Monitor,
     ) -> Result<Self> {
         let freedom = Freedom::new(problem, map.copies(), map.values(), monitor)?;
         Ok(Untangling {
             mesh,
-            density: problem.density,
+            problem,
             place: vec![NONE; freedom.dim()],
             freedom,
             values: map.values().to_vec(),
@@ -182,7 +182,7 @@ impl<'a> Untangling<'a> {
         for (k, &y) in region.unknowns.iter().enumerate() {
             self.place[y as usize] = k as u32;
         }
-        let rest = |face: usize| at_rest(self.mesh, self.density, face);
+        let rest = |face: usize| at_rest(self.mesh, self.problem.density(face), face);
         let system = System::new(&self.freedom, region, rest, &self.place)?;
         region
             .unknowns
