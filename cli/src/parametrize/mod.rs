@@ -3,13 +3,14 @@
 mod arguments;
 mod field;
 mod report;
+mod sizing;
 mod summary;
 
 use std::time::Instant;
 
 use roundel::mesh::TriangleMesh;
 use roundel::problem::mps::{self, MpsProblem};
-use roundel::quad::{SeamlessMap, SeamlessOptions, SeamlessProblem};
+use roundel::quad::{SeamlessMap, SeamlessProblem, Sizing};
 use roundel::{Options, Result, Solution};
 
 use crate::exit::Exit;
@@ -32,6 +33,9 @@ struct Solved {
     options: Options,
     mesh: TriangleMesh,
     field: FieldSource,
+    sizing: Sizing,
+    /// Edges that are isolines.
+    features: usize,
     map: SeamlessMap,
     solution: Solution,
     before: Preparation,
@@ -45,10 +49,12 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
     let started = Instant::now();
     let mesh = mesh::read(&arguments.mesh)?;
     let read = started.elapsed().as_secs_f64();
-    let (field, source) = field::of(arguments, &mesh, &options, monitor())?;
+    let (guidance, features) = arguments.directions.of(&mesh, 4)?;
+    let follows = (&guidance, &features);
+    let (field, source) = field::of(arguments, &mesh, follows, &options, monitor())?;
     let started = Instant::now();
-    let quads = arguments.quads;
-    let problem = SeamlessProblem::new(&mesh, &field, &SeamlessOptions { quads })?;
+    let sizing = arguments.sizing.of()?;
+    let problem = SeamlessProblem::with_features(&mesh, &field, &sizing, &features)?;
     // The problem holds what it needs of it.
     drop(field);
     let assemble = started.elapsed().as_secs_f64();
@@ -64,6 +70,8 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
         options,
         mesh,
         field: source,
+        sizing,
+        features: features.edges().count(),
         map,
         solution,
         before: Preparation {
