@@ -38,6 +38,10 @@ pub struct Arguments {
     #[command(flatten)]
     pub sizing: SizingFlags,
 
+    /// Leave the triangles folded that rounding folds
+    #[arg(long)]
+    pub no_untangle: bool,
+
     /// Write the mesh with the coordinates of its corners to this file
     #[arg(short, long, value_name = "UV.obj")]
     pub out: Option<PathBuf>,

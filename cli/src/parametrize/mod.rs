@@ -10,8 +10,9 @@ use std::time::Instant;
 
 use roundel::mesh::TriangleMesh;
 use roundel::problem::mps::{self, MpsProblem};
-use roundel::quad::{SeamlessMap, SeamlessProblem, Sizing};
-use roundel::{Options, Result, Solution};
+use roundel::quad::untangle::{UntangleOptions, Untangled, untangle};
+use roundel::quad::{SeamlessProblem, Sizing};
+use roundel::{Options, Result, Solution, Strategy};
 
 use crate::exit::Exit;
 use crate::progress::Progress;
@@ -20,6 +21,7 @@ use crate::{interrupt, mesh, output};
 pub use arguments::Arguments;
 use field::FieldSource;
 use report::MapReport;
+pub use sizing::SizingFlags;
 use summary::MapSummary;
 
 /// Runs the command and tells its outcome, once.
@@ -36,7 +38,9 @@ struct Solved {
     sizing: Sizing,
     /// Edges that are isolines.
     features: usize,
-    map: SeamlessMap,
+    untangled: Untangled,
+    /// Seconds from the solution to the map.
+    untangle_seconds: f64,
     solution: Solution,
     before: Preparation,
 }
@@ -62,9 +66,21 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
         mps::write(path, &MpsProblem::new(problem.problem().clone()))?;
     }
     let solution = roundel::solve_with(problem.problem(), &options, monitor())?;
+    let started = Instant::now();
     let map = problem.map(&mesh, &solution)?;
+    let untangled = match arguments.no_untangle || options.strategy == Strategy::Relax {
+        true => Untangled::as_it_is(map),
+        false => untangle(
+            &mesh,
+            &problem,
+            &map,
+            &UntangleOptions::default(),
+            &mut monitor(),
+        )?,
+    };
+    let untangle_seconds = started.elapsed().as_secs_f64();
     if let Some(path) = &arguments.out {
-        map.write_obj(&mesh, path)?;
+        untangled.map.write_obj(&mesh, path)?;
     }
     Ok(Solved {
         options,
@@ -72,7 +88,8 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
         field: source,
         sizing,
         features: features.edges().count(),
-        map,
+        untangled,
+        untangle_seconds,
         solution,
         before: Preparation {
             read,

@@ -19,10 +19,12 @@ impl fmt::Display for MapSummary<'_> {
             field,
             sizing: _,
             features,
-            map,
+            untangled,
+            untangle_seconds,
             solution,
             before,
         } = self.solved;
+        let map = &untangled.map;
         let (counts, seconds) = (solution.counts(), solution.seconds());
         let read = counted(mesh.face_count(), "face");
         line(f, "read", &read, before.read)?;
@@ -46,6 +48,12 @@ impl fmt::Display for MapSummary<'_> {
         let found = format!("{}, {}", energy(solution.energy()), verdict(solution));
         let search = seconds.factor + seconds.round;
         line(f, options.strategy.name(), &found, search)?;
+        let unfolded = format!(
+            "{} flipped, {}",
+            counted(untangled.flipped_before, "face"),
+            counted(untangled.steps, "step")
+        );
+        line(f, "untangle", &unfolded, *untangle_seconds)?;
         let flipped = format!("{} flipped", counted(map.flipped().len(), "face"));
         match &self.arguments.out {
             Some(path) => writeln!(f, "{:<10} {flipped}: {}", "map", path.display()),
