@@ -93,7 +93,15 @@ fn the_summary_tells_each_phase() {
     assert_eq!(code, 0, "{told}");
     let first = |line: &str| line.split(' ').next().map(str::to_owned);
     let phases: Vec<_> = told.lines().filter_map(first).collect();
-    let expected = ["read", "field", "assemble", "eliminate", "greedy", "map"];
+    let expected = [
+        "read",
+        "field",
+        "assemble",
+        "eliminate",
+        "greedy",
+        "untangle",
+        "map",
+    ];
     assert_eq!(phases, expected, "{told}");
     assert!(told.contains("8 irregular vertices"), "{told}");
 }
