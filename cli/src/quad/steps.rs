@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use roundel::mesh::TriangleMesh;
-use roundel::quad::{QuadOptions, Quadrangulation, SmoothOptions, quadrangulate};
+use roundel::quad::{QuadOptions, Quadrangulation, quadrangulate};
 use roundel::{Options, Result};
 
 use super::Arguments;
@@ -26,15 +26,15 @@ pub(super) fn solve(arguments: &Arguments) -> Result<Solved> {
     let started = Instant::now();
     let mesh = mesh::read(&arguments.mesh)?;
     let read_seconds = started.elapsed().as_secs_f64();
-    let (mut guidance, features) = arguments.directions.of(&mesh, 4)?;
+    let directions = &arguments.directions;
+    let (mut guidance, features) = directions.of(&mesh, 4)?;
+    let is_silent = directions.constrain_curvature.is_none() && directions.curvature_weight == 0.0;
+    if is_silent && guidance.indices.is_none() {
+        guidance.constrain_curvature = default.guidance.constrain_curvature;
+        guidance.curvature_weight = default.guidance.curvature_weight;
+    }
     // Those of the command line's file are among them.
     guidance.feature_edges = features.edges().collect();
-    let env = |n: &str, d: f64| {
-        std::env::var(n)
-            .ok()
-            .and_then(|v| v.parse().ok())
-            .unwrap_or(d)
-    };
     let options = QuadOptions {
         sizing: arguments.sizing.of()?,
         guidance,
@@ -44,12 +44,7 @@ pub(super) fn solve(arguments: &Arguments) -> Result<Solved> {
         },
         map,
         untangle: !arguments.no_untangle,
-        smooth: (!arguments.no_smooth).then(|| SmoothOptions {
-            rounds: env("ROUNDS", 40.0) as usize,
-            uniformity: env("UNIF", 0.3),
-            hold: env("HOLD", 0.1),
-            features: vec![],
-        }),
+        smooth: default.smooth.filter(|_| !arguments.no_smooth),
     };
     let monitor = || progress.monitor().cancel_token(token.clone());
     let made = quadrangulate(&mesh, &options, monitor)?;

@@ -3,6 +3,7 @@
 mod aim;
 mod attempt;
 mod options;
+mod scale;
 
 use std::time::Instant;
 
@@ -66,7 +67,8 @@ pub fn quadrangulate<'a>(
     let mut seconds = QuadSeconds::default();
     let features = options.guidance.features(mesh)?;
     let (field, field_solution) = timed(&mut seconds.field, || {
-        let wishes = options.guidance.field_options(mesh, &features)?;
+        let rounds = scale::smoothing_rounds(mesh, &options.sizing);
+        let wishes = (options.guidance).field_options_at(mesh, &features, rounds)?;
         let problem = FieldProblem::with_options(mesh, &wishes)?;
         let solution = solve_with(problem.problem(), &options.field, monitor())?;
         Ok((problem.field(mesh, &solution)?, solution))

@@ -32,7 +32,8 @@ impl Default for QuadOptions {
         QuadOptions {
             sizing: Sizing::Quads(SeamlessOptions::default().quads),
             guidance: Guidance {
-                constrain_curvature: 0.1,
+                constrain_curvature: 0.01,
+                curvature_weight: 0.1,
                 ..Guidance::default()
             },
             field: lattice.clone(),

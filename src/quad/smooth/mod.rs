@@ -36,9 +36,9 @@ pub struct SmoothOptions {
 impl Default for SmoothOptions {
     fn default() -> Self {
         SmoothOptions {
-            rounds: 40,
-            uniformity: 0.3,
-            hold: 0.1,
+            rounds: 60,
+            uniformity: 0.6,
+            hold: 0.07,
             features: Vec::new(),
         }
     }
