@@ -1,8 +1,11 @@
-/// Roundel for OpenMesh: fields of its meshes, written back as its properties.
+/// Roundel for OpenMesh: fields and maps of its meshes, written back as its properties.
 ///
 ///     auto field = roundel::orientation_field(mesh, {.constrain_curvature = 0.1});
 ///     auto p = roundel::store(field, mesh);
 ///     for (auto face : mesh.faces()) std::cout << mesh.property(p.angle, face) << '\n';
+///     auto map = roundel::parametrize(mesh, field, {.quads = 2000});
+///     auto uv = roundel::store(map, mesh);
+///     if (!map.valid()) for (auto face : map.flipped()) mark(face);
 ///
 /// For every mesh type of OpenMesh whose faces are triangles. Elements that are marked as deleted
 /// are left out; no garbage collection is needed. A face's first edge is its halfedge_handle.
@@ -13,6 +16,7 @@
 #include <roundel/detail/adapted.hpp>
 #include <roundel/roundel.hpp>
 
+#include <OpenMesh/Core/Geometry/VectorT.hh>
 #include <OpenMesh/Core/Mesh/PolyConnectivity.hh>
 
 #include <cstddef>
@@ -27,6 +31,7 @@ namespace openmesh {
 
 using Elements = Adapted<OpenMesh::VertexHandle, OpenMesh::FaceHandle, OpenMesh::HalfedgeHandle>;
 using Field = AdaptedField<OpenMesh::VertexHandle, OpenMesh::FaceHandle, OpenMesh::HalfedgeHandle>;
+using Map = AdaptedMap<OpenMesh::VertexHandle, OpenMesh::FaceHandle, OpenMesh::HalfedgeHandle>;
 
 template <class M>
 using enable = std::enable_if_t<std::is_base_of_v<OpenMesh::PolyConnectivity, M>, int>;
@@ -116,6 +121,64 @@ openmesh::Properties store(const openmesh::Field& field, M& mesh) {
         });
     return to;
 }
+
+/// The seamless map of an OpenMesh mesh that follows a field found on it.
+template <class M, openmesh::enable<M> = 0>
+openmesh::Map parametrize(const M& mesh, const openmesh::Field& field,
+                          const MapOptions& options = {}, Status* status = nullptr) {
+    return detail::map_of(adapt(mesh, status), field, options, status);
+}
+
+/// Writes a map to the half-edge property "roundel:uv" of the mesh that it was made for, which is
+/// added unless it is there: u and v in the half-edge's face, of the vertex that it points to, as
+/// OpenMesh has texture coordinates.
+template <class M, openmesh::enable<M> = 0>
+OpenMesh::HPropHandleT<OpenMesh::Vec2d> store(const openmesh::Map& map, M& mesh) {
+    OpenMesh::HPropHandleT<OpenMesh::Vec2d> uv;
+    if (!mesh.get_property_handle(uv, "roundel:uv")) {
+        mesh.add_property(uv, "roundel:uv");
+    }
+    detail::hand_out(map, [&](OpenMesh::HalfedgeHandle side, double u, double v) {
+        mesh.property(uv, side) = OpenMesh::Vec2d(u, v);
+    });
+    return uv;
+}
+
+/// An OpenMesh mesh turned into quads; `roundel::mesh_of<PolyMesh>` makes a mesh of them.
+template <class M, openmesh::enable<M> = 0>
+Quads quadrangulate(const M& mesh, const QuadOptions& options = {}, Status* status = nullptr) {
+    const auto elements = adapt(mesh, status);
+    return elements ? quadrangulate(elements.mesh, options, status) : Quads();
+}
+
+namespace detail {
+
+template <class M>
+struct FromPolygons<M, std::enable_if_t<std::is_base_of_v<OpenMesh::PolyConnectivity, M>>> {
+    template <class Point>
+    static M make(std::size_t count, Point point,
+                  const std::vector<std::vector<std::int32_t>>& faces) {
+        static_assert(!M::is_trimesh(), "quads need a mesh of polygons");
+        using Scalar = typename M::Point::value_type;
+        M mesh;
+        std::vector<OpenMesh::VertexHandle> vertices;
+        for (std::size_t i = 0; i < count; ++i) {
+            const auto p = point(i);
+            vertices.push_back(mesh.add_vertex(
+                {static_cast<Scalar>(p[0]), static_cast<Scalar>(p[1]), static_cast<Scalar>(p[2])}));
+        }
+        for (const auto& face : faces) {
+            std::vector<OpenMesh::VertexHandle> corners;
+            for (const auto corner : face) {
+                corners.push_back(vertices[static_cast<std::size_t>(corner)]);
+            }
+            mesh.add_face(corners);
+        }
+        return mesh;
+    }
+};
+
+} // namespace detail
 
 ROUNDEL_NAMESPACE_END
 

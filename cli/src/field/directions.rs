@@ -30,7 +30,7 @@ pub struct Directions {
     pub free_boundary: bool,
 
     /// Give this part of the faces, those with the most reliable curvature, the direction of least
-    /// curvature; from 0 to 1 [default: 0.1, and 0 with --symmetry 1 or with indices]
+    /// curvature; from 0 to 1 [default: 0.1, and 0 with features, indices or --symmetry 1]
     #[arg(long, value_name = "FRACTION", value_parser = fraction)]
     #[arg(allow_negative_numbers = true)]
     pub constrain_curvature: Option<f64>,
@@ -71,10 +71,10 @@ impl Directions {
             let read = guidance.read(mesh, path);
             read.map_err(|error| named(path, error))?;
         }
-        let default = match symmetry == 1 || guidance.indices.is_some() {
-            true => 0.0,
-            false => CURVED,
-        };
+        // Sharp shapes are flat elsewhere: curvature there is noise.
+        let by_features = self.features.is_some() || self.feature_lines.is_some();
+        let by_all = symmetry != 1 && guidance.indices.is_none() && !by_features;
+        let default = if by_all { CURVED } else { 0.0 };
         guidance.constrain_curvature = self.constrain_curvature.unwrap_or(default);
         let mut features = guidance.features(mesh)?;
         if let Some(path) = &self.feature_lines {

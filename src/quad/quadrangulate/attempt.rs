@@ -26,11 +26,6 @@ impl Attempt {
         self.conforms
     }
 
-    /// Whether folds left no trace.
-    pub(super) fn is_clean(&self) -> bool {
-        self.conforms && self.quads.repaired == 0
-    }
-
     /// What is to be as small as can be, the most important first.
     pub(super) fn cost(&self) -> (bool, usize, usize) {
         (

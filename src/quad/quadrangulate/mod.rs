@@ -46,15 +46,11 @@ pub struct QuadSeconds {
     pub smooth: f64,
 }
 
-/// Faces that all steps of untangling may look at together, as multiples of the mesh's: for quads
-/// that conform but had to be repaired, and for those that do not.
-const PASSES: [usize; 2] = [10, 200];
-
 /// Turns a mesh into quads. `monitor` makes one watcher for each step.
 ///
 /// Whether the result is made of nothing but quads it tells itself ([`QuadMesh::is_conforming`]).
-/// Untangling is tried only if extraction had to repair what folds left, and kept if there is less to
-/// repair after it.
+/// Extraction copes with nearly all folds; untangling is tried only if its quads do not conform, and
+/// kept if they do then, or there is less to repair.
 ///
 /// # Errors
 /// Those of [`FieldProblem::with_options`], [`SeamlessProblem::with_features`], [`solve_with`],
@@ -83,13 +79,10 @@ pub fn quadrangulate<'a>(
     let best = timed(&mut seconds.extract, || {
         let map = Untangled::as_it_is(problem.map(mesh, &solution)?);
         let first = Attempt::new(mesh, map, &mut monitor())?;
-        if !options.untangle || first.is_clean() {
+        if !options.untangle || first.conforms() {
             return Ok(first);
         }
-        let effort = UntangleOptions {
-            passes: PASSES[usize::from(!first.conforms())],
-            ..UntangleOptions::default()
-        };
+        let effort = UntangleOptions::default();
         let map = untangle(mesh, &problem, &first.map.map, &effort, &mut monitor())?;
         let second = Attempt::new(mesh, map, &mut monitor())?;
         Ok(if second.cost() < first.cost() {

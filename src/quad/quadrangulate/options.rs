@@ -14,7 +14,7 @@ pub struct QuadOptions {
     pub field: Options,
     /// How the map is solved for.
     pub map: Options,
-    /// Whether a map is untangled whose folds extraction cannot take out without a trace.
+    /// Whether a map is untangled whose folds extraction cannot cope with.
     pub untangle: bool,
     /// How quads are smoothed; its features are added to those of the guidance. None leaves
     /// vertices where the map has them.
@@ -32,8 +32,8 @@ impl Default for QuadOptions {
         QuadOptions {
             sizing: Sizing::Quads(SeamlessOptions::default().quads),
             guidance: Guidance {
-                constrain_curvature: 0.01,
-                curvature_weight: 0.1,
+                constrain_curvature: 0.005,
+                curvature_weight: 0.07,
                 ..Guidance::default()
             },
             field: lattice.clone(),
