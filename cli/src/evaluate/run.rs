@@ -74,6 +74,7 @@ fn words(
             cells::word(field),
             "--quads".into(),
             subject.quads.to_string(),
+            "--no-untangle".into(),
         ],
     };
     words.extend(solver.flags.iter().cloned());
