@@ -5,8 +5,8 @@
 //! raised, so that both can be stopped at any time. Budgets count nodes, never seconds.
 
 use super::certificate::{Certificate, evaluation_error};
-use super::prove::{FIRST, GROWTH, predicted_nodes, radius_for};
-use super::{Limits, Piece, assemble, beam, enumerate, improve_blocks, pieces};
+use super::prove::{FIRST, GROWTH, radius_for};
+use super::{Diagonals, Limits, Piece, assemble, beam, enumerate, improve_blocks, pieces};
 use crate::Result;
 use crate::eliminate::ReducedModel;
 use crate::round;
@@ -14,6 +14,9 @@ use crate::solve::{Factors, Options, Phase, Search};
 
 /// A proof that is predicted to need more than so many budgets is not tried.
 const HOPELESS: f64 = 4.0;
+
+/// Diagonals of m dimensions take `m^4` of their steps, and so many of these take as long as a node.
+const DIAGONALS_PER_NODE: u64 = 100;
 
 /// No proof needs enumerations of more nodes.
 const LAST: f64 = 1e30;
@@ -52,10 +55,10 @@ pub(crate) fn exact(
     }
     let certificate = Certificate::measure(model, factors, &pieces, search)?;
     let mut left = nodes;
-    let all: f64 = pieces
-        .iter()
-        .map(|p| predicted_nodes(&p.basis, p.value))
-        .sum();
+    for piece in &mut pieces {
+        left -= bound_undecided(piece, left);
+    }
+    let all: f64 = pieces.iter().map(Piece::predicted_nodes).sum();
     if all > HOPELESS * nodes as f64 {
         left /= BOUND_SHARE;
     }
@@ -77,6 +80,7 @@ pub(crate) fn exact(
             let found = enumerate(
                 &pieces[at].basis,
                 &pieces[at].target,
+                pieces[at].diagonals.as_ref(),
                 limits,
                 &mut |nodes| {
                     let done = nodes as f64 / limits.nodes as f64;
@@ -98,6 +102,17 @@ pub(crate) fn exact(
         goal *= GROWTH;
     }
     Ok(())
+}
+
+/// Makes the diagonals of `piece` where its proof is worth their price; returns that price, in nodes
+/// of which `left` may be spent.
+fn bound_undecided(piece: &mut Piece, left: u64) -> u64 {
+    let price = (piece.basis.rank() as u64).pow(4) / DIAGONALS_PER_NODE;
+    if price > left / 2 || piece.predicted_nodes() < price as f64 {
+        return 0;
+    }
+    piece.diagonals = Some(Diagonals::new(&piece.basis));
+    price
 }
 
 /// The ball to search next for piece `at`, and whether that is all that a proof needs.
@@ -124,7 +139,7 @@ fn ball(
     } else {
         full
     };
-    let radius = radius_for(&piece.basis, goal, largest);
+    let radius = radius_for(&piece.basis, piece.diagonals.as_ref(), goal, largest);
     let limits = Limits {
         radius,
         margin,
@@ -196,8 +211,12 @@ fn decode(
         model.integers().iter().map(at).collect()
     };
     let (r, full) = factors.schur(model)?;
-    let mut pieces = pieces(m, r, full, &relaxed)?;
+    let mut stop = || search.monitor.check().is_err();
+    let mut pieces = pieces(m, r, full, &relaxed, &mut stop)?;
     search.offer(factors, &assemble(&pieces, m)?)?;
+    if let Some(best) = search.incumbent_integers() {
+        start_from(&mut pieces, &best)?;
+    }
     for at in 0..pieces.len() {
         let mut better = false;
         let piece = &mut pieces[at];
@@ -222,6 +241,16 @@ fn decode(
         }
     }
     Ok(pieces)
+}
+
+/// Takes the integers that are known already where they are better.
+fn start_from(pieces: &mut [Piece], integers: &[f64]) -> Result<()> {
+    for piece in pieces {
+        let own: Vec<i64> = piece.places.iter().map(|&i| integers[i] as i64).collect();
+        let steps = piece.target.steps(&piece.basis, &own)?;
+        piece.take(steps);
+    }
+    Ok(())
 }
 
 /// Block improvement from `z`; whether it ended better than the best point.

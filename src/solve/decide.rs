@@ -44,6 +44,8 @@ pub(super) fn search(
         }
         Strategy::Lattice if few => lattice::lattice(model, options, factors, search),
         Strategy::Exact if few => {
+            // Where angles differ the cycles know better where to begin.
+            cycle::auto(given, model, options, factors, search)?;
             lattice::exact(model, options, options.nodes as u64, factors, search)
         }
         Strategy::Auto if few => {

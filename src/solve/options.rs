@@ -49,7 +49,7 @@ pub struct Options {
 impl Default for Options {
     fn default() -> Self {
         Options {
-            strategy: Strategy::Greedy,
+            strategy: Strategy::Auto,
             time_limit: f64::INFINITY,
             threads: 1,
             rounding_threshold: 0.5,
@@ -112,7 +112,7 @@ pub const OPTIONS: &[OptionInfo] = &[
     OptionInfo {
         name: "strategy",
         kind: OptionKind::Text,
-        default: "greedy",
+        default: "auto",
         range: "relax|direct|greedy|adaptive|lattice|exact|auto",
         text: "how integers are decided",
     },

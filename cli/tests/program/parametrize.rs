@@ -30,7 +30,7 @@ fn a_rounded_cube_turns_around_its_corners() {
     assert_eq!(report["flipped"], json!(0));
     assert!(report["cut_edges"].as_u64() > Some(0));
     assert!(report["gradient_energy"].as_f64() <= report["energy"].as_f64());
-    assert_eq!(report["field"]["strategy"], json!("greedy"));
+    assert_eq!(report["field"]["strategy"], json!("auto"));
 }
 
 #[test]
@@ -93,7 +93,7 @@ fn the_summary_tells_each_phase() {
     assert_eq!(code, 0, "{told}");
     let first = |line: &str| line.split(' ').next().map(str::to_owned);
     let phases: Vec<_> = told.lines().filter_map(first).collect();
-    let expected = ["read", "field", "assemble", "eliminate", "greedy", "map"];
+    let expected = ["read", "field", "assemble", "eliminate", "auto", "map"];
     assert_eq!(phases, expected, "{told}");
     assert!(told.contains("8 irregular vertices"), "{told}");
 }
