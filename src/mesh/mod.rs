@@ -17,9 +17,11 @@
 //! ```
 
 mod check;
+mod closest;
 mod connectivity;
 pub mod curvature;
 mod error;
+pub mod features;
 #[cfg(feature = "mesh-io")]
 pub mod io;
 mod jitter;
@@ -32,6 +34,7 @@ mod triangle_mesh;
 pub mod vector;
 
 pub use check::ZERO_AREA_TOLERANCE;
+pub use closest::ClosestPoint;
 pub use error::MeshError;
 pub use jitter::jitter;
 pub use subdivide::subdivide;

@@ -4,28 +4,42 @@
 //! A client of the solver: it builds a [`Problem`](crate::Problem) and reads a
 //! [`Solution`](crate::Solution).
 
+mod align;
+mod charges;
+pub mod check;
 mod comb;
 mod constrain;
 mod cut;
 mod cut_paths;
 mod directions;
 mod dirichlet;
+mod extract;
 mod field;
 mod field_file;
+mod field_options;
 mod forest;
 mod index;
+mod isolines;
 mod map;
 mod orientation;
 mod seamless;
 mod seams;
 mod sectors;
+mod sizing;
+mod smooth;
 mod trace;
+pub mod untangle;
 mod uv_obj;
 
+pub use align::feature_constraints;
 pub use comb::Combing;
-pub use constrain::curvature_constraints;
+pub use constrain::{curvature_constraints, curvature_guides};
 pub use cut::CutGraph;
+pub use extract::{IntegerGridMap, Origin, QuadFigures, QuadMesh, RANGE, SEAM_TOLERANCE, extract};
 pub use field::OrientationField;
+pub use field_options::{Constraint, FieldOptions, Guide, PrescribedIndex};
 pub use map::{SeamlessMap, Transition};
-pub use orientation::{Constraint, FieldProblem};
+pub use orientation::FieldProblem;
 pub use seamless::{SeamlessOptions, SeamlessProblem, TRANSLATION_WEIGHT};
+pub use sizing::Sizing;
+pub use smooth::{QuadQuality, SmoothOptions, smooth};

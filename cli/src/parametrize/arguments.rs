@@ -39,6 +39,10 @@ pub struct Arguments {
     #[arg(value_parser = quads, allow_negative_numbers = true)]
     pub quads: usize,
 
+    /// Leave the triangles folded that rounding folds
+    #[arg(long)]
+    pub no_untangle: bool,
+
     /// Write the mesh with the coordinates of its corners to this file
     #[arg(short, long, value_name = "UV.obj")]
     pub out: Option<PathBuf>,

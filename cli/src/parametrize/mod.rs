@@ -9,8 +9,9 @@ use std::time::Instant;
 
 use roundel::mesh::TriangleMesh;
 use roundel::problem::mps::{self, MpsProblem};
-use roundel::quad::{SeamlessMap, SeamlessOptions, SeamlessProblem};
-use roundel::{Options, Result, Solution};
+use roundel::quad::untangle::{UntangleOptions, Untangled, untangle};
+use roundel::quad::{SeamlessOptions, SeamlessProblem};
+use roundel::{Options, Result, Solution, Strategy};
 
 use crate::exit::Exit;
 use crate::progress::Progress;
@@ -32,7 +33,9 @@ struct Solved {
     options: Options,
     mesh: TriangleMesh,
     field: FieldSource,
-    map: SeamlessMap,
+    untangled: Untangled,
+    /// Seconds from the solution to the map.
+    untangle_seconds: f64,
     solution: Solution,
     before: Preparation,
 }
@@ -56,15 +59,28 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
         mps::write(path, &MpsProblem::new(problem.problem().clone()))?;
     }
     let solution = roundel::solve_with(problem.problem(), &options, monitor())?;
+    let started = Instant::now();
     let map = problem.map(&mesh, &solution)?;
+    let untangled = match arguments.no_untangle || options.strategy == Strategy::Relax {
+        true => Untangled::as_it_is(map),
+        false => untangle(
+            &mesh,
+            &problem,
+            &map,
+            &UntangleOptions::default(),
+            &mut monitor(),
+        )?,
+    };
+    let untangle_seconds = started.elapsed().as_secs_f64();
     if let Some(path) = &arguments.out {
-        map.write_obj(&mesh, path)?;
+        untangled.map.write_obj(&mesh, path)?;
     }
     Ok(Solved {
         options,
         mesh,
         field: source,
-        map,
+        untangled,
+        untangle_seconds,
         solution,
         before: Preparation {
             read,

@@ -18,9 +18,20 @@ pub struct MapReport<'a> {
     irregular_vertices: usize,
     cut_edges: usize,
     gradient_energy: f64,
+    flipped_before: usize,
     flipped: usize,
     flipped_faces: &'a [usize],
+    untangle: Untangling,
     field: Field,
+}
+
+/// What untangling took, and what it could not unfold.
+#[derive(Serialize)]
+struct Untangling {
+    steps: usize,
+    seconds: f64,
+    stuck_faces: Vec<usize>,
+    collapsed_edges: Vec<usize>,
 }
 
 /// The field that the map follows; one from a file has no strategy.
@@ -35,7 +46,8 @@ struct Field {
 impl<'a> MapReport<'a> {
     /// The report of what was found.
     pub(super) fn new(arguments: &Arguments, solved: &'a Solved) -> Self {
-        let (mesh, map) = (&solved.mesh, &solved.map);
+        let (mesh, untangled) = (&solved.mesh, &solved.untangled);
+        let map = &untangled.map;
         let file = arguments.field.as_ref();
         MapReport {
             solve: Report::new(
@@ -51,8 +63,15 @@ impl<'a> MapReport<'a> {
             irregular_vertices: map.cones().len(),
             cut_edges: map.transitions().len(),
             gradient_energy: map.energy(),
+            flipped_before: untangled.flipped_before,
             flipped: map.flipped().len(),
             flipped_faces: map.flipped(),
+            untangle: Untangling {
+                steps: untangled.steps,
+                seconds: solved.untangle_seconds,
+                stuck_faces: untangled.stuck_faces.clone(),
+                collapsed_edges: untangled.collapsed_edges.clone(),
+            },
             field: Field {
                 strategy: solved.field.strategy,
                 file: file.map(|path| path.to_string_lossy().into_owned()),
