@@ -304,6 +304,10 @@ enum roundel_event_kind
      * A better solution than any before: see `energy`.
      */
     ROUNDEL_EVENT_IMPROVED = 3,
+    /**
+     * A better lower bound than any before: see `lower_bound` and `gap`.
+     */
+    ROUNDEL_EVENT_RAISED = 4,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L

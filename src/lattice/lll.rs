@@ -19,12 +19,12 @@ const ROUNDS: usize = 20;
 
 /// Reduces `basis`. A vector may move forward by up to `depth` places at a time: 1 is plain LLL.
 ///
-/// `stop` is asked before each vector whether to end; a basis that is not reduced to the end
+/// `stop` is asked before each vector whether to end, with the multiplications to expect of it; a basis that is not reduced to the end
 /// generates the same lattice and serves as any other, only worse.
 ///
 /// # Errors
 /// [`Error::Overflow`](crate::Error::Overflow) where the transformation leaves 126 bits.
-pub fn lll(basis: &mut Basis, depth: usize, stop: &mut dyn FnMut() -> bool) -> Result<()> {
+pub fn lll(basis: &mut Basis, depth: usize, stop: &mut dyn FnMut(u64) -> bool) -> Result<()> {
     for _ in 0..ROUNDS {
         let mut ended = pass(basis, 1, stop)?;
         if depth > 1 {
@@ -43,10 +43,10 @@ pub fn lll(basis: &mut Basis, depth: usize, stop: &mut dyn FnMut() -> bool) -> R
 }
 
 /// One sweep to the end, as long as it takes; whether it came there.
-fn pass(basis: &mut Basis, depth: usize, stop: &mut dyn FnMut() -> bool) -> Result<bool> {
+fn pass(basis: &mut Basis, depth: usize, stop: &mut dyn FnMut(u64) -> bool) -> Result<bool> {
     let mut k = 0;
     while k < basis.rank() {
-        if stop() {
+        if stop((basis.dim() * (k + 1)) as u64) {
             return Ok(false);
         }
         basis.size_reduce(k)?;

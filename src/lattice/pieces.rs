@@ -55,7 +55,7 @@ pub fn pieces(
     r: &[f64],
     full: bool,
     point: &[f64],
-    stop: &mut dyn FnMut() -> bool,
+    stop: &mut dyn FnMut(u64) -> bool,
 ) -> Result<Vec<Piece>> {
     let make = |places: Vec<usize>| {
         let k = places.len();
@@ -132,7 +132,7 @@ mod tests {
     fn uncoupled_integers_are_decided_apart() {
         // 0 and 2 are coupled, 1 stands alone.
         let r = [2.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.5, 0.0, 3.0];
-        let parts = pieces(3, &r, true, &[0.2, 1.7, -4.1], &mut || false).unwrap();
+        let parts = pieces(3, &r, true, &[0.2, 1.7, -4.1], &mut |_| false).unwrap();
         let places: Vec<_> = parts.iter().map(|p| p.places.clone()).collect();
         assert_eq!(places, [vec![0, 2], vec![1]]);
         assert_eq!(assemble(&parts, 3).unwrap(), [0.0, 2.0, -4.0]);

@@ -127,7 +127,7 @@ mod tests {
         };
         let values = (0..n * n).map(|k| entry(k / n, k % n)).collect();
         let mut basis = Basis::new(&Gram::new(n, values).unwrap());
-        lll(&mut basis, 5, &mut || false).unwrap();
+        lll(&mut basis, 5, &mut |_| false).unwrap();
         let diagonals = with_diagonals.then(|| Diagonals::new(&basis));
         let diagonals = diagonals.as_ref();
         let limits = Limits {

@@ -21,8 +21,9 @@ const DIAGONALS_PER_NODE: u64 = 100;
 /// No proof needs enumerations of more nodes.
 const LAST: f64 = 1e30;
 
-/// Of the budget, what is spent on the bound where a proof is not tried.
-const BOUND_SHARE: u64 = 16;
+/// Of the budget, what is spent on the bound where a proof is not tried: it rises with the logarithm
+/// of the nodes.
+const BOUND_SHARE: u64 = 1_000;
 
 /// Decides the integers of `model` as well as it can be done without a proof.
 ///
@@ -38,25 +39,30 @@ pub(crate) fn lattice(
     Ok(())
 }
 
-/// Decides the integers of `model` and proves that nothing is better, with at most `nodes` nodes.
+/// Decides the integers of `model` and proves that nothing is better, as far as the budgets of
+/// `options` and `search` last.
 ///
 /// # Errors
 /// As [`lattice`].
 pub(crate) fn exact(
     model: &ReducedModel,
     options: &Options,
-    nodes: u64,
     factors: &mut Factors,
     search: &mut Search,
 ) -> Result<()> {
     let mut pieces = decode(model, options, factors, search)?;
-    if search.monitor.check().is_err() {
+    if search.ends(0) {
         return Ok(());
     }
     let certificate = Certificate::measure(model, factors, &pieces, search)?;
+    let widest = pieces.iter().map(|p| p.basis.rank()).max().unwrap_or(0);
+    let per_node = widest as u64 / 2 + 1;
+    let nodes = (options.nodes as u64).min(search.work.left() / per_node);
     let mut left = nodes;
     for piece in &mut pieces {
-        left -= bound_undecided(piece, left);
+        let price = bound_undecided(piece, left);
+        left -= price;
+        search.work.spend(price * per_node);
     }
     let all: f64 = pieces.iter().map(Piece::predicted_nodes).sum();
     if all > HOPELESS * nodes as f64 {
@@ -88,6 +94,7 @@ pub(crate) fn exact(
                 },
             );
             left -= found.nodes;
+            search.work.spend(found.nodes * per_node);
             for (z, distance) in found.near {
                 try_point(model, factors, search, &mut pieces, at, z, distance)?;
             }
@@ -211,7 +218,8 @@ fn decode(
         model.integers().iter().map(at).collect()
     };
     let (r, full) = factors.schur(model)?;
-    let mut stop = || search.monitor.check().is_err();
+    search.work.spend(4 * (m as u64).pow(3));
+    let mut stop = |work| search.ends(work);
     let mut pieces = pieces(m, r, full, &relaxed, &mut stop)?;
     search.offer(factors, &assemble(&pieces, m)?)?;
     if let Some(best) = search.incumbent_integers() {
@@ -220,7 +228,7 @@ fn decode(
     for at in 0..pieces.len() {
         let mut better = false;
         let piece = &mut pieces[at];
-        let mut stop = || search.monitor.check().is_err();
+        let mut stop = |work| search.ends(work);
         if let Some(z) = beam(&piece.basis, &piece.target, options.beam_width, &mut stop) {
             better |= piece.take(z);
         }
@@ -233,7 +241,7 @@ fn decode(
     for _ in 0..options.lattice_rounds {
         for at in 0..pieces.len() {
             let piece = &mut pieces[at];
-            let mut stop = || search.monitor.check().is_err();
+            let mut stop = |work| search.ends(work);
             let start = perturbed(piece, &mut shaken);
             if improve(piece, start, &mut stop)? {
                 search.offer(factors, &assemble(&pieces, m)?)?;
@@ -254,7 +262,7 @@ fn start_from(pieces: &mut [Piece], integers: &[f64]) -> Result<()> {
 }
 
 /// Block improvement from `z`; whether it ended better than the best point.
-fn improve(piece: &mut Piece, mut z: Vec<i64>, stop: &mut dyn FnMut() -> bool) -> Result<bool> {
+fn improve(piece: &mut Piece, mut z: Vec<i64>, stop: &mut dyn FnMut(u64) -> bool) -> Result<bool> {
     let value = piece.target.distance(&piece.basis, &z);
     improve_blocks(&piece.basis, &piece.target, &mut z, value, stop)?;
     Ok(piece.take(z))

@@ -103,7 +103,7 @@ fn events_never_lose_ground_and_cancelling_keeps_the_best() {
 
 #[test]
 fn more_integers_than_a_dense_lattice_holds_are_rounded_adaptively() {
-    let problem = common::orientation_field(6, 1).unwrap();
+    let problem = common::parametrization(6, 1).unwrap();
     for strategy in [Strategy::Lattice, Strategy::Exact, Strategy::Auto] {
         let options = Options {
             dense_integers: 3,
@@ -136,4 +136,33 @@ fn a_hundred_integers_are_proved_within_twenty_minutes() {
     assert!((90..=110).contains(&solution.counts().reduced_integers));
     assert_eq!(solution.status(), SolveStatus::Optimal);
     assert!(started.elapsed().as_secs_f64() < 1_200.0);
+}
+
+#[test]
+fn the_work_of_auto_is_a_multiple_of_the_relaxations() {
+    let mesh = shape::by_name("genus-3", 600).unwrap();
+    let mesh = jitter(&mesh, 0.2, 1).unwrap();
+    let field = FieldProblem::new(&mesh, &curvature_constraints(&mesh, 0.05).unwrap()).unwrap();
+    let solved = solve(field.problem(), &with(Strategy::Auto)).unwrap();
+    let directions = field.field(&mesh, &solved).unwrap();
+    let map = SeamlessProblem::new(&mesh, &directions, &SeamlessOptions::default()).unwrap();
+    for (problem, far) in [
+        (field.problem(), false),
+        (map.problem(), false),
+        (&common::orientation_field(7, 3).unwrap(), false),
+        (&common::orientation_field(20, 3).unwrap(), true),
+        (&common::parametrization(24, 7).unwrap(), true),
+    ] {
+        let relaxation = solve(problem, &with(Strategy::Relax)).unwrap().work();
+        let auto = solve(problem, &with(Strategy::Auto)).unwrap().work();
+        // As the documentation of `Strategy::Auto` says, and one step of the search more.
+        let limit = 300 * relaxation + 200_000_000;
+        assert!(relaxation > 0 && auto > relaxation, "{relaxation} {auto}");
+        assert!(auto <= relaxation + limit + limit / 20, "{auto} {limit}");
+        assert_eq!(auto, solve(problem, &with(Strategy::Auto)).unwrap().work());
+        if far {
+            let exact = with(Strategy::Exact);
+            assert!(solve(problem, &exact).unwrap().work() > auto);
+        }
+    }
 }
