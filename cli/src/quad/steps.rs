@@ -3,10 +3,11 @@
 use std::time::Instant;
 
 use roundel::mesh::TriangleMesh;
+use roundel::mesh::features::FeatureGraph;
 use roundel::quad::untangle::{UntangleOptions, Untangled, untangle};
 use roundel::quad::{
-    FieldProblem, IntegerGridMap, OrientationField, QuadMesh, SeamlessOptions, SeamlessProblem,
-    SmoothOptions, extract, smooth,
+    FieldProblem, IntegerGridMap, OrientationField, QuadMesh, SeamlessProblem, SmoothOptions,
+    extract, smooth,
 };
 use roundel::{CancelToken, Options, Result, Solution, Strategy};
 
@@ -54,11 +55,11 @@ pub(super) fn solve(arguments: &Arguments) -> Result<Solved> {
     let options = arguments.solver.over(Options::default())?;
     let mut seconds = Seconds::default();
     let mesh = timed(&mut seconds.read, || mesh::read(&arguments.mesh))?;
-    let field = timed(&mut seconds.field, || {
+    let (field, features) = timed(&mut seconds.field, || {
         field(arguments, &mesh, &options, &watch)
     })?;
     let (solution, untangled) = timed(&mut seconds.map, || {
-        map(arguments, &mesh, &field, &options, &watch)
+        map(arguments, &mesh, (&field, &features), &options, &watch)
     })?;
     watch.progress.say("quads");
     let mut quads = timed(&mut seconds.quads, || {
@@ -89,25 +90,27 @@ fn field(
     mesh: &TriangleMesh,
     options: &Options,
     watch: &Watch,
-) -> Result<OrientationField> {
-    let problem = FieldProblem::new(mesh, &arguments.directions.constraints(mesh)?)?;
+) -> Result<(OrientationField, FeatureGraph)> {
+    let (guidance, features) = arguments.directions.of(mesh, 4)?;
+    let follows = guidance.field_options(mesh, &features)?;
+    let problem = FieldProblem::with_options(mesh, &follows)?;
     let options = Options {
         strategy: arguments.field_strategy,
         ..options.clone()
     };
     let solution = roundel::solve_with(problem.problem(), &options, watch.monitor())?;
-    problem.field(mesh, &solution)
+    Ok((problem.field(mesh, &solution)?, features))
 }
 
 fn map(
     arguments: &Arguments,
     mesh: &TriangleMesh,
-    field: &OrientationField,
+    (field, features): (&OrientationField, &FeatureGraph),
     options: &Options,
     watch: &Watch,
 ) -> Result<(Solution, Untangled)> {
-    let quads = arguments.target(mesh);
-    let problem = SeamlessProblem::new(mesh, field, &SeamlessOptions { quads })?;
+    let sizing = arguments.sizing.of()?;
+    let problem = SeamlessProblem::with_features(mesh, field, &sizing, features)?;
     let solution = roundel::solve_with(problem.problem(), options, watch.monitor())?;
     let map = problem.map(mesh, &solution)?;
     let untangled = match arguments.no_untangle || options.strategy == Strategy::Relax {
