@@ -35,12 +35,13 @@ pub struct Diagonals {
 }
 
 impl Diagonals {
-    /// Diagonals below the scalar products of the first basis vectors.
-    pub fn new(basis: &Basis) -> Self {
+    /// Diagonals below the scalar products of the first basis vectors, or nothing if `stop` says so,
+    /// which is asked before each Newton step.
+    pub fn new(basis: &Basis, stop: &mut dyn FnMut() -> bool) -> Option<Self> {
         let m = basis.rank();
         let mut levels = vec![Vec::new(); m + 1];
         if m == 0 {
-            return Diagonals { levels };
+            return Some(Diagonals { levels });
         }
         let gram = leading_gram(basis);
         let mut problem = Barrier::new(&gram, m);
@@ -49,10 +50,12 @@ impl Diagonals {
             d.truncate(k);
             problem.size = k;
             let steps = if k == m { FIRST_STEPS } else { STEPS };
-            problem.improve(&mut d, steps);
+            if !problem.improve(&mut d, steps, stop) {
+                return None;
+            }
             levels[k] = problem.certain(&d);
         }
-        Diagonals { levels }
+        Some(Diagonals { levels })
     }
 
     /// The diagonal over the first `k` coordinates; all zero where none was found.
@@ -124,12 +127,16 @@ impl<'a> Barrier<'a> {
     }
 
     /// Newton steps on `trace(D) / share + log det (G - D)`, the share falling to its end. The
-    /// steps' lengths keep `G - D` positive definite (the barrier is self-concordant).
-    fn improve(&self, d: &mut [f64], steps: usize) {
+    /// steps' lengths keep `G - D` positive definite (the barrier is self-concordant). Whether `stop`
+    /// let it go on.
+    fn improve(&self, d: &mut [f64], steps: usize, stop: &mut dyn FnMut() -> bool) -> bool {
         let n = self.size;
         for _ in 0..steps {
+            if stop() {
+                return false;
+            }
             let Some(m) = inverse(self.without(d), n) else {
-                return;
+                break;
             };
             let trace: f64 = d.iter().sum();
             // Central points have `m_ii = 1 / share`: aim at half of where this one is.
@@ -139,7 +146,7 @@ impl<'a> Barrier<'a> {
             let slope: Vec<f64> = (0..n).map(|i| 1.0 / share - m[i * n + i]).collect();
             let curvature = m.iter().map(|v| v * v).collect();
             let Some(lower) = cholesky(curvature, n) else {
-                return;
+                break;
             };
             let step = solve(&lower, n, &slope);
             let square: f64 = step.iter().zip(&slope).map(|(s, g)| s * g).sum();
@@ -148,9 +155,10 @@ impl<'a> Barrier<'a> {
                 *d += length * s;
             }
             if square < 1e-2 && share == least {
-                return;
+                break;
             }
         }
+        true
     }
 
     /// `d` without negative entries, made smaller until it is below G beyond doubt.

@@ -128,7 +128,7 @@ mod tests {
         let values = (0..n * n).map(|k| entry(k / n, k % n)).collect();
         let mut basis = Basis::new(&Gram::new(n, values).unwrap());
         lll(&mut basis, 5, &mut |_| false).unwrap();
-        let diagonals = with_diagonals.then(|| Diagonals::new(&basis));
+        let diagonals = with_diagonals.then(|| Diagonals::new(&basis, &mut || false).unwrap());
         let diagonals = diagonals.as_ref();
         let limits = Limits {
             radius: radius_for(&basis, diagonals, predicted, f64::MAX),

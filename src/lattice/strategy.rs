@@ -18,6 +18,10 @@ const HOPELESS: f64 = 4.0;
 /// Diagonals of m dimensions take `m^4` of their steps, and so many of these take as long as a node.
 const DIAGONALS_PER_NODE: u64 = 100;
 
+/// Diagonals are made in at most so many dimensions: no proof comes to an end in more, with them or
+/// without.
+const WIDEST: usize = 160;
+
 /// No proof needs enumerations of more nodes.
 const LAST: f64 = 1e30;
 
@@ -60,7 +64,8 @@ pub(crate) fn exact(
     let nodes = (options.nodes as u64).min(search.work.left() / per_node);
     let mut left = nodes;
     for piece in &mut pieces {
-        let price = bound_undecided(piece, left);
+        let mut stop = || search.monitor.check().is_err();
+        let price = bound_undecided(piece, left, &mut stop);
         left -= price;
         search.work.spend(price * per_node);
     }
@@ -113,12 +118,13 @@ pub(crate) fn exact(
 
 /// Makes the diagonals of `piece` where its proof is worth their price; returns that price, in nodes
 /// of which `left` may be spent.
-fn bound_undecided(piece: &mut Piece, left: u64) -> u64 {
-    let price = (piece.basis.rank() as u64).pow(4) / DIAGONALS_PER_NODE;
-    if price > left / 2 || piece.predicted_nodes() < price as f64 {
+fn bound_undecided(piece: &mut Piece, left: u64, stop: &mut dyn FnMut() -> bool) -> u64 {
+    let m = piece.basis.rank();
+    let price = (m as u64).pow(4) / DIAGONALS_PER_NODE;
+    if m > WIDEST || price > left / 2 || piece.predicted_nodes() < price as f64 {
         return 0;
     }
-    piece.diagonals = Some(Diagonals::new(&piece.basis));
+    piece.diagonals = Diagonals::new(&piece.basis, stop);
     price
 }
 

@@ -270,7 +270,7 @@ fn diagonals_are_below_the_scalar_products() {
     let mut random = Random::new(5);
     for (n, least) in [(1, 1.0), (6, 1e-2), (30, 1.0), (60, 1e-3)] {
         let basis = reduced(&random.gram(n, least));
-        let diagonals = Diagonals::new(&basis);
+        let diagonals = Diagonals::new(&basis, &mut || false).unwrap();
         let mut best: f64 = 0.0;
         for k in 1..=n {
             let d = diagonals.level(k);
@@ -302,7 +302,7 @@ fn an_enumeration_with_diagonals_finds_the_same_with_fewer_nodes() {
         let target = Target::new(&basis, &random.target(n)).unwrap();
         let start = nearest_plane(&basis, &target);
         let value = target.distance(&basis, &start);
-        let diagonals = Diagonals::new(&basis);
+        let diagonals = Diagonals::new(&basis, &mut || false).unwrap();
         let run = |diagonals| {
             let limits = Limits {
                 radius: value * (1.0 + 1e-9),
