@@ -30,8 +30,7 @@ pub(super) fn search(
     let m = model.integers().len();
     let mut few = m <= options.dense_integers;
     if options.strategy == Strategy::Auto {
-        factors.relaxed(model)?;
-        let limit = auto_limit(of_relaxation(model, factors.entries()));
+        let limit = auto_limit(of_relaxation(model));
         search.work.limit_to(limit);
         few &= DENSE * (m as u64).pow(3) <= limit / 2;
     }

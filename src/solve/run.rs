@@ -129,8 +129,8 @@ fn decide(
     monitor: &mut Monitor,
 ) -> Result<Decided> {
     monitor.progress(Phase::Factor, 0.0)?;
-    let relaxation = relax(reduced, factors)?;
-    let work = of_relaxation(reduced, factors.entries());
+    let relaxation = relax(reduced, options.strategy, factors)?;
+    let work = of_relaxation(reduced);
     let relaxed = |status: SolveStatus, relaxation: Relaxation| Decided {
         point: relaxation.point,
         lower_bound: relaxation.lower_bound,

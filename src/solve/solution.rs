@@ -76,8 +76,9 @@ impl Solution {
         self.status
     }
 
-    /// Multiplications of the relaxation and of the search, to their order; roundings are not
-    /// counted. The same on every machine.
+    /// Multiplications of the relaxation and of the search, to their order: the relaxation counts as
+    /// 50 for each entry of the reduced Hessian, roundings are not counted. The same on every
+    /// machine.
     pub fn work(&self) -> u64 {
         self.work
     }

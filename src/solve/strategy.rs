@@ -18,7 +18,7 @@ pub enum Strategy {
     Exact,
     /// As exact where integers are few; where they are many, adaptive, improved in cycle space if
     /// angles differ. Beyond roundings it spends at most the work of 300 relaxations, or 2e8
-    /// multiplications if these are more ([`Solution::work`](super::Solution::work)).
+    /// multiplications if these are more, by count ([`Solution::work`](super::Solution::work)).
     Auto,
 }
 

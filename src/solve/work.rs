@@ -28,7 +28,7 @@ impl Work {
         }
     }
 
-    /// Sets the limit of `auto`: see [`auto_limit`].
+    /// Sets the limit: see [`auto_limit`].
     pub fn limit_to(&mut self, limit: u64) {
         self.limit = limit;
     }
@@ -56,11 +56,13 @@ impl Work {
     }
 }
 
-/// The least work that a relaxation takes whose factor has so many entries below the diagonal: the
-/// squares of its columns' lengths if all are alike, and two solves with refinement.
-pub(crate) fn of_relaxation(model: &ReducedModel, entries: usize) -> u64 {
-    let (n, entries) = (model.dim().max(1) as u64, entries as u64);
-    entries * (entries / n) + 6 * (entries + n)
+/// What a relaxation is counted as for each entry of the reduced Hessian. On mesh problems it
+/// multiplies more, whatever the order of elimination.
+const PER_ENTRY: u64 = 50;
+
+/// The work of a relaxation.
+pub(crate) fn of_relaxation(model: &ReducedModel) -> u64 {
+    PER_ENTRY * model.hessian().len() as u64
 }
 
 /// Multiplications that `auto` may spend beyond roundings.
