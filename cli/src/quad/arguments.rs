@@ -44,6 +44,10 @@ pub struct Arguments {
     #[arg(long)]
     pub no_smooth: bool,
 
+    /// Write a page with field, map and quads, to be turned and zoomed in a browser, and all figures
+    #[arg(long, value_name = "REPORT.html")]
+    pub report: Option<PathBuf>,
+
     /// Print one JSON object instead of the summary
     #[arg(long)]
     pub json: bool,

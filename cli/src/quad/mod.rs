@@ -1,6 +1,7 @@
 //! `roundel quad`: from a mesh to quads in one command.
 
 mod arguments;
+mod page;
 mod report;
 mod steps;
 mod summary;
@@ -20,6 +21,9 @@ pub fn run(arguments: &Arguments) -> Exit {
 }
 
 fn tell(arguments: &Arguments, solved: &Solved) -> roundel::Result<()> {
+    if let Some(path) = &arguments.report {
+        page::write(path, &arguments.mesh.to_string_lossy(), solved)?;
+    }
     if arguments.json {
         output::print_json(&QuadReport::new(arguments, solved))
     } else {

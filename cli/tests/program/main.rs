@@ -6,6 +6,7 @@ mod outcome;
 mod output;
 mod parametrize;
 mod problem;
+mod quad;
 mod readme;
 mod run;
 mod shape;

@@ -28,7 +28,7 @@ fn commands() -> Vec<Vec<&'static str>> {
 #[test]
 fn every_command_that_it_shows_succeeds() {
     let commands = commands();
-    assert_eq!(commands[0][..2], ["field", "shape:rounded-cube"]);
+    assert_eq!(commands[0][..2], ["quad", "shape:gear:4000"]);
     for words in commands {
         let scratch = Scratch::new(&format!("readme-{}", words[0]));
         let mut command = program(&words);
