@@ -1,5 +1,6 @@
 //! The `roundel` program: one command a task, each in a module of its name.
 
+mod check;
 mod evaluate;
 mod exit;
 mod field;
@@ -32,6 +33,7 @@ enum Command {
     Solve(solve::Arguments),
     Field(field::Arguments),
     Parametrize(parametrize::Arguments),
+    Check(check::Arguments),
     Shape(shape::Arguments),
     Evaluate(evaluate::Arguments),
 }
@@ -41,6 +43,7 @@ fn main() -> ExitCode {
         Command::Solve(arguments) => solve::run(&arguments),
         Command::Field(arguments) => field::run(&arguments),
         Command::Parametrize(arguments) => parametrize::run(&arguments),
+        Command::Check(arguments) => check::run(&arguments),
         Command::Shape(arguments) => shape::run(&arguments),
         Command::Evaluate(arguments) => evaluate::run(&arguments),
     }

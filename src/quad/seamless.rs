@@ -45,7 +45,7 @@ impl Default for SeamlessOptions {
 /// every cone. In every component the first cone, or else the first vertex, is pinned to the origin.
 #[derive(Debug, Clone)]
 pub struct SeamlessProblem {
-    problem: Problem,
+    pub(super) problem: Problem,
     pub(super) field: OrientationField,
     pub(super) cut: CutGraph,
     pub(super) combing: Combing,

@@ -9,9 +9,9 @@ use std::time::Instant;
 
 use roundel::mesh::TriangleMesh;
 use roundel::problem::mps::{self, MpsProblem};
-use roundel::quad::untangle::{UntangleOptions, Untangled, untangle};
+use roundel::quad::untangle::{Unfolded, UntangleOptions, Untangled, solve_unfolded};
 use roundel::quad::{SeamlessOptions, SeamlessProblem};
-use roundel::{Options, Result, Solution, Strategy};
+use roundel::{Options, Result, Solution};
 
 use crate::exit::Exit;
 use crate::progress::Progress;
@@ -34,7 +34,9 @@ struct Solved {
     mesh: TriangleMesh,
     field: FieldSource,
     untangled: Untangled,
-    /// Seconds from the solution to the map.
+    /// How often integers were decided anew.
+    rounds: usize,
+    /// Seconds of the map beside those of the last solve.
     untangle_seconds: f64,
     solution: Solution,
     before: Preparation,
@@ -51,21 +53,33 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
     let (field, source) = field::of(arguments, &mesh, &options, monitor())?;
     let started = Instant::now();
     let quads = arguments.quads;
-    let problem = SeamlessProblem::new(&mesh, &field, &SeamlessOptions { quads })?;
+    let mut problem = SeamlessProblem::new(&mesh, &field, &SeamlessOptions { quads })?;
     // The problem holds what it needs of it.
     drop(field);
     let assemble = started.elapsed().as_secs_f64();
     if let Some(path) = &arguments.write_problem {
         mps::write(path, &MpsProblem::new(problem.problem().clone()))?;
     }
-    let solution = roundel::solve_with(problem.problem(), &options, monitor())?;
     let started = Instant::now();
-    let map = problem.map(&mesh, &solution)?;
-    let untangled = match arguments.no_untangle || options.strategy == Strategy::Relax {
-        true => Untangled::as_it_is(map),
-        false => untangle(&mesh, &problem, &map, &UntangleOptions::default(), &mut monitor())?,
+    let unfolded = match arguments.no_untangle {
+        true => {
+            let solution = roundel::solve_with(problem.problem(), &options, monitor())?;
+            let map = problem.map(&mesh, &solution)?;
+            Unfolded::as_it_is(solution, map)
+        }
+        false => {
+            let work = UntangleOptions::default();
+            solve_unfolded(&mesh, &mut problem, &options, &work, monitor)?
+        }
     };
-    let untangle_seconds = started.elapsed().as_secs_f64();
+    let solved = started.elapsed().as_secs_f64();
+    let Unfolded {
+        solution,
+        untangled,
+        rounds,
+        ..
+    } = unfolded;
+    let untangle_seconds = solved - solution.seconds().total;
     if let Some(path) = &arguments.out {
         untangled.map.write_obj(&mesh, path)?;
     }
@@ -74,6 +88,7 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
         mesh,
         field: source,
         untangled,
+        rounds,
         untangle_seconds,
         solution,
         before: Preparation {

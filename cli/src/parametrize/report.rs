@@ -28,6 +28,7 @@ pub struct MapReport<'a> {
 /// What untangling took, and what it could not unfold.
 #[derive(Serialize)]
 struct Untangling {
+    rounds: usize,
     steps: usize,
     seconds: f64,
     stuck_faces: Vec<usize>,
@@ -67,6 +68,7 @@ impl<'a> MapReport<'a> {
             flipped: map.flipped().len(),
             flipped_faces: map.flipped(),
             untangle: Untangling {
+                rounds: solved.rounds,
                 steps: untangled.steps,
                 seconds: solved.untangle_seconds,
                 stuck_faces: untangled.stuck_faces.clone(),

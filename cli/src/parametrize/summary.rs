@@ -19,6 +19,7 @@ impl fmt::Display for MapSummary<'_> {
             field,
             untangled,
             untangle_seconds,
+            rounds,
             solution,
             before,
         } = self.solved;
@@ -44,8 +45,9 @@ impl fmt::Display for MapSummary<'_> {
         let search = seconds.factor + seconds.round;
         line(f, options.strategy.name(), &found, search)?;
         let unfolded = format!(
-            "{} flipped, {}",
+            "{} flipped, {}, {}",
             counted(untangled.flipped_before, "face"),
+            counted(*rounds, "round"),
             counted(untangled.steps, "step")
         );
         line(f, "untangle", &unfolded, *untangle_seconds)?;

@@ -43,7 +43,8 @@ impl Rest {
     /// From the corners of the triangle, counter-clockwise, in the plane.
     pub fn new([a, b, c]: [[f64; 2]; 3]) -> Self {
         let doubled = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
-        let gradient = |p: [f64; 2], q: [f64; 2]| [(p[1] - q[1]) / doubled, (q[0] - p[0]) / doubled];
+        let gradient =
+            |p: [f64; 2], q: [f64; 2]| [(p[1] - q[1]) / doubled, (q[0] - p[0]) / doubled];
         Rest {
             gradients: [gradient(b, c), gradient(c, a), gradient(a, b)],
             area: 0.5 * doubled,
@@ -158,7 +159,10 @@ fn in_parts(parts: &Parts, eps: f64) -> ([f64; 4], [[f64; 4]; 4]) {
     let b = 4.0 * p * q * by_pq;
     let c = 2.0 * by_q + 4.0 * q * q * by_qq;
     for (value, [x, y]) in eigen(a, b, c) {
-        add(value, [x * p_hat[0], x * p_hat[1], y * q_hat[0], y * q_hat[1]]);
+        add(
+            value,
+            [x * p_hat[0], x * p_hat[1], y * q_hat[0], y * q_hat[1]],
+        );
     }
     (slope, hessian)
 }

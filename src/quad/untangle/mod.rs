@@ -13,13 +13,20 @@
 //! | Newton steps of a region | `system` |
 //! | the schedule that closes the barrier | `schedule` |
 //! | what no motion can unfold | `stuck` |
+//! | cones at one point, held apart | `separate` |
+//! | all of it, from the problem on | `unfolded` |
 
 mod energy;
 mod freedom;
 mod region;
 mod schedule;
+mod separate;
 mod stuck;
 mod system;
+mod unfolded;
+
+pub use separate::Collapsed;
+pub use unfolded::{Unfolded, solve_unfolded};
 
 use super::check::orientation;
 use super::{SeamlessMap, SeamlessProblem};
@@ -45,6 +52,8 @@ pub struct UntangleOptions {
     pub steps: usize,
     /// How many faces all steps together may look at, as a multiple of the mesh's faces.
     pub passes: usize,
+    /// How often the integers of collapsed cones are decided anew.
+    pub rounds: usize,
 }
 
 impl Default for UntangleOptions {
@@ -52,6 +61,7 @@ impl Default for UntangleOptions {
         UntangleOptions {
             steps: 100,
             passes: 200,
+            rounds: 4,
         }
     }
 }
@@ -184,7 +194,10 @@ impl<'a> Untangling<'a> {
         }
         let rest = |face: usize| at_rest(self.mesh, self.density, face);
         let system = System::new(&self.freedom, region, rest, &self.place)?;
-        region.unknowns.iter().for_each(|&y| self.place[y as usize] = NONE);
+        region
+            .unknowns
+            .iter()
+            .for_each(|&y| self.place[y as usize] = NONE);
         let before = system.folded(&self.values);
         if before == 0 {
             return Ok(());

@@ -37,7 +37,10 @@ impl<'a> System<'a> {
         rest: impl Fn(usize) -> Rest,
         place: &[u32],
     ) -> Result<Self> {
-        let moved = region.unknowns.iter().flat_map(|&y| freedom.moved.row(y as usize));
+        let moved = region
+            .unknowns
+            .iter()
+            .flat_map(|&y| freedom.moved.row(y as usize));
         let mut coordinates: Vec<u32> = moved.map(|(i, _)| i as u32).collect();
         coordinates.sort_unstable();
         coordinates.dedup();
@@ -47,7 +50,10 @@ impl<'a> System<'a> {
             let inside = entries.filter(|&(y, _)| (place[y] as usize) < dim);
             inside.map(move |(y, v)| (k as u32, place[y], v))
         };
-        let of_faces = region.faces.iter().flat_map(|&f| freedom.copies[f as usize]);
+        let of_faces = region
+            .faces
+            .iter()
+            .flat_map(|&f| freedom.copies[f as usize]);
         let of_faces: Vec<u32> = of_faces.flat_map(|c| [2 * c, 2 * c + 1]).collect();
         let matrix = |list: &[u32]| {
             let entries = list.iter().enumerate().flat_map(|(k, &i)| row(k, i));
