@@ -5,11 +5,11 @@
 //! apart by constraints: along the coordinate in which the edge should be longest by one unit, or,
 //! for a face, by the nearest triangle of units that is the right way round.
 
-use crate::Result;
 use crate::mesh::TriangleMesh;
 use crate::mesh::vector::{dot, sub};
 use crate::quad::check::orientation;
 use crate::quad::{SeamlessMap, SeamlessProblem};
+use crate::{Problem, Result};
 
 /// What the integers of cones collapse.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -45,30 +45,47 @@ impl Collapsed {
         Collapsed { edges, faces }
     }
 
+    /// How many elements.
+    pub fn count(&self) -> usize {
+        self.edges.len() + self.faces.len()
+    }
+
     /// Whether there is nothing.
     pub fn is_empty(&self) -> bool {
         self.edges.is_empty() && self.faces.is_empty()
     }
 }
 
+/// A constraint between two coordinates: the second is by so much larger than the first.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Apart {
+    unknowns: [usize; 2],
+    by: f64,
+}
+
+impl Apart {
+    pub fn add_to(&self, problem: &mut Problem) -> Result<()> {
+        let [a, b] = self.unknowns;
+        problem.add_constraint(&[b, a], &[1.0, -1.0], self.by)?;
+        Ok(())
+    }
+}
+
 impl SeamlessProblem {
-    /// Adds constraints that hold collapsed cones apart, and gives their number.
+    /// The constraints that hold collapsed cones apart.
     ///
-    /// No two cones are joined twice, so that the constraints do not contradict each other; those of
-    /// earlier calls they may.
-    ///
-    /// # Errors
-    /// [`OutOfMemory`](crate::Error::OutOfMemory).
-    pub fn separate(&mut self, mesh: &TriangleMesh, collapsed: &Collapsed) -> Result<usize> {
+    /// No two cones are joined twice, so that they seldom contradict each other; constraints of
+    /// earlier rounds they may.
+    pub(super) fn apart(&self, mesh: &TriangleMesh, collapsed: &Collapsed) -> Vec<Apart> {
         let mut joined = Joined((0..mesh.vertex_count() as u32).collect());
-        let before = self.problem.constraints();
+        let mut found = Vec::new();
         for &face in &collapsed.faces {
             let [a, b, c] = mesh.corners(face);
             if joined.join(a, b) && joined.join(a, c) {
                 let [ab, ac] = units(self.aim(mesh, face, 0, 1), self.aim(mesh, face, 0, 2));
                 for axis in 0..2 {
-                    self.hold_apart(face, [0, 1], axis, ab[axis])?;
-                    self.hold_apart(face, [0, 2], axis, ac[axis])?;
+                    found.push(self.hold_apart(face, [0, 1], axis, ab[axis]));
+                    found.push(self.hold_apart(face, [0, 2], axis, ac[axis]));
                 }
             }
         }
@@ -78,10 +95,11 @@ impl SeamlessProblem {
             if joined.join(edge.vertices[0], edge.vertices[1]) {
                 let aim = self.aim(mesh, face, k, (k + 1) % 3);
                 let axis = usize::from(aim[1].abs() > aim[0].abs());
-                self.hold_apart(face, [k, (k + 1) % 3], axis, 1f64.copysign(aim[axis]))?;
+                let unit = 1f64.copysign(aim[axis]);
+                found.push(self.hold_apart(face, [k, (k + 1) % 3], axis, unit));
             }
         }
-        Ok(self.problem.constraints() - before)
+        found
     }
 
     /// By how much the coordinates of two corners of a face should differ.
@@ -91,10 +109,9 @@ impl SeamlessProblem {
         self.targets(mesh, face).map(|target| dot(target, step))
     }
 
-    fn hold_apart(&mut self, face: usize, ends: [usize; 2], axis: usize, by: f64) -> Result<()> {
-        let [a, b] = ends.map(|k| 2 * self.sectors.copy[face][k] as usize + axis);
-        self.problem.add_constraint(&[b, a], &[1.0, -1.0], by)?;
-        Ok(())
+    fn hold_apart(&self, face: usize, ends: [usize; 2], axis: usize, by: f64) -> Apart {
+        let unknowns = ends.map(|k| 2 * self.sectors.copy[face][k] as usize + axis);
+        Apart { unknowns, by }
     }
 }
 

@@ -1,9 +1,10 @@
 //! From the problem to a map without folds: decide, hold apart, decide anew, untangle.
 
+use super::separate::Apart;
 use super::{Collapsed, UntangleOptions, Untangled, untangle};
 use crate::mesh::TriangleMesh;
 use crate::quad::{SeamlessMap, SeamlessProblem};
-use crate::{Error, Monitor, Options, Result, Solution, Strategy, solve_with};
+use crate::{Error, Monitor, Options, Problem, Result, Solution, Strategy, solve_with};
 
 /// A map, the solution that its integers are from, and what became of it.
 #[derive(Debug)]
@@ -33,7 +34,8 @@ impl Unfolded {
 /// Solves the problem, holds apart the cones that its integers collapse and solves again, at most
 /// `options.rounds` times, and untangles the map. `monitor` watches each solve and the untangling.
 ///
-/// The problem keeps the constraints that were added. With [`Strategy::Relax`] there are no integers
+/// The problem keeps the constraints that were added. A round that collapses as much as the one
+/// before is the last, and not kept. With [`Strategy::Relax`] there are no integers
 /// to speak of, and the map is that of the relaxation.
 ///
 /// # Errors
@@ -53,20 +55,20 @@ pub fn solve_unfolded<'a>(
     if solver.strategy == Strategy::Relax {
         return Ok(Unfolded::as_it_is(solution, map));
     }
+    let stated = problem.problem.clone();
+    let mut apart = Vec::new();
     while !collapsed.is_empty() && rounds < options.rounds {
-        let stated = problem.clone();
-        problem.separate(mesh, &collapsed)?;
-        solution = match solve_with(problem.problem(), solver, monitor()) {
-            Ok(better) => better,
-            Err(Error::Infeasible { .. } | Error::NoIntegerSolution { .. }) => {
-                *problem = stated;
-                break;
-            }
-            Err(error) => return Err(error),
+        apart.extend(problem.apart(mesh, &collapsed));
+        let Some(found) = solve_apart(problem, &stated, &mut apart, solver, &monitor)? else {
+            break;
         };
         rounds += 1;
-        map = problem.map(mesh, &solution)?;
-        collapsed = Collapsed::find(mesh, &map);
+        let found_map = problem.map(mesh, &found)?;
+        let left = Collapsed::find(mesh, &found_map);
+        if left.count() >= collapsed.count() {
+            break;
+        }
+        (solution, map, collapsed) = (found, found_map, left);
     }
     Ok(Unfolded {
         untangled: untangle(mesh, problem, &map, options, &mut monitor())?,
@@ -74,4 +76,36 @@ pub fn solve_unfolded<'a>(
         rounds,
         collapsed,
     })
+}
+
+/// Solves with constraints that hold cones apart, without those found to contradict the others.
+///
+/// None where what contradicts is not one of them.
+fn solve_apart<'a>(
+    problem: &mut SeamlessProblem,
+    stated: &Problem,
+    apart: &mut Vec<Apart>,
+    solver: &Options,
+    monitor: &impl Fn() -> Monitor<'a>,
+) -> Result<Option<Solution>> {
+    loop {
+        problem.problem = stated.clone();
+        for constraint in apart.iter() {
+            constraint.add_to(&mut problem.problem)?;
+        }
+        let row = match solve_with(problem.problem(), solver, monitor()) {
+            Ok(solution) => return Ok(Some(solution)),
+            Err(
+                Error::Infeasible { constraint, .. } | Error::NoIntegerSolution { constraint, .. },
+            ) => constraint,
+            Err(error) => return Err(error),
+        };
+        match row.checked_sub(stated.constraints()) {
+            Some(k) => drop(apart.remove(k)),
+            None => match apart.pop() {
+                Some(_) => {}
+                None => return Ok(None),
+            },
+        }
+    }
 }
