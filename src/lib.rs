@@ -28,15 +28,17 @@
 //! ```
 //!
 //! Where to find what: [`problem`] states and validates, [`eliminate`] removes the equality
-//! constraints, [`round`] and [`mod@solve`] search, [`linalg`] holds what faer lacks, [`mesh`] holds
-//! triangle meshes, [`capi`] is the C interface.
+//! constraints, [`round`] and [`mod@solve`] search, [`lattice`] finds closest lattice points,
+//! [`linalg`] holds what faer lacks, [`mesh`] holds triangle meshes, [`capi`] is the C interface.
 
 #![deny(unsafe_code)]
 #![deny(missing_docs)]
 
 pub mod capi;
+mod cycle;
 pub mod eliminate;
 mod error;
+pub mod lattice;
 pub mod linalg;
 pub mod mesh;
 #[cfg(feature = "pictures")]
@@ -49,8 +51,8 @@ pub mod solve;
 pub use error::{Error, Result};
 pub use problem::{Layout, Model, Problem, Triangle};
 pub use solve::{
-    CancelToken, Event, Flow, Monitor, Options, Seconds, Solution, SolveStatus, Strategy, solve,
-    solve_with,
+    CancelToken, Event, Flow, Monitor, Options, Seconds, Solution, SolveStatus, Solver, Strategy,
+    WarmStart, solve, solve_with,
 };
 
 /// The README's Rust example is one of the tests.

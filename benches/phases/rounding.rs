@@ -2,7 +2,7 @@
 
 use criterion::{BatchSize, Criterion};
 use roundel::Options;
-use roundel::linalg::{FixedSolve, Ldl, LocalSolve, conjugate_gradient, minimum_degree};
+use roundel::linalg::{Effort, FixedSolve, Ldl, LocalSolve, conjugate_gradient, minimum_degree};
 
 use crate::case::Case;
 
@@ -38,6 +38,10 @@ pub fn bench(criterion: &mut Criterion, case: &Case) {
             BatchSize::LargeInput,
         )
     });
+    let effort = Effort {
+        iterations: options.cg_iterations,
+        tolerance: options.cg_tolerance,
+    };
     let mut held = vec![false; case.reduced.dim()];
     held[unknown as usize] = true;
     let mut start = case.relaxed.clone();
@@ -52,8 +56,8 @@ pub fn bench(criterion: &mut Criterion, case: &Case) {
                     &case.factor,
                     &held,
                     point,
-                    options.cg_iterations,
-                    options.cg_tolerance,
+                    effort,
+                    || true,
                 )
             },
             BatchSize::LargeInput,

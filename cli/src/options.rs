@@ -7,11 +7,13 @@ use clap::builder::{PossibleValuesParser, TypedValueParser, ValueParser};
 use clap::parser::ValueSource;
 use clap::{Arg, ArgMatches, Args, Command, FromArgMatches};
 use roundel::Options;
-use roundel::solve::{OPTIONS, OptionInfo, OptionKind, OptionValue};
+use roundel::solve::{OPTIONS, OptionInfo, OptionKind, OptionValue, PRESETS};
 
 /// Options of the solver, from flags named as the options are, `-` for `_`.
 #[derive(Debug, Clone, Default)]
 pub struct SolverOptions {
+    /// Set before all else.
+    preset: Option<String>,
     /// What the command line says; what it does not is the default, which is not here.
     given: Vec<(&'static str, OptionValue)>,
 }
@@ -19,6 +21,9 @@ pub struct SolverOptions {
 impl SolverOptions {
     /// `options` with what the command line says put over them.
     pub fn over(&self, mut options: Options) -> roundel::Result<Options> {
+        if let Some(name) = &self.preset {
+            options.set_preset(name)?;
+        }
         for (name, value) in &self.given {
             options.set(name, value)?;
         }
@@ -28,6 +33,7 @@ impl SolverOptions {
 
 impl Args for SolverOptions {
     fn augment_args(command: Command) -> Command {
+        let command = command.arg(preset());
         OPTIONS
             .iter()
             .fold(command, |command, info| command.arg(flag(info)))
@@ -46,6 +52,7 @@ impl FromArgMatches for SolverOptions {
     }
 
     fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), clap::Error> {
+        self.preset = matches.get_one::<String>(PRESET).cloned();
         for info in OPTIONS {
             let is_given = matches.value_source(info.name) == Some(ValueSource::CommandLine);
             if let Some(value) = matches.get_one::<OptionValue>(info.name)
@@ -56,6 +63,19 @@ impl FromArgMatches for SolverOptions {
         }
         Ok(())
     }
+}
+
+/// The flag of presets, which is the name of no option.
+const PRESET: &str = "preset";
+
+fn preset() -> Arg {
+    let names = PRESETS.iter().map(|preset| preset.name);
+    Arg::new(PRESET)
+        .long(PRESET)
+        .value_name("NAME")
+        .help("A set of options by name; flags for single options come before it")
+        .help_heading("Solver options")
+        .value_parser(PossibleValuesParser::new(names))
 }
 
 fn flag(info: &'static OptionInfo) -> Arg {
@@ -166,6 +186,19 @@ mod tests {
     }
 
     #[test]
+    fn flags_come_before_the_preset_wherever_they_stand() {
+        for preset in PRESETS {
+            let flags = ["--cg-iterations", "7", "--preset", preset.name];
+            let options = parse(&flags).unwrap().over(Options::default()).unwrap();
+            let mut expected = Options::default();
+            expected.set_preset(preset.name).unwrap();
+            assert_ne!(expected.cg_iterations, 7);
+            expected.cg_iterations = 7;
+            assert_eq!(options, expected);
+        }
+    }
+
+    #[test]
     fn values_out_of_range_or_of_another_kind_are_usage_errors_that_name_the_flag() {
         for line in [
             ["--threads", "-1"],
@@ -175,6 +208,7 @@ mod tests {
             ["--time-limit", "nan"],
             ["--time-limit", "soon"],
             ["--strategy", "guess"],
+            ["--preset", "luck"],
         ] {
             let error = parse(&line).unwrap_err();
             assert_eq!(error.exit_code(), 2, "{line:?}");

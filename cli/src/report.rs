@@ -19,6 +19,7 @@ pub struct Report<'a> {
     constraints: usize,
     reduced_integers: usize,
     reduced_continuous: usize,
+    factor_nonzeros: usize,
     seconds: Seconds,
     peak_memory_bytes: Option<u64>,
     max_constraint_violation: Option<f64>,
@@ -69,6 +70,7 @@ impl<'a> Report<'a> {
             constraints: counts.constraints,
             reduced_integers: counts.reduced_integers,
             reduced_continuous: counts.reduced_continuous,
+            factor_nonzeros: counts.factor_nonzeros,
             seconds: Seconds {
                 read: before.read,
                 assemble: before.assemble,

@@ -390,6 +390,38 @@ typedef struct roundel_problem roundel_problem;
 typedef struct roundel_solution roundel_solution;
 
 /**
+ * A problem whose matrices and integers are fixed, for many solves.
+ *
+ * Elimination, orderings and factors are kept: the first solve costs what roundel_solve costs, one
+ * with other linear terms, right sides or pinned values a fraction. Pinning or releasing a variable
+ * that is in no constraint keeps the elimination; one that is in a constraint calls for another. The
+ * solution is that of roundel_solve for the same data, except that a warm start (option
+ * "warm_start") may improve it.
+ *
+ * A solve that fails changes nothing: the data stay as they were set, and the solver can be used
+ * with them or with others.
+ */
+typedef struct roundel_solver roundel_solver;
+
+/**
+ * What there is to know about one preset. The texts live as long as the library is loaded.
+ */
+typedef struct roundel_preset {
+    /**
+     * Its name.
+     */
+    const char *name;
+    /**
+     * What it is for.
+     */
+    const char *text;
+    /**
+     * Zero, for later use.
+     */
+    int64_t reserved[6];
+} roundel_preset;
+
+/**
  * What there is to know about one option. The texts live as long as the library is loaded.
  */
 typedef struct roundel_option {
@@ -444,9 +476,13 @@ typedef struct roundel_counts {
      */
     int64_t reduced_continuous;
     /**
+     * Entries below the diagonal of the factor that the relaxation was solved with.
+     */
+    int64_t factor_nonzeros;
+    /**
      * Zero, for later use.
      */
-    int64_t reserved[11];
+    int64_t reserved[10];
 } roundel_counts;
 
 /**
@@ -938,6 +974,23 @@ roundel_status roundel_options_get_text(const struct roundel_options *options,
                                         size_t *length);
 
 /**
+ * How many presets there are.
+ */
+size_t roundel_preset_count(void);
+
+/**
+ * Describes preset number `index`, from 0 to below roundel_preset_count.
+ */
+roundel_status roundel_preset_info(size_t index, struct roundel_preset *preset);
+
+/**
+ * Sets all options that the preset of this name is about; others, such as the time limit, stay.
+ *
+ * Fails with ROUNDEL_ERROR_OPTION_RANGE where there is no such preset.
+ */
+roundel_status roundel_options_set_preset(struct roundel_options *options, const char *name);
+
+/**
  * How many options there are.
  */
 size_t roundel_option_count(void);
@@ -1062,6 +1115,82 @@ roundel_status roundel_solve_with(const struct roundel_problem *problem,
                                   const struct roundel_options *options,
                                   const struct roundel_monitor *monitor,
                                   struct roundel_solution **solution);
+
+/**
+ * Makes a solver for a problem, of which it keeps a copy. To be freed with roundel_solver_free.
+ *
+ * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for an integer variable pinned to a fraction,
+ * ROUNDEL_ERROR_OVERFLOW, ROUNDEL_ERROR_OUT_OF_MEMORY. All else shows in the first solve.
+ */
+roundel_status roundel_solver_new(const struct roundel_problem *problem,
+                                  struct roundel_solver **solver);
+
+/**
+ * Frees a solver. NULL is allowed.
+ */
+roundel_status roundel_solver_free(struct roundel_solver *solver);
+
+/**
+ * Replaces the linear term q, one value a variable. What least-squares rows add to it is not
+ * touched. `length` is the number of variables.
+ */
+roundel_status roundel_solver_set_linear(struct roundel_solver *solver,
+                                         const double *values,
+                                         size_t length);
+
+/**
+ * Replaces the right sides of the constraints, one a constraint, in the order in which they were
+ * added. Whether they can hold shows in the next solve.
+ */
+roundel_status roundel_solver_set_constraint_right_sides(struct roundel_solver *solver,
+                                                         const double *values,
+                                                         size_t length);
+
+/**
+ * Replaces the right sides of the least-squares rows, one a row, in the order in which they were
+ * added.
+ */
+roundel_status roundel_solver_set_least_squares_right_sides(struct roundel_solver *solver,
+                                                            const double *values,
+                                                            size_t length);
+
+/**
+ * Sets the point that variables keep to where the objective does not decide them, one value a
+ * variable. A warm start begins there, until a solution is found.
+ */
+roundel_status roundel_solver_set_guess(struct roundel_solver *solver,
+                                        const double *values,
+                                        size_t length);
+
+/**
+ * Fixes one variable to a value; an integer variable must be given an integer by the time of the
+ * solve. One that is pinned already gets another value.
+ */
+roundel_status roundel_solver_pin(struct roundel_solver *solver,
+                                  int64_t variable,
+                                  double pinned_value);
+
+/**
+ * Releases a pinned variable; one that is free stays so.
+ */
+roundel_status roundel_solver_unpin(struct roundel_solver *solver, int64_t variable);
+
+/**
+ * Solves the problem as it stands. `options` may be NULL for the default options. On success
+ * `solution` is a new handle, to be freed with roundel_solution_free. Fails as roundel_solve does.
+ */
+roundel_status roundel_solver_solve(struct roundel_solver *solver,
+                                    const struct roundel_options *options,
+                                    struct roundel_solution **solution);
+
+/**
+ * Solves the problem as it stands under the eyes of `monitor`, which may cancel. `options` and
+ * `monitor` may be NULL. See roundel_solver_solve. The callback must not use the solver.
+ */
+roundel_status roundel_solver_solve_with(struct roundel_solver *solver,
+                                         const struct roundel_options *options,
+                                         const struct roundel_monitor *monitor,
+                                         struct roundel_solution **solution);
 
 /**
  * Makes a problem from a file in free-format MPS, gzipped or not. Variables and constraints are

@@ -16,8 +16,8 @@
 /// also takes a `Status*` as its last argument; given one, it throws nothing and reports there
 /// instead. Built with exceptions turned off, a failure without a Status ends the program.
 ///
-/// Problem, Solution, Mesh, Field and CancelToken own their C objects, move and do not copy. A
-/// const object may be used from several threads at once, any other from one.
+/// Problem, Solution, Solver, Mesh, Field and CancelToken own their C objects, move and do not
+/// copy. A const object may be used from several threads at once, any other from one.
 ///
 /// Meshes of other libraries: <roundel/openmesh.hpp>, <roundel/cgal.hpp>, <roundel/eigen.hpp>.
 
@@ -31,6 +31,7 @@
 #include <roundel/detail/problem.hpp>
 #include <roundel/detail/solution.hpp>
 #include <roundel/detail/solve.hpp>
+#include <roundel/detail/solver.hpp>
 #include <roundel/detail/span.hpp>
 #include <roundel/roundel.h>
 

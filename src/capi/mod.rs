@@ -37,9 +37,11 @@ mod objective;
 mod option_list;
 mod options;
 mod output;
+mod presets;
 mod problem;
 mod solution;
 mod solve;
+mod solver;
 mod status;
 #[cfg(feature = "test-panic")]
 mod test_panic;
@@ -60,9 +62,11 @@ pub use mesh_files::*;
 pub use objective::*;
 pub use option_list::*;
 pub use options::*;
+pub use presets::*;
 pub use problem::*;
 pub use solution::*;
 pub use solve::*;
+pub use solver::*;
 pub use status::*;
 #[cfg(feature = "test-panic")]
 pub use test_panic::*;

@@ -27,8 +27,10 @@ pub struct roundel_counts {
     pub reduced_integers: i64,
     /// Continuous unknowns left after elimination.
     pub reduced_continuous: i64,
+    /// Entries below the diagonal of the factor that the relaxation was solved with.
+    pub factor_nonzeros: i64,
     /// Zero, for later use.
-    pub reserved: [i64; 11],
+    pub reserved: [i64; 10],
 }
 
 /// Wall-clock seconds by phase.
@@ -208,12 +210,14 @@ pub unsafe extern "C" fn roundel_solution_counts(
             constraints,
             reduced_integers,
             reduced_continuous,
+            factor_nonzeros,
         ] = [
             c.variables,
             c.integers,
             c.constraints,
             c.reduced_integers,
             c.reduced_continuous,
+            c.factor_nonzeros,
         ]
         .map(|n| n as i64);
         roundel_counts {
@@ -222,7 +226,8 @@ pub unsafe extern "C" fn roundel_solution_counts(
             constraints,
             reduced_integers,
             reduced_continuous,
-            reserved: [0; 11],
+            factor_nonzeros,
+            reserved: [0; 10],
         }
     };
     // SAFETY: the caller gives a live handle and a place for the numbers, or NULL.

@@ -1,8 +1,7 @@
-//! Back substitution: the expansion `x = T y + t` from the stack, last substitution first.
+//! Back substitution: the matrix of the expansion `x = T y + t` from the stack, last substitution
+//! first. The offset `t` is the business of `right_sides`.
 
-use super::Expansion;
 use super::row::{TooLarge, add_product};
-use super::stack::Substitution;
 use super::tableau::Tableau;
 use super::tolerance::NOISE;
 use super::unknowns::Unknowns;
@@ -11,11 +10,11 @@ use crate::linalg::sparse::reserve;
 use crate::solve::Monitor;
 use crate::{Error, Result};
 
-/// The expansion, and the unknowns that are left, in their order.
+/// T, and the unknowns that are left, in their order.
 pub(super) fn substitute_back(
     tableau: &Tableau,
     monitor: &mut Monitor,
-) -> Result<(Expansion, Vec<u32>)> {
+) -> Result<(Sparse, Vec<u32>)> {
     let unknowns = &tableau.unknowns;
     let stack = &tableau.stack;
     let mut reduced = vec![u32::MAX; unknowns.len()];
@@ -28,7 +27,6 @@ pub(super) fn substitute_back(
     let mut known = Known {
         entries: reserve(2 * stack.len())?,
         rows: vec![(0, 0); stack.len()],
-        offset: vec![0.0; stack.len()],
     };
     let mut sum = Sum::new(free.len());
     for k in (0..stack.len()).rev() {
@@ -36,19 +34,13 @@ pub(super) fn substitute_back(
         let (by, terms) = stack.get(k);
         sum.exact = unknowns.integer[by.pivot as usize];
         known
-            .push(k, by, terms, &reduced, &unknowns.replaced, &mut sum)
+            .push(k, terms, &reduced, &unknowns.replaced, &mut sum)
             .map_err(|error| match error {
-                Trouble::TooLarge if by.constraint == Substitution::NO_CONSTRAINT => {
-                    Error::Overflow {
-                        what: format!("variable {} is pinned to a number too large", by.pivot),
-                        index: Some(by.pivot as usize),
-                    }
-                }
-                Trouble::TooLarge => tableau.overflow(by.constraint as usize),
+                Trouble::TooLarge => stack.too_large(k, |r| tableau.overflow(r)),
                 Trouble::Memory(error) => error,
             })?;
     }
-    Ok((known.expansion(tableau, &reduced)?, free))
+    Ok((known.matrix(tableau, &reduced)?, free))
 }
 
 enum Trouble {
@@ -62,46 +54,32 @@ impl From<TooLarge> for Trouble {
     }
 }
 
-/// Rows of `T` and entries of `t` of the replaced unknowns, by substitution.
+/// Rows of `T` of the replaced unknowns, by substitution.
 struct Known {
     entries: Vec<(u32, f64)>,
     rows: Vec<(usize, usize)>,
-    offset: Vec<f64>,
 }
 
 impl Known {
     fn push(
         &mut self,
         k: usize,
-        by: &Substitution,
         terms: &[(u32, f64)],
         reduced: &[u32],
         replaced: &[u32],
         sum: &mut Sum,
     ) -> std::result::Result<(), Trouble> {
-        let mut offset = by.constant;
-        let mut largest = offset.abs();
         for &(j, c) in terms {
             match replaced[j as usize] {
                 Unknowns::FREE => sum.add(reduced[j as usize], c)?,
                 later => {
-                    let later = later as usize;
-                    let (start, end) = self.rows[later];
+                    let (start, end) = self.rows[later as usize];
                     for &(y, v) in &self.entries[start..end] {
                         sum.add(y, c * v)?;
                     }
-                    largest = largest.max((c * self.offset[later]).abs());
-                    offset = add_product(offset, c, self.offset[later], sum.exact)?;
                 }
             }
         }
-        if !offset.is_finite() {
-            return Err(Trouble::TooLarge);
-        }
-        if !sum.exact && offset.abs() <= NOISE * largest {
-            offset = 0.0;
-        }
-        self.offset[k] = offset;
         let start = self.entries.len();
         self.entries.try_reserve(sum.present.len()).map_err(|_| {
             Trouble::Memory(Error::OutOfMemory {
@@ -113,13 +91,12 @@ impl Known {
         Ok(())
     }
 
-    fn expansion(&self, tableau: &Tableau, reduced: &[u32]) -> Result<Expansion> {
+    fn matrix(&self, tableau: &Tableau, reduced: &[u32]) -> Result<Sparse> {
         let n = tableau.model.variables();
         let free = reduced.iter().filter(|&&y| y != u32::MAX).count();
         let mut offsets = reserve(n + 1)?;
         let mut indices = reserve(n + self.entries.len())?;
         let mut values = reserve(n + self.entries.len())?;
-        let mut offset = vec![0.0; n];
         offsets.push(0);
         for i in 0..n {
             match tableau.unknowns.replaced[i] {
@@ -132,13 +109,11 @@ impl Known {
                     let row = &self.entries[start..end];
                     indices.extend(row.iter().map(|e| e.0));
                     values.extend(row.iter().map(|e| e.1));
-                    offset[i] = self.offset[k as usize];
                 }
             }
             offsets.push(indices.len());
         }
-        let matrix = Sparse::from_parts(free, offsets, indices, values);
-        Ok(Expansion::new(matrix, offset))
+        Ok(Sparse::from_parts(free, offsets, indices, values))
     }
 }
 

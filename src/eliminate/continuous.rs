@@ -15,7 +15,7 @@ pub(super) fn eliminate(tableau: &mut Tableau, r: usize) -> Result<()> {
         .fold(0.0, |m: f64, at| m.max(entries[at].1.abs()));
     let at = continuous
         .filter(|&at| entries[at].1.abs() >= PIVOT * largest)
-        .min_by_key(|&at| tableau.occurrences.count(entries[at].0));
+        .min_by_key(|&at| tableau.cost(entries[at].0));
     match at {
         Some(at) => tableau.solve_for(r, at),
         None => Err(tableau.overflow(r)),

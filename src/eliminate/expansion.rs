@@ -1,5 +1,7 @@
 //! The affine map from the reduced unknowns back to the caller's.
 
+use std::sync::Arc;
+
 use crate::linalg::Sparse;
 
 /// `x = T y + t`: `y` ranges over everything that the constraints allow.
@@ -8,12 +10,12 @@ use crate::linalg::Sparse;
 /// entries of `y`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Expansion {
-    matrix: Sparse,
+    matrix: Arc<Sparse>,
     offset: Vec<f64>,
 }
 
 impl Expansion {
-    pub(super) fn new(matrix: Sparse, offset: Vec<f64>) -> Self {
+    pub(super) fn new(matrix: Arc<Sparse>, offset: Vec<f64>) -> Self {
         debug_assert_eq!(matrix.rows(), offset.len());
         Expansion { matrix, offset }
     }

@@ -15,8 +15,9 @@
 use super::ratio::{gcd, integer_multiples};
 use super::row::{Row, representable};
 use super::stack::Substitution;
+use super::steps::Step;
 use super::tableau::Tableau;
-use super::tolerance::{LARGEST, near_integer};
+use super::tolerance::LARGEST;
 use super::unknowns::Unknowns;
 use crate::{Error, Result};
 
@@ -33,75 +34,62 @@ pub(super) fn make_integral(tableau: &mut Tableau, r: usize) -> Result<()> {
             line: None,
         });
     };
-    let rhs = row.rhs / unit;
-    let rounded = near_integer(rhs, row.rhs_magnitude / unit);
-    if row.entries.iter().any(|e| e.1.abs() >= LARGEST) || rhs.abs() >= LARGEST {
+    if row.entries.iter().any(|e| e.1.abs() >= LARGEST) {
         return Err(tableau.overflow(r));
     }
-    let Some(rounded) = rounded else {
-        return Err(tableau.no_integer_solution(r));
-    };
-    row.rhs = rounded;
     row.integral = true;
+    let row = r as u32;
+    tableau.steps.push(Step::MakeIntegral { row, unit });
     Ok(())
 }
 
 /// Solves the integral row `r`.
 pub(super) fn eliminate(tableau: &mut Tableau, r: usize) -> Result<()> {
     loop {
-        if !divide_by_common_factor(&mut tableau.rows[r]) {
-            return Err(tableau.no_integer_solution(r));
-        }
+        let (row, factor) = (r as u32, divide_by_common_factor(&mut tableau.rows[r]));
+        tableau.steps.push(Step::Divide { row, factor });
         let entries = &tableau.rows[r].entries;
-        let occurrences = &tableau.occurrences;
         let units = (0..entries.len()).filter(|&at| entries[at].1.abs() == 1.0);
-        match units.min_by_key(|&at| occurrences.count(entries[at].0)) {
+        match units.min_by_key(|&at| tableau.cost(entries[at].0)) {
             Some(at) => return tableau.solve_for(r, at),
             None => euclidean_step(tableau, r)?,
         }
     }
 }
 
-/// Makes the coefficients coprime. False if the right side does not allow it.
-fn divide_by_common_factor(row: &mut Row) -> bool {
+/// Makes the coefficients coprime, and returns their common factor.
+fn divide_by_common_factor(row: &mut Row) -> f64 {
     let factor = row.entries.iter().fold(0.0, |g, e| gcd(g, e.1));
-    if row.rhs % factor != 0.0 {
-        return false;
-    }
     row.entries.iter_mut().for_each(|e| e.1 /= factor);
-    row.rhs /= factor;
     row.magnitude = row.entries.iter().fold(0.0, |m: f64, e| m.max(e.1.abs()));
-    row.rhs_magnitude = row.rhs.abs();
-    true
+    factor
 }
 
 fn euclidean_step(tableau: &mut Tableau, r: usize) -> Result<()> {
     let row = &tableau.rows[r];
-    let occurrences = &tableau.occurrences;
     let least = row
         .entries
         .iter()
-        .map(|&(j, a)| (a.abs() as u64, occurrences.count(j), j, a))
+        .map(|&(j, a)| (a.abs() as u64, tableau.cost(j), j, a))
         .min_by_key(|&(size, count, j, _)| (size, count, j));
     let Some((_, _, pivot, divisor)) = least else {
-        return Err(tableau.infeasible(r));
+        return Err(tableau.overflow(r));
     };
-    let mut guess = tableau.unknowns.guess[pivot as usize];
+    let mut definition = vec![(pivot, 1.0)];
     let mut remainders = Vec::with_capacity(row.entries.len());
     let mut terms = Vec::with_capacity(row.entries.len());
     for &(j, a) in row.entries.iter().filter(|e| e.0 != pivot) {
         let (quotient, remainder) = divide(a, divisor);
         if quotient != 0.0 {
-            guess += quotient * tableau.unknowns.guess[j as usize];
+            definition.push((j, quotient));
             terms.push((j, -quotient));
         }
         if remainder != 0.0 {
             remainders.push((j, remainder));
         }
     }
-    let t = tableau
-        .unknowns
-        .introduce(true, guess, Unknowns::NOWHERE, 0);
+    let t = tableau.unknowns.introduce(true, Unknowns::NOWHERE, 0);
+    tableau.definitions.push(t, definition, 1.0);
     remainders.push((t, divisor));
     let largest = terms.iter().fold(1.0, |m: f64, e| m.max(e.1.abs()));
     representable(largest, true).map_err(|_| tableau.overflow(r))?;
@@ -110,12 +98,11 @@ fn euclidean_step(tableau: &mut Tableau, r: usize) -> Result<()> {
     let by = Substitution {
         pivot,
         constraint: r as u32,
-        constant: 0.0,
         largest,
         magnitude: largest,
-        rhs_magnitude: 0.0,
     };
     tableau.stack.push(by, terms);
+    tableau.steps.push(Step::Introduce);
     tableau.apply_last()
 }
 

@@ -13,21 +13,29 @@
 //! | a row with continuous unknowns | `continuous` |
 //! | a row of integers | `integral`, `ratio` |
 //! | long rows | `sweep`, `subtree`, `cluster` |
-//! | back substitution, T and t | `stack`, `back` |
+//! | back substitution, T | `stack`, `back` |
+//! | right sides and pinned values, t | `steps`, `right_sides` |
 //! | the objective in y | `project` |
+//! | unknowns pinned afterwards | `hold` |
+//!
+//! All but `t` and the linear part of the objective depends on coefficients alone, and is kept by an
+//! [`Elimination`] for other right sides.
 
 mod back;
 mod cluster;
 mod continuous;
 mod expansion;
+mod hold;
 mod integral;
 mod occurrences;
 mod project;
 mod ratio;
 mod reduced;
+mod right_sides;
 mod row;
 mod run;
 mod stack;
+mod steps;
 mod subtree;
 mod sweep;
 mod tableau;
@@ -36,4 +44,4 @@ mod unknowns;
 
 pub use expansion::Expansion;
 pub use reduced::ReducedModel;
-pub use run::eliminate;
+pub use run::{Elimination, eliminate};

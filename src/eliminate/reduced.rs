@@ -1,5 +1,7 @@
 //! The problem without its constraints.
 
+use std::sync::Arc;
+
 use super::Expansion;
 use crate::linalg::{CompensatedSum, Sparse};
 
@@ -9,12 +11,14 @@ use crate::linalg::{CompensatedSum, Sparse};
 /// elimination had to introduce, integer or not, follow at the end.
 #[derive(Debug, Clone)]
 pub struct ReducedModel {
-    pub(crate) hessian: Sparse,
+    pub(crate) hessian: Arc<Sparse>,
     pub(crate) gradient: Vec<f64>,
     pub(crate) constant: f64,
     pub(crate) integers: Vec<u32>,
     pub(crate) continuous: Vec<u32>,
     pub(crate) guess: Vec<f64>,
+    /// Each reduced unknown's number among the caller's and the introduced ones.
+    pub(super) free: Vec<u32>,
     pub(crate) expansion: Expansion,
 }
 

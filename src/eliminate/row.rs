@@ -1,18 +1,15 @@
-//! One equation while it is being worked on.
+//! The coefficients of one equation while it is being worked on.
 
 use super::stack::Substitution;
 use super::tolerance::{LARGEST, NOISE, RANK};
 
-/// `sum of coefficients times unknowns = rhs`.
+/// The left side of an equation; the right sides follow later, see `right_sides`.
 #[derive(Debug, Clone)]
 pub(super) struct Row {
     /// Unknowns, increasing, with their coefficients, none of them zero.
     pub entries: Vec<(u32, f64)>,
-    pub rhs: f64,
     /// Largest coefficient that took part in making this row: what noise is measured against.
     pub magnitude: f64,
-    /// The same for the right side.
-    pub rhs_magnitude: f64,
     /// The power of two that the caller's row was multiplied by.
     pub scale: f64,
     /// How many of the unknowns are continuous.
@@ -77,9 +74,7 @@ impl Row {
         // any relation to the error, until everything passes for noise.
         let inherited = factor.min(1.0);
         let largest = (factor * by.largest).max(inherited * by.magnitude);
-        let constant = (factor * by.constant.abs()).max(inherited * by.rhs_magnitude);
         self.magnitude = self.magnitude.max(largest);
-        self.rhs_magnitude = self.rhs_magnitude.max(constant);
     }
 
     /// Drops what rounding left behind where it would decide something: continuous coefficients
@@ -99,7 +94,7 @@ impl Row {
         });
     }
 
-    /// Puts `constant + terms` in the place of the unknown at position `at`, and tells which
+    /// Puts `terms` in the place of the unknown at position `at`, and tells which
     /// unknowns came and went. `buffer` is scratch space.
     pub fn substitute(
         &mut self,
@@ -112,7 +107,6 @@ impl Row {
         let integral = self.integral;
         let (pivot, factor) = self.entries[at];
         self.grow(factor, by);
-        self.rhs = add_product(self.rhs, -factor, by.constant, integral)?;
         changed(pivot, Change::Vanished);
         let noise = if integral {
             0.0

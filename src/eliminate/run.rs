@@ -1,85 +1,188 @@
 //! The elimination from start to end.
 
+use std::sync::Arc;
+
+use super::stack::Stack;
+use super::steps::{Definitions, Step};
 use super::tableau::Tableau;
-use super::tolerance::CONSISTENT;
-use super::{ReducedModel, back, continuous, integral, project, subtree, sweep};
+use super::unknowns::Unknowns;
+use super::{
+    Expansion, ReducedModel, back, continuous, hold, integral, project, right_sides, subtree, sweep,
+};
+use crate::linalg::{Ordering, Sparse};
 use crate::solve::{Monitor, Phase};
 use crate::{Model, Result};
 
-/// Removes the equality constraints and the pinned unknowns of `model`.
+/// Removes the equality constraints and the pinned unknowns of `model`, in the order that keeps
+/// the rest sparse.
 ///
 /// Reduced unknowns are the caller's unknowns that survive, in their order, and after them those
 /// that had to be introduced. Every solution of the constraints, with its integers integer, is
 /// `T y + t` for exactly one `y` with its integers integer, and every such `y` gives one.
 ///
 /// # Errors
-/// [`Infeasible`](crate::Error::Infeasible) and
-/// [`NoIntegerSolution`](crate::Error::NoIntegerSolution) with the row at which it shows,
-/// [`NotSupported`](crate::Error::NotSupported) for a relation of integers with incommensurable
-/// coefficients, [`Overflow`](crate::Error::Overflow) where integers beyond 2^53 would be needed,
-/// [`OutOfMemory`](crate::Error::OutOfMemory), and what `monitor` asks for.
+/// As [`Elimination::new`] and [`Elimination::reduce`].
 pub fn eliminate(model: &Model, monitor: &mut Monitor) -> Result<ReducedModel> {
-    monitor.progress(Phase::Eliminate, 0.0)?;
-    let mut tableau = Tableau::new(model)?;
-    let rows = tableau.rows.len().max(1) as f64;
-    let mut done = 0usize;
-    while let Some(r) = tableau.take_shortest() {
-        done += 1;
-        monitor.progress(Phase::Eliminate, 0.5 * done as f64 / rows)?;
-        eliminate_row(&mut tableau, r)?;
+    Elimination::new(model, Ordering::FillReducing, monitor)?.reduce(model, monitor)
+}
+
+/// What the coefficients of the constraints and of Q, and the choice of pinned unknowns, decide:
+/// all of the reduced model but its linear part.
+#[derive(Debug)]
+pub struct Elimination {
+    pub(super) scales: Vec<f64>,
+    pub(super) unknowns: Unknowns,
+    pub(super) stack: Stack,
+    pub(super) steps: Vec<Step>,
+    definitions: Definitions,
+    pinned: Vec<bool>,
+    in_constraints: Vec<bool>,
+    /// The reduced unknowns.
+    free: Vec<u32>,
+    matrix: Arc<Sparse>,
+    hessian: Arc<Sparse>,
+}
+
+impl Elimination {
+    /// Eliminates the constraints and the pinned unknowns of `model`, whatever the right sides and
+    /// the pinned values.
+    ///
+    /// With [`Ordering::Natural`] rows and pivots are taken as they come, which only serves to show
+    /// what the order is worth.
+    ///
+    /// # Errors
+    /// [`NotSupported`](crate::Error::NotSupported) for a relation of integers with incommensurable
+    /// coefficients, [`Overflow`](crate::Error::Overflow) where integers beyond 2^53 would be
+    /// needed, [`OutOfMemory`](crate::Error::OutOfMemory), and what `monitor` asks for.
+    pub fn new(model: &Model, ordering: Ordering, monitor: &mut Monitor) -> Result<Self> {
+        monitor.progress(Phase::Eliminate, 0.0)?;
+        let mut tableau = Tableau::new(model, ordering)?;
+        let rows = tableau.rows.len().max(1) as f64;
+        let mut done = 0usize;
+        while let Some(r) = tableau.take_next() {
+            done += 1;
+            monitor.progress(Phase::Eliminate, 0.5 * done as f64 / rows)?;
+            eliminate_row(&mut tableau, r)?;
+        }
+        while let Some(r) = tableau.take_long() {
+            done += 1;
+            monitor.progress(Phase::Eliminate, 0.5 * done as f64 / rows)?;
+            sweep::sweep(&mut tableau, r, monitor)?;
+            subtree::shorten(&mut tableau, r, monitor)?;
+            eliminate_row(&mut tableau, r)?;
+        }
+        let (matrix, free) = back::substitute_back(&tableau, monitor)?;
+        let hessian = if tableau.stack.len() == 0 {
+            project::with_diagonal(model.hessian())?
+        } else {
+            project::hessian(model.hessian(), &matrix, monitor)?
+        };
+        let mut in_constraints = vec![false; model.variables()];
+        for (_, j, _) in model.constraints().entries() {
+            in_constraints[j as usize] = true;
+        }
+        monitor.progress(Phase::Eliminate, 1.0)?;
+        Ok(Elimination {
+            scales: tableau.rows.iter().map(|row| row.scale).collect(),
+            unknowns: tableau.unknowns,
+            stack: tableau.stack,
+            steps: tableau.steps,
+            definitions: tableau.definitions,
+            pinned: model.pinned().iter().map(Option::is_some).collect(),
+            in_constraints,
+            free,
+            matrix: Arc::new(matrix),
+            hessian: Arc::new(hessian),
+        })
     }
-    while let Some(r) = tableau.take_long() {
-        done += 1;
-        monitor.progress(Phase::Eliminate, 0.5 * done as f64 / rows)?;
-        sweep::sweep(&mut tableau, r, monitor)?;
-        subtree::shorten(&mut tableau, r, monitor)?;
-        eliminate_row(&mut tableau, r)?;
+
+    /// The reduced model for the linear term, right sides, pinned values and guess of `model`, which
+    /// has the Q, constraint coefficients and integers of the one eliminated.
+    ///
+    /// All unknowns pinned there must be pinned here; others may be, if they
+    /// [can be held](Self::can_hold).
+    ///
+    /// # Errors
+    /// [`Infeasible`](crate::Error::Infeasible) and
+    /// [`NoIntegerSolution`](crate::Error::NoIntegerSolution) with the row at which it shows,
+    /// [`Overflow`](crate::Error::Overflow), and what `monitor` asks for.
+    pub fn reduce(&self, model: &Model, monitor: &mut Monitor) -> Result<ReducedModel> {
+        let offset = right_sides::offset(self, model, monitor)?;
+        let held: Vec<(u32, f64)> = (self.free.iter().enumerate())
+            .filter_map(|(y, &u)| {
+                let pin = model.pinned().get(u as usize)?;
+                pin.map(|value| (y as u32, value))
+            })
+            .collect();
+        if held.is_empty() {
+            return self.linear_part(model, &self.hessian, &self.matrix, offset, &self.free);
+        }
+        let kept = hold::kept(self.free.len(), &held);
+        let hessian = Arc::new(hold::hessian(&self.hessian, &kept)?);
+        let (matrix, offset) = hold::expansion(&self.matrix, offset, &kept, &held)?;
+        let free: Vec<u32> = kept.iter().map(|&y| self.free[y as usize]).collect();
+        self.linear_part(model, &hessian, &Arc::new(matrix), offset, &free)
     }
-    let reduced = reduced_model(&tableau, monitor)?;
-    monitor.progress(Phase::Eliminate, 1.0)?;
-    Ok(reduced)
+
+    fn linear_part(
+        &self,
+        model: &Model,
+        hessian: &Arc<Sparse>,
+        matrix: &Arc<Sparse>,
+        offset: Vec<f64>,
+        free: &[u32],
+    ) -> Result<ReducedModel> {
+        let expansion = Expansion::new(Arc::clone(matrix), offset);
+        let (gradient, constant) = project::linear(model, &expansion)?;
+        let is_integer = |&y: &u32| self.unknowns.integer[free[y as usize] as usize];
+        let (integers, continuous) = (0..free.len() as u32).partition(is_integer);
+        let guess = self.definitions.evaluate(model.guess());
+        Ok(ReducedModel {
+            hessian: Arc::clone(hessian),
+            gradient,
+            constant,
+            integers,
+            continuous,
+            guess: free.iter().map(|&u| guess[u as usize]).collect(),
+            free: free.to_vec(),
+            expansion,
+        })
+    }
+
+    /// Whether `unknown` was pinned when the constraints were eliminated.
+    pub fn was_pinned(&self, unknown: usize) -> bool {
+        self.pinned[unknown]
+    }
+
+    /// Whether `unknown` can be pinned without another elimination: it is in no constraint.
+    ///
+    /// A pin in a constraint may change which unknowns are best kept, so that integers would be
+    /// rounded in another order than by a solve from the start.
+    pub fn can_hold(&self, unknown: usize) -> bool {
+        !self.in_constraints[unknown]
+    }
+
+    /// The reduced unknowns of `reduced` where the caller's are `x`, provided that `x` satisfies the
+    /// constraints; elsewhere the point that shares with `x` the unknowns that were kept.
+    pub fn restrict(&self, reduced: &ReducedModel, x: &[f64]) -> Vec<f64> {
+        let all = self.definitions.evaluate(x);
+        reduced.free.iter().map(|&u| all[u as usize]).collect()
+    }
 }
 
 fn eliminate_row(tableau: &mut Tableau, r: usize) -> Result<()> {
     let row = &tableau.rows[r];
     if row.entries.is_empty() {
-        let tolerance = CONSISTENT * row.magnitude.max(row.rhs_magnitude);
-        let holds = row.rhs == 0.0 || (!row.integral && row.rhs.abs() <= tolerance);
-        return if holds {
-            Ok(())
-        } else {
-            Err(tableau.infeasible(r))
-        };
+        tableau.steps.push(Step::Check {
+            row: r as u32,
+            magnitude: row.magnitude,
+            integral: row.integral,
+        });
+        return Ok(());
     }
     if row.continuous > 0 {
         continuous::eliminate(tableau, r)
     } else {
         integral::eliminate(tableau, r)
     }
-}
-
-fn reduced_model(tableau: &Tableau, monitor: &mut Monitor) -> Result<ReducedModel> {
-    let model = tableau.model;
-    let (expansion, free) = back::substitute_back(tableau, monitor)?;
-    let hessian = if tableau.stack.len() == 0 {
-        project::with_diagonal(model.hessian())?
-    } else {
-        project::hessian(model.hessian(), expansion.matrix(), monitor)?
-    };
-    let (gradient, constant) = project::linear(model, &expansion)?;
-    let is_integer = |&(_, &u): &(usize, &u32)| tableau.unknowns.integer[u as usize];
-    let (integers, continuous): (Vec<_>, Vec<_>) = free.iter().enumerate().partition(is_integer);
-    let numbers = |list: Vec<(usize, &u32)>| list.into_iter().map(|(y, _)| y as u32).collect();
-    Ok(ReducedModel {
-        hessian,
-        gradient,
-        constant,
-        integers: numbers(integers),
-        continuous: numbers(continuous),
-        guess: free
-            .iter()
-            .map(|&u| tableau.unknowns.guess[u as usize])
-            .collect(),
-        expansion,
-    })
 }

@@ -1,20 +1,19 @@
 //! The substitutions made so far, in the order made.
 
 use super::row::Row;
+use crate::Error;
 
 /// An unknown expressed by others: `x_pivot = constant + terms`, the terms being unknowns that were
-/// free when it was made.
+/// free when it was made. The constant depends on right sides, see `right_sides`.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Substitution {
     pub pivot: u32,
     /// The constraint it comes from; [`NO_CONSTRAINT`](Self::NO_CONSTRAINT) for a pin.
     pub constraint: u32,
-    pub constant: f64,
     /// The largest coefficient among the terms.
     pub largest: f64,
-    /// The magnitudes of the row that it comes from; see [`Row`].
+    /// The magnitude of the row that it comes from; see [`Row`].
     pub magnitude: f64,
-    pub rhs_magnitude: f64,
 }
 
 impl Substitution {
@@ -49,6 +48,18 @@ impl Stack {
         self.ends.push(self.terms.len());
     }
 
+    /// The error for numbers too large in substitution `k`: `of_row` makes that of a constraint.
+    pub fn too_large(&self, k: usize, of_row: impl FnOnce(usize) -> Error) -> Error {
+        let by = self.list[k];
+        if by.constraint == Substitution::NO_CONSTRAINT {
+            return Error::Overflow {
+                what: format!("variable {} is pinned to a number too large", by.pivot),
+                index: Some(by.pivot as usize),
+            };
+        }
+        of_row(by.constraint as usize)
+    }
+
     /// Solves `row` for the unknown at position `at`.
     pub fn solve(&mut self, constraint: usize, row: &Row, at: usize) {
         let (pivot, a) = row.entries[at];
@@ -57,10 +68,8 @@ impl Stack {
         let by = Substitution {
             pivot,
             constraint: constraint as u32,
-            constant: row.rhs / a,
             largest: terms.clone().fold(0.0, |m: f64, t| m.max(t.1.abs())),
             magnitude: row.magnitude,
-            rhs_magnitude: row.rhs_magnitude,
         };
         self.push(by, terms);
     }

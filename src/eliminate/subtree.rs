@@ -22,6 +22,7 @@
 
 use super::cluster::Tree;
 use super::stack::Substitution;
+use super::steps::Step;
 use super::tableau::Tableau;
 use super::tolerance::LONG;
 use super::unknowns::Unknowns;
@@ -76,13 +77,13 @@ fn shorten_group(
     let places: Vec<u32> = group.iter().map(|e| unknowns.place[e.0 as usize]).collect();
     let weights: Vec<f64> = group.iter().map(|e| e.1.abs()).collect();
     let tree = Tree::new(&places, &weights, tableau.model.hessian(), monitor)?;
-    let mut guess = vec![0.0; group.len()];
-    for &v in &tree.order {
-        let below: f64 = tree.children(v).map(|c| weights[c] * guess[c]).sum();
-        let (unknown, a) = group[v];
-        guess[v] = (a * tableau.unknowns.guess[unknown as usize] + below) / weights[v];
-    }
     let first = tableau.unknowns.len() as u32;
+    for &v in &tree.order {
+        let below = tree.children(v).map(|c| (first + c as u32, weights[c]));
+        let terms = std::iter::once(group[v]).chain(below);
+        let sum = first + v as u32;
+        tableau.definitions.push(sum, terms, weights[v]);
+    }
     let root = tree.root;
     for (v, &(unknown, _)) in group.iter().enumerate() {
         let unknowns = &mut tableau.unknowns;
@@ -94,7 +95,7 @@ fn shorten_group(
         } else {
             places[v]
         };
-        unknowns.introduce(integer, guess[v], place, depth);
+        unknowns.introduce(integer, place, depth);
     }
     for (v, &(pivot, a)) in group.iter().enumerate() {
         monitor.check()?;
@@ -105,13 +106,12 @@ fn shorten_group(
         let by = Substitution {
             pivot,
             constraint: r as u32,
-            constant: 0.0,
             largest: 1.0,
             magnitude: 1.0,
-            rhs_magnitude: 0.0,
         };
         tableau.unknowns.replaced[pivot as usize] = tableau.stack.len() as u32;
         tableau.stack.push(by, terms);
+        tableau.steps.push(Step::Introduce);
     }
     let row = &mut tableau.rows[r];
     let mut gone = vec![false; first as usize];

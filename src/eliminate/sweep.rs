@@ -11,6 +11,7 @@ use std::collections::BinaryHeap;
 
 use super::integral::make_integral;
 use super::row::{TooLarge, add_product};
+use super::steps::Step;
 
 use super::tableau::Tableau;
 use super::tolerance::NOISE;
@@ -23,6 +24,7 @@ pub(super) fn sweep(tableau: &mut Tableau, r: usize, monitor: &mut Monitor) -> R
     let Tableau {
         rows,
         stack,
+        steps,
         unknowns,
         ..
     } = &mut *tableau;
@@ -37,9 +39,13 @@ pub(super) fn sweep(tableau: &mut Tableau, r: usize, monitor: &mut Monitor) -> R
         monitor.check()?;
         let (by, terms) = stack.get(k);
         row.grow(factor, by);
-        swept = add_product(row.rhs, -factor, by.constant, integral)
-            .map(|rhs| row.rhs = rhs)
-            .and_then(|()| scatter.add(factor, terms, integral));
+        steps.push(Step::Substitute {
+            row: r as u32,
+            by: k as u32,
+            factor,
+            integral,
+        });
+        swept = scatter.add(factor, terms, integral);
         if swept.is_err() {
             break;
         }

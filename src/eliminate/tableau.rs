@@ -1,16 +1,19 @@
 //! The constraints while they are being eliminated: rows, where unknowns occur, whose turn it is.
+//!
+//! The fewest entries come first, or, to show what that is worth, the order given.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 use super::integral::make_integral;
 use super::occurrences::Occurrences;
+use super::right_sides;
 use super::row::{Change, Row, State, TooLarge};
 use super::stack::{Stack, Substitution};
+use super::steps::{Definitions, Step};
 use super::tolerance::LONG;
 use super::unknowns::Unknowns;
-use crate::linalg::CompensatedSum;
-use crate::problem::row_text;
+use crate::linalg::Ordering;
 use crate::{Error, Model, Result};
 
 /// Everything that the elimination works on.
@@ -20,6 +23,9 @@ pub(super) struct Tableau<'a> {
     pub unknowns: Unknowns,
     pub occurrences: Occurrences,
     pub stack: Stack,
+    pub steps: Vec<Step>,
+    pub definitions: Definitions,
+    ordering: Ordering,
     queue: BinaryHeap<Reverse<(u32, u32)>>,
     waiting_long: BinaryHeap<Reverse<(u32, u32)>>,
     buffer: Vec<(u32, f64)>,
@@ -27,19 +33,17 @@ pub(super) struct Tableau<'a> {
 }
 
 impl<'a> Tableau<'a> {
-    /// The constraints of `model` with the pinned unknowns moved to the right sides.
-    pub fn new(model: &'a Model) -> Result<Self> {
-        let mut unknowns = Unknowns::new(model.integer(), model.guess());
+    /// The constraints of `model` without the pinned unknowns.
+    pub fn new(model: &'a Model, ordering: Ordering) -> Result<Self> {
+        let mut unknowns = Unknowns::new(model.integer());
         let mut stack = Stack::default();
         for (i, value) in model.pinned().iter().enumerate() {
-            if let &Some(value) = value {
+            if value.is_some() {
                 let by = Substitution {
                     pivot: i as u32,
                     constraint: Substitution::NO_CONSTRAINT,
-                    constant: value,
                     largest: 0.0,
                     magnitude: 0.0,
-                    rhs_magnitude: value.abs(),
                 };
                 unknowns.replaced[i] = stack.len() as u32;
                 stack.push(by, []);
@@ -52,13 +56,16 @@ impl<'a> Tableau<'a> {
             occurrences: Occurrences::new(unknowns.len()),
             unknowns,
             stack,
+            steps: Vec::new(),
+            definitions: Definitions::default(),
+            ordering,
             queue: BinaryHeap::with_capacity(count),
             waiting_long: BinaryHeap::new(),
             buffer: Vec::new(),
             hit: Vec::new(),
         };
         for r in 0..count {
-            let row = tableau.row_without_pins(r)?;
+            let row = tableau.row_without_pins(r);
             tableau.rows.push(row);
             for k in 0..tableau.rows[r].entries.len() {
                 let unknown = tableau.rows[r].entries[k].0;
@@ -69,37 +76,22 @@ impl<'a> Tableau<'a> {
         Ok(tableau)
     }
 
-    fn row_without_pins(&self, r: usize) -> Result<Row> {
+    fn row_without_pins(&self, r: usize) -> Row {
         let given = self.model.constraints().row(r);
         let largest = given.clone().fold(0.0, |m: f64, (_, v)| m.max(v.abs()));
         let scale = scale_of(largest);
-        let rhs = self.model.constraint_rhs()[r] * scale;
-        let mut row = Row {
-            entries: Vec::with_capacity(given.len()),
-            rhs,
+        let pinned = self.model.pinned();
+        let free = given.filter(|&(j, _)| pinned[j].is_none());
+        let scaled = free.map(|(j, v)| (j as u32, v * scale));
+        Row {
+            entries: scaled.filter(|e| e.1 != 0.0).collect(),
             magnitude: if largest > 0.0 { largest * scale } else { 1.0 },
-            rhs_magnitude: rhs.abs(),
             scale,
             continuous: 0,
             touched: false,
             integral: false,
             state: State::Waiting,
-        };
-        let mut rest = CompensatedSum::new(rhs);
-        for (j, v) in given {
-            let v = v * scale;
-            if let Some(value) = self.model.pinned()[j] {
-                rest.add_product(-v, value);
-                row.rhs_magnitude = row.rhs_magnitude.max((v * value).abs());
-            } else if v != 0.0 {
-                row.entries.push((j as u32, v));
-            }
         }
-        row.rhs = rest.value();
-        if !row.rhs.is_finite() || !row.rhs_magnitude.is_finite() {
-            return Err(self.overflow(r));
-        }
-        Ok(row)
     }
 
     /// Puts a row that changed where it belongs: exact if it has integers only, among the long
@@ -124,16 +116,34 @@ impl<'a> Tableau<'a> {
             }
             self.waiting_long.push(Reverse((len as u32, r as u32)));
         } else {
-            self.queue.push(Reverse((len as u32, r as u32)));
+            self.queue.push(Reverse((self.urgency(r), r as u32)));
         }
         Ok(())
     }
 
-    /// The shortest waiting row, ties to the first, no longer counted among the occurrences.
-    pub fn take_shortest(&mut self) -> Option<usize> {
-        while let Some(Reverse((len, r))) = self.queue.pop() {
+    /// What decides whose turn it is.
+    fn urgency(&self, r: usize) -> u32 {
+        match self.ordering {
+            Ordering::FillReducing => self.rows[r].entries.len() as u32,
+            Ordering::Natural => 0,
+        }
+    }
+
+    /// How much is in the way of solving for `unknown`: the rows it would be put into.
+    pub fn cost(&self, unknown: u32) -> u32 {
+        match self.ordering {
+            Ordering::FillReducing => self.occurrences.count(unknown),
+            Ordering::Natural => 0,
+        }
+    }
+
+    /// The waiting row with the fewest entries, ties to the first, no longer counted among the
+    /// occurrences.
+    pub fn take_next(&mut self) -> Option<usize> {
+        while let Some(Reverse((urgency, r))) = self.queue.pop() {
+            let current = self.urgency(r as usize) == urgency;
             let row = &mut self.rows[r as usize];
-            if row.state == State::Waiting && row.entries.len() == len as usize {
+            if row.state == State::Waiting && current {
                 row.state = State::Done;
                 for &(unknown, _) in &row.entries {
                     self.occurrences.remove(unknown);
@@ -153,7 +163,9 @@ impl<'a> Tableau<'a> {
 
     /// Solves row `r` for its entry at position `at`, and puts the result into the waiting rows.
     pub fn solve_for(&mut self, r: usize, at: usize) -> Result<()> {
+        let (row, pivot) = (r as u32, self.rows[r].entries[at].1);
         self.stack.solve(r, &self.rows[r], at);
+        self.steps.push(Step::Solve { row, pivot });
         self.apply_last()
     }
 
@@ -182,6 +194,13 @@ impl<'a> Tableau<'a> {
     }
 
     fn substitute(&mut self, r: usize, at: usize, by: usize) -> std::result::Result<(), TooLarge> {
+        let row = &self.rows[r];
+        self.steps.push(Step::Substitute {
+            row: r as u32,
+            by: by as u32,
+            factor: row.entries[at].1,
+            integral: row.integral,
+        });
         let (by, terms) = self.stack.get(by);
         let occurrences = &mut self.occurrences;
         self.rows[r].substitute(
@@ -198,34 +217,11 @@ impl<'a> Tableau<'a> {
 
     /// Constraint `r` as the caller gave it.
     pub fn text(&self, r: usize) -> String {
-        row_text(
-            self.model.constraints().row(r),
-            self.model.constraint_rhs()[r],
-        )
+        right_sides::text(self.model, r)
     }
 
     pub fn overflow(&self, r: usize) -> Error {
-        Error::Overflow {
-            what: format!(
-                "constraint {r}: {} leads to numbers too large to be exact",
-                self.text(r)
-            ),
-            index: Some(r),
-        }
-    }
-
-    pub fn no_integer_solution(&self, r: usize) -> Error {
-        Error::NoIntegerSolution {
-            constraint: r,
-            row: self.text(r),
-        }
-    }
-
-    pub fn infeasible(&self, r: usize) -> Error {
-        Error::Infeasible {
-            constraint: r,
-            row: self.text(r),
-        }
+        right_sides::overflow(self.model, r)
     }
 }
 

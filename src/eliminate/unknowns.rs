@@ -4,7 +4,6 @@
 #[derive(Debug)]
 pub(super) struct Unknowns {
     pub integer: Vec<bool>,
-    pub guess: Vec<f64>,
     /// The substitution that replaced it, or [`FREE`](Self::FREE).
     pub replaced: Vec<u32>,
     /// The caller's unknown whose place it took, or [`NOWHERE`](Self::NOWHERE): neighbours are
@@ -20,11 +19,10 @@ impl Unknowns {
     /// Without a place in the Hessian.
     pub const NOWHERE: u32 = u32::MAX;
 
-    pub fn new(integer: &[bool], guess: &[f64]) -> Self {
+    pub fn new(integer: &[bool]) -> Self {
         let n = integer.len();
         Unknowns {
             integer: integer.to_vec(),
-            guess: guess.to_vec(),
             replaced: vec![Self::FREE; n],
             place: (0..n as u32).collect(),
             depth: vec![0; n],
@@ -40,9 +38,8 @@ impl Unknowns {
     }
 
     /// Introduces an unknown and returns its number.
-    pub fn introduce(&mut self, integer: bool, guess: f64, place: u32, depth: u8) -> u32 {
+    pub fn introduce(&mut self, integer: bool, place: u32, depth: u8) -> u32 {
         self.integer.push(integer);
-        self.guess.push(guess);
         self.replaced.push(Self::FREE);
         self.place.push(place);
         self.depth.push(depth);

@@ -11,6 +11,7 @@
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::ldlt::factor::LdltRegularization;
+use faer::perm::PermRef;
 use faer::sparse::linalg::SupernodalThreshold;
 use faer::sparse::linalg::cholesky::{
     CholeskySymbolicParams, LdltRef, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
@@ -20,6 +21,7 @@ use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Conj, MatMut, Par, Side};
 
 use super::Sparse;
+use super::ordering::Ordering;
 use super::scaling::equilibrate;
 use crate::{Error, Result};
 
@@ -47,6 +49,35 @@ impl Cholesky {
     /// # Errors
     /// [`Error::OutOfMemory`], and [`Error::Overflow`] where the factor would exceed 2^32 entries.
     pub fn new(lower: &Sparse) -> Result<Self> {
+        Self::ordered(lower, Ordering::FillReducing)
+    }
+
+    /// As [`new`](Self::new), with unknowns eliminated in another order.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn ordered(lower: &Sparse, ordering: Ordering) -> Result<Self> {
+        let ordering = match ordering {
+            Ordering::FillReducing => SymmetricOrdering::Amd,
+            Ordering::Natural => SymmetricOrdering::Identity,
+        };
+        Self::factor(lower, ordering)
+    }
+
+    /// As [`new`](Self::new), but eliminates unknown `order[k]` as the k-th.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn in_order(lower: &Sparse, order: &[u32]) -> Result<Self> {
+        let mut place = vec![0; order.len()];
+        for (k, &i) in order.iter().enumerate() {
+            place[i as usize] = k as u32;
+        }
+        let order = PermRef::new_checked(order, &place, order.len());
+        Self::factor(lower, SymmetricOrdering::Custom(order))
+    }
+
+    fn factor(lower: &Sparse, ordering: SymmetricOrdering<u32>) -> Result<Self> {
         let n = lower.rows();
         let scale = equilibrate(lower);
         let col_ptr = offsets_u32(lower)?;
@@ -59,7 +90,7 @@ impl Cholesky {
         let symbolic = factorize_symbolic_cholesky(
             pattern,
             Side::Upper,
-            SymmetricOrdering::Amd,
+            ordering,
             CholeskySymbolicParams {
                 supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
                 ..Default::default()
@@ -92,13 +123,20 @@ impl Cholesky {
                 what: "the factorization of the objective overflows".into(),
                 index: None,
             })?;
-        let null = null_unknowns(&symbolic, &values);
-        Ok(Cholesky {
+        let mut factor = Cholesky {
             symbolic,
             values,
             scale,
-            null,
-        })
+            null: Vec::new(),
+        };
+        let mut null = Vec::new();
+        factor.for_each_column(|k, pivot, _| {
+            if pivot == NULL_PIVOT {
+                null.push(factor.unknown(k) as u32);
+            }
+        });
+        factor.null = null;
+        Ok(factor)
     }
 
     /// Number of unknowns.
@@ -112,9 +150,92 @@ impl Cholesky {
         &self.scale
     }
 
+    /// Number of entries of L that are stored below the diagonal, those included that are kept for
+    /// the sake of larger blocks and are zero.
+    pub fn entries(&self) -> usize {
+        match self.symbolic.raw() {
+            SymbolicCholeskyRaw::Supernodal(raw) => (0..raw.n_supernodes())
+                .map(|s| {
+                    let block = raw.supernode(s);
+                    let columns = raw.supernode_end()[s] - raw.supernode_begin()[s];
+                    let columns = columns as usize;
+                    columns * (columns.saturating_sub(1)) / 2 + columns * block.pattern().len()
+                })
+                .sum(),
+            SymbolicCholeskyRaw::Simplicial(raw) => raw.len_val() - raw.nrows(),
+        }
+    }
+
     /// Unknowns whose pivot vanished, in order of elimination.
     pub fn null_unknowns(&self) -> &[u32] {
         &self.null
+    }
+
+    /// The upper triangular factor `R'R = S` of what is left of A when all but the last `m`
+    /// unknowns are eliminated, dense and by columns, in the order of elimination; and whether no
+    /// pivot vanished. A vanished pivot leaves a zero row.
+    pub fn trailing_factor(&self, m: usize) -> (Vec<f64>, bool) {
+        let first = self.dim() - m;
+        let mut r = vec![0.0; m * m];
+        let mut full = true;
+        let mut set = |row: usize, pivot: f64, column: usize, entry: f64| {
+            let value = entry * pivot.sqrt() / self.scale[self.unknown(column)];
+            r[(column - first) * m + row - first] = value;
+        };
+        self.for_each_column(|k, pivot, entries| {
+            if k < first {
+                return;
+            }
+            if pivot == NULL_PIVOT {
+                full = false;
+                return;
+            }
+            set(k, pivot, k, 1.0);
+            entries.for_each(|(i, v)| set(k, pivot, i, v));
+        });
+        (r, full)
+    }
+
+    /// The unknown that is eliminated as the `position`-th.
+    fn unknown(&self, position: usize) -> usize {
+        // None stands for the natural order.
+        let order = self.symbolic.perm().map(|perm| perm.arrays().0);
+        order.map_or(position, |order| order[position] as usize)
+    }
+
+    /// Calls `visit` with each position, its pivot, and its column of L below the diagonal.
+    fn for_each_column(
+        &self,
+        mut visit: impl FnMut(usize, f64, &mut dyn Iterator<Item = (usize, f64)>),
+    ) {
+        match self.symbolic.raw() {
+            SymbolicCholeskyRaw::Supernodal(raw) => {
+                let factor = SupernodalLdltRef::new(raw, &self.values);
+                for s in 0..raw.n_supernodes() {
+                    let block = factor.supernode(s);
+                    let (start, val) = (block.start(), block.val());
+                    for k in 0..val.ncols() {
+                        let row = |i: usize| match i.checked_sub(val.ncols()) {
+                            None => start + i,
+                            Some(below) => block.pattern()[below] as usize,
+                        };
+                        let mut entries = (k + 1..val.nrows()).map(|i| (row(i), val[(i, k)]));
+                        visit(start + k, val[(k, k)], &mut entries);
+                    }
+                }
+            }
+            // What faer chooses for a diagonal matrix.
+            SymbolicCholeskyRaw::Simplicial(raw) => {
+                for k in 0..raw.nrows() {
+                    let range = raw.col_ptr()[k] as usize..raw.col_ptr()[k + 1] as usize;
+                    let rows = &raw.row_idx()[range.clone()];
+                    let column = rows.iter().zip(&self.values[range]).skip(1);
+                    let mut entries = column.map(|(&i, &v)| (i as usize, v));
+                    let pivot = self.values[raw.col_ptr()[k] as usize];
+                    visit(k, pivot, &mut entries);
+                }
+            }
+        }
     }
 
     /// Solves `A x = b` in place; null unknowns get 0 where `b` is consistent.
@@ -140,30 +261,6 @@ impl Cholesky {
         }
         Ok(())
     }
-}
-
-/// Unknowns whose diagonal in the factor is [`NULL_PIVOT`].
-fn null_unknowns(symbolic: &SymbolicCholesky<u32>, values: &[f64]) -> Vec<u32> {
-    let mut null = Vec::new();
-    let (forward, _) = symbolic.perm().expect("AMD gives a permutation").arrays();
-    match symbolic.raw() {
-        SymbolicCholeskyRaw::Supernodal(raw) => {
-            let factor = SupernodalLdltRef::new(raw, values);
-            for s in 0..raw.n_supernodes() {
-                let block = factor.supernode(s);
-                let diagonals = 0..block.val().ncols();
-                let vanished = diagonals.filter(|&k| block.val()[(k, k)] == NULL_PIVOT);
-                null.extend(vanished.map(|k| forward[block.start() + k]));
-            }
-        }
-        // What faer chooses for a diagonal matrix.
-        SymbolicCholeskyRaw::Simplicial(raw) => {
-            let starts = raw.col_ptr()[..raw.nrows()].iter().zip(forward);
-            let vanished = starts.filter(|&(&start, _)| values[start as usize] == NULL_PIVOT);
-            null.extend(vanished.map(|(_, &i)| i));
-        }
-    }
-    null
 }
 
 fn offsets_u32(lower: &Sparse) -> Result<Vec<u32>> {

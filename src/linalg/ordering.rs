@@ -14,6 +14,41 @@ use crate::{Error, Result};
 /// No parent: a root.
 pub const NONE: u32 = u32::MAX;
 
+/// In which order unknowns are eliminated.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Ordering {
+    /// In the order that keeps the rest sparse.
+    #[default]
+    FillReducing,
+    /// As they come: to show what an order is worth.
+    Natural,
+}
+
+impl Ordering {
+    /// All orderings.
+    pub const ALL: [Ordering; 2] = [Ordering::FillReducing, Ordering::Natural];
+
+    /// The name by which options choose it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Ordering::FillReducing => "fill_reducing",
+            Ordering::Natural => "natural",
+        }
+    }
+
+    /// The order for the matrix with lower triangle `lower`: entry k is the unknown that is
+    /// eliminated k-th.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`].
+    pub fn order(self, lower: &Sparse) -> Result<Vec<u32>> {
+        match self {
+            Ordering::FillReducing => minimum_degree(lower),
+            Ordering::Natural => Ok((0..lower.rows() as u32).collect()),
+        }
+    }
+}
+
 /// A fill-reducing order: entry k is the unknown that is eliminated k-th.
 ///
 /// # Errors

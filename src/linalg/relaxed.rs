@@ -6,7 +6,7 @@
 
 use super::minimise::{Minimum, minimise};
 use super::private::private_integers;
-use super::{Cholesky, Sparse};
+use super::{Cholesky, Ordering, Sparse};
 use crate::Result;
 
 /// An entry this small next to the geometric mean of the diagonal entries of its row and column,
@@ -38,6 +38,18 @@ impl RelaxedFactor {
     /// # Errors
     /// As [`Cholesky::new`].
     pub fn new(lower: &Sparse, integers: &[u32]) -> Result<Self> {
+        Self::ordered(lower, integers, Ordering::FillReducing)
+    }
+
+    /// As [`new`](Self::new), in another order. In the natural one no integer comes first.
+    ///
+    /// # Errors
+    /// As [`Cholesky::new`].
+    pub fn ordered(lower: &Sparse, integers: &[u32], ordering: Ordering) -> Result<Self> {
+        let integers = match ordering {
+            Ordering::FillReducing => integers,
+            Ordering::Natural => &[],
+        };
         let n = lower.rows();
         let mut integer = vec![false; n];
         integers.iter().for_each(|&i| integer[i as usize] = true);
@@ -77,7 +89,7 @@ impl RelaxedFactor {
             schur(lower, &place, rest.len(), &coupling, &curvature)?
         };
         Ok(RelaxedFactor {
-            factor: Cholesky::new(&schur)?,
+            factor: Cholesky::ordered(&schur, ordering)?,
             place,
             rest,
             private,
@@ -85,6 +97,11 @@ impl RelaxedFactor {
             coupling,
             schur,
         })
+    }
+
+    /// Number of entries of the factor below the diagonal, the private integers' included.
+    pub fn entries(&self) -> usize {
+        self.coupling.len() + self.factor.entries()
     }
 
     /// Solves `A x = b` in place, as [`Cholesky::solve`].
@@ -104,7 +121,7 @@ impl RelaxedFactor {
     /// Only for lack of memory.
     pub fn minimise(&self, gradient: &[f64], guess: &[f64]) -> Result<Minimum> {
         let start: Vec<f64> = self.rest.iter().map(|&i| guess[i as usize]).collect();
-        let slope = self.condense(gradient);
+        let slope = self.condensed_slope(gradient);
         let all = |inner: &[f64], pull: f64| {
             let mut whole: Vec<f64> = gradient.iter().map(|g| -pull * g).collect();
             self.embed(inner, &mut whole);
@@ -130,6 +147,29 @@ impl RelaxedFactor {
             }
         }
         inner
+    }
+
+    /// The gradient that the rest sees, without the rounding errors of what cancels there: next to
+    /// each other alone they would pass for a slope.
+    fn condensed_slope(&self, gradient: &[f64]) -> Vec<f64> {
+        let mut size: Vec<f64> = self
+            .rest
+            .iter()
+            .map(|&i| gradient[i as usize].abs())
+            .collect();
+        for (k, &p) in self.private.iter().enumerate() {
+            let pull = gradient[p as usize] / self.curvature[k];
+            for (i, v) in self.coupling.row(k) {
+                size[i] += (v * pull).abs();
+            }
+        }
+        let mut slope = self.condense(gradient);
+        for (s, size) in slope.iter_mut().zip(size) {
+            if s.abs() <= CANCELLED * size {
+                *s = 0.0;
+            }
+        }
+        slope
     }
 
     /// Puts the rest in place and lets the private integers follow, whose right sides are in `b`.
@@ -210,6 +250,25 @@ mod tests {
         let n = 2 * n as usize;
         let a = Sparse::from_triplets(n, n, entries.into_iter()).unwrap();
         (a, integers)
+    }
+
+    #[test]
+    fn an_angle_that_integers_follow_without_end_is_no_endless_slope() {
+        // w (x0 - x1 + 0.7 p + r)^2 for three rows with a private integer each.
+        let rows = [(0.37, 11.3, 1.03), (0.91, -7.7, 0.61), (0.13, 3.1, 1.47)];
+        let (mut entries, mut gradient) = (Vec::new(), vec![0.0; 5]);
+        for (p, (w, r, turn)) in (2u32..).zip(rows) {
+            let row = [(0u32, 1.0), (1, -1.0), (p, turn)];
+            for &(i, u) in &row {
+                gradient[i as usize] += 2.0 * w * u * r;
+                let lower = row.iter().filter(|&&(j, _)| j <= i);
+                entries.extend(lower.map(|&(j, v)| (i, j, 2.0 * w * u * v)));
+            }
+        }
+        let a = Sparse::from_triplets(5, 5, entries.into_iter()).unwrap();
+        let factor = RelaxedFactor::new(&a, &[2, 3, 4]).unwrap();
+        let minimum = factor.minimise(&gradient, &[0.0; 5]).unwrap();
+        assert!(matches!(minimum, Minimum::At { .. }), "{minimum:?}");
     }
 
     #[test]

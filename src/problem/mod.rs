@@ -14,6 +14,8 @@ pub use model::Model;
 pub use rows::RowList;
 pub(crate) use text::row_text;
 
+use std::sync::Arc;
+
 use crate::{Error, Result};
 use check::{all_finite, finite, in_range, same_length};
 use matrix::lower_triangle;
@@ -21,7 +23,8 @@ use matrix::lower_triangle;
 /// A mixed-integer quadratic problem under construction.
 ///
 /// Parts may be given in any order and any number of times: quadratic and linear terms add up.
-/// A call that fails changes nothing. See the [crate] for the problem and its signs.
+/// A call that fails changes nothing. Rows of least squares are shared with copies until one of them
+/// changes. See the [crate] for the problem and its signs.
 #[derive(Debug, Clone)]
 pub struct Problem {
     variables: usize,
@@ -29,13 +32,13 @@ pub struct Problem {
     quadratic: Vec<(u32, u32, f64)>,
     linear: Vec<f64>,
     constant: f64,
-    least_squares: RowList,
-    weights: Vec<f64>,
+    least_squares: Arc<RowList>,
+    weights: Arc<Vec<f64>>,
     constraints: RowList,
     integer: Vec<bool>,
     pinned: Vec<Option<f64>>,
     guess: Vec<f64>,
-    cycles: CycleHint,
+    cycles: Arc<CycleHint>,
 }
 
 impl Problem {
@@ -59,13 +62,13 @@ impl Problem {
             quadratic: Vec::new(),
             linear: filled(variables, 0.0)?,
             constant: 0.0,
-            least_squares: RowList::default(),
-            weights: Vec::new(),
+            least_squares: Arc::default(),
+            weights: Arc::default(),
             constraints: RowList::default(),
             integer: filled(variables, false)?,
             pinned: filled(variables, None)?,
             guess: filled(variables, 0.0)?,
-            cycles: CycleHint::default(),
+            cycles: Arc::default(),
         })
     }
 
@@ -190,6 +193,34 @@ impl Problem {
         Ok(())
     }
 
+    /// Replaces the linear term q by `values`, one an unknown. What least-squares rows add to it is
+    /// not touched.
+    ///
+    /// # Errors
+    /// [`Error::LengthMismatch`], [`Error::NotFinite`].
+    pub fn set_linear(&mut self, values: &[f64]) -> Result<()> {
+        same_length("linear terms", self.variables, values.len())?;
+        all_finite("linear terms", values)?;
+        self.linear.copy_from_slice(values);
+        Ok(())
+    }
+
+    /// Replaces the right sides d of the constraints, one a constraint, in their order.
+    ///
+    /// # Errors
+    /// [`Error::LengthMismatch`], [`Error::NotFinite`].
+    pub fn set_constraint_right_sides(&mut self, rhs: &[f64]) -> Result<()> {
+        self.constraints.set_rhs("constraint right sides", rhs)
+    }
+
+    /// Replaces the right sides r of the least-squares rows, one a row, in their order.
+    ///
+    /// # Errors
+    /// [`Error::LengthMismatch`], [`Error::NotFinite`].
+    pub fn set_least_squares_right_sides(&mut self, rhs: &[f64]) -> Result<()> {
+        Arc::make_mut(&mut self.least_squares).set_rhs("least-squares right sides", rhs)
+    }
+
     /// Adds `value` to the constant of the objective.
     ///
     /// # Errors
@@ -220,19 +251,18 @@ impl Problem {
                 index: None,
             });
         }
-        self.weights
-            .try_reserve(1)
-            .map_err(|_| Error::OutOfMemory {
-                what: "the weights",
-            })?;
-        let row = self.least_squares.push(
+        let weights = Arc::make_mut(&mut self.weights);
+        weights.try_reserve(1).map_err(|_| Error::OutOfMemory {
+            what: "the weights",
+        })?;
+        let row = Arc::make_mut(&mut self.least_squares).push(
             "least-squares row",
             self.variables,
             indices,
             coefficients,
             rhs,
         )?;
-        self.weights.push(weight);
+        weights.push(weight);
         Ok(row)
     }
 
@@ -319,7 +349,8 @@ impl Problem {
     /// [`Error::LengthMismatch`], [`Error::IndexOutOfRange`] for a row that does not exist yet,
     /// [`Error::InvalidArgument`] for other signs or offsets that do not grow.
     pub fn hint_cycles(&mut self, offsets: &[usize], rows: &[usize], signs: &[i8]) -> Result<()> {
-        self.cycles = CycleHint::new(self.least_squares.len(), offsets, rows, signs)?;
+        let hint = CycleHint::new(self.least_squares.len(), offsets, rows, signs)?;
+        self.cycles = Arc::new(hint);
         Ok(())
     }
 }

@@ -1,5 +1,7 @@
 //! The validated problem, as the solver reads it.
 
+use std::sync::Arc;
+
 use super::{CycleHint, Problem, RowList};
 use crate::linalg::Sparse;
 use crate::linalg::sparse::reserve;
@@ -7,20 +9,21 @@ use crate::{Error, Result};
 
 /// A problem that has been checked and assembled. It does not change once made.
 ///
-/// The least-squares rows are summed into Q, q and c, and also kept, for what can be read off them.
+/// The least-squares rows are summed into Q, q and c, and also kept (shared with the problem), for what
+/// can be read off them.
 #[derive(Debug, Clone)]
 pub struct Model {
-    hessian: Sparse,
+    hessian: Arc<Sparse>,
     gradient: Vec<f64>,
     constant: f64,
-    least_squares: RowList,
-    weights: Vec<f64>,
-    constraints: Sparse,
+    least_squares: Arc<RowList>,
+    weights: Arc<Vec<f64>>,
+    constraints: Arc<Sparse>,
     constraint_rhs: Vec<f64>,
     integer: Vec<bool>,
     pinned: Vec<Option<f64>>,
     guess: Vec<f64>,
-    cycles: CycleHint,
+    cycles: Arc<CycleHint>,
     ignored_hint: Option<usize>,
 }
 
@@ -31,26 +34,13 @@ impl Model {
     /// [`Error::InvalidArgument`] for an integer unknown pinned
     /// to a fraction, [`Error::Overflow`] where sums overflow, [`Error::OutOfMemory`].
     pub fn new(problem: &Problem) -> Result<Self> {
+        pins_are_integer(problem)?;
         let n = problem.variables;
-        for i in 0..n {
-            if let (true, Some(v)) = (problem.integer[i], problem.pinned[i])
-                && v != v.round()
-            {
-                return Err(Error::InvalidArgument {
-                    what: format!("integer variable {i} is pinned to {v}"),
-                    index: Some(i),
-                });
-            }
-        }
         let mut entries = reserve(problem.quadratic.len() + 3 * problem.least_squares.len())?;
         entries.extend_from_slice(&problem.quadratic);
-        let mut gradient = problem.linear.clone();
-        let mut constant = problem.constant;
         for (k, &w) in problem.weights.iter().enumerate() {
-            let rhs = problem.least_squares.rhs()[k];
             let row = problem.least_squares.row(k);
             for (a, (i, u)) in row.clone().enumerate() {
-                gradient[i] -= 2.0 * w * rhs * u;
                 // Each unordered pair once; a repeated variable meets itself twice.
                 entries.push((i as u32, i as u32, 2.0 * w * u * u));
                 for (j, v) in row.clone().take(a) {
@@ -58,7 +48,6 @@ impl Model {
                     entries.push((i.max(j) as u32, i.min(j) as u32, twice * 2.0 * w * u * v));
                 }
             }
-            constant += w * rhs * rhs;
         }
         let hessian = Sparse::from_triplets(n, n, entries.iter().copied())?;
         for (i, j, v) in hessian.entries() {
@@ -69,18 +58,7 @@ impl Model {
                 });
             }
         }
-        if let Some(i) = gradient.iter().position(|v| !v.is_finite()) {
-            return Err(Error::Overflow {
-                what: format!("the sum of linear terms of variable {i} overflows"),
-                index: Some(i),
-            });
-        }
-        if !constant.is_finite() {
-            return Err(Error::Overflow {
-                what: "the constant of the objective overflows".into(),
-                index: None,
-            });
-        }
+        let (gradient, constant) = linear_part(problem)?;
         let ignored_hint = problem
             .cycles
             .fault(&problem.least_squares, &problem.integer);
@@ -94,19 +72,43 @@ impl Model {
         Ok(Model {
             cycles: match ignored_hint {
                 None => problem.cycles.clone(),
-                Some(_) => CycleHint::default(),
+                Some(_) => Arc::default(),
             },
             ignored_hint,
-            hessian,
+            hessian: Arc::new(hessian),
             gradient,
             constant,
             least_squares: problem.least_squares.clone(),
             weights: problem.weights.clone(),
-            constraints,
+            constraints: Arc::new(constraints),
             constraint_rhs: problem.constraints.rhs().to_vec(),
             integer: problem.integer.clone(),
             pinned: problem.pinned.clone(),
             guess: problem.guess.clone(),
+        })
+    }
+
+    /// The model of `problem`, which differs from this one's in nothing but linear terms, right sides,
+    /// pins and guess. What does not change is shared.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub(crate) fn with_data_of(&self, problem: &Problem) -> Result<Self> {
+        pins_are_integer(problem)?;
+        let (gradient, constant) = linear_part(problem)?;
+        Ok(Model {
+            hessian: Arc::clone(&self.hessian),
+            gradient,
+            constant,
+            least_squares: problem.least_squares.clone(),
+            weights: self.weights.clone(),
+            constraints: Arc::clone(&self.constraints),
+            constraint_rhs: problem.constraints.rhs().to_vec(),
+            integer: self.integer.clone(),
+            pinned: problem.pinned.clone(),
+            guess: problem.guess.clone(),
+            cycles: self.cycles.clone(),
+            ignored_hint: self.ignored_hint,
         })
     }
 
@@ -169,6 +171,46 @@ impl Model {
     pub fn ignored_hint(&self) -> Option<usize> {
         self.ignored_hint
     }
+}
+
+/// q and c with what the least-squares rows add to them.
+fn linear_part(problem: &Problem) -> Result<(Vec<f64>, f64)> {
+    let mut gradient = problem.linear.clone();
+    let mut constant = problem.constant;
+    for (k, &w) in problem.weights.iter().enumerate() {
+        let rhs = problem.least_squares.rhs()[k];
+        for (i, u) in problem.least_squares.row(k) {
+            gradient[i] -= 2.0 * w * rhs * u;
+        }
+        constant += w * rhs * rhs;
+    }
+    if let Some(i) = gradient.iter().position(|v| !v.is_finite()) {
+        return Err(Error::Overflow {
+            what: format!("the sum of linear terms of variable {i} overflows"),
+            index: Some(i),
+        });
+    }
+    if !constant.is_finite() {
+        return Err(Error::Overflow {
+            what: "the constant of the objective overflows".into(),
+            index: None,
+        });
+    }
+    Ok((gradient, constant))
+}
+
+fn pins_are_integer(problem: &Problem) -> Result<()> {
+    for (i, pin) in problem.pinned.iter().enumerate() {
+        if let (true, &Some(v)) = (problem.integer[i], pin)
+            && v != v.round()
+        {
+            return Err(Error::InvalidArgument {
+                what: format!("integer variable {i} is pinned to {v}"),
+                index: Some(i),
+            });
+        }
+    }
+    Ok(())
 }
 
 #[cfg(test)]

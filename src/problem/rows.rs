@@ -43,6 +43,14 @@ impl RowList {
         &self.rhs
     }
 
+    /// Replaces the right sides, one a row.
+    pub(super) fn set_rhs(&mut self, what: &'static str, rhs: &[f64]) -> Result<()> {
+        same_length(what, self.len(), rhs.len())?;
+        all_finite(what, rhs)?;
+        self.rhs.copy_from_slice(rhs);
+        Ok(())
+    }
+
     /// The entries `(variable, coefficient)` of row `i`, as given.
     pub fn row(&self, i: usize) -> impl ExactSizeIterator<Item = (usize, f64)> + Clone + '_ {
         let range = self.offsets[i]..self.offsets[i + 1];

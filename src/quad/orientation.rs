@@ -31,7 +31,7 @@ enum Jump {
     /// The edge has no other face.
     Boundary,
     /// In the problem as this unknown.
-    Unknown(usize),
+    Unknown(u32),
     /// Zero, on the forest; or, between constrained faces, whatever is nearest.
     Known(i32),
 }
@@ -74,6 +74,7 @@ impl FieldProblem {
             }
             row_of_edge[e] = Some(match jumps[e] {
                 Jump::Unknown(p) => {
+                    let p = p as usize;
                     problem.set_integers(&[p])?;
                     problem.add_least_squares(
                         &[i, j, p],
@@ -117,12 +118,15 @@ impl FieldProblem {
             period_jumps.push(match *jump {
                 Jump::Boundary => 0,
                 Jump::Known(p) => p,
-                Jump::Unknown(k) if values[k].abs() <= f64::from(i32::MAX) => values[k] as i32,
-                Jump::Unknown(_) => {
-                    return Err(Error::Overflow {
-                        what: format!("the period jump of edge {e} is beyond 2^31"),
-                        index: Some(e),
-                    });
+                Jump::Unknown(k) => {
+                    let value = values[k as usize];
+                    if value.abs() > f64::from(i32::MAX) {
+                        return Err(Error::Overflow {
+                            what: format!("the period jump of edge {e} is beyond 2^31"),
+                            index: Some(e),
+                        });
+                    }
+                    value as i32
                 }
             });
         }
@@ -167,7 +171,8 @@ fn fixed_angles(mesh: &TriangleMesh, constraints: &[Constraint]) -> Result<Vec<O
 
 /// The jump and kappa of every edge, from its first to its second face.
 fn jumps(mesh: &TriangleMesh, fixed: &[Option<f64>], in_forest: &[bool]) -> (Vec<Jump>, Vec<f64>) {
-    let mut unknowns = mesh.face_count()..;
+    // A mesh has fewer than 2^32 half-edges, and so fewer faces and edges together.
+    let mut unknowns = mesh.face_count() as u32..;
     let mut kappa = Vec::with_capacity(mesh.edge_count());
     let jumps = mesh.edges().enumerate().map(|(e, edge)| {
         let (i, k) = edge.first;

@@ -7,13 +7,19 @@ use std::time::Instant;
 
 use crate::Result;
 use crate::eliminate::ReducedModel;
-use crate::linalg::{Cholesky, Ldl, RelaxedFactor, Sparse, minimum_degree};
+use crate::lattice::schur_factor;
+use crate::linalg::{Cholesky, Ldl, Ordering, RelaxedFactor, Sparse};
 
 /// The factors of one reduced model.
 #[derive(Debug, Default)]
 pub(crate) struct Factors {
     relaxed: Option<RelaxedFactor>,
     continuous: Option<ContinuousBlock>,
+    /// As it was made, if it is kept.
+    updatable: Option<Ldl>,
+    ordering: Ordering,
+    keep: bool,
+    schur: Option<(Vec<f64>, bool)>,
     seconds: f64,
 }
 
@@ -28,6 +34,27 @@ pub(crate) struct ContinuousBlock {
 }
 
 impl Factors {
+    /// None yet, each to be made in this order.
+    pub fn new(ordering: Ordering) -> Self {
+        Factors {
+            ordering,
+            ..Factors::default()
+        }
+    }
+
+    /// As [`new`](Self::new), but what a solve uses up is kept as well, for the next one.
+    pub fn kept(ordering: Ordering) -> Self {
+        Factors {
+            keep: true,
+            ..Factors::new(ordering)
+        }
+    }
+
+    /// Entries below the diagonal of the relaxation's factor; none before there is one.
+    pub fn entries(&self) -> usize {
+        self.relaxed.as_ref().map_or(0, RelaxedFactor::entries)
+    }
+
     /// Seconds spent in factorizations so far.
     pub fn seconds(&self) -> f64 {
         self.seconds
@@ -38,32 +65,51 @@ impl Factors {
         let factor = match self.relaxed.take() {
             Some(factor) => factor,
             None => timed(&mut self.seconds, || {
-                RelaxedFactor::new(model.hessian(), model.integers())
+                RelaxedFactor::ordered(model.hessian(), model.integers(), self.ordering)
             })?,
         };
         Ok(self.relaxed.insert(factor))
     }
 
-    /// A factor of the whole reduced Hessian in which unknowns can be fixed. Made anew each time,
-    /// since fixing uses it up.
+    /// A factor of the whole reduced Hessian in which unknowns can be fixed: the caller's own, since
+    /// fixing uses it up.
     pub fn updatable(&mut self, model: &ReducedModel) -> Result<Ldl> {
+        let (keep, ordering) = (self.keep, self.ordering);
+        let kept = &mut self.updatable;
         timed(&mut self.seconds, || {
-            Ldl::new(model.hessian(), &minimum_degree(model.hessian())?)
+            if let Some(ldl) = kept {
+                return Ok(ldl.clone());
+            }
+            let made = Ldl::new(model.hessian(), &ordering.order(model.hessian())?)?;
+            *kept = keep.then(|| made.clone());
+            Ok(made)
         })
+    }
+
+    /// The triangular factor of the Schur complement of the integers, dense and by columns, and
+    /// whether it has no zero on its diagonal.
+    pub fn schur(&mut self, model: &ReducedModel) -> Result<(&[f64], bool)> {
+        let (r, full) = match self.schur.take() {
+            Some(schur) => schur,
+            None => timed(&mut self.seconds, || schur_factor(model))?,
+        };
+        Ok((&self.schur.insert((r, full)).0, full))
     }
 
     /// The continuous block and its factor.
     pub fn continuous(&mut self, model: &ReducedModel) -> Result<&ContinuousBlock> {
         let block = match self.continuous.take() {
             Some(block) => block,
-            None => timed(&mut self.seconds, || ContinuousBlock::new(model))?,
+            None => timed(&mut self.seconds, || {
+                ContinuousBlock::new(model, self.ordering)
+            })?,
         };
         Ok(self.continuous.insert(block))
     }
 }
 
 impl ContinuousBlock {
-    fn new(model: &ReducedModel) -> Result<Self> {
+    fn new(model: &ReducedModel, ordering: Ordering) -> Result<Self> {
         /// Place of an unknown among the integers or the continuous.
         #[derive(Clone, Copy)]
         enum Place {
@@ -91,7 +137,7 @@ impl ContinuousBlock {
         let (n, m) = (model.continuous().len(), model.integers().len());
         let hessian = Sparse::from_triplets(n, n, own)?;
         let coupling = Sparse::from_triplets(n, m, mixed)?;
-        let factor = Cholesky::new(&hessian)?;
+        let factor = Cholesky::ordered(&hessian, ordering)?;
         Ok(ContinuousBlock {
             hessian,
             coupling,

@@ -1,24 +1,31 @@
 //! Orchestration: options, budgets, progress and cancel, the search, the solution.
 
+mod decide;
 mod factors;
 mod monitor;
 mod options;
+mod presets;
 mod relax;
 pub mod replay;
 mod run;
 mod search;
 mod solution;
+mod solver;
 mod status;
 mod strategy;
 mod verify;
+mod warm_start;
 
 pub use monitor::{CancelToken, Event, EventKind, Flow, Monitor, Phase};
 pub use options::{OPTIONS, OptionInfo, OptionKind, OptionValue, Options};
+pub use presets::{PRESETS, Preset};
 pub use run::{solve, solve_with};
 pub use solution::{Counts, Seconds, Solution};
+pub use solver::Solver;
 pub use status::{GAP_TOLERANCE, SolveStatus};
 pub use strategy::Strategy;
 pub use verify::{Verdict, verify};
+pub use warm_start::WarmStart;
 
 pub(crate) use factors::Factors;
 pub(crate) use search::Search;

@@ -211,6 +211,12 @@ impl<'a> Monitor<'a> {
         self.tell(EventKind::Improved);
     }
 
+    /// Takes note of a better bound and tells of it.
+    pub(crate) fn raised(&mut self, lower_bound: f64) {
+        self.bounded(lower_bound);
+        self.log("lower bound raised");
+    }
+
     /// Takes note of a better bound.
     pub(crate) fn bounded(&mut self, lower_bound: f64) {
         self.lower_bound = lower_bound;

@@ -1,6 +1,7 @@
 //! Options by name: one table from which C, C++, the program and the documentation take them.
 
-use super::Strategy;
+use super::{Strategy, WarmStart};
+use crate::linalg::Ordering;
 use crate::{Error, Result};
 
 /// How to solve. Every field is also an entry of [`OPTIONS`], under the same name.
@@ -28,6 +29,21 @@ pub struct Options {
     pub cg_tolerance: f64,
     /// `adaptive`: whether a pass may factor when conjugate gradients fail.
     pub exact_steps: bool,
+    /// What is made of the integers of an earlier solution: of the solver's last one, or those that
+    /// the initial guess rounds to where there is none.
+    pub warm_start: WarmStart,
+    /// The order in which unknowns are eliminated, from the constraints and in factorizations.
+    pub ordering: Ordering,
+    /// `lattice`, `exact`, `auto`: up to this many integers are decided in a dense lattice.
+    pub dense_integers: usize,
+    /// `lattice`, `exact`, `auto`: beginnings that nearest plane keeps at a time.
+    pub beam_width: usize,
+    /// `lattice`, `exact`, `auto`: perturbation rounds after the blocks.
+    pub lattice_rounds: usize,
+    /// `exact`, `auto`: nodes that the proof may visit.
+    pub nodes: usize,
+    /// `exact`, `auto`: relative gap that ends the proof.
+    pub gap: f64,
 }
 
 impl Default for Options {
@@ -43,29 +59,13 @@ impl Default for Options {
             cg_iterations: 50,
             cg_tolerance: 1e-3,
             exact_steps: true,
-        }
-    }
-}
-
-impl Options {
-    /// The thesis' parameters for orientation fields (section 5.3): adaptive, by Gauss-Seidel
-    /// (100,000 updates to 1e-3), then 50 conjugate-gradient iterations, then sparse Cholesky.
-    pub fn orientation_field() -> Self {
-        Options {
-            strategy: Strategy::Adaptive,
-            exact_integers: 0,
-            ..Options::default()
-        }
-    }
-
-    /// The thesis' parameters for parametrizations (section 5.3): adaptive, no Gauss-Seidel, 20
-    /// conjugate-gradient iterations, no factorization in between.
-    pub fn parametrization() -> Self {
-        Options {
-            gauss_seidel_updates: 0,
-            cg_iterations: 20,
-            exact_steps: false,
-            ..Options::orientation_field()
+            warm_start: WarmStart::Off,
+            ordering: Ordering::FillReducing,
+            dense_integers: 1000,
+            beam_width: 256,
+            lattice_rounds: 1,
+            nodes: 20_000_000_000,
+            gap: 0.0,
         }
     }
 }
@@ -113,7 +113,7 @@ pub const OPTIONS: &[OptionInfo] = &[
         name: "strategy",
         kind: OptionKind::Text,
         default: "greedy",
-        range: "relax|direct|greedy|adaptive",
+        range: "relax|direct|greedy|adaptive|lattice|exact|auto",
         text: "how integers are decided",
     },
     OptionInfo {
@@ -179,6 +179,55 @@ pub const OPTIONS: &[OptionInfo] = &[
         range: "[0, 1]",
         text: "adaptive: 1 if a pass may factor when conjugate gradients fail",
     },
+    OptionInfo {
+        name: "warm_start",
+        kind: OptionKind::Text,
+        default: "off",
+        range: "off|offer|keep",
+        text: "earlier integers: ignored, offered before the search begins, or kept as they are",
+    },
+    OptionInfo {
+        name: "ordering",
+        kind: OptionKind::Text,
+        default: "fill_reducing",
+        range: "fill_reducing|natural",
+        text: "order of eliminations and factorizations; natural only shows what the other is worth",
+    },
+    OptionInfo {
+        name: "dense_integers",
+        kind: OptionKind::Integer,
+        default: "1000",
+        range: "[0, 20000]",
+        text: "lattice, exact, auto: up to this many integers are decided in a dense lattice",
+    },
+    OptionInfo {
+        name: "beam_width",
+        kind: OptionKind::Integer,
+        default: "256",
+        range: "[1, 1000000]",
+        text: "lattice, exact, auto: beginnings that nearest plane keeps at a time",
+    },
+    OptionInfo {
+        name: "lattice_rounds",
+        kind: OptionKind::Integer,
+        default: "1",
+        range: "[0, 2147483647]",
+        text: "lattice, exact, auto: perturbation rounds after the blocks",
+    },
+    OptionInfo {
+        name: "nodes",
+        kind: OptionKind::Integer,
+        default: "20000000000",
+        range: "[0, 9007199254740992]",
+        text: "exact, auto: nodes that the proof may visit",
+    },
+    OptionInfo {
+        name: "gap",
+        kind: OptionKind::Real,
+        default: "0",
+        range: "[0, inf]",
+        text: "exact, auto: relative gap that ends the proof",
+    },
 ];
 
 impl Options {
@@ -189,7 +238,7 @@ impl Options {
     pub fn set(&mut self, name: &str, value: &OptionValue) -> Result<()> {
         let info = info(name)?;
         match info.name {
-            "strategy" => self.strategy = strategy(info, value)?,
+            "strategy" => self.strategy = word(info, value, Strategy::ALL, Strategy::name)?,
             "time_limit" => self.time_limit = real(info, value)?,
             "threads" => self.threads = integer(info, value, 1024)?,
             "rounding_threshold" => self.rounding_threshold = real(info, value)?,
@@ -198,7 +247,14 @@ impl Options {
             "gauss_seidel_tolerance" => self.gauss_seidel_tolerance = real(info, value)?,
             "cg_iterations" => self.cg_iterations = integer(info, value, LARGEST)?,
             "cg_tolerance" => self.cg_tolerance = real(info, value)?,
-            _ => self.exact_steps = integer(info, value, 1)? == 1,
+            "exact_steps" => self.exact_steps = integer(info, value, 1)? == 1,
+            "warm_start" => self.warm_start = word(info, value, WarmStart::ALL, WarmStart::name)?,
+            "ordering" => self.ordering = word(info, value, Ordering::ALL, Ordering::name)?,
+            "dense_integers" => self.dense_integers = integer(info, value, 20_000)?,
+            "beam_width" => self.beam_width = whole(info, value, 1, 1_000_000)?,
+            "lattice_rounds" => self.lattice_rounds = integer(info, value, LARGEST)?,
+            "nodes" => self.nodes = integer(info, value, 1 << 53)?,
+            _ => self.gap = real(info, value)?,
         }
         Ok(())
     }
@@ -218,7 +274,14 @@ impl Options {
             "gauss_seidel_tolerance" => OptionValue::Real(self.gauss_seidel_tolerance),
             "cg_iterations" => OptionValue::Integer(self.cg_iterations as i64),
             "cg_tolerance" => OptionValue::Real(self.cg_tolerance),
-            _ => OptionValue::Integer(self.exact_steps.into()),
+            "exact_steps" => OptionValue::Integer(self.exact_steps.into()),
+            "warm_start" => OptionValue::Text(self.warm_start.name().into()),
+            "ordering" => OptionValue::Text(self.ordering.name().into()),
+            "dense_integers" => OptionValue::Integer(self.dense_integers as i64),
+            "beam_width" => OptionValue::Integer(self.beam_width as i64),
+            "lattice_rounds" => OptionValue::Integer(self.lattice_rounds as i64),
+            "nodes" => OptionValue::Integer(self.nodes as i64),
+            _ => OptionValue::Real(self.gap),
         })
     }
 }
@@ -226,11 +289,17 @@ impl Options {
 /// The largest whole number that an option without a limit of its own takes.
 const LARGEST: i64 = i32::MAX as i64;
 
-fn strategy(info: &'static OptionInfo, value: &OptionValue) -> Result<Strategy> {
+/// The one of `all` whose name is given.
+fn word<T: Copy, const N: usize>(
+    info: &'static OptionInfo,
+    value: &OptionValue,
+    all: [T; N],
+    name: fn(T) -> &'static str,
+) -> Result<T> {
     let OptionValue::Text(word) = value else {
         return Err(wrong_type(info));
     };
-    let found = Strategy::ALL.into_iter().find(|s| s.name() == word);
+    let found = all.into_iter().find(|&one| name(one) == word);
     found.ok_or_else(|| out_of_range(info, word))
 }
 
@@ -249,10 +318,20 @@ fn real(info: &'static OptionInfo, value: &OptionValue) -> Result<f64> {
 
 /// A whole number from 0 to `largest`.
 fn integer(info: &'static OptionInfo, value: &OptionValue, largest: i64) -> Result<usize> {
+    whole(info, value, 0, largest)
+}
+
+/// A whole number from `least` to `largest`.
+fn whole(
+    info: &'static OptionInfo,
+    value: &OptionValue,
+    least: i64,
+    largest: i64,
+) -> Result<usize> {
     let OptionValue::Integer(number) = *value else {
         return Err(wrong_type(info));
     };
-    if !(0..=largest).contains(&number) {
+    if !(least..=largest).contains(&number) {
         return Err(out_of_range(info, number));
     }
     Ok(number as usize)
@@ -300,9 +379,12 @@ mod tests {
             };
             assert_eq!(text, info.default, "{}", info.name);
             let other = match &value {
-                OptionValue::Text(_) => OptionValue::Text("direct".into()),
+                OptionValue::Text(word) => {
+                    let mut words = info.range.split('|');
+                    OptionValue::Text(words.find(|w| w != word).unwrap().into())
+                }
                 OptionValue::Real(_) => OptionValue::Real(0.25),
-                OptionValue::Integer(number) => OptionValue::Integer(1 - number.signum()),
+                OptionValue::Integer(number) => OptionValue::Integer(number - 1),
             };
             let mut options = Options::default();
             options.set(info.name, &other).unwrap();

@@ -6,10 +6,9 @@ use super::relax::relax;
 use super::search::Search;
 use super::solution::{Counts, Seconds, Solution};
 use super::verify::verify;
-use super::{Options, Phase, SolveStatus, Strategy};
-use crate::eliminate::{ReducedModel, eliminate};
-use crate::round;
-use crate::{Model, Problem, Result};
+use super::{Options, Phase, SolveStatus, Strategy, WarmStart};
+use crate::eliminate::{Elimination, ReducedModel};
+use crate::{Model, Problem, Result, round};
 
 /// Solves `problem`, watched by nobody.
 ///
@@ -30,42 +29,87 @@ pub fn solve_with(problem: &Problem, options: &Options, mut monitor: Monitor) ->
     monitor.start(options.time_limit);
     monitor.check()?;
     let model = Model::new(problem)?;
+    tell_of_ignored_hint(&model, &mut monitor);
+    let prepared = Prepared {
+        problem,
+        model: &model,
+        elimination: &Elimination::new(&model, options.ordering, &mut monitor)?,
+        factors: &mut Factors::new(options.ordering),
+        earlier: model.guess(),
+    };
+    prepared.solve(options, &mut monitor)
+}
+
+pub(super) fn tell_of_ignored_hint(model: &Model, monitor: &mut Monitor) {
     if let Some(cycle) = model.ignored_hint() {
         monitor.log(&format!(
             "cycle hint ignored: unknowns of cycle {cycle} do not cancel"
         ));
     }
-    let reduced = eliminate(&model, &mut monitor)?;
-    let eliminated = monitor.seconds();
+}
 
-    let mut factors = Factors::default();
-    let (point, lower_bound, status) = decide(&reduced, options, &mut factors, &mut monitor)?;
-    let searched = monitor.seconds();
+/// A problem with all that does not depend on its right sides.
+pub(super) struct Prepared<'a> {
+    pub problem: &'a Problem,
+    pub model: &'a Model,
+    pub elimination: &'a Elimination,
+    pub factors: &'a mut Factors,
+    /// Where a warm start begins, in the caller's unknowns.
+    pub earlier: &'a [f64],
+}
 
-    let values = expand(&reduced, &model, options.strategy, &point);
-    let verdict = verify(problem, &values)?;
-    let total = monitor.seconds();
-    Ok(Solution {
-        values,
-        energy: verdict.energy,
-        lower_bound: Some(lower_bound.min(verdict.energy)),
-        status,
-        counts: counts(&model, &reduced),
-        seconds: Seconds {
-            eliminate: eliminated,
-            factor: factors.seconds(),
-            round: searched - eliminated - factors.seconds(),
-            total,
-        },
-        max_constraint_violation: verdict.constraint_violation,
-        max_integrality_violation: verdict.integrality_violation,
-    })
+impl Prepared<'_> {
+    /// Right sides, relaxation, search, expansion, verification.
+    pub fn solve(self, options: &Options, monitor: &mut Monitor) -> Result<Solution> {
+        let Prepared { model, factors, .. } = self;
+        let reduced = self.elimination.reduce(model, monitor)?;
+        let start = match options.warm_start {
+            WarmStart::Off => None,
+            WarmStart::Offer | WarmStart::Keep => {
+                let point = self.elimination.restrict(&reduced, self.earlier);
+                let integers = reduced.integers().iter();
+                Some(
+                    integers
+                        .map(|&i| round::nearest(point[i as usize]))
+                        .collect(),
+                )
+            }
+        };
+        let eliminated = monitor.seconds();
+        let factored_before = factors.seconds();
+
+        let (point, lower_bound, status) =
+            decide(model, &reduced, options, start, factors, monitor)?;
+        let searched = monitor.seconds();
+        let factored = factors.seconds() - factored_before;
+
+        let values = expand(&reduced, model, options.strategy, &point);
+        let verdict = verify(self.problem, &values)?;
+        let total = monitor.seconds();
+        Ok(Solution {
+            values,
+            energy: verdict.energy,
+            lower_bound: Some(lower_bound.min(verdict.energy)),
+            status,
+            counts: counts(model, &reduced, factors),
+            seconds: Seconds {
+                eliminate: eliminated,
+                factor: factored,
+                round: searched - eliminated - factored,
+                total,
+            },
+            max_constraint_violation: verdict.constraint_violation,
+            max_integrality_violation: verdict.integrality_violation,
+        })
+    }
 }
 
 /// The reduced point, the lower bound and how the search ended.
 fn decide(
+    model: &Model,
     reduced: &ReducedModel,
     options: &Options,
+    start: Option<Vec<f64>>,
     factors: &mut Factors,
     monitor: &mut Monitor,
 ) -> Result<(Vec<f64>, f64, SolveStatus)> {
@@ -81,11 +125,13 @@ fn decide(
     }
     monitor.check()?;
     let mut search = Search::new(reduced, relaxation.point, relaxation.lower_bound, monitor);
-    match options.strategy {
-        Strategy::Relax => {}
-        Strategy::Direct => round::direct(reduced, factors, &mut search)?,
-        Strategy::Greedy => round::greedy(reduced, factors, &mut search)?,
-        Strategy::Adaptive => round::adaptive(reduced, options, factors, &mut search)?,
+    if let Some(integers) = start {
+        search.offer(factors, &integers)?;
+    }
+    // Nothing is better than what is optimal already.
+    let done = search.status() == SolveStatus::Optimal || options.warm_start == WarmStart::Keep;
+    if !done {
+        super::decide::search(model, reduced, options, factors, &mut search)?;
     }
     let (bound, status) = (search.lower_bound(), search.status());
     let best = search.into_best()?;
@@ -107,12 +153,13 @@ fn expand(reduced: &ReducedModel, model: &Model, strategy: Strategy, point: &[f6
     values
 }
 
-fn counts(model: &Model, reduced: &ReducedModel) -> Counts {
+fn counts(model: &Model, reduced: &ReducedModel, factors: &Factors) -> Counts {
     Counts {
         variables: model.variables(),
         integers: model.integer().iter().filter(|&&i| i).count(),
         constraints: model.constraints().rows(),
         reduced_integers: reduced.integers().len(),
         reduced_continuous: reduced.continuous().len(),
+        factor_nonzeros: factors.entries(),
     }
 }

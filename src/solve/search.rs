@@ -53,6 +53,15 @@ impl<'s, 'm> Search<'s, 'm> {
         &self.relaxed
     }
 
+    /// The integers of the best solution so far, in their order.
+    pub fn incumbent_integers(&self) -> Option<Vec<f64>> {
+        let of = |best: &Incumbent| {
+            let integers = self.model.integers().iter();
+            integers.map(|&i| best.point[i as usize]).collect()
+        };
+        self.incumbent.as_ref().map(of)
+    }
+
     /// No solution has less energy than this.
     pub fn lower_bound(&self) -> f64 {
         self.lower_bound
@@ -128,6 +137,32 @@ impl<'s, 'm> Search<'s, 'm> {
             self.monitor.improved(energy);
         }
         Ok(better)
+    }
+
+    /// The best solution so far.
+    pub fn best(&self) -> Option<&Incumbent> {
+        self.incumbent.as_ref()
+    }
+
+    /// Takes note that no solution has less energy than `bound`.
+    pub fn raise_bound(&mut self, bound: f64) {
+        if bound > self.lower_bound {
+            self.lower_bound = bound;
+            self.monitor.raised(bound);
+        }
+    }
+
+    /// The bound that leaves the incumbent a relative gap of `gap`.
+    pub fn wanted_bound(&self, gap: f64) -> f64 {
+        let best = self.incumbent.as_ref();
+        best.map_or(f64::INFINITY, |b| b.energy - gap * b.energy.abs().max(1.0))
+    }
+
+    /// Whether the incumbent's relative gap is at most `gap`, or it counts as proved.
+    pub fn is_within(&self, gap: f64) -> bool {
+        let gap = gap.max(super::status::GAP_TOLERANCE);
+        let best = self.incumbent.as_ref();
+        best.is_some_and(|b| super::monitor::gap(b.energy, self.lower_bound) <= gap)
     }
 
     /// A direction of the continuous unknowns as one of all reduced unknowns.

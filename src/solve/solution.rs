@@ -16,6 +16,8 @@ pub struct Counts {
     pub reduced_integers: usize,
     /// Continuous unknowns left after elimination.
     pub reduced_continuous: usize,
+    /// Entries below the diagonal of the factor that the relaxation was solved with.
+    pub factor_nonzeros: usize,
 }
 
 /// Wall-clock seconds by phase.

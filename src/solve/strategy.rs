@@ -12,15 +12,24 @@ pub enum Strategy {
     Greedy,
     /// Several at a time, re-optimising only as far as needed; exactly where that is cheap.
     Adaptive,
+    /// By lattice reduction, nearest plane and exact re-decision of blocks, without a proof.
+    Lattice,
+    /// As lattice, then enumeration until the optimum is proved or the budget ends.
+    Exact,
+    /// As exact within a budget of a few relaxations where integers are few, adaptive where many.
+    Auto,
 }
 
 impl Strategy {
     /// All strategies.
-    pub const ALL: [Strategy; 4] = [
+    pub const ALL: [Strategy; 7] = [
         Strategy::Relax,
         Strategy::Direct,
         Strategy::Greedy,
         Strategy::Adaptive,
+        Strategy::Lattice,
+        Strategy::Exact,
+        Strategy::Auto,
     ];
 
     /// The name by which options choose it.
@@ -30,6 +39,9 @@ impl Strategy {
             Strategy::Direct => "direct",
             Strategy::Greedy => "greedy",
             Strategy::Adaptive => "adaptive",
+            Strategy::Lattice => "lattice",
+            Strategy::Exact => "exact",
+            Strategy::Auto => "auto",
         }
     }
 }

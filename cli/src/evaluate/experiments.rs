@@ -1,7 +1,6 @@
 //! What is run: the test bed and the growth of section 5.3 of the thesis, and its ordering.
 
-use roundel::solve::{OPTIONS, OptionValue};
-use roundel::{Options, Strategy};
+use roundel::Strategy;
 
 /// Which of the two problems of a mesh.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -219,12 +218,13 @@ fn solvers(family: Family) -> Vec<Solver> {
             flags: vec!["--strategy".into(), strategy.name().into()],
         })
         .collect();
+    let preset = match family {
+        Family::Field => "orientation_field",
+        Family::Map => "parametrization",
+    };
     solvers.push(Solver {
         name: "adaptive, thesis' parameters".into(),
-        flags: flags(&match family {
-            Family::Field => Options::orientation_field(),
-            Family::Map => Options::parametrization(),
-        }),
+        flags: vec!["--preset".into(), preset.into()],
     });
     solvers
 }
@@ -240,27 +240,10 @@ fn orderings() -> Vec<Solver> {
     both.map(solver).into()
 }
 
-/// The flags that say what differs from the defaults.
-fn flags(options: &Options) -> Vec<String> {
-    let text = |value| match value {
-        OptionValue::Integer(number) => number.to_string(),
-        OptionValue::Real(number) => number.to_string(),
-        OptionValue::Text(word) => word,
-    };
-    let mut flags = Vec::new();
-    for info in OPTIONS {
-        let (value, default) = (options.get(info.name), Options::default().get(info.name));
-        if value != default
-            && let Ok(value) = value
-        {
-            flags.extend([format!("--{}", info.name.replace('_', "-")), text(value)]);
-        }
-    }
-    flags
-}
-
 #[cfg(test)]
 mod tests {
+    use roundel::solve::PRESETS;
+
     use super::*;
 
     #[test]
@@ -284,9 +267,11 @@ mod tests {
     }
 
     #[test]
-    fn presets_are_flags_for_what_differs_from_the_defaults() {
-        let field = flags(&Options::orientation_field()).join(" ");
-        assert_eq!(field, "--strategy adaptive --exact-integers 0");
-        assert!(flags(&Options::default()).is_empty());
+    fn the_thesis_parameters_are_presets_of_the_library() {
+        for family in [Family::Field, Family::Map] {
+            let solvers = solvers(family);
+            let preset = &solvers.last().unwrap().flags[1];
+            assert!(PRESETS.iter().any(|p| p.name == preset), "{preset}");
+        }
     }
 }

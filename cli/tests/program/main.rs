@@ -1,5 +1,6 @@
 //! The program as its users meet it: run from outside, on files.
 
+mod evaluate;
 mod field;
 mod outcome;
 mod output;

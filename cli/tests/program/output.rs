@@ -51,6 +51,7 @@ fn the_report_has_every_field_with_its_type() {
         "constraints",
         "reduced_integers",
         "reduced_continuous",
+        "factor_nonzeros",
         "seconds",
         "peak_memory_bytes",
         "max_constraint_violation",

@@ -53,5 +53,6 @@ void bad_problems(fixture* f);
 void bad_files(fixture* f);
 void bad_meshes(fixture* f);
 void bad_sizes(fixture* f);
+void bad_solvers(fixture* f);
 
 #endif

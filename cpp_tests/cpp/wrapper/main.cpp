@@ -21,5 +21,6 @@ int main() {
     tokens_cancel_from_other_threads();
     threads_share_a_problem_and_keep_their_errors();
     files_keep_the_problem();
+    a_solver_gives_what_solve_gives();
     return failures != 0;
 }

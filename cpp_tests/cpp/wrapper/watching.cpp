@@ -24,7 +24,14 @@ void options_follow_the_librarys_list() {
                                            "gauss_seidel_tolerance",
                                            "cg_iterations",
                                            "cg_tolerance",
-                                           "exact_steps"};
+                                           "exact_steps",
+                                           "warm_start",
+                                           "ordering",
+                                           "dense_integers",
+                                           "beam_width",
+                                           "lattice_rounds",
+                                           "nodes",
+                                           "gap"};
     std::set<std::string> listed;
     for (std::size_t i = 0; i < roundel_option_count(); ++i) {
         roundel_option option;
@@ -42,12 +49,21 @@ void options_follow_the_librarys_list() {
     local.set_gauss_seidel_updates(1000).set_gauss_seidel_tolerance(1e-6);
     local.set_cg_iterations(20).set_cg_tolerance(1e-6).set_exact_steps(1);
     CHECK(roundel::solve(problem, local).violations().integrality == 0.0);
+    roundel::Options preset;
+    preset.set_preset("parametrization").set_ordering("natural").set_warm_start("offer");
+    CHECK(roundel::solve(problem, preset).counts().factor_nonzeros > 0);
+    roundel::Options proof;
+    proof.set_strategy("exact").set_dense_integers(500).set_beam_width(16).set_lattice_rounds(2);
+    proof.set_nodes(1000000).set_gap(0.0);
+    CHECK(roundel::solve(problem, proof).status() == roundel::SolveStatus::optimal);
     roundel::Options by_name;
     by_name.set("strategy", "relax"s).set("threads", std::int64_t{1}).set("time_limit", 60.0);
     CHECK(roundel::solve(problem, by_name).status() == roundel::SolveStatus::relaxed);
     roundel::Status status;
     CHECK(!roundel::solve(problem, by_name.set("speed", 1.0), &status));
     CHECK(status.code == ROUNDEL_ERROR_UNKNOWN_OPTION);
+    CHECK(!roundel::solve(problem, preset.set_preset("luck"), &status));
+    CHECK(status.code == ROUNDEL_ERROR_OPTION_RANGE);
     roundel::Options late;
     CHECK(!roundel::solve(problem, late.set_time_limit(0.0), &status));
     CHECK(status.code == ROUNDEL_ERROR_TIME_LIMIT);

@@ -15,6 +15,7 @@ void callbacks_stop_and_throw();
 void tokens_cancel_from_other_threads();
 void threads_share_a_problem_and_keep_their_errors();
 void files_keep_the_problem();
+void a_solver_gives_what_solve_gives();
 
 /// A chain of `n` variables at distances of 0.3, every second one an integer.
 roundel::Problem chain(std::int32_t n);

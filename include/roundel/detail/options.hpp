@@ -90,7 +90,10 @@ struct Event {
 
 /// How to solve. What is not set has the library's default.
 struct Options {
-    /// How integers are decided: "relax", "direct", "greedy", "adaptive".
+    /// A set of options by name, "orientation_field" or "parametrization", set before all others.
+    std::optional<std::string> preset = std::nullopt;
+    /// How integers are decided: "relax", "direct", "greedy", "adaptive",
+    /// "lattice", "exact", "auto".
     std::optional<std::string> strategy = std::nullopt;
     /// Seconds after which the best solution so far is returned.
     std::optional<double> time_limit = std::nullopt;
@@ -110,6 +113,20 @@ struct Options {
     std::optional<double> cg_tolerance = std::nullopt;
     /// adaptive: 1 if a pass may factor when conjugate gradients fail.
     std::optional<std::int64_t> exact_steps = std::nullopt;
+    /// Earlier integers: "off", "offer" (before the search begins) or "keep" (no search).
+    std::optional<std::string> warm_start = std::nullopt;
+    /// "fill_reducing", or "natural", which only shows what the other is worth.
+    std::optional<std::string> ordering = std::nullopt;
+    /// lattice, exact, auto: up to this many integers are decided in a dense lattice.
+    std::optional<std::int64_t> dense_integers = std::nullopt;
+    /// lattice, exact, auto: beginnings that nearest plane keeps at a time.
+    std::optional<std::int64_t> beam_width = std::nullopt;
+    /// lattice, exact, auto: perturbation rounds after the blocks.
+    std::optional<std::int64_t> lattice_rounds = std::nullopt;
+    /// exact, auto: nodes that the proof may visit.
+    std::optional<std::int64_t> nodes = std::nullopt;
+    /// exact, auto: relative gap that ends the proof.
+    std::optional<double> gap = std::nullopt;
     /// Called for every event, on the thread that called solve. What it throws ends the solve and
     /// is thrown again by solve.
     std::function<Flow(const Event&)> on_event = nullptr;
@@ -118,6 +135,10 @@ struct Options {
     /// Any option by its name, after those above.
     std::vector<std::pair<std::string, std::variant<std::int64_t, double, std::string>>> more = {};
 
+    Options& set_preset(std::string value) {
+        preset = std::move(value);
+        return *this;
+    }
     Options& set_strategy(std::string value) {
         strategy = std::move(value);
         return *this;
@@ -156,6 +177,34 @@ struct Options {
     }
     Options& set_exact_steps(std::int64_t value) {
         exact_steps = value;
+        return *this;
+    }
+    Options& set_warm_start(std::string value) {
+        warm_start = std::move(value);
+        return *this;
+    }
+    Options& set_ordering(std::string value) {
+        ordering = std::move(value);
+        return *this;
+    }
+    Options& set_dense_integers(std::int64_t value) {
+        dense_integers = value;
+        return *this;
+    }
+    Options& set_beam_width(std::int64_t value) {
+        beam_width = value;
+        return *this;
+    }
+    Options& set_lattice_rounds(std::int64_t value) {
+        lattice_rounds = value;
+        return *this;
+    }
+    Options& set_nodes(std::int64_t value) {
+        nodes = value;
+        return *this;
+    }
+    Options& set_gap(double value) {
+        gap = value;
         return *this;
     }
     Options& set_on_event(std::function<Flow(const Event&)> value) {

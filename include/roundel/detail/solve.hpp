@@ -68,6 +68,10 @@ inline OptionsHandle handle_for(const Options& options, Status* status) {
         return nullptr;
     }
     OptionsHandle handle(made);
+    if (options.preset &&
+        !check(roundel_options_set_preset(made, options.preset->c_str()), status)) {
+        return nullptr;
+    }
     const auto one = [&](const char* name, const auto& value) {
         return !value || check(set(made, name, *value), status);
     };
@@ -78,7 +82,11 @@ inline OptionsHandle handle_for(const Options& options, Status* status) {
         !one("gauss_seidel_updates", options.gauss_seidel_updates) ||
         !one("gauss_seidel_tolerance", options.gauss_seidel_tolerance) ||
         !one("cg_iterations", options.cg_iterations) ||
-        !one("cg_tolerance", options.cg_tolerance) || !one("exact_steps", options.exact_steps)) {
+        !one("cg_tolerance", options.cg_tolerance) || !one("exact_steps", options.exact_steps) ||
+        !one("warm_start", options.warm_start) || !one("ordering", options.ordering) ||
+        !one("dense_integers", options.dense_integers) || !one("beam_width", options.beam_width) ||
+        !one("lattice_rounds", options.lattice_rounds) || !one("nodes", options.nodes) ||
+        !one("gap", options.gap)) {
         return nullptr;
     }
     for (const auto& [name, value] : options.more) {
@@ -118,6 +126,27 @@ bool watched(const Options& options, const Call& call, std::size_t variables, St
 
 } // namespace detail
 
+namespace detail {
+
+/// The solution that `call` gives through its last parameter, or none.
+template <class Call>
+Solution solution_of(const Options& options, const Call& call, std::size_t variables,
+                     Status* status) {
+    Handle<roundel_solution, roundel_solution_free> found;
+    const auto keep = [&](const roundel_options* how, const roundel_monitor* monitor) {
+        roundel_solution* made = nullptr;
+        const auto code = call(how, monitor, &made);
+        found.reset(made);
+        return code;
+    };
+    if (!watched(options, keep, variables, status)) {
+        return {};
+    }
+    return Solution(found.release(), status);
+}
+
+} // namespace detail
+
 /// Solves a problem. It may be solved again, as it is or after changes.
 inline Solution solve(const Problem& problem, const Options& options = {},
                       Status* status = nullptr) {
@@ -126,17 +155,11 @@ inline Solution solve(const Problem& problem, const Options& options = {},
     if (problem.get()) {
         roundel_problem_variables(problem.get(), &variables);
     }
-    detail::Handle<roundel_solution, roundel_solution_free> found;
-    const auto call = [&](const roundel_options* how, const roundel_monitor* monitor) {
-        roundel_solution* made = nullptr;
-        const auto code = roundel_solve_with(problem.get(), how, monitor, &made);
-        found.reset(made);
-        return code;
+    const auto call = [&](const roundel_options* how, const roundel_monitor* monitor,
+                          roundel_solution** made) {
+        return roundel_solve_with(problem.get(), how, monitor, made);
     };
-    if (!detail::watched(options, call, variables, status)) {
-        return {};
-    }
-    return Solution(found.release(), status);
+    return detail::solution_of(options, call, variables, status);
 }
 
 /// Writes a problem and how to solve it, so that the solve can be repeated elsewhere: `file`, which

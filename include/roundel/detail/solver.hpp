@@ -1,0 +1,89 @@
+/// A problem solved again and again.
+
+#ifndef ROUNDEL_DETAIL_SOLVER_HPP
+#define ROUNDEL_DETAIL_SOLVER_HPP
+
+#include <roundel/detail/solve.hpp>
+
+#include <cstddef>
+#include <cstdint>
+
+ROUNDEL_NAMESPACE_BEGIN
+
+/// A problem whose matrices and integers are fixed, for many solves: elimination, orderings and
+/// factors are kept, and a solve with other right sides costs a fraction of the first.
+///
+/// The solution is that of solve for the same data, except that a warm start may improve it. A
+/// solve that fails changes nothing.
+class Solver {
+  public:
+    /// A solver for a copy of `problem`.
+    explicit Solver(const Problem& problem, Status* status = nullptr) {
+        roundel_solver* made = nullptr;
+        if (detail::check(roundel_solver_new(problem.get(), &made), status)) {
+            handle_.reset(made);
+            roundel_problem_variables(problem.get(), &variables_);
+        }
+    }
+
+    /// Whether there is one.
+    explicit operator bool() const noexcept { return handle_ != nullptr; }
+
+    /// Replaces the linear term, one value a variable.
+    Solver& linear(span<const double> values, Status* status = nullptr) {
+        return told(roundel_solver_set_linear(get(), values.data(), values.size()), status);
+    }
+
+    /// Replaces the right sides of the constraints, one a constraint.
+    Solver& constraint_right_sides(span<const double> values, Status* status = nullptr) {
+        return told(roundel_solver_set_constraint_right_sides(get(), values.data(), values.size()),
+                    status);
+    }
+
+    /// Replaces the right sides of the least-squares rows, one a row.
+    Solver& least_squares_right_sides(span<const double> values, Status* status = nullptr) {
+        return told(
+            roundel_solver_set_least_squares_right_sides(get(), values.data(), values.size()),
+            status);
+    }
+
+    /// Sets the point that variables keep to where the objective does not decide them, and at which
+    /// a warm start begins.
+    Solver& guess(span<const double> values, Status* status = nullptr) {
+        return told(roundel_solver_set_guess(get(), values.data(), values.size()), status);
+    }
+
+    /// Fixes a variable to a value.
+    Solver& pin(std::int64_t variable, double value, Status* status = nullptr) {
+        return told(roundel_solver_pin(get(), variable, value), status);
+    }
+
+    /// Releases a pinned variable.
+    Solver& unpin(std::int64_t variable, Status* status = nullptr) {
+        return told(roundel_solver_unpin(get(), variable), status);
+    }
+
+    /// Solves the problem as it stands.
+    Solution solve(const Options& options = {}, Status* status = nullptr) {
+        const auto call = [this](const roundel_options* how, const roundel_monitor* monitor,
+                                 roundel_solution** made) {
+            return roundel_solver_solve_with(get(), how, monitor, made);
+        };
+        return detail::solution_of(options, call, variables_, status);
+    }
+
+    roundel_solver* get() const noexcept { return handle_.get(); }
+
+  private:
+    Solver& told(roundel_status code, Status* status) {
+        detail::check(code, status);
+        return *this;
+    }
+
+    detail::Handle<roundel_solver, roundel_solver_free> handle_;
+    std::size_t variables_ = 0;
+};
+
+ROUNDEL_NAMESPACE_END
+
+#endif // ROUNDEL_DETAIL_SOLVER_HPP

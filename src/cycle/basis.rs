@@ -1,0 +1,132 @@
+//! A unimodular basis of short cycles.
+//!
+//! An independent set of cycles may generate a sublattice only. So candidates are taken shortest
+//! first (Horton 1987), and each is reduced by those before it, in the coordinates of the
+//! fundamental cycles of a spanning forest (one coordinate a chord), with pivots of 1 and -1 only:
+//! integer row operations of determinant one. What reduces to nothing depends on the others; what
+//! has no such entry left is refused. The fundamental cycles are candidates where they are short; of
+//! the others, those of the chords that no candidate was solved for complete the basis. They are
+//! unit rows there, so that its determinant is 1 or -1: it is *integral* (Liebchen, Rizzi 2007).
+
+use super::cycles::Cycles;
+use super::forest::Forest;
+use super::fundamental::fundamental_cycle;
+use super::graph::{Graph, NONE};
+use super::short::{LONGEST, short_cycles};
+
+/// A candidate whose reduction takes more additions is refused; there are enough others.
+const PATIENCE: usize = 20_000;
+
+/// So is one whose coefficients grow beyond this: products of two still fit.
+const LARGEST: i64 = 1 << 20;
+
+/// An integral basis of the cycles of `graph`, the shortest first, `hinted` ones among them where
+/// they fit.
+pub(super) fn cycle_basis(graph: &Graph, hinted: Cycles) -> Cycles {
+    let forest = Forest::shortest(graph);
+    let mut candidates = short_cycles(graph, hinted);
+    let chords = (0..graph.edges.len() as u32).filter(|&e| !forest.holds(graph, e));
+    for e in chords {
+        if let Some(cycle) = fundamental_cycle(graph, &forest, e, LONGEST) {
+            candidates.push(cycle.into_iter());
+        }
+    }
+    let mut order: Vec<u32> = (0..candidates.len() as u32).collect();
+    order.sort_by_key(|&k| candidates.get(k as usize).len());
+    let mut reduction = Reduction::new(graph, &forest);
+    let mut basis = Cycles::new();
+    for k in order {
+        let cycle = candidates.get(k as usize);
+        if reduction.accepts(cycle) {
+            basis.push(cycle.iter().copied());
+        }
+    }
+    let missing = (0..graph.edges.len() as u32).filter(|&e| reduction.is_missing(e));
+    let mut rest: Vec<_> = missing
+        .filter_map(|e| fundamental_cycle(graph, &forest, e, usize::MAX))
+        .collect();
+    rest.sort_by_key(Vec::len);
+    for cycle in rest {
+        basis.push(cycle.into_iter());
+    }
+    basis
+}
+
+/// Cycles accepted so far, each solved for a chord of its own.
+struct Reduction {
+    is_chord: Vec<bool>,
+    /// By edge: the row that is solved for it, or [`NONE`].
+    solved: Vec<u32>,
+    /// What the chord of each row is, in others.
+    rows: Vec<Vec<(u32, i64)>>,
+    value: Vec<i64>,
+    touched: Vec<u32>,
+    open: Vec<(u32, i64)>,
+}
+
+impl Reduction {
+    fn new(graph: &Graph, forest: &Forest) -> Self {
+        let edges = graph.edges.len();
+        Reduction {
+            is_chord: (0..edges as u32).map(|e| !forest.holds(graph, e)).collect(),
+            solved: vec![NONE; edges],
+            rows: Vec::new(),
+            value: vec![0; edges],
+            touched: Vec::new(),
+            open: Vec::new(),
+        }
+    }
+
+    /// Whether `e` is a chord that no row is solved for.
+    fn is_missing(&self, e: u32) -> bool {
+        self.is_chord[e as usize] && self.solved[e as usize] == NONE
+    }
+
+    /// Takes a cycle if it extends the lattice of those before it by a unit.
+    fn accepts(&mut self, cycle: &[(u32, i8)]) -> bool {
+        let chords = cycle.iter().filter(|&&(e, _)| self.is_chord[e as usize]);
+        self.open
+            .extend(chords.map(|&(e, sign)| (e, i64::from(sign))));
+        let patient = self.reduce();
+        let mut row = Vec::with_capacity(self.touched.len());
+        for e in self.touched.drain(..) {
+            match std::mem::take(&mut self.value[e as usize]) {
+                0 => {}
+                v => row.push((e, v)),
+            }
+        }
+        let unit = row.iter().position(|&(_, v): &(u32, i64)| v.abs() == 1);
+        let Some(at) = unit.filter(|_| patient) else {
+            return false;
+        };
+        let (chord, v) = row.swap_remove(at);
+        row.iter_mut().for_each(|(_, u)| *u *= -v);
+        self.solved[chord as usize] = self.rows.len() as u32;
+        self.rows.push(row);
+        true
+    }
+
+    /// Replaces what is solved for until nothing is; whether patience lasted.
+    fn reduce(&mut self) -> bool {
+        for _ in 0..PATIENCE {
+            let Some((e, v)) = self.open.pop() else {
+                return true;
+            };
+            if v.abs() > LARGEST {
+                break;
+            }
+            match self.solved[e as usize] {
+                NONE => {
+                    self.touched.push(e);
+                    self.value[e as usize] += v;
+                }
+                row => {
+                    let row = self.rows[row as usize].iter();
+                    self.open.extend(row.map(|&(f, u)| (f, u * v)));
+                }
+            }
+        }
+        self.open.clear();
+        false
+    }
+}

@@ -1,0 +1,43 @@
+//! Lists of cycles.
+
+/// Cycles as signed edges: 1 where an edge is run through from tail to head, -1 backwards.
+#[derive(Debug, Clone)]
+pub(super) struct Cycles {
+    offsets: Vec<usize>,
+    edges: Vec<(u32, i8)>,
+}
+
+impl Cycles {
+    /// No cycles.
+    pub fn new() -> Self {
+        Cycles {
+            offsets: vec![0],
+            edges: Vec::new(),
+        }
+    }
+
+    /// Number of cycles.
+    pub fn len(&self) -> usize {
+        self.offsets.len() - 1
+    }
+
+    /// The edges of cycle `k`.
+    pub fn get(&self, k: usize) -> &[(u32, i8)] {
+        &self.edges[self.offsets[k]..self.offsets[k + 1]]
+    }
+
+    /// Adds a cycle.
+    pub fn push(&mut self, cycle: impl Iterator<Item = (u32, i8)>) {
+        self.edges.extend(cycle);
+        self.offsets.push(self.edges.len());
+    }
+
+    /// What every cycle collects of `values`, which count an edge from tail to head.
+    pub fn collect(&self, values: &[f64]) -> Vec<f64> {
+        let sum = |k: usize| {
+            let edges = self.get(k).iter();
+            edges.map(|&(e, sign)| f64::from(sign) * values[e as usize])
+        };
+        (0..self.len()).map(|k| sum(k).sum()).collect()
+    }
+}

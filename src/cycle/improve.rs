@@ -1,0 +1,168 @@
+//! Block improvement: charges around the greatest residuals decided anew, exactly.
+//!
+//! A block B of charges moved by integers t changes the energy by `step^2 t'Gt + 2 step t'x_B`,
+//! with G the block of `A^-1` and x the potentials: a closest-vector problem of few dimensions.
+//! Blocks are tried around the edges with the greatest residuals first; these are where charges
+//! sit that might sit better elsewhere. One that improved nothing is not tried again until the
+//! potentials near it change.
+
+use super::block::{Blocks, Growth};
+use super::decide::decide;
+use super::laplacian::LONG;
+use super::space::CycleSpace;
+use crate::Result;
+use crate::linalg::PathSolve;
+use crate::solve::{Monitor, Phase};
+
+/// Potentials count as changed from here on, in units of the step.
+const CHANGED: f64 = 0.02;
+
+/// No improvement is this small, relative to the energy.
+const TOLERANCE: f64 = 1e-9;
+
+/// Nodes of one enumeration, at most.
+const NODES: u64 = 20_000;
+
+/// How hard to try.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Effort {
+    pub growth: Growth,
+    /// Charges of a block, at most [`WIDEST`](crate::linalg::WIDEST).
+    pub size: usize,
+    /// Edges are tried down to this residual, in units of the step.
+    pub residual: f64,
+}
+
+/// Charges that are being improved.
+pub(super) struct Improvement<'a> {
+    space: &'a CycleSpace,
+    paths: PathSolve,
+    blocks: Blocks,
+    pub charges: Vec<f64>,
+    x: Vec<f64>,
+    pub energy: f64,
+    /// By cycle: the failed block that it was last part of, 0 if its potential changed since.
+    failed: Vec<u32>,
+    failures: u32,
+    work: usize,
+}
+
+impl<'a> Improvement<'a> {
+    /// Starts from `charges`.
+    pub fn new(space: &'a CycleSpace, charges: Vec<f64>) -> Result<Self> {
+        let (x, energy) = space.potentials(&charges);
+        Ok(Improvement {
+            paths: PathSolve::new(charges.len()),
+            blocks: Blocks::new(space)?,
+            failed: vec![0; charges.len()],
+            failures: 0,
+            work: 0,
+            space,
+            charges,
+            x,
+            energy,
+        })
+    }
+
+    /// Multiplications so far.
+    pub fn work(&self) -> usize {
+        self.work + self.paths.work()
+    }
+
+    /// Improves until no block does, or until `work` multiplications are spent since the start, or
+    /// until the monitor ends it.
+    ///
+    /// # Errors
+    /// For charges too large to be exact.
+    pub fn run(&mut self, effort: Effort, work: usize, monitor: &mut Monitor) -> Result<()> {
+        self.failed.fill(0);
+        self.decide_long_cycles(effort.size)?;
+        loop {
+            let before = self.energy;
+            for e in self.seeds(effort.residual) {
+                let done = self.work() as f64 / work.max(1) as f64;
+                if done >= 1.0 || monitor.progress(Phase::Round, done).is_err() {
+                    return Ok(());
+                }
+                if self.promises(e, effort.residual) {
+                    let cycles = self.space.through.row(e).map(|(k, _)| k as u32);
+                    let (size, growth) = (effort.size, effort.growth);
+                    let block = self.blocks.grow(cycles, size, growth, &self.x);
+                    self.decide_block(&block)?;
+                }
+            }
+            if self.energy == before {
+                return Ok(());
+            }
+        }
+    }
+
+    /// Edges with at least this residual, the greatest first.
+    fn seeds(&mut self, residual: f64) -> Vec<usize> {
+        let edges = 0..self.space.system.graph.edges.len();
+        let least = residual * self.space.system.step;
+        self.work += edges.len();
+        let mut seeds: Vec<(f64, usize)> = edges
+            .map(|e| (self.space.residual(&self.x, e).abs(), e))
+            .filter(|&(r, _)| r >= least)
+            .collect();
+        seeds.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+        seeds.into_iter().map(|(_, e)| e).collect()
+    }
+
+    /// Whether an edge still has its residual, and not all its cycles were in one failed block.
+    fn promises(&self, e: usize, residual: f64) -> bool {
+        let mut failed = self.space.through.row(e).map(|(k, _)| self.failed[k]);
+        let Some(first) = failed.next() else {
+            return false;
+        };
+        let tried = first != 0 && failed.all(|f| f == first);
+        !tried && self.space.residual(&self.x, e).abs() >= residual * self.space.system.step
+    }
+
+    /// The cycles around handles and boundaries all at once, as far as they fit into one block.
+    fn decide_long_cycles(&mut self, size: usize) -> Result<()> {
+        let basis = &self.space.basis;
+        let long = (0..basis.len() as u32).rev();
+        let block: Vec<u32> = long
+            .take_while(|&k| basis.get(k as usize).len() > LONG)
+            .take(size)
+            .collect();
+        self.decide_block(&block)
+    }
+
+    /// Decides the charges of a block exactly.
+    fn decide_block(&mut self, block: &[u32]) -> Result<()> {
+        let step = self.space.system.step;
+        let inverse = self.paths.inverse_block(&self.space.factor, block);
+        let pull: Vec<f64> = block.iter().map(|&k| self.x[k as usize] / step).collect();
+        let Some(moves) = decide(inverse, &pull, NODES)? else {
+            self.failures += 1;
+            for &k in block {
+                self.failed[k as usize] = self.failures;
+            }
+            return Ok(());
+        };
+        let mut charges = self.charges.clone();
+        for (&k, t) in block.iter().zip(moves) {
+            charges[k as usize] += t as f64;
+        }
+        let (x, energy) = self.space.potentials(&charges);
+        self.work += 2 * self.space.factor.len();
+        if energy < self.energy * (1.0 - TOLERANCE) {
+            self.note_changes(&x);
+            (self.charges, self.x, self.energy) = (charges, x, energy);
+        }
+        Ok(())
+    }
+
+    /// Blocks where the potentials change are worth another try.
+    fn note_changes(&mut self, x: &[f64]) {
+        let changed = CHANGED * self.space.system.step;
+        for (k, (new, old)) in x.iter().zip(&self.x).enumerate() {
+            if (new - old).abs() > changed {
+                self.failed[k] = 0;
+            }
+        }
+    }
+}

@@ -1,0 +1,121 @@
+//! The strategies for angle-difference systems.
+//!
+//! Both start from nearest plane, whose price is that of one triangular solve, and improve blocks
+//! within a budget of multiplications for each entry of the factor of A. `auto` also improves what
+//! adaptive greedy rounding finds, which is the better start where much is known.
+
+use super::block::Growth;
+use super::detect::AngleSystem;
+use super::hint::hinted_cycles;
+use super::improve::{Effort, Improvement};
+use super::space::CycleSpace;
+use crate::eliminate::ReducedModel;
+use crate::solve::{Factors, Options, Search};
+use crate::{Model, Result, round};
+
+/// Multiplications of `lattice` for each entry of the factor.
+const QUICK_WORK: usize = 1_000;
+
+/// Multiplications of `auto` for each entry of the factor, from each of its two starts.
+const THOROUGH_WORK: usize = 10_000;
+
+/// Multiplications that are always granted.
+const LEAST_WORK: usize = 500_000;
+
+const fn effort(growth: Growth, size: usize, residual: f64) -> Effort {
+    Effort {
+        growth,
+        size,
+        residual,
+    }
+}
+
+/// Around irregular vertices of a field residuals are a sixth to a quarter of the step; further
+/// down less and less is found.
+const QUICK: [Effort; 2] = [
+    effort(Growth::Near, 16, 0.1),
+    effort(Growth::Near, 24, 0.05),
+];
+
+const THOROUGH: [Effort; 4] = [
+    effort(Growth::Near, 16, 0.1),
+    effort(Growth::Steep, 16, 0.08),
+    effort(Growth::Near, 24, 0.04),
+    effort(Growth::Near, 32, 0.04),
+];
+
+/// Nearest plane and block improvement, if `reduced` is an angle-difference system; otherwise
+/// nothing is done and the answer is no.
+///
+/// # Errors
+/// For lack of memory, and those of the evaluation of its offers.
+pub(crate) fn lattice(
+    model: &Model,
+    reduced: &ReducedModel,
+    factors: &mut Factors,
+    search: &mut Search,
+) -> Result<bool> {
+    let Some(space) = space(model, reduced, search)? else {
+        return Ok(false);
+    };
+    search.prepare(factors)?;
+    let start = space.nearest_plane();
+    improve(&space, start, &QUICK, QUICK_WORK, factors, search)?;
+    Ok(true)
+}
+
+/// The same with more patience, and once more from the answer of adaptive greedy rounding.
+///
+/// # Errors
+/// For lack of memory, and those of the evaluation of its offers.
+pub(crate) fn auto(
+    model: &Model,
+    reduced: &ReducedModel,
+    options: &Options,
+    factors: &mut Factors,
+    search: &mut Search,
+) -> Result<bool> {
+    let Some(space) = space(model, reduced, search)? else {
+        return Ok(false);
+    };
+    round::adaptive(reduced, options, factors, search)?;
+    let mut starts = Vec::from_iter(search.incumbent_integers().map(|z| space.charges(&z)));
+    starts.push(space.nearest_plane());
+    for start in starts {
+        if search.monitor.check().is_ok() {
+            improve(&space, start, &THOROUGH, THOROUGH_WORK, factors, search)?;
+        }
+    }
+    Ok(true)
+}
+
+fn space(model: &Model, reduced: &ReducedModel, search: &Search) -> Result<Option<CycleSpace>> {
+    let Some(system) = AngleSystem::detect(reduced) else {
+        return Ok(None);
+    };
+    let relaxed = search.relaxed();
+    let integers = reduced.integers().iter();
+    let relaxed: Vec<f64> = integers.map(|&i| relaxed[i as usize]).collect();
+    let hinted = hinted_cycles(model, reduced, &system);
+    CycleSpace::new(system, &relaxed, hinted).map(Some)
+}
+
+/// Improves `start` and offers what comes of it.
+fn improve(
+    space: &CycleSpace,
+    start: Vec<f64>,
+    efforts: &[Effort],
+    work: usize,
+    factors: &mut Factors,
+    search: &mut Search,
+) -> Result<()> {
+    let work = LEAST_WORK.saturating_add(work.saturating_mul(space.factor.len()));
+    let mut improvement = Improvement::new(space, start)?;
+    for &effort in efforts {
+        improvement.run(effort, work, search.monitor)?;
+    }
+    if let Some(integers) = space.integers(&improvement.charges) {
+        search.offer(factors, &integers)?;
+    }
+    Ok(())
+}

@@ -1,0 +1,196 @@
+//! Right sides and pinned values, put through the steps of an elimination.
+//!
+//! The result is the offset `t` of the expansion `x = T y + t`, or the row at which the right sides
+//! contradict each other. Plain solves and re-solves come through here alike, so that the same
+//! right sides give the same bits.
+
+use super::row::{TooLarge, add_product};
+use super::run::Elimination;
+use super::steps::Step;
+use super::tolerance::{CONSISTENT, LARGEST, NOISE, near_integer};
+use super::unknowns::Unknowns;
+use crate::linalg::CompensatedSum;
+use crate::problem::row_text;
+use crate::solve::Monitor;
+use crate::{Error, Model, Result};
+
+/// A number and the largest number that took part in making it: what noise is measured against.
+#[derive(Debug, Clone, Copy, Default)]
+struct Side {
+    value: f64,
+    magnitude: f64,
+}
+
+/// `t`, one number a caller's unknown, for the right sides and pinned values of `model`.
+pub(super) fn offset(
+    elimination: &Elimination,
+    model: &Model,
+    monitor: &mut Monitor,
+) -> Result<Vec<f64>> {
+    let constants = constants(elimination, model, monitor)?;
+    substitute_back(elimination, model, &constants, monitor)
+}
+
+/// The constant of every substitution.
+fn constants(elimination: &Elimination, model: &Model, monitor: &mut Monitor) -> Result<Vec<f64>> {
+    // Unknowns pinned since are in no row, and no substitution of theirs is on the stack.
+    let pins = model.pinned().iter().enumerate();
+    let mut constants: Vec<Side> = pins
+        .filter(|&(i, _)| elimination.was_pinned(i))
+        .filter_map(|(_, &pin)| pin)
+        .map(|value| Side {
+            value,
+            magnitude: value.abs(),
+        })
+        .collect();
+    let rows = elimination.scales.len();
+    let sides: Result<Vec<Side>> = (0..rows).map(|r| given(elimination, model, r)).collect();
+    let mut sides = sides?;
+    for step in &elimination.steps {
+        monitor.check()?;
+        match *step {
+            Step::Substitute {
+                row,
+                by,
+                factor,
+                integral,
+            } => {
+                let (side, by) = (&mut sides[row as usize], constants[by as usize]);
+                side.value = add_product(side.value, -factor, by.value, integral)
+                    .map_err(|_| overflow(model, row as usize))?;
+                let factor = factor.abs();
+                // Magnitudes are handed on as those of coefficients are; see `Row::grow`.
+                let handed_on = (factor * by.value.abs()).max(factor.min(1.0) * by.magnitude);
+                side.magnitude = side.magnitude.max(handed_on);
+            }
+            Step::MakeIntegral { row, unit } => {
+                let side = &mut sides[row as usize];
+                let value = side.value / unit;
+                if value.is_nan() || value.abs() >= LARGEST {
+                    return Err(overflow(model, row as usize));
+                }
+                side.value = near_integer(value, side.magnitude / unit)
+                    .ok_or_else(|| no_integer_solution(model, row as usize))?;
+            }
+            Step::Divide { row, factor } => {
+                let side = &mut sides[row as usize];
+                if side.value % factor != 0.0 {
+                    return Err(no_integer_solution(model, row as usize));
+                }
+                side.value /= factor;
+                side.magnitude = side.value.abs();
+            }
+            Step::Solve { row, pivot } => {
+                let side = sides[row as usize];
+                constants.push(Side {
+                    value: side.value / pivot,
+                    ..side
+                });
+            }
+            Step::Introduce => constants.push(Side::default()),
+            Step::Check {
+                row,
+                magnitude,
+                integral,
+            } => {
+                let side = sides[row as usize];
+                let tolerance = CONSISTENT * magnitude.max(side.magnitude);
+                let noise = !integral && side.value.abs() <= tolerance;
+                if side.value != 0.0 && !noise {
+                    return Err(Error::Infeasible {
+                        constraint: row as usize,
+                        row: text(model, row as usize),
+                    });
+                }
+            }
+        }
+    }
+    Ok(constants.iter().map(|side| side.value).collect())
+}
+
+/// The right side of row `r` as the elimination starts from it: scaled, pinned unknowns moved over.
+fn given(elimination: &Elimination, model: &Model, r: usize) -> Result<Side> {
+    let scale = elimination.scales[r];
+    let rhs = model.constraint_rhs()[r] * scale;
+    let mut magnitude = rhs.abs();
+    let mut rest = CompensatedSum::new(rhs);
+    for (j, v) in model.constraints().row(r) {
+        if let Some(value) = model.pinned()[j] {
+            let v = v * scale;
+            rest.add_product(-v, value);
+            magnitude = magnitude.max((v * value).abs());
+        }
+    }
+    let value = rest.value();
+    if !value.is_finite() || !magnitude.is_finite() {
+        return Err(overflow(model, r));
+    }
+    Ok(Side { value, magnitude })
+}
+
+/// Puts the constants of later substitutions into the earlier ones.
+fn substitute_back(
+    elimination: &Elimination,
+    model: &Model,
+    constants: &[f64],
+    monitor: &mut Monitor,
+) -> Result<Vec<f64>> {
+    let Elimination {
+        stack, unknowns, ..
+    } = elimination;
+    let mut known = constants.to_vec();
+    for k in (0..stack.len()).rev() {
+        monitor.check()?;
+        let (by, terms) = stack.get(k);
+        let exact = unknowns.integer[by.pivot as usize];
+        let mut offset = constants[k];
+        let mut largest = offset.abs();
+        let mut fits = Ok(());
+        for &(j, c) in terms {
+            let later = unknowns.replaced[j as usize];
+            if later != Unknowns::FREE {
+                let later = known[later as usize];
+                largest = largest.max((c * later).abs());
+                match add_product(offset, c, later, exact) {
+                    Ok(sum) => offset = sum,
+                    Err(TooLarge) => fits = Err(TooLarge),
+                }
+            }
+        }
+        if fits.is_err() || !offset.is_finite() {
+            return Err(stack.too_large(k, |r| overflow(model, r)));
+        }
+        if !exact && offset.abs() <= NOISE * largest {
+            offset = 0.0;
+        }
+        known[k] = offset;
+    }
+    let replaced = &unknowns.replaced[..model.variables()];
+    let offset = |&k: &u32| match k {
+        Unknowns::FREE => 0.0,
+        k => known[k as usize],
+    };
+    Ok(replaced.iter().map(offset).collect())
+}
+
+/// Constraint `r` as the caller gave it.
+pub(super) fn text(model: &Model, r: usize) -> String {
+    row_text(model.constraints().row(r), model.constraint_rhs()[r])
+}
+
+pub(super) fn overflow(model: &Model, r: usize) -> Error {
+    Error::Overflow {
+        what: format!(
+            "constraint {r}: {} leads to numbers too large to be exact",
+            text(model, r)
+        ),
+        index: Some(r),
+    }
+}
+
+fn no_integer_solution(model: &Model, r: usize) -> Error {
+    Error::NoIntegerSolution {
+        constraint: r,
+        row: text(model, r),
+    }
+}

@@ -1,0 +1,321 @@
+//! A lattice basis as its triangular factor, with the exact way back to the caller's integers.
+//!
+//! The lattice is `{ R0 z : z integer }`, R0 a factor of the caller's Gram matrix. A basis of it
+//! is `R0 U` with U unimodular, kept as the triangular R of `R0 U = Q R`: rotations change no
+//! distance. Each step changes U exactly and R in floating point (rows are rotated back to
+//! triangular form by Givens rotations, which lose nothing that grows); [`Basis::refresh`]
+//! computes R anew from R0 and U, so that errors of many steps never add up.
+//!
+//! Dependent vectors (a semi-definite Gram matrix) generate the lattice together with their
+//! integer relations. While it is reduced, `REGULAR` of each vector's length is appended to it in
+//! a direction of its own, which makes the vectors independent and the relations the shortest of
+//! all. `refresh` then finds them by their length, and puts them last as *free* coordinates: any
+//! integer there has the same distance. (Pohst 1987 reduces dependent vectors directly; that
+//! needs exact zeros.)
+
+use faer::{Mat, MatRef};
+
+use super::{Gram, Transform};
+use crate::Result;
+use crate::linalg::CompensatedSum;
+
+/// Length that is appended to dependent vectors, relative to their own.
+const REGULAR: f64 = 1e-6;
+
+/// A combination of dependent vectors that is shorter than this, relative to the sum of the
+/// lengths that it combines, is a relation between them.
+const NULL_LENGTH: f64 = 1e-8;
+
+/// Diagonal entries of R below this part of their column mean that the vectors depend without
+/// being a lattice: relations exist, but not between integers.
+const DENSE: f64 = 1e-7;
+
+/// `R`, `R0` and `U` with `R0 U = Q R`.
+#[derive(Debug, Clone)]
+pub struct Basis {
+    dim: usize,
+    rank: usize,
+    discrete: bool,
+    /// Whether free coordinates have been put last.
+    settled: bool,
+    pub(super) r: Vec<f64>,
+    original: Vec<f64>,
+    full: bool,
+    transform: Transform,
+    /// The rows of the inverse of `transform`, as columns.
+    inverse: Transform,
+}
+
+impl Basis {
+    /// The basis of unit vectors under the scalar product `gram`.
+    pub fn new(gram: &Gram) -> Self {
+        let (factor, full) = gram.factor();
+        Self::from_factor(gram.dim(), factor, full)
+    }
+
+    /// The basis with this upper triangular factor by columns; `full` if no diagonal entry is zero.
+    pub fn from_factor(dim: usize, factor: Vec<f64>, full: bool) -> Self {
+        let mut basis = Basis {
+            dim,
+            rank: dim,
+            discrete: true,
+            settled: false,
+            r: factor.clone(),
+            original: factor,
+            full,
+            transform: Transform::identity(dim),
+            inverse: Transform::identity(dim),
+        };
+        if !full {
+            basis.refresh();
+        }
+        basis
+    }
+
+    /// Number of coordinates.
+    pub fn dim(&self) -> usize {
+        self.dim
+    }
+
+    /// Number of coordinates that matter: those from here on are free.
+    pub fn rank(&self) -> usize {
+        self.rank
+    }
+
+    /// Whether distances from a lattice: false if vectors depend in a way that no integer
+    /// relation explains. Then the least distance is not attained, and distances measured here
+    /// prove nothing.
+    pub fn is_discrete(&self) -> bool {
+        self.discrete
+    }
+
+    /// The entry of R in row `i`, column `j`, `i <= j`.
+    pub fn r(&self, i: usize, j: usize) -> f64 {
+        self.r[j * self.dim + i]
+    }
+
+    /// Column `j` of R, down to the diagonal.
+    pub fn column(&self, j: usize) -> &[f64] {
+        &self.r[j * self.dim..][..=j]
+    }
+
+    /// The way back to the caller's integers.
+    pub fn transform(&self) -> &Transform {
+        &self.transform
+    }
+
+    /// The coordinates `y` of a point `p` of the caller's: `U y = p`.
+    pub fn coordinates(&self, p: &[f64]) -> Vec<f64> {
+        let row = |j: usize| {
+            let mut sum = CompensatedSum::new(0.0);
+            for (u, p) in self.inverse.column(j).into_iter().zip(p) {
+                sum.add_product(u, *p);
+            }
+            sum.value()
+        };
+        (0..self.dim).map(row).collect()
+    }
+
+    /// The coordinates of a lattice point, by the caller's integers.
+    ///
+    /// # Errors
+    /// [`Error::Overflow`](crate::Error::Overflow) beyond 64 bits.
+    pub fn whole_coordinates(&self, integers: &[i64]) -> Result<Vec<i64>> {
+        self.inverse.apply_transposed(integers)
+    }
+
+    /// The caller's coordinates of the vector with coordinates `g` in the orthonormal basis in
+    /// which R is triangular: `U R^-1 g`.
+    pub fn from_orthonormal(&self, g: &[f64]) -> Vec<f64> {
+        let mut y = g.to_vec();
+        for j in (0..self.rank).rev() {
+            let column = self.column(j);
+            y[j] /= column[j];
+            let own = y[j];
+            y.iter_mut()
+                .zip(&column[..j])
+                .for_each(|(y, r)| *y -= r * own);
+        }
+        let mut x = vec![0.0; self.dim];
+        for (j, y) in y.into_iter().enumerate() {
+            let column = self.transform.column(j);
+            x.iter_mut().zip(column).for_each(|(x, u)| *x += u * y);
+        }
+        x
+    }
+
+    /// The transpose of [`from_orthonormal`](Self::from_orthonormal): `R^-T U' force`.
+    pub fn to_orthonormal(&self, force: &[f64]) -> Vec<f64> {
+        let mut h = Vec::with_capacity(self.rank);
+        for j in 0..self.rank {
+            let mut sum = CompensatedSum::new(0.0);
+            for (u, f) in self.transform.column(j).into_iter().zip(force) {
+                sum.add_product(u, *f);
+            }
+            let column = self.column(j);
+            let before: f64 = column.iter().zip(&h).map(|(r, h)| r * h).sum();
+            h.push((sum.value() - before) / column[j]);
+        }
+        h
+    }
+
+    /// Rounds column `k` to within half a basis vector before it, all of them; repeated until
+    /// nothing changes, since large multiples lose digits (Nguyen, Stehle 2009, figure 5).
+    pub(super) fn size_reduce(&mut self, k: usize) -> Result<()> {
+        let n = self.dim;
+        loop {
+            let mut largest: f64 = 0.0;
+            for j in (0..k).rev() {
+                let (before, at) = self.r.split_at_mut(k * n);
+                let (column, own) = (&before[j * n..j * n + j + 1], &mut at[..j + 1]);
+                let q = own[j] / column[j];
+                if q.abs() <= 0.5 + 1e-9 {
+                    continue;
+                }
+                let q = q.round();
+                for (a, b) in own.iter_mut().zip(column) {
+                    *a -= q * b;
+                }
+                self.transform.subtract(k, j, q)?;
+                self.inverse.subtract(j, k, -q)?;
+                largest = largest.max(q.abs());
+            }
+            if largest <= 1e3 {
+                return Ok(());
+            }
+        }
+    }
+
+    /// Moves vector `k` before vector `i < k`, and rotates R back to triangular form.
+    pub(super) fn insert(&mut self, k: usize, i: usize) {
+        let n = self.dim;
+        self.r[i * n..(k + 1) * n].rotate_right(n);
+        self.transform.insert(k, i);
+        self.inverse.insert(k, i);
+        for row in (i + 1..=k).rev() {
+            let column = &mut self.r[i * n..];
+            let (a, b) = (column[row - 1], column[row]);
+            let length = a.hypot(b);
+            if length == 0.0 {
+                continue;
+            }
+            (column[row - 1], column[row]) = (length, 0.0);
+            self.rotate(row, a / length, b / length);
+        }
+        for row in i..=k {
+            self.make_positive(row);
+        }
+    }
+
+    /// Turns rows `row - 1` and `row` by the angle with this cosine and sine, from column `row` on.
+    fn rotate(&mut self, row: usize, cos: f64, sin: f64) {
+        let n = self.dim;
+        for column in self.r[row * n..self.rank * n].chunks_exact_mut(n) {
+            let (a, b) = (column[row - 1], column[row]);
+            column[row - 1] = cos * a + sin * b;
+            column[row] = cos * b - sin * a;
+        }
+    }
+
+    /// Turns the sign of a row whose diagonal entry is negative.
+    fn make_positive(&mut self, row: usize) {
+        let n = self.dim;
+        if self.r[row * n + row] < 0.0 {
+            for column in self.r[row * n..self.rank * n].chunks_exact_mut(n) {
+                column[row] = -column[row];
+            }
+        }
+    }
+
+    /// Computes R anew from R0 and U.
+    pub(super) fn refresh(&mut self) {
+        self.r = self.triangular(!self.full && !self.settled);
+    }
+
+    /// Puts the relations between dependent vectors last, as free coordinates, and computes R
+    /// anew from what is left.
+    pub(super) fn settle(&mut self) {
+        if self.full || self.settled {
+            return;
+        }
+        let lengths = column_lengths(&self.original, self.dim);
+        let product = self.product();
+        let mut kept = 0;
+        for k in 0..self.dim {
+            let combined: f64 = self
+                .transform
+                .column(k)
+                .iter()
+                .zip(&lengths)
+                .map(|(u, l)| u.abs() * l)
+                .sum();
+            if product.col(k).norm_l2() > NULL_LENGTH * combined {
+                self.transform.insert(k, kept);
+                self.inverse.insert(k, kept);
+                kept += 1;
+            }
+        }
+        self.rank = kept;
+        self.settled = true;
+        self.refresh();
+        self.discrete = (0..kept).all(|k| {
+            let column = &self.r[k * self.dim..][..=k];
+            column[k] > DENSE * column.iter().map(|v| v * v).sum::<f64>().sqrt()
+        });
+    }
+
+    /// `R0 U`.
+    fn product(&self) -> Mat<f64> {
+        let n = self.dim;
+        let mut u = Mat::zeros(n, n);
+        for k in 0..n {
+            for (i, v) in self.transform.column(k).into_iter().enumerate() {
+                u[(i, k)] = v;
+            }
+        }
+        MatRef::from_column_major_slice(&self.original, n, n) * u
+    }
+
+    /// The triangular factor of the first `rank` columns of `R0 U`, the lengths that keep
+    /// dependent vectors apart appended if `apart`.
+    fn triangular(&self, apart: bool) -> Vec<f64> {
+        let n = self.dim;
+        let product = self.product();
+        let mut tall = Mat::zeros(if apart { 2 * n } else { n }, self.rank);
+        let lengths = column_lengths(&self.original, n);
+        for k in 0..self.rank {
+            for i in 0..n {
+                tall[(i, k)] = product[(i, k)];
+            }
+            if apart {
+                for (i, u) in self.transform.column(k).into_iter().enumerate() {
+                    tall[(n + i, k)] = REGULAR * lengths[i] * u;
+                }
+            }
+        }
+        let qr = tall.qr();
+        let factor = qr.thin_R();
+        let mut r = vec![0.0; n * n];
+        for i in 0..factor.nrows() {
+            let sign = if factor[(i, i)] < 0.0 { -1.0 } else { 1.0 };
+            for k in i..self.rank {
+                r[k * n + i] = sign * factor[(i, k)];
+            }
+        }
+        r
+    }
+}
+
+/// The length of each column, and of the longest where one is zero: relations with a vector of
+/// no length are wanted too.
+fn column_lengths(r: &[f64], n: usize) -> Vec<f64> {
+    let length = |c: &[f64]| c.iter().map(|v| v * v).sum::<f64>().sqrt();
+    let mut lengths: Vec<f64> = r.chunks_exact(n.max(1)).map(length).collect();
+    let longest = lengths.iter().fold(0.0, |m: f64, &l| m.max(l));
+    let stand_in = if longest > 0.0 { longest } else { 1.0 };
+    lengths
+        .iter_mut()
+        .filter(|l| **l == 0.0)
+        .for_each(|l| *l = stand_in);
+    lengths
+}

@@ -1,0 +1,89 @@
+//! Block improvement: a few coordinates of the reduced basis at a time are decided anew, exactly,
+//! while the others stay, until no block improves.
+//!
+//! Blocks are chosen where they promise most: around each vector, those that it is least
+//! orthogonal to, since they can give each other's rounding back. For the block, the problem is a
+//! closest-vector problem again, solved by the same reduction and enumeration.
+
+use super::{Basis, Gram, Target, closest};
+use crate::Result;
+
+/// Coordinates of a block.
+const SIZE: usize = 30;
+
+/// Nodes of a block's enumeration at most.
+const NODES: u64 = 100_000;
+
+/// Improves `z`, whose squared distance is `value`; returns the new one. `stop` is asked before
+/// each block whether to end.
+///
+/// # Errors
+/// [`Error::Overflow`](crate::Error::Overflow), as [`closest`].
+pub fn improve_blocks(
+    basis: &Basis,
+    target: &Target,
+    z: &mut [i64],
+    mut value: f64,
+    stop: &mut dyn FnMut() -> bool,
+) -> Result<f64> {
+    let m = basis.rank();
+    // Blocks since the last improvement that did not improve.
+    let mut idle = 0;
+    let mut seed = 0;
+    while idle < m && !stop() {
+        let block = around(basis, seed);
+        let better = redecide(basis, target, z, &block)?;
+        if better {
+            let now = target.distance(basis, z);
+            // Where rounding alone would go round in circles, stop.
+            idle = if now < value { 0 } else { idle + 1 };
+            value = now;
+        } else {
+            idle += 1;
+        }
+        seed = (seed + 1) % m;
+    }
+    Ok(value)
+}
+
+/// `seed` and the vectors least orthogonal to it, increasing.
+fn around(basis: &Basis, seed: usize) -> Vec<usize> {
+    let own = basis.column(seed);
+    let coupling = |j: usize| {
+        let other = basis.column(j);
+        let product: f64 = own.iter().zip(other).map(|(a, b)| a * b).sum();
+        let length: f64 = other.iter().map(|b| b * b).sum();
+        product * product / length
+    };
+    let mut all: Vec<(f64, usize)> = (0..basis.rank()).map(|j| (coupling(j), j)).collect();
+    all.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+    let mut block: Vec<usize> = all.into_iter().take(SIZE).map(|(_, j)| j).collect();
+    block.sort_unstable();
+    block
+}
+
+/// Decides the coordinates of `block` anew; whether that changed any.
+fn redecide(basis: &Basis, target: &Target, z: &mut [i64], block: &[usize]) -> Result<bool> {
+    let m = basis.rank();
+    let mut left = vec![0.0; m];
+    for j in 0..m {
+        let offset = target.rest[j] - z[j] as f64;
+        for (l, r) in left.iter_mut().zip(basis.column(j)) {
+            *l += r * offset;
+        }
+    }
+    let b = block.len();
+    let dot = |x: &[f64], y: &[f64]| x.iter().zip(y).map(|(x, y)| x * y).sum::<f64>();
+    let column = |k: usize| basis.column(block[k % b]);
+    let gram = Gram::new(
+        b,
+        (0..b * b).map(|k| dot(column(k / b), column(k))).collect(),
+    )?;
+    let right: Vec<f64> = (0..b).map(|k| dot(column(k), &left)).collect();
+    let wanted = gram.solve(&right);
+    let found = closest(&gram, &wanted, Some(&vec![0; b]), NODES)?;
+    for (&j, step) in block.iter().zip(&found.point) {
+        z[j] += step;
+    }
+    Ok(found.point.iter().any(|&step| step != 0))
+}

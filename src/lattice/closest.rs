@@ -1,0 +1,56 @@
+//! The closest lattice point of a small dense lattice: reduce, nearest plane, enumerate.
+
+use super::{Basis, Gram, Limits, Target, enumerate, lll, nearest_plane};
+use crate::Result;
+
+/// Places by which a vector may move forward at a time in a deep insertion.
+pub const DEPTH: usize = 20;
+
+/// The best lattice point that was found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Closest {
+    /// Its integers.
+    pub point: Vec<i64>,
+    /// `(point - target)' G (point - target)`, in the arithmetic of the reduced basis.
+    pub value: f64,
+    /// Nodes of the enumeration.
+    pub nodes: u64,
+    /// Whether no point is closer (up to [`NEARER`](super::NEARER)).
+    pub complete: bool,
+}
+
+/// Minimises `(z - target)' G (z - target)` over integer z, with at most `nodes` nodes; the answer
+/// is never worse than `start`.
+///
+/// # Errors
+/// [`Error::Overflow`](crate::Error::Overflow) for coordinates too large to be exact.
+pub fn closest(gram: &Gram, target: &[f64], start: Option<&[i64]>, nodes: u64) -> Result<Closest> {
+    let mut basis = Basis::new(gram);
+    lll(&mut basis, DEPTH)?;
+    let target = Target::new(&basis, target)?;
+    let mut z = nearest_plane(&basis, &target);
+    let mut value = target.distance(&basis, &z);
+    if let Some(start) = start {
+        let other = target.steps(&basis, start)?;
+        let distance = target.distance(&basis, &other);
+        // Where nothing is gained the caller's point stays.
+        if distance <= value * (1.0 + super::NEARER) {
+            (z, value) = (other, distance);
+        }
+    }
+    let limits = Limits {
+        radius: value * (1.0 - super::NEARER),
+        margin: 0.0,
+        nodes,
+    };
+    let found = enumerate(&basis, &target, limits, &mut |_| false);
+    if let Some((better, distance)) = found.near.into_iter().next() {
+        (z, value) = (better, distance);
+    }
+    Ok(Closest {
+        point: target.integers(&basis, &z)?,
+        value,
+        nodes: found.nodes,
+        complete: found.complete && basis.is_discrete(),
+    })
+}

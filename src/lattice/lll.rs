@@ -1,0 +1,81 @@
+//! LLL reduction with deep insertion, in floating point, the transformation exact.
+//!
+//! Lenstra, Lenstra, Lovasz 1982; deep insertion by Schnorr and Euchner 1994, section 3. R is
+//! updated by rotations, which are stable, and a result is believed only after R was computed
+//! anew from the exact transformation and the Lovasz conditions still hold there.
+
+use super::Basis;
+use crate::Result;
+
+/// The Lovasz condition holds where a vector is not shorter than this part of the square of the
+/// one that it would replace.
+pub const LOVASZ: f64 = 0.99;
+
+/// What the conditions may lack after R was computed anew.
+const SLACK: f64 = 1e-3;
+
+/// At most so many rounds of reduction and renewal.
+const ROUNDS: usize = 20;
+
+/// Reduces `basis`. A vector may move forward by up to `depth` places at a time: 1 is plain LLL.
+///
+/// # Errors
+/// [`Error::Overflow`](crate::Error::Overflow) where the transformation leaves 126 bits.
+pub fn lll(basis: &mut Basis, depth: usize) -> Result<()> {
+    for _ in 0..ROUNDS {
+        pass(basis, 1)?;
+        if depth > 1 {
+            pass(basis, depth)?;
+        }
+        basis.refresh();
+        if is_reduced(basis, LOVASZ - SLACK) {
+            break;
+        }
+    }
+    basis.settle();
+    for k in 0..basis.rank() {
+        basis.size_reduce(k)?;
+    }
+    Ok(())
+}
+
+/// One sweep to the end, as long as it takes.
+fn pass(basis: &mut Basis, depth: usize) -> Result<()> {
+    let mut k = 0;
+    while k < basis.rank() {
+        basis.size_reduce(k)?;
+        match place(basis, k, depth) {
+            Some(i) => {
+                basis.insert(k, i);
+                k = i;
+            }
+            None => k += 1,
+        }
+    }
+    Ok(())
+}
+
+/// The first place, at most `depth` before `k`, where vector `k` would be short enough.
+fn place(basis: &Basis, k: usize, depth: usize) -> Option<usize> {
+    let from = k.saturating_sub(depth);
+    let mut left: f64 = (from..=k).map(|i| basis.r(i, k).powi(2)).sum();
+    for i in from..k {
+        if left < LOVASZ * basis.r(i, i).powi(2) {
+            return Some(i);
+        }
+        left -= basis.r(i, k).powi(2);
+    }
+    None
+}
+
+/// Whether the Lovasz conditions hold with `delta`, and all vectors are rounded.
+pub fn is_reduced(basis: &Basis, delta: f64) -> bool {
+    (0..basis.rank()).all(|k| {
+        let rounded = (0..k).all(|j| basis.r(j, k).abs() <= (0.5 + SLACK) * basis.r(j, j));
+        let long = k == 0 || {
+            let (above, own) = (basis.r(k - 1, k), basis.r(k, k));
+            above * above + own * own >= delta * basis.r(k - 1, k - 1).powi(2)
+        };
+        rounded && long
+    })
+}

@@ -1,0 +1,35 @@
+//! Closest lattice points: reduction, nearest plane, enumeration with proof.
+
+mod basis;
+mod beam;
+mod blocks;
+mod certificate;
+mod closest;
+mod enumerate;
+mod gram;
+mod lll;
+mod nearest_plane;
+mod pieces;
+mod prove;
+mod schur;
+mod strategy;
+mod target;
+mod transform;
+
+pub use basis::Basis;
+pub use beam::beam;
+pub use blocks::improve_blocks;
+pub use closest::{Closest, DEPTH, closest};
+pub use enumerate::{Enumerated, Limits, MOST, NEARER, enumerate};
+pub use gram::{Gram, RANK_TOLERANCE};
+pub use lll::{LOVASZ, is_reduced, lll};
+pub use nearest_plane::nearest_plane;
+pub use pieces::{Piece, assemble, pieces};
+pub use prove::{predicted_nodes, radius_for};
+pub use schur::schur_factor;
+pub(crate) use strategy::{exact, lattice};
+pub use target::Target;
+pub use transform::Transform;
+
+#[cfg(test)]
+mod tests;

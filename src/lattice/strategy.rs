@@ -1,0 +1,246 @@
+//! The strategies `lattice` (reduce, nearest plane, beam, blocks; no proof) and `exact` (the same,
+//! then enumeration until the optimum is proved or the budget ends).
+//!
+//! Every improvement is offered to the search as soon as it is known, and every proved bound
+//! raised, so that both can be stopped at any time. Budgets count nodes, never seconds.
+
+use super::certificate::{Certificate, evaluation_error};
+use super::prove::{FIRST, GROWTH, predicted_nodes, radius_for};
+use super::{Limits, Piece, assemble, beam, enumerate, improve_blocks, pieces};
+use crate::Result;
+use crate::eliminate::ReducedModel;
+use crate::round;
+use crate::solve::{Factors, Options, Phase, Search};
+
+/// A proof that is predicted to need more than so many budgets is not tried.
+const HOPELESS: f64 = 4.0;
+
+/// No proof needs enumerations of more nodes.
+const LAST: f64 = 1e30;
+
+/// Of the budget, what is spent on the bound where a proof is not tried.
+const BOUND_SHARE: u64 = 16;
+
+/// Decides the integers of `model` as well as it can be done without a proof.
+///
+/// # Errors
+/// For lack of memory, and for integers too large to be exact.
+pub(crate) fn lattice(
+    model: &ReducedModel,
+    options: &Options,
+    factors: &mut Factors,
+    search: &mut Search,
+) -> Result<()> {
+    decode(model, options, factors, search)?;
+    Ok(())
+}
+
+/// Decides the integers of `model` and proves that nothing is better, with at most `nodes` nodes.
+///
+/// # Errors
+/// As [`lattice`].
+pub(crate) fn exact(
+    model: &ReducedModel,
+    options: &Options,
+    nodes: u64,
+    factors: &mut Factors,
+    search: &mut Search,
+) -> Result<()> {
+    let mut pieces = decode(model, options, factors, search)?;
+    if search.monitor.check().is_err() {
+        return Ok(());
+    }
+    let certificate = Certificate::measure(model, factors, &pieces, search)?;
+    let mut left = nodes;
+    let all: f64 = pieces
+        .iter()
+        .map(|p| predicted_nodes(&p.basis, p.value))
+        .sum();
+    if all > HOPELESS * nodes as f64 {
+        left /= BOUND_SHARE;
+    }
+    let mut goal = FIRST;
+    while left > 0
+        && goal <= LAST
+        && !search.is_within(options.gap)
+        && pieces.iter().any(|p| !p.proved)
+    {
+        for at in 0..pieces.len() {
+            if pieces[at].proved {
+                continue;
+            }
+            let (ball, whole) = ball(&pieces, at, goal, &certificate, search, options.gap);
+            let limits = Limits {
+                nodes: left,
+                ..ball
+            };
+            let found = enumerate(
+                &pieces[at].basis,
+                &pieces[at].target,
+                limits,
+                &mut |nodes| {
+                    let done = nodes as f64 / limits.nodes as f64;
+                    search.monitor.progress(Phase::Round, done).is_err()
+                },
+            );
+            left -= found.nodes;
+            for (z, distance) in found.near {
+                try_point(model, factors, search, &mut pieces, at, z, distance)?;
+            }
+            pieces[at].bound = pieces[at].bound.max(found.bound);
+            if !found.complete {
+                raise(model, &pieces, &certificate, search);
+                return Ok(());
+            }
+            pieces[at].proved = whole;
+        }
+        raise(model, &pieces, &certificate, search);
+        goal *= GROWTH;
+    }
+    Ok(())
+}
+
+/// The ball to search next for piece `at`, and whether that is all that a proof needs.
+///
+/// The proof needs the ball of the best point, enlarged by all that distances may be off: every
+/// solution that could have less energy lies in it, and is evaluated by the search itself.
+fn ball(
+    pieces: &[Piece],
+    at: usize,
+    goal: f64,
+    certificate: &Certificate,
+    search: &Search,
+    gap: f64,
+) -> (Limits, bool) {
+    let total: f64 = pieces.iter().map(|p| p.value).sum();
+    let needed = certificate.square_for(search.wanted_bound(0.0));
+    let margin = (needed - total).max(0.0) + 4.0 * super::NEARER * total;
+    let piece = &pieces[at];
+    let others = total - piece.value;
+    let full = piece.value + margin;
+    let largest = if gap > 0.0 {
+        let enough = certificate.square_for(search.wanted_bound(gap)) * (1.0 + 1e-9) - others;
+        enough.clamp(0.0, full)
+    } else {
+        full
+    };
+    let radius = radius_for(&piece.basis, goal, largest);
+    let limits = Limits {
+        radius,
+        margin,
+        nodes: 0,
+    };
+    (limits, radius >= full)
+}
+
+/// Offers the solution that has `z` in piece `at`, and keeps it if its energy is the least.
+fn try_point(
+    model: &ReducedModel,
+    factors: &mut Factors,
+    search: &mut Search,
+    pieces: &mut [Piece],
+    at: usize,
+    z: Vec<i64>,
+    distance: f64,
+) -> Result<()> {
+    if z == pieces[at].z {
+        return Ok(());
+    }
+    let former = std::mem::replace(&mut pieces[at].z, z);
+    let integers = assemble(pieces, model.integers().len())?;
+    if search.offer(factors, &integers)? {
+        pieces[at].value = distance;
+    } else {
+        pieces[at].z = former;
+    }
+    Ok(())
+}
+
+/// Raises the bound to what the balls prove that have been searched.
+fn raise(model: &ReducedModel, pieces: &[Piece], certificate: &Certificate, search: &mut Search) {
+    let least = |p: &Piece| {
+        if p.proved {
+            p.value
+        } else {
+            p.bound.min(p.value)
+        }
+    };
+    let square = if pieces.iter().all(|p| p.proved) {
+        // A solution that was not evaluated lies beyond the ball of some piece.
+        let values: f64 = pieces.iter().map(|p| p.value).sum();
+        let beyond = pieces
+            .iter()
+            .map(|p| values - p.value + p.bound.max(p.value));
+        beyond.fold(f64::INFINITY, f64::min)
+    } else {
+        pieces.iter().map(least).sum()
+    };
+    let beyond = certificate.energy_bound(square);
+    if let Some(best) = search.best() {
+        let evaluated = best.energy - evaluation_error(model, search.relaxed(), &best.point);
+        search.raise_bound(beyond.min(evaluated));
+    }
+}
+
+/// Direct rounding, nearest plane, beam and blocks, each offered; then perturbation rounds.
+fn decode(
+    model: &ReducedModel,
+    options: &Options,
+    factors: &mut Factors,
+    search: &mut Search,
+) -> Result<Vec<Piece>> {
+    round::direct(model, factors, search)?;
+    let m = model.integers().len();
+    let relaxed: Vec<f64> = {
+        let at = |&i: &u32| search.relaxed()[i as usize];
+        model.integers().iter().map(at).collect()
+    };
+    let (r, full) = factors.schur(model)?;
+    let mut pieces = pieces(m, r, full, &relaxed)?;
+    search.offer(factors, &assemble(&pieces, m)?)?;
+    for at in 0..pieces.len() {
+        let mut better = false;
+        let piece = &mut pieces[at];
+        let mut stop = || search.monitor.check().is_err();
+        if let Some(z) = beam(&piece.basis, &piece.target, options.beam_width, &mut stop) {
+            better |= piece.take(z);
+        }
+        better |= improve(piece, piece.z.clone(), &mut stop)?;
+        if better {
+            search.offer(factors, &assemble(&pieces, m)?)?;
+        }
+    }
+    let mut shaken = 0;
+    for _ in 0..options.lattice_rounds {
+        for at in 0..pieces.len() {
+            let piece = &mut pieces[at];
+            let mut stop = || search.monitor.check().is_err();
+            let start = perturbed(piece, &mut shaken);
+            if improve(piece, start, &mut stop)? {
+                search.offer(factors, &assemble(&pieces, m)?)?;
+            }
+        }
+    }
+    Ok(pieces)
+}
+
+/// Block improvement from `z`; whether it ended better than the best point.
+fn improve(piece: &mut Piece, mut z: Vec<i64>, stop: &mut dyn FnMut() -> bool) -> Result<bool> {
+    let value = piece.target.distance(&piece.basis, &z);
+    improve_blocks(&piece.basis, &piece.target, &mut z, value, stop)?;
+    Ok(piece.take(z))
+}
+
+/// The best point with every eighth coordinate or so moved by one: by Weyl's sequence, which
+/// `shaken` counts.
+fn perturbed(piece: &Piece, shaken: &mut u64) -> Vec<i64> {
+    let mut step = |z: &i64| {
+        *shaken += 1;
+        match shaken.wrapping_mul(0x9E37_79B9_7F4A_7C15) >> 60 {
+            0 => z + 1,
+            1 => z - 1,
+            _ => *z,
+        }
+    };
+    piece.z.iter().map(&mut step).collect()
+}

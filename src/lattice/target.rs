@@ -1,0 +1,76 @@
+//! The point that is to be approached, in coordinates of a reduced basis.
+
+use super::Basis;
+use crate::{Error, Result};
+
+/// Coordinates are rounded in floating point, which is exact up to here.
+const LARGEST: f64 = 9_007_199_254_740_992.0;
+
+/// A point by its coordinates, split into whole numbers and rests of at most one half.
+///
+/// Near the whole part everything that follows is small, so that nothing is lost where the
+/// caller's coordinates are large.
+#[derive(Debug, Clone)]
+pub struct Target {
+    /// The nearest whole coordinates, free ones included.
+    pub whole: Vec<i64>,
+    /// What is left, of the coordinates that matter.
+    pub rest: Vec<f64>,
+}
+
+impl Target {
+    /// The point with the caller's coordinates `point`: `y` with `U y = point`.
+    ///
+    /// # Errors
+    /// [`Error::Overflow`](crate::Error::Overflow) for coordinates beyond 2^53.
+    pub fn new(basis: &Basis, point: &[f64]) -> Result<Self> {
+        let y = basis.coordinates(point);
+        if let Some(i) = y.iter().position(|v| v.is_nan() || v.abs() > LARGEST) {
+            return Err(Error::Overflow {
+                what: "a coordinate of the lattice is beyond 2^53".into(),
+                index: Some(i),
+            });
+        }
+        let whole: Vec<i64> = y.iter().map(|v| v.round() as i64).collect();
+        // From the whole part on anew: what is left of the point is small.
+        let reached = basis.transform().apply(&whole)?;
+        let left: Vec<f64> = point
+            .iter()
+            .zip(&reached)
+            .map(|(p, &r)| p - r as f64)
+            .collect();
+        let mut rest = basis.coordinates(&left);
+        rest.truncate(basis.rank());
+        Ok(Target { whole, rest })
+    }
+
+    /// The caller's integers of the point that lies `z` from the whole part.
+    ///
+    /// # Errors
+    /// [`Error::Overflow`] beyond 64 bits.
+    pub fn integers(&self, basis: &Basis, z: &[i64]) -> Result<Vec<i64>> {
+        let mut all = self.whole.clone();
+        for (a, z) in all.iter_mut().zip(z) {
+            *a += z;
+        }
+        basis.transform().apply(&all)
+    }
+
+    /// How far the lattice point with these integers lies from the whole part.
+    ///
+    /// # Errors
+    /// [`Error::Overflow`] beyond 64 bits.
+    pub fn steps(&self, basis: &Basis, integers: &[i64]) -> Result<Vec<i64>> {
+        let all = basis.whole_coordinates(integers)?;
+        let steps = all.iter().zip(&self.whole).map(|(a, w)| a - w);
+        Ok(steps.take(basis.rank()).collect())
+    }
+
+    /// The square of the distance to the point that lies `z` from the whole part.
+    pub fn distance(&self, basis: &Basis, z: &[i64]) -> f64 {
+        let m = basis.rank();
+        let offset = |j: usize| self.rest[j] - z[j] as f64;
+        let row = |i: usize| (i..m).map(|j| basis.r(i, j) * offset(j)).sum::<f64>();
+        (0..m).map(|i| row(i).powi(2)).sum()
+    }
+}

@@ -1,0 +1,266 @@
+//! What holds of every reduction and every enumeration, on random lattices.
+
+use super::*;
+
+/// Numbers in [-1, 1) (xorshift, Marsaglia 2003).
+struct Random(u64);
+
+impl Random {
+    fn new(seed: u64) -> Self {
+        Random(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1)
+    }
+
+    fn next(&mut self) -> f64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    }
+
+    /// Scalar products of `n` vectors whose lengths fall to `least`, then sheared by a random
+    /// unimodular matrix, so that the condition number is large.
+    fn gram(&mut self, n: usize, least: f64) -> Gram {
+        let mut b: Vec<Vec<f64>> = (0..n)
+            .map(|i| {
+                let length = least.powf(i as f64 / n as f64);
+                (0..n).map(|_| length * self.next()).collect()
+            })
+            .collect();
+        for _ in 0..2 * n {
+            let i = (self.next().abs() * n as f64) as usize;
+            let j = (self.next().abs() * n as f64) as usize;
+            if i != j {
+                let q = (3.0 * self.next()).round();
+                let from = b[j].clone();
+                b[i].iter_mut().zip(from).for_each(|(a, f)| *a += q * f);
+            }
+        }
+        gram_of(&b)
+    }
+
+    fn target(&mut self, n: usize) -> Vec<f64> {
+        (0..n).map(|_| 5.0 * self.next()).collect()
+    }
+}
+
+fn gram_of(b: &[Vec<f64>]) -> Gram {
+    let dot = |x: &[f64], y: &[f64]| x.iter().zip(y).map(|(x, y)| x * y).sum::<f64>();
+    let n = b.len();
+    let values = (0..n * n).map(|k| dot(&b[k / n], &b[k % n])).collect();
+    Gram::new(n, values).unwrap()
+}
+
+fn reduced(gram: &Gram) -> Basis {
+    let mut basis = Basis::new(gram);
+    lll(&mut basis, DEPTH).unwrap();
+    basis
+}
+
+/// The determinant, modulo a prime.
+fn determinant(u: &Transform) -> i128 {
+    const P: i128 = 2_305_843_009_213_693_951;
+    let n = u.dim();
+    let mut a: Vec<Vec<i128>> = (0..n)
+        .map(|i| (0..n).map(|j| u.at(i, j).rem_euclid(P)).collect())
+        .collect();
+    let mut product = 1;
+    for k in 0..n {
+        let Some(p) = (k..n).find(|&i| a[i][k] != 0) else {
+            return 0;
+        };
+        if p != k {
+            a.swap(p, k);
+            product = P - product;
+        }
+        product = product * a[k][k] % P;
+        let inverse = power(a[k][k], P - 2, P);
+        for i in k + 1..n {
+            let f = a[i][k] * inverse % P;
+            for j in k..n {
+                a[i][j] = (a[i][j] - f * a[k][j]).rem_euclid(P);
+            }
+        }
+    }
+    if product == P - 1 { -1 } else { product }
+}
+
+fn power(mut base: i128, mut exponent: i128, p: i128) -> i128 {
+    let mut result = 1;
+    while exponent > 0 {
+        if exponent & 1 == 1 {
+            result = result * base % p;
+        }
+        base = base * base % p;
+        exponent >>= 1;
+    }
+    result
+}
+
+#[test]
+fn reduction_is_unimodular_and_keeps_every_distance() {
+    let mut random = Random::new(1);
+    for (n, least) in [(2, 1.0), (5, 1e-4), (20, 1e-4), (60, 1e-3), (100, 1e-4)] {
+        let gram = random.gram(n, least);
+        let basis = reduced(&gram);
+        assert!(is_reduced(&basis, LOVASZ - 1e-3), "{n}");
+        assert_eq!(determinant(basis.transform()).abs(), 1, "{n}");
+        for k in 0..n {
+            let vector = basis.transform().column(k);
+            let length: f64 = (0..=k).map(|i| basis.r(i, k).powi(2)).sum();
+            let square = gram.square(&vector);
+            // Where large vectors cancel, so do the digits of their scalar products.
+            let combined: f64 = (0..n).map(|i| vector[i].abs() * gram.at(i, i).sqrt()).sum();
+            let error = 1e-6 * square + 1e-13 * combined * combined;
+            assert!((length - square).abs() < error, "{n}: {length} {square}");
+        }
+        let p = random.target(n);
+        let back = |y: &[f64]| -> Vec<f64> {
+            let column = |j: usize| basis.transform().column(j);
+            let mut x = vec![0.0; n];
+            for j in 0..n {
+                x.iter_mut()
+                    .zip(column(j))
+                    .for_each(|(x, u)| *x += u * y[j]);
+            }
+            x
+        };
+        let x = back(&basis.coordinates(&p));
+        assert!(x.iter().zip(&p).all(|(x, p)| (x - p).abs() < 1e-6));
+    }
+}
+
+#[test]
+fn an_orthogonal_basis_is_rounded_and_proved_at_once() {
+    let gram = gram_of(&[
+        vec![2.0, 0.0, 0.0],
+        vec![0.0, 1.0, 0.0],
+        vec![0.0, 0.0, 0.1],
+    ]);
+    let found = closest(&gram, &[0.4, -3.6, 7.5], None, 1000).unwrap();
+    assert_eq!(found.point[..2], [0, -4]);
+    assert!(found.complete && found.nodes <= 6);
+    assert!((found.value - (0.64 + 0.16 + 0.0025)).abs() < 1e-12);
+}
+
+/// The least distance, over a box that the ellipsoid of nearest plane's distance fits in: the
+/// i-th integer is within `sqrt(value * inverse(G)_ii)` of the target.
+fn brute_force(gram: &Gram, target: &[f64], value: f64) -> f64 {
+    let n = gram.dim();
+    let basis = Basis::new(gram);
+    let half: Vec<f64> = (0..n)
+        .map(|i| {
+            // Column i of R^-T: forward substitution.
+            let mut x = vec![0.0; n];
+            x[i] = 1.0;
+            for k in 0..n {
+                let sum: f64 = (0..k).map(|j| basis.r(j, k) * x[j]).sum();
+                x[k] = (x[k] - sum) / basis.r(k, k);
+            }
+            (value * x.iter().map(|v| v * v).sum::<f64>()).sqrt() + 1e-9
+        })
+        .collect();
+    let low: Vec<i64> = (0..n)
+        .map(|i| (target[i] - half[i]).ceil() as i64)
+        .collect();
+    let high: Vec<i64> = (0..n)
+        .map(|i| (target[i] + half[i]).floor() as i64)
+        .collect();
+    let mut z = low.clone();
+    let mut best = f64::INFINITY;
+    loop {
+        let v: Vec<f64> = z.iter().zip(target).map(|(&z, t)| z as f64 - t).collect();
+        best = best.min(gram.square(&v));
+        let Some(i) = (0..n).find(|&i| z[i] < high[i]) else {
+            return best;
+        };
+        z[i] += 1;
+        z[..i].copy_from_slice(&low[..i]);
+    }
+}
+
+#[test]
+fn enumeration_finds_what_brute_force_finds() {
+    let mut random = Random::new(2);
+    for round in 0..300 {
+        let n = 1 + round % 4;
+        let gram = random.gram(n, 0.3);
+        let target = random.target(n);
+        let found = closest(&gram, &target, None, u64::MAX).unwrap();
+        assert!(found.complete);
+        let best = brute_force(&gram, &target, found.value);
+        assert!(
+            (found.value - best).abs() <= 1e-9 * best.max(1e-3),
+            "{found:?} {best}"
+        );
+        let v: Vec<f64> = found
+            .point
+            .iter()
+            .zip(&target)
+            .map(|(&z, t)| z as f64 - t)
+            .collect();
+        assert!((gram.square(&v) - found.value).abs() < 1e-9 * best.max(1e-3));
+    }
+}
+
+#[test]
+fn a_stopped_enumeration_bounds_what_it_did_not_see() {
+    let mut random = Random::new(3);
+    for n in [8, 15, 25] {
+        let basis = reduced(&random.gram(n, 1e-2));
+        let target = Target::new(&basis, &random.target(n)).unwrap();
+        let run = |nodes| {
+            let limits = Limits {
+                radius: f64::INFINITY,
+                margin: 0.0,
+                nodes,
+            };
+            enumerate(&basis, &target, limits, &mut |_| false)
+        };
+        let least = run(u64::MAX).near[0].1;
+        for nodes in [0, 1, 7, 60, 500, 4000] {
+            let part = run(nodes);
+            assert!(part.nodes <= nodes);
+            assert!(part.bound <= least, "{n}, {nodes}: {} {least}", part.bound);
+            let best = part.near.first().map_or(f64::INFINITY, |b| b.1);
+            assert!(best >= least * (1.0 - 1e-9));
+            assert_eq!(part.complete, part.nodes < nodes);
+        }
+    }
+}
+
+#[test]
+fn relations_between_vectors_are_free_coordinates() {
+    // (1, 0), (1/2, 0), (0, 1) and a vector of no length: generates (1/2, 0), (0, 1).
+    let b = [
+        vec![1.0, 0.0],
+        vec![0.5, 0.0],
+        vec![0.0, 1.0],
+        vec![0.0, 0.0],
+    ];
+    let gram = gram_of(&b);
+    let basis = reduced(&gram);
+    assert_eq!((basis.rank(), basis.is_discrete()), (2, true));
+    // (1.7, 0.3): (1.5, 0) is closest.
+    let found = closest(&gram, &[1.7, 0.0, 0.3, 9.0], None, 100).unwrap();
+    assert!(found.complete);
+    assert!((found.value - (0.04 + 0.09)).abs() < 1e-12);
+    assert_eq!(2 * found.point[0] + found.point[1], 3);
+    assert_eq!(found.point[3], 9);
+}
+
+#[test]
+fn vectors_that_depend_without_being_a_lattice_prove_nothing() {
+    let gram = gram_of(&[vec![1.0], vec![std::f64::consts::SQRT_2]]);
+    let found = closest(&gram, &[0.3, 0.4], None, 1000).unwrap();
+    assert!(!found.complete);
+    assert!(found.value < 0.05);
+}
+
+#[test]
+fn the_start_is_kept_where_nothing_is_better() {
+    let gram = gram_of(&[vec![1.0, 0.0], vec![0.0, 1.0]]);
+    for start in [[0, 0], [1, 0], [0, 1], [1, 1]] {
+        let found = closest(&gram, &[0.5, 0.5], Some(&start), 1000).unwrap();
+        assert_eq!(found.point, start);
+    }
+}

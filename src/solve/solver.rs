@@ -1,0 +1,192 @@
+//! A problem that is solved again and again, with other right sides, linear terms and pins.
+//!
+//! Elimination, orderings and factors depend on none of them and are kept. Right sides go through
+//! the recorded steps of the elimination ([`Elimination::reduce`]), which is what a first solve
+//! does as well: the same data give the same bits as a solve from the start.
+
+use super::factors::Factors;
+use super::monitor::Monitor;
+use super::run::{Prepared, tell_of_ignored_hint};
+use super::{Options, Solution, SolveStatus};
+use crate::eliminate::Elimination;
+use crate::linalg::Ordering;
+use crate::{Model, Problem, Result};
+
+/// A problem whose structure is fixed, and what was learned of it.
+///
+/// The first solve costs what [`solve`](crate::solve()) costs. A later one with other linear terms,
+/// right sides or pinned values skips elimination, orderings and factorizations. Pinning or releasing
+/// an unknown that is in no constraint keeps the elimination; one that is in a constraint calls for
+/// another. The solution is always that of a solve from the start, bit for bit, except that a warm
+/// start may improve it.
+///
+/// A solve that fails changes nothing: the data stay as they were set, and the next solve may use
+/// others.
+#[derive(Debug)]
+pub struct Solver {
+    problem: Problem,
+    model: Model,
+    /// Whether the problem has changed since the model was made of it.
+    stale: bool,
+    kept: Option<Kept>,
+    /// The last integer solution, unless a guess was given since.
+    earlier: Option<Vec<f64>>,
+}
+
+/// What right sides do not change.
+#[derive(Debug)]
+struct Kept {
+    ordering: Ordering,
+    elimination: Elimination,
+    /// The pinned unknowns that the factors leave out.
+    pinned: Vec<bool>,
+    factors: Factors,
+}
+
+impl Solver {
+    /// A solver for a copy of `problem`.
+    ///
+    /// # Errors
+    /// As [`Model::new`]. All else shows in the first solve.
+    pub fn new(problem: &Problem) -> Result<Self> {
+        Ok(Solver {
+            model: Model::new(problem)?,
+            problem: problem.clone(),
+            stale: false,
+            kept: None,
+            earlier: None,
+        })
+    }
+
+    /// The problem as it stands.
+    pub fn problem(&self) -> &Problem {
+        &self.problem
+    }
+
+    /// See [`Problem::set_linear`].
+    ///
+    /// # Errors
+    /// Those of [`Problem::set_linear`].
+    pub fn set_linear(&mut self, values: &[f64]) -> Result<()> {
+        self.change(|problem| problem.set_linear(values))
+    }
+
+    /// See [`Problem::set_constraint_right_sides`]. Whether they can hold shows in the next solve.
+    ///
+    /// # Errors
+    /// Those of [`Problem::set_constraint_right_sides`].
+    pub fn set_constraint_right_sides(&mut self, rhs: &[f64]) -> Result<()> {
+        self.change(|problem| problem.set_constraint_right_sides(rhs))
+    }
+
+    /// See [`Problem::set_least_squares_right_sides`].
+    ///
+    /// # Errors
+    /// Those of [`Problem::set_least_squares_right_sides`].
+    pub fn set_least_squares_right_sides(&mut self, rhs: &[f64]) -> Result<()> {
+        self.change(|problem| problem.set_least_squares_right_sides(rhs))
+    }
+
+    /// See [`Problem::pin`].
+    ///
+    /// # Errors
+    /// Those of [`Problem::pin`].
+    pub fn pin(&mut self, variable: usize, value: f64) -> Result<()> {
+        self.change(|problem| problem.pin(variable, value))
+    }
+
+    /// Releases a pinned unknown; see [`Problem::unpin`].
+    ///
+    /// # Errors
+    /// Those of [`Problem::unpin`].
+    pub fn unpin(&mut self, variable: usize) -> Result<()> {
+        self.change(|problem| problem.unpin(variable))
+    }
+
+    /// See [`Problem::set_guess`]. A warm start begins there, until a solution is found.
+    ///
+    /// # Errors
+    /// Those of [`Problem::set_guess`].
+    pub fn set_guess(&mut self, values: &[f64]) -> Result<()> {
+        self.change(|problem| problem.set_guess(values))?;
+        self.earlier = None;
+        Ok(())
+    }
+
+    fn change(&mut self, change: impl FnOnce(&mut Problem) -> Result<()>) -> Result<()> {
+        change(&mut self.problem)?;
+        self.stale = true;
+        Ok(())
+    }
+
+    /// Solves the problem as it stands, watched by nobody.
+    ///
+    /// # Errors
+    /// As [`solve`](crate::solve()).
+    pub fn solve(&mut self, options: &Options) -> Result<Solution> {
+        self.solve_with(options, Monitor::default())
+    }
+
+    /// Solves the problem as it stands under the eyes of `monitor`.
+    ///
+    /// # Errors
+    /// As [`solve_with`](crate::solve_with).
+    pub fn solve_with(&mut self, options: &Options, mut monitor: Monitor) -> Result<Solution> {
+        monitor.start(options.time_limit);
+        monitor.check()?;
+        if self.stale {
+            self.model = self.model.with_data_of(&self.problem)?;
+            self.stale = false;
+        }
+        tell_of_ignored_hint(&self.model, &mut monitor);
+        let mut kept = match self.kept.take() {
+            Some(kept) if kept.serves(&self.model, options.ordering) => kept,
+            _ => Kept::new(&self.model, options.ordering, &mut monitor)?,
+        };
+        kept.leave_out_pinned(&self.model);
+        let kept = self.kept.insert(kept);
+        let prepared = Prepared {
+            problem: &self.problem,
+            model: &self.model,
+            elimination: &kept.elimination,
+            factors: &mut kept.factors,
+            earlier: self.earlier.as_deref().unwrap_or(self.model.guess()),
+        };
+        let solution = prepared.solve(options, &mut monitor)?;
+        if solution.status() != SolveStatus::Relaxed {
+            self.earlier = Some(solution.values().to_vec());
+        }
+        Ok(solution)
+    }
+}
+
+impl Kept {
+    fn new(model: &Model, ordering: Ordering, monitor: &mut Monitor) -> Result<Self> {
+        Ok(Kept {
+            ordering,
+            elimination: Elimination::new(model, ordering, monitor)?,
+            pinned: pinned(model).collect(),
+            factors: Factors::kept(ordering),
+        })
+    }
+
+    /// Whether the elimination is that of a solve of `model` from the start, but for columns.
+    fn serves(&self, model: &Model, ordering: Ordering) -> bool {
+        let fits = |(i, pinned): (usize, bool)| {
+            pinned == self.elimination.was_pinned(i) || (pinned && self.elimination.can_hold(i))
+        };
+        ordering == self.ordering && pinned(model).enumerate().all(fits)
+    }
+
+    /// Forgets the factors if they are those of other unknowns.
+    fn leave_out_pinned(&mut self, model: &Model) {
+        if !pinned(model).eq(self.pinned.iter().copied()) {
+            self.pinned = pinned(model).collect();
+            self.factors = Factors::kept(self.ordering);
+        }
+    }
+}
+
+fn pinned(model: &Model) -> impl Iterator<Item = bool> + '_ {
+    model.pinned().iter().map(Option::is_some)
+}
