@@ -337,6 +337,10 @@ enum roundel_phase
      * The search for integers.
      */
     ROUNDEL_PHASE_ROUND = 3,
+    /**
+     * Motion of what is continuous around integers that are held.
+     */
+    ROUNDEL_PHASE_UNTANGLE = 4,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L

@@ -53,7 +53,7 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
     let (field, source) = field::of(arguments, &mesh, &options, monitor())?;
     let started = Instant::now();
     let quads = arguments.quads;
-    let mut problem = SeamlessProblem::new(&mesh, &field, &SeamlessOptions { quads })?;
+    let problem = SeamlessProblem::new(&mesh, &field, &SeamlessOptions { quads })?;
     // The problem holds what it needs of it.
     drop(field);
     let assemble = started.elapsed().as_secs_f64();
@@ -69,7 +69,7 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
         }
         false => {
             let work = UntangleOptions::default();
-            solve_unfolded(&mesh, &mut problem, &options, &work, monitor)?
+            solve_unfolded(&mesh, &problem, &options, &work, monitor)?
         }
     };
     let solved = started.elapsed().as_secs_f64();

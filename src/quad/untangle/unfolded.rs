@@ -34,16 +34,15 @@ impl Unfolded {
 /// Solves the problem, holds apart the cones that its integers collapse and solves again, at most
 /// `options.rounds` times, and untangles the map. `monitor` watches each solve and the untangling.
 ///
-/// The problem keeps the constraints that were added. A round that collapses as much as the one
-/// before is the last, and not kept. With [`Strategy::Relax`] there are no integers
-/// to speak of, and the map is that of the relaxation.
+/// A round that collapses as much as the one before is the last, and not kept. With
+/// [`Strategy::Relax`] there are no integers to speak of, and the map is that of the relaxation.
 ///
 /// # Errors
 /// Those of [`solve`](crate::solve) for the first solve and of [`untangle`]; a later solve that fails
 /// for constraints that contradict each other ends the rounds.
 pub fn solve_unfolded<'a>(
     mesh: &TriangleMesh,
-    problem: &mut SeamlessProblem,
+    problem: &SeamlessProblem,
     solver: &Options,
     options: &UntangleOptions,
     monitor: impl Fn() -> Monitor<'a>,
@@ -55,11 +54,10 @@ pub fn solve_unfolded<'a>(
     if solver.strategy == Strategy::Relax {
         return Ok(Unfolded::as_it_is(solution, map));
     }
-    let stated = problem.problem.clone();
     let mut apart = Vec::new();
     while !collapsed.is_empty() && rounds < options.rounds {
         apart.extend(problem.apart(mesh, &collapsed));
-        let Some(found) = solve_apart(problem, &stated, &mut apart, solver, &monitor)? else {
+        let Some(found) = solve_apart(problem.problem(), &mut apart, solver, &monitor)? else {
             break;
         };
         rounds += 1;
@@ -82,18 +80,17 @@ pub fn solve_unfolded<'a>(
 ///
 /// None where what contradicts is not one of them.
 fn solve_apart<'a>(
-    problem: &mut SeamlessProblem,
     stated: &Problem,
     apart: &mut Vec<Apart>,
     solver: &Options,
     monitor: &impl Fn() -> Monitor<'a>,
 ) -> Result<Option<Solution>> {
     loop {
-        problem.problem = stated.clone();
+        let mut problem = stated.clone();
         for constraint in apart.iter() {
-            constraint.add_to(&mut problem.problem)?;
+            constraint.add_to(&mut problem)?;
         }
-        let row = match solve_with(problem.problem(), solver, monitor()) {
+        let row = match solve_with(&problem, solver, monitor()) {
             Ok(solution) => return Ok(Some(solution)),
             Err(
                 Error::Infeasible { constraint, .. } | Error::NoIntegerSolution { constraint, .. },
