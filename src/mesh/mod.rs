@@ -20,6 +20,7 @@ mod check;
 mod connectivity;
 pub mod curvature;
 mod error;
+pub mod features;
 #[cfg(feature = "mesh-io")]
 pub mod io;
 mod jitter;

@@ -221,6 +221,16 @@ impl Problem {
         Arc::make_mut(&mut self.least_squares).set_rhs("least-squares right sides", rhs)
     }
 
+    /// Replaces the constant of the objective; those of least-squares rows stay.
+    ///
+    /// # Errors
+    /// [`Error::NotFinite`].
+    pub fn set_constant(&mut self, value: f64) -> Result<()> {
+        finite("constant", value)?;
+        self.constant = value;
+        Ok(())
+    }
+
     /// Adds `value` to the constant of the objective.
     ///
     /// # Errors

@@ -1,6 +1,6 @@
 //! Faces whose direction the surface itself gives: those with a reliable curvature direction.
 
-use super::Constraint;
+use super::{Constraint, Guide};
 use crate::mesh::TriangleMesh;
 use crate::mesh::curvature::curvature;
 use crate::{Error, Result};
@@ -31,4 +31,31 @@ pub fn curvature_constraints(mesh: &TriangleMesh, fraction: f64) -> Result<Vec<C
         angle: curvature.direction[face],
     };
     Ok(faces.into_iter().map(constraint).collect())
+}
+
+/// A guide for every face towards the direction of least absolute curvature, with the weight
+/// `weight * area * (|k1| - |k2|)^2`: nothing where the surface is flat or round.
+///
+/// On a refined mesh the squares of angles between neighbours fall as areas do, so that the balance
+/// between smoothness and curvature depends neither on the triangles nor on the size.
+///
+/// # Errors
+/// [`Error::InvalidArgument`] for a weight that is negative or not finite.
+pub fn curvature_guides(mesh: &TriangleMesh, weight: f64) -> Result<Vec<Guide>> {
+    if !(weight >= 0.0 && weight.is_finite()) {
+        return Err(Error::InvalidArgument {
+            what: format!("the weight of curvature is {weight}, not a number from 0"),
+            index: None,
+        });
+    }
+    if weight == 0.0 {
+        return Ok(Vec::new());
+    }
+    let curvature = curvature(mesh);
+    let guide = |face| Guide {
+        face,
+        angle: curvature.direction[face],
+        weight: weight * mesh.area(face) * curvature.reliability(face).powi(2),
+    };
+    Ok((0..mesh.face_count()).map(guide).collect())
 }

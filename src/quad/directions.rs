@@ -5,15 +5,13 @@
 //! Levy 2008, section 3: the period jump that leaves the angle between crosses within a quarter
 //! of a right angle to either side).
 
-use std::f64::consts::FRAC_PI_2;
-
 use super::OrientationField;
 use crate::mesh::TriangleMesh;
 use crate::mesh::vector::{Vec3, add, dot, scale};
 use crate::{Error, Result};
 
 impl OrientationField {
-    /// The field with this direction in every face, matched by the nearest arms over every edge.
+    /// The field of crosses with this direction in every face, matched by the nearest arms over every edge.
     ///
     /// Directions are vectors in space of any length; what of them points out of the face is
     /// dropped. No face counts as constrained.
@@ -22,6 +20,11 @@ impl OrientationField {
     /// [`Error::LengthMismatch`] for other than one direction a face; with the face,
     /// [`Error::NotFinite`], and [`Error::InvalidArgument`] for one across its face.
     pub fn from_directions(mesh: &TriangleMesh, directions: &[Vec3]) -> Result<Self> {
+        Self::matched(mesh, directions, 4)
+    }
+
+    /// As [`from_directions`](Self::from_directions) with this many arms in every face.
+    pub(super) fn matched(mesh: &TriangleMesh, directions: &[Vec3], symmetry: u8) -> Result<Self> {
         if directions.len() != mesh.face_count() {
             return Err(Error::LengthMismatch {
                 what: "directions of faces",
@@ -36,6 +39,7 @@ impl OrientationField {
         let kappa = |(f, k)| mesh.transport(f, k).unwrap_or(0.0);
         let kappa: Vec<f64> = mesh.edges().map(|edge| kappa(edge.first)).collect();
         let mut field = OrientationField {
+            symmetry,
             period_jumps: vec![0; kappa.len()],
             constrained: vec![false; angles.len()],
             angles,
@@ -54,12 +58,12 @@ impl OrientationField {
         add(scale(x, angle.cos()), scale(y, angle.sin()))
     }
 
-    /// The period jump of an edge that leaves the least angle between the crosses of its faces.
+    /// The period jump of an edge that leaves the least angle between the arms of its faces.
     pub(super) fn nearest_jump(&self, mesh: &TriangleMesh, edge: usize) -> i32 {
         let sides = mesh.edge(edge);
         let Some((j, _)) = sides.second else { return 0 };
         let turn = self.angles[j] - self.angles[sides.first.0] - self.kappa[edge];
-        (turn / FRAC_PI_2).round() as i32
+        (turn / self.step()).round() as i32
     }
 }
 

@@ -22,8 +22,8 @@ pub(super) struct Dirichlet {
     diagonal: Vec<f64>,
     /// Two copies and the weight between them.
     pairs: Vec<([u32; 2], f64)>,
-    linear: Vec<f64>,
-    constant: f64,
+    pub(super) linear: Vec<f64>,
+    pub(super) constant: f64,
 }
 
 impl Dirichlet {

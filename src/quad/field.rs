@@ -1,14 +1,17 @@
 //! An orientation field, and its energy measured on the mesh.
 
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::TAU;
 
+use super::Guide;
 use crate::linalg::CompensatedSum;
 use crate::mesh::TriangleMesh;
 use crate::{Error, Result};
 
-/// A 4-symmetric direction field: a cross in every face, and how crosses match over edges.
+/// An N-symmetric direction field: N arms evenly around in every face, a cross for N = 4, and how
+/// they match over edges.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OrientationField {
+    pub(super) symmetry: u8,
     pub(super) angles: Vec<f64>,
     pub(super) period_jumps: Vec<i32>,
     pub(super) kappa: Vec<f64>,
@@ -16,14 +19,19 @@ pub struct OrientationField {
 }
 
 impl OrientationField {
-    /// One arm of each face's cross: radians, counter-clockwise about the normal from the first
-    /// edge. Not reduced to a quarter turn: the period jumps belong to these very angles.
+    /// N, the number of arms in a face: 4 for crosses.
+    pub fn symmetry(&self) -> u8 {
+        self.symmetry
+    }
+
+    /// One arm of each face: radians, counter-clockwise about the normal from the first edge. Not
+    /// reduced to the angle between arms: the period jumps belong to these very angles.
     pub fn angles(&self) -> &[f64] {
         &self.angles
     }
 
     /// One number an edge of the mesh, from its first to its second face: `angle + kappa +
-    /// pi/2 jump` is the matching arm of the second. Zero at the boundary.
+    /// 2 pi/N jump` is the matching arm of the second. Zero at the boundary.
     pub fn period_jumps(&self) -> &[i32] {
         &self.period_jumps
     }
@@ -37,6 +45,11 @@ impl OrientationField {
     /// Which faces had their direction given.
     pub fn constrained(&self) -> &[bool] {
         &self.constrained
+    }
+
+    /// The angle from arm to arm.
+    pub(super) fn step(&self) -> f64 {
+        TAU / f64::from(self.symmetry)
     }
 
     /// Whether this can be a field on that mesh.
@@ -55,7 +68,7 @@ impl OrientationField {
     }
 
     /// Sum over interior edges, not between two constrained faces, of
-    /// `(theta_i + kappa_ij + pi/2 p_ij - theta_j)^2`, recomputed from the mesh.
+    /// `(theta_i + kappa_ij + 2 pi/N p_ij - theta_j)^2`, recomputed from the mesh.
     pub fn energy(&self, mesh: &TriangleMesh) -> f64 {
         let mut sum = CompensatedSum::new(0.0);
         for (e, edge) in mesh.edges().enumerate() {
@@ -65,9 +78,20 @@ impl OrientationField {
                 continue;
             }
             let kappa = mesh.transport(i, k).unwrap_or(0.0);
-            let turn = self.angles[i] + kappa + FRAC_PI_2 * f64::from(self.period_jumps[e]);
+            let turn = self.angles[i] + kappa + self.step() * f64::from(self.period_jumps[e]);
             let residual = turn - self.angles[j];
             sum.add_product(residual, residual);
+        }
+        sum.value()
+    }
+
+    /// Sum of `weight (theta - angle)^2` over the guides of faces that are not constrained: with
+    /// [`energy`](Self::energy), what the solver made least.
+    pub fn guide_energy(&self, guides: &[Guide]) -> f64 {
+        let mut sum = CompensatedSum::new(0.0);
+        for guide in guides.iter().filter(|g| !self.constrained[g.face]) {
+            let error = self.angles[guide.face] - guide.angle;
+            sum.add_product(guide.weight * error, error);
         }
         sum.value()
     }

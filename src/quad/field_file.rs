@@ -4,7 +4,7 @@
 //! nearest arms; where a field means another matching, a line `jump FACE SIDE P` behind the
 //! directions says that P quarter turns after the unfolding over local edge SIDE lead from the
 //! arm of FACE to the arm across. Numbers are counted from 0; empty lines and what follows a `#`
-//! are comments.
+//! are comments. A field of other symmetry than crosses has a first line `symmetry N`.
 
 use std::f64::consts::TAU;
 use std::fs::File;
@@ -43,6 +43,9 @@ impl OrientationField {
     }
 
     fn encode(&self, mesh: &TriangleMesh, mut out: impl Write) -> io::Result<()> {
+        if self.symmetry != 4 {
+            writeln!(out, "symmetry {}", self.symmetry)?;
+        }
         // Full turns that the angle of a face made, and its direction has lost.
         let mut turns = Vec::with_capacity(mesh.face_count());
         for face in 0..mesh.face_count() {
@@ -57,7 +60,8 @@ impl OrientationField {
                 continue;
             };
             if self.period_jumps[e] != self.nearest_jump(mesh, e) {
-                let jump = self.period_jumps[e] + 4 * (turns[face] - turns[across]);
+                let jump =
+                    self.period_jumps[e] + i32::from(self.symmetry) * (turns[face] - turns[across]);
                 writeln!(out, "jump {face} {side} {jump}")?;
             }
         }
@@ -69,11 +73,13 @@ fn parse(mesh: &TriangleMesh, text: &str) -> Result<OrientationField> {
     let mut directions: Vec<Vec3> = Vec::with_capacity(mesh.face_count());
     let mut at_line = Vec::with_capacity(mesh.face_count());
     let mut jumps = Vec::new();
+    let mut symmetry = 4;
     for (line, content) in (1..).zip(text.lines()) {
         let content = content.split('#').next().unwrap_or_default();
         let words: Vec<&str> = content.split_whitespace().collect();
         match words[..] {
             [] => {}
+            ["symmetry", arms] if directions.is_empty() => symmetry = arms_of(line, arms)?,
             ["jump", face, side, jump] => jumps.push((line, jump_of(line, [face, side, jump])?)),
             [x, y, z] if jumps.is_empty() => {
                 directions.push(direction(line, [x, y, z])?);
@@ -94,7 +100,8 @@ fn parse(mesh: &TriangleMesh, text: &str) -> Result<OrientationField> {
         let message = format!("the file ends after {given} directions: the mesh has {faces} faces");
         return Err(wrong(text.lines().count().max(1), &message));
     }
-    let mut field = OrientationField::from_directions(mesh, &directions).map_err(|error| {
+    let field = OrientationField::matched(mesh, &directions, symmetry);
+    let mut field = field.map_err(|error| {
         let line = error.index().and_then(|face| at_line.get(face));
         wrong(line.copied().unwrap_or(1), &error.to_string())
     })?;
@@ -102,6 +109,12 @@ fn parse(mesh: &TriangleMesh, text: &str) -> Result<OrientationField> {
         set_jump(mesh, &mut field, line, jump)?;
     }
     Ok(field)
+}
+
+fn arms_of(line: usize, arms: &str) -> Result<u8> {
+    let arms: Option<u8> = arms.parse().ok();
+    let known = arms.filter(|arms| [1, 2, 4, 6].contains(arms));
+    known.ok_or_else(|| wrong(line, "a symmetry is 1, 2, 4 or 6"))
 }
 
 fn direction(line: usize, words: [&str; 3]) -> Result<Vec3> {
@@ -159,11 +172,9 @@ fn failed(path: &Path, reason: &io::Error) -> Error {
 
 #[cfg(test)]
 mod tests {
-    use std::f64::consts::FRAC_PI_2;
-
     use super::*;
     use crate::mesh::shape;
-    use crate::quad::{FieldProblem, curvature_constraints};
+    use crate::quad::{FieldOptions, FieldProblem, curvature_constraints};
     use crate::{Options, Strategy, solve};
 
     /// A field by direct rounding, with one edge matched by other than the nearest arms.
@@ -196,7 +207,7 @@ mod tests {
         let Some((j, _)) = edge.second else {
             return 0.0;
         };
-        let turn = field.kappa[e] + FRAC_PI_2 * f64::from(field.period_jumps[e]);
+        let turn = field.kappa[e] + field.step() * f64::from(field.period_jumps[e]);
         field.angles[edge.first.0] + turn - field.angles[j]
     }
 
@@ -231,6 +242,27 @@ mod tests {
         let read = again(&mesh, &field).1;
         for (e, before) in before.iter().enumerate() {
             assert!((residual(&mesh, &read, e) - before).abs() < 1e-9, "{e}");
+        }
+    }
+
+    #[test]
+    fn a_field_of_any_symmetry_is_read_as_it_was_written() {
+        let mesh = shape::by_name("torus", 800).unwrap();
+        for symmetry in [1, 2, 4, 6] {
+            let options = FieldOptions {
+                symmetry,
+                ..FieldOptions::default()
+            };
+            let problem = FieldProblem::with_options(&mesh, &options).unwrap();
+            let solution = solve(problem.problem(), &Options::default()).unwrap();
+            let field = problem.field(&mesh, &solution).unwrap();
+            let (text, read) = again(&mesh, &field);
+            assert_eq!(text.starts_with("symmetry"), symmetry != 4);
+            assert_eq!(read.symmetry(), symmetry);
+            for e in 0..mesh.edge_count() {
+                let [a, b] = [&field, &read].map(|f| residual(&mesh, f, e));
+                assert!((a - b).abs() < 1e-9, "{symmetry}: edge {e} {a} {b}");
+            }
         }
     }
 
@@ -274,6 +306,8 @@ mod tests {
             (format!("{faces}jump 0 {inner} x\n"), last + 1),
             (format!("{faces}jump 0 {inner} 99999999\n"), last + 1),
             (format!("jump 0 {inner} 1\n{faces}"), 2),
+            (format!("symmetry 3\n{faces}"), 1),
+            (format!("{faces}symmetry 4\n"), last + 1),
         ];
         for (text, line) in cases {
             match parse(&mesh, &text) {

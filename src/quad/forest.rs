@@ -10,12 +10,12 @@ use crate::mesh::TriangleMesh;
 
 /// Whether each edge of the mesh belongs to the forest.
 ///
-/// Breadth-first from the constrained faces in increasing number, neighbours in increasing
-/// number; a component without a constrained face grows from its lowest face.
-pub(super) fn spanning_forest(mesh: &TriangleMesh, constrained: &[bool]) -> Vec<bool> {
+/// Breadth-first from the `rooted` faces, those with a given direction, in increasing number, neighbours in increasing
+/// number; a component without one grows from its lowest face.
+pub(super) fn spanning_forest(mesh: &TriangleMesh, rooted: &[bool]) -> Vec<bool> {
     let mut in_forest = vec![false; mesh.edge_count()];
-    let mut reached = constrained.to_vec();
-    let roots = (0..mesh.face_count()).filter(|&f| constrained[f]);
+    let mut reached = rooted.to_vec();
+    let roots = (0..mesh.face_count()).filter(|&f| rooted[f]);
     let mut queue: VecDeque<usize> = roots.collect();
     let mut lowest = 0;
     loop {

@@ -4,20 +4,20 @@
 //! included (Bommes, Zimmer, Kobbelt 2009, section 4.2; Ray, Vallet, Li, Levy 2008):
 //!
 //! ```text
-//! I(v) = (2 pi - sum of angles - sum over the ring, counter-clockwise, of (kappa + pi/2 p)) / 2 pi
+//! I(v) = (2 pi - sum of angles - sum over the ring, counter-clockwise, of (kappa + 2 pi/N p)) / 2 pi
 //! ```
 //!
-//! a multiple of 1/4; a cube corner has +1/4. A boundary loop collects what its vertices turn
+//! a multiple of 1/N; a cube corner has +1/4 in a field of crosses. A boundary loop collects what its vertices turn
 //! (pi - sum of angles) and the same sums over their open fans, so that by Gauss-Bonnet all
 //! indices together are the Euler characteristic.
 
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::f64::consts::{PI, TAU};
 
 use super::OrientationField;
 use crate::mesh::TriangleMesh;
 
-/// An index at least this far from zero is irregular: half of the smallest that there is.
-const IRREGULAR: f64 = 0.125;
+/// An index times N at least this far from zero is irregular: half of the smallest that there is.
+const IRREGULAR: f64 = 0.5;
 
 impl OrientationField {
     /// The index of every vertex, in full turns. Boundary vertices have none: 0.
@@ -53,11 +53,11 @@ impl OrientationField {
     /// The irregular vertices: those whose index is not zero.
     pub fn irregular_vertices(&self, mesh: &TriangleMesh) -> Vec<usize> {
         let indices = self.vertex_indices(mesh);
-        let irregular = |v: &usize| indices[*v].abs() >= IRREGULAR;
+        let irregular = |v: &usize| f64::from(self.symmetry) * indices[*v].abs() >= IRREGULAR;
         (0..indices.len()).filter(irregular).collect()
     }
 
-    /// Sum of `kappa + pi/2 p` over the steps from face to face around a vertex.
+    /// Sum of `kappa + 2 pi/N p` over the steps from face to face around a vertex.
     fn turning(&self, mesh: &TriangleMesh, vertex: usize) -> f64 {
         let mut sum = 0.0;
         for (face, corner) in mesh.ring(vertex) {
@@ -66,7 +66,7 @@ impl OrientationField {
                 continue;
             }
             let e = mesh.edge_of(face, k);
-            let step = self.kappa[e] + FRAC_PI_2 * f64::from(self.period_jumps[e]);
+            let step = self.kappa[e] + self.step() * f64::from(self.period_jumps[e]);
             sum += match mesh.edge(e).first == (face, k) {
                 true => step,
                 false => -step,

@@ -4,6 +4,8 @@
 //! A client of the solver: it builds a [`Problem`](crate::Problem) and reads a
 //! [`Solution`](crate::Solution).
 
+mod align;
+mod charges;
 pub mod check;
 mod comb;
 mod constrain;
@@ -13,21 +15,27 @@ mod directions;
 mod dirichlet;
 mod field;
 mod field_file;
+mod field_options;
 mod forest;
 mod index;
+mod isolines;
 mod map;
 mod orientation;
 mod seamless;
 mod seams;
 mod sectors;
+mod sizing;
 mod trace;
 pub mod untangle;
 mod uv_obj;
 
+pub use align::feature_constraints;
 pub use comb::Combing;
-pub use constrain::curvature_constraints;
+pub use constrain::{curvature_constraints, curvature_guides};
 pub use cut::CutGraph;
 pub use field::OrientationField;
+pub use field_options::{Constraint, FieldOptions, Guide, PrescribedIndex};
 pub use map::{SeamlessMap, Transition};
-pub use orientation::{Constraint, FieldProblem};
+pub use orientation::FieldProblem;
 pub use seamless::{SeamlessOptions, SeamlessProblem, TRANSLATION_WEIGHT};
+pub use sizing::Sizing;

@@ -1,29 +1,21 @@
-//! The smoothest 4-symmetric direction field of a mesh as a mixed-integer problem.
+//! The smoothest N-symmetric direction field of a mesh as a mixed-integer problem.
 //!
-//! Bommes, Zimmer, Kobbelt 2009, section 4: one angle a face, one period jump an interior edge,
+//! Bommes, Zimmer, Kobbelt 2009, section 4, for crosses, N = 4; Ray, Vallet, Li, Levy 2008 for any
+//! N: one angle a face, one period jump an interior edge,
 //!
 //! ```text
-//! E = sum over interior edges (i, j) of (theta_i + kappa_ij + pi/2 p_ij - theta_j)^2
+//! E = sum over interior edges (i, j) of (theta_i + kappa_ij + 2 pi/N p_ij - theta_j)^2
+//!   + sum over guided faces of w_i (theta_i - phi_i)^2
 //! ```
 //!
-//! without the edges between two constrained faces. Jumps are zero on a spanning forest.
+//! without the edges between two constrained faces. Jumps are zero on a spanning forest, which
+//! grows from the faces whose arm is named: there no frame can be turned to move a jump away.
 
-use std::f64::consts::FRAC_PI_2;
-
-use super::OrientationField;
+use super::charges::{ring_sum, steps};
 use super::forest::spanning_forest;
+use super::{Constraint, FieldOptions, Guide, OrientationField};
 use crate::mesh::TriangleMesh;
 use crate::{Error, Problem, Result, Solution};
-
-/// A face whose direction is given: one arm of its cross, as an angle in radians in the face's
-/// frame (counter-clockwise about the normal from the first edge).
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Constraint {
-    /// The face.
-    pub face: usize,
-    /// The angle of one arm.
-    pub angle: f64,
-}
 
 /// What is known of one interior edge.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -39,59 +31,133 @@ enum Jump {
 /// The mixed-integer problem of an orientation field, and how to read its solution.
 ///
 /// Unknowns: the angle of face `f` is unknown `f`; period jumps follow in the order of the mesh's
-/// edges. Least-squares rows follow the order of the edges as well.
+/// edges. Least-squares rows follow the order of the edges as well, then that of guided faces.
 #[derive(Debug, Clone)]
 pub struct FieldProblem {
     problem: Problem,
+    symmetry: u8,
     jumps: Vec<Jump>,
     kappa: Vec<f64>,
 }
 
 impl FieldProblem {
-    /// The problem for a mesh with some directions given.
+    /// The problem of a cross field for a mesh with some directions given.
     ///
     /// # Errors
-    /// [`Error::IndexOutOfRange`] for a face that does not exist, [`Error::NotFinite`],
-    /// [`Error::InvalidArgument`] for a face that is constrained twice; positions are positions in
-    /// `constraints`.
+    /// Those of [`with_options`](Self::with_options).
     pub fn new(mesh: &TriangleMesh, constraints: &[Constraint]) -> Result<Self> {
-        let fixed = fixed_angles(mesh, constraints)?;
-        let constrained: Vec<bool> = fixed.iter().map(Option::is_some).collect();
-        let in_forest = spanning_forest(mesh, &constrained);
-        let (jumps, kappa) = jumps(mesh, &fixed, &in_forest);
+        let options = FieldOptions {
+            constraints: constraints.to_vec(),
+            ..FieldOptions::default()
+        };
+        Self::with_options(mesh, &options)
+    }
+
+    /// The problem for a mesh and what the field shall follow there.
+    ///
+    /// # Errors
+    /// With the position in the list at fault, [`Error::IndexOutOfRange`] for what does not exist,
+    /// [`Error::NotFinite`], [`Error::InvalidArgument`] for a face or vertex that is named twice, a
+    /// negative weight or an index at the boundary. [`Error::InvalidArgument`] for another symmetry
+    /// than 1, 2, 4 and 6, for indices that do not sum to the Euler characteristic, and, with the
+    /// vertex, where constrained faces alone decide an index and it is another.
+    pub fn with_options(mesh: &TriangleMesh, options: &FieldOptions) -> Result<Self> {
+        let step = options.step()?;
+        let fixed = options.fixed_angles(mesh)?;
+        let guided = options.guided(mesh, &fixed)?;
+        let is_named = (0..mesh.face_count()).map(|f| fixed[f].is_some() || guided[f].is_some());
+        let in_forest = spanning_forest(mesh, &is_named.collect::<Vec<_>>());
+        let (jumps, kappa) = jumps(mesh, step, &fixed, &in_forest);
         let unknown = |j: &&Jump| matches!(j, Jump::Unknown(_));
         let faces = mesh.face_count();
-        let mut problem = Problem::new(faces + jumps.iter().filter(unknown).count())?;
-        for c in constraints {
-            problem.pin(c.face, c.angle)?;
+        let mut this = FieldProblem {
+            problem: Problem::new(faces + jumps.iter().filter(unknown).count())?,
+            symmetry: options.symmetry,
+            jumps,
+            kappa,
+        };
+        for c in &options.constraints {
+            this.problem.pin(c.face, c.angle)?;
         }
+        let row_of_edge = this.add_edges(mesh, step, &fixed)?;
+        for Guide {
+            face,
+            angle,
+            weight,
+        } in guided.into_iter().flatten()
+        {
+            this.problem
+                .add_least_squares(&[face], &[1.0], angle, weight)?;
+        }
+        if let Some(given) = &options.indices {
+            this.prescribe(mesh, step, &steps(mesh, options.symmetry, given)?)?;
+        }
+        hint_rings(mesh, &row_of_edge, &mut this.problem)?;
+        Ok(this)
+    }
+
+    /// One row an edge of the energy; gives the row of every edge that has one.
+    fn add_edges(
+        &mut self,
+        mesh: &TriangleMesh,
+        step: f64,
+        fixed: &[Option<f64>],
+    ) -> Result<Vec<Option<usize>>> {
         let mut row_of_edge = vec![None; mesh.edge_count()];
         for (e, edge) in mesh.edges().enumerate() {
             let Some((j, _)) = edge.second else { continue };
             let i = edge.first.0;
-            if constrained[i] && constrained[j] {
+            if fixed[i].is_some() && fixed[j].is_some() {
                 continue;
             }
-            row_of_edge[e] = Some(match jumps[e] {
+            let kappa = -self.kappa[e];
+            let problem = &mut self.problem;
+            row_of_edge[e] = Some(match self.jumps[e] {
                 Jump::Unknown(p) => {
                     let p = p as usize;
                     problem.set_integers(&[p])?;
-                    problem.add_least_squares(
-                        &[i, j, p],
-                        &[1.0, -1.0, FRAC_PI_2],
-                        -kappa[e],
-                        1.0,
-                    )?
+                    problem.add_least_squares(&[i, j, p], &[1.0, -1.0, step], kappa, 1.0)?
                 }
-                _ => problem.add_least_squares(&[i, j], &[1.0, -1.0], -kappa[e], 1.0)?,
+                _ => problem.add_least_squares(&[i, j], &[1.0, -1.0], kappa, 1.0)?,
             });
         }
-        hint_rings(mesh, &row_of_edge, &mut problem)?;
-        Ok(FieldProblem {
-            problem,
-            jumps,
-            kappa,
-        })
+        Ok(row_of_edge)
+    }
+
+    /// Constrains the jumps around every interior vertex to its index.
+    fn prescribe(&mut self, mesh: &TriangleMesh, step: f64, steps: &[i32]) -> Result<()> {
+        let (mut unknowns, mut signs) = (Vec::new(), Vec::new());
+        for v in (0..mesh.vertex_count()).filter(|&v| !mesh.is_boundary_vertex(v)) {
+            let mut sum = ring_sum(mesh, &self.kappa, step, v, steps[v]);
+            unknowns.clear();
+            signs.clear();
+            for (face, corner) in mesh.ring(v) {
+                let k = (corner + 2) % 3;
+                let e = mesh.edge_of(face, k);
+                let sign = if mesh.edge(e).first == (face, k) {
+                    1.0
+                } else {
+                    -1.0
+                };
+                match self.jumps[e] {
+                    Jump::Boundary => {}
+                    Jump::Known(p) => sum -= sign * f64::from(p),
+                    Jump::Unknown(p) => {
+                        unknowns.push(p as usize);
+                        signs.push(sign);
+                    }
+                }
+            }
+            if !unknowns.is_empty() {
+                self.problem.add_constraint(&unknowns, &signs, sum)?;
+            } else if sum != 0.0 {
+                return Err(Error::InvalidArgument {
+                    what: format!("the directions given around vertex {v} decide another index"),
+                    index: Some(v),
+                });
+            }
+        }
+        Ok(())
     }
 
     /// The problem, to be solved by any strategy.
@@ -134,6 +200,7 @@ impl FieldProblem {
         let pins = self.problem.pins();
         let constrained = (0..mesh.face_count()).map(|f| pins[f].is_some());
         Ok(OrientationField {
+            symmetry: self.symmetry,
             angles,
             period_jumps,
             kappa: self.kappa.clone(),
@@ -142,35 +209,13 @@ impl FieldProblem {
     }
 }
 
-fn fixed_angles(mesh: &TriangleMesh, constraints: &[Constraint]) -> Result<Vec<Option<f64>>> {
-    let mut fixed = vec![None; mesh.face_count()];
-    for (position, c) in constraints.iter().enumerate() {
-        if c.face >= fixed.len() {
-            return Err(Error::IndexOutOfRange {
-                what: "constrained faces",
-                position,
-                value: i64::try_from(c.face).unwrap_or(i64::MAX),
-                len: fixed.len(),
-            });
-        }
-        if !c.angle.is_finite() {
-            return Err(Error::NotFinite {
-                what: "constrained angles",
-                position,
-            });
-        }
-        if fixed[c.face].replace(c.angle).is_some() {
-            return Err(Error::InvalidArgument {
-                what: format!("face {} is constrained twice", c.face),
-                index: Some(position),
-            });
-        }
-    }
-    Ok(fixed)
-}
-
 /// The jump and kappa of every edge, from its first to its second face.
-fn jumps(mesh: &TriangleMesh, fixed: &[Option<f64>], in_forest: &[bool]) -> (Vec<Jump>, Vec<f64>) {
+fn jumps(
+    mesh: &TriangleMesh,
+    step: f64,
+    fixed: &[Option<f64>],
+    in_forest: &[bool],
+) -> (Vec<Jump>, Vec<f64>) {
     // A mesh has fewer than 2^32 half-edges, and so fewer faces and edges together.
     let mut unknowns = mesh.face_count() as u32..;
     let mut kappa = Vec::with_capacity(mesh.edge_count());
@@ -181,7 +226,7 @@ fn jumps(mesh: &TriangleMesh, fixed: &[Option<f64>], in_forest: &[bool]) -> (Vec
             return Jump::Boundary;
         };
         match (fixed[i], fixed[j]) {
-            (Some(a), Some(b)) => Jump::Known(((b - a - kappa[e]) / FRAC_PI_2).round() as i32),
+            (Some(a), Some(b)) => Jump::Known(((b - a - kappa[e]) / step).round() as i32),
             _ if in_forest[e] => Jump::Known(0),
             _ => unknowns.next().map_or(Jump::Known(0), Jump::Unknown),
         }

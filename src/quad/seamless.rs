@@ -13,13 +13,18 @@
 //! ```text
 //! (u', v') = R^r (u, v) + (s, t),    R = [0 -1; 1 0]
 //! ```
+//!
+//! Feature edges are isolines of integer value ([`super::isolines`]).
 
 use super::dirichlet::Dirichlet;
+use super::isolines::{Isoline, isolines};
 use super::seams::{Seam, seams};
 use super::sectors::Sectors;
-use super::{Combing, CutGraph, OrientationField, SeamlessMap};
+use super::sizing::Density;
+use super::{Combing, CutGraph, OrientationField, SeamlessMap, Sizing};
 use crate::mesh::TriangleMesh;
-use crate::{Error, Problem, Result, Solution, Triangle};
+use crate::mesh::features::FeatureGraph;
+use crate::{Error, Problem, Result, Solution, Solver, Triangle};
 
 /// What the square of an integer translation costs: enough to decide those that nothing else does,
 /// too little to change any other.
@@ -41,8 +46,10 @@ impl Default for SeamlessOptions {
 /// The mixed-integer problem of a seamless parametrization, and how to read its solution.
 ///
 /// Unknowns: u and v of copy `c` of the cut surface's vertices are unknowns `2 c` and `2 c + 1`;
-/// the translation (s, t) of each seam follows. Integer are all translations and the first copy of
-/// every cone. In every component the first cone, or else the first vertex, is pinned to the origin.
+/// the translation (s, t) of each seam follows. Integer are all translations, the first copy of
+/// every cone, and one coordinate a feature curve and chart. In every component the first cone is
+/// pinned to the origin; without cones, each coordinate of the first feature that has it, or else of
+/// the first vertex.
 #[derive(Debug, Clone)]
 pub struct SeamlessProblem {
     pub(super) problem: Problem,
@@ -52,34 +59,55 @@ pub struct SeamlessProblem {
     pub(super) sectors: Sectors,
     pub(super) seams: Vec<Seam>,
     pub(super) cones: Vec<usize>,
-    /// Unit squares a unit length: the length of the gradients aimed at.
-    pub(super) density: f64,
+    isolines: Vec<Isoline>,
+    /// The lengths of the gradients aimed at.
+    density: Density,
 }
 
 impl SeamlessProblem {
-    /// The problem for a mesh and a field on it.
+    /// The problem for a mesh and a field on it, without features.
     ///
     /// # Errors
-    /// [`Error::LengthMismatch`] for the field of another mesh, [`Error::InvalidArgument`] for no
-    /// quads, [`Error::Overflow`] for more than 2^31 - 1 unknowns, [`Error::OutOfMemory`].
+    /// Those of [`with_features`](Self::with_features).
     pub fn new(
         mesh: &TriangleMesh,
         field: &OrientationField,
         options: &SeamlessOptions,
     ) -> Result<Self> {
-        if options.quads == 0 {
+        let sizing = Sizing::Quads(options.quads);
+        Self::with_features(mesh, field, &sizing, &FeatureGraph::none(mesh))
+    }
+
+    /// The problem for a mesh, a field on it, the size of quads and the edges that shall be
+    /// isolines: the field should follow them
+    /// ([`feature_constraints`](super::feature_constraints)).
+    ///
+    /// # Errors
+    /// [`Error::LengthMismatch`] for field, sizes or features of another mesh,
+    /// [`Error::InvalidArgument`] for a field of other than crosses, for no quads or lengths not
+    /// above zero, [`Error::NotFinite`] for lengths, [`Error::Overflow`] for more than 2^31 - 1
+    /// unknowns, [`Error::OutOfMemory`].
+    pub fn with_features(
+        mesh: &TriangleMesh,
+        field: &OrientationField,
+        sizing: &Sizing,
+        features: &FeatureGraph,
+    ) -> Result<Self> {
+        let density = Density::new(mesh, sizing)?;
+        field.check_mesh(mesh)?;
+        features.check_mesh(mesh)?;
+        if field.symmetry() != 4 {
             return Err(Error::InvalidArgument {
-                what: "a parametrization for no quads".into(),
+                what: format!("a map follows crosses, not {} arms", field.symmetry()),
                 index: None,
             });
         }
-        field.check_mesh(mesh)?;
         let cones = field.irregular_vertices(mesh);
         let cut = CutGraph::new(mesh, &cones)?;
         let combing = Combing::new(mesh, field, &cut)?;
         let sectors = Sectors::new(mesh, &cut);
         let seams = seams(mesh, &cut, &cones);
-        let density = (options.quads as f64 / mesh.surface_area()).sqrt();
+        let isolines = isolines(mesh, field, &combing, &sectors, features);
         let mut this = SeamlessProblem {
             problem: Problem::new(2 * (sectors.count() + seams.len()))?,
             field: field.clone(),
@@ -88,15 +116,44 @@ impl SeamlessProblem {
             sectors,
             seams,
             cones,
+            isolines,
             density,
         };
         this.add_energy(mesh)?;
         for seam in 0..this.seams.len() {
             this.add_seam(mesh, seam)?;
         }
+        for isoline in &this.isolines {
+            let row = isoline.unknowns();
+            this.problem.add_constraint(&row, &[1.0, -1.0], 0.0)?;
+        }
         this.set_integers()?;
         this.pin_origins(mesh)?;
         Ok(this)
+    }
+
+    /// Aims at another size of quads. Only linear terms change: the solver of this problem keeps
+    /// elimination, orderings and factors, and its next solve is that of a new problem of that size.
+    ///
+    /// # Errors
+    /// [`Error::LengthMismatch`] for another mesh or the solver of another problem, and those of
+    /// [`with_features`](Self::with_features) for sizes.
+    pub fn resize(
+        &mut self,
+        mesh: &TriangleMesh,
+        sizing: &Sizing,
+        solver: &mut Solver,
+    ) -> Result<()> {
+        self.field.check_mesh(mesh)?;
+        let before = std::mem::replace(&mut self.density, Density::new(mesh, sizing)?);
+        let energy = Dirichlet::new(self, mesh);
+        let told = solver.set_linear(&energy.linear);
+        if let Err(error) = told.and_then(|()| solver.set_constant(energy.constant)) {
+            self.density = before;
+            return Err(error);
+        }
+        self.problem.set_linear(&energy.linear)?;
+        self.problem.set_constant(energy.constant)
     }
 
     /// The problem, to be solved by any strategy.
@@ -145,7 +202,8 @@ impl SeamlessProblem {
     /// Combed arms of a face, as long as the gradients shall be.
     pub(super) fn targets(&self, mesh: &TriangleMesh, face: usize) -> [[f64; 3]; 2] {
         let arms = self.combing.arms(mesh, &self.field, face);
-        arms.map(|arm| arm.map(|x| self.density * x))
+        let density = self.density.of(face, self.combing.quarters()[face]);
+        [0, 1].map(|axis| arms[axis].map(|x| density[axis] * x))
     }
 
     /// The unknown that is `s` of a seam; `t` is the next.
@@ -192,23 +250,58 @@ impl SeamlessProblem {
             [u, u + 1]
         });
         let translations = self.translation(0)..self.translation(self.seams.len());
+        let first = self.isolines.iter().filter(|isoline| isoline.is_first);
+        let values = first.map(|isoline| isoline.unknowns()[0]);
         self.problem
-            .set_integers(&cones.chain(translations).collect::<Vec<_>>())
+            .set_integers(&cones.chain(translations).chain(values).collect::<Vec<_>>())
     }
 
+    /// Fixes what no term and no constraint does: where the origin of a component lies.
     fn pin_origins(&mut self, mesh: &TriangleMesh) -> Result<()> {
         let components = mesh.components();
-        let mut is_pinned = vec![false; components.count];
-        for v in self.cones.iter().copied().chain(0..mesh.vertex_count()) {
+        let component_of = |v: usize| {
             let face = mesh.ring(v).next().map_or(0, |(face, _)| face);
-            let component = components.of_face[face] as usize;
-            if !std::mem::replace(&mut is_pinned[component], true) {
-                let u = 2 * self.sectors.first[v] as usize;
-                self.problem.pin(u, 0.0)?;
-                self.problem.pin(u + 1, 0.0)?;
+            components.of_face[face] as usize
+        };
+        let mut is_pinned = vec![[false; 2]; components.count];
+        for i in 0..self.cones.len() {
+            let v = self.cones[i];
+            if !std::mem::replace(&mut is_pinned[component_of(v)], [true; 2])[0] {
+                self.pin_first_copy(v, 0)?;
+                self.pin_first_copy(v, 1)?;
+            }
+        }
+        // Isolines lie on integers already: a shift by anything else is not free.
+        let component_of_copy = self.component_of_copy(mesh, &components.of_face);
+        for isoline in &self.isolines {
+            let pinned = &mut is_pinned[component_of_copy[isoline.ends[0] as usize] as usize];
+            if !std::mem::replace(&mut pinned[isoline.axis], true) {
+                self.problem.pin(isoline.unknowns()[0], 0.0)?;
+            }
+        }
+        for v in 0..mesh.vertex_count() {
+            for axis in 0..2 {
+                if !std::mem::replace(&mut is_pinned[component_of(v)][axis], true) {
+                    self.pin_first_copy(v, axis)?;
+                }
             }
         }
         Ok(())
+    }
+
+    fn pin_first_copy(&mut self, vertex: usize, axis: usize) -> Result<()> {
+        let unknown = 2 * self.sectors.first[vertex] as usize + axis;
+        self.problem.pin(unknown, 0.0)
+    }
+
+    fn component_of_copy(&self, mesh: &TriangleMesh, of_face: &[u32]) -> Vec<u32> {
+        let mut component = vec![0; self.sectors.count()];
+        for face in 0..mesh.face_count() {
+            for copy in self.sectors.copy[face] {
+                component[copy as usize] = of_face[face];
+            }
+        }
+        component
     }
 }
 

@@ -5,7 +5,7 @@
 //! with the arm that it is matched with there; the angles between them add up to the turning of
 //! the field.
 
-use std::f64::consts::{FRAC_PI_2, TAU};
+use std::f64::consts::TAU;
 
 use super::OrientationField;
 use crate::mesh::TriangleMesh;
@@ -25,8 +25,8 @@ impl OrientationField {
     fn trace(&self, mesh: &TriangleMesh, vertex: usize) -> f64 {
         let mut defect = TAU;
         let mut turning = 0.0;
-        // Quarter turns between the arm that is followed and the angle that the face stores.
-        let mut quarters = 0;
+        // Steps between the arm that is followed and the angle that the face stores.
+        let mut steps = 0;
         for (face, corner) in mesh.ring(vertex) {
             let corners = mesh.corner_positions(face);
             let apex = corners[corner];
@@ -38,13 +38,13 @@ impl OrientationField {
             let Some((across, _)) = mesh.neighbor(face, k) else {
                 continue;
             };
-            let arm = self.arm(mesh, face, quarters);
+            let arm = self.arm(mesh, face, steps);
             let e = mesh.edge_of(face, k);
-            quarters += match mesh.edge(e).first == (face, k) {
+            steps += match mesh.edge(e).first == (face, k) {
                 true => -self.period_jumps[e],
                 false => self.period_jumps[e],
             };
-            let matched = self.arm(mesh, across, quarters);
+            let matched = self.arm(mesh, across, steps);
             let (from, to) = (mesh.normal(face), mesh.normal(across));
             // Over the edge: what lies along it stays, what lies across it turns with the plane.
             let carried = add(
@@ -57,9 +57,9 @@ impl OrientationField {
     }
 
     /// An arm of the cross of a face, as a unit vector in space.
-    fn arm(&self, mesh: &TriangleMesh, face: usize, quarters: i32) -> Vec3 {
+    fn arm(&self, mesh: &TriangleMesh, face: usize, steps: i32) -> Vec3 {
         let [x, y] = mesh.frame(face);
-        let angle = self.angles[face] + FRAC_PI_2 * f64::from(quarters);
+        let angle = self.angles[face] + self.step() * f64::from(steps);
         add(scale(x, angle.cos()), scale(y, angle.sin()))
     }
 }

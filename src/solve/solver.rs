@@ -71,6 +71,14 @@ impl Solver {
         self.change(|problem| problem.set_linear(values))
     }
 
+    /// See [`Problem::set_constant`].
+    ///
+    /// # Errors
+    /// Those of [`Problem::set_constant`].
+    pub fn set_constant(&mut self, value: f64) -> Result<()> {
+        self.change(|problem| problem.set_constant(value))
+    }
+
     /// See [`Problem::set_constraint_right_sides`]. Whether they can hold shows in the next solve.
     ///
     /// # Errors

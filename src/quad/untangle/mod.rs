@@ -31,6 +31,7 @@ pub use unfolded::{Unfolded, solve_unfolded};
 use super::check::orientation;
 use super::{SeamlessMap, SeamlessProblem};
 use crate::mesh::TriangleMesh;
+use crate::mesh::vector::{dot, sub};
 use crate::solve::Phase;
 use crate::{Monitor, Result};
 use energy::Rest;
@@ -146,7 +147,7 @@ pub fn untangle(
 /// The state of the work.
 struct Untangling<'a> {
     mesh: &'a TriangleMesh,
-    density: f64,
+    problem: &'a SeamlessProblem,
     freedom: Freedom,
     values: Vec<f64>,
     /// Where in the region at hand each free unknown is.
@@ -157,14 +158,14 @@ struct Untangling<'a> {
 impl<'a> Untangling<'a> {
     fn new(
         mesh: &'a TriangleMesh,
-        problem: &SeamlessProblem,
+        problem: &'a SeamlessProblem,
         map: &SeamlessMap,
         monitor: &mut Monitor,
     ) -> Result<Self> {
         let freedom = Freedom::new(problem, map.copies(), map.values(), monitor)?;
         Ok(Untangling {
             mesh,
-            density: problem.density,
+            problem,
             place: vec![NONE; freedom.dim()],
             freedom,
             values: map.values().to_vec(),
@@ -192,7 +193,7 @@ impl<'a> Untangling<'a> {
         for (k, &y) in region.unknowns.iter().enumerate() {
             self.place[y as usize] = k as u32;
         }
-        let rest = |face: usize| at_rest(self.mesh, self.density, face);
+        let rest = |face: usize| at_rest(self.mesh, self.problem, face);
         let system = System::new(&self.freedom, region, rest, &self.place)?;
         region
             .unknowns
@@ -214,13 +215,13 @@ impl<'a> Untangling<'a> {
     }
 }
 
-/// A face laid into the plane, as large as it should be.
-fn at_rest(mesh: &TriangleMesh, density: f64, face: usize) -> Rest {
-    let lengths = [0, 2].map(|k| density * mesh.edge_length(face, k));
-    let (sin, cos) = mesh.angle(face, 0).sin_cos();
-    Rest::new([
-        [0.0, 0.0],
-        [lengths[0], 0.0],
-        [lengths[1] * cos, lengths[1] * sin],
-    ])
+/// A face laid into the plane as the field has it, as large as it should be.
+fn at_rest(mesh: &TriangleMesh, problem: &SeamlessProblem, face: usize) -> Rest {
+    let corners = mesh.corner_positions(face);
+    let targets = problem.targets(mesh, face);
+    let from_first = |k: usize| {
+        let step = sub(corners[k], corners[0]);
+        targets.map(|target| dot(target, step))
+    };
+    Rest::new([0, 1, 2].map(from_first))
 }

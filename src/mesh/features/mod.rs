@@ -1,0 +1,174 @@
+//! Feature graphs: the edges that a quad mesh should keep, as curves between corners.
+//!
+//! Edges come from the angle between faces, from the line elements of a file, or from the caller.
+//! A curve runs between nodes: corners, where other than two feature edges meet or two of them at
+//! a turn, and open ends, where a single edge stops inside the surface.
+
+mod curves;
+mod detect;
+#[cfg(feature = "mesh-io")]
+mod file;
+
+use super::TriangleMesh;
+use crate::{Error, Result};
+
+/// Two feature edges that meet alone form a corner where the curve turns by more than this: half
+/// of the turn that one more or one quad less at the vertex makes.
+pub const CORNER_TURN: f64 = std::f64::consts::FRAC_PI_4;
+
+/// A chain of feature edges between two nodes, or around.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct FeatureCurve {
+    /// The edges of the mesh, tip to tail.
+    pub edges: Vec<usize>,
+    /// The vertices along them, one more than edges; of a loop the last is the first.
+    pub vertices: Vec<usize>,
+}
+
+impl FeatureCurve {
+    /// Whether the curve comes back to where it starts.
+    pub fn is_loop(&self) -> bool {
+        self.vertices.first() == self.vertices.last()
+    }
+}
+
+/// A set of edges of a mesh, taken apart into curves.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct FeatureGraph {
+    is_feature: Vec<bool>,
+    degree: Vec<u32>,
+    corners: Vec<usize>,
+    open_ends: Vec<usize>,
+    curves: Vec<FeatureCurve>,
+}
+
+impl FeatureGraph {
+    /// The graph without edges.
+    pub fn none(mesh: &TriangleMesh) -> Self {
+        Self::of(mesh, vec![false; mesh.edge_count()])
+    }
+
+    /// The graph of these edges, in any order; an edge may be named twice.
+    ///
+    /// # Errors
+    /// [`Error::IndexOutOfRange`] for an edge that does not exist.
+    pub fn from_edges(mesh: &TriangleMesh, edges: &[usize]) -> Result<Self> {
+        let mut is_feature = vec![false; mesh.edge_count()];
+        for (position, &e) in edges.iter().enumerate() {
+            match is_feature.get_mut(e) {
+                Some(is_feature) => *is_feature = true,
+                None => return Err(out_of_range("feature edges", position, e, is_feature.len())),
+            }
+        }
+        Ok(Self::of(mesh, is_feature))
+    }
+
+    /// The graph of the edges between these pairs of vertices.
+    ///
+    /// # Errors
+    /// With the position in `lines`, [`Error::IndexOutOfRange`] for a vertex that does not exist,
+    /// [`Error::InvalidArgument`] for two that no edge joins.
+    pub fn from_lines(mesh: &TriangleMesh, lines: &[[usize; 2]]) -> Result<Self> {
+        let mut is_feature = vec![false; mesh.edge_count()];
+        for (position, &[a, b]) in lines.iter().enumerate() {
+            if let Some(&v) = [a, b].iter().find(|&&v| v >= mesh.vertex_count()) {
+                return Err(out_of_range(
+                    "feature lines",
+                    position,
+                    v,
+                    mesh.vertex_count(),
+                ));
+            }
+            match edge_between(mesh, a, b).or_else(|| edge_between(mesh, b, a)) {
+                Some(e) => is_feature[e] = true,
+                None => {
+                    return Err(Error::InvalidArgument {
+                        what: format!(
+                            "feature line {position}: no edge joins vertices {a} and {b}"
+                        ),
+                        index: Some(position),
+                    });
+                }
+            }
+        }
+        Ok(Self::of(mesh, is_feature))
+    }
+
+    /// This graph and the edges of another on the same mesh.
+    ///
+    /// # Errors
+    /// [`Error::LengthMismatch`] for a graph on another mesh.
+    pub fn with(self, mesh: &TriangleMesh, other: &FeatureGraph) -> Result<Self> {
+        self.check_mesh(mesh)?;
+        other.check_mesh(mesh)?;
+        let mut is_feature = self.is_feature;
+        for (here, &there) in is_feature.iter_mut().zip(&other.is_feature) {
+            *here |= there;
+        }
+        Ok(Self::of(mesh, is_feature))
+    }
+
+    /// Whether an edge of the mesh is a feature.
+    pub fn contains(&self, edge: usize) -> bool {
+        self.is_feature[edge]
+    }
+
+    /// The feature edges, in increasing order.
+    pub fn edges(&self) -> impl Iterator<Item = usize> + '_ {
+        (0..self.is_feature.len()).filter(|&e| self.is_feature[e])
+    }
+
+    /// How many feature edges end at a vertex.
+    pub fn degree(&self, vertex: usize) -> usize {
+        self.degree[vertex] as usize
+    }
+
+    /// Vertices where three or more feature edges meet, or two at a turn of more than
+    /// [`CORNER_TURN`], in increasing order.
+    pub fn corners(&self) -> &[usize] {
+        &self.corners
+    }
+
+    /// Vertices where a single feature edge ends, in increasing order.
+    pub fn open_ends(&self) -> &[usize] {
+        &self.open_ends
+    }
+
+    /// The curves: those between nodes by the lower of their first vertices, then the loops
+    /// without a node.
+    pub fn curves(&self) -> &[FeatureCurve] {
+        &self.curves
+    }
+
+    /// Whether this can be a graph on that mesh.
+    pub(crate) fn check_mesh(&self, mesh: &TriangleMesh) -> Result<()> {
+        match (self.is_feature.len(), self.degree.len()) == (mesh.edge_count(), mesh.vertex_count())
+        {
+            true => Ok(()),
+            false => Err(Error::LengthMismatch {
+                what: "the edges of the feature graph",
+                expected: mesh.edge_count(),
+                actual: self.is_feature.len(),
+            }),
+        }
+    }
+}
+
+/// The edge along which a face runs from `a` to `b`.
+fn edge_between(mesh: &TriangleMesh, a: usize, b: usize) -> Option<usize> {
+    let mut spokes = mesh.ring(a);
+    let found = spokes.find(|&(f, k)| mesh.corners(f)[(k + 1) % 3] == b);
+    found.map(|(f, k)| mesh.edge_of(f, k))
+}
+
+fn out_of_range(what: &'static str, position: usize, value: usize, len: usize) -> Error {
+    Error::IndexOutOfRange {
+        what,
+        position,
+        value: i64::try_from(value).unwrap_or(i64::MAX),
+        len,
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,112 @@
+//! Prescribed indices as linear constraints on the period jumps around every vertex.
+//!
+//! The index of a vertex is what its ring of jumps sums to (see [`super::index`]), so that
+//!
+//! ```text
+//! sum over the ring, counter-clockwise, of +-p = (2 pi (1 - I) - sum of angles - sum of +-kappa) N / 2 pi
+//! ```
+//!
+//! an integer for every index that is a multiple of 1/N. This is what makes the layout-guided
+//! fields of the literature a special case (Crane, Desbrun, Schröder 2010, section 2: trivial
+//! connections with given singularities): the integers are given, up to those around handles.
+
+use std::f64::consts::TAU;
+
+use super::PrescribedIndex;
+use crate::mesh::TriangleMesh;
+use crate::{Error, Result};
+
+/// The steps of every vertex: those of `given`, and zero.
+///
+/// # Errors
+/// With the position, [`Error::IndexOutOfRange`], and [`Error::InvalidArgument`] for a vertex named
+/// twice or on the boundary; [`Error::InvalidArgument`] where the indices of a closed component do
+/// not sum to its Euler characteristic.
+pub(super) fn steps(
+    mesh: &TriangleMesh,
+    symmetry: u8,
+    given: &[PrescribedIndex],
+) -> Result<Vec<i32>> {
+    let mut steps = vec![None; mesh.vertex_count()];
+    let refused = |position: usize, what: String| Error::InvalidArgument {
+        what,
+        index: Some(position),
+    };
+    for (position, &PrescribedIndex { vertex, steps: n }) in given.iter().enumerate() {
+        let len = steps.len();
+        let Some(place) = steps.get_mut(vertex) else {
+            return Err(Error::IndexOutOfRange {
+                what: "vertices with an index",
+                position,
+                value: i64::try_from(vertex).unwrap_or(i64::MAX),
+                len,
+            });
+        };
+        if mesh.is_boundary_vertex(vertex) {
+            let what = format!("vertex {vertex} has no index: it lies on the boundary");
+            return Err(refused(position, what));
+        }
+        if place.replace(n).is_some() {
+            return Err(refused(
+                position,
+                format!("vertex {vertex} has two indices"),
+            ));
+        }
+    }
+    let steps: Vec<i32> = steps.into_iter().map(Option::unwrap_or_default).collect();
+    check_sums(mesh, symmetry, &steps)?;
+    Ok(steps)
+}
+
+/// That the indices of closed components sum to what Poincaré and Hopf say.
+fn check_sums(mesh: &TriangleMesh, symmetry: u8, steps: &[i32]) -> Result<()> {
+    let components = mesh.components();
+    let of_face = |face: usize| components.of_face[face] as usize;
+    // Euler characteristic, sum of steps, and whether there is a boundary.
+    let mut sums = vec![(0_i64, 0_i64, false); components.count];
+    for face in 0..mesh.face_count() {
+        sums[of_face(face)].0 += 1;
+    }
+    for edge in mesh.edges() {
+        let (euler, _, is_open) = &mut sums[of_face(edge.first.0)];
+        *euler -= 1;
+        *is_open |= edge.second.is_none();
+    }
+    for (v, &n) in steps.iter().enumerate() {
+        let face = mesh.ring(v).next().map_or(0, |(face, _)| face);
+        let (euler, sum, _) = &mut sums[of_face(face)];
+        *euler += 1;
+        *sum += i64::from(n);
+    }
+    for (component, (euler, sum, is_open)) in sums.into_iter().enumerate() {
+        if !is_open && sum != i64::from(symmetry) * euler {
+            return Err(Error::InvalidArgument {
+                what: format!(
+                    "the indices of component {component} sum to {sum}/{symmetry}, not to its \
+                     Euler characteristic, {euler}"
+                ),
+                index: None,
+            });
+        }
+    }
+    Ok(())
+}
+
+/// What the jumps around an interior vertex sum to, counter-clockwise, for an index of `steps`.
+pub(super) fn ring_sum(
+    mesh: &TriangleMesh,
+    kappa: &[f64],
+    step: f64,
+    vertex: usize,
+    steps: i32,
+) -> f64 {
+    let mut turn = TAU;
+    for (face, corner) in mesh.ring(vertex) {
+        let k = (corner + 2) % 3;
+        let e = mesh.edge_of(face, k);
+        let leaves_first = mesh.edge(e).first == (face, k);
+        turn -= mesh.angle(face, corner);
+        turn -= if leaves_first { kappa[e] } else { -kappa[e] };
+    }
+    (turn / step).round() - f64::from(steps)
+}

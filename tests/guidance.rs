@@ -1,0 +1,339 @@
+//! Fields that follow features, curvature and prescribed indices, of every symmetry.
+
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
+
+use roundel::mesh::features::FeatureGraph;
+use roundel::mesh::{TriangleMesh, shape};
+use roundel::quad::{
+    FieldOptions, FieldProblem, OrientationField, PrescribedIndex, curvature_constraints,
+    curvature_guides, feature_constraints,
+};
+use roundel::{Options, Solution, solve};
+
+fn noisy(name: &str, triangles: usize) -> TriangleMesh {
+    let mesh = shape::by_name(name, triangles).unwrap();
+    roundel::mesh::jitter(&mesh, 1e-3, 7).unwrap()
+}
+
+fn field(mesh: &TriangleMesh, options: &FieldOptions) -> (OrientationField, Solution) {
+    let problem = FieldProblem::with_options(mesh, options).unwrap();
+    let solution = solve(problem.problem(), &Options::default()).unwrap();
+    (problem.field(mesh, &solution).unwrap(), solution)
+}
+
+fn features(mesh: &TriangleMesh) -> FeatureGraph {
+    let sharp = FeatureGraph::by_angle(mesh, FRAC_PI_4).unwrap();
+    sharp.with(mesh, &FeatureGraph::boundary(mesh)).unwrap()
+}
+
+/// How far the nearest arm of a face is from its local edge `k`, in space.
+fn off_edge(mesh: &TriangleMesh, field: &OrientationField, face: usize, k: usize) -> f64 {
+    let arm = field.direction(mesh, face);
+    let p = mesh.corner_positions(face);
+    let edge: [f64; 3] = [0, 1, 2].map(|i| p[(k + 1) % 3][i] - p[k][i]);
+    let length = edge.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let cos = (0..3).map(|i| arm[i] * edge[i]).sum::<f64>() / length;
+    let angle = cos.clamp(-1.0, 1.0).acos();
+    let step = TAU / f64::from(field.symmetry());
+    (angle - step * (angle / step).round()).abs()
+}
+
+#[test]
+fn crosses_beside_a_feature_or_the_boundary_lie_along_it() {
+    for name in ["gear", "plane", "plate-with-holes", "disk"] {
+        let mesh = noisy(name, 3_000);
+        let features = features(&mesh);
+        let options = FieldOptions {
+            constraints: feature_constraints(&mesh, &features).unwrap(),
+            ..FieldOptions::default()
+        };
+        let (field, _) = field(&mesh, &options);
+        let mut followed = 0;
+        for face in 0..mesh.face_count() {
+            let sides = (0..3).filter(|&k| features.contains(mesh.edge_of(face, k)));
+            let sides: Vec<usize> = sides.collect();
+            for &k in &sides {
+                let off = off_edge(&mesh, &field, face, k);
+                match sides.len() {
+                    1 => assert!(off < 1e-7, "{name}: face {face} is off by {off}"),
+                    _ => assert!(off < FRAC_PI_4, "{name}: face {face} is off by {off}"),
+                }
+                followed += 1;
+            }
+        }
+        assert!(followed > 100, "{name}: {followed}");
+    }
+}
+
+/// A fan of thin triangles around the origin within `angle`, closed by its rim.
+fn wedge(angle: f64, faces: usize) -> TriangleMesh {
+    let mut vertices = vec![[0.0; 3]];
+    for i in 0..=faces {
+        let (sin, cos) = (angle * i as f64 / faces as f64).sin_cos();
+        vertices.push([cos, sin, 0.0]);
+    }
+    let triangle = |i: usize| [0, i as u32 + 1, i as u32 + 2];
+    TriangleMesh::new(vertices, (0..faces).map(triangle).collect()).unwrap()
+}
+
+#[test]
+fn a_narrow_wedge_becomes_one_quad_and_others_the_nearest_number() {
+    for (degrees, faces, quads) in [(10, 1, 1), (10, 2, 1), (40, 3, 1), (60, 2, 1), (100, 1, 1)] {
+        let mesh = wedge(f64::from(degrees).to_radians(), faces);
+        // The two straight sides alone.
+        let lines = [[0, 1], [0, faces + 1]];
+        let features = FeatureGraph::from_lines(&mesh, &lines).unwrap();
+        let options = FieldOptions {
+            constraints: feature_constraints(&mesh, &features).unwrap(),
+            ..FieldOptions::default()
+        };
+        let (field, _) = field(&mesh, &options);
+        // The arm nearest to the first side, followed to the last, counts the quarter turns.
+        let spin = |face: usize| {
+            let d = field.direction(&mesh, face);
+            d[1].atan2(d[0])
+        };
+        let start = spin(0) - FRAC_PI_2 * (spin(0) / FRAC_PI_2).round();
+        let mut arm = start;
+        for face in 1..faces {
+            let e = (0..mesh.edge_count()).find(|&e| {
+                let edge = mesh.edge(e);
+                edge.second
+                    .is_some_and(|(g, _)| [edge.first.0, g] == [face - 1, face])
+            });
+            let e = e.unwrap();
+            let residual = field.angles()[face] - field.angles()[face - 1] - field.kappa()[e];
+            arm += residual - FRAC_PI_2 * f64::from(field.period_jumps()[e]);
+        }
+        let last = f64::from(degrees).to_radians();
+        let counted = ((last - arm) / FRAC_PI_2).round();
+        assert_eq!(
+            counted,
+            f64::from(quads),
+            "{degrees} degrees, {faces} faces"
+        );
+    }
+}
+
+#[test]
+fn a_triangle_all_of_features_is_refused_by_its_face() {
+    let mesh = wedge(1.0, 1);
+    let features = FeatureGraph::boundary(&mesh);
+    let error = feature_constraints(&mesh, &features).unwrap_err();
+    assert_eq!((error.code(), error.index()), ("invalid_argument", Some(0)));
+}
+
+#[test]
+fn indices_of_every_symmetry_are_its_parts_and_sum_to_the_euler_characteristic() {
+    for symmetry in [1, 2, 4, 6] {
+        for name in [
+            "sphere",
+            "torus",
+            "genus-2",
+            "gear",
+            "disk",
+            "plate-with-holes",
+        ] {
+            let mesh = noisy(name, 900);
+            let options = FieldOptions {
+                symmetry,
+                constraints: curvature_constraints(&mesh, 0.02).unwrap(),
+                ..FieldOptions::default()
+            };
+            let (field, solution) = field(&mesh, &options);
+            let energy = field.energy(&mesh);
+            assert!((energy - solution.energy()).abs() < 1e-9 * energy.max(1.0));
+            let n = f64::from(symmetry);
+            let vertices = field.vertex_indices(&mesh);
+            let loops = field.boundary_indices(&mesh);
+            for index in vertices.iter().chain(&loops) {
+                assert!(
+                    (n * index - (n * index).round()).abs() < 1e-8,
+                    "{name} {index}"
+                );
+            }
+            for (a, b) in vertices.iter().zip(field.traced_indices(&mesh)) {
+                assert!((a - b).abs() < 1e-9, "{name}: {a} or {b}");
+            }
+            let euler = mesh.euler_characteristic() as f64;
+            assert!(
+                (field.index_sum(&mesh) - euler).abs() < 1e-6,
+                "{name}, N = {symmetry}"
+            );
+        }
+    }
+}
+
+#[test]
+fn prescribed_indices_are_reached_exactly() {
+    for (name, symmetry) in [("sphere", 4), ("sphere", 1), ("torus", 6), ("genus-2", 2)] {
+        let mesh = noisy(name, 2_000);
+        let last = mesh.vertex_count() - 1;
+        let steps = i32::from(symmetry) * mesh.euler_characteristic() as i32;
+        // All in two vertices, with a pair besides that cancels.
+        let given = [(0, steps - 3), (last, 3), (last / 2, 1), (last / 3, -1)];
+        let given = given.map(|(vertex, steps)| PrescribedIndex { vertex, steps });
+        let options = FieldOptions {
+            symmetry,
+            indices: Some(given.to_vec()),
+            ..FieldOptions::default()
+        };
+        let (field, solution) = field(&mesh, &options);
+        let mut expected = vec![0.0; mesh.vertex_count()];
+        for g in given {
+            expected[g.vertex] = f64::from(g.steps) / f64::from(symmetry);
+        }
+        for (v, (found, expected)) in field.vertex_indices(&mesh).iter().zip(expected).enumerate() {
+            assert!(
+                (found - expected).abs() < 1e-9,
+                "{name}: {v} has {found}, not {expected}"
+            );
+        }
+        let energy = field.energy(&mesh);
+        assert!(
+            (energy - solution.energy()).abs() < 1e-8 * energy.max(1.0),
+            "{name}"
+        );
+    }
+}
+
+#[test]
+fn a_boundary_takes_what_prescribed_indices_leave() {
+    let mesh = noisy("disk", 800);
+    let inner = (0..mesh.vertex_count()).find(|&v| !mesh.is_boundary_vertex(v));
+    let vertex = inner.unwrap();
+    for steps in [0, 1, -2] {
+        let options = FieldOptions {
+            indices: Some(vec![PrescribedIndex { vertex, steps }]),
+            ..FieldOptions::default()
+        };
+        let (field, _) = field(&mesh, &options);
+        let loops = field.boundary_indices(&mesh);
+        assert!(
+            (loops[0] - (1.0 - f64::from(steps) / 4.0)).abs() < 1e-8,
+            "{loops:?}"
+        );
+        assert_eq!(
+            field.irregular_vertices(&mesh).len(),
+            usize::from(steps != 0)
+        );
+    }
+}
+
+#[test]
+fn prescribed_indices_that_cannot_be_are_refused() {
+    let mesh = noisy("sphere", 500);
+    let refused = |given: &[(usize, i32)]| {
+        let given = given
+            .iter()
+            .map(|&(vertex, steps)| PrescribedIndex { vertex, steps });
+        let options = FieldOptions {
+            indices: Some(given.collect()),
+            ..FieldOptions::default()
+        };
+        let error = FieldProblem::with_options(&mesh, &options).unwrap_err();
+        (error.code(), error.index())
+    };
+    assert_eq!(refused(&[]), ("invalid_argument", None));
+    assert_eq!(refused(&[(0, 7)]), ("invalid_argument", None));
+    assert_eq!(
+        refused(&[(0, 4), (1, 2), (0, 2)]),
+        ("invalid_argument", Some(2))
+    );
+    let far = mesh.vertex_count();
+    assert_eq!(
+        refused(&[(0, 8), (far, 0)]),
+        ("index_out_of_range", Some(1))
+    );
+    let disk = noisy("disk", 500);
+    let rim = (0..).find(|&v| disk.is_boundary_vertex(v)).unwrap();
+    let options = FieldOptions {
+        indices: Some(vec![PrescribedIndex {
+            vertex: rim,
+            steps: 1,
+        }]),
+        ..FieldOptions::default()
+    };
+    let error = FieldProblem::with_options(&disk, &options).unwrap_err();
+    assert_eq!((error.code(), error.index()), ("invalid_argument", Some(0)));
+}
+
+#[test]
+fn guides_pull_with_their_weight_and_their_share_of_the_energy_is_told() {
+    let mesh = noisy("torus", 1_200);
+    let mut last = f64::INFINITY;
+    for weight in [0.01, 1.0, 100.0] {
+        let options = FieldOptions {
+            guides: curvature_guides(&mesh, weight).unwrap(),
+            ..FieldOptions::default()
+        };
+        let (field, solution) = field(&mesh, &options);
+        let (smooth, guided) = (field.energy(&mesh), field.guide_energy(&options.guides));
+        let error = (smooth + guided - solution.energy()).abs();
+        assert!(error < 1e-9 * solution.energy().max(1.0), "{error:e}");
+        let off: f64 = options
+            .guides
+            .iter()
+            .map(|g| (field.angles()[g.face] - g.angle).powi(2))
+            .sum();
+        assert!(off < last, "weight {weight}: {off}");
+        last = off;
+    }
+}
+
+#[test]
+fn curvature_counts_the_same_whatever_the_size_of_the_mesh() {
+    let mesh = noisy("gear", 1_000);
+    let large = mesh
+        .vertices()
+        .iter()
+        .map(|p| p.map(|x| 1000.0 * x))
+        .collect();
+    let large = TriangleMesh::new(large, mesh.triangles().to_vec()).unwrap();
+    let [small, large] = [&mesh, &large].map(|m| curvature_guides(m, 0.5).unwrap());
+    for (a, b) in small.iter().zip(&large) {
+        assert!((a.weight - b.weight).abs() < 1e-6 * a.weight.max(1e-6));
+    }
+    assert!(curvature_guides(&mesh, -1.0).is_err());
+    assert!(curvature_guides(&mesh, f64::NAN).is_err());
+}
+
+#[test]
+fn bad_options_of_a_field_are_refused_by_position() {
+    use roundel::quad::Guide;
+    let mesh = noisy("torus", 300);
+    let refused = |change: &dyn Fn(&mut FieldOptions)| {
+        let mut options = FieldOptions::default();
+        change(&mut options);
+        let error = FieldProblem::with_options(&mesh, &options).unwrap_err();
+        (error.code(), error.index())
+    };
+    for symmetry in [0, 3, 5, 8] {
+        let found = refused(&|o| o.symmetry = symmetry);
+        assert_eq!(found, ("invalid_argument", None));
+    }
+    let guides = |list: &[(usize, f64, f64)]| {
+        let list = list.iter().map(|&(face, angle, weight)| Guide {
+            face,
+            angle,
+            weight,
+        });
+        let list: Vec<Guide> = list.collect();
+        refused(&|o| o.guides = list.clone())
+    };
+    let far = mesh.face_count();
+    assert_eq!(
+        guides(&[(0, 0.0, 1.0), (far, 0.0, 1.0)]),
+        ("index_out_of_range", Some(1))
+    );
+    assert_eq!(guides(&[(0, f64::NAN, 1.0)]), ("not_finite", Some(0)));
+    assert_eq!(guides(&[(0, 0.0, f64::INFINITY)]), ("not_finite", Some(0)));
+    assert_eq!(
+        guides(&[(0, 0.0, 1.0), (1, 0.0, -1.0)]),
+        ("invalid_argument", Some(1))
+    );
+    assert_eq!(
+        guides(&[(2, PI, 1.0), (2, PI, 1.0)]),
+        ("invalid_argument", Some(1))
+    );
+}
