@@ -4,7 +4,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use roundel::mesh::TriangleMesh;
-use roundel::quad::{FieldProblem, OrientationField};
+use roundel::quad::{FieldOptions, OrientationField, solve_field};
 use roundel::{Error, Monitor, Options, Result};
 
 use super::Arguments;
@@ -20,11 +20,11 @@ pub(super) struct FieldSource {
 }
 
 /// The field of the command line.
-pub(super) fn of(
+pub(super) fn of<'a>(
     arguments: &Arguments,
     mesh: &TriangleMesh,
     options: &Options,
-    monitor: Monitor,
+    monitor: impl Fn() -> Monitor<'a>,
 ) -> Result<(OrientationField, FieldSource)> {
     match &arguments.field {
         Some(path) => read(path, mesh),
@@ -54,22 +54,26 @@ fn named(path: &Path, error: Error) -> Error {
     }
 }
 
-fn solve(
+fn solve<'a>(
     arguments: &Arguments,
     mesh: &TriangleMesh,
     options: &Options,
-    monitor: Monitor,
+    monitor: impl Fn() -> Monitor<'a>,
 ) -> Result<(OrientationField, FieldSource)> {
     let options = Options {
         strategy: arguments.field_strategy,
         ..options.clone()
     };
-    let problem = FieldProblem::new(mesh, &arguments.directions.constraints(mesh)?)?;
-    let solution = roundel::solve_with(problem.problem(), &options, monitor)?;
+    let follow = FieldOptions {
+        constraints: arguments.directions.constraints(mesh)?,
+        ..FieldOptions::default()
+    };
+    let started = Instant::now();
+    let (field, solution) = solve_field(mesh, &follow, &options, monitor)?;
     let source = FieldSource {
         strategy: Some(options.strategy.name()),
         energy: solution.energy(),
-        seconds: solution.seconds().total,
+        seconds: started.elapsed().as_secs_f64(),
     };
-    Ok((problem.field(mesh, &solution)?, source))
+    Ok((field, source))
 }

@@ -50,7 +50,7 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
     let started = Instant::now();
     let mesh = mesh::read(&arguments.mesh)?;
     let read = started.elapsed().as_secs_f64();
-    let (field, source) = field::of(arguments, &mesh, &options, monitor())?;
+    let (field, source) = field::of(arguments, &mesh, &options, &monitor)?;
     let started = Instant::now();
     let quads = arguments.quads;
     let problem = SeamlessProblem::new(&mesh, &field, &SeamlessOptions { quads })?;

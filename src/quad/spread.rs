@@ -1,0 +1,111 @@
+//! Indices that no map can have, spread over vertices nearby.
+//!
+//! The smoothest field may turn at one vertex as often as the surface does: the tip of a horn gets
+//! index 1, around which no angle is left for a map, as `2 pi (1 - I)` is what its triangles have to
+//! share. Where that is too little or more than they can hold, quarters move to the nearest vertices
+//! that can take them, and the field is solved for again with those indices prescribed.
+
+use std::collections::VecDeque;
+
+use super::{FieldOptions, FieldProblem, OrientationField, PrescribedIndex};
+use crate::mesh::TriangleMesh;
+use crate::{Error, Monitor, Options, Result, Solution, solve_with};
+
+/// Quarters of the largest index that a vertex keeps: half a turn is left, as at the end of a
+/// pillow.
+const MOST: i32 = 2;
+
+/// Quarters of the least index that a vertex keeps: six quads meet.
+const LEAST: i32 = -2;
+
+/// The smoothest field among those that a map can follow, and the solution that it was read from.
+///
+/// Indices that the caller prescribes are kept whatever they are, and so are those that constrained
+/// faces decide.
+///
+/// # Errors
+/// Those of [`FieldProblem::with_options`], of [`solve`](crate::solve) and of
+/// [`FieldProblem::field`].
+pub fn solve_field<'a>(
+    mesh: &TriangleMesh,
+    options: &FieldOptions,
+    solver: &Options,
+    monitor: impl Fn() -> Monitor<'a>,
+) -> Result<(OrientationField, Solution)> {
+    let problem = FieldProblem::with_options(mesh, options)?;
+    let solution = solve_with(problem.problem(), solver, monitor())?;
+    let field = problem.field(mesh, &solution)?;
+    if options.indices.is_some() || options.symmetry != 4 {
+        return Ok((field, solution));
+    }
+    let Some(indices) = spread(mesh, &field) else {
+        return Ok((field, solution));
+    };
+    let spread = FieldOptions {
+        indices: Some(indices),
+        ..options.clone()
+    };
+    let again = FieldProblem::with_options(mesh, &spread).and_then(|problem| {
+        let solution = solve_with(problem.problem(), solver, monitor())?;
+        Ok((problem.field(mesh, &solution)?, solution))
+    });
+    match again {
+        // Directions that are given may decide an index.
+        Err(
+            Error::InvalidArgument { .. }
+            | Error::Infeasible { .. }
+            | Error::NoIntegerSolution { .. },
+        ) => Ok((field, solution)),
+        other => other,
+    }
+}
+
+/// The indices of a field with none beyond what a map can have; none where that is so already.
+fn spread(mesh: &TriangleMesh, field: &OrientationField) -> Option<Vec<PrescribedIndex>> {
+    let env=|n:&str,d:i32| std::env::var(n).ok().and_then(|x| x.parse().ok()).unwrap_or(d);
+    let most=env("X_MOST",MOST);
+    let indices = field.vertex_indices(mesh);
+    let mut steps: Vec<i32> = indices.iter().map(|i| (4.0 * i).round() as i32).collect();
+    let found = steps.clone();
+    for v in 0..steps.len() {
+        while steps[v] > most {
+            let to = nearest(mesh, v, |w| steps[w] < 1)?;
+            steps[v] -= 1;
+            steps[to] += 1;
+        }
+        while steps[v] < least(mesh, v) {
+            let to = nearest(mesh, v, |w| steps[w] > least(mesh, w).max(-1))?;
+            steps[v] += 1;
+            steps[to] -= 1;
+        }
+    }
+    let irregular = (0..steps.len()).filter(|&v| steps[v] != 0);
+    let indices = irregular.map(|vertex| PrescribedIndex {
+        vertex,
+        steps: steps[vertex],
+    });
+    (steps != found).then(|| indices.collect())
+}
+
+/// The least quarters for a vertex: its triangles share less than half a turn each.
+fn least(mesh: &TriangleMesh, vertex: usize) -> i32 {
+    LEAST.max(5 - 2 * mesh.face_degree(vertex) as i32)
+}
+
+/// The first interior vertex breadth-first from one, itself excepted, that will do.
+fn nearest(mesh: &TriangleMesh, from: usize, will_do: impl Fn(usize) -> bool) -> Option<usize> {
+    let mut is_seen = std::collections::BTreeSet::from([from]);
+    let mut queue = VecDeque::from([from]);
+    while let Some(v) = queue.pop_front() {
+        for (face, corner) in mesh.ring(v) {
+            let w = mesh.corners(face)[(corner + 1) % 3];
+            if is_seen.insert(w) {
+                if !mesh.is_boundary_vertex(w) && will_do(w) {
+                    return Some(w);
+                }
+                queue.push_back(w);
+            }
+        }
+    }
+    None
+}
