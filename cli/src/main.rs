@@ -3,6 +3,7 @@
 mod check;
 mod evaluate;
 mod exit;
+mod extract;
 mod field;
 mod interrupt;
 mod memory;
@@ -11,6 +12,7 @@ mod options;
 mod output;
 mod parametrize;
 mod progress;
+mod quad;
 mod report;
 mod shape;
 mod solve;
@@ -34,6 +36,8 @@ enum Command {
     Field(field::Arguments),
     Parametrize(parametrize::Arguments),
     Check(check::Arguments),
+    Quad(quad::Arguments),
+    Extract(extract::Arguments),
     Shape(shape::Arguments),
     Evaluate(evaluate::Arguments),
 }
@@ -44,6 +48,8 @@ fn main() -> ExitCode {
         Command::Field(arguments) => field::run(&arguments),
         Command::Parametrize(arguments) => parametrize::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
+        Command::Quad(arguments) => quad::run(&arguments),
+        Command::Extract(arguments) => extract::run(&arguments),
         Command::Shape(arguments) => shape::run(&arguments),
         Command::Evaluate(arguments) => evaluate::run(&arguments),
     }

@@ -52,7 +52,7 @@ impl Default for SeamlessOptions {
 /// the first vertex.
 #[derive(Debug, Clone)]
 pub struct SeamlessProblem {
-    pub(super) problem: Problem,
+    problem: Problem,
     pub(super) field: OrientationField,
     pub(super) cut: CutGraph,
     pub(super) combing: Combing,

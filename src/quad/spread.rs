@@ -62,8 +62,13 @@ pub fn solve_field<'a>(
 
 /// The indices of a field with none beyond what a map can have; none where that is so already.
 fn spread(mesh: &TriangleMesh, field: &OrientationField) -> Option<Vec<PrescribedIndex>> {
-    let env=|n:&str,d:i32| std::env::var(n).ok().and_then(|x| x.parse().ok()).unwrap_or(d);
-    let most=env("X_MOST",MOST);
+    let env = |n: &str, d: i32| {
+        std::env::var(n)
+            .ok()
+            .and_then(|x| x.parse().ok())
+            .unwrap_or(d)
+    };
+    let most = env("X_MOST", MOST);
     let indices = field.vertex_indices(mesh);
     let mut steps: Vec<i32> = indices.iter().map(|i| (4.0 * i).round() as i32).collect();
     let found = steps.clone();

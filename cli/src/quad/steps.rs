@@ -1,0 +1,128 @@
+//! The steps from a mesh to quads, timed.
+
+use std::time::Instant;
+
+use roundel::mesh::TriangleMesh;
+use roundel::quad::untangle::{UntangleOptions, Untangled, solve_unfolded};
+use roundel::quad::{
+    FieldOptions, IntegerGridMap, OrientationField, QuadMesh, SeamlessOptions, SeamlessProblem,
+    SmoothOptions, extract, smooth, solve_field,
+};
+use roundel::{CancelToken, Options, Result, Solution};
+
+use super::Arguments;
+use crate::progress::Progress;
+use crate::{interrupt, mesh};
+
+/// Quads, and how they were come by.
+pub(super) struct Solved {
+    pub(super) mesh: TriangleMesh,
+    pub(super) solution: Solution,
+    pub(super) options: Options,
+    pub(super) untangled: Untangled,
+    pub(super) quads: QuadMesh,
+    pub(super) seconds: Seconds,
+}
+
+/// Wall-clock seconds a phase.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Seconds {
+    pub(super) read: f64,
+    pub(super) field: f64,
+    pub(super) map: f64,
+    pub(super) quads: f64,
+    pub(super) smooth: f64,
+}
+
+/// Who watches, and may cancel.
+struct Watch {
+    progress: Progress,
+    token: CancelToken,
+}
+
+impl Watch {
+    fn monitor(&self) -> roundel::Monitor<'_> {
+        self.progress.monitor().cancel_token(self.token.clone())
+    }
+}
+
+pub(super) fn solve(arguments: &Arguments) -> Result<Solved> {
+    let watch = Watch {
+        token: interrupt::cancel_token()?,
+        progress: Progress::start(),
+    };
+    let options = arguments.solver.over(Options::default())?;
+    let mut seconds = Seconds::default();
+    let mesh = timed(&mut seconds.read, || mesh::read(&arguments.mesh))?;
+    let field = timed(&mut seconds.field, || {
+        field(arguments, &mesh, &options, &watch)
+    })?;
+    let (solution, untangled) = timed(&mut seconds.map, || {
+        map(arguments, &mesh, &field, &options, &watch)
+    })?;
+    watch.progress.say("quads");
+    let mut quads = timed(&mut seconds.quads, || {
+        let map = IntegerGridMap::from_seamless(&mesh, &untangled.map)?;
+        extract(&mesh, &map, &watch.token)
+    })?;
+    if !arguments.no_smooth {
+        watch.progress.say("smooth");
+        timed(&mut seconds.smooth, || {
+            smooth(&mut quads, &mesh, &SmoothOptions::default(), &watch.token)
+        })?;
+    }
+    if let Some(path) = &arguments.out {
+        quads.write_obj(path)?;
+    }
+    Ok(Solved {
+        mesh,
+        solution,
+        options,
+        untangled,
+        quads,
+        seconds,
+    })
+}
+
+fn field(
+    arguments: &Arguments,
+    mesh: &TriangleMesh,
+    options: &Options,
+    watch: &Watch,
+) -> Result<OrientationField> {
+    let options = Options {
+        strategy: arguments.field_strategy,
+        ..options.clone()
+    };
+    let follow = FieldOptions {
+        constraints: arguments.directions.constraints(mesh)?,
+        ..FieldOptions::default()
+    };
+    Ok(solve_field(mesh, &follow, &options, || watch.monitor())?.0)
+}
+
+fn map(
+    arguments: &Arguments,
+    mesh: &TriangleMesh,
+    field: &OrientationField,
+    options: &Options,
+    watch: &Watch,
+) -> Result<(Solution, Untangled)> {
+    let quads = arguments.target(mesh);
+    let problem = SeamlessProblem::new(mesh, field, &SeamlessOptions { quads })?;
+    if arguments.no_untangle {
+        let solution = roundel::solve_with(problem.problem(), options, watch.monitor())?;
+        let map = problem.map(mesh, &solution)?;
+        return Ok((solution, Untangled::as_it_is(map)));
+    }
+    let effort = UntangleOptions::default();
+    let unfolded = solve_unfolded(mesh, &problem, options, &effort, || watch.monitor())?;
+    Ok((unfolded.solution, unfolded.untangled))
+}
+
+fn timed<T>(seconds: &mut f64, step: impl FnOnce() -> T) -> T {
+    let started = Instant::now();
+    let result = step();
+    *seconds = started.elapsed().as_secs_f64();
+    result
+}
