@@ -7,7 +7,7 @@
 
 use std::collections::VecDeque;
 
-use super::{FieldOptions, FieldProblem, OrientationField, PrescribedIndex};
+use super::{Constraint, FieldOptions, FieldProblem, OrientationField, PrescribedIndex};
 use crate::mesh::TriangleMesh;
 use crate::{Error, Monitor, Options, Result, Solution, solve_with};
 
@@ -20,8 +20,8 @@ const LEAST: i32 = -2;
 
 /// The smoothest field among those that a map can follow, and the solution that it was read from.
 ///
-/// Indices that the caller prescribes are kept whatever they are, and so are those that constrained
-/// faces decide.
+/// Indices that the caller prescribes are kept whatever they are. Directions of faces around a vertex
+/// give way where they alone decide an index that no map can have.
 ///
 /// # Errors
 /// Those of [`FieldProblem::with_options`], of [`solve`](crate::solve) and of
@@ -41,39 +41,50 @@ pub fn solve_field<'a>(
     let Some(indices) = spread(mesh, &field) else {
         return Ok((field, solution));
     };
-    let spread = FieldOptions {
+    let solve_spread = |options: FieldOptions| {
+        let problem = FieldProblem::with_options(mesh, &options)?;
+        let solution = solve_with(problem.problem(), solver, monitor())?;
+        Ok((problem.field(mesh, &solution)?, solution))
+    };
+    let mut spread = FieldOptions {
         indices: Some(indices),
         ..options.clone()
     };
-    let again = FieldProblem::with_options(mesh, &spread).and_then(|problem| {
-        let solution = solve_with(problem.problem(), solver, monitor())?;
-        Ok((problem.field(mesh, &solution)?, solution))
-    });
-    match again {
-        // Directions that are given may decide an index.
-        Err(
-            Error::InvalidArgument { .. }
-            | Error::Infeasible { .. }
-            | Error::NoIntegerSolution { .. },
-        ) => Ok((field, solution)),
-        other => other,
+    for _ in 0..2 {
+        match solve_spread(spread.clone()) {
+            // Directions alone may decide an index.
+            Err(
+                Error::InvalidArgument { .. }
+                | Error::Infeasible { .. }
+                | Error::NoIntegerSolution { .. },
+            ) => give_way(mesh, &field, &mut spread),
+            other => return other,
+        }
     }
+    Ok((field, solution))
+}
+
+/// Takes the directions away of faces around vertices whose index is another than the field's.
+fn give_way(mesh: &TriangleMesh, field: &OrientationField, options: &mut FieldOptions) {
+    let mut steps = steps(mesh, field);
+    for given in options.indices.iter().flatten() {
+        steps[given.vertex] -= given.steps;
+    }
+    let is_kept = |c: &Constraint| mesh.corners(c.face).iter().all(|&v| steps[v] == 0);
+    options.constraints.retain(is_kept);
+}
+
+fn steps(mesh: &TriangleMesh, field: &OrientationField) -> Vec<i32> {
+    let indices = field.vertex_indices(mesh);
+    indices.iter().map(|i| (4.0 * i).round() as i32).collect()
 }
 
 /// The indices of a field with none beyond what a map can have; none where that is so already.
 fn spread(mesh: &TriangleMesh, field: &OrientationField) -> Option<Vec<PrescribedIndex>> {
-    let env = |n: &str, d: i32| {
-        std::env::var(n)
-            .ok()
-            .and_then(|x| x.parse().ok())
-            .unwrap_or(d)
-    };
-    let most = env("X_MOST", MOST);
-    let indices = field.vertex_indices(mesh);
-    let mut steps: Vec<i32> = indices.iter().map(|i| (4.0 * i).round() as i32).collect();
+    let mut steps = steps(mesh, field);
     let found = steps.clone();
     for v in 0..steps.len() {
-        while steps[v] > most {
+        while steps[v] > MOST {
             let to = nearest(mesh, v, |w| steps[w] < 1)?;
             steps[v] -= 1;
             steps[to] += 1;

@@ -36,6 +36,8 @@ struct Solved {
     untangled: Untangled,
     /// How often integers were decided anew.
     rounds: usize,
+    /// How often the map was made finer.
+    refinements: usize,
     /// Seconds of the map beside those of the last solve.
     untangle_seconds: f64,
     solution: Solution,
@@ -77,6 +79,7 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
         solution,
         untangled,
         rounds,
+        refinements,
         ..
     } = unfolded;
     let untangle_seconds = solved - solution.seconds().total;
@@ -89,6 +92,7 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
         field: source,
         untangled,
         rounds,
+        refinements,
         untangle_seconds,
         solution,
         before: Preparation {

@@ -29,6 +29,7 @@ pub struct MapReport<'a> {
 #[derive(Serialize)]
 struct Untangling {
     rounds: usize,
+    refinements: usize,
     steps: usize,
     seconds: f64,
     stuck_faces: Vec<usize>,
@@ -69,6 +70,7 @@ impl<'a> MapReport<'a> {
             flipped_faces: map.flipped(),
             untangle: Untangling {
                 rounds: solved.rounds,
+                refinements: solved.refinements,
                 steps: untangled.steps,
                 seconds: solved.untangle_seconds,
                 stuck_faces: untangled.stuck_faces.clone(),

@@ -20,6 +20,7 @@ impl fmt::Display for MapSummary<'_> {
             untangled,
             untangle_seconds,
             rounds,
+            refinements,
             solution,
             before,
         } = self.solved;
@@ -45,9 +46,10 @@ impl fmt::Display for MapSummary<'_> {
         let search = seconds.factor + seconds.round;
         line(f, options.strategy.name(), &found, search)?;
         let unfolded = format!(
-            "{} flipped, {}, {}",
+            "{} flipped, {}, {}, {}",
             counted(untangled.flipped_before, "face"),
             counted(*rounds, "round"),
+            counted(*refinements, "refinement"),
             counted(untangled.steps, "step")
         );
         line(f, "untangle", &unfolded, *untangle_seconds)?;

@@ -40,6 +40,13 @@ use region::{Region, regions};
 use stuck::Stuck;
 use system::System;
 
+fn x_env(n: &str, d: f64) -> f64 {
+    std::env::var(n)
+        .ok()
+        .and_then(|x| x.parse().ok())
+        .unwrap_or(d)
+}
+
 /// Not in the region at hand.
 const NONE: u32 = u32::MAX;
 
@@ -55,6 +62,8 @@ pub struct UntangleOptions {
     pub passes: usize,
     /// How often the integers of collapsed cones are decided anew.
     pub rounds: usize,
+    /// How often a map that keeps folds is made finer.
+    pub refinements: usize,
 }
 
 impl Default for UntangleOptions {
@@ -62,7 +71,8 @@ impl Default for UntangleOptions {
         UntangleOptions {
             steps: 100,
             passes: 200,
-            rounds: 4,
+            rounds: x_env("X_ROUNDS", 8.0) as usize,
+            refinements: x_env("X_REF", 2.0) as usize,
         }
     }
 }

@@ -1,9 +1,12 @@
-//! Cones that rounding has put on top of each other, held apart.
+//! Cones that rounding has put on top of each other, or on the wrong side, held apart.
 //!
-//! Two cones that an edge joins cannot lie at one point, nor three of a face on one line: whatever
-//! else moves, the faces there stay without area. Such integers are decided anew with the cones held
-//! apart by constraints: along the coordinate in which the edge should be longest by one unit, or,
-//! for a face, by the nearest triangle of units that is the right way round.
+//! Two cones that a short path joins cannot lie at one point, nor three of a face on one line:
+//! whatever else moves, the faces between them stay without area. Such integers are decided anew
+//! with the cones held apart by constraints: along the coordinate in which the path should be
+//! longest by its rounded length, one unit at least, or, for a face, by the nearest triangle of
+//! units that is the right way round.
+
+use std::collections::VecDeque;
 
 use crate::mesh::TriangleMesh;
 use crate::mesh::vector::{dot, sub};
@@ -11,48 +14,65 @@ use crate::quad::check::orientation;
 use crate::quad::{SeamlessMap, SeamlessProblem};
 use crate::{Problem, Result};
 
+/// How many edges a path between two cones has at most.
+const LONGEST_PATH: usize = 4;
+
+/// Two copies of cones in one chart, and by how much the coordinates should differ from the first
+/// to the second: along a shortest path between them.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct NearCones {
+    pub copies: [u32; 2],
+    pub vertices: [u32; 2],
+    aim: [f64; 2],
+}
+
 /// What the integers of cones collapse.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Collapsed {
-    /// Edges whose two ends are cones at one point, in increasing order.
-    pub edges: Vec<usize>,
+    /// Pairs of cones at one point or the wrong way round.
+    pub(super) pairs: Vec<NearCones>,
     /// Faces of three cones, no two at one point, that are collinear or clockwise.
-    pub faces: Vec<usize>,
+    pub(super) faces: Vec<usize>,
 }
 
 impl Collapsed {
     /// What is collapsed in a map of this mesh.
-    pub fn find(mesh: &TriangleMesh, map: &SeamlessMap) -> Self {
+    pub(super) fn find(mesh: &TriangleMesh, near: &[NearCones], map: &SeamlessMap) -> Self {
+        let uv = map.vertex_uvs();
+        let is_collapsed = |pair: &&NearCones| {
+            let [a, b] = pair.copies.map(|c| uv[c as usize]);
+            let along = [0, 1].map(|i| (b[i] - a[i]).round());
+            along[0] * pair.aim[0] + along[1] * pair.aim[1] <= 0.0
+        };
+        let pairs = near.iter().filter(is_collapsed).copied().collect();
         let mut is_cone = vec![false; mesh.vertex_count()];
         map.cones().iter().for_each(|&v| is_cone[v] = true);
-        let is_collapsed = |&e: &usize| {
-            let edge = mesh.edge(e);
-            let (face, k) = edge.first;
-            let uv = map.uv(face);
-            let (a, b) = (uv[k], uv[(k + 1) % 3]);
-            // Both at integers, which are equal or far apart.
-            edge.vertices.iter().all(|&v| is_cone[v]) && (a[0] - b[0]).hypot(a[1] - b[1]) < 0.5
-        };
-        let edges: Vec<usize> = (0..mesh.edge_count()).filter(is_collapsed).collect();
         let is_lost = |&face: &usize| {
-            let corners = mesh.corners(face);
-            let is_short = |k: usize| edges.binary_search(&mesh.edge_of(face, k)).is_ok();
-            corners.iter().all(|&v| is_cone[v])
+            let at = map.uv(face).map(|p| p.map(f64::round));
+            let is_short = |k: usize| at[k] == at[(k + 1) % 3];
+            mesh.corners(face).iter().all(|&v| is_cone[v])
                 && !(0..3).any(is_short)
-                && orientation(map.uv(face).map(|p| p.map(f64::round))) <= 0.0
+                && orientation(at) <= 0.0
         };
         let faces = (0..mesh.face_count()).filter(is_lost).collect();
-        Collapsed { edges, faces }
+        Collapsed { pairs, faces }
     }
 
     /// How many elements.
     pub fn count(&self) -> usize {
-        self.edges.len() + self.faces.len()
+        self.pairs.len() + self.faces.len()
     }
 
     /// Whether there is nothing.
     pub fn is_empty(&self) -> bool {
-        self.edges.is_empty() && self.faces.is_empty()
+        self.count() == 0
+    }
+
+    /// The two cones of each pair.
+    pub fn cones(&self) -> impl Iterator<Item = [usize; 2]> + '_ {
+        self.pairs
+            .iter()
+            .map(|pair| pair.vertices.map(|v| v as usize))
     }
 }
 
@@ -64,7 +84,17 @@ pub(super) struct Apart {
 }
 
 impl Apart {
-    pub fn add_to(&self, problem: &mut Problem) -> Result<()> {
+    fn new(copies: [u32; 2], axis: usize, by: f64) -> Self {
+        let unknowns = copies.map(|copy| 2 * copy as usize + axis);
+        Apart { unknowns, by }
+    }
+
+    /// Whether both are about the same two coordinates.
+    pub(super) fn is_between(&self, other: &Self) -> bool {
+        self.unknowns == other.unknowns
+    }
+
+    pub(super) fn add_to(&self, problem: &mut Problem) -> Result<()> {
         let [a, b] = self.unknowns;
         problem.add_constraint(&[b, a], &[1.0, -1.0], self.by)?;
         Ok(())
@@ -72,6 +102,58 @@ impl Apart {
 }
 
 impl SeamlessProblem {
+    /// Pairs of cones that a path of a few edges joins, no other cone on it and no cut across it.
+    pub(super) fn near_cones(&self, mesh: &TriangleMesh) -> Vec<NearCones> {
+        let mut is_cone = vec![false; mesh.vertex_count()];
+        self.cones.iter().for_each(|&v| is_cone[v] = true);
+        let mut found = Vec::new();
+        for &v in &self.cones {
+            for copy in self.sectors.first[v]..self.sectors.first[v + 1] {
+                self.paths_from(mesh, [v as u32, copy], &is_cone, &mut found);
+            }
+        }
+        found
+    }
+
+    /// Breadth-first from a copy of a cone; each pair is found from its lower cone.
+    fn paths_from(
+        &self,
+        mesh: &TriangleMesh,
+        [from, copy]: [u32; 2],
+        is_cone: &[bool],
+        found: &mut Vec<NearCones>,
+    ) {
+        let mut reached = std::collections::BTreeSet::from([copy]);
+        let mut queue = VecDeque::from([(from as usize, copy, [0.0; 2], 0)]);
+        while let Some((v, at, aim, length)) = queue.pop_front() {
+            for (face, corner) in mesh.ring(v) {
+                if self.sectors.copy[face][corner] != at {
+                    continue;
+                }
+                for end in [(corner + 1) % 3, (corner + 2) % 3] {
+                    let next = self.sectors.copy[face][end];
+                    if !reached.insert(next) {
+                        continue;
+                    }
+                    let w = mesh.corners(face)[end];
+                    let step = self.aim(mesh, face, corner, end);
+                    let aim = [aim[0] + step[0], aim[1] + step[1]];
+                    if !is_cone[w] {
+                        if length + 1 < LONGEST_PATH {
+                            queue.push_back((w, next, aim, length + 1));
+                        }
+                    } else if from < w as u32 {
+                        found.push(NearCones {
+                            copies: [copy, next],
+                            vertices: [from, w as u32],
+                            aim,
+                        });
+                    }
+                }
+            }
+        }
+    }
+
     /// The constraints that hold collapsed cones apart.
     ///
     /// No two cones are joined twice, so that they seldom contradict each other; constraints of
@@ -83,20 +165,20 @@ impl SeamlessProblem {
             let [a, b, c] = mesh.corners(face);
             if joined.join(a, b) && joined.join(a, c) {
                 let [ab, ac] = units(self.aim(mesh, face, 0, 1), self.aim(mesh, face, 0, 2));
+                let copies = self.sectors.copy[face];
                 for axis in 0..2 {
-                    found.push(self.hold_apart(face, [0, 1], axis, ab[axis]));
-                    found.push(self.hold_apart(face, [0, 2], axis, ac[axis]));
+                    found.push(Apart::new([copies[0], copies[1]], axis, ab[axis]));
+                    found.push(Apart::new([copies[0], copies[2]], axis, ac[axis]));
                 }
             }
         }
-        for &e in &collapsed.edges {
-            let edge = mesh.edge(e);
-            let (face, k) = edge.first;
-            if joined.join(edge.vertices[0], edge.vertices[1]) {
-                let aim = self.aim(mesh, face, k, (k + 1) % 3);
-                let axis = usize::from(aim[1].abs() > aim[0].abs());
-                let unit = 1f64.copysign(aim[axis]);
-                found.push(self.hold_apart(face, [k, (k + 1) % 3], axis, unit));
+        for pair in &collapsed.pairs {
+            let [a, b] = pair.vertices.map(|v| v as usize);
+            if joined.join(a, b) {
+                let axis = usize::from(pair.aim[1].abs() > pair.aim[0].abs());
+                let aim = pair.aim[axis];
+                let by = aim.abs().round().max(1.0).copysign(aim);
+                found.push(Apart::new(pair.copies, axis, by));
             }
         }
         found
@@ -107,11 +189,6 @@ impl SeamlessProblem {
         let corners = mesh.corner_positions(face);
         let step = sub(corners[to], corners[from]);
         self.targets(mesh, face).map(|target| dot(target, step))
-    }
-
-    fn hold_apart(&self, face: usize, ends: [usize; 2], axis: usize, by: f64) -> Apart {
-        let unknowns = ends.map(|k| 2 * self.sectors.copy[face][k] as usize + axis);
-        Apart { unknowns, by }
     }
 }
 

@@ -1,10 +1,13 @@
-//! From the problem to a map without folds: decide, hold apart, decide anew, untangle.
+//! From the problem to a map without folds: decide, hold apart, decide anew, untangle, refine.
 
-use super::separate::Apart;
+use super::separate::{Apart, NearCones};
 use super::{Collapsed, UntangleOptions, Untangled, untangle};
 use crate::mesh::TriangleMesh;
 use crate::quad::{SeamlessMap, SeamlessProblem};
 use crate::{Error, Monitor, Options, Problem, Result, Solution, Strategy, solve_with};
+
+/// By how much a refinement multiplies the lengths of the map: about twice as many quads.
+const REFINEMENT: f64 = std::f64::consts::SQRT_2;
 
 /// A map, the solution that its integers are from, and what became of it.
 #[derive(Debug)]
@@ -15,6 +18,8 @@ pub struct Unfolded {
     pub untangled: Untangled,
     /// How often integers were decided anew.
     pub rounds: usize,
+    /// How often the map was made finer, each time by the square root of two in length.
+    pub refinements: usize,
     /// What the integers still collapse.
     pub collapsed: Collapsed,
 }
@@ -26,16 +31,19 @@ impl Unfolded {
             untangled: Untangled::as_it_is(map),
             solution,
             rounds: 0,
+            refinements: 0,
             collapsed: Collapsed::default(),
         }
     }
 }
 
 /// Solves the problem, holds apart the cones that its integers collapse and solves again, at most
-/// `options.rounds` times, and untangles the map. `monitor` watches each solve and the untangling.
+/// `options.rounds` times, and untangles the map. Where folds are left, the same is done for a finer
+/// map, at most `options.refinements` times; of all maps the first with the fewest folds is kept.
+/// `monitor` watches each solve and each untangling.
 ///
-/// A round that collapses as much as the one before is the last, and not kept. With
-/// [`Strategy::Relax`] there are no integers to speak of, and the map is that of the relaxation.
+/// With [`Strategy::Relax`] there are no integers to speak of, and the map is that of the
+/// relaxation.
 ///
 /// # Errors
 /// Those of [`solve`](crate::solve) for the first solve and of [`untangle`]; a later solve that fails
@@ -47,33 +55,94 @@ pub fn solve_unfolded<'a>(
     options: &UntangleOptions,
     monitor: impl Fn() -> Monitor<'a>,
 ) -> Result<Unfolded> {
-    let mut solution = solve_with(problem.problem(), solver, monitor())?;
-    let mut map = problem.map(mesh, &solution)?;
-    let mut collapsed = Collapsed::find(mesh, &map);
-    let mut rounds = 0;
     if solver.strategy == Strategy::Relax {
+        let solution = solve_with(problem.problem(), solver, monitor())?;
+        let map = problem.map(mesh, &solution)?;
         return Ok(Unfolded::as_it_is(solution, map));
     }
-    let mut apart = Vec::new();
-    while !collapsed.is_empty() && rounds < options.rounds {
-        apart.extend(problem.apart(mesh, &collapsed));
-        let Some(found) = solve_apart(problem.problem(), &mut apart, solver, &monitor)? else {
+    let mut best = solve_size(mesh, problem, solver, options, &monitor)?;
+    for refinements in 1..=options.refinements {
+        if best.untangled.flipped_after == 0 {
+            break;
+        }
+        let finer = problem.refined(mesh, REFINEMENT.powi(refinements as i32))?;
+        let found = solve_size(mesh, &finer, solver, options, &monitor)?;
+        if found.untangled.flipped_after < best.untangled.flipped_after {
+            best = Unfolded {
+                refinements,
+                ..found
+            };
+        }
+    }
+    Ok(best)
+}
+
+/// A map of the size that the problem aims at.
+fn solve_size<'a>(
+    mesh: &TriangleMesh,
+    problem: &SeamlessProblem,
+    solver: &Options,
+    options: &UntangleOptions,
+    monitor: &impl Fn() -> Monitor<'a>,
+) -> Result<Unfolded> {
+    let near = problem.near_cones(mesh);
+    let mut best = Decided::new(
+        mesh,
+        problem,
+        &near,
+        solve_with(problem.problem(), solver, monitor())?,
+    )?;
+    let mut rounds = 0;
+    let mut apart = problem.apart(mesh, &best.collapsed);
+    while !best.collapsed.is_empty() && rounds < options.rounds {
+        let Some(solution) = solve_apart(problem.problem(), &mut apart, solver, monitor)? else {
             break;
         };
         rounds += 1;
-        let found_map = problem.map(mesh, &found)?;
-        let left = Collapsed::find(mesh, &found_map);
-        if left.count() >= collapsed.count() {
+        let found = Decided::new(mesh, problem, &near, solution)?;
+        let before = apart.len();
+        for constraint in problem.apart(mesh, &found.collapsed) {
+            if !apart.iter().any(|known| known.is_between(&constraint)) {
+                apart.push(constraint);
+            }
+        }
+        if found.collapsed.count() < best.collapsed.count() {
+            best = found;
+        }
+        if apart.len() == before {
             break;
         }
-        (solution, map, collapsed) = (found, found_map, left);
     }
     Ok(Unfolded {
-        untangled: untangle(mesh, problem, &map, options, &mut monitor())?,
-        solution,
+        untangled: untangle(mesh, problem, &best.map, options, &mut monitor())?,
+        solution: best.solution,
         rounds,
-        collapsed,
+        refinements: 0,
+        collapsed: best.collapsed,
     })
+}
+
+/// Integers, and what they collapse.
+struct Decided {
+    solution: Solution,
+    map: SeamlessMap,
+    collapsed: Collapsed,
+}
+
+impl Decided {
+    fn new(
+        mesh: &TriangleMesh,
+        problem: &SeamlessProblem,
+        near: &[NearCones],
+        solution: Solution,
+    ) -> Result<Self> {
+        let map = problem.map(mesh, &solution)?;
+        Ok(Decided {
+            collapsed: Collapsed::find(mesh, near, &map),
+            solution,
+            map,
+        })
+    }
 }
 
 /// Solves with constraints that hold cones apart, without those found to contradict the others.
