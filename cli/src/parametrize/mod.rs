@@ -3,6 +3,7 @@
 mod arguments;
 mod field;
 mod report;
+mod sizing;
 mod summary;
 
 use std::time::Instant;
@@ -10,7 +11,7 @@ use std::time::Instant;
 use roundel::mesh::TriangleMesh;
 use roundel::problem::mps::{self, MpsProblem};
 use roundel::quad::untangle::{Unfolded, UntangleOptions, Untangled, solve_unfolded};
-use roundel::quad::{SeamlessOptions, SeamlessProblem};
+use roundel::quad::{SeamlessProblem, Sizing};
 use roundel::{Options, Result, Solution};
 
 use crate::exit::Exit;
@@ -20,6 +21,7 @@ use crate::{interrupt, mesh, output};
 pub use arguments::Arguments;
 use field::FieldSource;
 use report::MapReport;
+pub use sizing::SizingFlags;
 use summary::MapSummary;
 
 /// Runs the command and tells its outcome, once.
@@ -33,6 +35,9 @@ struct Solved {
     options: Options,
     mesh: TriangleMesh,
     field: FieldSource,
+    sizing: Sizing,
+    /// Edges that are isolines.
+    features: usize,
     untangled: Untangled,
     /// How often integers were decided anew.
     rounds: usize,
@@ -52,10 +57,12 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
     let started = Instant::now();
     let mesh = mesh::read(&arguments.mesh)?;
     let read = started.elapsed().as_secs_f64();
-    let (field, source) = field::of(arguments, &mesh, &options, &monitor)?;
+    let (guidance, features) = arguments.directions.of(&mesh, 4)?;
+    let follows = (&guidance, &features);
+    let (field, source) = field::of(arguments, &mesh, follows, &options, &monitor)?;
     let started = Instant::now();
-    let quads = arguments.quads;
-    let problem = SeamlessProblem::new(&mesh, &field, &SeamlessOptions { quads })?;
+    let sizing = arguments.sizing.of()?;
+    let problem = SeamlessProblem::with_features(&mesh, &field, &sizing, &features)?;
     // The problem holds what it needs of it.
     drop(field);
     let assemble = started.elapsed().as_secs_f64();
@@ -90,6 +97,8 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
         options,
         mesh,
         field: source,
+        sizing,
+        features: features.edges().count(),
         untangled,
         rounds,
         refinements,

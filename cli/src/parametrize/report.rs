@@ -1,5 +1,6 @@
 //! The JSON object of a map: that of a solve, and what is known of the mesh and its field.
 
+use roundel::quad::Sizing;
 use serde::Serialize;
 
 use super::{Arguments, Solved};
@@ -14,7 +15,10 @@ pub struct MapReport<'a> {
     solve: Report<'a>,
     faces: usize,
     vertices: usize,
-    quads: usize,
+    /// What was asked for; null where a length was.
+    quads: Option<usize>,
+    edge_length: Option<f64>,
+    feature_edges: usize,
     irregular_vertices: usize,
     cut_edges: usize,
     gradient_energy: f64,
@@ -61,7 +65,12 @@ impl<'a> MapReport<'a> {
             ),
             faces: mesh.face_count(),
             vertices: mesh.vertex_count(),
-            quads: arguments.quads,
+            quads: match solved.sizing {
+                Sizing::Quads(quads) => Some(quads),
+                _ => None,
+            },
+            edge_length: arguments.sizing.edge_length,
+            feature_edges: solved.features,
             irregular_vertices: map.cones().len(),
             cut_edges: map.transitions().len(),
             gradient_energy: map.energy(),

@@ -17,6 +17,8 @@ impl fmt::Display for MapSummary<'_> {
             options,
             mesh,
             field,
+            sizing: _,
+            features,
             untangled,
             untangle_seconds,
             rounds,
@@ -30,11 +32,14 @@ impl fmt::Display for MapSummary<'_> {
         line(f, "read", &read, before.read)?;
         let irregular = counted_vertices(map.cones().len(), "irregular ");
         line(f, "field", &irregular, field.seconds)?;
-        let assemble = format!(
+        let mut assemble = format!(
             "{}, {}",
             counted(counts.variables, "unknown"),
             counted(map.transitions().len(), "cut edge")
         );
+        if *features > 0 {
+            assemble += &format!(", {}", counted(*features, "feature edge"));
+        }
         line(f, "assemble", &assemble, before.assemble.unwrap_or(0.0))?;
         let reduced = format!(
             "{}, {} continuous left",

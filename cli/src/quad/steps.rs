@@ -3,10 +3,11 @@
 use std::time::Instant;
 
 use roundel::mesh::TriangleMesh;
+use roundel::mesh::features::FeatureGraph;
 use roundel::quad::untangle::{UntangleOptions, Untangled, solve_unfolded};
 use roundel::quad::{
-    FieldOptions, IntegerGridMap, OrientationField, QuadMesh, SeamlessOptions, SeamlessProblem,
-    SmoothOptions, extract, smooth, solve_field,
+    IntegerGridMap, OrientationField, QuadMesh, SeamlessProblem, SmoothOptions, extract, smooth,
+    solve_field,
 };
 use roundel::{CancelToken, Options, Result, Solution};
 
@@ -54,11 +55,11 @@ pub(super) fn solve(arguments: &Arguments) -> Result<Solved> {
     let options = arguments.solver.over(Options::default())?;
     let mut seconds = Seconds::default();
     let mesh = timed(&mut seconds.read, || mesh::read(&arguments.mesh))?;
-    let field = timed(&mut seconds.field, || {
+    let (field, features) = timed(&mut seconds.field, || {
         field(arguments, &mesh, &options, &watch)
     })?;
     let (solution, untangled) = timed(&mut seconds.map, || {
-        map(arguments, &mesh, &field, &options, &watch)
+        map(arguments, &mesh, (&field, &features), &options, &watch)
     })?;
     watch.progress.say("quads");
     let mut quads = timed(&mut seconds.quads, || {
@@ -89,27 +90,26 @@ fn field(
     mesh: &TriangleMesh,
     options: &Options,
     watch: &Watch,
-) -> Result<OrientationField> {
+) -> Result<(OrientationField, FeatureGraph)> {
+    let (guidance, features) = arguments.directions.of(mesh, 4)?;
+    let follows = guidance.field_options(mesh, &features)?;
     let options = Options {
         strategy: arguments.field_strategy,
         ..options.clone()
     };
-    let follow = FieldOptions {
-        constraints: arguments.directions.constraints(mesh)?,
-        ..FieldOptions::default()
-    };
-    Ok(solve_field(mesh, &follow, &options, || watch.monitor())?.0)
+    let (field, _) = solve_field(mesh, &follows, &options, || watch.monitor())?;
+    Ok((field, features))
 }
 
 fn map(
     arguments: &Arguments,
     mesh: &TriangleMesh,
-    field: &OrientationField,
+    (field, features): (&OrientationField, &FeatureGraph),
     options: &Options,
     watch: &Watch,
 ) -> Result<(Solution, Untangled)> {
-    let quads = arguments.target(mesh);
-    let problem = SeamlessProblem::new(mesh, field, &SeamlessOptions { quads })?;
+    let sizing = arguments.sizing.of()?;
+    let problem = SeamlessProblem::with_features(mesh, field, &sizing, features)?;
     if arguments.no_untangle {
         let solution = roundel::solve_with(problem.problem(), options, watch.monitor())?;
         let map = problem.map(mesh, &solution)?;
