@@ -125,3 +125,59 @@ fn nearest(mesh: &TriangleMesh, from: usize, will_do: impl Fn(usize) -> bool) ->
     }
     None
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A cone so steep that the smoothest field turns as it does: more than half a turn at the tip.
+    fn horn(sides: u32) -> TriangleMesh {
+        let at = |ring: u32, k: u32| 1 + (ring - 1) * sides + k % sides;
+        let mut points = vec![[0.0, 0.0, 20.0]];
+        let mut triangles = Vec::new();
+        for ring in 1..=20u32 {
+            let radius = 0.1 * f64::from(ring);
+            for k in 0..sides {
+                let (sin, cos) =
+                    (std::f64::consts::TAU * f64::from(k) / f64::from(sides)).sin_cos();
+                points.push([radius * cos, radius * sin, 20.0 - f64::from(ring)]);
+                if ring == 1 {
+                    triangles.push([0, at(1, k), at(1, k + 1)]);
+                } else {
+                    let [a, b] = [at(ring - 1, k), at(ring - 1, k + 1)];
+                    let [c, d] = [at(ring, k), at(ring, k + 1)];
+                    triangles.extend([[a, c, d], [a, d, b]]);
+                }
+            }
+        }
+        TriangleMesh::new(points, triangles).unwrap()
+    }
+
+    #[test]
+    fn no_vertex_keeps_an_index_that_no_map_can_have() {
+        let mesh = horn(8);
+        let options = FieldOptions::default();
+        let problem = FieldProblem::with_options(&mesh, &options).unwrap();
+        let solution = solve_with(problem.problem(), &Options::default(), Monitor::default());
+        let smoothest = problem.field(&mesh, &solution.unwrap()).unwrap();
+        let before = steps(&mesh, &smoothest);
+        assert!(before[0] > MOST, "{}", before[0]);
+        let (field, _) =
+            solve_field(&mesh, &options, &Options::default(), Monitor::default).unwrap();
+        let after = steps(&mesh, &field);
+        assert!(after.iter().all(|&n| n <= MOST), "{after:?}");
+        assert_eq!(after.iter().sum::<i32>(), before.iter().sum::<i32>());
+    }
+
+    #[test]
+    fn a_field_that_a_map_can_follow_is_left_alone() {
+        let mesh = crate::mesh::shape::by_name("rounded-cube", 600).unwrap();
+        let options = FieldOptions::default();
+        let problem = FieldProblem::with_options(&mesh, &options).unwrap();
+        let solution = solve_with(problem.problem(), &Options::default(), Monitor::default());
+        let smoothest = problem.field(&mesh, &solution.unwrap()).unwrap();
+        let (field, _) =
+            solve_field(&mesh, &options, &Options::default(), Monitor::default).unwrap();
+        assert_eq!(field, smoothest);
+    }
+}

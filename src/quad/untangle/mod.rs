@@ -40,13 +40,6 @@ use region::{Region, regions};
 use stuck::Stuck;
 use system::System;
 
-fn x_env(n: &str, d: f64) -> f64 {
-    std::env::var(n)
-        .ok()
-        .and_then(|x| x.parse().ok())
-        .unwrap_or(d)
-}
-
 /// Not in the region at hand.
 const NONE: u32 = u32::MAX;
 
@@ -71,8 +64,8 @@ impl Default for UntangleOptions {
         UntangleOptions {
             steps: 100,
             passes: 200,
-            rounds: x_env("X_ROUNDS", 8.0) as usize,
-            refinements: x_env("X_REF", 2.0) as usize,
+            rounds: 6,
+            refinements: 5,
         }
     }
 }

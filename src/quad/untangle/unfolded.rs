@@ -9,6 +9,10 @@ use crate::{Error, Monitor, Options, Problem, Result, Solution, Strategy, solve_
 /// By how much a refinement multiplies the lengths of the map: about twice as many quads.
 const REFINEMENT: f64 = std::f64::consts::SQRT_2;
 
+/// Where integers still collapse cones and a finer map may be made, untangling gets this part of its
+/// passes: it seldom helps.
+const PART_OF_PASSES: usize = 8;
+
 /// A map, the solution that its integers are from, and what became of it.
 #[derive(Debug)]
 pub struct Unfolded {
@@ -60,13 +64,21 @@ pub fn solve_unfolded<'a>(
         let map = problem.map(mesh, &solution)?;
         return Ok(Unfolded::as_it_is(solution, map));
     }
-    let mut best = solve_size(mesh, problem, solver, options, &monitor)?;
+    let mut best = solve_size(
+        mesh,
+        problem,
+        solver,
+        options,
+        options.refinements,
+        &monitor,
+    )?;
     for refinements in 1..=options.refinements {
         if best.untangled.flipped_after == 0 {
             break;
         }
         let finer = problem.refined(mesh, REFINEMENT.powi(refinements as i32))?;
-        let found = solve_size(mesh, &finer, solver, options, &monitor)?;
+        let left = options.refinements - refinements;
+        let found = solve_size(mesh, &finer, solver, options, left, &monitor)?;
         if found.untangled.flipped_after < best.untangled.flipped_after {
             best = Unfolded {
                 refinements,
@@ -77,12 +89,13 @@ pub fn solve_unfolded<'a>(
     Ok(best)
 }
 
-/// A map of the size that the problem aims at.
+/// A map of the size that the problem aims at, after which so many refinements are left.
 fn solve_size<'a>(
     mesh: &TriangleMesh,
     problem: &SeamlessProblem,
     solver: &Options,
     options: &UntangleOptions,
+    refinements_left: usize,
     monitor: &impl Fn() -> Monitor<'a>,
 ) -> Result<Unfolded> {
     let near = problem.near_cones(mesh);
@@ -113,8 +126,12 @@ fn solve_size<'a>(
             break;
         }
     }
+    let mut effort = *options;
+    if !best.collapsed.is_empty() && refinements_left > 0 {
+        effort.passes /= PART_OF_PASSES;
+    }
     Ok(Unfolded {
-        untangled: untangle(mesh, problem, &best.map, options, &mut monitor())?,
+        untangled: untangle(mesh, problem, &best.map, &effort, &mut monitor())?,
         solution: best.solution,
         rounds,
         refinements: 0,
