@@ -59,7 +59,7 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
     let read = started.elapsed().as_secs_f64();
     let (guidance, features) = arguments.directions.of(&mesh, 4)?;
     let follows = (&guidance, &features);
-    let (field, source) = field::of(arguments, &mesh, follows, &options, &monitor)?;
+    let (field, source) = field::of(arguments, &mesh, follows, &options, monitor)?;
     let started = Instant::now();
     let sizing = arguments.sizing.of()?;
     let problem = SeamlessProblem::with_features(&mesh, &field, &sizing, &features)?;
