@@ -2,7 +2,8 @@
 //! genus, the broken ones are refused for the right reason.
 //!
 //! `ROUNDEL_CGAL_DATA` names the archive or the folder it was unpacked to; without it the place
-//! where Debian's `libcgal-demo` puts the archive is tried. The test says so where there is none.
+//! where Debian's `libcgal-demo` puts the archive is tried. The tests say so where there is none.
+//! Maps of the sound ones, of a quad for four triangles, are valid by the check.
 
 #![cfg(feature = "mesh-io")]
 
@@ -10,6 +11,10 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use roundel::mesh::{MeshError, TriangleMesh, io};
+use roundel::quad::check::{CheckOptions, check_map};
+use roundel::quad::untangle::{Unfolded, UntangleOptions, solve_unfolded};
+use roundel::quad::{FieldOptions, SeamlessOptions, SeamlessProblem, solve_field};
+use roundel::{Monitor, Options};
 
 const DEBIAN: &str = "/usr/share/doc/libcgal-dev/data.tar.gz";
 
@@ -162,4 +167,73 @@ fn sound_meshes_load_and_broken_ones_are_refused_for_the_right_reason() {
     }
     let ply = io::read(folder.join("sphere.ply")).expect("a ply file");
     assert_eq!((ply.face_count(), ply.genus()), (320, 0));
+}
+
+/// The map of one quad for four triangles along the smoothest field, and whether the check passes it.
+fn unfold(mesh: &TriangleMesh) -> (Unfolded, bool) {
+    let (solver, monitor) = (Options::default(), Monitor::default);
+    let (field, _) = solve_field(mesh, &FieldOptions::default(), &solver, monitor).unwrap();
+    let quads = mesh.face_count().div_ceil(4);
+    let problem = SeamlessProblem::new(mesh, &field, &SeamlessOptions { quads }).unwrap();
+    let effort = UntangleOptions::default();
+    let unfolded = solve_unfolded(mesh, &problem, &solver, &effort, monitor).unwrap();
+    let map = &unfolded.untangled.map;
+    let options = CheckOptions {
+        boundary: false,
+        ..CheckOptions::default()
+    };
+    let found = check_map(mesh, &map.corner_uvs(), &options).unwrap();
+    assert!(found.is_integer(), "{found:?}");
+    assert_eq!(found.is_unfolded(), unfolded.untangled.flipped_after == 0);
+    (unfolded, found.is_valid())
+}
+
+#[test]
+fn small_meshes_get_valid_maps() {
+    let Some(folder) = archive() else {
+        eprintln!("skipped: no {DEBIAN}, and ROUNDEL_CGAL_DATA is not set");
+        return;
+    };
+    for name in [
+        "part", "eight", "spool", "cactus", "knot", "plane", "cylinder",
+    ] {
+        let (unfolded, is_valid) = unfold(&load(&folder, name).unwrap());
+        assert!(is_valid, "{name}");
+        assert!(
+            unfolded.refinements <= 1,
+            "{name}: {}",
+            unfolded.refinements
+        );
+    }
+}
+
+/// Prints the table of all sound meshes: minutes of work, and so on demand.
+#[test]
+#[ignore]
+fn nearly_all_sound_meshes_get_valid_maps() {
+    let Some(folder) = archive() else {
+        eprintln!("skipped: no {DEBIAN}, and ROUNDEL_CGAL_DATA is not set");
+        return;
+    };
+    let slivers = ["pinion", "cheese"];
+    let closed: Vec<_> = CLOSED.iter().filter(|m| !slivers.contains(&m.0)).collect();
+    for (meshes, percent) in [(closed, 95), (BOUNDED.iter().collect(), 85)] {
+        let mut valid = 0;
+        for &&(name, faces, _) in &meshes {
+            let started = std::time::Instant::now();
+            let (unfolded, is_valid) = unfold(&load(&folder, name).unwrap());
+            let seconds = started.elapsed().as_secs_f64();
+            let untangled = &unfolded.untangled;
+            valid += usize::from(is_valid);
+            println!(
+                "{name:<26}{faces:>7} cones {:>4} flipped {:>4} -> {:>3} refined {} {seconds:>6.1} s",
+                untangled.map.cones().len(),
+                untangled.flipped_before,
+                untangled.flipped_after,
+                unfolded.refinements,
+            );
+        }
+        println!("{valid} of {}", meshes.len());
+        assert!(100 * valid >= percent * meshes.len());
+    }
 }

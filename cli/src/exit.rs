@@ -17,6 +17,8 @@ pub enum Exit {
     Unbounded = 4,
     /// Out of time, or cancelled, before a first solution.
     Stopped = 5,
+    /// A map was checked and is not valid.
+    Invalid = 6,
 }
 
 /// The codes as `--help` prints them. Code 2 is given by clap.
@@ -27,7 +29,8 @@ Exit codes:
   2  usage: the command line is wrong
   3  infeasible: the constraints contradict each other, or have no integer solution
   4  unbounded: the objective has no least value, or is not convex
-  5  stopped: time limit or cancel, before a first solution";
+  5  stopped: time limit or cancel, before a first solution
+  6  invalid: what was checked is not what it should be";
 
 impl Exit {
     /// The code of a run that ended in `error`.

@@ -1,5 +1,6 @@
 //! The `roundel` program: one command a task, each in a module of its name.
 
+mod check;
 mod evaluate;
 mod exit;
 mod extract;
@@ -34,6 +35,7 @@ enum Command {
     Solve(solve::Arguments),
     Field(field::Arguments),
     Parametrize(parametrize::Arguments),
+    Check(check::Arguments),
     Quad(quad::Arguments),
     Extract(extract::Arguments),
     Shape(shape::Arguments),
@@ -45,6 +47,7 @@ fn main() -> ExitCode {
         Command::Solve(arguments) => solve::run(&arguments),
         Command::Field(arguments) => field::run(&arguments),
         Command::Parametrize(arguments) => parametrize::run(&arguments),
+        Command::Check(arguments) => check::run(&arguments),
         Command::Quad(arguments) => quad::run(&arguments),
         Command::Extract(arguments) => extract::run(&arguments),
         Command::Shape(arguments) => shape::run(&arguments),

@@ -30,6 +30,7 @@ mod seams;
 mod sectors;
 mod sizing;
 mod smooth;
+mod spread;
 mod trace;
 pub mod untangle;
 mod uv_obj;
@@ -48,3 +49,4 @@ pub use quadrangulate::{QuadOptions, QuadSeconds, Quadrangulation, quadrangulate
 pub use seamless::{SeamlessOptions, SeamlessProblem, TRANSLATION_WEIGHT};
 pub use sizing::Sizing;
 pub use smooth::{QuadQuality, SmoothOptions, smooth};
+pub use spread::solve_field;

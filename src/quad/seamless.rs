@@ -156,6 +156,16 @@ impl SeamlessProblem {
         self.problem.set_constant(energy.constant)
     }
 
+    /// The same problem for a map so many times as large in length.
+    pub(super) fn refined(&self, mesh: &TriangleMesh, factor: f64) -> Result<Self> {
+        let mut this = self.clone();
+        this.density = self.density.scaled(factor);
+        let energy = Dirichlet::new(&this, mesh);
+        this.problem.set_linear(&energy.linear)?;
+        this.problem.set_constant(energy.constant)?;
+        Ok(this)
+    }
+
     /// The problem, to be solved by any strategy.
     pub fn problem(&self) -> &Problem {
         &self.problem
@@ -197,12 +207,6 @@ impl SeamlessProblem {
                 actual,
             }),
         }
-    }
-
-    /// Unit squares a unit length in a face, the geometric mean of both directions.
-    pub(super) fn density(&self, face: usize) -> f64 {
-        let [along, across] = self.density.of(face, 0);
-        (along * across).sqrt()
     }
 
     /// Combed arms of a face, as long as the gradients shall be.

@@ -59,6 +59,16 @@ impl Density {
         }
     }
 
+    /// So many times as dense.
+    pub(super) fn scaled(&self, factor: f64) -> Self {
+        match self {
+            Density::Uniform(density) => Density::Uniform(factor * density),
+            Density::Faces(faces) => {
+                Density::Faces(faces.iter().map(|pair| pair.map(|d| factor * d)).collect())
+            }
+        }
+    }
+
     /// Along the two arms of a face that is combed by this many quarter turns.
     pub(super) fn of(&self, face: usize, quarters: u8) -> [f64; 2] {
         match self {

@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use roundel::mesh::TriangleMesh;
 use roundel::mesh::features::FeatureGraph;
-use roundel::quad::{FieldProblem, Guidance, OrientationField};
+use roundel::quad::{Guidance, OrientationField, solve_field};
 use roundel::{Monitor, Options, Result};
 
 use super::Arguments;
@@ -22,12 +22,12 @@ pub(super) struct FieldSource {
 }
 
 /// The field of the command line.
-pub(super) fn of(
+pub(super) fn of<'a>(
     arguments: &Arguments,
     mesh: &TriangleMesh,
     (guidance, features): (&Guidance, &FeatureGraph),
     options: &Options,
-    monitor: Monitor,
+    monitor: impl Fn() -> Monitor<'a>,
 ) -> Result<(OrientationField, FieldSource)> {
     match &arguments.field {
         Some(path) => read(path, mesh),
@@ -46,23 +46,24 @@ fn read(path: &Path, mesh: &TriangleMesh) -> Result<(OrientationField, FieldSour
     Ok((field, source))
 }
 
-fn solve(
+fn solve<'a>(
     arguments: &Arguments,
     mesh: &TriangleMesh,
     (guidance, features): (&Guidance, &FeatureGraph),
     options: &Options,
-    monitor: Monitor,
+    monitor: impl Fn() -> Monitor<'a>,
 ) -> Result<(OrientationField, FieldSource)> {
     let options = Options {
         strategy: arguments.field_strategy,
         ..options.clone()
     };
-    let problem = FieldProblem::with_options(mesh, &guidance.field_options(mesh, features)?)?;
-    let solution = roundel::solve_with(problem.problem(), &options, monitor)?;
+    let follow = guidance.field_options(mesh, features)?;
+    let started = Instant::now();
+    let (field, solution) = solve_field(mesh, &follow, &options, monitor)?;
     let source = FieldSource {
         strategy: Some(options.strategy.name()),
         energy: solution.energy(),
-        seconds: solution.seconds().total,
+        seconds: started.elapsed().as_secs_f64(),
     };
-    Ok((problem.field(mesh, &solution)?, source))
+    Ok((field, source))
 }

@@ -10,9 +10,9 @@ use std::time::Instant;
 
 use roundel::mesh::TriangleMesh;
 use roundel::problem::mps::{self, MpsProblem};
-use roundel::quad::untangle::{UntangleOptions, Untangled, untangle};
+use roundel::quad::untangle::{Unfolded, UntangleOptions, Untangled, solve_unfolded};
 use roundel::quad::{SeamlessProblem, Sizing};
-use roundel::{Options, Result, Solution, Strategy};
+use roundel::{Options, Result, Solution};
 
 use crate::exit::Exit;
 use crate::progress::Progress;
@@ -39,7 +39,11 @@ struct Solved {
     /// Edges that are isolines.
     features: usize,
     untangled: Untangled,
-    /// Seconds from the solution to the map.
+    /// How often integers were decided anew.
+    rounds: usize,
+    /// How often the map was made finer.
+    refinements: usize,
+    /// Seconds of the map beside those of the last solve.
     untangle_seconds: f64,
     solution: Solution,
     before: Preparation,
@@ -55,7 +59,7 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
     let read = started.elapsed().as_secs_f64();
     let (guidance, features) = arguments.directions.of(&mesh, 4)?;
     let follows = (&guidance, &features);
-    let (field, source) = field::of(arguments, &mesh, follows, &options, monitor())?;
+    let (field, source) = field::of(arguments, &mesh, follows, &options, monitor)?;
     let started = Instant::now();
     let sizing = arguments.sizing.of()?;
     let problem = SeamlessProblem::with_features(&mesh, &field, &sizing, &features)?;
@@ -65,20 +69,27 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
     if let Some(path) = &arguments.write_problem {
         mps::write(path, &MpsProblem::new(problem.problem().clone()))?;
     }
-    let solution = roundel::solve_with(problem.problem(), &options, monitor())?;
     let started = Instant::now();
-    let map = problem.map(&mesh, &solution)?;
-    let untangled = match arguments.no_untangle || options.strategy == Strategy::Relax {
-        true => Untangled::as_it_is(map),
-        false => untangle(
-            &mesh,
-            &problem,
-            &map,
-            &UntangleOptions::default(),
-            &mut monitor(),
-        )?,
+    let unfolded = match arguments.no_untangle {
+        true => {
+            let solution = roundel::solve_with(problem.problem(), &options, monitor())?;
+            let map = problem.map(&mesh, &solution)?;
+            Unfolded::as_it_is(solution, map)
+        }
+        false => {
+            let work = UntangleOptions::default();
+            solve_unfolded(&mesh, &problem, &options, &work, monitor)?
+        }
     };
-    let untangle_seconds = started.elapsed().as_secs_f64();
+    let solved = started.elapsed().as_secs_f64();
+    let Unfolded {
+        solution,
+        untangled,
+        rounds,
+        refinements,
+        ..
+    } = unfolded;
+    let untangle_seconds = solved - solution.seconds().total;
     if let Some(path) = &arguments.out {
         untangled.map.write_obj(&mesh, path)?;
     }
@@ -89,6 +100,8 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
         sizing,
         features: features.edges().count(),
         untangled,
+        rounds,
+        refinements,
         untangle_seconds,
         solution,
         before: Preparation {

@@ -32,6 +32,8 @@ pub struct MapReport<'a> {
 /// What untangling took, and what it could not unfold.
 #[derive(Serialize)]
 struct Untangling {
+    rounds: usize,
+    refinements: usize,
     steps: usize,
     seconds: f64,
     stuck_faces: Vec<usize>,
@@ -76,6 +78,8 @@ impl<'a> MapReport<'a> {
             flipped: map.flipped().len(),
             flipped_faces: map.flipped(),
             untangle: Untangling {
+                rounds: solved.rounds,
+                refinements: solved.refinements,
                 steps: untangled.steps,
                 seconds: solved.untangle_seconds,
                 stuck_faces: untangled.stuck_faces.clone(),

@@ -21,6 +21,8 @@ impl fmt::Display for MapSummary<'_> {
             features,
             untangled,
             untangle_seconds,
+            rounds,
+            refinements,
             solution,
             before,
         } = self.solved;
@@ -49,8 +51,10 @@ impl fmt::Display for MapSummary<'_> {
         let search = seconds.factor + seconds.round;
         line(f, options.strategy.name(), &found, search)?;
         let unfolded = format!(
-            "{} flipped, {}",
+            "{} flipped, {}, {}, {}",
             counted(untangled.flipped_before, "face"),
+            counted(*rounds, "round"),
+            counted(*refinements, "refinement"),
             counted(untangled.steps, "step")
         );
         line(f, "untangle", &unfolded, *untangle_seconds)?;

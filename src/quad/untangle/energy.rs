@@ -26,8 +26,9 @@ const LEAST_CURVATURE: f64 = 1e-6;
 pub(super) struct Rest {
     /// Gradients of the three hat functions.
     pub gradients: [[f64; 2]; 3],
-    /// The area.
-    pub area: f64,
+    /// What the triangle counts: the root of its area. By area, small triangles would stay folded
+    /// until eps is small; by number, fine parts of a mesh would outweigh all else.
+    pub weight: f64,
 }
 
 /// The conformal (first two entries) and the anticonformal part of a linear map.
@@ -47,7 +48,7 @@ impl Rest {
             |p: [f64; 2], q: [f64; 2]| [(p[1] - q[1]) / doubled, (q[0] - p[0]) / doubled];
         Rest {
             gradients: [gradient(b, c), gradient(c, a), gradient(a, b)],
-            area: 0.5 * doubled,
+            weight: (0.5 * doubled).sqrt(),
         }
     }
 
@@ -72,7 +73,7 @@ impl Rest {
         let parts = self.parts(uv);
         let d = determinant(&parts);
         let norm: f64 = parts.iter().map(|x| x * x).sum();
-        self.area * (norm + AREA_WEIGHT * (d * d + 1.0)) / chi(d, eps)
+        self.weight * (norm + AREA_WEIGHT * (d * d + 1.0)) / chi(d, eps)
     }
 
     /// The energy to second order, convex.
@@ -86,12 +87,12 @@ impl Rest {
             hessian: [[0.0; 6]; 6],
         };
         for i in 0..6 {
-            sum.slope[i] = (0..4).map(|a| self.area * rows[a][i] * slope[a]).sum();
+            sum.slope[i] = (0..4).map(|a| self.weight * rows[a][i] * slope[a]).sum();
             let column: [f64; 4] =
                 std::array::from_fn(|a| (0..4).map(|b| hessian[a][b] * rows[b][i]).sum());
             for j in 0..6 {
                 let product: f64 = (0..4).map(|a| rows[a][j] * column[a]).sum();
-                sum.hessian[j][i] = self.area * product;
+                sum.hessian[j][i] = self.weight * product;
             }
         }
         sum

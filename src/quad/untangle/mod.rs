@@ -13,17 +13,25 @@
 //! | Newton steps of a region | `system` |
 //! | the schedule that closes the barrier | `schedule` |
 //! | what no motion can unfold | `stuck` |
+//! | cones at one point, held apart | `separate` |
+//! | all of it, from the problem on | `unfolded` |
 
 mod energy;
 mod freedom;
 mod region;
 mod schedule;
+mod separate;
 mod stuck;
 mod system;
+mod unfolded;
+
+pub use separate::Collapsed;
+pub use unfolded::{Unfolded, solve_unfolded};
 
 use super::check::orientation;
 use super::{SeamlessMap, SeamlessProblem};
 use crate::mesh::TriangleMesh;
+use crate::mesh::vector::{dot, sub};
 use crate::solve::Phase;
 use crate::{Monitor, Result};
 use energy::Rest;
@@ -45,6 +53,10 @@ pub struct UntangleOptions {
     pub steps: usize,
     /// How many faces all steps together may look at, as a multiple of the mesh's faces.
     pub passes: usize,
+    /// How often the integers of collapsed cones are decided anew.
+    pub rounds: usize,
+    /// How often a map that keeps folds is made finer.
+    pub refinements: usize,
 }
 
 impl Default for UntangleOptions {
@@ -52,6 +64,8 @@ impl Default for UntangleOptions {
         UntangleOptions {
             steps: 100,
             passes: 200,
+            rounds: 6,
+            refinements: 5,
         }
     }
 }
@@ -182,7 +196,7 @@ impl<'a> Untangling<'a> {
         for (k, &y) in region.unknowns.iter().enumerate() {
             self.place[y as usize] = k as u32;
         }
-        let rest = |face: usize| at_rest(self.mesh, self.problem.density(face), face);
+        let rest = |face: usize| at_rest(self.mesh, self.problem, face);
         let system = System::new(&self.freedom, region, rest, &self.place)?;
         region
             .unknowns
@@ -204,13 +218,13 @@ impl<'a> Untangling<'a> {
     }
 }
 
-/// A face laid into the plane, as large as it should be.
-fn at_rest(mesh: &TriangleMesh, density: f64, face: usize) -> Rest {
-    let lengths = [0, 2].map(|k| density * mesh.edge_length(face, k));
-    let (sin, cos) = mesh.angle(face, 0).sin_cos();
-    Rest::new([
-        [0.0, 0.0],
-        [lengths[0], 0.0],
-        [lengths[1] * cos, lengths[1] * sin],
-    ])
+/// A face laid into the plane as the field has it, as large as it should be.
+fn at_rest(mesh: &TriangleMesh, problem: &SeamlessProblem, face: usize) -> Rest {
+    let corners = mesh.corner_positions(face);
+    let targets = problem.targets(mesh, face);
+    let from_first = |k: usize| {
+        let step = sub(corners[k], corners[0]);
+        targets.map(|target| dot(target, step))
+    };
+    Rest::new([0, 1, 2].map(from_first))
 }

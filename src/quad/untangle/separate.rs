@@ -1,0 +1,249 @@
+//! Cones that rounding has put on top of each other, or on the wrong side, held apart.
+//!
+//! Two cones that a short path joins cannot lie at one point, nor three of a face on one line:
+//! whatever else moves, the faces between them stay without area. Such integers are decided anew
+//! with the cones held apart by constraints: along the coordinate in which the path should be
+//! longest by its rounded length, one unit at least, or, for a face, by the nearest triangle of
+//! units that is the right way round.
+
+use std::collections::VecDeque;
+
+use crate::mesh::TriangleMesh;
+use crate::mesh::vector::{dot, sub};
+use crate::quad::check::orientation;
+use crate::quad::{SeamlessMap, SeamlessProblem};
+use crate::{Problem, Result};
+
+/// How many edges a path between two cones has at most.
+const LONGEST_PATH: usize = 4;
+
+/// Two copies of cones in one chart, and by how much the coordinates should differ from the first
+/// to the second: along a shortest path between them.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct NearCones {
+    pub copies: [u32; 2],
+    pub vertices: [u32; 2],
+    aim: [f64; 2],
+}
+
+/// What the integers of cones collapse.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Collapsed {
+    /// Pairs of cones at one point or the wrong way round.
+    pub(super) pairs: Vec<NearCones>,
+    /// Faces of three cones, no two at one point, that are collinear or clockwise.
+    pub(super) faces: Vec<usize>,
+}
+
+impl Collapsed {
+    /// What is collapsed in a map of this mesh.
+    pub(super) fn find(mesh: &TriangleMesh, near: &[NearCones], map: &SeamlessMap) -> Self {
+        let uv = map.vertex_uvs();
+        let is_collapsed = |pair: &&NearCones| {
+            let [a, b] = pair.copies.map(|c| uv[c as usize]);
+            let along = [0, 1].map(|i| (b[i] - a[i]).round());
+            along[0] * pair.aim[0] + along[1] * pair.aim[1] <= 0.0
+        };
+        let pairs = near.iter().filter(is_collapsed).copied().collect();
+        let mut is_cone = vec![false; mesh.vertex_count()];
+        map.cones().iter().for_each(|&v| is_cone[v] = true);
+        let is_lost = |&face: &usize| {
+            let at = map.uv(face).map(|p| p.map(f64::round));
+            let is_short = |k: usize| at[k] == at[(k + 1) % 3];
+            mesh.corners(face).iter().all(|&v| is_cone[v])
+                && !(0..3).any(is_short)
+                && orientation(at) <= 0.0
+        };
+        let faces = (0..mesh.face_count()).filter(is_lost).collect();
+        Collapsed { pairs, faces }
+    }
+
+    /// How many elements.
+    pub fn count(&self) -> usize {
+        self.pairs.len() + self.faces.len()
+    }
+
+    /// Whether there is nothing.
+    pub fn is_empty(&self) -> bool {
+        self.count() == 0
+    }
+
+    /// The two cones of each pair.
+    pub fn cones(&self) -> impl Iterator<Item = [usize; 2]> + '_ {
+        self.pairs
+            .iter()
+            .map(|pair| pair.vertices.map(|v| v as usize))
+    }
+}
+
+/// A constraint between two coordinates: the second is by so much larger than the first.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Apart {
+    unknowns: [usize; 2],
+    by: f64,
+}
+
+impl Apart {
+    fn new(copies: [u32; 2], axis: usize, by: f64) -> Self {
+        let unknowns = copies.map(|copy| 2 * copy as usize + axis);
+        Apart { unknowns, by }
+    }
+
+    /// Whether both are about the same two coordinates.
+    pub(super) fn is_between(&self, other: &Self) -> bool {
+        self.unknowns == other.unknowns
+    }
+
+    pub(super) fn add_to(&self, problem: &mut Problem) -> Result<()> {
+        let [a, b] = self.unknowns;
+        problem.add_constraint(&[b, a], &[1.0, -1.0], self.by)?;
+        Ok(())
+    }
+}
+
+impl SeamlessProblem {
+    /// Pairs of cones that a path of a few edges joins, no other cone on it and no cut across it.
+    pub(super) fn near_cones(&self, mesh: &TriangleMesh) -> Vec<NearCones> {
+        let mut is_cone = vec![false; mesh.vertex_count()];
+        self.cones.iter().for_each(|&v| is_cone[v] = true);
+        let mut found = Vec::new();
+        for &v in &self.cones {
+            for copy in self.sectors.first[v]..self.sectors.first[v + 1] {
+                self.paths_from(mesh, [v as u32, copy], &is_cone, &mut found);
+            }
+        }
+        found
+    }
+
+    /// Breadth-first from a copy of a cone; each pair is found from its lower cone.
+    fn paths_from(
+        &self,
+        mesh: &TriangleMesh,
+        [from, copy]: [u32; 2],
+        is_cone: &[bool],
+        found: &mut Vec<NearCones>,
+    ) {
+        let mut reached = std::collections::BTreeSet::from([copy]);
+        let mut queue = VecDeque::from([(from as usize, copy, [0.0; 2], 0)]);
+        while let Some((v, at, aim, length)) = queue.pop_front() {
+            for (face, corner) in mesh.ring(v) {
+                if self.sectors.copy[face][corner] != at {
+                    continue;
+                }
+                for end in [(corner + 1) % 3, (corner + 2) % 3] {
+                    let next = self.sectors.copy[face][end];
+                    if !reached.insert(next) {
+                        continue;
+                    }
+                    let w = mesh.corners(face)[end];
+                    let step = self.aim(mesh, face, corner, end);
+                    let aim = [aim[0] + step[0], aim[1] + step[1]];
+                    if !is_cone[w] {
+                        if length + 1 < LONGEST_PATH {
+                            queue.push_back((w, next, aim, length + 1));
+                        }
+                    } else if from < w as u32 {
+                        found.push(NearCones {
+                            copies: [copy, next],
+                            vertices: [from, w as u32],
+                            aim,
+                        });
+                    }
+                }
+            }
+        }
+    }
+
+    /// The constraints that hold collapsed cones apart.
+    ///
+    /// No two cones are joined twice, so that they seldom contradict each other; constraints of
+    /// earlier rounds they may.
+    pub(super) fn apart(&self, mesh: &TriangleMesh, collapsed: &Collapsed) -> Vec<Apart> {
+        let mut joined = Joined((0..mesh.vertex_count() as u32).collect());
+        let mut found = Vec::new();
+        for &face in &collapsed.faces {
+            let [a, b, c] = mesh.corners(face);
+            if joined.join(a, b) && joined.join(a, c) {
+                let [ab, ac] = units(self.aim(mesh, face, 0, 1), self.aim(mesh, face, 0, 2));
+                let copies = self.sectors.copy[face];
+                for axis in 0..2 {
+                    found.push(Apart::new([copies[0], copies[1]], axis, ab[axis]));
+                    found.push(Apart::new([copies[0], copies[2]], axis, ac[axis]));
+                }
+            }
+        }
+        for pair in &collapsed.pairs {
+            let [a, b] = pair.vertices.map(|v| v as usize);
+            if joined.join(a, b) {
+                let axis = usize::from(pair.aim[1].abs() > pair.aim[0].abs());
+                let aim = pair.aim[axis];
+                let by = aim.abs().round().max(1.0).copysign(aim);
+                found.push(Apart::new(pair.copies, axis, by));
+            }
+        }
+        found
+    }
+
+    /// By how much the coordinates of two corners of a face should differ.
+    fn aim(&self, mesh: &TriangleMesh, face: usize, from: usize, to: usize) -> [f64; 2] {
+        let corners = mesh.corner_positions(face);
+        let step = sub(corners[to], corners[from]);
+        self.targets(mesh, face).map(|target| dot(target, step))
+    }
+}
+
+/// The two vectors of entries -1, 0 and 1, the second to the left of the first, that are nearest to
+/// these.
+fn units(first: [f64; 2], second: [f64; 2]) -> [[f64; 2]; 2] {
+    let entries =
+        (0..81).map(|n: i32| [n / 27, n / 9 % 3, n / 3 % 3, n % 3].map(|e| f64::from(e - 1)));
+    let left = entries.filter(|[a, b, c, d]| a * d - b * c > 0.0);
+    let aim = [first[0], first[1], second[0], second[1]];
+    let distance = |e: &[f64; 4]| (0..4).map(|i| (e[i] - aim[i]).powi(2)).sum::<f64>();
+    let nearest = left.min_by(|a, b| distance(a).total_cmp(&distance(b)));
+    let [a, b, c, d] = nearest.unwrap_or([1.0, 0.0, 0.0, 1.0]);
+    [[a, b], [c, d]]
+}
+
+/// Which vertices are joined already: union-find with path halving.
+struct Joined(Vec<u32>);
+
+impl Joined {
+    fn root(&mut self, v: usize) -> usize {
+        let mut v = v;
+        while self.0[v] as usize != v {
+            self.0[v] = self.0[self.0[v] as usize];
+            v = self.0[v] as usize;
+        }
+        v
+    }
+
+    /// Whether they were not joined before.
+    fn join(&mut self, a: usize, b: usize) -> bool {
+        let (a, b) = (self.root(a), self.root(b));
+        self.0[a] = b as u32;
+        a != b
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn units_are_the_right_way_round_and_near() {
+        assert_eq!(units([0.9, 0.2], [-0.1, 1.2]), [[1.0, 0.0], [0.0, 1.0]]);
+        for n in 0..50 {
+            let aim = [0, 1, 2, 3].map(|i| f64::from(n * 4 + i).sin());
+            let [[a, b], [c, d]] = units([aim[0], aim[1]], [aim[2], aim[3]]);
+            assert!(a * d - b * c > 0.0);
+        }
+    }
+
+    #[test]
+    fn vertices_are_joined_once() {
+        let mut joined = Joined((0..4).collect());
+        assert!(joined.join(0, 1) && joined.join(2, 3) && joined.join(1, 2));
+        assert!(!joined.join(0, 3));
+    }
+}

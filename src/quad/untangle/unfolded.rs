@@ -1,0 +1,194 @@
+//! From the problem to a map without folds: decide, hold apart, decide anew, untangle, refine.
+
+use super::separate::{Apart, NearCones};
+use super::{Collapsed, UntangleOptions, Untangled, untangle};
+use crate::mesh::TriangleMesh;
+use crate::quad::{SeamlessMap, SeamlessProblem};
+use crate::{Error, Monitor, Options, Problem, Result, Solution, Strategy, solve_with};
+
+/// By how much a refinement multiplies the lengths of the map: about twice as many quads.
+const REFINEMENT: f64 = std::f64::consts::SQRT_2;
+
+/// Where integers still collapse cones and a finer map may be made, untangling gets this part of its
+/// passes: it seldom helps.
+const PART_OF_PASSES: usize = 8;
+
+/// A map, the solution that its integers are from, and what became of it.
+#[derive(Debug)]
+pub struct Unfolded {
+    /// The solution: of the problem with the constraints that were added.
+    pub solution: Solution,
+    /// The map after untangling.
+    pub untangled: Untangled,
+    /// How often integers were decided anew.
+    pub rounds: usize,
+    /// How often the map was made finer, each time by the square root of two in length.
+    pub refinements: usize,
+    /// What the integers still collapse.
+    pub collapsed: Collapsed,
+}
+
+impl Unfolded {
+    /// A map that nothing was done to.
+    pub fn as_it_is(solution: Solution, map: SeamlessMap) -> Self {
+        Unfolded {
+            untangled: Untangled::as_it_is(map),
+            solution,
+            rounds: 0,
+            refinements: 0,
+            collapsed: Collapsed::default(),
+        }
+    }
+}
+
+/// Solves the problem, holds apart the cones that its integers collapse and solves again, at most
+/// `options.rounds` times, and untangles the map. Where folds are left, the same is done for a finer
+/// map, at most `options.refinements` times; of all maps the first with the fewest folds is kept.
+/// `monitor` watches each solve and each untangling.
+///
+/// With [`Strategy::Relax`] there are no integers to speak of, and the map is that of the
+/// relaxation.
+///
+/// # Errors
+/// Those of [`solve`](crate::solve) for the first solve and of [`untangle`]; a later solve that fails
+/// for constraints that contradict each other ends the rounds.
+pub fn solve_unfolded<'a>(
+    mesh: &TriangleMesh,
+    problem: &SeamlessProblem,
+    solver: &Options,
+    options: &UntangleOptions,
+    monitor: impl Fn() -> Monitor<'a>,
+) -> Result<Unfolded> {
+    if solver.strategy == Strategy::Relax {
+        let solution = solve_with(problem.problem(), solver, monitor())?;
+        let map = problem.map(mesh, &solution)?;
+        return Ok(Unfolded::as_it_is(solution, map));
+    }
+    let mut best = solve_size(
+        mesh,
+        problem,
+        solver,
+        options,
+        options.refinements,
+        &monitor,
+    )?;
+    for refinements in 1..=options.refinements {
+        if best.untangled.flipped_after == 0 {
+            break;
+        }
+        let finer = problem.refined(mesh, REFINEMENT.powi(refinements as i32))?;
+        let left = options.refinements - refinements;
+        let found = solve_size(mesh, &finer, solver, options, left, &monitor)?;
+        if found.untangled.flipped_after < best.untangled.flipped_after {
+            best = Unfolded {
+                refinements,
+                ..found
+            };
+        }
+    }
+    Ok(best)
+}
+
+/// A map of the size that the problem aims at, after which so many refinements are left.
+fn solve_size<'a>(
+    mesh: &TriangleMesh,
+    problem: &SeamlessProblem,
+    solver: &Options,
+    options: &UntangleOptions,
+    refinements_left: usize,
+    monitor: &impl Fn() -> Monitor<'a>,
+) -> Result<Unfolded> {
+    let near = problem.near_cones(mesh);
+    let mut best = Decided::new(
+        mesh,
+        problem,
+        &near,
+        solve_with(problem.problem(), solver, monitor())?,
+    )?;
+    let mut rounds = 0;
+    let mut apart = problem.apart(mesh, &best.collapsed);
+    while !best.collapsed.is_empty() && rounds < options.rounds {
+        let Some(solution) = solve_apart(problem.problem(), &mut apart, solver, monitor)? else {
+            break;
+        };
+        rounds += 1;
+        let found = Decided::new(mesh, problem, &near, solution)?;
+        let before = apart.len();
+        for constraint in problem.apart(mesh, &found.collapsed) {
+            if !apart.iter().any(|known| known.is_between(&constraint)) {
+                apart.push(constraint);
+            }
+        }
+        if found.collapsed.count() < best.collapsed.count() {
+            best = found;
+        }
+        if apart.len() == before {
+            break;
+        }
+    }
+    let mut effort = *options;
+    if !best.collapsed.is_empty() && refinements_left > 0 {
+        effort.passes /= PART_OF_PASSES;
+    }
+    Ok(Unfolded {
+        untangled: untangle(mesh, problem, &best.map, &effort, &mut monitor())?,
+        solution: best.solution,
+        rounds,
+        refinements: 0,
+        collapsed: best.collapsed,
+    })
+}
+
+/// Integers, and what they collapse.
+struct Decided {
+    solution: Solution,
+    map: SeamlessMap,
+    collapsed: Collapsed,
+}
+
+impl Decided {
+    fn new(
+        mesh: &TriangleMesh,
+        problem: &SeamlessProblem,
+        near: &[NearCones],
+        solution: Solution,
+    ) -> Result<Self> {
+        let map = problem.map(mesh, &solution)?;
+        Ok(Decided {
+            collapsed: Collapsed::find(mesh, near, &map),
+            solution,
+            map,
+        })
+    }
+}
+
+/// Solves with constraints that hold cones apart, without those found to contradict the others.
+///
+/// None where what contradicts is not one of them.
+fn solve_apart<'a>(
+    stated: &Problem,
+    apart: &mut Vec<Apart>,
+    solver: &Options,
+    monitor: &impl Fn() -> Monitor<'a>,
+) -> Result<Option<Solution>> {
+    loop {
+        let mut problem = stated.clone();
+        for constraint in apart.iter() {
+            constraint.add_to(&mut problem)?;
+        }
+        let row = match solve_with(&problem, solver, monitor()) {
+            Ok(solution) => return Ok(Some(solution)),
+            Err(
+                Error::Infeasible { constraint, .. } | Error::NoIntegerSolution { constraint, .. },
+            ) => constraint,
+            Err(error) => return Err(error),
+        };
+        match row.checked_sub(stated.constraints()) {
+            Some(k) => drop(apart.remove(k)),
+            None => match apart.pop() {
+                Some(_) => {}
+                None => return Ok(None),
+            },
+        }
+    }
+}
