@@ -5,7 +5,7 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
 use roundel::mesh::features::FeatureGraph;
 use roundel::mesh::{TriangleMesh, shape};
 use roundel::quad::{
-    FieldOptions, FieldProblem, OrientationField, PrescribedIndex, curvature_constraints,
+    FieldOptions, FieldProblem, Guidance, OrientationField, PrescribedIndex, curvature_constraints,
     curvature_guides, feature_constraints,
 };
 use roundel::{Options, Solution, solve};
@@ -336,4 +336,116 @@ fn bad_options_of_a_field_are_refused_by_position() {
         guides(&[(2, PI, 1.0), (2, PI, 1.0)]),
         ("invalid_argument", Some(1))
     );
+}
+
+#[test]
+fn what_is_given_comes_before_features_and_those_before_curvature() {
+    let mesh = noisy("gear", 1_500);
+    let sharp = FeatureGraph::by_angle(&mesh, FRAC_PI_4).unwrap();
+    let beside = feature_constraints(&mesh, &sharp).unwrap();
+    let given = roundel::quad::Constraint {
+        face: beside[0].face,
+        angle: beside[0].angle + 0.3,
+    };
+    let guidance = Guidance {
+        constraints: vec![given],
+        constrain_curvature: 1.0,
+        curvature_weight: 1.0,
+        feature_angle: Some(FRAC_PI_4),
+        ..Guidance::default()
+    };
+    let features = guidance.features(&mesh).unwrap();
+    assert_eq!(features, sharp);
+    let options = guidance.field_options(&mesh, &features).unwrap();
+    let angle = |face: usize| {
+        let found = options.constraints.iter().filter(|c| c.face == face);
+        let angles: Vec<f64> = found.map(|c| c.angle).collect();
+        assert_eq!(angles.len(), 1, "{face}");
+        angles[0]
+    };
+    assert_eq!(angle(given.face), given.angle);
+    for c in &beside[1..] {
+        assert_eq!(angle(c.face), c.angle);
+    }
+    let curved = curvature_constraints(&mesh, 1.0).unwrap();
+    let plain = curved
+        .iter()
+        .filter(|c| beside.iter().all(|b| b.face != c.face));
+    assert!(plain.clone().count() > 100);
+    for c in plain {
+        assert_eq!(angle(c.face), c.angle);
+    }
+    assert_eq!(options.guides.len(), mesh.face_count());
+}
+
+#[test]
+fn the_boundary_is_followed_unless_it_is_free_or_arms_have_no_side() {
+    let mesh = noisy("disk", 400);
+    let edges = |guidance: &Guidance| guidance.features(&mesh).unwrap().edges().count();
+    let rim = FeatureGraph::boundary(&mesh).edges().count();
+    let mut guidance = Guidance::default();
+    assert_eq!(edges(&guidance), rim);
+    guidance.align_boundary = false;
+    assert_eq!(edges(&guidance), 0);
+    let single = Guidance {
+        symmetry: 1,
+        ..Guidance::default()
+    };
+    assert_eq!(edges(&single), 0);
+    let sharp = FeatureGraph::boundary(&mesh);
+    let error = single.field_options(&mesh, &sharp).unwrap_err();
+    assert_eq!(error.code(), "invalid_argument");
+    for symmetry in [2, 6] {
+        let guidance = Guidance {
+            symmetry,
+            ..Guidance::default()
+        };
+        let features = guidance.features(&mesh).unwrap();
+        let options = guidance.field_options(&mesh, &features).unwrap();
+        let (field, _) = field(&mesh, &options);
+        for e in features.edges() {
+            let (face, k) = mesh.edge(e).first;
+            assert!(off_edge(&mesh, &field, face, k) < 1e-7, "{symmetry}: {e}");
+        }
+    }
+}
+
+#[test]
+fn a_file_of_wishes_is_read_and_its_wrong_lines_are_named() {
+    let mesh = shape::by_name("plane", 50).unwrap();
+    let [a, b, c] = mesh.corners(0);
+    let mut guidance = Guidance::default();
+    let text = format!(
+        "# wishes\n\ndirection 3 1 1 0\ndirection 4 0 2 0 0.5 # soft\nedge {a} {b}\nindex {c} -1\n"
+    );
+    guidance.parse(&mesh, &text).unwrap();
+    assert_eq!(
+        (guidance.constraints[0].face, guidance.guides[0].face),
+        (3, 4)
+    );
+    assert_eq!(guidance.guides[0].weight, 0.5);
+    assert_eq!(guidance.feature_lines, [[a, b]]);
+    let given = PrescribedIndex {
+        vertex: c,
+        steps: -1,
+    };
+    assert_eq!(guidance.indices, Some(vec![given]));
+    let before = guidance.clone();
+    let (faces, vertices) = (mesh.face_count(), mesh.vertex_count());
+    for wrong in [
+        "direction 3 1 1".into(),
+        "direction 3 1 1 nan".into(),
+        "direction 3 0 0 1".into(),
+        "direction 3 1 0 0 -1".into(),
+        format!("direction {faces} 1 0 0"),
+        format!("edge 0 {}", vertices - 1),
+        format!("edge 0 {vertices}"),
+        "index 0 1/4".into(),
+        "corner 3".into(),
+    ] {
+        let error = guidance.parse(&mesh, &format!("edge {a} {b}\n{wrong}\n"));
+        let error = error.unwrap_err();
+        assert_eq!((error.code(), error.line()), ("parse", Some(2)), "{wrong}");
+        assert_eq!(guidance, before, "{wrong}");
+    }
 }

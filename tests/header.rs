@@ -27,12 +27,23 @@ const SOURCES: &[&str] = &[
     "files",
     "mesh",
     "mesh_files",
+    "guidance",
     "field",
     "field_problem",
+    "field_guided",
+    "map",
+    "map_results",
 ];
 
 /// Files without anything that C sees.
-const INTERNAL: &[&str] = &["mod", "guard", "input", "output", "test_panic"];
+const INTERNAL: &[&str] = &[
+    "mod",
+    "guard",
+    "guidance_files",
+    "input",
+    "output",
+    "test_panic",
+];
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))

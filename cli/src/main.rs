@@ -2,6 +2,7 @@
 
 mod evaluate;
 mod exit;
+mod extract;
 mod field;
 mod interrupt;
 mod memory;
@@ -10,6 +11,7 @@ mod options;
 mod output;
 mod parametrize;
 mod progress;
+mod quad;
 mod report;
 mod shape;
 mod solve;
@@ -32,6 +34,8 @@ enum Command {
     Solve(solve::Arguments),
     Field(field::Arguments),
     Parametrize(parametrize::Arguments),
+    Quad(quad::Arguments),
+    Extract(extract::Arguments),
     Shape(shape::Arguments),
     Evaluate(evaluate::Arguments),
 }
@@ -41,6 +45,8 @@ fn main() -> ExitCode {
         Command::Solve(arguments) => solve::run(&arguments),
         Command::Field(arguments) => field::run(&arguments),
         Command::Parametrize(arguments) => parametrize::run(&arguments),
+        Command::Quad(arguments) => quad::run(&arguments),
+        Command::Extract(arguments) => extract::run(&arguments),
         Command::Shape(arguments) => shape::run(&arguments),
         Command::Evaluate(arguments) => evaluate::run(&arguments),
     }

@@ -25,6 +25,11 @@ impl Progress {
         Progress(bar)
     }
 
+    /// Says what is being done now, where no monitor tells.
+    pub fn say(&self, what: &'static str) {
+        self.0.set_message(what);
+    }
+
     /// A monitor that keeps the line up to date.
     pub fn monitor(&self) -> Monitor<'_> {
         if self.0.is_hidden() {
@@ -64,6 +69,7 @@ fn word(phase: Phase) -> &'static str {
         Phase::Eliminate => "eliminate",
         Phase::Factor => "factor",
         Phase::Round => "round",
+        Phase::Untangle => "untangle",
         _ => "solve",
     }
 }

@@ -1,9 +1,12 @@
-/// Roundel for CGAL: fields of every model of its FaceGraph, written back to property maps.
+/// Roundel for CGAL: fields and maps of every model of its FaceGraph, written back to property
+/// maps.
 ///
 ///     CGAL::Surface_mesh<Kernel::Point_3> mesh = ...;
 ///     auto field = roundel::orientation_field(mesh, {.constrain_curvature = 0.1});
 ///     auto p = roundel::store(field, mesh);
 ///     for (auto face : faces(mesh)) std::cout << p.angle[face] << '\n';
+///     auto map = roundel::parametrize(mesh, field, {.quads = 2000});
+///     auto uv = roundel::store(map, mesh);
 ///
 /// Faces must be triangles. Elements that are marked as removed are left out. A face's first edge
 /// is its halfedge(face, mesh).
@@ -18,6 +21,7 @@
 #include <CGAL/number_utils.h>
 #include <boost/graph/graph_traits.hpp>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
@@ -42,6 +46,7 @@ template <class G> using Halfedge = typename boost::graph_traits<G>::halfedge_de
 
 template <class G> using Elements = Adapted<Vertex<G>, Face<G>, Halfedge<G>>;
 template <class G> using Field = AdaptedField<Vertex<G>, Face<G>, Halfedge<G>>;
+template <class G> using Map = AdaptedMap<Vertex<G>, Face<G>, Halfedge<G>>;
 
 // A FaceGraph has faces(graph); boost::graph_traits cannot be asked of a type that is no graph.
 // CGAL makes FaceGraphs of OpenMesh's types too; those belong to openmesh.hpp.
@@ -142,6 +147,36 @@ cgal::Properties<CGAL::Surface_mesh<P>> store(const cgal::Field<CGAL::Surface_me
     to.index = mesh.template add_property_map<cgal::Vertex<M>, double>("v:roundel_index").first;
     store(field, mesh, to.angle, to.period_jump, to.kappa, to.index);
     return to;
+}
+
+/// The seamless map of a FaceGraph that follows a field found on it.
+template <class G, cgal::enable<G> = 0>
+cgal::Map<G> parametrize(const G& graph, const cgal::Field<G>& field,
+                         const MapOptions& options = {}, Status* status = nullptr) {
+    return detail::map_of(adapt(graph, status), field, options, status);
+}
+
+/// Writes a map to a writable property map of half-edges, whose values are arrays of u and v: in
+/// the half-edge's face, of its target.
+template <class G, class Uv, cgal::enable<G> = 0>
+void store(const cgal::Map<G>& map, const G&, Uv uv) {
+    detail::hand_out(map, [&](const cgal::Halfedge<G>& side, double u, double v) {
+        put(uv, side, std::array<double, 2>{u, v});
+    });
+}
+
+/// Writes a map to the property map "h:roundel_uv" of the CGAL::Surface_mesh that it was made for,
+/// which is added unless it is there.
+template <class P>
+typename CGAL::Surface_mesh<P>::template Property_map<cgal::Halfedge<CGAL::Surface_mesh<P>>,
+                                                      std::array<double, 2>>
+store(const cgal::Map<CGAL::Surface_mesh<P>>& map, CGAL::Surface_mesh<P>& mesh) {
+    using M = CGAL::Surface_mesh<P>;
+    const auto uv =
+        mesh.template add_property_map<cgal::Halfedge<M>, std::array<double, 2>>("h:roundel_uv")
+            .first;
+    store(map, mesh, uv);
+    return uv;
 }
 
 ROUNDEL_NAMESPACE_END

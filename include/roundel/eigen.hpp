@@ -1,9 +1,10 @@
-/// Roundel for Eigen: problems from its sparse matrices, fields of meshes in its matrices.
+/// Roundel for Eigen: problems from its sparse matrices, fields and maps of meshes in its matrices.
 ///
 ///     problem.quadratic(Q, roundel::Triangle::full);            // Eigen::SparseMatrix<double>
 ///     problem.constrain(C, d);                                  // and a vector
 ///     auto field = roundel::orientation_field(V, F, {.constrain_curvature = 0.1});
 ///     auto found = roundel::matrices(field);
+///     auto [UV, FUV] = roundel::matrices(roundel::parametrize(field, {.quads = 2000}));
 
 #ifndef ROUNDEL_EIGEN_HPP
 #define ROUNDEL_EIGEN_HPP
@@ -152,6 +153,33 @@ inline FieldMatrices matrices(const EigenField& field, Status* status = nullptr)
     const auto sides = field.mesh.edge_faces(status);
     to.edge_faces = Eigen::Map<const decltype(to.edge_faces)>(
         sides.data(), static_cast<Eigen::Index>(sides.size() / 2), 2);
+    return to;
+}
+
+/// The seamless map of the mesh of a field in matrices.
+inline Map parametrize(const EigenField& field, const MapOptions& options = {},
+                       Status* status = nullptr) {
+    return parametrize(field.mesh, field, options, status);
+}
+
+/// A map as Eigen's matrices, beside those of the mesh: corner k of face f has the coordinates
+/// UV.row(FUV(f, k)).
+struct MapMatrices {
+    /// u and v of every vertex of the cut surface.
+    Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor> UV;
+    /// The three corners of every face among them.
+    Eigen::Matrix<std::int32_t, Eigen::Dynamic, 3, Eigen::RowMajor> FUV;
+};
+
+inline MapMatrices matrices(const Map& map) {
+    const auto rows = [](auto values, auto& to) {
+        using Matrix = std::remove_reference_t<decltype(to)>;
+        const auto count = static_cast<Eigen::Index>(values.size()) / Matrix::ColsAtCompileTime;
+        to = Eigen::Map<const Matrix>(values.data(), count, Matrix::ColsAtCompileTime);
+    };
+    MapMatrices to;
+    rows(map.vertex_uvs(), to.UV);
+    rows(map.vertex_corners(), to.FUV);
     return to;
 }
 

@@ -1,8 +1,11 @@
-/// Roundel for OpenMesh: fields of its meshes, written back as its properties.
+/// Roundel for OpenMesh: fields and maps of its meshes, written back as its properties.
 ///
 ///     auto field = roundel::orientation_field(mesh, {.constrain_curvature = 0.1});
 ///     auto p = roundel::store(field, mesh);
 ///     for (auto face : mesh.faces()) std::cout << mesh.property(p.angle, face) << '\n';
+///     auto map = roundel::parametrize(mesh, field, {.quads = 2000});
+///     auto uv = roundel::store(map, mesh);
+///     if (!map.valid()) for (auto face : map.flipped()) mark(face);
 ///
 /// For every mesh type of OpenMesh whose faces are triangles. Elements that are marked as deleted
 /// are left out; no garbage collection is needed. A face's first edge is its halfedge_handle.
@@ -13,6 +16,7 @@
 #include <roundel/detail/adapted.hpp>
 #include <roundel/roundel.hpp>
 
+#include <OpenMesh/Core/Geometry/VectorT.hh>
 #include <OpenMesh/Core/Mesh/PolyConnectivity.hh>
 
 #include <cstddef>
@@ -27,6 +31,7 @@ namespace openmesh {
 
 using Elements = Adapted<OpenMesh::VertexHandle, OpenMesh::FaceHandle, OpenMesh::HalfedgeHandle>;
 using Field = AdaptedField<OpenMesh::VertexHandle, OpenMesh::FaceHandle, OpenMesh::HalfedgeHandle>;
+using Map = AdaptedMap<OpenMesh::VertexHandle, OpenMesh::FaceHandle, OpenMesh::HalfedgeHandle>;
 
 template <class M>
 using enable = std::enable_if_t<std::is_base_of_v<OpenMesh::PolyConnectivity, M>, int>;
@@ -115,6 +120,28 @@ openmesh::Properties store(const openmesh::Field& field, M& mesh) {
             mesh.property(to.kappa, h) = kappa;
         });
     return to;
+}
+
+/// The seamless map of an OpenMesh mesh that follows a field found on it.
+template <class M, openmesh::enable<M> = 0>
+openmesh::Map parametrize(const M& mesh, const openmesh::Field& field,
+                          const MapOptions& options = {}, Status* status = nullptr) {
+    return detail::map_of(adapt(mesh, status), field, options, status);
+}
+
+/// Writes a map to the half-edge property "roundel:uv" of the mesh that it was made for, which is
+/// added unless it is there: u and v in the half-edge's face, of the vertex that it points to, as
+/// OpenMesh has texture coordinates.
+template <class M, openmesh::enable<M> = 0>
+OpenMesh::HPropHandleT<OpenMesh::Vec2d> store(const openmesh::Map& map, M& mesh) {
+    OpenMesh::HPropHandleT<OpenMesh::Vec2d> uv;
+    if (!mesh.get_property_handle(uv, "roundel:uv")) {
+        mesh.add_property(uv, "roundel:uv");
+    }
+    detail::hand_out(map, [&](OpenMesh::HalfedgeHandle side, double u, double v) {
+        mesh.property(uv, side) = OpenMesh::Vec2d(u, v);
+    });
+    return uv;
 }
 
 ROUNDEL_NAMESPACE_END

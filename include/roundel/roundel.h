@@ -337,6 +337,10 @@ enum roundel_phase
      * The search for integers.
      */
     ROUNDEL_PHASE_ROUND = 3,
+    /**
+     * Motion of what is continuous around integers that are held.
+     */
+    ROUNDEL_PHASE_UNTANGLE = 4,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -353,10 +357,31 @@ typedef int32_t roundel_phase;
 typedef struct roundel_cancel_token roundel_cancel_token;
 
 /**
- * A 4-symmetric direction field of a mesh: a cross in every face, and how crosses match over
- * edges. It does not need the mesh any more.
+ * An N-symmetric direction field of a mesh: N arms in every face, a cross for N = 4, and how they
+ * match over edges. It does not need the mesh any more.
  */
 typedef struct roundel_field roundel_field;
+
+/**
+ * What a field shall follow, and which edges become isolines of its map: features, boundary, given
+ * directions, curvature, given indices. Where several ask for the direction of one face, the first
+ * of these decides: a direction that is given, a feature or the boundary, a reliable curvature.
+ *
+ * A new one asks for crosses that follow the boundary, and for nothing else; where a function
+ * takes a guidance, NULL stands for that. Numbers of faces, edges and vertices are those of the
+ * mesh that it is used with, and are checked there.
+ */
+typedef struct roundel_guidance roundel_guidance;
+
+/**
+ * A seamless map of a mesh: coordinates (u, v) on the surface cut open, whose gradients follow a
+ * field of crosses, which turn by quarters and shift by integers over the cut. Cones are integer
+ * points, features isolines of integer value. It keeps what it needs of mesh and field.
+ *
+ * It is made for a size of quads, solved, and solved again for other sizes, from what was kept of
+ * the first solve. What it tells is of the last solve.
+ */
+typedef struct roundel_map roundel_map;
 
 /**
  * An oriented triangle mesh, with or without boundary, of any genus and any number of components.
@@ -1347,6 +1372,134 @@ roundel_status roundel_mesh_read(const char *file, struct roundel_mesh **mesh);
 roundel_status roundel_mesh_write(const struct roundel_mesh *mesh, const char *file);
 
 /**
+ * Makes a guidance. To be freed with roundel_guidance_free.
+ */
+roundel_status roundel_guidance_new(struct roundel_guidance **guidance);
+
+/**
+ * Frees a guidance. NULL is allowed.
+ */
+roundel_status roundel_guidance_free(struct roundel_guidance *guidance);
+
+/**
+ * Sets N, the number of arms in a face, evenly around: 4 for crosses (the default), and 1, 2 or 6
+ * for fields alone. A map needs crosses.
+ *
+ * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for another number.
+ */
+roundel_status roundel_guidance_set_symmetry(struct roundel_guidance *guidance, int32_t arms);
+
+/**
+ * Sets the directions that `count` faces have: `angles` of one arm, in radians, counter-clockwise
+ * about the normal from the face's first edge. Each face at most once.
+ */
+roundel_status roundel_guidance_set_constraints(struct roundel_guidance *guidance,
+                                                size_t count,
+                                                const int32_t *faces,
+                                                const double *angles);
+
+/**
+ * Sets the directions that `count` faces should have, each at most once: a deviation costs its
+ * square times the weight, where one between neighbours costs its square. A face with a direction
+ * that it must have keeps that.
+ */
+roundel_status roundel_guidance_set_guides(struct roundel_guidance *guidance,
+                                           size_t count,
+                                           const int32_t *faces,
+                                           const double *angles,
+                                           const double *weights);
+
+/**
+ * Prescribes all irregular vertices: `count` vertices of the interior, each once, and their
+ * indices in `steps` of 1/N; all others become regular. On closed meshes the indices must sum to
+ * the Euler characteristic, which shows when the field is made. roundel_guidance_free_indices takes
+ * it back.
+ */
+roundel_status roundel_guidance_set_indices(struct roundel_guidance *guidance,
+                                            size_t count,
+                                            const int32_t *vertices,
+                                            const int32_t *steps);
+
+/**
+ * Leaves indices to the energy, as at first.
+ */
+roundel_status roundel_guidance_free_indices(struct roundel_guidance *guidance);
+
+/**
+ * Sets how curvature counts. `fraction` of the faces, 0 to 1, those whose direction of least
+ * absolute curvature is most reliable, have that direction; all others are pulled towards theirs
+ * with weight `weight` * area * (|k1| - |k2|)^2. Both are 0 at first.
+ *
+ * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for a fraction outside of 0 to 1 and for a weight that
+ * is negative or not finite.
+ */
+roundel_status roundel_guidance_set_curvature(struct roundel_guidance *guidance,
+                                              double fraction,
+                                              double weight);
+
+/**
+ * Makes edges features at which the normals of the two faces differ by `angle` radians or more; 0
+ * makes none.
+ *
+ * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for an angle outside of 0 to pi.
+ */
+roundel_status roundel_guidance_set_feature_angle(struct roundel_guidance *guidance, double angle);
+
+/**
+ * Makes `count` edges features, by number; they take the place of those that were set before.
+ */
+roundel_status roundel_guidance_set_feature_edges(struct roundel_guidance *guidance,
+                                                  size_t count,
+                                                  const int32_t *edges);
+
+/**
+ * Makes the edges between `count` pairs of vertices features; they take the place of those that
+ * were set before. `vertices` has twice as many entries.
+ */
+roundel_status roundel_guidance_set_feature_lines(struct roundel_guidance *guidance,
+                                                  size_t count,
+                                                  const int32_t *vertices);
+
+/**
+ * Sets whether edges of the boundary are features: 1, as at first, or 0.
+ *
+ * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for another number.
+ */
+roundel_status roundel_guidance_set_align_boundary(struct roundel_guidance *guidance,
+                                                   int32_t align);
+
+/**
+ * Adds what a text file asks for, one wish a line: "direction FACE X Y Z [WEIGHT]" (one that the
+ * face has, or with a weight should have), "edge VERTEX VERTEX" (a feature), "index VERTEX STEPS".
+ * What follows a # is a comment.
+ *
+ * Fails with ROUNDEL_ERROR_IO, and with ROUNDEL_ERROR_PARSE and the line for what is none of these
+ * or not on the mesh; nothing is added then.
+ */
+roundel_status roundel_guidance_read(struct roundel_guidance *guidance,
+                                     const struct roundel_mesh *mesh,
+                                     const char *file);
+
+/**
+ * Adds the line elements of an OBJ file, which has the vertices of the mesh, to the feature edges.
+ *
+ * Fails with ROUNDEL_ERROR_IO, and with ROUNDEL_ERROR_PARSE and the line for what is no line
+ * between vertices that an edge joins; nothing is added then.
+ */
+roundel_status roundel_guidance_read_features(struct roundel_guidance *guidance,
+                                              const struct roundel_mesh *mesh,
+                                              const char *file);
+
+/**
+ * Marks the edges of a mesh that a guidance makes features: 1 for each, 0 for all others.
+ * `length` is the number of edges. `guidance` may be NULL.
+ */
+roundel_status roundel_mesh_mark_features(const struct roundel_mesh *mesh,
+                                          const struct roundel_guidance *guidance,
+                                          int32_t *marks,
+                                          size_t length);
+
+/**
  * Finds the smoothest field of a mesh with the directions of `constraint_count` faces given (see
  * roundel_field_make_problem), under the eyes of `monitor`. `options` and `monitor` may be NULL.
  *
@@ -1366,16 +1519,16 @@ roundel_status roundel_field_solve(const struct roundel_mesh *mesh,
 roundel_status roundel_field_free(struct roundel_field *field);
 
 /**
- * Copies the angle of one arm of every face's cross: radians, counter-clockwise about the normal
- * from the face's first edge. Not reduced to a quarter turn: the period jumps belong to these very
- * angles. `length` is the number of faces.
+ * Copies the angle of one arm of every face: radians, counter-clockwise about the normal
+ * from the face's first edge. Not reduced to the angle between arms: the period jumps belong to
+ * these very angles. `length` is the number of faces.
  */
 roundel_status roundel_field_angles(const struct roundel_field *field,
                                     double *angles,
                                     size_t length);
 
 /**
- * Copies the period jump of every edge, from its first to its second face: angle + kappa + pi/2
+ * Copies the period jump of every edge, from its first to its second face: angle + kappa + 2 pi/N
  * jump is the matching arm of the second. Zero at the boundary. `length` is the number of edges.
  */
 roundel_status roundel_field_period_jumps(const struct roundel_field *field,
@@ -1389,7 +1542,7 @@ roundel_status roundel_field_period_jumps(const struct roundel_field *field,
 roundel_status roundel_field_kappa(const struct roundel_field *field, double *kappa, size_t length);
 
 /**
- * Copies the index of every vertex in full turns, from the period jumps: a multiple of 1/4, and
+ * Copies the index of every vertex in full turns, from the period jumps: a multiple of 1/N, and
  * +1/4 at the corner of a cube. Zero for vertices of the boundary. `length` is the number of
  * vertices.
  */
@@ -1415,7 +1568,7 @@ roundel_status roundel_field_boundary_indices(const struct roundel_field *field,
 
 /**
  * Gives the energy, recomputed on the mesh from angles and period jumps: the sum over interior
- * edges, not between two constrained faces, of (angle + kappa + pi/2 jump - other angle)^2.
+ * edges, not between two constrained faces, of (angle + kappa + 2 pi/N jump - other angle)^2.
  */
 roundel_status roundel_field_energy(const struct roundel_field *field, double *energy);
 
@@ -1476,6 +1629,200 @@ roundel_status roundel_mesh_curvature_constraints(const struct roundel_mesh *mes
                                                   int32_t *faces,
                                                   double *angles,
                                                   size_t *count);
+
+/**
+ * Finds the smoothest field of a mesh that follows a guidance, under the eyes of `monitor`.
+ * `guidance`, `options` and `monitor` may be NULL.
+ *
+ * With the position in the list at fault, fails with ROUNDEL_ERROR_INDEX_OUT_OF_RANGE for an
+ * element that the mesh does not have, ROUNDEL_ERROR_NOT_FINITE, and
+ * ROUNDEL_ERROR_INVALID_ARGUMENT for one that is named twice, two vertices that no edge joins, a
+ * negative weight or an index at the boundary. ROUNDEL_ERROR_INVALID_ARGUMENT also for indices that
+ * do not sum to the Euler characteristic, and with the face for one whose three edges are features.
+ * Else as roundel_solve does.
+ */
+roundel_status roundel_field_solve_guided(const struct roundel_mesh *mesh,
+                                          const struct roundel_guidance *guidance,
+                                          const struct roundel_options *options,
+                                          const struct roundel_monitor *monitor,
+                                          struct roundel_field **field);
+
+/**
+ * Makes the mixed-integer problem of the field that roundel_field_solve_guided finds. Variables are
+ * those of roundel_field_make_problem. `guidance` may be NULL.
+ */
+roundel_status roundel_field_make_guided_problem(const struct roundel_mesh *mesh,
+                                                 const struct roundel_guidance *guidance,
+                                                 struct roundel_problem **problem);
+
+/**
+ * Makes the field that a solution of roundel_field_make_guided_problem's problem stands for; mesh
+ * and guidance are those of the problem.
+ *
+ * Fails with ROUNDEL_ERROR_LENGTH_MISMATCH for the solution of another problem,
+ * ROUNDEL_ERROR_OVERFLOW for a period jump beyond 2^31.
+ */
+roundel_status roundel_field_from_guided_solution(const struct roundel_mesh *mesh,
+                                                  const struct roundel_guidance *guidance,
+                                                  const struct roundel_solution *solution,
+                                                  struct roundel_field **field);
+
+/**
+ * Gives N, the number of arms that a field has in a face.
+ */
+roundel_status roundel_field_symmetry(const struct roundel_field *field, int32_t *arms);
+
+/**
+ * Makes a map, not yet solved for, of a mesh and a field on it, with 1000 quads aimed at. Features
+ * are those of `guidance`, or of that of the field where it is NULL. To be freed with
+ * roundel_map_free.
+ *
+ * Fails with ROUNDEL_ERROR_LENGTH_MISMATCH for the field of another mesh,
+ * ROUNDEL_ERROR_INVALID_ARGUMENT for a field of other than crosses, ROUNDEL_ERROR_OVERFLOW,
+ * ROUNDEL_ERROR_OUT_OF_MEMORY, and as roundel_mesh_mark_features does.
+ */
+roundel_status roundel_map_new(const struct roundel_mesh *mesh,
+                               const struct roundel_field *field,
+                               const struct roundel_guidance *guidance,
+                               struct roundel_map **map);
+
+/**
+ * Frees a map. NULL is allowed.
+ */
+roundel_status roundel_map_free(struct roundel_map *map);
+
+/**
+ * Aims at a number of quads.
+ *
+ * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for none.
+ */
+roundel_status roundel_map_set_quads(struct roundel_map *map, size_t quads);
+
+/**
+ * Aims at quads with edges of one length, in units of the mesh.
+ *
+ * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for one that is not above zero,
+ * ROUNDEL_ERROR_NOT_FINITE.
+ */
+roundel_status roundel_map_set_edge_length(struct roundel_map *map, double edge_length);
+
+/**
+ * Aims at quads with edges of two lengths a face: along the arm that the field stores there (its
+ * angle), and across it. `length` is twice the number of faces.
+ *
+ * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT and the face for one that is not above zero,
+ * ROUNDEL_ERROR_NOT_FINITE, ROUNDEL_ERROR_LENGTH_MISMATCH.
+ */
+roundel_status roundel_map_set_edge_lengths(struct roundel_map *map,
+                                            const double *edge_lengths,
+                                            size_t length);
+
+/**
+ * Solves for the map under the eyes of `monitor`, which may cancel. `options` and `monitor` may be
+ * NULL. A later call after another size was set skips elimination, orderings and factorizations.
+ *
+ * Fails as roundel_solve does, and leaves what an earlier solve found. The callback must not use
+ * the map.
+ */
+roundel_status roundel_map_solve(struct roundel_map *map,
+                                 const struct roundel_options *options,
+                                 const struct roundel_monitor *monitor);
+
+/**
+ * Makes a copy of the mixed-integer problem of a map at its present size, to be kept or solved in
+ * another way. Variables 2 c and 2 c + 1 are u and v of vertex c of the cut surface; the
+ * translations of the seams follow.
+ */
+roundel_status roundel_map_make_problem(const struct roundel_map *map,
+                                        struct roundel_problem **problem);
+
+/**
+ * Takes any solution of roundel_map_make_problem's problem in place of a solve.
+ *
+ * Fails with ROUNDEL_ERROR_LENGTH_MISMATCH for the solution of another problem.
+ */
+roundel_status roundel_map_take_solution(struct roundel_map *map,
+                                         const struct roundel_solution *solution);
+
+/**
+ * Copies u, v of the three corners of every face. `length` is six times the number of faces.
+ */
+roundel_status roundel_map_corner_uvs(const struct roundel_map *map, double *uvs, size_t length);
+
+/**
+ * Gives the number of vertices of the cut surface: a vertex has one for each sector between cut
+ * edges.
+ */
+roundel_status roundel_map_vertex_count(const struct roundel_map *map, size_t *count);
+
+/**
+ * Copies u, v of every vertex of the cut surface. `length` is twice their number.
+ */
+roundel_status roundel_map_vertex_uvs(const struct roundel_map *map, double *uvs, size_t length);
+
+/**
+ * Copies the three corners of every face as vertices of the cut surface. `length` is three times
+ * the number of faces.
+ */
+roundel_status roundel_map_vertex_corners(const struct roundel_map *map,
+                                          int32_t *corners,
+                                          size_t length);
+
+/**
+ * Gives the number of cut edges.
+ */
+roundel_status roundel_map_cut_count(const struct roundel_map *map, size_t *count);
+
+/**
+ * Copies the cut edges in increasing order, and how coordinates change over each from its first to
+ * its second face: by `quarters` turns counter-clockwise, 0 to 3, then by a translation (s, t).
+ * `count` is the number of cut edges; `translations` has twice as many entries.
+ */
+roundel_status roundel_map_transitions(const struct roundel_map *map,
+                                       size_t count,
+                                       int32_t *edges,
+                                       int32_t *quarters,
+                                       double *translations);
+
+/**
+ * Gives the number of cones: irregular vertices of the field.
+ */
+roundel_status roundel_map_cone_count(const struct roundel_map *map, size_t *count);
+
+/**
+ * Copies the cones in increasing order. `length` is their number.
+ */
+roundel_status roundel_map_cones(const struct roundel_map *map, int32_t *vertices, size_t length);
+
+/**
+ * Gives the number of faces that the map turns over or collapses.
+ */
+roundel_status roundel_map_flipped_count(const struct roundel_map *map, size_t *count);
+
+/**
+ * Copies the faces that the map turns over or collapses, in increasing order. `length` is their
+ * number.
+ */
+roundel_status roundel_map_flipped(const struct roundel_map *map, int32_t *faces, size_t length);
+
+/**
+ * Gives how far the gradients of u and v are from the arms of the field, as long as they should
+ * be: the sum over triangles of area times the squares of both differences, recomputed from the
+ * mesh.
+ */
+roundel_status roundel_map_energy(const struct roundel_map *map, double *energy);
+
+/**
+ * Makes a copy of the solution behind a map, which tells how the solve ended, its lower bound and
+ * its times. To be freed with roundel_solution_free.
+ */
+roundel_status roundel_map_solution(const struct roundel_map *map,
+                                    struct roundel_solution **solution);
+
+/**
+ * Writes the mesh with the coordinates of its corners as OBJ.
+ */
+roundel_status roundel_map_write(const struct roundel_map *map, const char *file);
 
 #ifdef __cplusplus
 }  // extern "C"

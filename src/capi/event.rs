@@ -34,6 +34,8 @@ pub enum roundel_phase {
     ROUNDEL_PHASE_FACTOR = 2,
     /// The search for integers.
     ROUNDEL_PHASE_ROUND = 3,
+    /// Motion of what is continuous around integers that are held.
+    ROUNDEL_PHASE_UNTANGLE = 4,
 }
 
 /// One message to the callback, with where the solve stands. It lives as long as the callback runs.
@@ -186,6 +188,7 @@ impl From<Phase> for roundel_phase {
             Phase::Eliminate => roundel_phase::ROUNDEL_PHASE_ELIMINATE,
             Phase::Factor => roundel_phase::ROUNDEL_PHASE_FACTOR,
             Phase::Round => roundel_phase::ROUNDEL_PHASE_ROUND,
+            Phase::Untangle => roundel_phase::ROUNDEL_PHASE_UNTANGLE,
         }
     }
 }

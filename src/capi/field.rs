@@ -10,12 +10,15 @@ use super::output::{Out, copy_numbers};
 use super::solution::roundel_solution;
 use super::status::roundel_status;
 use crate::mesh::TriangleMesh;
+use crate::mesh::features::FeatureGraph;
 use crate::quad::{FieldProblem, OrientationField};
 use crate::{Options, Solution};
 
 /// All that can be asked of a field, so that the mesh need not live as long.
 pub(super) struct Found {
     field: OrientationField,
+    /// The edges that the field was told to follow.
+    features: FeatureGraph,
     solution: Solution,
     energy: f64,
     irregular: usize,
@@ -25,7 +28,12 @@ pub(super) struct Found {
 }
 
 impl Found {
-    pub(super) fn new(mesh: &TriangleMesh, field: OrientationField, solution: Solution) -> Self {
+    pub(super) fn new(
+        mesh: &TriangleMesh,
+        field: OrientationField,
+        features: FeatureGraph,
+        solution: Solution,
+    ) -> Self {
         Found {
             energy: field.energy(mesh),
             irregular: field.irregular_vertices(mesh).len(),
@@ -33,13 +41,22 @@ impl Found {
             traced_indices: field.traced_indices(mesh),
             boundary_indices: field.boundary_indices(mesh),
             field,
+            features,
             solution,
         }
     }
+
+    pub(super) fn field(&self) -> &OrientationField {
+        &self.field
+    }
+
+    pub(super) fn features(&self) -> &FeatureGraph {
+        &self.features
+    }
 }
 
-/// A 4-symmetric direction field of a mesh: a cross in every face, and how crosses match over
-/// edges. It does not need the mesh any more.
+/// An N-symmetric direction field of a mesh: N arms in every face, a cross for N = 4, and how they
+/// match over edges. It does not need the mesh any more.
 pub struct roundel_field(Guarded<Found>);
 
 object!(roundel_field, Found, "field");
@@ -73,7 +90,8 @@ pub unsafe extern "C" fn roundel_field_solve(
         let problem = FieldProblem::new(mesh, &given)?;
         let solution = crate::solve_with(problem.problem(), options, monitor)?;
         let found = problem.field(mesh, &solution)?;
-        out.set(guard::handle(Found::new(mesh, found, solution)));
+        let none = FeatureGraph::none(mesh);
+        out.set(guard::handle(Found::new(mesh, found, none, solution)));
         Ok(())
     };
     // SAFETY: the caller gives a live handle, or NULL.
@@ -106,9 +124,9 @@ unsafe fn copy<T: Copy>(
     unsafe { guard::read(field, body) }
 }
 
-/// Copies the angle of one arm of every face's cross: radians, counter-clockwise about the normal
-/// from the face's first edge. Not reduced to a quarter turn: the period jumps belong to these very
-/// angles. `length` is the number of faces.
+/// Copies the angle of one arm of every face: radians, counter-clockwise about the normal
+/// from the face's first edge. Not reduced to the angle between arms: the period jumps belong to
+/// these very angles. `length` is the number of faces.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_field_angles(
     field: *const roundel_field,
@@ -119,7 +137,7 @@ pub unsafe extern "C" fn roundel_field_angles(
     unsafe { copy(field, "angles", |f| f.field.angles(), angles, length) }
 }
 
-/// Copies the period jump of every edge, from its first to its second face: angle + kappa + pi/2
+/// Copies the period jump of every edge, from its first to its second face: angle + kappa + 2 pi/N
 /// jump is the matching arm of the second. Zero at the boundary. `length` is the number of edges.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_field_period_jumps(
@@ -151,7 +169,7 @@ pub unsafe extern "C" fn roundel_field_kappa(
     unsafe { copy(field, "kappa", |f| f.field.kappa(), kappa, length) }
 }
 
-/// Copies the index of every vertex in full turns, from the period jumps: a multiple of 1/4, and
+/// Copies the index of every vertex in full turns, from the period jumps: a multiple of 1/N, and
 /// +1/4 at the corner of a cube. Zero for vertices of the boundary. `length` is the number of
 /// vertices.
 #[unsafe(no_mangle)]
@@ -213,7 +231,7 @@ pub unsafe extern "C" fn roundel_field_boundary_indices(
 }
 
 /// Gives the energy, recomputed on the mesh from angles and period jumps: the sum over interior
-/// edges, not between two constrained faces, of (angle + kappa + pi/2 jump - other angle)^2.
+/// edges, not between two constrained faces, of (angle + kappa + 2 pi/N jump - other angle)^2.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_field_energy(
     field: *const roundel_field,

@@ -10,6 +10,7 @@ use super::problem::roundel_problem;
 use super::solution::roundel_solution;
 use super::status::roundel_status;
 use crate::mesh::TriangleMesh;
+use crate::mesh::features::FeatureGraph;
 use crate::quad::{Constraint, FieldProblem, curvature_constraints};
 use crate::{Error, Solution};
 
@@ -92,7 +93,13 @@ pub unsafe extern "C" fn roundel_field_from_solution(
             )
         };
         let found = FieldProblem::new(mesh, &given)?.field(mesh, solution)?;
-        out.set(guard::handle(Found::new(mesh, found, solution.clone())));
+        let none = FeatureGraph::none(mesh);
+        out.set(guard::handle(Found::new(
+            mesh,
+            found,
+            none,
+            solution.clone(),
+        )));
         Ok(())
     };
     // SAFETY: the caller gives a live handle, or NULL.

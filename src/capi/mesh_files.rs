@@ -23,7 +23,7 @@ fn write(file: &Path, mesh: &TriangleMesh) -> Result<()> {
 
 // The exported symbols do not depend on features: programs link against either library.
 #[cfg(not(feature = "mesh-io"))]
-fn without_files<T>(file: &Path) -> Result<T> {
+pub(super) fn without_files<T>(file: &Path) -> Result<T> {
     Err(Error::NotSupported {
         what: format!("{}: built without mesh files", file.display()),
         index: None,

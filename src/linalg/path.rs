@@ -44,7 +44,7 @@ impl PathSolve {
         self.work
     }
 
-    /// The block of `A^-1` that belongs to `unknowns`, at most [`WIDEST`] different ones of a
+    /// The block of `A^-1` that belongs to `unknowns`, at most `WIDEST` different ones of a
     /// definite A: entry `(i, j)` at `i * unknowns.len() + j`.
     pub fn inverse_block(&mut self, ldl: &Ldl, unknowns: &[u32]) -> Vec<f64> {
         let width = unknowns.len().div_ceil(LANES);

@@ -17,6 +17,7 @@
 //! ```
 
 mod check;
+mod closest;
 mod connectivity;
 pub mod curvature;
 mod error;
@@ -33,6 +34,7 @@ mod triangle_mesh;
 pub mod vector;
 
 pub use check::ZERO_AREA_TOLERANCE;
+pub use closest::ClosestPoint;
 pub use error::MeshError;
 pub use jitter::jitter;
 pub use subdivide::subdivide;

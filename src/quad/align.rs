@@ -62,6 +62,21 @@ pub fn feature_constraints(
     Ok((0..mesh.face_count()).filter_map(constraint).collect())
 }
 
+/// Directions for fields of other symmetries, which have no quads to keep from collapsing: along
+/// the first local edge that is a feature.
+pub(super) fn edge_constraints(
+    mesh: &TriangleMesh,
+    features: &FeatureGraph,
+) -> Result<Vec<Constraint>> {
+    features.check_mesh(mesh)?;
+    let constraint = |face: usize| {
+        let k = (0..3).find(|&k| features.contains(mesh.edge_of(face, k)))?;
+        let angle = mesh.edge_angle(face, k);
+        Some(Constraint { face, angle })
+    };
+    Ok((0..mesh.face_count()).filter_map(constraint).collect())
+}
+
 /// The faces between two feature edges that follow each other around a vertex.
 struct Wedge {
     /// (face, corner), counter-clockwise.

@@ -71,6 +71,13 @@ impl FieldOptions {
         self.constraints.extend(others);
     }
 
+    /// Adds guides, except for faces that have one.
+    pub fn guide_others(&mut self, guides: impl IntoIterator<Item = Guide>) {
+        let taken: std::collections::BTreeSet<usize> = self.guides.iter().map(|g| g.face).collect();
+        let others = guides.into_iter().filter(|g| !taken.contains(&g.face));
+        self.guides.extend(others);
+    }
+
     /// The angle from arm to arm.
     pub(super) fn step(&self) -> Result<f64> {
         match self.symmetry {

@@ -1,6 +1,7 @@
 //! A seamless map, and its energy measured on the mesh.
 
 use super::SeamlessProblem;
+use super::check::orientation;
 use super::seamless::turned;
 use crate::linalg::CompensatedSum;
 use crate::mesh::TriangleMesh;
@@ -29,7 +30,9 @@ impl Transition {
 /// Coordinates on a cut surface that turn by quarters and shift by integers over the cut.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SeamlessMap {
-    uv: Vec<[f64; 2]>,
+    /// Of all unknowns of the problem, the coordinates first.
+    values: Vec<f64>,
+    coordinates: usize,
     copies: Vec<[u32; 3]>,
     transitions: Vec<Transition>,
     cones: Vec<usize>,
@@ -51,9 +54,9 @@ impl SeamlessMap {
                 actual: values.len(),
             });
         }
-        let coordinates = &values[..2 * problem.sectors.count()];
         let mut map = SeamlessMap {
-            uv: coordinates.as_chunks().0.to_vec(),
+            values: values.to_vec(),
+            coordinates: 2 * problem.sectors.count(),
             copies: problem.sectors.copy.clone(),
             transitions: transitions(problem, mesh, values),
             cones: problem.cones.clone(),
@@ -61,7 +64,7 @@ impl SeamlessMap {
             energy: 0.0,
         };
         map.flipped = (0..mesh.face_count())
-            .filter(|&face| map.doubled_area(face) <= 0.0)
+            .filter(|&face| orientation(map.uv(face)) <= 0.0)
             .collect();
         map.energy = energy(problem, mesh, &map);
         Ok(map)
@@ -69,7 +72,8 @@ impl SeamlessMap {
 
     /// The coordinates of the corners of a face.
     pub fn uv(&self, face: usize) -> [[f64; 2]; 3] {
-        self.copies[face].map(|copy| self.uv[copy as usize])
+        let uv = self.vertex_uvs();
+        self.copies[face].map(|copy| uv[copy as usize])
     }
 
     /// The coordinates of all corners, face by face.
@@ -80,7 +84,12 @@ impl SeamlessMap {
     /// The coordinates of the vertices of the cut surface, to be used with
     /// [`copies`](Self::copies).
     pub fn vertex_uvs(&self) -> &[[f64; 2]] {
-        &self.uv
+        self.values[..self.coordinates].as_chunks().0
+    }
+
+    /// The values of all unknowns of the problem that the map was made of.
+    pub(super) fn values(&self) -> &[f64] {
+        &self.values
     }
 
     /// The vertices of the cut surface at the corners of every face.
@@ -98,7 +107,7 @@ impl SeamlessMap {
         &self.cones
     }
 
-    /// Faces that the map turns over or collapses, in increasing order.
+    /// Faces that the map turns over or collapses, decided exactly, in increasing order.
     pub fn flipped(&self) -> &[usize] {
         &self.flipped
     }
@@ -107,12 +116,6 @@ impl SeamlessMap {
     /// mesh.
     pub fn energy(&self) -> f64 {
         self.energy
-    }
-
-    /// Twice the signed area of a face in the plane.
-    fn doubled_area(&self, face: usize) -> f64 {
-        let [a, b, c] = self.uv(face);
-        (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
     }
 }
 

@@ -185,6 +185,26 @@ impl SeamlessProblem {
         SeamlessMap::new(self, mesh, solution.values())
     }
 
+    /// Whether this is a map of that mesh and this problem.
+    pub(super) fn check_map(&self, mesh: &TriangleMesh, map: &SeamlessMap) -> Result<()> {
+        self.field.check_mesh(mesh)?;
+        let (expected, actual) = (self.problem.variables(), map.values().len());
+        match expected == actual && map.copies() == self.sectors.copy {
+            true => Ok(()),
+            false => Err(Error::LengthMismatch {
+                what: "the map of the parametrization",
+                expected,
+                actual,
+            }),
+        }
+    }
+
+    /// Unit squares a unit length in a face, the geometric mean of both directions.
+    pub(super) fn density(&self, face: usize) -> f64 {
+        let [along, across] = self.density.of(face, 0);
+        (along * across).sqrt()
+    }
+
     /// Combed arms of a face, as long as the gradients shall be.
     pub(super) fn targets(&self, mesh: &TriangleMesh, face: usize) -> [[f64; 3]; 2] {
         let arms = self.combing.arms(mesh, &self.field, face);

@@ -25,6 +25,8 @@ pub enum Phase {
     Factor,
     /// The search for integers.
     Round,
+    /// Motion of what is continuous around integers that are held.
+    Untangle,
 }
 
 /// What an event tells.

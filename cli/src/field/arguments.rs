@@ -18,6 +18,10 @@ pub struct Arguments {
     #[command(flatten)]
     pub directions: Directions,
 
+    /// Arms of a direction, evenly around: 1, 2, 4 (crosses) or 6
+    #[arg(long, value_name = "N", default_value_t = 4, value_parser = symmetry)]
+    pub symmetry: u8,
+
     /// Write the field to this file: a direction a face, one line each, for `parametrize` and other
     /// programs (.txt), or the mesh with crosses and irregular vertices, to be looked at in MeshLab
     /// or Blender (.ply and .obj have colours, .off not)
@@ -54,6 +58,13 @@ pub struct Arguments {
     pub solver: SolverOptions,
 }
 
+fn symmetry(text: &str) -> Result<u8, String> {
+    match text.parse() {
+        Ok(arms @ (1 | 2 | 4 | 6)) => Ok(arms),
+        _ => Err("not one of 1, 2, 4, 6".into()),
+    }
+}
+
 fn size(text: &str) -> Result<[usize; 2], String> {
     let (width, height) = text.split_once('x').ok_or("not WIDTHxHEIGHT")?;
     let pixels = |text: &str| match text.parse() {
@@ -71,7 +82,15 @@ fn direction(text: &str) -> Result<[f64; 3], String> {
 
 #[cfg(test)]
 mod tests {
-    use super::{direction, size};
+    use super::{direction, size, symmetry};
+
+    #[test]
+    fn a_symmetry_is_one_that_fields_have() {
+        assert_eq!(symmetry("6"), Ok(6));
+        for text in ["0", "3", "8", "4.0", "cross"] {
+            assert!(symmetry(text).is_err(), "{text}");
+        }
+    }
 
     #[test]
     fn a_direction_of_view_is_three_numbers() {

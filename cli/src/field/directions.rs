@@ -1,37 +1,103 @@
-//! Which faces have their direction given: the flags of every command that computes a field.
+//! What a field follows: the flags of every command that computes one.
+
+use std::path::PathBuf;
 
 use roundel::mesh::TriangleMesh;
-use roundel::quad::{Constraint, curvature_constraints};
+use roundel::mesh::features::FeatureGraph;
+use roundel::quad::{Constraint, Guidance};
 
-/// Directions by curvature and by number of face.
+use super::named;
+
+/// How much of the faces have the direction of their curvature when nobody says.
+const CURVED: f64 = 0.1;
+
+/// Features, directions by curvature, by number of face and from a file.
 #[derive(clap::Args)]
 pub struct Directions {
-    /// Give this part of the faces, those with the most reliable curvature, the direction of least
-    /// curvature; from 0 to 1
-    #[arg(long, value_name = "FRACTION", default_value_t = 0.1, value_parser = fraction)]
+    /// Follow the edges at which the surface turns by this many degrees or more: features, which are
+    /// isolines of a map
+    #[arg(long, value_name = "DEGREES", value_parser = feature_angle)]
     #[arg(allow_negative_numbers = true)]
-    pub constrain_curvature: f64,
+    pub features: Option<f64>,
+
+    /// Follow the edges that are line elements of this OBJ file (l V1 V2 ...), which has the
+    /// vertices of the mesh; often it is the mesh
+    #[arg(long, value_name = "LINES.obj")]
+    pub feature_lines: Option<PathBuf>,
+
+    /// Do not follow the boundary: by default it is a feature
+    #[arg(long)]
+    pub free_boundary: bool,
+
+    /// Give this part of the faces, those with the most reliable curvature, the direction of least
+    /// curvature; from 0 to 1 [default: 0.1, and 0 with features, indices or --symmetry 1]
+    #[arg(long, value_name = "FRACTION", value_parser = fraction)]
+    #[arg(allow_negative_numbers = true)]
+    pub constrain_curvature: Option<f64>,
+
+    /// Pull all other faces towards the direction of least curvature, with a weight for an area and
+    /// a difference of curvatures of 1
+    #[arg(long, value_name = "WEIGHT", default_value_t = 0.0, value_parser = weight)]
+    #[arg(allow_negative_numbers = true)]
+    pub curvature_weight: f64,
 
     /// Give this face this direction, in degrees counter-clockwise from its first edge; may be
-    /// repeated, and comes before curvature
+    /// repeated, and comes before all else
     #[arg(long, value_name = "FACE:DEGREES", value_parser = constraint)]
     pub fix: Vec<Constraint>,
+
+    /// Follow what this file asks for, one wish a line: direction FACE X Y Z [WEIGHT], edge VERTEX
+    /// VERTEX, index VERTEX STEPS (in quarter turns)
+    #[arg(long, value_name = "GUIDE.txt")]
+    pub guide: Option<PathBuf>,
 }
 
 impl Directions {
-    /// The directions given on the command line, and those of curvature for other faces.
-    pub fn constraints(&self, mesh: &TriangleMesh) -> roundel::Result<Vec<Constraint>> {
-        let mut constraints = self.fix.clone();
-        let mut free = vec![true; mesh.face_count()];
-        for given in &constraints {
-            if let Some(free) = free.get_mut(given.face) {
-                *free = false;
-            }
+    /// What the command line asks for, for a field of this many arms, and the edges to follow.
+    pub fn of(
+        &self,
+        mesh: &TriangleMesh,
+        symmetry: u8,
+    ) -> roundel::Result<(Guidance, FeatureGraph)> {
+        let mut guidance = Guidance {
+            symmetry,
+            constraints: self.fix.clone(),
+            curvature_weight: self.curvature_weight,
+            feature_angle: self.features.map(f64::to_radians),
+            align_boundary: !self.free_boundary,
+            ..Guidance::default()
+        };
+        if let Some(path) = &self.guide {
+            let read = guidance.read(mesh, path);
+            read.map_err(|error| named(path, error))?;
         }
-        let mut curved = curvature_constraints(mesh, self.constrain_curvature)?;
-        curved.retain(|c| free[c.face]);
-        constraints.extend(curved);
-        Ok(constraints)
+        // Sharp shapes are flat elsewhere: curvature there is noise.
+        let by_features = self.features.is_some() || self.feature_lines.is_some();
+        let by_all = symmetry != 1 && guidance.indices.is_none() && !by_features;
+        let default = if by_all { CURVED } else { 0.0 };
+        guidance.constrain_curvature = self.constrain_curvature.unwrap_or(default);
+        let mut features = guidance.features(mesh)?;
+        if let Some(path) = &self.feature_lines {
+            let lines = FeatureGraph::read(mesh, path).map_err(|error| named(path, error))?;
+            features = features.with(mesh, &lines)?;
+        }
+        Ok((guidance, features))
+    }
+}
+
+fn feature_angle(text: &str) -> Result<f64, String> {
+    let value: f64 = text.parse().map_err(|_| "not a number")?;
+    match value > 0.0 && value <= 180.0 {
+        true => Ok(value),
+        false => Err("not above 0 and at most 180 degrees".into()),
+    }
+}
+
+fn weight(text: &str) -> Result<f64, String> {
+    let value: f64 = text.parse().map_err(|_| "not a number")?;
+    match value >= 0.0 && value.is_finite() {
+        true => Ok(value),
+        false => Err("not a number from 0".into()),
     }
 }
 
@@ -60,7 +126,7 @@ fn constraint(text: &str) -> Result<Constraint, String> {
 
 #[cfg(test)]
 mod tests {
-    use super::{constraint, fraction};
+    use super::{constraint, feature_angle, fraction, weight};
 
     #[test]
     fn a_direction_is_a_face_and_finite_degrees() {
@@ -78,6 +144,18 @@ mod tests {
         assert_eq!((fraction("0"), fraction("1")), (Ok(0.0), Ok(1.0)));
         for text in ["-0.1", "1.01", "nan", "a tenth", ""] {
             assert!(fraction(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn features_are_of_an_angle_and_weights_not_negative() {
+        assert_eq!(feature_angle("180"), Ok(180.0));
+        for text in ["0", "-40", "181", "nan", "sharp"] {
+            assert!(feature_angle(text).is_err(), "{text}");
+        }
+        assert_eq!(weight("0"), Ok(0.0));
+        for text in ["-1", "inf", "nan", "much"] {
+            assert!(weight(text).is_err(), "{text}");
         }
     }
 }

@@ -5,13 +5,14 @@ mod directions;
 mod report;
 mod summary;
 
+use std::path::Path;
 use std::time::Instant;
 
 use roundel::mesh::{TriangleMesh, io};
 use roundel::picture::{FieldModel, View, draw_field};
 use roundel::problem::mps::{self, MpsProblem};
 use roundel::quad::{FieldProblem, OrientationField};
-use roundel::{Options, Result, Solution, Strategy};
+use roundel::{Error, Options, Result, Solution, Strategy};
 
 use crate::exit::Exit;
 use crate::progress::Progress;
@@ -32,6 +33,8 @@ pub fn run(arguments: &Arguments) -> Exit {
 struct Solved {
     strategy: Strategy,
     mesh: TriangleMesh,
+    /// Edges that it follows.
+    features: usize,
     field: OrientationField,
     solution: Solution,
     before: Preparation,
@@ -47,7 +50,15 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
     let mesh = mesh::read(&arguments.mesh)?;
     let read = started.elapsed().as_secs_f64();
     let started = Instant::now();
-    let problem = FieldProblem::new(&mesh, &arguments.directions.constraints(&mesh)?)?;
+    if arguments.symmetry != 4 && draws(arguments) {
+        return Err(Error::InvalidArgument {
+            what: "pictures and models are of crosses, --symmetry 4".into(),
+            index: None,
+        });
+    }
+    let (guidance, features) = arguments.directions.of(&mesh, arguments.symmetry)?;
+    let follows = guidance.field_options(&mesh, &features)?;
+    let problem = FieldProblem::with_options(&mesh, &follows)?;
     let assemble = started.elapsed().as_secs_f64();
     if let Some(path) = &arguments.write_problem {
         mps::write(path, &MpsProblem::new(problem.problem().clone()))?;
@@ -60,6 +71,7 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
     Ok(Solved {
         strategy: options.strategy,
         mesh,
+        features: features.edges().count(),
         field,
         solution,
         before: Preparation {
@@ -70,12 +82,32 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
     })
 }
 
+/// The error with the name of a file: what is told of a failure begins with the mesh's.
+pub fn named(path: &Path, error: Error) -> Error {
+    use roundel::mesh::MeshError;
+    match error {
+        Error::Parse { line, message } | Error::Mesh(MeshError::Parse { line, message }) => {
+            Error::Parse {
+                line,
+                message: format!("{message} ({})", path.display()),
+            }
+        }
+        other => other,
+    }
+}
+
+fn is_text(path: &Path) -> bool {
+    let extension = path.extension();
+    extension.is_some_and(|e| e.eq_ignore_ascii_case("txt"))
+}
+
+fn draws(arguments: &Arguments) -> bool {
+    arguments.picture.is_some() || arguments.out.as_ref().is_some_and(|path| !is_text(path))
+}
+
 fn write(arguments: &Arguments, mesh: &TriangleMesh, field: &OrientationField) -> Result<()> {
     if let Some(path) = &arguments.out {
-        match path
-            .extension()
-            .is_some_and(|e| e.eq_ignore_ascii_case("txt"))
-        {
+        match is_text(path) {
             true => field.write(mesh, path)?,
             false => io::write(path, FieldModel::new(mesh, field).drawing())?,
         }

@@ -15,6 +15,7 @@ impl fmt::Display for FieldSummary<'_> {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         let Solved {
             mesh,
+            features,
             field,
             solution,
             before,
@@ -29,11 +30,14 @@ impl fmt::Display for FieldSummary<'_> {
             counted_vertices(mesh.vertex_count(), ""),
             mesh.euler_characteristic()
         );
-        let assemble = format!(
+        let mut assemble = format!(
             "{}, {} given",
             counted(counts.integers, "integer"),
             counted(given, "direction")
         );
+        if *features > 0 {
+            assemble += &format!(", {}", counted(*features, "feature edge"));
+        }
         let found = format!("{}, {}", energy(solution.energy()), verdict(solution));
         line(f, "read", &read, before.read)?;
         line(f, "assemble", &assemble, before.assemble.unwrap_or(0.0))?;

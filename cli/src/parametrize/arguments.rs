@@ -3,15 +3,16 @@
 use std::path::PathBuf;
 
 use roundel::Strategy;
-use roundel::quad::SeamlessOptions;
 
+use super::sizing::SizingFlags;
 use crate::exit;
 use crate::field::Directions;
 use crate::options::SolverOptions;
 
 /// Compute a seamless parametrization of a triangle mesh that follows a cross field.
 ///
-/// The field comes from a file, or is that of `roundel field` with the same directions. The solver's
+/// The field comes from a file, or is that of `roundel field` with the same directions. Features,
+/// and the boundary unless it is free, become isolines of integer value: chains of quads' edges. The solver's
 /// options are those of the parametrization; time limit and threads hold for each of the two solves.
 #[derive(clap::Args)]
 #[command(after_help = exit::HELP)]
@@ -24,7 +25,7 @@ pub struct Arguments {
     /// Take the field from this file, as `roundel field -o FIELD.txt` writes it: a direction X Y Z a
     /// face, one line each, matched over edges by their nearest arms
     #[arg(long, value_name = "FIELD.txt")]
-    #[arg(conflicts_with_all = ["constrain_curvature", "fix", "field_strategy"])]
+    #[arg(conflicts_with_all = ["constrain_curvature", "curvature_weight", "fix", "field_strategy"])]
     pub field: Option<PathBuf>,
 
     #[command(flatten)]
@@ -34,10 +35,12 @@ pub struct Arguments {
     #[arg(long, value_name = "WORD", default_value = "greedy", value_parser = strategy)]
     pub field_strategy: Strategy,
 
-    /// About how many quads the map shall have
-    #[arg(long, value_name = "N", default_value_t = SeamlessOptions::default().quads)]
-    #[arg(value_parser = quads, allow_negative_numbers = true)]
-    pub quads: usize,
+    #[command(flatten)]
+    pub sizing: SizingFlags,
+
+    /// Leave the triangles folded that rounding folds
+    #[arg(long)]
+    pub no_untangle: bool,
 
     /// Write the mesh with the coordinates of its corners to this file
     #[arg(short, long, value_name = "UV.obj")]
@@ -64,13 +67,6 @@ fn strategy(text: &str) -> Result<Strategy, String> {
         .ok_or_else(|| format!("not one of {}", words.join(", ")))
 }
 
-fn quads(text: &str) -> Result<usize, String> {
-    match text.parse() {
-        Ok(0) | Err(_) => Err("not a number of quads, 1 or more".into()),
-        Ok(quads) => Ok(quads),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -80,13 +76,5 @@ mod tests {
         assert_eq!(strategy("direct"), Ok(Strategy::Direct));
         let refused = strategy("relax").unwrap_err();
         assert!(refused.contains("greedy"), "{refused}");
-    }
-
-    #[test]
-    fn quads_are_at_least_one() {
-        assert_eq!(quads("250"), Ok(250));
-        for text in ["0", "-3", "1.5", "", "many"] {
-            assert!(quads(text).is_err(), "{text}");
-        }
     }
 }

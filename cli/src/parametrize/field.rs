@@ -4,10 +4,12 @@ use std::path::Path;
 use std::time::Instant;
 
 use roundel::mesh::TriangleMesh;
-use roundel::quad::{FieldProblem, OrientationField};
-use roundel::{Error, Monitor, Options, Result};
+use roundel::mesh::features::FeatureGraph;
+use roundel::quad::{FieldProblem, Guidance, OrientationField};
+use roundel::{Monitor, Options, Result};
 
 use super::Arguments;
+use crate::field::named;
 
 /// How a field was come by.
 pub(super) struct FieldSource {
@@ -23,12 +25,13 @@ pub(super) struct FieldSource {
 pub(super) fn of(
     arguments: &Arguments,
     mesh: &TriangleMesh,
+    (guidance, features): (&Guidance, &FeatureGraph),
     options: &Options,
     monitor: Monitor,
 ) -> Result<(OrientationField, FieldSource)> {
     match &arguments.field {
         Some(path) => read(path, mesh),
-        None => solve(arguments, mesh, options, monitor),
+        None => solve(arguments, mesh, (guidance, features), options, monitor),
     }
 }
 
@@ -43,20 +46,10 @@ fn read(path: &Path, mesh: &TriangleMesh) -> Result<(OrientationField, FieldSour
     Ok((field, source))
 }
 
-/// The error with the name of the file: what is told of a failure begins with the mesh's.
-fn named(path: &Path, error: Error) -> Error {
-    match error {
-        Error::Parse { line, message } => Error::Parse {
-            line,
-            message: format!("{message} ({})", path.display()),
-        },
-        other => other,
-    }
-}
-
 fn solve(
     arguments: &Arguments,
     mesh: &TriangleMesh,
+    (guidance, features): (&Guidance, &FeatureGraph),
     options: &Options,
     monitor: Monitor,
 ) -> Result<(OrientationField, FieldSource)> {
@@ -64,7 +57,7 @@ fn solve(
         strategy: arguments.field_strategy,
         ..options.clone()
     };
-    let problem = FieldProblem::new(mesh, &arguments.directions.constraints(mesh)?)?;
+    let problem = FieldProblem::with_options(mesh, &guidance.field_options(mesh, features)?)?;
     let solution = roundel::solve_with(problem.problem(), &options, monitor)?;
     let source = FieldSource {
         strategy: Some(options.strategy.name()),

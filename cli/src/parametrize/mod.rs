@@ -3,14 +3,16 @@
 mod arguments;
 mod field;
 mod report;
+mod sizing;
 mod summary;
 
 use std::time::Instant;
 
 use roundel::mesh::TriangleMesh;
 use roundel::problem::mps::{self, MpsProblem};
-use roundel::quad::{SeamlessMap, SeamlessOptions, SeamlessProblem};
-use roundel::{Options, Result, Solution};
+use roundel::quad::untangle::{UntangleOptions, Untangled, untangle};
+use roundel::quad::{SeamlessProblem, Sizing};
+use roundel::{Options, Result, Solution, Strategy};
 
 use crate::exit::Exit;
 use crate::progress::Progress;
@@ -19,6 +21,7 @@ use crate::{interrupt, mesh, output};
 pub use arguments::Arguments;
 use field::FieldSource;
 use report::MapReport;
+pub use sizing::SizingFlags;
 use summary::MapSummary;
 
 /// Runs the command and tells its outcome, once.
@@ -32,7 +35,12 @@ struct Solved {
     options: Options,
     mesh: TriangleMesh,
     field: FieldSource,
-    map: SeamlessMap,
+    sizing: Sizing,
+    /// Edges that are isolines.
+    features: usize,
+    untangled: Untangled,
+    /// Seconds from the solution to the map.
+    untangle_seconds: f64,
     solution: Solution,
     before: Preparation,
 }
@@ -45,10 +53,12 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
     let started = Instant::now();
     let mesh = mesh::read(&arguments.mesh)?;
     let read = started.elapsed().as_secs_f64();
-    let (field, source) = field::of(arguments, &mesh, &options, monitor())?;
+    let (guidance, features) = arguments.directions.of(&mesh, 4)?;
+    let follows = (&guidance, &features);
+    let (field, source) = field::of(arguments, &mesh, follows, &options, monitor())?;
     let started = Instant::now();
-    let quads = arguments.quads;
-    let problem = SeamlessProblem::new(&mesh, &field, &SeamlessOptions { quads })?;
+    let sizing = arguments.sizing.of()?;
+    let problem = SeamlessProblem::with_features(&mesh, &field, &sizing, &features)?;
     // The problem holds what it needs of it.
     drop(field);
     let assemble = started.elapsed().as_secs_f64();
@@ -56,15 +66,30 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
         mps::write(path, &MpsProblem::new(problem.problem().clone()))?;
     }
     let solution = roundel::solve_with(problem.problem(), &options, monitor())?;
+    let started = Instant::now();
     let map = problem.map(&mesh, &solution)?;
+    let untangled = match arguments.no_untangle || options.strategy == Strategy::Relax {
+        true => Untangled::as_it_is(map),
+        false => untangle(
+            &mesh,
+            &problem,
+            &map,
+            &UntangleOptions::default(),
+            &mut monitor(),
+        )?,
+    };
+    let untangle_seconds = started.elapsed().as_secs_f64();
     if let Some(path) = &arguments.out {
-        map.write_obj(&mesh, path)?;
+        untangled.map.write_obj(&mesh, path)?;
     }
     Ok(Solved {
         options,
         mesh,
         field: source,
-        map,
+        sizing,
+        features: features.edges().count(),
+        untangled,
+        untangle_seconds,
         solution,
         before: Preparation {
             read,

@@ -1,5 +1,6 @@
 //! The JSON object of a map: that of a solve, and what is known of the mesh and its field.
 
+use roundel::quad::Sizing;
 use serde::Serialize;
 
 use super::{Arguments, Solved};
@@ -14,13 +15,27 @@ pub struct MapReport<'a> {
     solve: Report<'a>,
     faces: usize,
     vertices: usize,
-    quads: usize,
+    /// What was asked for; null where a length was.
+    quads: Option<usize>,
+    edge_length: Option<f64>,
+    feature_edges: usize,
     irregular_vertices: usize,
     cut_edges: usize,
     gradient_energy: f64,
+    flipped_before: usize,
     flipped: usize,
     flipped_faces: &'a [usize],
+    untangle: Untangling,
     field: Field,
+}
+
+/// What untangling took, and what it could not unfold.
+#[derive(Serialize)]
+struct Untangling {
+    steps: usize,
+    seconds: f64,
+    stuck_faces: Vec<usize>,
+    collapsed_edges: Vec<usize>,
 }
 
 /// The field that the map follows; one from a file has no strategy.
@@ -35,7 +50,8 @@ struct Field {
 impl<'a> MapReport<'a> {
     /// The report of what was found.
     pub(super) fn new(arguments: &Arguments, solved: &'a Solved) -> Self {
-        let (mesh, map) = (&solved.mesh, &solved.map);
+        let (mesh, untangled) = (&solved.mesh, &solved.untangled);
+        let map = &untangled.map;
         let file = arguments.field.as_ref();
         MapReport {
             solve: Report::new(
@@ -47,12 +63,24 @@ impl<'a> MapReport<'a> {
             ),
             faces: mesh.face_count(),
             vertices: mesh.vertex_count(),
-            quads: arguments.quads,
+            quads: match solved.sizing {
+                Sizing::Quads(quads) => Some(quads),
+                _ => None,
+            },
+            edge_length: arguments.sizing.edge_length,
+            feature_edges: solved.features,
             irregular_vertices: map.cones().len(),
             cut_edges: map.transitions().len(),
             gradient_energy: map.energy(),
+            flipped_before: untangled.flipped_before,
             flipped: map.flipped().len(),
             flipped_faces: map.flipped(),
+            untangle: Untangling {
+                steps: untangled.steps,
+                seconds: solved.untangle_seconds,
+                stuck_faces: untangled.stuck_faces.clone(),
+                collapsed_edges: untangled.collapsed_edges.clone(),
+            },
             field: Field {
                 strategy: solved.field.strategy,
                 file: file.map(|path| path.to_string_lossy().into_owned()),

@@ -17,20 +17,27 @@ impl fmt::Display for MapSummary<'_> {
             options,
             mesh,
             field,
-            map,
+            sizing: _,
+            features,
+            untangled,
+            untangle_seconds,
             solution,
             before,
         } = self.solved;
+        let map = &untangled.map;
         let (counts, seconds) = (solution.counts(), solution.seconds());
         let read = counted(mesh.face_count(), "face");
         line(f, "read", &read, before.read)?;
         let irregular = counted_vertices(map.cones().len(), "irregular ");
         line(f, "field", &irregular, field.seconds)?;
-        let assemble = format!(
+        let mut assemble = format!(
             "{}, {}",
             counted(counts.variables, "unknown"),
             counted(map.transitions().len(), "cut edge")
         );
+        if *features > 0 {
+            assemble += &format!(", {}", counted(*features, "feature edge"));
+        }
         line(f, "assemble", &assemble, before.assemble.unwrap_or(0.0))?;
         let reduced = format!(
             "{}, {} continuous left",
@@ -41,6 +48,12 @@ impl fmt::Display for MapSummary<'_> {
         let found = format!("{}, {}", energy(solution.energy()), verdict(solution));
         let search = seconds.factor + seconds.round;
         line(f, options.strategy.name(), &found, search)?;
+        let unfolded = format!(
+            "{} flipped, {}",
+            counted(untangled.flipped_before, "face"),
+            counted(untangled.steps, "step")
+        );
+        line(f, "untangle", &unfolded, *untangle_seconds)?;
         let flipped = format!("{} flipped", counted(map.flipped().len(), "face"));
         match &self.arguments.out {
             Some(path) => writeln!(f, "{:<10} {flipped}: {}", "map", path.display()),

@@ -98,7 +98,12 @@ fn a_file_gives_the_field_of_its_shape() {
 
 #[test]
 fn directions_that_are_given_come_before_curvature() {
-    let flat = ["shape:plane:200", "--constrain-curvature", "0"];
+    let flat = [
+        "shape:plane:200",
+        "--free-boundary",
+        "--constrain-curvature",
+        "0",
+    ];
     let one = field(&[&flat[..], &["--fix", "3:30"]].concat()).1;
     assert!(number(&one, "energy").abs() < 1e-12, "{one}");
     let two = field(&[&flat[..], &["--fix", "3:30", "--fix", "150:0"]].concat()).1;
@@ -268,4 +273,45 @@ fn the_field_written_as_text_is_a_direction_in_every_face() {
         let length: f64 = numbers.iter().map(|x| x * x).sum();
         assert!((length - 1.0).abs() < 1e-12 && along(mesh.normal(face)).abs() < 1e-12);
     }
+}
+
+#[test]
+fn fields_of_every_symmetry_sum_to_the_euler_characteristic() {
+    let scratch = Scratch::new("field-symmetry");
+    for symmetry in ["1", "2", "6"] {
+        let file = scratch.path("field.txt");
+        let words = ["shape:disk:300", "--symmetry", symmetry, "-o"];
+        let (code, report) = field(&[&words[..], &[file.to_str().unwrap()]].concat());
+        assert_eq!(code, 0, "{report}");
+        assert_eq!(report["symmetry"].to_string(), symmetry);
+        assert!((report["index_sum"].as_f64().unwrap() - 1.0).abs() < 1e-6);
+        // Only a single direction has no side of the boundary to lie along.
+        assert_eq!(report["feature_edges"].as_u64() > Some(0), symmetry != "1");
+    }
+    let words = [
+        "shape:disk:300",
+        "--symmetry",
+        "6",
+        "--picture",
+        "never.png",
+    ];
+    assert_eq!(field(&words).0, 1);
+    assert!(!std::path::Path::new("never.png").exists());
+    let output = finish(program(&["field", "shape:disk", "--symmetry", "3"]));
+    assert_eq!(output.0, 2);
+}
+
+#[test]
+fn all_irregular_vertices_can_be_given() {
+    let scratch = Scratch::new("field-indices");
+    let guide = scratch.write("guide.txt", "index 0 5\nindex 9 3\n");
+    let words = ["shape:sphere:400", "--guide", guide.to_str().unwrap()];
+    let (code, report) = field(&words);
+    assert_eq!(code, 0, "{report}");
+    assert_eq!(report["irregular_vertices"].as_u64(), Some(2), "{report}");
+    let guide = scratch.write("guide.txt", "index 0 5\n");
+    let words = ["shape:sphere:400", "--guide", guide.to_str().unwrap()];
+    let (code, report) = field(&words);
+    assert_eq!(code, 1);
+    assert_eq!(report["error"]["code"].as_str(), Some("invalid_argument"));
 }

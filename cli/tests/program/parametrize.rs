@@ -93,9 +93,125 @@ fn the_summary_tells_each_phase() {
     assert_eq!(code, 0, "{told}");
     let first = |line: &str| line.split(' ').next().map(str::to_owned);
     let phases: Vec<_> = told.lines().filter_map(first).collect();
-    let expected = ["read", "field", "assemble", "eliminate", "greedy", "map"];
+    let expected = [
+        "read",
+        "field",
+        "assemble",
+        "eliminate",
+        "greedy",
+        "untangle",
+        "map",
+    ];
     assert_eq!(phases, expected, "{told}");
     assert!(told.contains("8 irregular vertices"), "{told}");
+}
+
+/// How many sides of triangles lie on an isoline of integer value, to the last digit.
+fn on_isolines(file: &Path) -> usize {
+    let content = fs::read_to_string(file).unwrap();
+    let words = |keyword: &'static str| {
+        let lines = content.lines().filter_map(move |l| l.strip_prefix(keyword));
+        lines.map(|l| l.split(' ').collect::<Vec<_>>())
+    };
+    let uv: Vec<[f64; 2]> = words("vt ")
+        .map(|w| [0, 1].map(|axis| w[axis].parse().unwrap()))
+        .collect();
+    let faces = words("f ").map(|w| {
+        let corner = |k: usize| w[k].split('/').nth(1).unwrap().parse::<usize>().unwrap();
+        [0, 1, 2].map(|k| uv[corner(k) - 1])
+    });
+    let lies =
+        |a: [f64; 2], b: [f64; 2]| (0..2).any(|axis| a[axis] == b[axis] && a[axis].fract() == 0.0);
+    faces
+        .map(|p| (0..3).filter(|&k| lies(p[k], p[(k + 1) % 3])).count())
+        .sum()
+}
+
+#[test]
+fn features_and_the_boundary_are_isolines_unless_it_is_free() {
+    let scratch = Scratch::new("parametrize-features");
+    let out = scratch.path("uv.obj");
+    let gear = [
+        "shape:gear:2000",
+        "--features",
+        "40",
+        "--edge-length",
+        "0.1",
+    ];
+    let (code, report) = parametrize(&[&gear, &["-o", text(&out)][..]].concat());
+    assert_eq!(code, 0, "{report}");
+    assert_eq!(report["edge_length"], json!(0.1));
+    assert_eq!(report["quads"], Value::Null);
+    let features = report["feature_edges"].as_u64().unwrap();
+    assert!(features > 100, "{report}");
+    assert!(on_isolines(&out) as u64 >= 2 * features);
+
+    let plate = ["shape:plate-with-holes:900", "-o", text(&out)];
+    let (_, report) = parametrize(&plate);
+    let rim = report["feature_edges"].as_u64().unwrap();
+    assert!(rim > 0 && on_isolines(&out) as u64 >= rim, "{report}");
+    let (_, report) = parametrize(&[&plate[..], &["--free-boundary"]].concat());
+    assert_eq!(report["feature_edges"], json!(0));
+    assert!(2 * (on_isolines(&out) as u64) < rim);
+}
+
+#[test]
+fn guides_lines_and_sizes_come_from_files() {
+    let scratch = Scratch::new("parametrize-files");
+    let mesh = scratch.path("plane.obj");
+    let shape = ["shape", "plane", "--triangles", "200", "-o", text(&mesh)];
+    assert_eq!(finish(program(&shape)).0, 0);
+    let content = fs::read_to_string(&mesh).unwrap();
+    let faces = content.lines().filter(|l| l.starts_with("f ")).count();
+    let first: Vec<usize> = {
+        let face = content.lines().find(|l| l.starts_with("f ")).unwrap();
+        let corners = face.split(' ').skip(1);
+        corners
+            .map(|w| w.split('/').next().unwrap().parse().unwrap())
+            .collect()
+    };
+    let lines = scratch.write(
+        "lines.obj",
+        format!("{content}l {} {}\n", first[0], first[1]),
+    );
+    let guide = format!(
+        "direction 7 1 1 0 # hard\ndirection 9 1 0 0 0.5\nedge {} {}\n",
+        first[1] - 1,
+        first[2] - 1
+    );
+    let guide = scratch.write("guide.txt", guide);
+    let sizes = scratch.write("sizes.txt", "0.2\n".repeat(faces - 1) + "0.2 0.1\n");
+    let mut words = vec![
+        text(&lines),
+        "--free-boundary",
+        "--feature-lines",
+        text(&lines),
+    ];
+    words.extend(["--guide", text(&guide), "--edge-lengths", text(&sizes)]);
+    let (code, report) = parametrize(&words);
+    assert_eq!(code, 0, "{report}");
+    assert_eq!(report["feature_edges"], json!(2));
+
+    let wrong = scratch.write("wrong.txt", "edge 0 1\ndirection 0 0 0 1\n");
+    for (flag, line) in [
+        ("--guide", 2),
+        ("--edge-lengths", 1),
+        ("--feature-lines", 0),
+    ] {
+        let (code, report) = parametrize(&[text(&mesh), flag, text(&wrong)]);
+        if line > 0 {
+            assert_eq!(
+                (code, &report["error"]["code"]),
+                (1, &json!("parse")),
+                "{report}"
+            );
+            let message = report["error"]["message"].as_str().unwrap();
+            assert!(message.contains("wrong.txt"), "{message}");
+        } else {
+            // A file without line elements asks for nothing.
+            assert_eq!(code, 0, "{report}");
+        }
+    }
 }
 
 #[test]
@@ -104,7 +220,12 @@ fn what_cannot_be_written_or_asked_for_is_an_error() {
     let nowhere = scratch.path("missing").join("uv.obj");
     let (code, report) = parametrize(&[CUBE, "-o", text(&nowhere)]);
     assert_eq!((code, &report["error"]["code"]), (1, &json!("io")));
-    for flags in [["--quads", "0"], ["--field-strategy", "relax"]] {
+    for flags in [
+        ["--quads", "0"],
+        ["--edge-length", "0"],
+        ["--features", "200"],
+        ["--field-strategy", "relax"],
+    ] {
         let (code, output) = finish(program(&[&["parametrize", CUBE], &flags[..]].concat()));
         assert_eq!(code, 2);
         let told = String::from_utf8_lossy(&output.stderr).into_owned();

@@ -54,5 +54,6 @@ void bad_files(fixture* f);
 void bad_meshes(fixture* f);
 void bad_sizes(fixture* f);
 void bad_solvers(fixture* f);
+void bad_guidance(fixture* f);
 
 #endif

@@ -22,5 +22,7 @@ int main() {
     threads_share_a_problem_and_keep_their_errors();
     files_keep_the_problem();
     a_solver_gives_what_solve_gives();
+    fields_follow_what_is_asked_for();
+    maps_are_solved_again_at_another_size();
     return failures != 0;
 }

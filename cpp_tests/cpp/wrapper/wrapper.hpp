@@ -16,6 +16,8 @@ void tokens_cancel_from_other_threads();
 void threads_share_a_problem_and_keep_their_errors();
 void files_keep_the_problem();
 void a_solver_gives_what_solve_gives();
+void fields_follow_what_is_asked_for();
+void maps_are_solved_again_at_another_size();
 
 /// A chain of `n` variables at distances of 0.3, every second one an integer.
 roundel::Problem chain(std::int32_t n);

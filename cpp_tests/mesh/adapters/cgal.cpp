@@ -11,6 +11,7 @@
 #include <CGAL/boost/graph/copy_face_graph.h>
 #include <CGAL/boost/graph/graph_traits_Polyhedron_3.h>
 
+#include <array>
 #include <cmath>
 #include <map>
 #include <vector>
@@ -88,8 +89,9 @@ void removed_elements_are_skipped() {
         CGAL::Euler::remove_face(mesh.halfedge(f), mesh);
     }
     CHECK(mesh.has_garbage());
-    const auto field =
-        roundel::orientation_field(mesh, roundel::FieldOptions().set_constraints({{400, 0.5}}));
+    const auto field = roundel::orientation_field(
+        mesh,
+        roundel::FieldOptions().set_constraints({{400, 0.5}}).set_features(roundel::no_features()));
     CHECK(field.angles().size() == mesh.number_of_faces());
     CHECK(field.boundary_indices().size() == 2);
     const auto p = roundel::store(field, mesh);
@@ -129,6 +131,43 @@ void other_face_graphs_have_fields() {
     CHECK(index.size() == num_vertices(polyhedron) && std::abs(sum + 2.0) < 1e-6);
 }
 
+/// Over every edge that is not cut both sides have the same coordinates; over the cut they turn and
+/// shift, so that lengths stay.
+template <class G, class Uv> void holds_a_map(const G& graph, Uv uv, std::size_t cut) {
+    std::size_t torn = 0;
+    for (const auto e : edges(graph)) {
+        const auto h = halfedge(e, graph), back = opposite(h, graph);
+        if (is_border(h, graph) || is_border(back, graph)) {
+            continue;
+        }
+        const auto a = get(uv, prev(h, graph)), b = get(uv, h);
+        const auto c = get(uv, back), d = get(uv, prev(back, graph));
+        const double one = std::hypot(b[0] - a[0], b[1] - a[1]);
+        CHECK(std::abs(one - std::hypot(d[0] - c[0], d[1] - c[1])) <= 1e-9 * (1.0 + one));
+        torn += a != c || b != d;
+    }
+    CHECK(torn > 0 && torn <= cut);
+}
+
+void property_maps_hold_a_map() {
+    auto mesh = build(roundel::Mesh::shape("genus-2", 900).jittered(1e-3, 1));
+    const auto field = roundel::orientation_field(mesh);
+    const auto map = roundel::parametrize(mesh, field, roundel::MapOptions().set_quads(300));
+    const auto uv = roundel::store(map, mesh);
+    holds_a_map(mesh, uv, map.transitions().size());
+    CHECK((mesh.property_map<Mesh::Halfedge_index, std::array<double, 2>>("h:roundel_uv").second));
+    CHECK(map.cones().size() == field.irregular_count());
+
+    Polyhedron polyhedron;
+    CGAL::copy_face_graph(mesh, polyhedron);
+    const auto second = roundel::orientation_field(polyhedron);
+    const auto other = roundel::parametrize(polyhedron, second);
+    std::map<roundel::cgal::Halfedge<Polyhedron>, std::array<double, 2>> kept;
+    const auto uvs = boost::make_assoc_property_map(kept);
+    roundel::store(other, polyhedron, uvs);
+    holds_a_map(polyhedron, uvs, other.transitions().size());
+}
+
 void polygons_are_refused_by_number() {
     Mesh mesh;
     std::vector<Mesh::Vertex_index> v;
@@ -150,6 +189,7 @@ int main() {
     property_maps_hold_the_field();
     removed_elements_are_skipped();
     other_face_graphs_have_fields();
+    property_maps_hold_a_map();
     polygons_are_refused_by_number();
     return failures != 0;
 }

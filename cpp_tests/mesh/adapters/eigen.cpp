@@ -95,8 +95,10 @@ template <class V, class F> void fields_are_found_in_matrices() {
     for (Eigen::Index i = 0; i < faces.size(); ++i) {
         faces(i / 3, i % 3) = static_cast<typename F::Scalar>(corners[static_cast<std::size_t>(i)]);
     }
-    const auto field = roundel::orientation_field(
-        vertices, faces, roundel::FieldOptions().set_constraints({{0, 0.5}, {90, 1.0}}));
+    const auto field = roundel::orientation_field(vertices, faces,
+                                                  roundel::FieldOptions()
+                                                      .set_constraints({{0, 0.5}, {90, 1.0}})
+                                                      .set_features(roundel::no_features()));
     const auto found = roundel::matrices(field);
     CHECK(found.angles.size() == faces.rows() && found.angles[90] == 1.0);
     CHECK(found.indices.size() == vertices.rows());
@@ -112,6 +114,16 @@ template <class V, class F> void fields_are_found_in_matrices() {
         energy += residual * residual;
     }
     CHECK(energy > 0.0 && std::abs(energy - field.energy()) <= 1e-9 * energy);
+
+    const auto map = roundel::parametrize(field, roundel::MapOptions().set_quads(200));
+    const auto [UV, FUV] = roundel::matrices(map);
+    CHECK(UV.rows() > vertices.rows() && FUV.rows() == faces.rows());
+    CHECK(FUV.maxCoeff() == UV.rows() - 1 && FUV.minCoeff() == 0);
+    for (Eigen::Index k = 0; k < FUV.size(); ++k) {
+        const auto row = UV.row(FUV(k / 3, k % 3));
+        CHECK(row[0] == map.corner_uvs()[static_cast<std::size_t>(2 * k)]);
+        CHECK(row[1] == map.corner_uvs()[static_cast<std::size_t>(2 * k + 1)]);
+    }
 }
 
 void matrices_of_another_shape_are_refused() {

@@ -103,7 +103,8 @@ void deleted_elements_are_skipped() {
     mesh.delete_vertex(OpenMesh::VertexHandle(17));
     mesh.delete_vertex(OpenMesh::VertexHandle(100));
     mesh.delete_face(OpenMesh::FaceHandle(3));
-    const roundel::FieldOptions options = roundel::FieldOptions().set_constraints({{40, 0.5}});
+    const roundel::FieldOptions options =
+        roundel::FieldOptions().set_constraints({{40, 0.5}}).set_features(roundel::no_features());
     const auto field = roundel::orientation_field(mesh, options);
     CHECK(field.elements().mesh.faces() < mesh.n_faces());
     CHECK(field.elements().mesh.vertices() == mesh.n_vertices() - 2);
@@ -132,6 +133,44 @@ void deleted_elements_are_skipped() {
     CHECK(std::abs(energy - field.energy()) <= 1e-9 * energy);
 }
 
+/// Every half-edge has the coordinates of its end; they are a map, and those of the library's own.
+void maps_are_kept_on_half_edges() {
+    auto mesh = build<TriMesh>(roundel::Mesh::shape("gear", 1500));
+    const auto options = roundel::FieldOptions().set_features(roundel::feature_angle(40));
+    const auto field = roundel::orientation_field(mesh, options);
+    const auto map = roundel::parametrize(mesh, field, roundel::MapOptions().set_quads(400));
+    const auto uv = roundel::store(map, mesh);
+    CHECK(map && map.cones().size() == field.irregular_count());
+    CHECK(roundel::store(map, mesh).idx() == uv.idx());
+    const auto marks = roundel::mark_features(field.elements().mesh, options.features);
+    const auto edges = field.elements().mesh.face_edges();
+    std::size_t features = 0, flipped = 0;
+    for (std::size_t f = 0; f < map.elements().faces.size(); ++f) {
+        std::vector<OpenMesh::Vec2d> ends;
+        for (std::size_t k = 0; k < 3; ++k) {
+            // The half-edge before the side ends where the side begins.
+            const auto side = map.elements().halfedges[3 * f + k];
+            const auto a = mesh.property(uv, mesh.prev_halfedge_handle(side));
+            const auto b = mesh.property(uv, side);
+            ends.push_back(b);
+            CHECK(a[0] == map.corner_uvs()[6 * f + 2 * k]);
+            CHECK(a[1] == map.corner_uvs()[6 * f + 2 * k + 1]);
+            if (marks[static_cast<std::size_t>(edges[3 * f + k])]) {
+                CHECK((a[0] == b[0] && a[0] == std::round(a[0])) ||
+                      (a[1] == b[1] && a[1] == std::round(a[1])));
+                ++features;
+            }
+        }
+        const auto x = ends[1] - ends[0], y = ends[2] - ends[0];
+        flipped += x[0] * y[1] - x[1] * y[0] <= 0.0;
+    }
+    CHECK(features > 100 && flipped == map.flipped().size() && map.valid() == (flipped == 0));
+    roundel::Status status;
+    auto other = build<TriMesh>(roundel::Mesh::shape("torus", 300));
+    CHECK(!roundel::parametrize(other, field, {}, &status));
+    CHECK(status.code == ROUNDEL_ERROR_LENGTH_MISMATCH);
+}
+
 void polygons_are_refused_by_number() {
     PolyMesh mesh;
     std::vector<OpenMesh::VertexHandle> v;
@@ -156,6 +195,7 @@ int main() {
     every_mesh_type_has_fields();
     curvature_is_followed_as_on_the_librarys_own_mesh();
     deleted_elements_are_skipped();
+    maps_are_kept_on_half_edges();
     polygons_are_refused_by_number();
     return failures != 0;
 }

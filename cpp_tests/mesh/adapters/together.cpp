@@ -74,6 +74,14 @@ int main() {
     CHECK(roundel::store(one, open).angle.is_valid());
     CHECK(roundel::store(two, surface).angle[SurfaceMesh::Face_index(0)] == two.angles()[0]);
 
+    // And their maps.
+    const auto map =
+        roundel::parametrize(open, one, {.quads = 500, .features = roundel::feature_angle(40)});
+    CHECK(map.valid() && map.flipped().empty() && map.cones().size() == one.irregular_count());
+    CHECK(roundel::parametrize(surface, two, {.quads = 500}).valid());
+    CHECK(roundel::matrices(roundel::parametrize(three, {.quads = 500})).FUV.rows() == F.rows());
+    CHECK(roundel::store(map, open).is_valid());
+
     // Stated as a problem, kept, solved and read back, it is the same field.
     const roundel::FieldOptions options{.constraints = {{7, 0.5}}, .constrain_curvature = 0.1};
     const auto solution = roundel::solve(roundel::orientation_problem(mesh, options));

@@ -103,6 +103,7 @@ void holds_of_the_librarys_field(const roundel::Mesh& mesh, const Assembly& asse
                                  const Solved& solved, const Indices& indices) {
     roundel::FieldOptions options;
     options.solve.set_strategy("greedy");
+    options.features = roundel::no_features();
     for (std::size_t f = 0; f < assembly.fixed.size(); ++f) {
         if (assembly.fixed[f]) {
             options.constraints.push_back({static_cast<std::int32_t>(f), *assembly.fixed[f]});

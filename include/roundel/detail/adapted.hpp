@@ -4,6 +4,7 @@
 #define ROUNDEL_DETAIL_ADAPTED_HPP
 
 #include <roundel/detail/field.hpp>
+#include <roundel/detail/map.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -56,6 +57,37 @@ template <class Vertex, class Face, class Halfedge> class AdaptedField : public 
     Elements elements_;
 };
 
+/// A map of a mesh of another library.
+template <class Vertex, class Face, class Halfedge> class AdaptedMap : public Map {
+  public:
+    using Elements = Adapted<Vertex, Face, Halfedge>;
+
+    AdaptedMap() = default;
+    AdaptedMap(Map map, Elements elements) : Map(std::move(map)), elements_(std::move(elements)) {}
+
+    /// The elements that the map's numbers stand for.
+    const Elements& elements() const noexcept { return elements_; }
+
+    /// Faces that are turned over or collapsed.
+    std::vector<Face> flipped() const { return named(Map::flipped(), elements_.faces); }
+
+    /// Irregular vertices, around which coordinates turn.
+    std::vector<Vertex> cones() const { return named(Map::cones(), elements_.vertices); }
+
+  private:
+    template <class T>
+    static std::vector<T> named(span<const std::int32_t> numbers, const std::vector<T>& elements) {
+        std::vector<T> found;
+        found.reserve(numbers.size());
+        for (const auto number : numbers) {
+            found.push_back(elements[static_cast<std::size_t>(number)]);
+        }
+        return found;
+    }
+
+    Elements elements_;
+};
+
 namespace detail {
 
 inline void not_a_triangle(std::size_t face, Status* status) {
@@ -74,6 +106,28 @@ AdaptedField<Vertex, Face, Halfedge> field_of(Adapted<Vertex, Face, Halfedge> el
     }
     Field field = orientation_field(elements.mesh, options, status);
     return {std::move(field), std::move(elements)};
+}
+
+template <class Vertex, class Face, class Halfedge>
+AdaptedMap<Vertex, Face, Halfedge> map_of(Adapted<Vertex, Face, Halfedge> elements,
+                                          const Field& field, const MapOptions& options,
+                                          Status* status) {
+    if (!elements) {
+        return {};
+    }
+    Map map = parametrize(elements.mesh, field, options, status);
+    return {std::move(map), std::move(elements)};
+}
+
+/// Hands u and v of every corner to the half-edge of its face that ends there.
+template <class Vertex, class Face, class Halfedge, class At>
+void hand_out(const AdaptedMap<Vertex, Face, Halfedge>& map, At at) {
+    const auto& sides = map.elements().halfedges;
+    const auto uv = map.corner_uvs();
+    for (std::size_t side = 0; side < sides.size(); ++side) {
+        const std::size_t end = side % 3 == 2 ? side - 2 : side + 1;
+        at(sides[side], uv[2 * end], uv[2 * end + 1]);
+    }
 }
 
 /// Hands every number of a field to the library's own properties. `over` takes a half-edge with

@@ -3,24 +3,49 @@
 #ifndef ROUNDEL_DETAIL_FIELD_HPP
 #define ROUNDEL_DETAIL_FIELD_HPP
 
+#include <roundel/detail/features.hpp>
 #include <roundel/detail/mesh.hpp>
 #include <roundel/detail/solve.hpp>
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
 ROUNDEL_NAMESPACE_BEGIN
+
+/// A direction that a face should have: that of FieldConstraint, where a deviation costs its square
+/// times `weight`, and one between neighbours its square.
+struct FieldGuide {
+    std::int32_t face;
+    double angle;
+    double weight;
+};
+
+/// The index of an irregular vertex in steps of 1/N of a turn: quarters for crosses.
+struct VertexIndex {
+    std::int32_t vertex;
+    std::int32_t steps;
+};
 
 /// What an orientation field should follow, and how it is solved.
 struct FieldOptions {
     /// Faces whose direction is given, each at most once.
     std::vector<FieldConstraint> constraints = {};
     /// The part of the faces, from 0 to 1, that follow the curvature of the surface: those where it
-    /// is most reliable. Faces of `constraints` keep what is given there.
+    /// is most reliable. Faces of `constraints` and those beside features keep what is given there.
     double constrain_curvature = 0.0;
+    /// Edges that the field lies along: by default the boundary.
+    Features features = {};
+    /// Directions that faces should have, each face at most once.
+    std::vector<FieldGuide> guides = {};
+    /// How much all others should follow the curvature; 0 not to.
+    double curvature_weight = 0.0;
+    /// All irregular vertices; where nothing is said the energy decides.
+    std::optional<std::vector<VertexIndex>> indices = std::nullopt;
+    /// N, the number of arms in a face: 1, 2, 4 (crosses) or 6.
+    std::int32_t symmetry = 4;
     /// How the problem is solved.
     Options solve = {};
 
@@ -32,14 +57,34 @@ struct FieldOptions {
         constrain_curvature = fraction;
         return *this;
     }
+    FieldOptions& set_features(Features value) {
+        features = std::move(value);
+        return *this;
+    }
+    FieldOptions& set_guides(std::vector<FieldGuide> value) {
+        guides = std::move(value);
+        return *this;
+    }
+    FieldOptions& set_curvature_weight(double value) {
+        curvature_weight = value;
+        return *this;
+    }
+    FieldOptions& set_indices(std::vector<VertexIndex> value) {
+        indices = std::move(value);
+        return *this;
+    }
+    FieldOptions& set_symmetry(std::int32_t arms) {
+        symmetry = arms;
+        return *this;
+    }
     FieldOptions& set_solve(Options value) {
         solve = std::move(value);
         return *this;
     }
 };
 
-/// A 4-symmetric direction field: a cross in every face, and how crosses match over edges. It does
-/// not need its mesh any more.
+/// An N-symmetric direction field: N arms in every face, a cross for N = 4, and how they match over
+/// edges. It does not need its mesh any more.
 class Field {
   public:
     /// None: what a call returns that reports a failure to a Status.
@@ -58,13 +103,13 @@ class Field {
     /// Whether there is one.
     explicit operator bool() const noexcept { return handle_ != nullptr; }
 
-    /// One arm of each face's cross: radians, counter-clockwise about the normal from the face's
+    /// One arm of each face: radians, counter-clockwise about the normal from the face's
     /// first edge.
     span<const double> angles() const& noexcept { return view(angles_); }
     span<const double> angles() const&& = delete;
 
-    /// One number an edge, from its first to its second face: angle + kappa + pi/2 jump is the
-    /// matching arm of the second.
+    /// One number an edge, from its first to its second face: angle + kappa + 2 pi/N jump is
+    /// the matching arm of the second.
     span<const std::int32_t> period_jumps() const& noexcept { return view(jumps_); }
     span<const std::int32_t> period_jumps() const&& = delete;
 
@@ -72,7 +117,7 @@ class Field {
     span<const double> kappa() const& noexcept { return view(kappa_); }
     span<const double> kappa() const&& = delete;
 
-    /// The index of every vertex in full turns, a multiple of 1/4; zero at the boundary.
+    /// The index of every vertex in full turns, a multiple of 1/N; zero at the boundary.
     span<const double> vertex_indices() const& noexcept { return view(vertex_); }
     span<const double> vertex_indices() const&& = delete;
 
@@ -133,49 +178,57 @@ class Field {
 
 namespace detail {
 
-/// Faces and angles of all constraints, as the C interface takes them.
-struct ConstraintArrays {
-    std::vector<std::int32_t> faces;
-    std::vector<double> angles;
-
-    void add(const FieldConstraint& c) {
-        faces.push_back(c.face);
-        angles.push_back(c.angle);
+/// The guidance of the C interface for `options`; none after a failure.
+inline GuidanceHandle guidance_of(const FieldOptions& options, Status* status) {
+    GuidanceHandle handle = guidance_with(options.features, status);
+    if (!handle) {
+        return nullptr;
     }
-};
-
-inline ConstraintArrays constraints_of(const Mesh& mesh, const FieldOptions& options,
-                                       Status* status) {
-    ConstraintArrays all;
+    std::vector<std::int32_t> faces, guided, vertices, steps;
+    std::vector<double> angles, guiding, weights;
     for (const auto& given : options.constraints) {
-        all.add(given);
+        faces.push_back(given.face);
+        angles.push_back(given.angle);
     }
-    std::vector<std::int32_t> taken = all.faces;
-    std::sort(taken.begin(), taken.end());
-    for (const auto& suggested : mesh.curvature_constraints(options.constrain_curvature, status)) {
-        if (!std::binary_search(taken.begin(), taken.end(), suggested.face)) {
-            all.add(suggested);
+    for (const auto& given : options.guides) {
+        guided.push_back(given.face);
+        guiding.push_back(given.angle);
+        weights.push_back(given.weight);
+    }
+    if (options.indices) {
+        for (const auto& given : *options.indices) {
+            vertices.push_back(given.vertex);
+            steps.push_back(given.steps);
         }
     }
-    return all;
+    roundel_guidance* to = handle.get();
+    const auto told = [status](roundel_status code) { return check(code, status); };
+    const bool all =
+        told(roundel_guidance_set_constraints(to, faces.size(), faces.data(), angles.data())) &&
+        told(roundel_guidance_set_guides(to, guided.size(), guided.data(), guiding.data(),
+                                         weights.data())) &&
+        (!options.indices ||
+         told(roundel_guidance_set_indices(to, vertices.size(), vertices.data(), steps.data()))) &&
+        told(roundel_guidance_set_curvature(to, options.constrain_curvature,
+                                            options.curvature_weight)) &&
+        told(roundel_guidance_set_symmetry(to, options.symmetry));
+    return all ? std::move(handle) : nullptr;
 }
 
 } // namespace detail
 
-/// The smoothest field of a mesh that follows the constraints.
+/// The smoothest field of a mesh that follows what the options say.
 inline Field orientation_field(const Mesh& mesh, const FieldOptions& options = {},
                                Status* status = nullptr) {
-    Status curvature;
-    const auto given = detail::constraints_of(mesh, options, status ? &curvature : nullptr);
-    if (!curvature) {
-        *status = std::move(curvature);
+    const auto guidance = detail::guidance_of(options, status);
+    if (!guidance) {
         return {};
     }
     detail::Handle<roundel_field, roundel_field_free> found;
     const auto call = [&](const roundel_options* how, const roundel_monitor* monitor) {
         roundel_field* made = nullptr;
-        const auto code = roundel_field_solve(mesh.get(), given.faces.size(), given.faces.data(),
-                                              given.angles.data(), how, monitor, &made);
+        const auto code =
+            roundel_field_solve_guided(mesh.get(), guidance.get(), how, monitor, &made);
         found.reset(made);
         return code;
     };
@@ -189,15 +242,9 @@ inline Field orientation_field(const Mesh& mesh, const FieldOptions& options = {
 /// the angle of face f; see roundel_field_make_problem.
 inline Problem orientation_problem(const Mesh& mesh, const FieldOptions& options = {},
                                    Status* status = nullptr) {
-    Status curvature;
-    const auto given = detail::constraints_of(mesh, options, status ? &curvature : nullptr);
     roundel_problem* made = nullptr;
-    if (!curvature) {
-        *status = std::move(curvature);
-    } else {
-        detail::check(roundel_field_make_problem(mesh.get(), given.faces.size(), given.faces.data(),
-                                                 given.angles.data(), &made),
-                      status);
+    if (const auto guidance = detail::guidance_of(options, status)) {
+        detail::check(roundel_field_make_guided_problem(mesh.get(), guidance.get(), &made), status);
     }
     return Problem(made);
 }
@@ -206,17 +253,11 @@ inline Problem orientation_problem(const Mesh& mesh, const FieldOptions& options
 /// the problem.
 inline Field orientation_field(const Mesh& mesh, const Solution& solution,
                                const FieldOptions& options, Status* status = nullptr) {
-    Status curvature;
-    const auto given = detail::constraints_of(mesh, options, status ? &curvature : nullptr);
-    if (!curvature) {
-        *status = std::move(curvature);
-        return {};
-    }
+    const auto guidance = detail::guidance_of(options, status);
     roundel_field* found = nullptr;
-    if (!detail::check(roundel_field_from_solution(mesh.get(), given.faces.size(),
-                                                   given.faces.data(), given.angles.data(),
-                                                   solution.get(), &found),
-                       status)) {
+    if (!guidance || !detail::check(roundel_field_from_guided_solution(mesh.get(), guidance.get(),
+                                                                       solution.get(), &found),
+                                    status)) {
         return {};
     }
     return Field(found, mesh, status);

@@ -67,6 +67,7 @@ enum class Phase : std::int32_t {
     eliminate = ROUNDEL_PHASE_ELIMINATE,
     factor = ROUNDEL_PHASE_FACTOR,
     round = ROUNDEL_PHASE_ROUND,
+    untangle = ROUNDEL_PHASE_UNTANGLE,
 };
 
 /// One message to the callback, with where the solve stands.

@@ -79,7 +79,7 @@ impl FeatureGraph {
                     mesh.vertex_count(),
                 ));
             }
-            match edge_between(mesh, a, b).or_else(|| edge_between(mesh, b, a)) {
+            match edge_between(mesh, [a, b]) {
                 Some(e) => is_feature[e] = true,
                 None => {
                     return Err(Error::InvalidArgument {
@@ -154,11 +154,14 @@ impl FeatureGraph {
     }
 }
 
-/// The edge along which a face runs from `a` to `b`.
-fn edge_between(mesh: &TriangleMesh, a: usize, b: usize) -> Option<usize> {
-    let mut spokes = mesh.ring(a);
-    let found = spokes.find(|&(f, k)| mesh.corners(f)[(k + 1) % 3] == b);
-    found.map(|(f, k)| mesh.edge_of(f, k))
+/// The edge that joins two vertices of the mesh.
+pub(crate) fn edge_between(mesh: &TriangleMesh, [a, b]: [usize; 2]) -> Option<usize> {
+    let along = |[a, b]: [usize; 2]| {
+        let mut spokes = mesh.ring(a);
+        let found = spokes.find(|&(f, k)| mesh.corners(f)[(k + 1) % 3] == b);
+        found.map(|(f, k)| mesh.edge_of(f, k))
+    };
+    along([a, b]).or_else(|| along([b, a]))
 }
 
 fn out_of_range(what: &'static str, position: usize, value: usize, len: usize) -> Error {

@@ -6,6 +6,7 @@
 
 mod drawing;
 mod obj;
+mod obj_uv;
 mod off;
 mod ply;
 
@@ -16,6 +17,7 @@ use super::vector::Vec3;
 use super::{MeshError, TriangleMesh};
 
 pub use drawing::Drawing;
+pub use obj_uv::{TexturedMesh, parse_textured, read_textured};
 
 /// A file format.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -67,7 +67,7 @@ pub(super) fn encode(drawing: &Drawing) -> Vec<u8> {
     out
 }
 
-fn keyword(line: &[u8]) -> &[u8] {
+pub(super) fn keyword(line: &[u8]) -> &[u8] {
     let line = line.trim_ascii_start();
     let end = line.iter().position(u8::is_ascii_whitespace);
     &line[..end.unwrap_or(line.len())]

@@ -1,0 +1,127 @@
+//! `roundel extract`: the quads of a map from anywhere.
+
+use std::fmt;
+use std::path::PathBuf;
+use std::time::Instant;
+
+use roundel::Result;
+use roundel::mesh::{TriangleMesh, io};
+use roundel::quad::{IntegerGridMap, QuadMesh, SmoothOptions, extract, smooth};
+use serde::Serialize;
+
+use crate::exit::{self, Exit};
+use crate::progress::Progress;
+use crate::quad::{QuadCounts, words};
+use crate::summary::{counted, line};
+use crate::{interrupt, output};
+
+/// Extract the quads of a map that another program made.
+///
+/// The map is an integer-grid map: over every seam its coordinates turn by quarters and shift by
+/// integers, and irregular vertices lie on integers. Faces that it turns over are coped with.
+#[derive(clap::Args)]
+#[command(after_help = exit::HELP)]
+pub struct Arguments {
+    /// The mesh with coordinates at every corner: v, vt and f v/vt lines
+    #[arg(value_name = "UV.obj")]
+    map: PathBuf,
+
+    /// Write the quads to this file
+    #[arg(short, long, value_name = "QUADS.obj")]
+    out: Option<PathBuf>,
+
+    /// Leave vertices where the map has them
+    #[arg(long)]
+    no_smooth: bool,
+
+    /// Print one JSON object instead of the summary
+    #[arg(long)]
+    json: bool,
+}
+
+/// Runs the command and tells its outcome, once.
+pub fn run(arguments: &Arguments) -> Exit {
+    let told = solve(arguments).and_then(|solved| match arguments.json {
+        true => output::print_json(&Report::new(arguments, &solved)),
+        false => output::print(&solved.to_string()),
+    });
+    output::conclude(&arguments.map, arguments.json, told)
+}
+
+struct Solved {
+    mesh: TriangleMesh,
+    quads: QuadMesh,
+    read: f64,
+    extract: f64,
+    smooth: f64,
+}
+
+fn solve(arguments: &Arguments) -> Result<Solved> {
+    let token = interrupt::cancel_token()?;
+    let progress = Progress::start();
+    let started = Instant::now();
+    let (mesh, uvs) = io::read_textured(&arguments.map)?;
+    let read = started.elapsed().as_secs_f64();
+    progress.say("quads");
+    let started = Instant::now();
+    let mut quads = extract(&mesh, &IntegerGridMap::new(&mesh, &uvs)?, &token)?;
+    let extract = started.elapsed().as_secs_f64();
+    let started = Instant::now();
+    if !arguments.no_smooth {
+        progress.say("smooth");
+        smooth(&mut quads, &mesh, &SmoothOptions::default(), &token)?;
+    }
+    let smooth = started.elapsed().as_secs_f64();
+    if let Some(path) = &arguments.out {
+        quads.write_obj(path)?;
+    }
+    Ok(Solved {
+        mesh,
+        quads,
+        read,
+        extract,
+        smooth,
+    })
+}
+
+/// What `--json` prints.
+#[derive(Serialize)]
+struct Report {
+    file: String,
+    status: &'static str,
+    faces: usize,
+    #[serde(flatten)]
+    quads: QuadCounts,
+    seconds: Seconds,
+}
+
+#[derive(Serialize)]
+struct Seconds {
+    read: f64,
+    extract: f64,
+    smooth: f64,
+}
+
+impl Report {
+    fn new(arguments: &Arguments, solved: &Solved) -> Self {
+        Report {
+            file: arguments.map.to_string_lossy().into_owned(),
+            status: "feasible",
+            faces: solved.mesh.face_count(),
+            quads: QuadCounts::new(&solved.quads),
+            seconds: Seconds {
+                read: solved.read,
+                extract: solved.extract,
+                smooth: solved.smooth,
+            },
+        }
+    }
+}
+
+impl fmt::Display for Solved {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let faces = counted(self.mesh.face_count(), "face");
+        line(f, "read", &faces, self.read)?;
+        line(f, "quads", &words(&self.quads), self.extract + self.smooth)
+    }
+}

@@ -1,0 +1,28 @@
+//! `roundel quad`: from a mesh to quads in one command.
+
+mod arguments;
+mod report;
+mod steps;
+mod summary;
+
+use crate::exit::Exit;
+use crate::output;
+pub use arguments::Arguments;
+use report::QuadReport;
+pub use report::{QuadCounts, words};
+use steps::Solved;
+use summary::QuadSummary;
+
+/// Runs the command and tells its outcome, once.
+pub fn run(arguments: &Arguments) -> Exit {
+    let told = steps::solve(arguments).and_then(|solved| tell(arguments, &solved));
+    output::conclude(&arguments.mesh, arguments.json, told)
+}
+
+fn tell(arguments: &Arguments, solved: &Solved) -> roundel::Result<()> {
+    if arguments.json {
+        output::print_json(&QuadReport::new(arguments, solved))
+    } else {
+        output::print(&QuadSummary { arguments, solved }.to_string())
+    }
+}

@@ -1,0 +1,142 @@
+//! The JSON object of quads.
+
+use roundel::quad::{QuadMesh, QuadQuality};
+use serde::Serialize;
+
+use super::Arguments;
+use super::steps::Solved;
+use crate::memory;
+use crate::report::{Preparation, Report};
+use crate::summary::{counted, thousands};
+
+/// What `--json` prints of `roundel quad`: the solve of the map, and what came of it.
+#[derive(Serialize)]
+pub(super) struct QuadReport<'a> {
+    #[serde(flatten)]
+    solve: Report<'a>,
+    faces: usize,
+    field_irregular_vertices: usize,
+    flipped_before: usize,
+    flipped: usize,
+    #[serde(flatten)]
+    quads: QuadCounts,
+    phases: Phases,
+}
+
+/// Wall-clock seconds a phase, solve and all else.
+#[derive(Serialize)]
+struct Phases {
+    read: f64,
+    field: f64,
+    map: f64,
+    quads: f64,
+    smooth: f64,
+}
+
+/// Counts and figures of quads.
+#[derive(Serialize)]
+pub struct QuadCounts {
+    quads: usize,
+    other_faces: usize,
+    vertices: usize,
+    irregular_vertices: usize,
+    euler_characteristic: i64,
+    expected_euler_characteristic: i64,
+    boundary_edges: usize,
+    bad_edges: usize,
+    degenerate_faces: usize,
+    partial_cells: usize,
+    unfolded_points: usize,
+    repairs: usize,
+    conforming: bool,
+    mean_angle_deviation: f64,
+    scaled_jacobian_p1: f64,
+    scaled_jacobian_min: f64,
+    inverted: usize,
+    edge_length_spread: f64,
+}
+
+impl QuadCounts {
+    /// The counts of these quads.
+    pub fn new(quads: &QuadMesh) -> Self {
+        let (figures, quality) = (quads.figures(), QuadQuality::new(quads));
+        QuadCounts {
+            quads: quads.quads.len(),
+            other_faces: quads.others.len(),
+            vertices: quads.vertices.len(),
+            irregular_vertices: figures.irregular,
+            euler_characteristic: figures.euler,
+            expected_euler_characteristic: quads.expected_euler,
+            boundary_edges: figures.boundary_edges,
+            bad_edges: figures.bad_edges,
+            degenerate_faces: figures.degenerate,
+            partial_cells: quads.partial_cells,
+            unfolded_points: quads.unfolded,
+            repairs: quads.repaired,
+            conforming: quads.is_conforming(),
+            mean_angle_deviation: quality.angle_deviation,
+            scaled_jacobian_p1: quality.scaled_jacobian_p1,
+            scaled_jacobian_min: quality.scaled_jacobian_min,
+            inverted: quality.inverted,
+            edge_length_spread: quality.edge_spread,
+        }
+    }
+}
+
+impl<'a> QuadReport<'a> {
+    /// The report of what was found.
+    pub(super) fn new(arguments: &Arguments, solved: &'a Solved) -> Self {
+        let seconds = solved.seconds;
+        QuadReport {
+            solve: Report::new(
+                &arguments.mesh,
+                solved.options.strategy.name(),
+                Preparation {
+                    read: seconds.read,
+                    assemble: None,
+                },
+                &solved.solution,
+                memory::peak_bytes(),
+            ),
+            faces: solved.mesh.face_count(),
+            field_irregular_vertices: solved.untangled.map.cones().len(),
+            flipped_before: solved.untangled.flipped_before,
+            flipped: solved.untangled.flipped_after,
+            quads: QuadCounts::new(&solved.quads),
+            phases: Phases {
+                read: seconds.read,
+                field: seconds.field,
+                map: seconds.map,
+                quads: seconds.quads,
+                smooth: seconds.smooth,
+            },
+        }
+    }
+}
+
+/// One line on quads for people: how many, how regular, whether whole.
+pub fn words(quads: &QuadMesh) -> String {
+    let figures = quads.figures();
+    let mut text = format!(
+        "{}, {} irregular",
+        counted(quads.quads.len(), "quad"),
+        thousands(figures.irregular)
+    );
+    if !quads.others.is_empty() {
+        text += &format!(", {}", counted(quads.others.len(), "other face"));
+    }
+    text += &match (quads.is_conforming(), figures.boundary_edges) {
+        (true, 0) => String::from(", watertight"),
+        (true, edges) => format!(", {}", counted(edges, "boundary edge")),
+        (false, _) if figures.bad_edges + figures.degenerate > 0 => format!(
+            ", {}, {}",
+            counted(figures.bad_edges, "bad edge"),
+            counted(figures.degenerate, "degenerate face")
+        ),
+        (false, _) => format!(
+            ", Euler characteristic {}, not {}",
+            figures.euler, quads.expected_euler
+        ),
+    };
+    text
+}

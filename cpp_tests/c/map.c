@@ -1,0 +1,213 @@
+/* A gear with its sharp edges and the rim of a plate as isolines, from the C interface: exactly,
+ * the same when it is solved again, and cancelled when the callback says so. */
+
+#include <roundel/roundel.h>
+
+#include <math.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define CHECK(condition)                                                                           \
+    do {                                                                                           \
+        if (!(condition)) {                                                                        \
+            char text[256];                                                                        \
+            roundel_last_error_message(text, sizeof text);                                         \
+            fprintf(stderr, "%s:%d: %s (%s)\n", __FILE__, __LINE__, #condition, text);             \
+            exit(1);                                                                               \
+        }                                                                                          \
+    } while (0)
+#define OK(call) CHECK((call) == ROUNDEL_OK)
+
+typedef struct {
+    roundel_mesh* mesh;
+    roundel_guidance* guidance;
+    roundel_field* field;
+    size_t faces, edges;
+} model;
+
+static model made(const char* shape, size_t triangles) {
+    model m = {0};
+    OK(roundel_mesh_make_shape(shape, triangles, &m.mesh));
+    OK(roundel_mesh_face_count(m.mesh, &m.faces));
+    OK(roundel_mesh_edge_count(m.mesh, &m.edges));
+    OK(roundel_guidance_new(&m.guidance));
+    OK(roundel_guidance_set_feature_angle(m.guidance, 0.7));
+    OK(roundel_guidance_set_curvature(m.guidance, 0.0, 0.1));
+    OK(roundel_field_solve_guided(m.mesh, m.guidance, NULL, NULL, &m.field));
+    return m;
+}
+
+static void freed(model* m) {
+    OK(roundel_field_free(m->field));
+    OK(roundel_guidance_free(m->guidance));
+    OK(roundel_mesh_free(m->mesh));
+}
+
+static double* corners(const roundel_map* map, size_t faces) {
+    double* uv = malloc(6 * faces * sizeof *uv);
+    CHECK(uv != NULL);
+    OK(roundel_map_corner_uvs(map, uv, 6 * faces));
+    return uv;
+}
+
+/* Counts features, each of whose sides must be an isoline of integer value to the last digit. */
+static size_t isolines(const model* m, const double* uv) {
+    int32_t* mark = malloc(m->edges * sizeof *mark);
+    int32_t* edge = malloc(3 * m->faces * sizeof *edge);
+    size_t count = 0;
+    CHECK(mark != NULL && edge != NULL);
+    OK(roundel_mesh_mark_features(m->mesh, m->guidance, mark, m->edges));
+    OK(roundel_mesh_face_edges(m->mesh, edge, 3 * m->faces));
+    for (size_t side = 0; side < 3 * m->faces; ++side) {
+        if (mark[edge[side]] == 1) {
+            const double* a = uv + 2 * side;
+            const double* b = uv + 2 * (side % 3 == 2 ? side - 2 : side + 1);
+            const int along_v = a[0] == b[0] && floor(a[0]) == a[0];
+            const int along_u = a[1] == b[1] && floor(a[1]) == a[1];
+            CHECK(along_u || along_v);
+            ++count;
+        }
+    }
+    free(mark);
+    free(edge);
+    return count;
+}
+
+/* The corners of faces among the vertices of the cut surface. */
+static void indexed(const roundel_map* map, const double* uv, size_t faces) {
+    size_t vertices = 0;
+    OK(roundel_map_vertex_count(map, &vertices));
+    double* of_vertex = malloc(2 * vertices * sizeof *of_vertex);
+    int32_t* corner = malloc(3 * faces * sizeof *corner);
+    CHECK(of_vertex != NULL && corner != NULL);
+    OK(roundel_map_vertex_uvs(map, of_vertex, 2 * vertices));
+    OK(roundel_map_vertex_corners(map, corner, 3 * faces));
+    for (size_t k = 0; k < 3 * faces; ++k) {
+        CHECK(memcmp(of_vertex + 2 * corner[k], uv + 2 * k, 2 * sizeof *uv) == 0);
+    }
+    free(of_vertex);
+    free(corner);
+}
+
+static void transitions(const roundel_map* map) {
+    size_t cut = 0;
+    OK(roundel_map_cut_count(map, &cut));
+    CHECK(cut > 0);
+    int32_t* edge = malloc(cut * sizeof *edge);
+    int32_t* quarters = malloc(cut * sizeof *quarters);
+    double* translation = malloc(2 * cut * sizeof *translation);
+    CHECK(edge != NULL && quarters != NULL && translation != NULL);
+    OK(roundel_map_transitions(map, cut, edge, quarters, translation));
+    for (size_t i = 0; i < cut; ++i) {
+        CHECK(i == 0 || edge[i - 1] < edge[i]);
+        CHECK(quarters[i] >= 0 && quarters[i] < 4);
+        CHECK(floor(translation[2 * i]) == translation[2 * i]);
+        CHECK(floor(translation[2 * i + 1]) == translation[2 * i + 1]);
+    }
+    free(edge);
+    free(quarters);
+    free(translation);
+}
+
+/* A solve at another size is that of a map which never had another. */
+static void again(const model* m, roundel_map* map) {
+    roundel_map* fresh = NULL;
+    double energies[2] = {0.0, 1.0};
+    OK(roundel_map_set_edge_length(map, 0.09));
+    OK(roundel_map_solve(map, NULL, NULL));
+    OK(roundel_map_new(m->mesh, m->field, NULL, &fresh));
+    OK(roundel_map_set_edge_length(fresh, 0.09));
+    OK(roundel_map_solve(fresh, NULL, NULL));
+    double *a = corners(map, m->faces), *b = corners(fresh, m->faces);
+    CHECK(memcmp(a, b, 6 * m->faces * sizeof *a) == 0);
+    OK(roundel_map_energy(map, energies));
+    OK(roundel_map_energy(fresh, energies + 1));
+    CHECK(energies[0] == energies[1] && isolines(m, a) > 0);
+
+    /* Twice the length along and across everywhere, as a list. */
+    double* lengths = malloc(2 * m->faces * sizeof *lengths);
+    CHECK(lengths != NULL);
+    for (size_t i = 0; i < 2 * m->faces; ++i) {
+        lengths[i] = 0.09;
+    }
+    OK(roundel_map_set_edge_lengths(fresh, lengths, 2 * m->faces));
+    OK(roundel_map_solve(fresh, NULL, NULL));
+    OK(roundel_map_corner_uvs(fresh, b, 6 * m->faces));
+    CHECK(memcmp(a, b, 6 * m->faces * sizeof *a) == 0);
+    free(lengths);
+    free(a);
+    free(b);
+    OK(roundel_map_free(fresh));
+}
+
+/* A solution of the plain problem is as good as a solve. */
+static void elsewhere(const model* m, roundel_map* map) {
+    roundel_problem* problem = NULL;
+    roundel_solution* solution = NULL;
+    double *a = corners(map, m->faces), *b = NULL;
+    OK(roundel_map_make_problem(map, &problem));
+    OK(roundel_solve(problem, NULL, &solution));
+    OK(roundel_map_take_solution(map, solution));
+    b = corners(map, m->faces);
+    CHECK(memcmp(a, b, 6 * m->faces * sizeof *a) == 0);
+    free(a);
+    free(b);
+    OK(roundel_solution_free(solution));
+    OK(roundel_problem_free(problem));
+}
+
+static int32_t count_events(const roundel_event* event, void* user_data) {
+    int* calls = user_data;
+    (void)event;
+    ++*calls;
+    return 0;
+}
+
+static int32_t stop_at_once(const roundel_event* event, void* user_data) {
+    (void)event;
+    (void)user_data;
+    return 1;
+}
+
+static void watched(const model* m) {
+    roundel_map* map = NULL;
+    roundel_monitor monitor = {sizeof monitor, stop_at_once, NULL, NULL};
+    double energy = 7.0;
+    int calls = 0;
+    OK(roundel_map_new(m->mesh, m->field, NULL, &map));
+    CHECK(roundel_map_solve(map, NULL, &monitor) == ROUNDEL_ERROR_CANCELLED);
+    CHECK(roundel_map_energy(map, &energy) == ROUNDEL_ERROR_INVALID_ARGUMENT && energy == 7.0);
+    monitor.callback = count_events;
+    monitor.user_data = &calls;
+    OK(roundel_map_solve(map, NULL, &monitor));
+    OK(roundel_map_energy(map, &energy));
+    CHECK(calls > 0 && energy > 0.0);
+    OK(roundel_map_free(map));
+}
+
+int main(void) {
+    const char* const shapes[] = {"gear", "plate-with-holes"};
+    for (size_t i = 0; i < 2; ++i) {
+        model m = made(shapes[i], 2000);
+        roundel_map* map = NULL;
+        OK(roundel_map_new(m.mesh, m.field, NULL, &map));
+        OK(roundel_map_set_quads(map, 600));
+        OK(roundel_map_solve(map, NULL, NULL));
+        double* uv = corners(map, m.faces);
+        CHECK(isolines(&m, uv) > 100);
+        indexed(map, uv, m.faces);
+        if (i == 0) {
+            transitions(map);
+        }
+        again(&m, map);
+        elsewhere(&m, map);
+        watched(&m);
+        free(uv);
+        OK(roundel_map_free(map));
+        freed(&m);
+    }
+    return 0;
+}

@@ -1,0 +1,239 @@
+/// Seamless maps.
+
+#ifndef ROUNDEL_DETAIL_MAP_HPP
+#define ROUNDEL_DETAIL_MAP_HPP
+
+#include <roundel/detail/features.hpp>
+#include <roundel/detail/field.hpp>
+#include <roundel/detail/mesh.hpp>
+#include <roundel/detail/solve.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+ROUNDEL_NAMESPACE_BEGIN
+
+/// What a map should be like, and how it is solved.
+struct MapOptions {
+    /// About how many quads. 1000 where no length is given either.
+    std::optional<std::size_t> quads = std::nullopt;
+    /// Edges of quads of this length, in units of the mesh, instead.
+    std::optional<double> edge_length = std::nullopt;
+    /// Edges of quads of two lengths a face instead: along the arm that the field stores there (its
+    /// angle), and across it.
+    std::vector<double> edge_lengths = {};
+    /// Edges that are isolines; those that the field follows where nothing is said.
+    std::optional<Features> features = std::nullopt;
+    /// How the problem is solved.
+    Options solve = {};
+
+    MapOptions& set_quads(std::size_t value) {
+        quads = value;
+        return *this;
+    }
+    MapOptions& set_edge_length(double value) {
+        edge_length = value;
+        return *this;
+    }
+    MapOptions& set_edge_lengths(std::vector<double> value) {
+        edge_lengths = std::move(value);
+        return *this;
+    }
+    MapOptions& set_features(Features value) {
+        features = std::move(value);
+        return *this;
+    }
+    MapOptions& set_solve(Options value) {
+        solve = std::move(value);
+        return *this;
+    }
+};
+
+/// How coordinates change over a cut edge, from its first to its second face: by quarter turns
+/// counter-clockwise, 0 to 3, then by integers.
+struct Transition {
+    std::int32_t edge;
+    std::int32_t quarters;
+    std::array<double, 2> translation;
+};
+
+/// A seamless map of a mesh: coordinates (u, v) on the surface cut open, whose gradients follow a
+/// field of crosses. It does not need its mesh and field any more.
+class Map {
+  public:
+    /// None: what a call returns that reports a failure to a Status.
+    Map() noexcept = default;
+
+    /// Takes over a map of the C interface that has been solved.
+    explicit Map(roundel_map* owned, std::size_t faces, Status* status = nullptr)
+        : handle_(owned), faces_(faces) {
+        read(status);
+    }
+
+    /// Whether there is one.
+    explicit operator bool() const noexcept { return handle_ != nullptr; }
+
+    /// Solves for another size, from what was kept of the first solve. Features stay those of the
+    /// first. After a failure the map is what it was, but for the size that the next solve has.
+    Map& solve(const MapOptions& options, Status* status = nullptr) {
+        const auto call = [this](const roundel_options* how, const roundel_monitor* monitor) {
+            return roundel_map_solve(get(), how, monitor);
+        };
+        if (resize(get(), options, status) && detail::watched(options.solve, call, 0, status)) {
+            read(status);
+        }
+        return *this;
+    }
+
+    /// u, v of the three corners of every face.
+    span<const double> corner_uvs() const& noexcept { return view(corner_uvs_); }
+    span<const double> corner_uvs() const&& = delete;
+
+    /// u, v of every vertex of the cut surface.
+    span<const double> vertex_uvs() const& noexcept { return view(vertex_uvs_); }
+    span<const double> vertex_uvs() const&& = delete;
+
+    /// The three corners of every face as vertices of the cut surface.
+    span<const std::int32_t> vertex_corners() const& noexcept { return view(vertex_corners_); }
+    span<const std::int32_t> vertex_corners() const&& = delete;
+
+    /// Irregular vertices, around which coordinates turn.
+    span<const std::int32_t> cones() const& noexcept { return view(cones_); }
+    span<const std::int32_t> cones() const&& = delete;
+
+    /// Faces that are turned over or collapsed.
+    span<const std::int32_t> flipped() const& noexcept { return view(flipped_); }
+    span<const std::int32_t> flipped() const&& = delete;
+
+    /// Whether no face is turned over or collapsed.
+    bool valid() const noexcept { return handle_ != nullptr && flipped_.empty(); }
+
+    /// The cut edges in increasing order, and how coordinates change there.
+    std::vector<Transition> transitions(Status* status = nullptr) const {
+        std::size_t count = 0;
+        if (!detail::check(roundel_map_cut_count(get(), &count), status)) {
+            return {};
+        }
+        std::vector<std::int32_t> edges(count), quarters(count);
+        std::vector<double> translations(2 * count);
+        std::vector<Transition> all;
+        if (detail::check(roundel_map_transitions(get(), count, edges.data(), quarters.data(),
+                                                  translations.data()),
+                          status)) {
+            for (std::size_t i = 0; i < count; ++i) {
+                all.push_back(
+                    {edges[i], quarters[i], {translations[2 * i], translations[2 * i + 1]}});
+            }
+        }
+        return all;
+    }
+
+    /// How far the gradients are from what they should be, recomputed on the mesh.
+    double energy(Status* status = nullptr) const {
+        double value = 0.0;
+        detail::check(roundel_map_energy(get(), &value), status);
+        return value;
+    }
+
+    /// The solution behind the map: how the solve ended, its lower bound and its times.
+    Solution solution(Status* status = nullptr) const {
+        roundel_solution* copy = nullptr;
+        if (!detail::check(roundel_map_solution(get(), &copy), status)) {
+            return {};
+        }
+        return Solution(copy, status);
+    }
+
+    /// Writes the mesh with the coordinates of its corners as OBJ.
+    void write(const std::string& file, Status* status = nullptr) const {
+        detail::check(roundel_map_write(get(), file.c_str()), status);
+    }
+
+    roundel_map* get() const noexcept { return handle_.get(); }
+
+    /// Tells a map of the C interface the size of quads.
+    static bool resize(roundel_map* map, const MapOptions& options, Status* status) {
+        const auto told = [&](roundel_status code) { return detail::check(code, status); };
+        return (!options.quads || told(roundel_map_set_quads(map, *options.quads))) &&
+               (!options.edge_length ||
+                told(roundel_map_set_edge_length(map, *options.edge_length))) &&
+               (options.edge_lengths.empty() ||
+                told(roundel_map_set_edge_lengths(map, options.edge_lengths.data(),
+                                                  options.edge_lengths.size())));
+    }
+
+  private:
+    template <class T> static span<const T> view(const std::vector<T>& values) noexcept {
+        return {values.data(), values.size()};
+    }
+
+    template <class Count, class Function>
+    bool listed(Count count, Function copy, std::vector<std::int32_t>& to, Status* status) {
+        std::size_t length = 0;
+        if (!detail::check(count(get(), &length), status)) {
+            return false;
+        }
+        to.resize(length);
+        return detail::check(copy(get(), to.data(), length), status);
+    }
+
+    void read(Status* status) {
+        std::size_t vertices = 0;
+        if (!detail::check(roundel_map_vertex_count(get(), &vertices), status)) {
+            return;
+        }
+        corner_uvs_.resize(6 * faces_);
+        vertex_uvs_.resize(2 * vertices);
+        vertex_corners_.resize(3 * faces_);
+        const auto told = [&](roundel_status code) { return detail::check(code, status); };
+        if (told(roundel_map_corner_uvs(get(), corner_uvs_.data(), corner_uvs_.size())) &&
+            told(roundel_map_vertex_uvs(get(), vertex_uvs_.data(), vertex_uvs_.size())) &&
+            told(roundel_map_vertex_corners(get(), vertex_corners_.data(),
+                                            vertex_corners_.size())) &&
+            listed(roundel_map_cone_count, roundel_map_cones, cones_, status)) {
+            listed(roundel_map_flipped_count, roundel_map_flipped, flipped_, status);
+        }
+    }
+
+    detail::Handle<roundel_map, roundel_map_free> handle_;
+    std::size_t faces_ = 0;
+    std::vector<double> corner_uvs_;
+    std::vector<double> vertex_uvs_;
+    std::vector<std::int32_t> vertex_corners_;
+    std::vector<std::int32_t> cones_;
+    std::vector<std::int32_t> flipped_;
+};
+
+/// The seamless map of a mesh that follows a field on it.
+inline Map parametrize(const Mesh& mesh, const Field& field, const MapOptions& options = {},
+                       Status* status = nullptr) {
+    detail::GuidanceHandle guidance;
+    if (options.features) {
+        guidance = detail::guidance_with(*options.features, status);
+        if (!guidance) {
+            return {};
+        }
+    }
+    roundel_map* made = nullptr;
+    if (!detail::check(roundel_map_new(mesh.get(), field.get(), guidance.get(), &made), status)) {
+        return {};
+    }
+    detail::Handle<roundel_map, roundel_map_free> map(made);
+    const auto call = [&](const roundel_options* how, const roundel_monitor* monitor) {
+        return roundel_map_solve(map.get(), how, monitor);
+    };
+    if (!Map::resize(map.get(), options, status) ||
+        !detail::watched(options.solve, call, 0, status)) {
+        return {};
+    }
+    return Map(map.release(), mesh.faces(status), status);
+}
+
+ROUNDEL_NAMESPACE_END
+
+#endif // ROUNDEL_DETAIL_MAP_HPP

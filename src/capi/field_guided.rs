@@ -1,0 +1,135 @@
+//! Fields that follow a guidance: solved for, or stated as a plain problem and read back.
+
+use super::event::{monitor as watched_by, roundel_monitor};
+use super::field::{Found, roundel_field};
+use super::guard;
+use super::guidance::roundel_guidance;
+use super::mesh::roundel_mesh;
+use super::options::roundel_options;
+use super::output::Out;
+use super::problem::roundel_problem;
+use super::solution::roundel_solution;
+use super::status::roundel_status;
+use crate::mesh::TriangleMesh;
+use crate::mesh::features::FeatureGraph;
+use crate::quad::{FieldProblem, Guidance};
+use crate::{Options, Result, Solution};
+
+/// The problem of the field that follows a guidance, and the features.
+fn stated(mesh: &TriangleMesh, guidance: &Guidance) -> Result<(FieldProblem, FeatureGraph)> {
+    let features = guidance.features(mesh)?;
+    let options = guidance.field_options(mesh, &features)?;
+    Ok((FieldProblem::with_options(mesh, &options)?, features))
+}
+
+/// Finds the smoothest field of a mesh that follows a guidance, under the eyes of `monitor`.
+/// `guidance`, `options` and `monitor` may be NULL.
+///
+/// With the position in the list at fault, fails with ROUNDEL_ERROR_INDEX_OUT_OF_RANGE for an
+/// element that the mesh does not have, ROUNDEL_ERROR_NOT_FINITE, and
+/// ROUNDEL_ERROR_INVALID_ARGUMENT for one that is named twice, two vertices that no edge joins, a
+/// negative weight or an index at the boundary. ROUNDEL_ERROR_INVALID_ARGUMENT also for indices that
+/// do not sum to the Euler characteristic, and with the face for one whose three edges are features.
+/// Else as roundel_solve does.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_field_solve_guided(
+    mesh: *const roundel_mesh,
+    guidance: *const roundel_guidance,
+    options: *const roundel_options,
+    monitor: *const roundel_monitor,
+    field: *mut *mut roundel_field,
+) -> roundel_status {
+    let body = |mesh: &TriangleMesh| {
+        let (crosses, default) = (Guidance::default(), Options::default());
+        // SAFETY: the caller gives live handles or NULL, a monitor as its members say or NULL, and
+        // a place for the field or NULL.
+        let (guidance, options, monitor, out) = unsafe {
+            (
+                guard::value_or(guidance, &crosses)?,
+                guard::value_or(options, &default)?,
+                watched_by(monitor)?,
+                Out::new("field", field)?,
+            )
+        };
+        let (problem, features) = stated(mesh, guidance)?;
+        let solution = crate::solve_with(problem.problem(), options, monitor)?;
+        let found = problem.field(mesh, &solution)?;
+        out.set(guard::handle(Found::new(mesh, found, features, solution)));
+        Ok(())
+    };
+    // SAFETY: the caller gives a live handle, or NULL.
+    unsafe { guard::read(mesh, body) }
+}
+
+/// Makes the mixed-integer problem of the field that roundel_field_solve_guided finds. Variables are
+/// those of roundel_field_make_problem. `guidance` may be NULL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_field_make_guided_problem(
+    mesh: *const roundel_mesh,
+    guidance: *const roundel_guidance,
+    problem: *mut *mut roundel_problem,
+) -> roundel_status {
+    let body = |mesh: &TriangleMesh| {
+        let crosses = Guidance::default();
+        // SAFETY: the caller gives a live handle and a place, or NULL.
+        let (guidance, out) = unsafe {
+            (
+                guard::value_or(guidance, &crosses)?,
+                Out::new("problem", problem)?,
+            )
+        };
+        let (made, _) = stated(mesh, guidance)?;
+        out.set(guard::handle(made.problem().clone()));
+        Ok(())
+    };
+    // SAFETY: the caller gives a live handle, or NULL.
+    unsafe { guard::read(mesh, body) }
+}
+
+/// Makes the field that a solution of roundel_field_make_guided_problem's problem stands for; mesh
+/// and guidance are those of the problem.
+///
+/// Fails with ROUNDEL_ERROR_LENGTH_MISMATCH for the solution of another problem,
+/// ROUNDEL_ERROR_OVERFLOW for a period jump beyond 2^31.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_field_from_guided_solution(
+    mesh: *const roundel_mesh,
+    guidance: *const roundel_guidance,
+    solution: *const roundel_solution,
+    field: *mut *mut roundel_field,
+) -> roundel_status {
+    let body = |mesh: &TriangleMesh| {
+        let crosses = Guidance::default();
+        // SAFETY: the caller gives live handles and a place, or NULL.
+        let (guidance, solution, out): (_, &Solution, _) = unsafe {
+            (
+                guard::value_or(guidance, &crosses)?,
+                guard::value(solution)?,
+                Out::new("field", field)?,
+            )
+        };
+        let (problem, features) = stated(mesh, guidance)?;
+        let found = problem.field(mesh, solution)?;
+        let solution = solution.clone();
+        out.set(guard::handle(Found::new(mesh, found, features, solution)));
+        Ok(())
+    };
+    // SAFETY: the caller gives a live handle, or NULL.
+    unsafe { guard::read(mesh, body) }
+}
+
+/// Gives N, the number of arms that a field has in a face.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_field_symmetry(
+    field: *const roundel_field,
+    arms: *mut i32,
+) -> roundel_status {
+    let body = |found: &Found| {
+        // SAFETY: the caller gives a place for the number, or NULL.
+        let out = unsafe { Out::new("symmetry", arms) }?;
+        out.set(i32::from(found.field().symmetry()));
+        Ok(())
+    };
+    // SAFETY: the caller gives a live handle, or NULL.
+    unsafe { guard::read(field, body) }
+}

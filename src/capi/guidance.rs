@@ -1,0 +1,366 @@
+//! The guidance handle: what a field and the map that follows it keep to.
+
+use std::ffi::c_char;
+
+use super::error::Outcome;
+use super::guard::{self, Guarded, boundary, object};
+use super::guidance_files::read_features;
+use super::input::{indices, path, slice};
+use super::mesh::roundel_mesh;
+use super::output::{Out, copy_numbers};
+use super::status::roundel_status;
+use crate::Error;
+use crate::mesh::TriangleMesh;
+use crate::quad::{Constraint, Guidance, Guide, PrescribedIndex};
+
+/// What a field shall follow, and which edges become isolines of its map: features, boundary, given
+/// directions, curvature, given indices. Where several ask for the direction of one face, the first
+/// of these decides: a direction that is given, a feature or the boundary, a reliable curvature.
+///
+/// A new one asks for crosses that follow the boundary, and for nothing else; where a function
+/// takes a guidance, NULL stands for that. Numbers of faces, edges and vertices are those of the
+/// mesh that it is used with, and are checked there.
+pub struct roundel_guidance(Guarded<Guidance>);
+
+object!(roundel_guidance, Guidance, "guidance");
+
+/// Makes a guidance. To be freed with roundel_guidance_free.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_guidance_new(
+    guidance: *mut *mut roundel_guidance,
+) -> roundel_status {
+    boundary(None, || {
+        // SAFETY: the caller gives a place for the handle, or NULL.
+        let out = unsafe { Out::new("guidance", guidance) }?;
+        out.set(guard::handle(Guidance::default()));
+        Ok(())
+    })
+}
+
+/// Frees a guidance. NULL is allowed.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_guidance_free(guidance: *mut roundel_guidance) -> roundel_status {
+    // SAFETY: the caller gives up the handle, or NULL.
+    unsafe { guard::free(guidance) }
+}
+
+/// An entry that changes a guidance.
+///
+/// # Safety
+/// `guidance` is NULL or a live handle that nobody else uses.
+unsafe fn change(
+    guidance: *mut roundel_guidance,
+    change: impl FnOnce(&mut Guidance) -> Outcome,
+) -> roundel_status {
+    // SAFETY: handed on.
+    unsafe { guard::write(guidance, change) }
+}
+
+/// The caller's numbers of elements, of a mesh that is not known yet.
+///
+/// # Safety
+/// `values` is NULL or has `count` entries.
+unsafe fn elements(what: &'static str, values: *const i32, count: usize) -> Outcome<Vec<usize>> {
+    // SAFETY: handed on.
+    unsafe { indices(what, values, count, i32::MAX as usize + 1) }
+}
+
+/// Sets N, the number of arms in a face, evenly around: 4 for crosses (the default), and 1, 2 or 6
+/// for fields alone. A map needs crosses.
+///
+/// Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for another number.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_guidance_set_symmetry(
+    guidance: *mut roundel_guidance,
+    arms: i32,
+) -> roundel_status {
+    let body = |guidance: &mut Guidance| match arms {
+        1 | 2 | 4 | 6 => {
+            guidance.symmetry = arms as u8;
+            Ok(())
+        }
+        _ => Err(Error::InvalidArgument {
+            what: format!("a field of {arms} arms: 1, 2, 4 and 6 are"),
+            index: None,
+        })?,
+    };
+    // SAFETY: the caller gives a live handle, or NULL.
+    unsafe { change(guidance, body) }
+}
+
+/// Sets the directions that `count` faces have: `angles` of one arm, in radians, counter-clockwise
+/// about the normal from the face's first edge. Each face at most once.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_guidance_set_constraints(
+    guidance: *mut roundel_guidance,
+    count: usize,
+    faces: *const i32,
+    angles: *const f64,
+) -> roundel_status {
+    let body = |guidance: &mut Guidance| {
+        // SAFETY: the caller gives arrays of the length given, or NULL.
+        let (faces, angles) = unsafe {
+            (
+                elements("constrained faces", faces, count)?,
+                slice("constrained angles", angles, count)?,
+            )
+        };
+        let pairs = faces.into_iter().zip(angles);
+        let given = pairs.map(|(face, &angle)| Constraint { face, angle });
+        guidance.constraints = given.collect();
+        Ok(())
+    };
+    // SAFETY: the caller gives a live handle, or NULL.
+    unsafe { change(guidance, body) }
+}
+
+/// Sets the directions that `count` faces should have, each at most once: a deviation costs its
+/// square times the weight, where one between neighbours costs its square. A face with a direction
+/// that it must have keeps that.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_guidance_set_guides(
+    guidance: *mut roundel_guidance,
+    count: usize,
+    faces: *const i32,
+    angles: *const f64,
+    weights: *const f64,
+) -> roundel_status {
+    let body = |guidance: &mut Guidance| {
+        // SAFETY: the caller gives arrays of the length given, or NULL.
+        let (faces, angles, weights) = unsafe {
+            (
+                elements("guided faces", faces, count)?,
+                slice("guiding angles", angles, count)?,
+                slice("guiding weights", weights, count)?,
+            )
+        };
+        let triples = faces.into_iter().zip(angles).zip(weights);
+        let given = triples.map(|((face, &angle), &weight)| Guide {
+            face,
+            angle,
+            weight,
+        });
+        guidance.guides = given.collect();
+        Ok(())
+    };
+    // SAFETY: the caller gives a live handle, or NULL.
+    unsafe { change(guidance, body) }
+}
+
+/// Prescribes all irregular vertices: `count` vertices of the interior, each once, and their
+/// indices in `steps` of 1/N; all others become regular. On closed meshes the indices must sum to
+/// the Euler characteristic, which shows when the field is made. roundel_guidance_free_indices takes
+/// it back.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_guidance_set_indices(
+    guidance: *mut roundel_guidance,
+    count: usize,
+    vertices: *const i32,
+    steps: *const i32,
+) -> roundel_status {
+    let body = |guidance: &mut Guidance| {
+        // SAFETY: the caller gives arrays of the length given, or NULL.
+        let (vertices, steps) = unsafe {
+            (
+                elements("vertices with an index", vertices, count)?,
+                slice("steps", steps, count)?,
+            )
+        };
+        let pairs = vertices.into_iter().zip(steps);
+        let given = pairs.map(|(vertex, &steps)| PrescribedIndex { vertex, steps });
+        guidance.indices = Some(given.collect());
+        Ok(())
+    };
+    // SAFETY: the caller gives a live handle, or NULL.
+    unsafe { change(guidance, body) }
+}
+
+/// Leaves indices to the energy, as at first.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_guidance_free_indices(
+    guidance: *mut roundel_guidance,
+) -> roundel_status {
+    let body = |guidance: &mut Guidance| {
+        guidance.indices = None;
+        Ok(())
+    };
+    // SAFETY: the caller gives a live handle, or NULL.
+    unsafe { change(guidance, body) }
+}
+
+/// Sets how curvature counts. `fraction` of the faces, 0 to 1, those whose direction of least
+/// absolute curvature is most reliable, have that direction; all others are pulled towards theirs
+/// with weight `weight` * area * (|k1| - |k2|)^2. Both are 0 at first.
+///
+/// Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for a fraction outside of 0 to 1 and for a weight that
+/// is negative or not finite.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_guidance_set_curvature(
+    guidance: *mut roundel_guidance,
+    fraction: f64,
+    weight: f64,
+) -> roundel_status {
+    let body = |guidance: &mut Guidance| {
+        if !((0.0..=1.0).contains(&fraction) && weight >= 0.0 && weight.is_finite()) {
+            Err(Error::InvalidArgument {
+                what: format!("curvature: a fraction of {fraction}, a weight of {weight}"),
+                index: None,
+            })?;
+        }
+        guidance.constrain_curvature = fraction;
+        guidance.curvature_weight = weight;
+        Ok(())
+    };
+    // SAFETY: the caller gives a live handle, or NULL.
+    unsafe { change(guidance, body) }
+}
+
+/// Makes edges features at which the normals of the two faces differ by `angle` radians or more; 0
+/// makes none.
+///
+/// Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for an angle outside of 0 to pi.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_guidance_set_feature_angle(
+    guidance: *mut roundel_guidance,
+    angle: f64,
+) -> roundel_status {
+    let body = |guidance: &mut Guidance| {
+        if !(0.0..=std::f64::consts::PI).contains(&angle) {
+            Err(Error::InvalidArgument {
+                what: format!("the angle of features is {angle}, outside 0 to pi"),
+                index: None,
+            })?;
+        }
+        guidance.feature_angle = (angle > 0.0).then_some(angle);
+        Ok(())
+    };
+    // SAFETY: the caller gives a live handle, or NULL.
+    unsafe { change(guidance, body) }
+}
+
+/// Makes `count` edges features, by number; they take the place of those that were set before.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_guidance_set_feature_edges(
+    guidance: *mut roundel_guidance,
+    count: usize,
+    edges: *const i32,
+) -> roundel_status {
+    let body = |guidance: &mut Guidance| {
+        // SAFETY: the caller gives an array of the length given, or NULL.
+        guidance.feature_edges = unsafe { elements("feature edges", edges, count) }?;
+        Ok(())
+    };
+    // SAFETY: the caller gives a live handle, or NULL.
+    unsafe { change(guidance, body) }
+}
+
+/// Makes the edges between `count` pairs of vertices features; they take the place of those that
+/// were set before. `vertices` has twice as many entries.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_guidance_set_feature_lines(
+    guidance: *mut roundel_guidance,
+    count: usize,
+    vertices: *const i32,
+) -> roundel_status {
+    let body = |guidance: &mut Guidance| {
+        let ends = count.checked_mul(2).ok_or_else(|| Error::Overflow {
+            what: format!("twice {count} vertices are more than memory can hold"),
+            index: None,
+        })?;
+        // SAFETY: the caller gives an array of that length, or NULL.
+        let vertices = unsafe { elements("vertices of feature lines", vertices, ends) }?;
+        guidance.feature_lines = vertices.as_chunks::<2>().0.to_vec();
+        Ok(())
+    };
+    // SAFETY: the caller gives a live handle, or NULL.
+    unsafe { change(guidance, body) }
+}
+
+/// Sets whether edges of the boundary are features: 1, as at first, or 0.
+///
+/// Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for another number.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_guidance_set_align_boundary(
+    guidance: *mut roundel_guidance,
+    align: i32,
+) -> roundel_status {
+    let body = |guidance: &mut Guidance| {
+        guidance.align_boundary = match align {
+            0 => false,
+            1 => true,
+            _ => Err(Error::InvalidArgument {
+                what: format!("the boundary is aligned by 1 or not by 0, not {align}"),
+                index: None,
+            })?,
+        };
+        Ok(())
+    };
+    // SAFETY: the caller gives a live handle, or NULL.
+    unsafe { change(guidance, body) }
+}
+
+/// Adds what a text file asks for, one wish a line: "direction FACE X Y Z [WEIGHT]" (one that the
+/// face has, or with a weight should have), "edge VERTEX VERTEX" (a feature), "index VERTEX STEPS".
+/// What follows a # is a comment.
+///
+/// Fails with ROUNDEL_ERROR_IO, and with ROUNDEL_ERROR_PARSE and the line for what is none of these
+/// or not on the mesh; nothing is added then.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_guidance_read(
+    guidance: *mut roundel_guidance,
+    mesh: *const roundel_mesh,
+    file: *const c_char,
+) -> roundel_status {
+    let body = |guidance: &mut Guidance| {
+        // SAFETY: the caller gives a live handle and a text, or NULL.
+        let (mesh, file): (&TriangleMesh, _) =
+            unsafe { (guard::value(mesh)?, path("file", file)?) };
+        Ok(guidance.read(mesh, file)?)
+    };
+    // SAFETY: the caller gives a live handle, or NULL.
+    unsafe { change(guidance, body) }
+}
+
+/// Adds the line elements of an OBJ file, which has the vertices of the mesh, to the feature edges.
+///
+/// Fails with ROUNDEL_ERROR_IO, and with ROUNDEL_ERROR_PARSE and the line for what is no line
+/// between vertices that an edge joins; nothing is added then.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_guidance_read_features(
+    guidance: *mut roundel_guidance,
+    mesh: *const roundel_mesh,
+    file: *const c_char,
+) -> roundel_status {
+    let body = |guidance: &mut Guidance| {
+        // SAFETY: the caller gives a live handle and a text, or NULL.
+        let (mesh, file): (&TriangleMesh, _) =
+            unsafe { (guard::value(mesh)?, path("file", file)?) };
+        guidance.feature_edges.extend(read_features(mesh, file)?);
+        Ok(())
+    };
+    // SAFETY: the caller gives a live handle, or NULL.
+    unsafe { change(guidance, body) }
+}
+
+/// Marks the edges of a mesh that a guidance makes features: 1 for each, 0 for all others.
+/// `length` is the number of edges. `guidance` may be NULL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_mesh_mark_features(
+    mesh: *const roundel_mesh,
+    guidance: *const roundel_guidance,
+    marks: *mut i32,
+    length: usize,
+) -> roundel_status {
+    let body = |mesh: &TriangleMesh| {
+        let default = Guidance::default();
+        // SAFETY: the caller gives a live handle, or NULL.
+        let guidance = unsafe { guard::value_or(guidance, &default) }?;
+        let features = guidance.features(mesh)?;
+        let edges = 0..mesh.edge_count();
+        let found = edges.map(|e| i32::from(features.contains(e)));
+        // SAFETY: the caller gives an array of `length` numbers, or NULL.
+        unsafe { copy_numbers("marks of edges", found, marks, length) }
+    };
+    // SAFETY: the caller gives a live handle, or NULL.
+    unsafe { guard::read(mesh, body) }
+}

@@ -1,0 +1,218 @@
+//! The map handle: a seamless map of a mesh, solved for at one density after the other.
+
+use super::error::Outcome;
+use super::event::{monitor as watched_by, roundel_monitor};
+use super::field::{Found, roundel_field};
+use super::guard::{self, Guarded, object};
+use super::guidance::roundel_guidance;
+use super::input::slice;
+use super::mesh::roundel_mesh;
+use super::options::roundel_options;
+use super::output::Out;
+use super::problem::roundel_problem;
+use super::solution::roundel_solution;
+use super::status::roundel_status;
+use crate::mesh::TriangleMesh;
+use crate::quad::{SeamlessMap, SeamlessOptions, SeamlessProblem, Sizing};
+use crate::{Error, Options, Solution, Solver};
+
+/// All that a solve at another size needs again, and what the last one found.
+pub(super) struct Mapped {
+    mesh: TriangleMesh,
+    problem: SeamlessProblem,
+    solver: Solver,
+    found: Option<(SeamlessMap, Solution)>,
+}
+
+impl Mapped {
+    pub(super) fn mesh(&self) -> &TriangleMesh {
+        &self.mesh
+    }
+
+    /// The last map, and the solution behind it.
+    pub(super) fn found(&self) -> Outcome<&(SeamlessMap, Solution)> {
+        let none = || Error::InvalidArgument {
+            what: "the map has not been solved for".into(),
+            index: None,
+        };
+        Ok(self.found.as_ref().ok_or_else(none)?)
+    }
+
+    fn resize(&mut self, sizing: &Sizing) -> Outcome {
+        Ok(self.problem.resize(&self.mesh, sizing, &mut self.solver)?)
+    }
+
+    fn take(&mut self, solution: Solution) -> Outcome {
+        let map = self.problem.map(&self.mesh, &solution)?;
+        self.found = Some((map, solution));
+        Ok(())
+    }
+}
+
+/// A seamless map of a mesh: coordinates (u, v) on the surface cut open, whose gradients follow a
+/// field of crosses, which turn by quarters and shift by integers over the cut. Cones are integer
+/// points, features isolines of integer value. It keeps what it needs of mesh and field.
+///
+/// It is made for a size of quads, solved, and solved again for other sizes, from what was kept of
+/// the first solve. What it tells is of the last solve.
+pub struct roundel_map(Guarded<Mapped>);
+
+object!(roundel_map, Mapped, "map");
+
+/// Makes a map, not yet solved for, of a mesh and a field on it, with 1000 quads aimed at. Features
+/// are those of `guidance`, or of that of the field where it is NULL. To be freed with
+/// roundel_map_free.
+///
+/// Fails with ROUNDEL_ERROR_LENGTH_MISMATCH for the field of another mesh,
+/// ROUNDEL_ERROR_INVALID_ARGUMENT for a field of other than crosses, ROUNDEL_ERROR_OVERFLOW,
+/// ROUNDEL_ERROR_OUT_OF_MEMORY, and as roundel_mesh_mark_features does.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_map_new(
+    mesh: *const roundel_mesh,
+    field: *const roundel_field,
+    guidance: *const roundel_guidance,
+    map: *mut *mut roundel_map,
+) -> roundel_status {
+    let body = |mesh: &TriangleMesh| {
+        // SAFETY: the caller gives a live handle and a place, or NULL.
+        let (found, out): (&Found, _) = unsafe { (guard::value(field)?, Out::new("map", map)?) };
+        let given;
+        let features = if guidance.is_null() {
+            found.features()
+        } else {
+            // SAFETY: the caller gives a live handle.
+            given = unsafe { guard::value(guidance) }?.features(mesh)?;
+            &given
+        };
+        let sizing = Sizing::Quads(SeamlessOptions::default().quads);
+        let problem = SeamlessProblem::with_features(mesh, found.field(), &sizing, features)?;
+        out.set(guard::handle(Mapped {
+            mesh: mesh.clone(),
+            solver: Solver::new(problem.problem())?,
+            problem,
+            found: None,
+        }));
+        Ok(())
+    };
+    // SAFETY: the caller gives a live handle, or NULL.
+    unsafe { guard::read(mesh, body) }
+}
+
+/// Frees a map. NULL is allowed.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_map_free(map: *mut roundel_map) -> roundel_status {
+    // SAFETY: the caller gives up the handle, or NULL.
+    unsafe { guard::free(map) }
+}
+
+/// Aims at a number of quads.
+///
+/// Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for none.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_map_set_quads(
+    map: *mut roundel_map,
+    quads: usize,
+) -> roundel_status {
+    // SAFETY: the caller gives a live handle, or NULL.
+    unsafe { guard::write(map, |map: &mut Mapped| map.resize(&Sizing::Quads(quads))) }
+}
+
+/// Aims at quads with edges of one length, in units of the mesh.
+///
+/// Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for one that is not above zero,
+/// ROUNDEL_ERROR_NOT_FINITE.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_map_set_edge_length(
+    map: *mut roundel_map,
+    edge_length: f64,
+) -> roundel_status {
+    let body = |map: &mut Mapped| map.resize(&Sizing::EdgeLength(edge_length));
+    // SAFETY: the caller gives a live handle, or NULL.
+    unsafe { guard::write(map, body) }
+}
+
+/// Aims at quads with edges of two lengths a face: along the arm that the field stores there (its
+/// angle), and across it. `length` is twice the number of faces.
+///
+/// Fails with ROUNDEL_ERROR_INVALID_ARGUMENT and the face for one that is not above zero,
+/// ROUNDEL_ERROR_NOT_FINITE, ROUNDEL_ERROR_LENGTH_MISMATCH.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_map_set_edge_lengths(
+    map: *mut roundel_map,
+    edge_lengths: *const f64,
+    length: usize,
+) -> roundel_status {
+    let body = |map: &mut Mapped| {
+        let expected = 2 * map.mesh.face_count();
+        if length != expected {
+            Err(Error::LengthMismatch {
+                what: "edge lengths of faces",
+                expected,
+                actual: length,
+            })?;
+        }
+        // SAFETY: the caller gives an array of `length` numbers, or NULL.
+        let lengths = unsafe { slice("edge lengths of faces", edge_lengths, length) }?;
+        map.resize(&Sizing::Lengths(lengths.as_chunks::<2>().0.to_vec()))
+    };
+    // SAFETY: the caller gives a live handle, or NULL.
+    unsafe { guard::write(map, body) }
+}
+
+/// Solves for the map under the eyes of `monitor`, which may cancel. `options` and `monitor` may be
+/// NULL. A later call after another size was set skips elimination, orderings and factorizations.
+///
+/// Fails as roundel_solve does, and leaves what an earlier solve found. The callback must not use
+/// the map.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_map_solve(
+    map: *mut roundel_map,
+    options: *const roundel_options,
+    monitor: *const roundel_monitor,
+) -> roundel_status {
+    let body = |map: &mut Mapped| {
+        let default = Options::default();
+        // SAFETY: the caller gives a live handle and a monitor as its members say, or NULL.
+        let (options, monitor) =
+            unsafe { (guard::value_or(options, &default)?, watched_by(monitor)?) };
+        let solution = map.solver.solve_with(options, monitor)?;
+        map.take(solution)
+    };
+    // SAFETY: the caller gives a live handle, or NULL.
+    unsafe { guard::write(map, body) }
+}
+
+/// Makes a copy of the mixed-integer problem of a map at its present size, to be kept or solved in
+/// another way. Variables 2 c and 2 c + 1 are u and v of vertex c of the cut surface; the
+/// translations of the seams follow.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_map_make_problem(
+    map: *const roundel_map,
+    problem: *mut *mut roundel_problem,
+) -> roundel_status {
+    let body = |map: &Mapped| {
+        // SAFETY: the caller gives a place for the handle, or NULL.
+        let out = unsafe { Out::new("problem", problem) }?;
+        out.set(guard::handle(map.problem.problem().clone()));
+        Ok(())
+    };
+    // SAFETY: the caller gives a live handle, or NULL.
+    unsafe { guard::read(map, body) }
+}
+
+/// Takes any solution of roundel_map_make_problem's problem in place of a solve.
+///
+/// Fails with ROUNDEL_ERROR_LENGTH_MISMATCH for the solution of another problem.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_map_take_solution(
+    map: *mut roundel_map,
+    solution: *const roundel_solution,
+) -> roundel_status {
+    let body = |map: &mut Mapped| {
+        // SAFETY: the caller gives a live handle, or NULL.
+        let solution: &Solution = unsafe { guard::value(solution) }?;
+        map.take(solution.clone())
+    };
+    // SAFETY: the caller gives a live handle, or NULL.
+    unsafe { guard::write(map, body) }
+}

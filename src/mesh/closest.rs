@@ -1,0 +1,215 @@
+//! The closest point of a set of triangles, by a tree of boxes.
+//!
+//! Boxes are halved at the median centroid along their longest side; a search goes down nearer
+//! boxes first and leaves out those farther than the best so far. The point of a triangle closest
+//! to another: Ericson 2005, "Real-Time Collision Detection", section 5.1.5, which holds for
+//! triangles that are segments as well.
+
+use super::TriangleMesh;
+use super::vector::{Vec3, add, dot, scale, sub};
+
+/// Triangles in boxes.
+#[derive(Debug, Clone)]
+pub struct ClosestPoint {
+    triangles: Vec<[Vec3; 3]>,
+    /// Numbers of triangles, those of a box next to each other.
+    order: Vec<u32>,
+    boxes: Vec<Node>,
+}
+
+#[derive(Debug, Clone)]
+struct Node {
+    low: Vec3,
+    high: Vec3,
+    /// Range of `order`.
+    first: u32,
+    last: u32,
+    /// The second half; the first is the next box. None in a leaf: 0.
+    second: u32,
+}
+
+/// So many triangles are not worth halving.
+const LEAF: usize = 4;
+
+impl ClosestPoint {
+    /// The tree of the faces of a mesh.
+    pub fn new(mesh: &TriangleMesh) -> Self {
+        Self::of_triangles(
+            (0..mesh.face_count())
+                .map(|f| mesh.corner_positions(f))
+                .collect(),
+        )
+    }
+
+    /// The tree of any triangles, those without area included.
+    pub fn of_triangles(triangles: Vec<[Vec3; 3]>) -> Self {
+        let mut tree = ClosestPoint {
+            order: (0..triangles.len() as u32).collect(),
+            boxes: Vec::with_capacity(triangles.len()),
+            triangles,
+        };
+        if !tree.triangles.is_empty() {
+            tree.build(0, tree.triangles.len());
+        }
+        tree
+    }
+
+    fn build(&mut self, first: usize, last: usize) {
+        let node = self.boxes.len();
+        let members = &mut self.order[first..last];
+        let corners = members.iter().flat_map(|&t| self.triangles[t as usize]);
+        let [mut low, mut high] = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
+        for corner in corners {
+            for axis in 0..3 {
+                low[axis] = low[axis].min(corner[axis]);
+                high[axis] = high[axis].max(corner[axis]);
+            }
+        }
+        let size = sub(high, low);
+        let longest = (1..3).fold(
+            0,
+            |best, axis| if size[axis] > size[best] { axis } else { best },
+        );
+        let triangles = &self.triangles;
+        let center = |&t: &u32| {
+            triangles[t as usize]
+                .iter()
+                .map(|p| p[longest])
+                .sum::<f64>()
+        };
+        let middle = (last - first) / 2;
+        if last - first > LEAF {
+            members.select_nth_unstable_by(middle, |a, b| {
+                center(a).total_cmp(&center(b)).then(a.cmp(b))
+            });
+        }
+        self.boxes.push(Node {
+            low,
+            high,
+            first: first as u32,
+            last: last as u32,
+            second: 0,
+        });
+        if last - first > LEAF {
+            self.build(first, first + middle);
+            self.boxes[node].second = self.boxes.len() as u32;
+            self.build(first + middle, last);
+        }
+    }
+
+    /// The triangle with the point closest to `p`, and that point; none if there is no triangle.
+    ///
+    /// A triangle that may be near, such as that of the last search, makes it shorter.
+    pub fn find(&self, p: Vec3, hint: Option<usize>) -> Option<(usize, Vec3)> {
+        let start = hint.unwrap_or(0);
+        let mut best = (start, closest(*self.triangles.get(start)?, p));
+        let mut least = squared(sub(best.1, p));
+        let mut open = vec![0u32];
+        while let Some(node) = open.pop() {
+            let bounds = &self.boxes[node as usize];
+            if distance(bounds, p) >= least {
+                continue;
+            }
+            if bounds.second == 0 {
+                for &t in &self.order[bounds.first as usize..bounds.last as usize] {
+                    let point = closest(self.triangles[t as usize], p);
+                    let found = squared(sub(point, p));
+                    if found < least {
+                        (best, least) = ((t as usize, point), found);
+                    }
+                }
+                continue;
+            }
+            let halves = [node + 1, bounds.second];
+            let [a, b] = halves.map(|half| distance(&self.boxes[half as usize], p));
+            open.extend(if a < b {
+                [halves[1], halves[0]]
+            } else {
+                halves
+            });
+        }
+        Some(best)
+    }
+}
+
+fn squared(v: Vec3) -> f64 {
+    dot(v, v)
+}
+
+/// Squared distance to a box.
+fn distance(bounds: &Node, p: Vec3) -> f64 {
+    let off = |axis: usize| {
+        (bounds.low[axis] - p[axis])
+            .max(p[axis] - bounds.high[axis])
+            .max(0.0)
+    };
+    squared([off(0), off(1), off(2)])
+}
+
+/// The point of a triangle that is closest to `p`.
+fn closest([a, b, c]: [Vec3; 3], p: Vec3) -> Vec3 {
+    let (ab, ac, ap) = (sub(b, a), sub(c, a), sub(p, a));
+    let (d1, d2) = (dot(ab, ap), dot(ac, ap));
+    if d1 <= 0.0 && d2 <= 0.0 {
+        return a;
+    }
+    let bp = sub(p, b);
+    let (d3, d4) = (dot(ab, bp), dot(ac, bp));
+    if d3 >= 0.0 && d4 <= d3 {
+        return b;
+    }
+    let vc = d1 * d4 - d3 * d2;
+    if vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0 {
+        return add(a, scale(ab, d1 / (d1 - d3)));
+    }
+    let cp = sub(p, c);
+    let (d5, d6) = (dot(ab, cp), dot(ac, cp));
+    if d6 >= 0.0 && d5 <= d6 {
+        return c;
+    }
+    let vb = d5 * d2 - d1 * d6;
+    if vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0 {
+        return add(a, scale(ac, d2 / (d2 - d6)));
+    }
+    let va = d3 * d6 - d5 * d4;
+    let (e, f) = (d4 - d3, d5 - d6);
+    if va <= 0.0 && e >= 0.0 && f >= 0.0 {
+        return add(b, scale(sub(c, b), e / (e + f)));
+    }
+    let sum = va + vb + vc;
+    add(a, add(scale(ab, vb / sum), scale(ac, vc / sum)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::shape;
+
+    #[test]
+    fn the_tree_finds_what_a_search_of_all_triangles_finds() {
+        let mesh = shape::by_name("genus-2", 600).unwrap();
+        let tree = ClosestPoint::new(&mesh);
+        let mut x = 0.37;
+        for i in 0..200 {
+            let p = [0; 3].map(|_| {
+                x = (x * 977.13_f64).fract();
+                6.0 * x - 3.0
+            });
+            let distance = |q: Vec3| squared(sub(q, p));
+            let all =
+                (0..mesh.face_count()).map(|f| distance(closest(mesh.corner_positions(f), p)));
+            let least = all.fold(f64::INFINITY, f64::min);
+            let (face, point) = tree.find(p, (i % 2 == 0).then_some(i)).unwrap();
+            assert_eq!(distance(point), least);
+            assert_eq!(closest(mesh.corner_positions(face), p), point);
+        }
+    }
+
+    #[test]
+    fn of_no_triangles_none_is_closest() {
+        assert_eq!(
+            ClosestPoint::of_triangles(Vec::new()).find([0.0; 3], None),
+            None
+        );
+    }
+}

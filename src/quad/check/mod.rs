@@ -1,0 +1,5 @@
+//! Whether a map is an integer-grid map.
+
+mod orientation;
+
+pub use orientation::orientation;

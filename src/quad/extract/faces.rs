@@ -1,0 +1,112 @@
+//! Faces: walks along lines that keep to the left.
+
+use super::graph::{Graph, Place};
+use super::grid_map::ONE;
+use super::place::barycentric;
+use super::quad_mesh::{Origin, QuadMesh};
+use super::refined::{NONE, Refined};
+use crate::mesh::TriangleMesh;
+use crate::mesh::vector::{Vec3, add, scale};
+
+/// The mesh of all faces of the graph.
+pub(super) fn quad_mesh(mesh: &TriangleMesh, refined: &Refined, graph: &Graph) -> QuadMesh {
+    let mut quads = Vec::new();
+    let mut others = Vec::new();
+    let mut partial_cells = 0;
+    let mut is_seen = vec![false; graph.port_count()];
+    let mut corners = Vec::new();
+    for first in 0..graph.port_count() as u32 {
+        if graph.vertex(first) == NONE || is_seen[first as usize] {
+            continue;
+        }
+        corners.clear();
+        let mut port = first;
+        let is_closed = loop {
+            is_seen[port as usize] = true;
+            corners.push(graph.vertex(port));
+            let Some(mate) = graph.mate(port) else {
+                partial_cells += 1;
+                break false;
+            };
+            port = graph.previous(mate);
+            if port == first {
+                break true;
+            }
+            // The end of a walk that began in the middle of a cell that is not closed.
+            if is_seen[port as usize] {
+                break false;
+            }
+        };
+        match (is_closed, <[u32; 4]>::try_from(corners.as_slice())) {
+            (false, _) => {}
+            (true, Ok(quad)) => quads.push(quad),
+            (true, Err(_)) => others.push(corners.clone()),
+        }
+    }
+    let mut result = QuadMesh {
+        vertices: Vec::new(),
+        origins: Vec::new(),
+        quads,
+        others,
+        partial_cells,
+        unfolded: 0,
+        repaired: 0,
+        expected_euler: mesh.euler_characteristic(),
+    };
+    place(mesh, refined, graph, &mut result);
+    result
+}
+
+/// Numbers the vertices that have faces, and says where they are.
+fn place(mesh: &TriangleMesh, refined: &Refined, graph: &Graph, result: &mut QuadMesh) {
+    let mut number = vec![NONE; graph.places.len()];
+    let used: Vec<u32> = result.faces().flatten().copied().collect();
+    for vertex in used {
+        number[vertex as usize] = 0;
+    }
+    for (vertex, number) in number.iter_mut().enumerate().filter(|(_, n)| **n == 0) {
+        *number = result.vertices.len() as u32;
+        let place = &graph.places[vertex];
+        let origin = origin(refined, place);
+        let position = match (origin, place) {
+            (Origin::Middle, Place::Middle(corners)) => {
+                let corners = corners.iter().map(|&v| &graph.places[v as usize]);
+                mean(corners.map(|place| position(mesh, self::origin(refined, place))))
+            }
+            _ => position(mesh, origin),
+        };
+        result.origins.push(origin);
+        result.vertices.push(position);
+    }
+    let rename = |v: &mut u32| *v = number[*v as usize];
+    result.quads.as_flattened_mut().iter_mut().for_each(rename);
+    result.others.iter_mut().flatten().for_each(rename);
+}
+
+fn origin(refined: &Refined, place: &Place) -> Origin {
+    match place {
+        Place::Vertex(vertex) => Origin::Vertex(*vertex as usize),
+        Place::Face(face, levels) => {
+            let at = barycentric(refined.corners[*face as usize], levels.map(|x| x * ONE));
+            let (face, at) = refined.origin(*face as usize, at);
+            Origin::Face(face, at)
+        }
+        Place::Middle(_) => Origin::Middle,
+    }
+}
+
+fn position(mesh: &TriangleMesh, origin: Origin) -> Vec3 {
+    match origin {
+        Origin::Vertex(vertex) => mesh.position(vertex),
+        Origin::Face(face, at) => {
+            let corners = mesh.corner_positions(face);
+            (0..3).fold([0.0; 3], |sum, k| add(sum, scale(corners[k], at[k])))
+        }
+        Origin::Middle => [0.0; 3],
+    }
+}
+
+fn mean(points: impl Iterator<Item = Vec3>) -> Vec3 {
+    let (sum, count) = points.fold(([0.0; 3], 0), |(sum, n), p| (add(sum, p), n + 1));
+    scale(sum, 1.0 / f64::from(count))
+}

@@ -1,0 +1,180 @@
+//! The graph of integer points and the lines between them, drawn on the surface.
+//!
+//! A rotation system: every vertex has its ports, the ends of lines that leave it, in a
+//! counter-clockwise ring, and every port its mate at the other end of the line. Ports and mates
+//! say what faces there are, and stay a drawing on the same surface under all moves here.
+
+use super::refined::NONE;
+
+/// What an integer point is on the mesh.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) enum Place {
+    /// In a refined face, with these levels.
+    Face(u32, [i64; 2]),
+    /// An irregular vertex of the mesh.
+    Vertex(u32),
+    /// Put into the middle of a cell with these corners.
+    Middle(Vec<u32>),
+}
+
+/// The graph.
+#[derive(Debug, Default)]
+pub(super) struct Graph {
+    pub(super) places: Vec<Place>,
+    /// The vertex of every port; none once the port is gone.
+    pub(super) vertex: Vec<u32>,
+    /// The port after every port around its vertex.
+    pub(super) next: Vec<u32>,
+    pub(super) previous: Vec<u32>,
+    /// The port at the other end of the line; none where the line leaves the surface.
+    pub(super) mate: Vec<u32>,
+    /// Quarter turns of coordinates on the way to the mate.
+    pub(super) turn: Vec<u8>,
+    /// Where the line goes, in the coordinates of the port's face: 0 to 3 for +u, +v, -u, -v.
+    pub(super) direction: Vec<u8>,
+}
+
+impl Graph {
+    /// Adds a vertex with ports in these directions, counter-clockwise.
+    pub(super) fn add(&mut self, place: Place, directions: &[u8]) {
+        let vertex = self.places.len() as u32;
+        let (first, count) = (self.vertex.len() as u32, directions.len() as u32);
+        self.places.push(place);
+        for (i, &direction) in (0..count).zip(directions) {
+            self.vertex.push(vertex);
+            self.next.push(first + (i + 1) % count);
+            self.previous.push(first + (i + count - 1) % count);
+            self.mate.push(NONE);
+            self.turn.push(0);
+            self.direction.push(direction);
+        }
+    }
+
+    /// How many vertices have ports.
+    pub(super) fn live_vertices(&self) -> usize {
+        let mut is_live = vec![false; self.places.len()];
+        for &vertex in self.vertex.iter().filter(|&&vertex| vertex != NONE) {
+            is_live[vertex as usize] = true;
+        }
+        is_live.into_iter().filter(|&is_live| is_live).count()
+    }
+
+    pub(super) fn port_count(&self) -> usize {
+        self.vertex.len()
+    }
+
+    /// The mate of a port that is still there, if it has one.
+    pub(super) fn mate(&self, port: u32) -> Option<u32> {
+        let mate = self.mate[port as usize];
+        (self.vertex[port as usize] != NONE && mate != NONE).then_some(mate)
+    }
+
+    /// Makes two ports the ends of one line.
+    pub(super) fn join(&mut self, a: u32, b: u32, turn: u8) {
+        self.mate[a as usize] = b;
+        self.mate[b as usize] = a;
+        self.turn[a as usize] = turn % 4;
+        self.turn[b as usize] = (4 - turn % 4) % 4;
+    }
+
+    /// Whether a line comes back to the level it left: a fold of the map turned it around.
+    pub(super) fn is_fold(&self, port: u32) -> bool {
+        let Some(mate) = self.mate(port) else {
+            return false;
+        };
+        let p = port as usize;
+        (self.direction[p] + self.turn[p]) % 4 == self.direction[mate as usize]
+    }
+
+    pub(super) fn next(&self, port: u32) -> u32 {
+        self.next[port as usize]
+    }
+
+    pub(super) fn previous(&self, port: u32) -> u32 {
+        self.previous[port as usize]
+    }
+
+    pub(super) fn vertex(&self, port: u32) -> u32 {
+        self.vertex[port as usize]
+    }
+
+    /// The ports of the vertex of `port`, counter-clockwise from it.
+    pub(super) fn ring(&self, port: u32) -> Vec<u32> {
+        let mut ring = vec![port];
+        let mut at = self.next(port);
+        while at != port {
+            ring.push(at);
+            at = self.next(at);
+        }
+        ring
+    }
+
+    /// Takes a port out of its ring.
+    pub(super) fn remove(&mut self, port: u32) {
+        let (before, after) = (self.previous(port), self.next(port));
+        self.next[before as usize] = after;
+        self.previous[after as usize] = before;
+        self.vertex[port as usize] = NONE;
+    }
+
+    /// Takes the line of a port away, at both ends.
+    pub(super) fn remove_line(&mut self, port: u32) {
+        let mate = self.mate[port as usize];
+        self.remove(port);
+        if mate != NONE {
+            self.remove(mate);
+        }
+    }
+
+    /// Takes a crossing of two lines away: each then runs through.
+    pub(super) fn uncross(&mut self, port: u32) {
+        let ring = self.ring(port);
+        let half = ring.len() / 2;
+        for i in 0..half {
+            let (p, q) = (ring[i], ring[i + half]);
+            let (a, b) = (self.mate[p as usize], self.mate[q as usize]);
+            if a == q {
+                continue;
+            }
+            match (a, b) {
+                (NONE, NONE) => {}
+                (NONE, end) | (end, NONE) => self.mate[end as usize] = NONE,
+                (a, b) => {
+                    let turn = self.turn[a as usize] + self.turn[q as usize];
+                    self.join(a, b, turn);
+                }
+            }
+        }
+        for p in ring {
+            self.remove(p);
+        }
+    }
+
+    /// Draws a line to one point: its two vertices become that of `port`.
+    pub(super) fn contract(&mut self, port: u32) {
+        let mate = self.mate[port as usize];
+        let kept = self.vertex(port);
+        let ring = self.ring(mate);
+        for &p in &ring {
+            self.vertex[p as usize] = kept;
+        }
+        let (before, after) = (self.previous(port), self.next(port));
+        let (first, last) = (self.next(mate), self.previous(mate));
+        let link = |graph: &mut Self, a: u32, b: u32| {
+            graph.next[a as usize] = b;
+            graph.previous[b as usize] = a;
+        };
+        match (before == port, first == mate) {
+            (true, true) => {}
+            (true, false) => link(self, last, first),
+            (false, true) => link(self, before, after),
+            (false, false) => {
+                link(self, before, first);
+                link(self, last, after);
+            }
+        }
+        for p in [port, mate] {
+            self.vertex[p as usize] = NONE;
+        }
+    }
+}

@@ -1,0 +1,35 @@
+//! Quads as a Wavefront OBJ file.
+
+use std::fs::File;
+use std::io::{self, BufWriter, Write};
+use std::path::Path;
+
+use super::QuadMesh;
+use crate::{Error, Result};
+
+impl QuadMesh {
+    /// Writes vertices and faces. Coordinates are written so that reading gives back the same.
+    ///
+    /// # Errors
+    /// [`Error::Io`] for a file that cannot be written.
+    pub fn write_obj(&self, path: &Path) -> Result<()> {
+        let file = File::create(path).and_then(|file| self.encode(BufWriter::new(file)));
+        file.map_err(|reason| Error::Io {
+            message: format!("{}: {reason}", path.display()),
+        })
+    }
+
+    fn encode(&self, mut out: impl Write) -> io::Result<()> {
+        for [x, y, z] in &self.vertices {
+            writeln!(out, "v {x} {y} {z}")?;
+        }
+        for face in self.faces() {
+            write!(out, "f")?;
+            for corner in face {
+                write!(out, " {}", corner + 1)?;
+            }
+            writeln!(out)?;
+        }
+        out.flush()
+    }
+}

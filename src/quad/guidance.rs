@@ -1,0 +1,112 @@
+//! What a field and the map that follows it keep to: features, boundary, directions, curvature,
+//! indices, said once for both.
+//!
+//! Where several ask for the direction of one face, the first of these decides: a direction that is
+//! given, a feature or the boundary, a reliable curvature.
+
+use super::align::edge_constraints;
+use super::{
+    Constraint, FieldOptions, Guide, PrescribedIndex, curvature_constraints, curvature_guides,
+    feature_constraints,
+};
+use crate::mesh::TriangleMesh;
+use crate::mesh::features::FeatureGraph;
+use crate::{Error, Result};
+
+/// What a field shall follow, and which edges become isolines of its map.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Guidance {
+    /// N: arms of a direction, evenly around; see [`FieldOptions::symmetry`].
+    pub symmetry: u8,
+    /// Directions that faces have, each face at most once.
+    pub constraints: Vec<Constraint>,
+    /// Directions that faces should have, each face at most once. A face with a constraint keeps
+    /// that.
+    pub guides: Vec<Guide>,
+    /// The index of every irregular vertex; none leaves that to the energy.
+    pub indices: Option<Vec<PrescribedIndex>>,
+    /// This part of the faces, those with the most reliable curvature, have the direction of least
+    /// absolute curvature ([`curvature_constraints`]).
+    pub constrain_curvature: f64,
+    /// How much all others should have it ([`curvature_guides`]).
+    pub curvature_weight: f64,
+    /// Edges whose normals differ by at least this are features (radians).
+    pub feature_angle: Option<f64>,
+    /// Features: edges between these vertices.
+    pub feature_lines: Vec<[usize; 2]>,
+    /// Features by number of the edge.
+    pub feature_edges: Vec<usize>,
+    /// Whether edges of the boundary are followed like features. A field of single directions,
+    /// N = 1, does not: on which side of an edge it should lie nobody says.
+    pub align_boundary: bool,
+}
+
+impl Default for Guidance {
+    /// Crosses that follow the boundary, where there is one, and nothing else.
+    fn default() -> Self {
+        Guidance {
+            symmetry: 4,
+            constraints: Vec::new(),
+            guides: Vec::new(),
+            indices: None,
+            constrain_curvature: 0.0,
+            curvature_weight: 0.0,
+            feature_angle: None,
+            feature_lines: Vec::new(),
+            feature_edges: Vec::new(),
+            align_boundary: true,
+        }
+    }
+}
+
+impl Guidance {
+    /// The edges to follow.
+    ///
+    /// # Errors
+    /// Those of [`FeatureGraph::by_angle`], [`FeatureGraph::from_lines`] and
+    /// [`FeatureGraph::from_edges`].
+    pub fn features(&self, mesh: &TriangleMesh) -> Result<FeatureGraph> {
+        let lines = FeatureGraph::from_lines(mesh, &self.feature_lines)?;
+        let edges = FeatureGraph::from_edges(mesh, &self.feature_edges)?;
+        let mut features = lines.with(mesh, &edges)?;
+        if let Some(angle) = self.feature_angle {
+            features = features.with(mesh, &FeatureGraph::by_angle(mesh, angle)?)?;
+        }
+        if self.align_boundary && self.symmetry != 1 {
+            features = features.with(mesh, &FeatureGraph::boundary(mesh))?;
+        }
+        Ok(features)
+    }
+
+    /// What a field follows that keeps to these features.
+    ///
+    /// # Errors
+    /// [`Error::LengthMismatch`] for features of another mesh, [`Error::InvalidArgument`] for
+    /// features of a field of single directions, and those of [`feature_constraints`],
+    /// [`curvature_constraints`] and [`curvature_guides`].
+    pub fn field_options(
+        &self,
+        mesh: &TriangleMesh,
+        features: &FeatureGraph,
+    ) -> Result<FieldOptions> {
+        let mut options = FieldOptions {
+            symmetry: self.symmetry,
+            constraints: self.constraints.clone(),
+            guides: self.guides.clone(),
+            indices: self.indices.clone(),
+        };
+        options.constrain_others(match self.symmetry {
+            4 => feature_constraints(mesh, features)?,
+            1 if features.edges().next().is_some() => {
+                return Err(Error::InvalidArgument {
+                    what: "features have no direction that a field of symmetry 1 could take".into(),
+                    index: None,
+                });
+            }
+            _ => edge_constraints(mesh, features)?,
+        });
+        options.constrain_others(curvature_constraints(mesh, self.constrain_curvature)?);
+        options.guide_others(curvature_guides(mesh, self.curvature_weight)?);
+        Ok(options)
+    }
+}

@@ -1,0 +1,216 @@
+//! Maps without folds: the same integers, the same seams, every triangle the right way round.
+//!
+//! Garanzha, Kaporin, Kudryavtseva, Protais, Ray, Sokolov 2021, "Foldover-free maps in 50 lines of
+//! code", on the unknowns that the constraints leave free once the integers are held. Folds are few
+//! and sit at cones, so that only what is within some rings of one moves at first, and more of the
+//! surface only where that is not enough.
+//!
+//! | step | file |
+//! | --- | --- |
+//! | what may move | `freedom` |
+//! | which part of it is worked on | `region` |
+//! | the energy of a triangle, to second order | `energy` |
+//! | Newton steps of a region | `system` |
+//! | the schedule that closes the barrier | `schedule` |
+//! | what no motion can unfold | `stuck` |
+
+mod energy;
+mod freedom;
+mod region;
+mod schedule;
+mod stuck;
+mod system;
+
+use super::check::orientation;
+use super::{SeamlessMap, SeamlessProblem};
+use crate::mesh::TriangleMesh;
+use crate::solve::Phase;
+use crate::{Monitor, Result};
+use energy::Rest;
+use freedom::Freedom;
+use region::{Region, regions};
+use stuck::Stuck;
+use system::System;
+
+/// Not in the region at hand.
+const NONE: u32 = u32::MAX;
+
+/// How far around a fold is worked on, attempt after attempt.
+const RINGS: [usize; 6] = [3, 8, 20, 50, 120, usize::MAX];
+
+/// How much work to spend.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct UntangleOptions {
+    /// Newton steps a region may take.
+    pub steps: usize,
+    /// How many faces all steps together may look at, as a multiple of the mesh's faces.
+    pub passes: usize,
+}
+
+impl Default for UntangleOptions {
+    fn default() -> Self {
+        UntangleOptions {
+            steps: 100,
+            passes: 200,
+        }
+    }
+}
+
+/// A map after untangling, and what it took.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Untangled {
+    /// The map.
+    pub map: SeamlessMap,
+    /// Faces folded or collapsed before.
+    pub flipped_before: usize,
+    /// Faces folded or collapsed after: [`SeamlessMap::flipped`] names them.
+    pub flipped_after: usize,
+    /// Newton steps, over all regions.
+    pub steps: usize,
+    /// Flipped faces that nothing can unfold, as all their corners are held by integers.
+    pub stuck_faces: Vec<usize>,
+    /// Edges of flipped faces that integers collapse: their two ends, cones, are at one point.
+    pub collapsed_edges: Vec<usize>,
+}
+
+impl Untangled {
+    /// A map that nothing was done to.
+    pub fn as_it_is(map: SeamlessMap) -> Self {
+        let flipped = map.flipped().len();
+        Untangled {
+            map,
+            flipped_before: flipped,
+            flipped_after: flipped,
+            steps: 0,
+            stuck_faces: Vec::new(),
+            collapsed_edges: Vec::new(),
+        }
+    }
+}
+
+/// Moves the vertices of a map that the integers do not hold until no triangle is folded.
+///
+/// A map without folds comes back as it is. Where not all folds can be undone, the map has as few as
+/// were found.
+///
+/// # Errors
+/// [`LengthMismatch`](crate::Error::LengthMismatch) for the map of another problem or mesh,
+/// [`OutOfMemory`](crate::Error::OutOfMemory), and [`Cancelled`](crate::Error::Cancelled) when
+/// `monitor` asks for it.
+pub fn untangle(
+    mesh: &TriangleMesh,
+    problem: &SeamlessProblem,
+    map: &SeamlessMap,
+    options: &UntangleOptions,
+    monitor: &mut Monitor,
+) -> Result<Untangled> {
+    problem.check_map(mesh, map)?;
+    if map.flipped().is_empty() {
+        return Ok(Untangled::as_it_is(map.clone()));
+    }
+    let mut work = Untangling::new(mesh, problem, map, monitor)?;
+    let flipped_before = work.folded().len();
+    let mut budget = options.passes.saturating_mul(mesh.face_count());
+    for rings in RINGS {
+        let folded = work.folded();
+        if folded.is_empty() || budget == 0 {
+            break;
+        }
+        for region in regions(&work.freedom, &folded, rings) {
+            work.unfold(&region, options.steps, &mut budget, monitor)?;
+        }
+    }
+    monitor.progress(Phase::Untangle, 1.0)?;
+    let left = work.folded();
+    let stuck = Stuck::find(mesh, &work.freedom, &work.values, &left);
+    Ok(Untangled {
+        stuck_faces: stuck.faces,
+        collapsed_edges: stuck.edges,
+        flipped_before,
+        flipped_after: left.len(),
+        steps: work.steps,
+        map: SeamlessMap::new(problem, mesh, &work.values)?,
+    })
+}
+
+/// The state of the work.
+struct Untangling<'a> {
+    mesh: &'a TriangleMesh,
+    problem: &'a SeamlessProblem,
+    freedom: Freedom,
+    values: Vec<f64>,
+    /// Where in the region at hand each free unknown is.
+    place: Vec<u32>,
+    steps: usize,
+}
+
+impl<'a> Untangling<'a> {
+    fn new(
+        mesh: &'a TriangleMesh,
+        problem: &'a SeamlessProblem,
+        map: &SeamlessMap,
+        monitor: &mut Monitor,
+    ) -> Result<Self> {
+        let freedom = Freedom::new(problem, map.copies(), map.values(), monitor)?;
+        Ok(Untangling {
+            mesh,
+            problem,
+            place: vec![NONE; freedom.dim()],
+            freedom,
+            values: map.values().to_vec(),
+            steps: 0,
+        })
+    }
+
+    fn folded(&self) -> Vec<usize> {
+        let uv = |face: usize| {
+            let copies = self.freedom.copies[face].map(|c| 2 * c as usize);
+            copies.map(|u| [self.values[u], self.values[u + 1]])
+        };
+        let faces = 0..self.freedom.copies.len();
+        faces.filter(|&f| orientation(uv(f)) <= 0.0).collect()
+    }
+
+    /// Works on one region, and keeps what comes out if it has fewer folds.
+    fn unfold(
+        &mut self,
+        region: &Region,
+        most_steps: usize,
+        budget: &mut usize,
+        monitor: &mut Monitor,
+    ) -> Result<()> {
+        for (k, &y) in region.unknowns.iter().enumerate() {
+            self.place[y as usize] = k as u32;
+        }
+        let rest = |face: usize| at_rest(self.mesh, self.problem.density(face), face);
+        let system = System::new(&self.freedom, region, rest, &self.place)?;
+        region
+            .unknowns
+            .iter()
+            .for_each(|&y| self.place[y as usize] = NONE);
+        let before = system.folded(&self.values);
+        if before == 0 {
+            return Ok(());
+        }
+        let most_steps = most_steps.min(*budget / system.faces());
+        let saved = system.save(&self.values);
+        let outcome = schedule::unfold(&system, &mut self.values, most_steps, monitor)?;
+        if outcome.folded >= before {
+            system.restore(&mut self.values, &saved);
+        }
+        self.steps += outcome.steps;
+        *budget = budget.saturating_sub(outcome.steps.saturating_mul(system.faces()));
+        Ok(())
+    }
+}
+
+/// A face laid into the plane, as large as it should be.
+fn at_rest(mesh: &TriangleMesh, density: f64, face: usize) -> Rest {
+    let lengths = [0, 2].map(|k| density * mesh.edge_length(face, k));
+    let (sin, cos) = mesh.angle(face, 0).sin_cos();
+    Rest::new([
+        [0.0, 0.0],
+        [lengths[0], 0.0],
+        [lengths[1] * cos, lengths[1] * sin],
+    ])
+}
