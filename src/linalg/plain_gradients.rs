@@ -77,7 +77,7 @@ mod tests {
         else {
             panic!()
         };
-        let mut run = |iterations| {
+        let run = |iterations| {
             let tolerance = 1e-9;
             let effort = Effort {
                 iterations,
