@@ -48,6 +48,7 @@ fn every_strategy_gives_the_same_bits_at_any_number_of_threads() {
                     strategy,
                     threads,
                     exact_integers: 50,
+                    nodes: 100_000,
                     ..Options::default()
                 };
                 digest(solve(problem, &options).unwrap().values())

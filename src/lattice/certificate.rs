@@ -141,14 +141,9 @@ pub(crate) fn evaluation_error(model: &ReducedModel, relaxed: &[f64], point: &[f
 fn condensed(model: &ReducedModel, factors: &mut Factors, mut force: Vec<f64>) -> Result<Vec<f64>> {
     if !model.continuous().is_empty() {
         for _ in 0..2 {
-            let block = factors.continuous(model)?;
-            let of_continuous = model.continuous().iter().map(|&i| force[i as usize]);
-            let mut step: Vec<f64> = of_continuous.collect();
-            block.factor.solve(&mut step)?;
-            let mut all = vec![0.0; model.dim()];
-            for (&i, s) in model.continuous().iter().zip(step) {
-                all[i as usize] = s;
-            }
+            let mut all = force.clone();
+            model.integers().iter().for_each(|&i| all[i as usize] = 0.0);
+            factors.solve_continuous(model, &mut all)?;
             for (f, p) in force.iter_mut().zip(model.hessian().mul_symmetric(&all)) {
                 *f -= p;
             }

@@ -195,7 +195,7 @@ fn decode(
         let at = |&i: &u32| search.relaxed()[i as usize];
         model.integers().iter().map(at).collect()
     };
-    let (r, full) = factors.schur(model)?;
+    let (r, full) = factors.joint(model)?.schur();
     let mut pieces = pieces(m, r, full, &relaxed)?;
     search.offer(factors, &assemble(&pieces, m)?)?;
     for at in 0..pieces.len() {

@@ -37,9 +37,9 @@ pub const NULL_PIVOT: f64 = 9.0;
 /// `A = L D L'` of the scaled and permuted matrix.
 #[derive(Debug)]
 pub struct Cholesky {
-    symbolic: SymbolicCholesky<u32>,
-    values: Vec<f64>,
-    scale: Vec<f64>,
+    pub(super) symbolic: SymbolicCholesky<u32>,
+    pub(super) values: Vec<f64>,
+    pub(super) scale: Vec<f64>,
     null: Vec<u32>,
 }
 
@@ -197,7 +197,7 @@ impl Cholesky {
     }
 
     /// The unknown that is eliminated as the `position`-th.
-    fn unknown(&self, position: usize) -> usize {
+    pub(super) fn unknown(&self, position: usize) -> usize {
         // None stands for the natural order.
         let order = self.symbolic.perm().map(|perm| perm.arrays().0);
         order.map_or(position, |order| order[position] as usize)

@@ -6,7 +6,7 @@
 
 use super::cholesky::PIVOT_TOLERANCE;
 use super::ordering::{EliminationTree, NONE};
-use super::scaling::equilibrate;
+use super::scaling::{equilibrate, unit_scale};
 use super::{Sparse, sparse::reserve};
 use crate::Result;
 
@@ -53,6 +53,38 @@ impl Ldl {
         };
         ldl.factor(&rows);
         Ok(ldl)
+    }
+
+    /// The factor of `R'R` for the upper triangular `r` with `m` columns, dense and by columns; its
+    /// zero rows are vanished pivots.
+    pub fn dense(r: &[f64], m: usize) -> Self {
+        let at = |i: usize, j: usize| r[j * m + i];
+        let diagonal = |j: usize| (0..=j).map(|i| at(i, j) * at(i, j)).sum();
+        let scale: Vec<f64> = (0..m).map(|j| unit_scale(diagonal(j))).collect();
+        let mut ldl = Ldl {
+            tree: EliminationTree::chain(m),
+            offsets: (0..=m)
+                .map(|j| j * (2 * m - j).saturating_sub(1) / 2)
+                .collect(),
+            ends: Vec::new(),
+            indices: Vec::new(),
+            values: Vec::new(),
+            pivots: Vec::new(),
+            scale,
+        };
+        ldl.ends = ldl.offsets[1..].to_vec();
+        for j in 0..m {
+            let pivot = at(j, j);
+            ldl.pivots.push((pivot * ldl.scale[j]).powi(2));
+            for i in j + 1..m {
+                ldl.indices.push(i as u32);
+                ldl.values.push(match pivot {
+                    0.0 => 0.0,
+                    _ => at(j, i) * ldl.scale[i] / (pivot * ldl.scale[j]),
+                });
+            }
+        }
+        ldl
     }
 
     fn factor(&mut self, rows: &Sparse) {
@@ -164,6 +196,25 @@ fn column_offsets(rows: &Sparse, tree: &EliminationTree) -> (Vec<usize>, usize) 
 mod tests {
     use super::super::minimum_degree;
     use super::*;
+
+    #[test]
+    fn a_dense_triangle_is_the_factor_of_its_square() {
+        // Columns (2), (1, 3), (5, 0, 0): the last pivot vanishes.
+        let r = [2.0, 0.0, 0.0, 1.0, 3.0, 0.0, 5.0, 0.0, 0.0];
+        let ldl = Ldl::dense(&r, 3);
+        let l = |i: usize, j: usize| match i.cmp(&j) {
+            std::cmp::Ordering::Less => 0.0,
+            std::cmp::Ordering::Equal => 1.0,
+            std::cmp::Ordering::Greater => ldl.values[ldl.offsets[j] + i - j - 1],
+        };
+        for i in 0..3 {
+            for j in 0..3 {
+                let product: f64 = (0..3).map(|k| l(i, k) * ldl.pivots[k] * l(j, k)).sum();
+                let square: f64 = (0..3).map(|k| r[i * 3 + k] * r[j * 3 + k]).sum();
+                assert_eq!(product, square * ldl.scale[i] * ldl.scale[j]);
+            }
+        }
+    }
 
     #[test]
     fn the_factor_multiplies_back_to_the_matrix() {

@@ -65,8 +65,8 @@ pub fn minimise(
     Ok(Minimum::At { point, excess })
 }
 
-/// Minus the gradient at `x`.
-fn residual(lower: &Sparse, gradient: &[f64], x: &[f64]) -> Vec<f64> {
+/// Minus the gradient of `1/2 x'Ax + g'x` at `x`.
+pub fn residual(lower: &Sparse, gradient: &[f64], x: &[f64]) -> Vec<f64> {
     let mut r = lower.mul_symmetric(x);
     for (r, g) in r.iter_mut().zip(gradient) {
         *r = -(*r + g);

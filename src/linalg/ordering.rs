@@ -100,6 +100,17 @@ pub struct EliminationTree {
 }
 
 impl EliminationTree {
+    /// The tree of a dense matrix of `n` unknowns, eliminated as they come.
+    pub fn chain(n: usize) -> Self {
+        let n = n as u32;
+        EliminationTree {
+            order: (0..n).collect(),
+            position: (0..n).collect(),
+            parent: (1..=n).map(|p| if p < n { p } else { NONE }).collect(),
+            first: vec![0; n as usize],
+        }
+    }
+
     /// The tree of the matrix with lower triangle `lower`, eliminated in `order` up to a
     /// post-order of its tree, which changes neither fill nor work.
     pub fn new(lower: &Sparse, order: &[u32]) -> Self {

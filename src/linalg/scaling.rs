@@ -8,10 +8,19 @@ use super::Sparse;
 pub fn equilibrate(lower: &Sparse) -> Vec<f64> {
     (0..lower.rows())
         .map(|i| match lower.row(i).last() {
-            Some((j, d)) if j == i && d > 0.0 => (-0.5 * d.log2()).round().exp2(),
+            Some((j, d)) if j == i => unit_scale(d),
             _ => 1.0,
         })
         .collect()
+}
+
+/// The power of two `s` with `s^2 d` in [1/2, 2), or 1 where `d` is not positive.
+pub fn unit_scale(d: f64) -> f64 {
+    if d > 0.0 {
+        (-0.5 * d.log2()).round().exp2()
+    } else {
+        1.0
+    }
 }
 
 #[cfg(test)]

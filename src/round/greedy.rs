@@ -1,7 +1,8 @@
 //! Exact greedy rounding: fix the integer that is closest to one, re-optimise, repeat.
 //!
 //! Bommes' thesis, section 5.3 ("naive greedy rounding"), with the re-optimisation exact at every
-//! step but never a factorization anew: see [`crate::linalg::FixedSolve`].
+//! step but never a factorization anew: see [`crate::linalg::FixedSolve`]. Where integers are few it
+//! works on their Schur complement alone, otherwise on the sparse factor of the whole.
 
 use super::nearest;
 use crate::Result;
@@ -26,7 +27,14 @@ pub(crate) fn greedy(
     let integers = model.integers();
     search.prepare(factors)?;
     let mut ldl = factors.updatable(model)?;
-    let mut solve = FixedSolve::new(&mut ldl, search.relaxed(), integers)?;
+    let (point, watched): (Vec<f64>, Vec<u32>) = if factors.is_joint(model) {
+        let at = |&i: &u32| search.relaxed()[i as usize];
+        let places = 0..integers.len() as u32;
+        (integers.iter().map(at).collect(), places.collect())
+    } else {
+        (search.relaxed().to_vec(), integers.to_vec())
+    };
+    let mut solve = FixedSolve::new(&mut ldl, &point, &watched)?;
     let mut rounded = vec![0.0; integers.len()];
     // Places in `integers`, increasing.
     let mut free: Vec<u32> = (0..integers.len() as u32).collect();
@@ -34,14 +42,14 @@ pub(crate) fn greedy(
         let done = 1.0 - free.len() as f64 / integers.len() as f64;
         if search.monitor.progress(Phase::Round, done).is_err() {
             for &place in &free {
-                rounded[place as usize] = nearest(solve.value(integers[place as usize]));
+                rounded[place as usize] = nearest(solve.value(watched[place as usize]));
             }
             break;
         }
-        let at = closest(&free, |place| solve.value(integers[place as usize]));
+        let at = closest(&free, |place| solve.value(watched[place as usize]));
         let place = free.remove(at) as usize;
-        rounded[place] = nearest(solve.value(integers[place]));
-        solve.fix(integers[place], rounded[place]);
+        rounded[place] = nearest(solve.value(watched[place]));
+        solve.fix(watched[place], rounded[place]);
     }
     search.offer(factors, &rounded)?;
     Ok(())

@@ -1,14 +1,15 @@
 //! Factorizations, each made when it is first asked for and kept.
 //!
-//! There is no single factor: the relaxation wants a supernodal one, greedy a simplicial one that
-//! can fix unknowns, and an offer of integers one of the continuous block.
+//! Where integers are few, one [`JointFactor`] serves all. Otherwise there is no single factor: the
+//! relaxation wants a supernodal one, greedy a simplicial one that can fix unknowns, and an offer of
+//! integers one of the continuous block.
 
 use std::time::Instant;
 
 use crate::Result;
 use crate::eliminate::ReducedModel;
-use crate::lattice::schur_factor;
-use crate::linalg::{Cholesky, Ldl, Ordering, RelaxedFactor, Sparse};
+use crate::linalg::{Cholesky, JointFactor, Ldl, Minimum, Ordering, RelaxedFactor, Sparse};
+use crate::linalg::{minimise, residual};
 
 /// The factors of one reduced model.
 #[derive(Debug, Default)]
@@ -19,18 +20,18 @@ pub(crate) struct Factors {
     updatable: Option<Ldl>,
     ordering: Ordering,
     keep: bool,
-    schur: Option<(Vec<f64>, bool)>,
+    joint: Option<JointFactor>,
     seconds: f64,
 }
 
 /// The Hessian seen by the continuous unknowns when the integers are given.
 #[derive(Debug)]
-pub(crate) struct ContinuousBlock {
+struct ContinuousBlock {
     /// Lower triangle of the continuous block.
-    pub hessian: Sparse,
+    hessian: Sparse,
     /// One row a continuous unknown, one column an integer.
-    pub coupling: Sparse,
-    pub factor: Cholesky,
+    coupling: Sparse,
+    factor: Cholesky,
 }
 
 impl Factors {
@@ -52,7 +53,8 @@ impl Factors {
 
     /// Entries below the diagonal of the relaxation's factor; none before there is one.
     pub fn entries(&self) -> usize {
-        self.relaxed.as_ref().map_or(0, RelaxedFactor::entries)
+        let joint = self.joint.as_ref().map_or(0, |j| j.whole().entries());
+        self.relaxed.as_ref().map_or(joint, RelaxedFactor::entries)
     }
 
     /// Seconds spent in factorizations so far.
@@ -71,9 +73,14 @@ impl Factors {
         Ok(self.relaxed.insert(factor))
     }
 
-    /// A factor of the whole reduced Hessian in which unknowns can be fixed: the caller's own, since
-    /// fixing uses it up.
+    /// A factor in which unknowns can be fixed: the caller's own, since fixing uses it up. Of the
+    /// Schur complement of the integers if the factor [is joint](Self::is_joint), otherwise of the
+    /// whole reduced Hessian.
     pub fn updatable(&mut self, model: &ReducedModel) -> Result<Ldl> {
+        if self.is_joint(model) {
+            let (r, _) = self.joint(model)?.schur();
+            return Ok(Ldl::dense(r, model.integers().len()));
+        }
         let (keep, ordering) = (self.keep, self.ordering);
         let kept = &mut self.updatable;
         timed(&mut self.seconds, || {
@@ -86,18 +93,66 @@ impl Factors {
         })
     }
 
-    /// The triangular factor of the Schur complement of the integers, dense and by columns, and
-    /// whether it has no zero on its diagonal.
-    pub fn schur(&mut self, model: &ReducedModel) -> Result<(&[f64], bool)> {
-        let (r, full) = match self.schur.take() {
-            Some(schur) => schur,
-            None => timed(&mut self.seconds, || schur_factor(model))?,
+    /// Whether one factor with the integers last is the cheapest that serves all: the block that it
+    /// fills has fewer entries than the model.
+    pub fn is_joint(&self, model: &ReducedModel) -> bool {
+        let m = model.integers().len();
+        self.ordering == Ordering::FillReducing && m * m <= model.hessian().len()
+    }
+
+    /// The factor of the whole reduced Hessian with the integers last.
+    pub fn joint(&mut self, model: &ReducedModel) -> Result<&JointFactor> {
+        let factor = match self.joint.take() {
+            Some(factor) => factor,
+            None => timed(&mut self.seconds, || {
+                JointFactor::new(model.hessian(), model.continuous(), model.integers())
+            })?,
         };
-        Ok((&self.schur.insert((r, full)).0, full))
+        Ok(self.joint.insert(factor))
+    }
+
+    /// Makes what [`follow`](Self::follow) needs.
+    pub fn prepare(&mut self, model: &ReducedModel) -> Result<()> {
+        if !(self.is_joint(model) && self.joint(model)?.is_definite()) {
+            self.continuous(model)?;
+        }
+        Ok(())
+    }
+
+    /// Solves `A_cc x_c = b_c` in place; entries of integers are left as they are.
+    pub fn solve_continuous(&mut self, model: &ReducedModel, b: &mut [f64]) -> Result<()> {
+        if self.is_joint(model) {
+            let joint = self.joint(model)?;
+            if joint.is_definite() {
+                joint.solve_continuous(b);
+                return Ok(());
+            }
+        }
+        let block = self.continuous(model)?;
+        let of_continuous = model.continuous().iter().map(|&i| b[i as usize]);
+        let mut part: Vec<f64> = of_continuous.collect();
+        block.factor.solve(&mut part)?;
+        for (&i, x) in model.continuous().iter().zip(part) {
+            b[i as usize] = x;
+        }
+        Ok(())
+    }
+
+    /// Minimises over the continuous unknowns, from `point` and with the integers as they are there;
+    /// directions are in all unknowns.
+    pub fn follow(&mut self, model: &ReducedModel, point: &[f64]) -> Result<Minimum> {
+        if self.is_joint(model) {
+            let joint = self.joint(model)?;
+            if joint.is_definite() {
+                return Ok(follow_joint(model, joint, point));
+            }
+        }
+        let block = self.continuous(model)?;
+        block.follow(model, point)
     }
 
     /// The continuous block and its factor.
-    pub fn continuous(&mut self, model: &ReducedModel) -> Result<&ContinuousBlock> {
+    fn continuous(&mut self, model: &ReducedModel) -> Result<&ContinuousBlock> {
         let block = match self.continuous.take() {
             Some(block) => block,
             None => timed(&mut self.seconds, || {
@@ -143,6 +198,60 @@ impl ContinuousBlock {
             coupling,
             factor,
         })
+    }
+
+    fn follow(&self, model: &ReducedModel, point: &[f64]) -> Result<Minimum> {
+        let of = |unknowns: &[u32], v: &[f64]| -> Vec<f64> {
+            unknowns.iter().map(|&i| v[i as usize]).collect()
+        };
+        let mut gradient = of(model.continuous(), model.gradient());
+        let pull = self.coupling.mul(&of(model.integers(), point));
+        for (g, p) in gradient.iter_mut().zip(pull) {
+            *g += p;
+        }
+        let embed = |part: &[f64], mut whole: Vec<f64>| {
+            for (&i, x) in model.continuous().iter().zip(part) {
+                whole[i as usize] = *x;
+            }
+            whole
+        };
+        let nowhere = || vec![0.0; model.dim()];
+        let start = of(model.continuous(), point);
+        Ok(
+            match minimise(&self.hessian, &gradient, &start, &self.factor)? {
+                Minimum::At {
+                    point: best,
+                    excess,
+                } => Minimum::At {
+                    point: embed(&best, point.to_vec()),
+                    excess,
+                },
+                Minimum::Unbounded(v) => Minimum::Unbounded(embed(&v, nowhere())),
+                Minimum::NotConvex(v) => Minimum::NotConvex(embed(&v, nowhere())),
+            },
+        )
+    }
+}
+
+/// [`Factors::follow`] by the leading part of a definite factor, with one step of refinement as in
+/// [`minimise`].
+fn follow_joint(model: &ReducedModel, joint: &JointFactor, point: &[f64]) -> Minimum {
+    let mut point = point.to_vec();
+    let mut excess = 0.0;
+    for _ in 0..2 {
+        let slope = residual(model.hessian(), model.gradient(), &point);
+        let mut step = slope.clone();
+        joint.solve_continuous(&mut step);
+        excess = 0.0;
+        for &i in model.continuous() {
+            let i = i as usize;
+            excess += 0.5 * slope[i] * step[i];
+            point[i] += step[i];
+        }
+    }
+    Minimum::At {
+        point,
+        excess: f64::abs(excess),
     }
 }
 

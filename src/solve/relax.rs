@@ -1,10 +1,10 @@
 //! The relaxation: all integers real. Its minimum is a lower bound for every solution.
 
-use super::Factors;
 use super::search::{not_convex, unbounded};
+use super::{Factors, Strategy};
 use crate::Result;
 use crate::eliminate::ReducedModel;
-use crate::linalg::Minimum;
+use crate::linalg::{Minimum, minimise};
 
 /// Rounding errors of the energy's own evaluation, relative to the sum of its absolute terms:
 /// the terms were themselves rounded when the model was assembled.
@@ -17,19 +17,29 @@ pub(crate) struct Relaxation {
     pub lower_bound: f64,
 }
 
-/// Minimises the reduced objective over real unknowns.
+/// Minimises the reduced objective over real unknowns, by the factor that `strategy` needs as well.
 ///
 /// # Errors
 /// [`Error::Unbounded`](crate::Error::Unbounded) and
 /// [`Error::NotConvex`](crate::Error::NotConvex), each with a direction, and for lack of memory.
-pub(crate) fn relax(model: &ReducedModel, factors: &mut Factors) -> Result<Relaxation> {
+pub(crate) fn relax(
+    model: &ReducedModel,
+    strategy: Strategy,
+    factors: &mut Factors,
+) -> Result<Relaxation> {
     if let Some(i) = negative_diagonal(model) {
         let mut direction = vec![0.0; model.dim()];
         direction[i] = 1.0;
         return Err(not_convex(model, &direction));
     }
-    let factor = factors.relaxed(model)?;
-    match factor.minimise(model.gradient(), model.guess())? {
+    let (gradient, guess) = (model.gradient(), model.guess());
+    let minimum = if strategy != Strategy::Relax && factors.is_joint(model) {
+        let factor = factors.joint(model)?.whole();
+        minimise(model.hessian(), gradient, guess, factor)?
+    } else {
+        factors.relaxed(model)?.minimise(gradient, guess)?
+    };
+    match minimum {
         Minimum::At { point, excess } => {
             let (energy, terms) = model.energy(&point);
             Ok(Relaxation {

@@ -114,7 +114,7 @@ fn decide(
     monitor: &mut Monitor,
 ) -> Result<(Vec<f64>, f64, SolveStatus)> {
     monitor.progress(Phase::Factor, 0.0)?;
-    let relaxation = relax(reduced, factors)?;
+    let relaxation = relax(reduced, options.strategy, factors)?;
     if reduced.integers().is_empty() {
         let bound = relaxation.lower_bound;
         return Ok((relaxation.point, bound, SolveStatus::Optimal));

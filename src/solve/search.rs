@@ -7,7 +7,7 @@
 use super::monitor::Monitor;
 use super::{Factors, Phase, SolveStatus};
 use crate::eliminate::ReducedModel;
-use crate::linalg::{Minimum, minimise};
+use crate::linalg::Minimum;
 use crate::{Error, Result};
 
 /// Integers are kept as floats; beyond this they would no longer be exact.
@@ -84,7 +84,7 @@ impl<'s, 'm> Search<'s, 'm> {
     /// For lack of memory, and why the search was stopped: there is no solution yet.
     pub fn prepare(&mut self, factors: &mut Factors) -> Result<()> {
         self.monitor.progress(Phase::Factor, 0.5)?;
-        factors.continuous(self.model)?;
+        factors.prepare(self.model)?;
         self.monitor.progress(Phase::Factor, 1.0)?;
         Ok(())
     }
@@ -107,25 +107,11 @@ impl<'s, 'm> Search<'s, 'm> {
             point[i as usize] = z;
         }
         if !model.continuous().is_empty() {
-            let block = factors.continuous(model)?;
-            let pull = block.coupling.mul(integers);
-            let of_continuous = |v: &[f64]| -> Vec<f64> {
-                model.continuous().iter().map(|&i| v[i as usize]).collect()
+            point = match factors.follow(model, &point)? {
+                Minimum::At { point, .. } => point,
+                Minimum::Unbounded(v) => return Err(unbounded(model, &v)),
+                Minimum::NotConvex(v) => return Err(not_convex(model, &v)),
             };
-            let mut gradient = of_continuous(model.gradient());
-            for (g, p) in gradient.iter_mut().zip(pull) {
-                *g += p;
-            }
-            let start = of_continuous(&self.relaxed);
-            match minimise(&block.hessian, &gradient, &start, &block.factor)? {
-                Minimum::At { point: best, .. } => {
-                    for (&i, x) in model.continuous().iter().zip(best) {
-                        point[i as usize] = x;
-                    }
-                }
-                Minimum::Unbounded(v) => return Err(unbounded(model, &self.embed(&v))),
-                Minimum::NotConvex(v) => return Err(not_convex(model, &self.embed(&v))),
-            }
         }
         let energy = model.energy(&point).0;
         let better = self
@@ -163,15 +149,6 @@ impl<'s, 'm> Search<'s, 'm> {
         let gap = gap.max(super::status::GAP_TOLERANCE);
         let best = self.incumbent.as_ref();
         best.is_some_and(|b| super::monitor::gap(b.energy, self.lower_bound) <= gap)
-    }
-
-    /// A direction of the continuous unknowns as one of all reduced unknowns.
-    fn embed(&self, direction: &[f64]) -> Vec<f64> {
-        let mut all = vec![0.0; self.model.dim()];
-        for (&i, &v) in self.model.continuous().iter().zip(direction) {
-            all[i as usize] = v;
-        }
-        all
     }
 
     /// How the search stands, were it to end now.

@@ -1,0 +1,140 @@
+//! One factor for everything: continuous unknowns first, integers last.
+//!
+//! It solves for the whole, its leading part for the continuous unknowns with the integers held,
+//! and its trailing block is the factor of the Schur complement of the integers: what the objective
+//! asks of them when the continuous unknowns follow (Golub, Van Loan, section 4.2). So the
+//! complement itself is never formed and loses no digits to being squared.
+//!
+//! The continuous unknowns stand in minimum-degree order of their own block, post-ordered, which
+//! faer's supernodes want; the integers fill up to a dense block whatever their order. That makes it
+//! the right factor where integers are few.
+
+use super::{Cholesky, EliminationTree, Sparse, minimum_degree};
+use crate::Result;
+
+/// The factor and its trailing block.
+#[derive(Debug)]
+pub struct JointFactor {
+    factor: Cholesky,
+    integers: usize,
+    trailing: Vec<f64>,
+    full: bool,
+}
+
+impl JointFactor {
+    /// Factors the matrix with lower triangle `lower`, of whose unknowns some are `continuous` and
+    /// all others `integers`.
+    ///
+    /// # Errors
+    /// As [`Cholesky::new`].
+    pub fn new(lower: &Sparse, continuous: &[u32], integers: &[u32]) -> Result<Self> {
+        let mut place = vec![u32::MAX; lower.rows()];
+        for (k, &i) in continuous.iter().enumerate() {
+            place[i as usize] = k as u32;
+        }
+        let own = lower.entries().filter_map(|(i, j, v)| {
+            let (a, b) = (place[i as usize], place[j as usize]);
+            (a != u32::MAX && b != u32::MAX).then_some((a, b, v))
+        });
+        let block = Sparse::from_triplets(continuous.len(), continuous.len(), own)?;
+        let tree = EliminationTree::new(&block, &minimum_degree(&block)?);
+        let mut order: Vec<u32> = tree.order.iter().map(|&k| continuous[k as usize]).collect();
+        order.extend(integers);
+        let factor = Cholesky::in_order(lower, &order)?;
+        let (trailing, full) = factor.trailing_factor(integers.len());
+        Ok(JointFactor {
+            factor,
+            integers: integers.len(),
+            trailing,
+            full,
+        })
+    }
+
+    /// The factor of the whole.
+    pub fn whole(&self) -> &Cholesky {
+        &self.factor
+    }
+
+    /// The upper triangular `R`, by columns, with `R'R` the Schur complement of the integers, and
+    /// whether no pivot vanished: a vanished one leaves a zero row.
+    pub fn schur(&self) -> (&[f64], bool) {
+        (&self.trailing, self.full)
+    }
+
+    /// Whether no pivot vanished anywhere.
+    pub fn is_definite(&self) -> bool {
+        self.factor.null_unknowns().is_empty()
+    }
+
+    /// Solves `A_cc x_c = b_c` in place; entries of integers are neither read nor changed. Only for
+    /// a factor that is [definite](Self::is_definite).
+    pub fn solve_continuous(&self, b: &mut [f64]) {
+        self.factor.solve_leading(b, self.integers);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A grounded chain of springs with some longer ones.
+    fn springs(n: u32) -> Sparse {
+        let ends = (0..n).flat_map(|i| [(i, (i + 1) % n), (i, (i * 7 + 3) % n)]);
+        let entries = ends.filter(|(i, j)| i != j).flat_map(|(i, j)| {
+            let k = 1.0 + f64::from(i % 5);
+            [(i, i, k), (j, j, k), (i.max(j), i.min(j), -k)]
+        });
+        let ground = (0..n).map(|i| (i, i, 0.01));
+        Sparse::from_triplets(n as usize, n as usize, entries.chain(ground)).unwrap()
+    }
+
+    #[test]
+    fn one_factor_solves_the_whole_and_the_continuous_part() {
+        let a = springs(60);
+        let is_integer = |i: &u32| i.is_multiple_of(4);
+        let (integers, continuous): (Vec<u32>, Vec<u32>) = (0..60).partition(is_integer);
+        let joint = JointFactor::new(&a, &continuous, &integers).unwrap();
+        assert!(joint.is_definite());
+        let x: Vec<f64> = (0..60).map(|i| f64::from(i).sin()).collect();
+        let mut b = a.mul_symmetric(&x);
+        joint.whole().solve(&mut b).unwrap();
+        for (b, x) in b.iter().zip(&x) {
+            assert!((b - x).abs() < 1e-10, "{b} {x}");
+        }
+        let mut held = x.clone();
+        integers.iter().for_each(|&i| held[i as usize] = 0.0);
+        let mut b = a.mul_symmetric(&held);
+        integers.iter().for_each(|&i| b[i as usize] = 77.0);
+        joint.solve_continuous(&mut b);
+        for &i in &continuous {
+            let (b, x) = (b[i as usize], x[i as usize]);
+            assert!((b - x).abs() < 1e-10, "{b} {x}");
+        }
+        assert!(integers.iter().all(|&i| b[i as usize] == 77.0));
+    }
+
+    #[test]
+    fn the_trailing_block_is_the_factor_of_what_the_integers_see() {
+        let a = springs(40);
+        let (integers, continuous): (Vec<u32>, Vec<u32>) = (0..40).partition(|&i| i % 8 == 1);
+        let joint = JointFactor::new(&a, &continuous, &integers).unwrap();
+        let (r, full) = joint.schur();
+        assert!(full);
+        let m = integers.len();
+        for (k, &i) in integers.iter().enumerate() {
+            // Column k of the complement: the force at the integers when one of them moves by one.
+            let mut x = vec![0.0; 40];
+            x[i as usize] = 1.0;
+            let mut follow: Vec<f64> = a.mul_symmetric(&x).iter().map(|f| -f).collect();
+            joint.solve_continuous(&mut follow);
+            continuous
+                .iter()
+                .for_each(|&c| x[c as usize] = follow[c as usize]);
+            let force = a.mul_symmetric(&x);
+            for (l, &j) in integers.iter().enumerate() {
+                let product: f64 = (0..m).map(|q| r[k * m + q] * r[l * m + q]).sum();
+                assert!((product - force[j as usize]).abs() < 1e-10);
+            }
+        }
+    }
+}
