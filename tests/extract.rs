@@ -5,7 +5,7 @@ use roundel::quad::{
     FieldProblem, IntegerGridMap, Origin, QuadMesh, QuadQuality, SeamlessMap, SeamlessOptions,
     SeamlessProblem, SmoothOptions, curvature_constraints, extract, smooth,
 };
-use roundel::{CancelToken, Error, Options, solve};
+use roundel::{CancelToken, Error, Monitor, Options, solve};
 
 type Corners = Vec<[[f64; 2]; 3]>;
 
@@ -75,7 +75,7 @@ fn cube(n: usize, scale: f64) -> (TriangleMesh, Corners) {
 
 fn quads_of(mesh: &TriangleMesh, uvs: &Corners) -> QuadMesh {
     let map = IntegerGridMap::new(mesh, uvs).unwrap();
-    extract(mesh, &map, &CancelToken::new()).unwrap()
+    extract(mesh, &map, &mut Monitor::default()).unwrap()
 }
 
 fn map_of(mesh: &TriangleMesh, quads: usize) -> SeamlessMap {
@@ -226,7 +226,7 @@ fn shapes_become_quads_of_their_topology() {
         let mesh = shape::by_name(name, 2000).unwrap();
         let map = map_of(&mesh, 400);
         let grid = IntegerGridMap::from_seamless(&mesh, &map).unwrap();
-        let mut quads = extract(&mesh, &grid, &CancelToken::new()).unwrap();
+        let mut quads = extract(&mesh, &grid, &mut Monitor::default()).unwrap();
         assert!(quads.is_conforming(), "{name}: {:?}", quads.figures());
         assert_eq!(quads.figures().boundary_edges, 0, "{name}");
         let same = quads_of(&mesh, &map.corner_uvs());
@@ -239,7 +239,7 @@ fn shapes_become_quads_of_their_topology() {
             &mut quads,
             &mesh,
             &SmoothOptions::default(),
-            &CancelToken::new(),
+            &mut Monitor::default(),
         )
         .unwrap();
         let after = QuadQuality::new(&quads);
@@ -279,7 +279,7 @@ fn garbage_is_refused_by_the_element_at_fault() {
         .map(|uv| uv.map(|p| p.map(|x| 1e6 * x)))
         .collect::<Corners>();
     let map = IntegerGridMap::new(&mesh, &huge).unwrap();
-    let error = extract(&mesh, &map, &CancelToken::new()).unwrap_err();
+    let error = extract(&mesh, &map, &mut Monitor::default()).unwrap_err();
     assert_eq!(error.code(), "overflow");
 }
 
@@ -326,6 +326,7 @@ fn a_cancelled_extraction_ends_in_that_error() {
     let (mesh, uvs) = plane(3);
     let token = CancelToken::new();
     token.cancel();
+    let mut monitor = Monitor::default().cancel_token(token);
     let map = IntegerGridMap::new(&mesh, &uvs).unwrap();
-    assert_eq!(extract(&mesh, &map, &token), Err(Error::Cancelled));
+    assert_eq!(extract(&mesh, &map, &mut monitor), Err(Error::Cancelled));
 }

@@ -33,6 +33,8 @@ const SOURCES: &[&str] = &[
     "field_guided",
     "map",
     "map_results",
+    "quads",
+    "quads_results",
 ];
 
 /// Files without anything that C sees.

@@ -70,6 +70,7 @@ fn word(phase: Phase) -> &'static str {
         Phase::Factor => "factor",
         Phase::Round => "round",
         Phase::Untangle => "untangle",
+        Phase::Quads => "quads",
         _ => "solve",
     }
 }

@@ -179,6 +179,40 @@ store(const cgal::Map<CGAL::Surface_mesh<P>>& map, CGAL::Surface_mesh<P>& mesh) 
     return uv;
 }
 
+/// A FaceGraph turned into quads; `roundel::mesh_of<CGAL::Surface_mesh<Point>>` makes a mesh of
+/// them.
+template <class G, cgal::enable<G> = 0>
+Quads quadrangulate(const G& graph, const QuadOptions& options = {}, Status* status = nullptr) {
+    const auto elements = adapt(graph, status);
+    return elements ? quadrangulate(elements.mesh, options, status) : Quads();
+}
+
+namespace detail {
+
+template <class P> struct FromPolygons<CGAL::Surface_mesh<P>> {
+    template <class Point>
+    static CGAL::Surface_mesh<P> make(std::size_t count, Point point,
+                                      const std::vector<std::vector<std::int32_t>>& faces) {
+        using M = CGAL::Surface_mesh<P>;
+        M mesh;
+        std::vector<cgal::Vertex<M>> vertices;
+        for (std::size_t i = 0; i < count; ++i) {
+            const auto p = point(i);
+            vertices.push_back(mesh.add_vertex(P(p[0], p[1], p[2])));
+        }
+        for (const auto& face : faces) {
+            std::vector<cgal::Vertex<M>> corners;
+            for (const auto corner : face) {
+                corners.push_back(vertices[static_cast<std::size_t>(corner)]);
+            }
+            mesh.add_face(corners);
+        }
+        return mesh;
+    }
+};
+
+} // namespace detail
+
 ROUNDEL_NAMESPACE_END
 
 #endif // ROUNDEL_CGAL_HPP

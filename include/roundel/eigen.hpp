@@ -183,6 +183,29 @@ inline MapMatrices matrices(const Map& map) {
     return to;
 }
 
+/// A mesh in matrices turned into quads.
+template <class V, class F>
+Quads quadrangulate(const Eigen::MatrixBase<V>& vertices, const Eigen::MatrixBase<F>& faces,
+                    const QuadOptions& options = {}, Status* status = nullptr) {
+    const Mesh mesh = adapt(vertices, faces, status);
+    return mesh ? quadrangulate(mesh, options, status) : Quads();
+}
+
+/// Quads as Eigen's matrices; faces that are no quads are left out.
+struct QuadMatrices {
+    Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> V;
+    Eigen::Matrix<std::int32_t, Eigen::Dynamic, 4, Eigen::RowMajor> Q;
+};
+
+inline QuadMatrices matrices(const Quads& quads) {
+    QuadMatrices to;
+    to.V = Eigen::Map<const decltype(to.V)>(
+        quads.vertices().data(), static_cast<Eigen::Index>(quads.vertices().size() / 3), 3);
+    to.Q = Eigen::Map<const decltype(to.Q)>(quads.corners().data(),
+                                            static_cast<Eigen::Index>(quads.size()), 4);
+    return to;
+}
+
 ROUNDEL_NAMESPACE_END
 
 #endif // ROUNDEL_EIGEN_HPP

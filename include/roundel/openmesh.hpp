@@ -144,6 +144,42 @@ OpenMesh::HPropHandleT<OpenMesh::Vec2d> store(const openmesh::Map& map, M& mesh)
     return uv;
 }
 
+/// An OpenMesh mesh turned into quads; `roundel::mesh_of<PolyMesh>` makes a mesh of them.
+template <class M, openmesh::enable<M> = 0>
+Quads quadrangulate(const M& mesh, const QuadOptions& options = {}, Status* status = nullptr) {
+    const auto elements = adapt(mesh, status);
+    return elements ? quadrangulate(elements.mesh, options, status) : Quads();
+}
+
+namespace detail {
+
+template <class M>
+struct FromPolygons<M, std::enable_if_t<std::is_base_of_v<OpenMesh::PolyConnectivity, M>>> {
+    template <class Point>
+    static M make(std::size_t count, Point point,
+                  const std::vector<std::vector<std::int32_t>>& faces) {
+        static_assert(!M::is_trimesh(), "quads need a mesh of polygons");
+        using Scalar = typename M::Point::value_type;
+        M mesh;
+        std::vector<OpenMesh::VertexHandle> vertices;
+        for (std::size_t i = 0; i < count; ++i) {
+            const auto p = point(i);
+            vertices.push_back(mesh.add_vertex(
+                {static_cast<Scalar>(p[0]), static_cast<Scalar>(p[1]), static_cast<Scalar>(p[2])}));
+        }
+        for (const auto& face : faces) {
+            std::vector<OpenMesh::VertexHandle> corners;
+            for (const auto corner : face) {
+                corners.push_back(vertices[static_cast<std::size_t>(corner)]);
+            }
+            mesh.add_face(corners);
+        }
+        return mesh;
+    }
+};
+
+} // namespace detail
+
 ROUNDEL_NAMESPACE_END
 
 #endif // ROUNDEL_OPENMESH_HPP

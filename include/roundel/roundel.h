@@ -341,6 +341,10 @@ enum roundel_phase
      * Motion of what is continuous around integers that are held.
      */
     ROUNDEL_PHASE_UNTANGLE = 4,
+    /**
+     * Extraction of quads from a map, and their smoothing.
+     */
+    ROUNDEL_PHASE_QUADS = 5,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -408,6 +412,12 @@ typedef struct roundel_options roundel_options;
  * changes nothing. A problem may be changed and solved again after a solve.
  */
 typedef struct roundel_problem roundel_problem;
+
+/**
+ * A mesh of quads with shared vertices. Where a map leaves no quads to be made, other polygons are
+ * kept beside them. It does not need the mesh and the map that it is from any more.
+ */
+typedef struct roundel_quads roundel_quads;
 
 /**
  * A solution. Energy and violations are recomputed from the problem's own arrays.
@@ -1823,6 +1833,143 @@ roundel_status roundel_map_solution(const struct roundel_map *map,
  * Writes the mesh with the coordinates of its corners as OBJ.
  */
 roundel_status roundel_map_write(const struct roundel_map *map, const char *file);
+
+/**
+ * Turns `face_count` triangles, given as for roundel_mesh_new, into about `quad_count` quads: field,
+ * map, extraction and smoothing in one call, under the eyes of `monitor`.
+ *
+ * `guidance` says what the quads follow; its features, and the boundary where it is followed,
+ * become chains of their edges. NULL stands for the boundary and the curvature. `options` are those
+ * of both solves; NULL stands for lattice decoding. `monitor` may be NULL.
+ *
+ * Fails as roundel_mesh_new, roundel_field_solve and roundel_map_solve do, and with
+ * ROUNDEL_ERROR_INVALID_ARGUMENT for no quads. Whether all faces are quads tells
+ * roundel_quads_is_conforming.
+ */
+roundel_status roundel_quadrangulate(size_t vertex_count,
+                                     const double *coordinates,
+                                     size_t face_count,
+                                     const int32_t *corners,
+                                     size_t quad_count,
+                                     const struct roundel_guidance *guidance,
+                                     const struct roundel_options *options,
+                                     const struct roundel_monitor *monitor,
+                                     struct roundel_quads **quads);
+
+/**
+ * roundel_quadrangulate for a mesh that is there already.
+ */
+roundel_status roundel_quads_make(const struct roundel_mesh *mesh,
+                                  size_t quad_count,
+                                  const struct roundel_guidance *guidance,
+                                  const struct roundel_options *options,
+                                  const struct roundel_monitor *monitor,
+                                  struct roundel_quads **quads);
+
+/**
+ * Extracts the quads of the last solve of a map. Faces that the map turns over are coped with.
+ *
+ * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for a map that has not been solved for, or whose
+ * integers were not decided.
+ */
+roundel_status roundel_quads_extract(const struct roundel_map *map, struct roundel_quads **quads);
+
+/**
+ * Extracts the quads of an integer-grid map from anywhere: u, v of the three corners of every face.
+ * Over seams coordinates turn by quarters and shift by integers, and irregular vertices lie on
+ * integers. `length` is six times the number of faces.
+ *
+ * Fails with ROUNDEL_ERROR_NOT_FINITE and ROUNDEL_ERROR_OVERFLOW with the face,
+ * ROUNDEL_ERROR_INVALID_ARGUMENT with the edge that is no such seam or the vertex around which
+ * coordinates close at no integer point.
+ */
+roundel_status roundel_quads_extract_uvs(const struct roundel_mesh *mesh,
+                                         const double *uvs,
+                                         size_t length,
+                                         struct roundel_quads **quads);
+
+/**
+ * Moves the vertices of quads over the mesh that they were extracted from, towards squares of one
+ * size. They stay on the features of `guidance` and on the boundary; NULL stands for no features.
+ * After a failure the quads are what they were.
+ */
+roundel_status roundel_quads_smooth(struct roundel_quads *quads,
+                                    const struct roundel_mesh *mesh,
+                                    const struct roundel_guidance *guidance,
+                                    const struct roundel_monitor *monitor);
+
+/**
+ * Frees quads. NULL is allowed.
+ */
+roundel_status roundel_quads_free(struct roundel_quads *quads);
+
+/**
+ * Gives the number of vertices. Every vertex has a face.
+ */
+roundel_status roundel_quads_vertex_count(const struct roundel_quads *quads, size_t *count);
+
+/**
+ * Copies x, y, z of every vertex. `length` is three times the number of vertices.
+ */
+roundel_status roundel_quads_vertices(const struct roundel_quads *quads,
+                                      double *coordinates,
+                                      size_t length);
+
+/**
+ * Gives the number of quads.
+ */
+roundel_status roundel_quads_count(const struct roundel_quads *quads, size_t *count);
+
+/**
+ * Copies the four corners of every quad, counter-clockwise seen from outside. `length` is four
+ * times the number of quads.
+ */
+roundel_status roundel_quads_corners(const struct roundel_quads *quads,
+                                     int32_t *corners,
+                                     size_t length);
+
+/**
+ * Gives the number of faces that are no quads, and of all their corners together. Either place may
+ * not be NULL.
+ */
+roundel_status roundel_quads_other_count(const struct roundel_quads *quads,
+                                         size_t *count,
+                                         size_t *corner_count);
+
+/**
+ * Copies the faces that are no quads: the number of corners of each, and the corners of all, one
+ * face after the other. The lengths are those of roundel_quads_other_count.
+ */
+roundel_status roundel_quads_others(const struct roundel_quads *quads,
+                                    size_t count,
+                                    int32_t *sizes,
+                                    size_t corner_count,
+                                    int32_t *corners);
+
+/**
+ * Gives the number of vertices with other than four edges, or three on the boundary.
+ */
+roundel_status roundel_quads_irregular_count(const struct roundel_quads *quads, size_t *count);
+
+/**
+ * Gives vertices minus edges plus faces.
+ */
+roundel_status roundel_quads_euler_characteristic(const struct roundel_quads *quads,
+                                                  int64_t *euler);
+
+/**
+ * Gives 1 if there is nothing but quads, each edge has two faces, or one at the boundary, and the
+ * Euler characteristic is that of the triangle mesh; 0 otherwise.
+ */
+roundel_status roundel_quads_is_conforming(const struct roundel_quads *quads,
+                                           int32_t *is_conforming);
+
+/**
+ * Writes the faces as OBJ. Reading gives back the same numbers.
+ *
+ * Fails with ROUNDEL_ERROR_IO.
+ */
+roundel_status roundel_quads_write(const struct roundel_quads *quads, const char *file);
 
 #ifdef __cplusplus
 }  // extern "C"

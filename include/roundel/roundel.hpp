@@ -9,6 +9,7 @@
 ///
 ///     auto mesh = roundel::Mesh::read("rocker-arm.obj");
 ///     auto field = roundel::orientation_field(mesh, {.constrain_curvature = 0.1});
+///     roundel::quadrangulate(mesh, {.quads = 2000}).write("quads.obj");
 ///     auto map = roundel::parametrize(mesh, field, {.quads = 2000});
 ///
 /// In C++17: `roundel::Options options; options.set_strategy("greedy");`.
@@ -17,8 +18,8 @@
 /// also takes a `Status*` as its last argument; given one, it throws nothing and reports there
 /// instead. Built with exceptions turned off, a failure without a Status ends the program.
 ///
-/// Problem, Solution, Solver, Mesh, Field, Map and CancelToken own their C objects, move and do not
-/// copy. A const object may be used from several threads at once, any other from one.
+/// Problem, Solution, Solver, Mesh, Field, Map, Quads and CancelToken own their C objects, move and
+/// do not copy. A const object may be used from several threads at once, any other from one.
 ///
 /// Meshes of other libraries: <roundel/openmesh.hpp>, <roundel/cgal.hpp>, <roundel/eigen.hpp>.
 
@@ -32,6 +33,7 @@
 #include <roundel/detail/mesh.hpp>
 #include <roundel/detail/options.hpp>
 #include <roundel/detail/problem.hpp>
+#include <roundel/detail/quads.hpp>
 #include <roundel/detail/solution.hpp>
 #include <roundel/detail/solve.hpp>
 #include <roundel/detail/solver.hpp>

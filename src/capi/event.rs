@@ -36,6 +36,8 @@ pub enum roundel_phase {
     ROUNDEL_PHASE_ROUND = 3,
     /// Motion of what is continuous around integers that are held.
     ROUNDEL_PHASE_UNTANGLE = 4,
+    /// Extraction of quads from a map, and their smoothing.
+    ROUNDEL_PHASE_QUADS = 5,
 }
 
 /// One message to the callback, with where the solve stands. It lives as long as the callback runs.
@@ -189,6 +191,7 @@ impl From<Phase> for roundel_phase {
             Phase::Factor => roundel_phase::ROUNDEL_PHASE_FACTOR,
             Phase::Round => roundel_phase::ROUNDEL_PHASE_ROUND,
             Phase::Untangle => roundel_phase::ROUNDEL_PHASE_UNTANGLE,
+            Phase::Quads => roundel_phase::ROUNDEL_PHASE_QUADS,
         }
     }
 }

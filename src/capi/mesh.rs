@@ -39,18 +39,31 @@ fn times_three(what: &'static str, count: usize) -> Result<usize> {
 /// # Safety
 /// The arrays are as the caller of the entry says.
 unsafe fn from_arrays<I: Index>(
-    (vertex_count, coordinates): (usize, *const f64),
-    (face_count, corners): (usize, *const I),
+    vertices: (usize, *const f64),
+    faces: (usize, *const I),
     mesh: *mut *mut roundel_mesh,
 ) -> Outcome {
+    // SAFETY: handed on.
+    let (out, made) = unsafe { (Out::new("mesh", mesh)?, triangles(vertices, faces)?) };
+    out.set(guard::handle(made));
+    Ok(())
+}
+
+/// The mesh of the caller's vertices and corners.
+///
+/// # Safety
+/// The arrays are as the caller of the entry says.
+pub(super) unsafe fn triangles<I: Index>(
+    (vertex_count, coordinates): (usize, *const f64),
+    (face_count, corners): (usize, *const I),
+) -> Outcome<TriangleMesh> {
     let sizes = [
         times_three("coordinates", vertex_count)?,
         times_three("corners", face_count)?,
     ];
     // SAFETY: handed on.
-    let (out, given, named) = unsafe {
+    let (given, named) = unsafe {
         (
-            Out::new("mesh", mesh)?,
             slice("coordinates", coordinates, sizes[0])?,
             indices("corners", corners, sizes[1], vertex_count)?,
         )
@@ -67,9 +80,7 @@ unsafe fn from_arrays<I: Index>(
     // Below the number of vertices, which 32 bits hold.
     let faces = named.as_chunks::<3>().0.iter();
     triangles.extend(faces.map(|corners| corners.map(|v| v as u32)));
-    let made = TriangleMesh::new(vertices, triangles).map_err(Error::from)?;
-    out.set(guard::handle(made));
-    Ok(())
+    Ok(TriangleMesh::new(vertices, triangles).map_err(Error::from)?)
 }
 
 /// Makes a mesh of `vertex_count` vertices, whose `coordinates` are x, y, z in turn, and

@@ -5,11 +5,9 @@
 //! given, a feature or the boundary, a reliable curvature.
 
 use super::align::edge_constraints;
-use super::{
-    Constraint, FieldOptions, Guide, PrescribedIndex, curvature_constraints, curvature_guides,
-    feature_constraints,
-};
+use super::{Constraint, FieldOptions, Guide, PrescribedIndex, constrain, feature_constraints};
 use crate::mesh::TriangleMesh;
+use crate::mesh::curvature::{SMOOTHING_ROUNDS, smoothed_curvature};
 use crate::mesh::features::FeatureGraph;
 use crate::{Error, Result};
 
@@ -26,9 +24,9 @@ pub struct Guidance {
     /// The index of every irregular vertex; none leaves that to the energy.
     pub indices: Option<Vec<PrescribedIndex>>,
     /// This part of the faces, those with the most reliable curvature, have the direction of least
-    /// absolute curvature ([`curvature_constraints`]).
+    /// absolute curvature ([`curvature_constraints`](super::curvature_constraints)).
     pub constrain_curvature: f64,
-    /// How much all others should have it ([`curvature_guides`]).
+    /// How much all others should have it ([`curvature_guides`](super::curvature_guides)).
     pub curvature_weight: f64,
     /// Edges whose normals differ by at least this are features (radians).
     pub feature_angle: Option<f64>,
@@ -83,11 +81,22 @@ impl Guidance {
     /// # Errors
     /// [`Error::LengthMismatch`] for features of another mesh, [`Error::InvalidArgument`] for
     /// features of a field of single directions, and those of [`feature_constraints`],
-    /// [`curvature_constraints`] and [`curvature_guides`].
+    /// [`curvature_constraints`](super::curvature_constraints) and
+    /// [`curvature_guides`](super::curvature_guides).
     pub fn field_options(
         &self,
         mesh: &TriangleMesh,
         features: &FeatureGraph,
+    ) -> Result<FieldOptions> {
+        self.field_options_at(mesh, features, SMOOTHING_ROUNDS)
+    }
+
+    /// The same by a curvature smoothed by other than [`SMOOTHING_ROUNDS`].
+    pub(super) fn field_options_at(
+        &self,
+        mesh: &TriangleMesh,
+        features: &FeatureGraph,
+        rounds: usize,
     ) -> Result<FieldOptions> {
         let mut options = FieldOptions {
             symmetry: self.symmetry,
@@ -105,8 +114,14 @@ impl Guidance {
             }
             _ => edge_constraints(mesh, features)?,
         });
-        options.constrain_others(curvature_constraints(mesh, self.constrain_curvature)?);
-        options.guide_others(curvature_guides(mesh, self.curvature_weight)?);
+        let count = constrain::count(mesh, self.constrain_curvature)?;
+        constrain::check_weight(self.curvature_weight)?;
+        if count > 0 || self.curvature_weight > 0.0 {
+            let curvature = smoothed_curvature(mesh, rounds);
+            options.constrain_others(constrain::most_reliable(&curvature, count));
+            let guides = constrain::all_guides(mesh, &curvature, self.curvature_weight);
+            options.guide_others(guides);
+        }
         Ok(options)
     }
 }

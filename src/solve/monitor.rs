@@ -27,6 +27,8 @@ pub enum Phase {
     Round,
     /// Motion of what is continuous around integers that are held.
     Untangle,
+    /// Extraction of quads from a map, and their smoothing.
+    Quads,
 }
 
 /// What an event tells.

@@ -64,12 +64,12 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
     let read = started.elapsed().as_secs_f64();
     progress.say("quads");
     let started = Instant::now();
-    let mut quads = extract(&mesh, &IntegerGridMap::new(&mesh, &uvs)?, &token)?;
+    let monitor = || progress.monitor().cancel_token(token.clone());
+    let mut quads = extract(&mesh, &IntegerGridMap::new(&mesh, &uvs)?, &mut monitor())?;
     let extract = started.elapsed().as_secs_f64();
     let started = Instant::now();
     if !arguments.no_smooth {
-        progress.say("smooth");
-        smooth(&mut quads, &mesh, &SmoothOptions::default(), &token)?;
+        smooth(&mut quads, &mesh, &SmoothOptions::default(), &mut monitor())?;
     }
     let smooth = started.elapsed().as_secs_f64();
     if let Some(path) = &arguments.out {

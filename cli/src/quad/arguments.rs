@@ -11,10 +11,9 @@ use crate::parametrize::SizingFlags;
 
 /// Turn a triangle mesh into quads: field, map and extraction in one.
 ///
-/// Features, and the boundary unless it is free, become chains of quads' edges.
-///
-/// The solver's options are those of the map; time limit and threads hold for each of the two
-/// solves.
+/// The solver's options are those of the map, which is decided by `lattice` unless --strategy says
+/// otherwise; time limit and threads hold for each of the two solves. Features, and the boundary
+/// unless it is free, become chains of edges.
 #[derive(clap::Args)]
 #[command(after_help = exit::HELP)]
 pub struct Arguments {
@@ -34,7 +33,7 @@ pub struct Arguments {
     pub directions: Directions,
 
     /// How the field's integers are decided
-    #[arg(long, value_name = "WORD", default_value = "greedy", value_parser = deciding)]
+    #[arg(long, value_name = "WORD", default_value = "lattice", value_parser = deciding)]
     pub field_strategy: Strategy,
 
     /// Leave faces that the map turns over as they are

@@ -86,28 +86,28 @@ impl QuadCounts {
 impl<'a> QuadReport<'a> {
     /// The report of what was found.
     pub(super) fn new(arguments: &Arguments, solved: &'a Solved) -> Self {
-        let seconds = solved.seconds;
+        let (made, seconds) = (&solved.made, solved.made.seconds);
         QuadReport {
             solve: Report::new(
                 &arguments.mesh,
-                solved.options.strategy.name(),
+                solved.options.map.strategy.name(),
                 Preparation {
-                    read: seconds.read,
+                    read: solved.read_seconds,
                     assemble: None,
                 },
-                &solved.solution,
+                &made.solution,
                 memory::peak_bytes(),
             ),
             faces: solved.mesh.face_count(),
-            field_irregular_vertices: solved.untangled.map.cones().len(),
-            flipped_before: solved.untangled.flipped_before,
-            flipped: solved.untangled.flipped_after,
-            quads: QuadCounts::new(&solved.quads),
+            field_irregular_vertices: made.untangled.map.cones().len(),
+            flipped_before: made.untangled.flipped_before,
+            flipped: made.untangled.flipped_after,
+            quads: QuadCounts::new(&made.quads),
             phases: Phases {
-                read: seconds.read,
+                read: solved.read_seconds,
                 field: seconds.field,
                 map: seconds.map,
-                quads: seconds.quads,
+                quads: seconds.extract,
                 smooth: seconds.smooth,
             },
         }

@@ -15,23 +15,23 @@ pub(super) struct QuadSummary<'a> {
 impl fmt::Display for QuadSummary<'_> {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         let solved = self.solved;
-        let seconds = solved.seconds;
+        let (made, seconds) = (&solved.made, solved.made.seconds);
         let read = counted(solved.mesh.face_count(), "face");
-        line(f, "read", &read, seconds.read)?;
-        let irregular = counted_vertices(solved.untangled.map.cones().len(), "irregular ");
+        line(f, "read", &read, solved.read_seconds)?;
+        let irregular = counted_vertices(made.untangled.map.cones().len(), "irregular ");
         line(f, "field", &irregular, seconds.field)?;
         let map = format!(
             "{}, {}, {} flipped",
-            counted(solved.solution.counts().reduced_integers, "integer"),
-            verdict(&solved.solution),
-            solved.untangled.flipped_after
+            counted(made.solution.counts().reduced_integers, "integer"),
+            verdict(&made.solution),
+            made.untangled.flipped_after
         );
         line(f, "map", &map, seconds.map)?;
         line(
             f,
             "quads",
-            &words(&solved.quads),
-            seconds.quads + seconds.smooth,
+            &words(&made.quads),
+            seconds.extract + seconds.smooth,
         )?;
         match &self.arguments.out {
             Some(path) => writeln!(f, "{:<10} {}", "written", path.display()),

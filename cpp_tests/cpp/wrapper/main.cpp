@@ -24,5 +24,6 @@ int main() {
     a_solver_gives_what_solve_gives();
     fields_follow_what_is_asked_for();
     maps_are_solved_again_at_another_size();
+    meshes_become_quads_of_their_topology();
     return failures != 0;
 }

@@ -18,6 +18,7 @@ void files_keep_the_problem();
 void a_solver_gives_what_solve_gives();
 void fields_follow_what_is_asked_for();
 void maps_are_solved_again_at_another_size();
+void meshes_become_quads_of_their_topology();
 
 /// A chain of `n` variables at distances of 0.3, every second one an integer.
 roundel::Problem chain(std::int32_t n);

@@ -126,6 +126,14 @@ template <class V, class F> void fields_are_found_in_matrices() {
     }
 }
 
+void quads_come_back_as_matrices() {
+    const auto mesh = roundel::Mesh::shape("sphere", 500);
+    const auto quads = roundel::quadrangulate(mesh, roundel::QuadOptions().set_quads(150));
+    const auto found = roundel::matrices(quads);
+    CHECK(quads.conforming() && found.V.rows() == found.Q.rows() + 2);
+    CHECK(found.Q.minCoeff() == 0 && found.Q.maxCoeff() == found.V.rows() - 1);
+}
+
 void matrices_of_another_shape_are_refused() {
     roundel::Status status;
     const Eigen::MatrixXd flat = Eigen::MatrixXd::Random(4, 2),
@@ -154,6 +162,7 @@ int main() {
     fields_are_found_in_matrices<Eigen::MatrixXd, Eigen::MatrixXi>();
     using Rows = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
     fields_are_found_in_matrices<Rows, Eigen::Matrix<std::int64_t, Eigen::Dynamic, 3>>();
+    quads_come_back_as_matrices();
     matrices_of_another_shape_are_refused();
     return failures != 0;
 }

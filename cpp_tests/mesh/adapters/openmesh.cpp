@@ -171,6 +171,19 @@ void maps_are_kept_on_half_edges() {
     CHECK(status.code == ROUNDEL_ERROR_LENGTH_MISMATCH);
 }
 
+void quads_come_back_as_a_mesh_of_polygons() {
+    const auto mesh = build<TriMesh>(roundel::Mesh::shape("torus", 600));
+    const auto quads = roundel::quadrangulate(mesh, roundel::QuadOptions().set_quads(200));
+    const auto poly = roundel::mesh_of<PolyMesh>(quads);
+    CHECK(quads.conforming() && poly.n_faces() == quads.size() && poly.n_faces() > 100);
+    for (const auto face : poly.faces()) {
+        CHECK(poly.valence(face) == 4);
+    }
+    for (const auto edge : poly.edges()) {
+        CHECK(!poly.is_boundary(edge));
+    }
+}
+
 void polygons_are_refused_by_number() {
     PolyMesh mesh;
     std::vector<OpenMesh::VertexHandle> v;
@@ -196,6 +209,7 @@ int main() {
     curvature_is_followed_as_on_the_librarys_own_mesh();
     deleted_elements_are_skipped();
     maps_are_kept_on_half_edges();
+    quads_come_back_as_a_mesh_of_polygons();
     polygons_are_refused_by_number();
     return failures != 0;
 }

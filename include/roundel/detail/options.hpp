@@ -68,6 +68,7 @@ enum class Phase : std::int32_t {
     factor = ROUNDEL_PHASE_FACTOR,
     round = ROUNDEL_PHASE_ROUND,
     untangle = ROUNDEL_PHASE_UNTANGLE,
+    quads = ROUNDEL_PHASE_QUADS,
 };
 
 /// One message to the callback, with where the solve stands.

@@ -31,32 +31,33 @@ pub use grid_map::{IntegerGridMap, RANGE, SEAM_TOLERANCE};
 pub use quad_mesh::{Origin, QuadMesh};
 
 use crate::mesh::TriangleMesh;
-use crate::{CancelToken, Error, Result};
+use crate::solve::Phase;
+use crate::{Monitor, Result};
 use arrangement::Arrangement;
 use refined::Refined;
 
 /// The quads of an integer-grid map.
 ///
 /// The result has the orientation of the mesh. Whether it is made of nothing but quads, and where
-/// it is not, it tells itself. The token is asked between steps.
+/// it is not, it tells itself. The monitor is asked between steps.
 ///
 /// # Errors
-/// [`Error::LengthMismatch`] for the map of another mesh, [`Error::Overflow`] for a map with more
-/// crossings of edges and integer lines than there are 32-bit numbers, [`Error::Cancelled`].
-pub fn extract(mesh: &TriangleMesh, map: &IntegerGridMap, token: &CancelToken) -> Result<QuadMesh> {
+/// [`Error::LengthMismatch`](crate::Error::LengthMismatch) for the map of another mesh, [`Error::Overflow`](crate::Error::Overflow) for a map with more
+/// crossings of edges and integer lines than there are 32-bit numbers, [`Error::Cancelled`](crate::Error::Cancelled).
+pub fn extract(
+    mesh: &TriangleMesh,
+    map: &IntegerGridMap,
+    monitor: &mut Monitor,
+) -> Result<QuadMesh> {
     map.check_mesh(mesh)?;
-    let go_on = || match token.is_cancelled() {
-        true => Err(Error::Cancelled),
-        false => Ok(()),
-    };
     let refined = Refined::new(mesh, map);
     let mut arrangement = Arrangement::new(&refined)?;
-    go_on()?;
+    monitor.progress(Phase::Quads, 0.2)?;
     let mut graph = trace::graph(&refined, &mut arrangement);
-    go_on()?;
+    monitor.progress(Phase::Quads, 0.4)?;
     let unfolded = unfold::unfold(&mut graph);
     let repaired = repair::repair(&mut graph);
-    go_on()?;
+    monitor.progress(Phase::Quads, 0.8)?;
     let mut quads = faces::quad_mesh(mesh, &refined, &graph);
     (quads.unfolded, quads.repaired) = (unfolded, repaired);
     Ok(quads)

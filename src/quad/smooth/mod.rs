@@ -15,7 +15,8 @@ mod surface;
 use super::QuadMesh;
 use crate::mesh::TriangleMesh;
 use crate::mesh::vector::{add, scale, sub};
-use crate::{CancelToken, Error, Result};
+use crate::solve::Phase;
+use crate::{Error, Monitor, Result};
 pub use quality::QuadQuality;
 use surface::Surface;
 
@@ -35,9 +36,9 @@ pub struct SmoothOptions {
 impl Default for SmoothOptions {
     fn default() -> Self {
         SmoothOptions {
-            rounds: 40,
-            uniformity: 0.3,
-            hold: 0.1,
+            rounds: 60,
+            uniformity: 0.6,
+            hold: 0.07,
             features: Vec::new(),
         }
     }
@@ -54,15 +55,13 @@ pub fn smooth(
     quads: &mut QuadMesh,
     mesh: &TriangleMesh,
     options: &SmoothOptions,
-    token: &CancelToken,
+    monitor: &mut Monitor,
 ) -> Result<()> {
     check(mesh, options)?;
     let mut surface = Surface::new(quads, mesh, &options.features);
     let home = quads.vertices.clone();
-    for _ in 0..options.rounds {
-        if token.is_cancelled() {
-            return Err(Error::Cancelled);
-        }
+    for round in 0..options.rounds {
+        monitor.progress(Phase::Quads, round as f64 / options.rounds as f64)?;
         let size = square::mean_edge(quads);
         let mut sum = vec![([0.0; 3], 0.0); quads.vertices.len()];
         for quad in &quads.quads {

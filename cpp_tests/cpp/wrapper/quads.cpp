@@ -1,0 +1,68 @@
+// Quads: extracted from maps and from plain coordinates, made in one call.
+
+#include "wrapper.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace {
+
+std::vector<double> coordinates(const roundel::Mesh& mesh) {
+    std::vector<double> values(3 * mesh.vertices());
+    CHECK(roundel_mesh_coordinates(mesh.get(), values.data(), values.size()) == ROUNDEL_OK);
+    return values;
+}
+
+std::vector<std::int32_t> corners(const roundel::Mesh& mesh) {
+    std::vector<std::int32_t> values(3 * mesh.faces());
+    CHECK(roundel_mesh_corners(mesh.get(), values.data(), values.size()) == ROUNDEL_OK);
+    return values;
+}
+
+} // namespace
+
+void meshes_become_quads_of_their_topology() {
+    const auto mesh = roundel::Mesh::shape("torus", 800);
+    const auto made = roundel::quadrangulate(mesh, roundel::QuadOptions().set_quads(300));
+    CHECK(made && made.conforming() && made.others().empty());
+    CHECK(made.euler_characteristic() == 0 && made.size() > 200 && made.size() < 400);
+    // Closed: as many vertices as quads.
+    CHECK(made.vertices().size() == 3 * made.size());
+
+    // The C call on plain arrays gives the same.
+    const auto V = coordinates(mesh);
+    const auto F = corners(mesh);
+    roundel_quads* plain = nullptr;
+    CHECK(roundel_quadrangulate(V.size() / 3, V.data(), F.size() / 3, F.data(), 300, nullptr,
+                                nullptr, nullptr, &plain) == ROUNDEL_OK);
+    const roundel::Quads same(plain);
+    CHECK(same.corners().size() == made.corners().size());
+    for (std::size_t i = 0; i < same.vertices().size(); ++i) {
+        CHECK(same.vertices()[i] == made.vertices()[i]);
+    }
+
+    // Extraction alone, from a map and from its coordinates.
+    const auto field = roundel::orientation_field(mesh);
+    const auto map = roundel::parametrize(mesh, field, roundel::MapOptions().set_quads(200));
+    auto quads = roundel::quads(map);
+    const auto again = roundel::quads(mesh, map.corner_uvs());
+    CHECK(quads.conforming() && quads.size() == again.size());
+    const std::vector<double> before(quads.vertices().begin(), quads.vertices().end());
+    quads.smooth(mesh);
+    CHECK(quads.vertices().size() == before.size() && quads.vertices()[0] != before[0]);
+
+    roundel::Status status;
+    CHECK(!roundel::quadrangulate(mesh, roundel::QuadOptions().set_quads(0), &status));
+    CHECK(status.code == ROUNDEL_ERROR_INVALID_ARGUMENT);
+    std::vector<double> short_of(6);
+    CHECK(!roundel::quads(mesh, {short_of.data(), short_of.size()}, &status));
+    CHECK(status.code == ROUNDEL_ERROR_LENGTH_MISMATCH);
+    CHECK(!roundel::quads(mesh, {short_of.data(), 5}, &status));
+    CHECK(status.code == ROUNDEL_ERROR_LENGTH_MISMATCH);
+    roundel_quads* none = nullptr;
+    CHECK(roundel_quads_extract(nullptr, &none) == ROUNDEL_ERROR_NULL_POINTER);
+    CHECK(roundel_quads_make(mesh.get(), 10, nullptr, nullptr, nullptr, nullptr) ==
+          ROUNDEL_ERROR_NULL_POINTER);
+    CHECK(roundel_quads_free(nullptr) == ROUNDEL_OK && none == nullptr);
+}

@@ -1,0 +1,219 @@
+/// Quad meshes.
+
+#ifndef ROUNDEL_DETAIL_QUADS_HPP
+#define ROUNDEL_DETAIL_QUADS_HPP
+
+#include <roundel/detail/features.hpp>
+#include <roundel/detail/map.hpp>
+#include <roundel/detail/mesh.hpp>
+#include <roundel/detail/solve.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+ROUNDEL_NAMESPACE_BEGIN
+
+/// What quads should be like, and how they are solved for.
+struct QuadOptions {
+    /// About how many.
+    std::size_t quads = 1000;
+    /// Edges that become chains of quads' edges, in the place of the library's defaults: the
+    /// boundary, with fields that follow the curvature.
+    std::optional<Features> features = std::nullopt;
+    /// How field and map are solved, in the place of lattice decoding.
+    std::optional<Options> solve = std::nullopt;
+
+    QuadOptions& set_quads(std::size_t value) {
+        quads = value;
+        return *this;
+    }
+    QuadOptions& set_features(Features value) {
+        features = std::move(value);
+        return *this;
+    }
+    QuadOptions& set_solve(Options value) {
+        solve = std::move(value);
+        return *this;
+    }
+};
+
+/// Quads with shared vertices, and other polygons where a map left no quads to be made.
+class Quads {
+  public:
+    /// None: what a call returns that reports a failure to a Status.
+    Quads() noexcept = default;
+
+    /// Takes over quads of the C interface.
+    explicit Quads(roundel_quads* owned, Status* status = nullptr) : handle_(owned) {
+        read(status);
+    }
+
+    /// Whether there are any.
+    explicit operator bool() const noexcept { return handle_ != nullptr; }
+
+    /// x, y, z of every vertex.
+    span<const double> vertices() const& noexcept { return {vertices_.data(), vertices_.size()}; }
+    span<const double> vertices() const&& = delete;
+
+    /// The four corners of every quad, counter-clockwise seen from outside.
+    span<const std::int32_t> corners() const& noexcept {
+        return {corners_.data(), corners_.size()};
+    }
+    span<const std::int32_t> corners() const&& = delete;
+
+    /// How many quads.
+    std::size_t size() const noexcept { return corners_.size() / 4; }
+
+    /// The corners of every face that is no quad.
+    const std::vector<std::vector<std::int32_t>>& others() const& noexcept { return others_; }
+    const std::vector<std::vector<std::int32_t>>& others() const&& = delete;
+
+    /// Whether there is nothing but quads, of the topology of the triangles.
+    bool conforming(Status* status = nullptr) const {
+        std::int32_t value = 0;
+        detail::check(roundel_quads_is_conforming(get(), &value), status);
+        return value != 0;
+    }
+
+    /// How many vertices have other than four edges, or three on the boundary.
+    std::size_t irregular_count(Status* status = nullptr) const {
+        std::size_t value = 0;
+        detail::check(roundel_quads_irregular_count(get(), &value), status);
+        return value;
+    }
+
+    /// Vertices minus edges plus faces.
+    std::int64_t euler_characteristic(Status* status = nullptr) const {
+        std::int64_t value = 0;
+        detail::check(roundel_quads_euler_characteristic(get(), &value), status);
+        return value;
+    }
+
+    /// Moves vertices over the mesh that the quads are from, towards squares of one size; they stay
+    /// on these features.
+    Quads& smooth(const Mesh& mesh, const Features& features = {}, Status* status = nullptr) {
+        const auto guidance = detail::guidance_with(features, status);
+        if (guidance &&
+            detail::check(roundel_quads_smooth(get(), mesh.get(), guidance.get(), nullptr),
+                          status)) {
+            read(status);
+        }
+        return *this;
+    }
+
+    /// Writes the faces as OBJ.
+    void write(const std::string& file, Status* status = nullptr) const {
+        detail::check(roundel_quads_write(get(), file.c_str()), status);
+    }
+
+    roundel_quads* get() const noexcept { return handle_.get(); }
+
+  private:
+    void read(Status* status) {
+        std::size_t vertices = 0, quads = 0, count = 0, corners = 0;
+        const auto told = [&](roundel_status code) { return detail::check(code, status); };
+        if (!told(roundel_quads_vertex_count(get(), &vertices)) ||
+            !told(roundel_quads_count(get(), &quads)) ||
+            !told(roundel_quads_other_count(get(), &count, &corners))) {
+            return;
+        }
+        vertices_.resize(3 * vertices);
+        corners_.resize(4 * quads);
+        std::vector<std::int32_t> sizes(count), all(corners);
+        if (!told(roundel_quads_vertices(get(), vertices_.data(), vertices_.size())) ||
+            !told(roundel_quads_corners(get(), corners_.data(), corners_.size())) ||
+            !told(roundel_quads_others(get(), count, sizes.data(), corners, all.data()))) {
+            return;
+        }
+        others_.clear();
+        auto from = all.begin();
+        for (const auto size : sizes) {
+            others_.emplace_back(from, from + size);
+            from += size;
+        }
+    }
+
+    detail::Handle<roundel_quads, roundel_quads_free> handle_;
+    std::vector<double> vertices_;
+    std::vector<std::int32_t> corners_;
+    std::vector<std::vector<std::int32_t>> others_;
+};
+
+/// The quads of the last solve of a map, not smoothed.
+inline Quads quads(const Map& map, Status* status = nullptr) {
+    roundel_quads* made = nullptr;
+    if (!detail::check(roundel_quads_extract(map.get(), &made), status)) {
+        return {};
+    }
+    return Quads(made, status);
+}
+
+/// The quads of an integer-grid map from anywhere: u, v of the three corners of every face.
+inline Quads quads(const Mesh& mesh, span<const double> corner_uvs, Status* status = nullptr) {
+    roundel_quads* made = nullptr;
+    const auto code =
+        roundel_quads_extract_uvs(mesh.get(), corner_uvs.data(), corner_uvs.size(), &made);
+    return detail::check(code, status) ? Quads(made, status) : Quads();
+}
+
+/// A mesh turned into quads: field, map, extraction and smoothing in one call.
+inline Quads quadrangulate(const Mesh& mesh, const QuadOptions& options = {},
+                           Status* status = nullptr) {
+    detail::GuidanceHandle guidance;
+    if (options.features) {
+        guidance = detail::guidance_with(*options.features, status);
+        if (!guidance) {
+            return {};
+        }
+    }
+    detail::Handle<roundel_quads, roundel_quads_free> found;
+    const auto call = [&](const roundel_options* how, const roundel_monitor* monitor) {
+        roundel_quads* made = nullptr;
+        const auto code =
+            roundel_quads_make(mesh.get(), options.quads, guidance.get(), how, monitor, &made);
+        found.reset(made);
+        return code;
+    };
+    const bool is_made = options.solve ? detail::watched(*options.solve, call, 0, status)
+                                       : detail::check(call(nullptr, nullptr), status);
+    return is_made ? Quads(found.release(), status) : Quads();
+}
+
+namespace detail {
+
+/// How polygons become a mesh of another library. Each adapter says so for its types:
+/// `static M make(std::size_t vertices, Point point, const std::vector<Face>& faces)`, where
+/// `point(i)` is the array x, y, z and a face the numbers of its corners.
+template <class M, class = void> struct FromPolygons;
+
+} // namespace detail
+
+/// Quads as a mesh of another library, with the faces that are no quads.
+template <class M> M mesh_of(const Quads& quads) {
+    std::vector<std::vector<std::int32_t>> faces;
+    faces.reserve(quads.size() + quads.others().size());
+    const auto corners = quads.corners();
+    for (std::size_t i = 0; i < corners.size(); i += 4) {
+        faces.push_back({corners[i], corners[i + 1], corners[i + 2], corners[i + 3]});
+    }
+    faces.insert(faces.end(), quads.others().begin(), quads.others().end());
+    const auto at = quads.vertices();
+    const auto point = [&](std::size_t i) {
+        return std::array<double, 3>{at[3 * i], at[3 * i + 1], at[3 * i + 2]};
+    };
+    return detail::FromPolygons<M>::make(at.size() / 3, point, faces);
+}
+
+/// The quads of a map as a mesh of another library: `roundel::quads<PolyMesh>(map)`.
+template <class M> M quads(const Map& map, Status* status = nullptr) {
+    return mesh_of<M>(quads(map, status));
+}
+
+ROUNDEL_NAMESPACE_END
+
+#endif // ROUNDEL_DETAIL_QUADS_HPP

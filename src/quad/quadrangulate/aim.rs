@@ -1,0 +1,46 @@
+//! Aiming at a number of quads.
+//!
+//! A map whose gradients cannot all be what they are asked to be covers less than it should: least
+//! squares shrink what they cannot fit. The relaxation is linear in the size asked for, so its area
+//! says by how much to ask for more; only linear terms change, and the solver keeps its factors.
+
+use crate::mesh::TriangleMesh;
+use crate::quad::{SeamlessMap, SeamlessProblem, Sizing};
+use crate::{Monitor, Options, Result, Solver, Strategy};
+
+/// No more than so many times as many are asked for.
+const MOST: f64 = 2.0;
+
+/// Asks for so many quads that the relaxation covers as many as were wanted. Other sizes stay.
+pub(super) fn aim(
+    mesh: &TriangleMesh,
+    problem: &mut SeamlessProblem,
+    solver: &mut Solver,
+    sizing: &Sizing,
+    monitor: Monitor,
+) -> Result<()> {
+    let &Sizing::Quads(wanted) = sizing else {
+        return Ok(());
+    };
+    let relaxed = Options {
+        strategy: Strategy::Relax,
+        ..Options::default()
+    };
+    let solution = solver.solve_with(&relaxed, monitor)?;
+    let covered = area(mesh, &problem.map(mesh, &solution)?);
+    let more = (wanted as f64 / covered).clamp(1.0, MOST);
+    let asked = (more * wanted as f64).round() as usize;
+    if asked == wanted {
+        return Ok(());
+    }
+    problem.resize(mesh, &Sizing::Quads(asked), solver)
+}
+
+/// How many unit squares a map covers.
+fn area(mesh: &TriangleMesh, map: &SeamlessMap) -> f64 {
+    let area = |face: usize| {
+        let [a, b, c] = map.uv(face);
+        0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]))
+    };
+    (0..mesh.face_count()).map(area).sum()
+}

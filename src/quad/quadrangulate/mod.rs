@@ -1,0 +1,121 @@
+//! From a mesh to quads in one call: field, map, extraction and smoothing.
+
+mod aim;
+mod attempt;
+mod options;
+mod scale;
+
+use std::time::Instant;
+
+use super::untangle::{UntangleOptions, Untangled, untangle};
+use super::{FieldProblem, OrientationField, QuadMesh, SeamlessProblem, SmoothOptions, smooth};
+use crate::mesh::TriangleMesh;
+use crate::{Monitor, Result, Solution, Solver, solve_with};
+use attempt::Attempt;
+pub use options::QuadOptions;
+
+/// Quads, and how they were come by.
+#[derive(Debug)]
+pub struct Quadrangulation {
+    /// The quads, smoothed if that was asked for.
+    pub quads: QuadMesh,
+    /// The field that they follow.
+    pub field: OrientationField,
+    /// The solution of the field's problem.
+    pub field_solution: Solution,
+    /// The map that they were extracted from.
+    pub untangled: Untangled,
+    /// The solution of the map's problem.
+    pub solution: Solution,
+    /// Edges of the mesh that edges of quads follow, in increasing order.
+    pub features: Vec<usize>,
+    /// What each step took.
+    pub seconds: QuadSeconds,
+}
+
+/// Wall-clock seconds a step.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct QuadSeconds {
+    /// The field's problem and its solution.
+    pub field: f64,
+    /// The map's problem and its solution.
+    pub map: f64,
+    /// Extraction, and untangling where it was needed.
+    pub extract: f64,
+    /// Smoothing.
+    pub smooth: f64,
+}
+
+/// Turns a mesh into quads. `monitor` makes one watcher for each step.
+///
+/// Whether the result is made of nothing but quads it tells itself ([`QuadMesh::is_conforming`]).
+/// Extraction copes with nearly all folds; untangling is tried only if its quads do not conform, and
+/// kept if they do then, or there is less to repair.
+///
+/// # Errors
+/// Those of [`FieldProblem::with_options`], [`SeamlessProblem::with_features`], [`solve_with`],
+/// [`untangle`], [`extract`](super::extract) and [`smooth`].
+pub fn quadrangulate<'a>(
+    mesh: &TriangleMesh,
+    options: &QuadOptions,
+    monitor: impl Fn() -> Monitor<'a>,
+) -> Result<Quadrangulation> {
+    let mut seconds = QuadSeconds::default();
+    let features = options.guidance.features(mesh)?;
+    let (field, field_solution) = timed(&mut seconds.field, || {
+        let rounds = scale::smoothing_rounds(mesh, &options.sizing);
+        let wishes = (options.guidance).field_options_at(mesh, &features, rounds)?;
+        let problem = FieldProblem::with_options(mesh, &wishes)?;
+        let solution = solve_with(problem.problem(), &options.field, monitor())?;
+        Ok((problem.field(mesh, &solution)?, solution))
+    })?;
+    let (problem, solution) = timed(&mut seconds.map, || {
+        let mut problem = SeamlessProblem::with_features(mesh, &field, &options.sizing, &features)?;
+        let mut solver = Solver::new(problem.problem())?;
+        aim::aim(mesh, &mut problem, &mut solver, &options.sizing, monitor())?;
+        let solution = solver.solve_with(&options.map, monitor())?;
+        Ok((problem, solution))
+    })?;
+    let best = timed(&mut seconds.extract, || {
+        let map = Untangled::as_it_is(problem.map(mesh, &solution)?);
+        let first = Attempt::new(mesh, map, &mut monitor())?;
+        if !options.untangle || first.conforms() {
+            return Ok(first);
+        }
+        let effort = UntangleOptions::default();
+        let map = untangle(mesh, &problem, &first.map.map, &effort, &mut monitor())?;
+        let second = Attempt::new(mesh, map, &mut monitor())?;
+        Ok(if second.cost() < first.cost() {
+            second
+        } else {
+            first
+        })
+    })?;
+    let mut quads = best.quads;
+    let features: Vec<usize> = features.edges().collect();
+    if let Some(given) = &options.smooth {
+        timed(&mut seconds.smooth, || {
+            let given = SmoothOptions {
+                features: [&given.features[..], &features].concat(),
+                ..given.clone()
+            };
+            smooth(&mut quads, mesh, &given, &mut monitor())
+        })?;
+    }
+    Ok(Quadrangulation {
+        quads,
+        field,
+        field_solution,
+        untangled: best.map,
+        solution,
+        features,
+        seconds,
+    })
+}
+
+fn timed<T>(seconds: &mut f64, step: impl FnOnce() -> Result<T>) -> Result<T> {
+    let started = Instant::now();
+    let result = step();
+    *seconds = started.elapsed().as_secs_f64();
+    result
+}

@@ -1,0 +1,45 @@
+//! What is to be decided on the way from a mesh to quads.
+
+use crate::quad::{Guidance, SeamlessOptions, Sizing, SmoothOptions};
+use crate::{Options, Strategy};
+
+/// How to make quads.
+#[derive(Debug, Clone, PartialEq)]
+pub struct QuadOptions {
+    /// How large quads shall be.
+    pub sizing: Sizing,
+    /// What they follow. Features, and the boundary where it is aligned, become chains of edges.
+    pub guidance: Guidance,
+    /// How the field is solved for.
+    pub field: Options,
+    /// How the map is solved for.
+    pub map: Options,
+    /// Whether a map is untangled whose folds extraction cannot cope with.
+    pub untangle: bool,
+    /// How quads are smoothed; its features are added to those of the guidance. None leaves
+    /// vertices where the map has them.
+    pub smooth: Option<SmoothOptions>,
+}
+
+impl Default for QuadOptions {
+    /// As many quads as [`SeamlessOptions`] has them, along the curvature where it is clear, with
+    /// the integers of field and map decided by lattice decoding.
+    fn default() -> Self {
+        let lattice = Options {
+            strategy: Strategy::Lattice,
+            ..Options::default()
+        };
+        QuadOptions {
+            sizing: Sizing::Quads(SeamlessOptions::default().quads),
+            guidance: Guidance {
+                constrain_curvature: 0.005,
+                curvature_weight: 0.07,
+                ..Guidance::default()
+            },
+            field: lattice.clone(),
+            map: lattice,
+            untangle: true,
+            smooth: Some(SmoothOptions::default()),
+        }
+    }
+}
