@@ -8,7 +8,8 @@ if(failed)
 endif()
 file(RENAME "${FIRST}" "${PREFIX}")
 
-file(GLOB_RECURSE texts "${PREFIX}/*.cmake" "${PREFIX}/*.pc" "${PREFIX}/*.h" "${PREFIX}/*.hpp")
+file(GLOB_RECURSE texts "${PREFIX}/*.cmake" "${PREFIX}/*.pc" "${PREFIX}/*.h" "${PREFIX}/*.hpp"
+     "${PREFIX}/*.hh")
 if(NOT texts)
     message(FATAL_ERROR "nothing was installed")
 endif()

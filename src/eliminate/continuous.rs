@@ -1,7 +1,6 @@
 //! Rows with a continuous unknown are solved for one.
 
 use super::tableau::Tableau;
-use super::tolerance::PIVOT;
 use crate::Result;
 
 /// Solves row `r`, which has a continuous unknown, for the one that fewest other rows have, among
@@ -14,7 +13,7 @@ pub(super) fn eliminate(tableau: &mut Tableau, r: usize) -> Result<()> {
         .clone()
         .fold(0.0, |m: f64, at| m.max(entries[at].1.abs()));
     let at = continuous
-        .filter(|&at| entries[at].1.abs() >= PIVOT * largest)
+        .filter(|&at| entries[at].1.abs() >= tableau.pivot_threshold() * largest)
         .min_by_key(|&at| tableau.cost(entries[at].0));
     match at {
         Some(at) => tableau.solve_for(r, at),

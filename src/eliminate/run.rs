@@ -48,7 +48,10 @@ impl Elimination {
     /// the pinned values.
     ///
     /// With [`Ordering::Natural`] rows and pivots are taken as they come, which only serves to show
-    /// what the order is worth.
+    /// what the order is worth. With [`Ordering::LargestPivot`] the row with the fewest entries comes
+    /// first as well, but is solved for its first largest continuous unknown, or else its first
+    /// integer with coefficient 1 or -1, and long rows do not wait: the elimination of Bommes'
+    /// thesis, which keeps other integers.
     ///
     /// # Errors
     /// [`NotSupported`](crate::Error::NotSupported) for a relation of integers with incommensurable

@@ -11,7 +11,7 @@ use super::right_sides;
 use super::row::{Change, Row, State, TooLarge};
 use super::stack::{Stack, Substitution};
 use super::steps::{Definitions, Step};
-use super::tolerance::LONG;
+use super::tolerance::{LARGEST_PIVOT, LONG, PIVOT};
 use super::unknowns::Unknowns;
 use crate::linalg::Ordering;
 use crate::{Error, Model, Result};
@@ -109,7 +109,7 @@ impl<'a> Tableau<'a> {
             make_integral(self, r)?;
         }
         let row = &mut self.rows[r];
-        if len > LONG {
+        if len > LONG && self.ordering != Ordering::LargestPivot {
             row.state = State::Long;
             for &(unknown, _) in &row.entries {
                 self.occurrences.remove(unknown);
@@ -124,7 +124,7 @@ impl<'a> Tableau<'a> {
     /// What decides whose turn it is.
     fn urgency(&self, r: usize) -> u32 {
         match self.ordering {
-            Ordering::FillReducing => self.rows[r].entries.len() as u32,
+            Ordering::FillReducing | Ordering::LargestPivot => self.rows[r].entries.len() as u32,
             Ordering::Natural => 0,
         }
     }
@@ -133,7 +133,15 @@ impl<'a> Tableau<'a> {
     pub fn cost(&self, unknown: u32) -> u32 {
         match self.ordering {
             Ordering::FillReducing => self.occurrences.count(unknown),
-            Ordering::Natural => 0,
+            Ordering::Natural | Ordering::LargestPivot => 0,
+        }
+    }
+
+    /// How small a coefficient may be, relative to the largest of its row, to be solved for.
+    pub fn pivot_threshold(&self) -> f64 {
+        match self.ordering {
+            Ordering::FillReducing | Ordering::Natural => PIVOT,
+            Ordering::LargestPivot => LARGEST_PIVOT,
         }
     }
 

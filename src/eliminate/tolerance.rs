@@ -21,6 +21,10 @@ pub(super) const CONSISTENT: f64 = 1e-9;
 /// ten thousand rows, which costs the accuracy of the constraints; 0.3 keeps them below 1e3.
 pub(super) const PIVOT: f64 = 0.3;
 
+/// Coefficients at least this part of the largest count as the largest where only that may be
+/// solved for: rounding must not tell apart what the caller gave as equal.
+pub(super) const LARGEST_PIVOT: f64 = 1.0 - 1e-9;
+
 /// Numbers this close to an integer are that integer; design.md's tie rule uses the same.
 pub(super) const INTEGRAL: f64 = 1e-9;
 

@@ -58,7 +58,7 @@ impl Cholesky {
     /// As [`new`](Self::new).
     pub fn ordered(lower: &Sparse, ordering: Ordering) -> Result<Self> {
         let ordering = match ordering {
-            Ordering::FillReducing => SymmetricOrdering::Amd,
+            Ordering::FillReducing | Ordering::LargestPivot => SymmetricOrdering::Amd,
             Ordering::Natural => SymmetricOrdering::Identity,
         };
         Self::factor(lower, ordering)

@@ -22,17 +22,25 @@ pub enum Ordering {
     FillReducing,
     /// As they come: to show what an order is worth.
     Natural,
+    /// Fill-reducing in factorizations; constraints are solved for their largest coefficient,
+    /// and which other rows that fills does not count.
+    LargestPivot,
 }
 
 impl Ordering {
     /// All orderings.
-    pub const ALL: [Ordering; 2] = [Ordering::FillReducing, Ordering::Natural];
+    pub const ALL: [Ordering; 3] = [
+        Ordering::FillReducing,
+        Ordering::Natural,
+        Ordering::LargestPivot,
+    ];
 
     /// The name by which options choose it.
     pub fn name(self) -> &'static str {
         match self {
             Ordering::FillReducing => "fill_reducing",
             Ordering::Natural => "natural",
+            Ordering::LargestPivot => "largest_pivot",
         }
     }
 
@@ -43,7 +51,7 @@ impl Ordering {
     /// [`Error::OutOfMemory`].
     pub fn order(self, lower: &Sparse) -> Result<Vec<u32>> {
         match self {
-            Ordering::FillReducing => minimum_degree(lower),
+            Ordering::FillReducing | Ordering::LargestPivot => minimum_degree(lower),
             Ordering::Natural => Ok((0..lower.rows() as u32).collect()),
         }
     }

@@ -47,7 +47,7 @@ impl RelaxedFactor {
     /// As [`Cholesky::new`].
     pub fn ordered(lower: &Sparse, integers: &[u32], ordering: Ordering) -> Result<Self> {
         let integers = match ordering {
-            Ordering::FillReducing => integers,
+            Ordering::FillReducing | Ordering::LargestPivot => integers,
             Ordering::Natural => &[],
         };
         let n = lower.rows();

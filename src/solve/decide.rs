@@ -39,6 +39,7 @@ pub(super) fn search(
         Strategy::Direct => round::direct(model, factors, search),
         Strategy::Greedy => round::greedy(model, factors, search),
         Strategy::Adaptive => round::adaptive(model, options, factors, search),
+        Strategy::Multiple => round::multiple(model, options, factors, search),
         Strategy::Lattice if cycle::lattice(given, model, factors, search)? => Ok(()),
         Strategy::Auto
             if cycle::auto(given, model, options, factors, search)? && !(few && m <= PROVABLE) =>

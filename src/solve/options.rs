@@ -14,20 +14,20 @@ pub struct Options {
     /// Threads that may be used at most; 0 means as many as there are cores. The result does not
     /// depend on it.
     pub threads: usize,
-    /// `adaptive`: integers are rounded together while their deviations sum up to at most this.
+    /// `adaptive`, `multiple`: integers are rounded together while their deviations sum up to at most this.
     pub rounding_threshold: f64,
     /// `adaptive`: up to this many integers are decided exactly, one at a time.
     pub exact_integers: usize,
-    /// `adaptive`: Gauss-Seidel updates a pass, after which conjugate gradients take over.
+    /// `adaptive`, `multiple`: Gauss-Seidel updates a pass, after which conjugate gradients take over.
     pub gauss_seidel_updates: usize,
-    /// `adaptive`: Gauss-Seidel does not push on where an unknown would move by less.
+    /// `adaptive`, `multiple`: Gauss-Seidel does not push on where an unknown would move by less.
     pub gauss_seidel_tolerance: f64,
-    /// `adaptive`: conjugate-gradient iterations a pass, after which a factorization takes over.
+    /// `adaptive`, `multiple`: conjugate-gradient iterations a pass, after which a factorization takes over.
     pub cg_iterations: usize,
     /// `adaptive`: conjugate gradients end where no unknown is further from the minimum, by the
-    /// preconditioner's estimate.
+    /// preconditioner's estimate; `multiple`: where the residual of `Q/2 x = -q/2` is no longer.
     pub cg_tolerance: f64,
-    /// `adaptive`: whether a pass may factor when conjugate gradients fail.
+    /// `adaptive`, `multiple`: whether a pass may factor when conjugate gradients fail.
     pub exact_steps: bool,
     /// What is made of the integers of an earlier solution: of the solver's last one, or those that
     /// the initial guess rounds to where there is none.
@@ -113,7 +113,7 @@ pub const OPTIONS: &[OptionInfo] = &[
         name: "strategy",
         kind: OptionKind::Text,
         default: "auto",
-        range: "relax|direct|greedy|adaptive|lattice|exact|auto",
+        range: "relax|direct|greedy|adaptive|multiple|lattice|exact|auto",
         text: "how integers are decided",
     },
     OptionInfo {
@@ -135,7 +135,7 @@ pub const OPTIONS: &[OptionInfo] = &[
         kind: OptionKind::Real,
         default: "0.5",
         range: "[0, inf]",
-        text: "adaptive: integers are rounded together while their deviations sum up to at most this",
+        text: "adaptive, multiple: integers are rounded together while their deviations sum up to at most this",
     },
     OptionInfo {
         name: "exact_integers",
@@ -149,35 +149,35 @@ pub const OPTIONS: &[OptionInfo] = &[
         kind: OptionKind::Integer,
         default: "100000",
         range: "[0, 2147483647]",
-        text: "adaptive: Gauss-Seidel updates a pass, after which conjugate gradients take over",
+        text: "adaptive, multiple: Gauss-Seidel updates a pass, after which conjugate gradients take over",
     },
     OptionInfo {
         name: "gauss_seidel_tolerance",
         kind: OptionKind::Real,
         default: "0.001",
         range: "[0, inf]",
-        text: "adaptive: Gauss-Seidel does not push on where an unknown would move by less",
+        text: "adaptive, multiple: Gauss-Seidel does not push on where an unknown would move by less",
     },
     OptionInfo {
         name: "cg_iterations",
         kind: OptionKind::Integer,
         default: "50",
         range: "[0, 2147483647]",
-        text: "adaptive: conjugate-gradient iterations a pass, after which a factorization takes over",
+        text: "adaptive, multiple: conjugate-gradient iterations a pass, after which a factorization takes over",
     },
     OptionInfo {
         name: "cg_tolerance",
         kind: OptionKind::Real,
         default: "0.001",
         range: "[0, inf]",
-        text: "adaptive: conjugate gradients end where no unknown is estimated further from the minimum",
+        text: "adaptive: conjugate gradients end where no unknown is estimated further from the minimum; multiple: where the residual is shorter",
     },
     OptionInfo {
         name: "exact_steps",
         kind: OptionKind::Integer,
         default: "1",
         range: "[0, 1]",
-        text: "adaptive: 1 if a pass may factor when conjugate gradients fail",
+        text: "adaptive, multiple: 1 if a pass may factor when conjugate gradients fail",
     },
     OptionInfo {
         name: "warm_start",
@@ -190,8 +190,8 @@ pub const OPTIONS: &[OptionInfo] = &[
         name: "ordering",
         kind: OptionKind::Text,
         default: "fill_reducing",
-        range: "fill_reducing|natural",
-        text: "order of eliminations and factorizations; natural only shows what the other is worth",
+        range: "fill_reducing|natural|largest_pivot",
+        text: "order of eliminations and factorizations; largest_pivot solves constraints for their largest coefficient (Bommes' thesis), natural only shows what an order is worth",
     },
     OptionInfo {
         name: "dense_integers",

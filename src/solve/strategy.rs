@@ -12,6 +12,8 @@ pub enum Strategy {
     Greedy,
     /// Several at a time, re-optimising only as far as needed; exactly where that is cheap.
     Adaptive,
+    /// Several at a time, re-optimised by the published iterations: what earlier programs decide.
+    Multiple,
     /// By lattice reduction, nearest plane and exact re-decision of blocks, without a proof.
     Lattice,
     /// As lattice, then enumeration until the optimum is proved or the budget ends.
@@ -24,11 +26,12 @@ pub enum Strategy {
 
 impl Strategy {
     /// All strategies.
-    pub const ALL: [Strategy; 7] = [
+    pub const ALL: [Strategy; 8] = [
         Strategy::Relax,
         Strategy::Direct,
         Strategy::Greedy,
         Strategy::Adaptive,
+        Strategy::Multiple,
         Strategy::Lattice,
         Strategy::Exact,
         Strategy::Auto,
@@ -41,6 +44,7 @@ impl Strategy {
             Strategy::Direct => "direct",
             Strategy::Greedy => "greedy",
             Strategy::Adaptive => "adaptive",
+            Strategy::Multiple => "multiple",
             Strategy::Lattice => "lattice",
             Strategy::Exact => "exact",
             Strategy::Auto => "auto",

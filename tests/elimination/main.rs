@@ -6,6 +6,7 @@ mod corpus;
 mod exact;
 mod known;
 mod large;
+mod largest;
 mod properties;
 
 use roundel::eliminate::{ReducedModel, eliminate};

@@ -95,29 +95,32 @@ struct Options {
     /// A set of options by name, "orientation_field" or "parametrization", set before all others.
     std::optional<std::string> preset = std::nullopt;
     /// How integers are decided: "relax", "direct", "greedy", "adaptive",
-    /// "lattice", "exact", "auto".
+    /// "multiple", "lattice", "exact", "auto".
     std::optional<std::string> strategy = std::nullopt;
     /// Seconds after which the best solution so far is returned.
     std::optional<double> time_limit = std::nullopt;
     /// Threads that may be used at most; 0 means as many as there are cores.
     std::optional<std::int64_t> threads = std::nullopt;
-    /// adaptive: integers are rounded together while their deviations sum up to at most this.
+    /// adaptive, multiple: integers are rounded together while their deviations sum up to at most
+    /// this.
     std::optional<double> rounding_threshold = std::nullopt;
     /// adaptive: up to this many integers are decided exactly, one at a time.
     std::optional<std::int64_t> exact_integers = std::nullopt;
-    /// adaptive: Gauss-Seidel updates a pass, after which conjugate gradients take over.
+    /// adaptive, multiple: Gauss-Seidel updates a pass, after which conjugate gradients take over.
     std::optional<std::int64_t> gauss_seidel_updates = std::nullopt;
-    /// adaptive: Gauss-Seidel does not push on where an unknown would move by less.
+    /// adaptive, multiple: Gauss-Seidel does not push on where an unknown would move by less.
     std::optional<double> gauss_seidel_tolerance = std::nullopt;
-    /// adaptive: conjugate-gradient iterations a pass, before a factorization takes over.
+    /// adaptive, multiple: conjugate-gradient iterations a pass, before a factorization takes over.
     std::optional<std::int64_t> cg_iterations = std::nullopt;
-    /// adaptive: how close to the minimum conjugate gradients bring every unknown.
+    /// adaptive: how close to the minimum conjugate gradients bring every unknown; multiple: the
+    /// length of the residual.
     std::optional<double> cg_tolerance = std::nullopt;
-    /// adaptive: 1 if a pass may factor when conjugate gradients fail.
+    /// adaptive, multiple: 1 if a pass may factor when conjugate gradients fail.
     std::optional<std::int64_t> exact_steps = std::nullopt;
     /// Earlier integers: "off", "offer" (before the search begins) or "keep" (no search).
     std::optional<std::string> warm_start = std::nullopt;
-    /// "fill_reducing", or "natural", which only shows what the other is worth.
+    /// "fill_reducing", "largest_pivot" (constraints as in Bommes' thesis), or "natural", which
+    /// only shows what an order is worth.
     std::optional<std::string> ordering = std::nullopt;
     /// lattice, exact, auto: up to this many integers are decided in a dense lattice.
     std::optional<std::int64_t> dense_integers = std::nullopt;

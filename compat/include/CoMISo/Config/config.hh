@@ -1,0 +1,35 @@
+/// What the library was built with, in the macros by which programs ask. Roundel needs none of
+/// these; matrices of GMM++ and Eigen are taken where they are.
+
+#ifndef COMISO_CONFIG_CONFIG_HH
+#define COMISO_CONFIG_CONFIG_HH
+
+#define COMISO_GMM_AVAILABLE 1
+#if __has_include(<Eigen/SparseCore>)
+#define COMISO_EIGEN3_AVAILABLE 1
+#else
+#define COMISO_EIGEN3_AVAILABLE 0
+#endif
+
+#define COMISO_ADOLC_AVAILABLE 0
+#define COMISO_ARPACK_AVAILABLE 0
+#define COMISO_BOOST_AVAILABLE 0
+#define COMISO_CBC_AVAILABLE 0
+#define COMISO_CPLEX_AVAILABLE 0
+#define COMISO_DCO_AVAILABLE 0
+#define COMISO_DOCLOUD_AVAILABLE 0
+#define COMISO_GUROBI_AVAILABLE 0
+#define COMISO_HSL_AVAILABLE 0
+#define COMISO_IPOPT_AVAILABLE 0
+#define COMISO_METIS_AVAILABLE 0
+#define COMISO_MPI_AVAILABLE 0
+#define COMISO_MUMPS_AVAILABLE 0
+#define COMISO_PETSC_AVAILABLE 0
+#define COMISO_QT4_AVAILABLE 0
+#define COMISO_QT_AVAILABLE 0
+#define COMISO_SUITESPARSE_AVAILABLE 0
+#define COMISO_SUITESPARSE_SPQR_AVAILABLE 0
+#define COMISO_TAO_AVAILABLE 0
+#define COMISO_TAUCS_AVAILABLE 0
+
+#endif // COMISO_CONFIG_CONFIG_HH

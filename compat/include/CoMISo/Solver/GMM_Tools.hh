@@ -1,0 +1,10 @@
+/// GMM++, or its stand-in: programs include this file for the matrices.
+
+#ifndef COMISO_SOLVER_GMM_TOOLS_HH
+#define COMISO_SOLVER_GMM_TOOLS_HH
+
+#include <CoMISo/Config/config.hh>
+
+#include <gmm/gmm.h>
+
+#endif // COMISO_SOLVER_GMM_TOOLS_HH

@@ -1,0 +1,16 @@
+#include "zoo.hpp"
+
+int main() {
+    a_parametrizer_solves_as_libigl_does();
+    a_smooth_field_solves_without_constraints();
+    entries_read_and_take_assignments();
+    settings_come_back_as_set();
+    rounding_follows_its_precedence();
+    least_squares_and_a_second_solve();
+    errors_name_what_is_wrong();
+    eigen_matrices_give_the_same();
+    a_strategy_is_chosen_by_a_call_or_the_environment();
+    functions_give_what_matrices_give();
+    elements_sum_up();
+    return failures != 0;
+}

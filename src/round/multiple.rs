@@ -1,0 +1,151 @@
+//! Multiple rounding as it was published and is in use: what programs get that were written for it.
+//!
+//! Bommes, Zimmer, Kobbelt 2009, section 3; Bommes' thesis, chapter 5. Each pass rounds the
+//! integers with the least deviations while these sum up to at most a threshold, then re-optimises:
+//! by Gauss-Seidel from their neighbours; where its budget ends, by conjugate gradients; where
+//! those fail, by a factorization, unless that is turned off.
+//!
+//! [`adaptive`](super::adaptive) has the same plan and better parts: it is more accurate and
+//! quicker. But where few integers of far reach are rounded after a few iterations, the iterations
+//! are part of the decisions, and a program whose results must stay what they were needs these.
+//! Together with [`Ordering::LargestPivot`](crate::linalg::Ordering::LargestPivot), which keeps the
+//! integers that the thesis' elimination keeps, the decisions of the thesis' program on its seamless
+//! parametrizations come out.
+
+use super::candidates::Candidates;
+use super::nearest;
+use crate::Result;
+use crate::eliminate::ReducedModel;
+use crate::linalg::{Effort, Minimum, PlainSeidel, minimise_held, plain_conjugate_gradient};
+use crate::solve::{Factors, Options, Phase, Search};
+
+/// Gauss-Seidel looks between two looks at the clock.
+const LOOKS_AT_A_TIME: usize = 10_000;
+
+/// Rounds by passes.
+///
+/// When it has to stop early, it offers the integers as they stand, the undecided ones rounded.
+///
+/// # Errors
+/// For lack of memory, and those of the evaluation of its offer.
+pub(crate) fn multiple(
+    model: &ReducedModel,
+    options: &Options,
+    factors: &mut Factors,
+    search: &mut Search,
+) -> Result<()> {
+    let integers = model.integers();
+    let mut passes = Passes {
+        model,
+        options,
+        local: PlainSeidel::new(model.hessian(), model.gradient())?,
+        point: search.relaxed().to_vec(),
+        fixed: vec![false; model.dim()],
+    };
+    let mut candidates = Candidates::new(model.dim());
+    for &i in integers {
+        candidates.push(i, passes.point[i as usize]);
+    }
+    let mut is_integer = vec![false; model.dim()];
+    integers.iter().for_each(|&i| is_integer[i as usize] = true);
+    let mut left = integers.len();
+    while left > 0 {
+        let done = 1.0 - left as f64 / integers.len() as f64;
+        if search.monitor.progress(Phase::Round, done).is_err() {
+            break;
+        }
+        let batch = candidates.take(options.rounding_threshold, |i| {
+            (!passes.fixed[i as usize]).then(|| passes.point[i as usize])
+        });
+        left -= batch.len();
+        let changed = passes.round(&batch, search)?;
+        let open = |&i: &u32| is_integer[i as usize] && !passes.fixed[i as usize];
+        match changed {
+            Changed::These(moved) => moved
+                .into_iter()
+                .filter(open)
+                .for_each(|i| candidates.push(i, passes.point[i as usize])),
+            Changed::Anything => integers
+                .iter()
+                .copied()
+                .filter(open)
+                .for_each(|i| candidates.push(i, passes.point[i as usize])),
+        }
+    }
+    let rounded = integers.iter().map(|&i| nearest(passes.point[i as usize]));
+    let rounded: Vec<f64> = rounded.collect();
+    search.offer(factors, &rounded)?;
+    Ok(())
+}
+
+/// What the passes work on.
+struct Passes<'a> {
+    model: &'a ReducedModel,
+    options: &'a Options,
+    local: PlainSeidel<'a>,
+    point: Vec<f64>,
+    fixed: Vec<bool>,
+}
+
+/// The unknowns that a pass moved.
+enum Changed {
+    These(Vec<u32>),
+    Anything,
+}
+
+impl Passes<'_> {
+    /// Rounds a batch and re-optimises: locally, then iteratively, then exactly.
+    fn round(&mut self, batch: &[u32], search: &mut Search) -> Result<Changed> {
+        let options = self.options;
+        for &i in batch {
+            let i = i as usize;
+            self.point[i] = nearest(self.point[i]);
+            self.fixed[i] = true;
+        }
+        let mut budget = options.gauss_seidel_updates;
+        if budget > 0 {
+            for &i in batch {
+                self.local.queue_neighbours(i, &self.fixed);
+            }
+            let mut moved = Vec::new();
+            while budget > 0 && !self.local.is_settled() {
+                budget -= self.local.relax(
+                    &mut self.point,
+                    &self.fixed,
+                    options.gauss_seidel_tolerance,
+                    budget.min(LOOKS_AT_A_TIME),
+                    &mut moved,
+                );
+                if search.monitor.check().is_err() {
+                    return Ok(Changed::Anything);
+                }
+            }
+            if self.local.is_settled() {
+                return Ok(Changed::These(moved));
+            }
+            self.local.clear();
+        }
+        let (hessian, gradient) = (self.model.hessian(), self.model.gradient());
+        let effort = Effort {
+            iterations: options.cg_iterations,
+            tolerance: options.cg_tolerance,
+        };
+        let converged = plain_conjugate_gradient(
+            hessian,
+            gradient,
+            &self.fixed,
+            &mut self.point,
+            effort,
+            || search.monitor.check().is_ok(),
+        );
+        if !converged && options.exact_steps && search.monitor.check().is_ok() {
+            // What is bounded and convex with all unknowns free stays so with some held.
+            if let Minimum::At { point, .. } =
+                minimise_held(hessian, gradient, &self.fixed, &self.point)?
+            {
+                self.point = point;
+            }
+        }
+        Ok(Changed::Anything)
+    }
+}

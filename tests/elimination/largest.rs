@@ -1,0 +1,63 @@
+//! The elimination of Bommes' thesis: which unknowns it keeps.
+
+use roundel::eliminate::Elimination;
+use roundel::linalg::Ordering;
+use roundel::{Model, Monitor, Problem};
+
+/// The unknowns that are reduced unknowns themselves.
+fn kept(problem: &Problem, ordering: Ordering) -> Vec<usize> {
+    let model = Model::new(problem).unwrap();
+    let mut monitor = Monitor::default();
+    let elimination = Elimination::new(&model, ordering, &mut monitor).unwrap();
+    let reduced = elimination.reduce(&model, &mut monitor).unwrap();
+    let point: Vec<f64> = (0..reduced.dim())
+        .map(|k| (k as f64 + 2.0).sqrt())
+        .collect();
+    let x = reduced.expansion().expand(&point);
+    (0..x.len()).filter(|&i| point.contains(&x[i])).collect()
+}
+
+#[test]
+fn the_first_largest_continuous_unknown_is_solved_for_however_many_rows_have_it() {
+    let mut problem = Problem::new(6).unwrap();
+    problem
+        .add_constraint(&[0, 1, 2], &[1.0, -3.0, 3.0], 0.5)
+        .unwrap();
+    for other in [3, 4, 5] {
+        let row = [0, 1, 2, other];
+        problem
+            .add_constraint(&row, &[0.0, 1.0, 1.0, 9.0], 1.0)
+            .unwrap();
+    }
+    assert_eq!(kept(&problem, Ordering::LargestPivot), [0, 2]);
+    assert_eq!(kept(&problem, Ordering::FillReducing), [1, 2]);
+}
+
+#[test]
+fn the_first_unit_integer_is_solved_for_and_a_continuous_unknown_before_it() {
+    let mut problem = Problem::new(7).unwrap();
+    problem.set_integers(&[0, 1, 2, 3]).unwrap();
+    problem
+        .add_constraint(&[0, 1, 2], &[2.0, 1.0, 1.0], 4.0)
+        .unwrap();
+    for other in [4, 5] {
+        let row = [1, 3, other];
+        problem
+            .add_constraint(&row, &[1.0, 1.0, 0.25], 0.5)
+            .unwrap();
+    }
+    assert_eq!(kept(&problem, Ordering::LargestPivot), [0, 2, 3, 6]);
+    assert_eq!(kept(&problem, Ordering::FillReducing), [0, 1, 3, 6]);
+}
+
+#[test]
+fn long_rows_do_not_wait() {
+    let n = 100;
+    let mut problem = Problem::new(n).unwrap();
+    let all: Vec<usize> = (0..n).collect();
+    let mut weights = vec![1.0; n];
+    weights[n - 1] = 1.5;
+    problem.add_constraint(&all, &weights, 3.0).unwrap();
+    let expected: Vec<usize> = (0..n - 1).collect();
+    assert_eq!(kept(&problem, Ordering::LargestPivot), expected);
+}
