@@ -5,8 +5,8 @@ use std::f64::consts::{FRAC_PI_4, PI};
 use roundel::mesh::features::FeatureGraph;
 use roundel::mesh::{TriangleMesh, shape};
 use roundel::quad::{
-    FieldOptions, FieldProblem, OrientationField, SeamlessMap, SeamlessOptions, SeamlessProblem,
-    Sizing, feature_constraints,
+    FieldOptions, FieldProblem, Guidance, OrientationField, PrescribedIndex, SeamlessMap,
+    SeamlessOptions, SeamlessProblem, Sizing, feature_constraints,
 };
 use roundel::{Options, Solver, solve};
 
@@ -237,4 +237,70 @@ fn sizes_and_features_that_make_no_sense_are_refused() {
     let error = SeamlessProblem::with_features(&mesh, &six, &sizing, &none).unwrap_err();
     assert_eq!(error.code(), "invalid_argument");
     assert!(FeatureGraph::by_angle(&mesh, PI).is_ok());
+}
+
+/// The surface of a cube of `n` by `n` squares a side, each cut into two triangles.
+fn cube(n: i32) -> TriangleMesh {
+    let mut number = std::collections::BTreeMap::new();
+    let (mut vertices, mut triangles) = (Vec::new(), Vec::new());
+    let mut vertex = |p: [i32; 3]| {
+        *number.entry(p).or_insert_with(|| {
+            vertices.push(p.map(f64::from));
+            vertices.len() as u32 - 1
+        })
+    };
+    for axis in 0..3 {
+        for (side, end) in [(0, 0), (1, n)] {
+            for (i, j) in (0..n).flat_map(|i| (0..n).map(move |j| (i, j))) {
+                let mut corner = |a: i32, b: i32| {
+                    let mut p = [0; 3];
+                    p[axis] = end;
+                    p[(axis + 1 + side) % 3] = i + a;
+                    p[(axis + 2 - side) % 3] = j + b;
+                    vertex(p)
+                };
+                let [a, b, c, d] = [corner(0, 0), corner(0, 1), corner(1, 1), corner(1, 0)];
+                triangles.extend([[a, b, c], [a, c, d]]);
+            }
+        }
+    }
+    TriangleMesh::new(vertices, triangles).unwrap()
+}
+
+#[test]
+fn a_layout_of_given_cones_and_separatrices_is_followed() {
+    const N: i32 = 8;
+    let mesh = cube(N);
+    let is_end = |x: f64| x == 0.0 || x == f64::from(N);
+    let ends = |v: usize| mesh.position(v).into_iter().filter(|&x| is_end(x)).count();
+    let corners = (0..mesh.vertex_count()).filter(|&v| ends(v) == 3);
+    let indices: Vec<_> = corners
+        .map(|vertex| PrescribedIndex { vertex, steps: 1 })
+        .collect();
+    assert_eq!(indices.len(), 8);
+    let sharp = FeatureGraph::by_angle(&mesh, FRAC_PI_4).unwrap();
+    let separatrices: Vec<usize> = sharp.edges().collect();
+    assert_eq!(separatrices.len(), 12 * N as usize);
+    let guidance = Guidance {
+        indices: Some(indices.clone()),
+        feature_edges: separatrices,
+        ..Guidance::default()
+    };
+    let features = guidance.features(&mesh).unwrap();
+    let options = guidance.field_options(&mesh, &features).unwrap();
+    let problem = FieldProblem::with_options(&mesh, &options).unwrap();
+    let solution = solve(problem.problem(), &Options::default()).unwrap();
+    let field = problem.field(&mesh, &solution).unwrap();
+    let given: Vec<usize> = indices.iter().map(|i| i.vertex).collect();
+    assert_eq!(field.irregular_vertices(&mesh), given);
+    // 3.2 quads an edge become 3: six times nine.
+    let sizing = Sizing::EdgeLength(f64::from(N) / 3.2);
+    let problem = SeamlessProblem::with_features(&mesh, &field, &sizing, &features).unwrap();
+    let map = map(&mesh, &problem);
+    assert!(off_isolines(&mesh, &map, &features).is_empty());
+    assert!(map.flipped().is_empty());
+    let doubled =
+        |[a, b, c]: [[f64; 2]; 3]| (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+    let area: f64 = map.corner_uvs().into_iter().map(doubled).sum();
+    assert!((area / 2.0 - 54.0).abs() < 1e-9, "{area}");
 }

@@ -49,7 +49,9 @@ impl Progress {
                         found(event)
                     ));
                 }
-                EventKind::Improved => self.0.set_message(format!("{phase}{}", found(event))),
+                EventKind::Improved | EventKind::Raised => {
+                    self.0.set_message(format!("{phase}{}", found(event)))
+                }
                 EventKind::Log(line) => self.0.println(line),
                 _ => {}
             }

@@ -143,6 +143,24 @@ static void again(const model* m, roundel_map* map) {
     OK(roundel_map_free(fresh));
 }
 
+/* A map of few quads is folded at the holes of the plate; untangled it is less so, its features
+ * where they were. */
+static void untangled(const model* m) {
+    roundel_map* map = NULL;
+    size_t before = 0, after = 0;
+    OK(roundel_map_new(m->mesh, m->field, NULL, &map));
+    OK(roundel_map_set_quads(map, 150));
+    OK(roundel_map_solve(map, NULL, NULL));
+    OK(roundel_map_flipped_count(map, &before));
+    OK(roundel_map_untangle(map, NULL));
+    OK(roundel_map_flipped_count(map, &after));
+    CHECK(before > 0 && after < before);
+    double* uv = corners(map, m->faces);
+    CHECK(isolines(m, uv) > 100);
+    free(uv);
+    OK(roundel_map_free(map));
+}
+
 /* A solution of the plain problem is as good as a solve. */
 static void elsewhere(const model* m, roundel_map* map) {
     roundel_problem* problem = NULL;
@@ -204,6 +222,9 @@ int main(void) {
         }
         again(&m, map);
         elsewhere(&m, map);
+        if (i == 1) {
+            untangled(&m);
+        }
         watched(&m);
         free(uv);
         OK(roundel_map_free(map));

@@ -304,6 +304,10 @@ enum roundel_event_kind
      * A better solution than any before: see `energy`.
      */
     ROUNDEL_EVENT_IMPROVED = 3,
+    /**
+     * A better lower bound than any before: see `lower_bound` and `gap`.
+     */
+    ROUNDEL_EVENT_RAISED = 4,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -1737,6 +1741,17 @@ roundel_status roundel_map_set_edge_lengths(struct roundel_map *map,
 roundel_status roundel_map_solve(struct roundel_map *map,
                                  const struct roundel_options *options,
                                  const struct roundel_monitor *monitor);
+
+/**
+ * Moves the vertices that integers do not hold until as few faces as can be are turned over or
+ * collapsed, under the eyes of `monitor`, which may be NULL. Seams, cones and isolines stay what
+ * they are. roundel_map_flipped_count tells what is left; the solution stays that of the solve.
+ *
+ * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT where nothing has been solved for, and after a
+ * relaxation, which has no integers to hold; ROUNDEL_ERROR_CANCELLED, which leaves the map as it
+ * was.
+ */
+roundel_status roundel_map_untangle(struct roundel_map *map, const struct roundel_monitor *monitor);
 
 /**
  * Makes a copy of the mixed-integer problem of a map at its present size, to be kept or solved in

@@ -20,6 +20,8 @@ pub enum roundel_event_kind {
     ROUNDEL_EVENT_LOG = 2,
     /// A better solution than any before: see `energy`.
     ROUNDEL_EVENT_IMPROVED = 3,
+    /// A better lower bound than any before: see `lower_bound` and `gap`.
+    ROUNDEL_EVENT_RAISED = 4,
 }
 
 /// A part of the solve.
@@ -170,6 +172,7 @@ fn for_c(event: &Event, text: *const c_char) -> roundel_event {
             roundel_phase::ROUNDEL_PHASE_NONE,
             0.0,
         ),
+        EventKind::Raised => (ROUNDEL_EVENT_RAISED, roundel_phase::ROUNDEL_PHASE_NONE, 0.0),
     };
     roundel_event {
         size: size_of::<roundel_event>(),

@@ -13,8 +13,9 @@ use super::problem::roundel_problem;
 use super::solution::roundel_solution;
 use super::status::roundel_status;
 use crate::mesh::TriangleMesh;
+use crate::quad::untangle::{UntangleOptions, untangle};
 use crate::quad::{SeamlessMap, SeamlessOptions, SeamlessProblem, Sizing};
-use crate::{Error, Options, Solution, Solver};
+use crate::{Error, Options, Solution, SolveStatus, Solver};
 
 /// All that a solve at another size needs again, and what the last one found.
 pub(super) struct Mapped {
@@ -177,6 +178,37 @@ pub unsafe extern "C" fn roundel_map_solve(
             unsafe { (guard::value_or(options, &default)?, watched_by(monitor)?) };
         let solution = map.solver.solve_with(options, monitor)?;
         map.take(solution)
+    };
+    // SAFETY: the caller gives a live handle, or NULL.
+    unsafe { guard::write(map, body) }
+}
+
+/// Moves the vertices that integers do not hold until as few faces as can be are turned over or
+/// collapsed, under the eyes of `monitor`, which may be NULL. Seams, cones and isolines stay what
+/// they are. roundel_map_flipped_count tells what is left; the solution stays that of the solve.
+///
+/// Fails with ROUNDEL_ERROR_INVALID_ARGUMENT where nothing has been solved for, and after a
+/// relaxation, which has no integers to hold; ROUNDEL_ERROR_CANCELLED, which leaves the map as it
+/// was.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_map_untangle(
+    map: *mut roundel_map,
+    monitor: *const roundel_monitor,
+) -> roundel_status {
+    let body = |map: &mut Mapped| {
+        // SAFETY: the caller gives a monitor as its members say, or NULL.
+        let mut monitor = unsafe { watched_by(monitor) }?;
+        let (found, solution) = map.found()?;
+        if solution.status() == SolveStatus::Relaxed {
+            Err(Error::InvalidArgument {
+                what: "a relaxation has no integers that untangling could hold".into(),
+                index: None,
+            })?;
+        }
+        let effort = UntangleOptions::default();
+        let untangled = untangle(&map.mesh, &map.problem, found, &effort, &mut monitor)?;
+        map.found = Some((untangled.map, solution.clone()));
+        Ok(())
     };
     // SAFETY: the caller gives a live handle, or NULL.
     unsafe { guard::write(map, body) }

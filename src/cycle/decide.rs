@@ -27,7 +27,7 @@ pub(super) fn decide(gram: Vec<f64>, pull: &[f64], nodes: u64) -> Result<Option<
         margin: 0.0,
         nodes,
     };
-    let found = enumerate(&basis, &target, limits, &mut |_| false).near;
+    let found = enumerate(&basis, &target, None, limits, &mut |_| false).near;
     match found.first() {
         Some((steps, _)) => target.integers(&basis, steps).map(Some),
         None => Ok(None),

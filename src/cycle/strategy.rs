@@ -60,7 +60,7 @@ pub(crate) fn lattice(
     };
     search.prepare(factors)?;
     let start = space.nearest_plane();
-    improve(&space, start, &QUICK, QUICK_WORK, factors, search)?;
+    improve(&space, start, &QUICK, QUICK_WORK, 1, factors, search)?;
     Ok(true)
 }
 
@@ -81,9 +81,19 @@ pub(crate) fn auto(
     round::adaptive(reduced, options, factors, search)?;
     let mut starts = Vec::from_iter(search.incumbent_integers().map(|z| space.charges(&z)));
     starts.push(space.nearest_plane());
-    for start in starts {
-        if search.monitor.check().is_ok() {
-            improve(&space, start, &THOROUGH, THOROUGH_WORK, factors, search)?;
+    let count = starts.len();
+    for (done, start) in starts.into_iter().enumerate() {
+        if !search.ends(0) {
+            let share = count - done;
+            improve(
+                &space,
+                start,
+                &THOROUGH,
+                THOROUGH_WORK,
+                share,
+                factors,
+                search,
+            )?;
         }
     }
     Ok(true)
@@ -100,20 +110,23 @@ fn space(model: &Model, reduced: &ReducedModel, search: &Search) -> Result<Optio
     CycleSpace::new(system, &relaxed, hinted).map(Some)
 }
 
-/// Improves `start` and offers what comes of it.
+/// Improves `start` and offers what comes of it, with at most one `share`-th of the work that is left.
 fn improve(
     space: &CycleSpace,
     start: Vec<f64>,
     efforts: &[Effort],
     work: usize,
+    share: usize,
     factors: &mut Factors,
     search: &mut Search,
 ) -> Result<()> {
     let work = LEAST_WORK.saturating_add(work.saturating_mul(space.factor.len()));
+    let work = work.min(search.work.left() as usize / share);
     let mut improvement = Improvement::new(space, start)?;
     for &effort in efforts {
         improvement.run(effort, work, search.monitor)?;
     }
+    search.work.spend(improvement.work() as u64);
     if let Some(integers) = space.integers(&improvement.charges) {
         search.offer(factors, &integers)?;
     }

@@ -50,12 +50,12 @@ impl PartialEq for Extension {
 impl Eq for Extension {}
 
 /// The steps from the whole part of `target` to the best point that `width` beginnings reach, or
-/// nothing if `stop` says so, which is asked once a level.
+/// nothing if `stop` says so, which is asked once a level, with the multiplications since it was last.
 pub fn beam(
     basis: &Basis,
     target: &Target,
     width: usize,
-    stop: &mut dyn FnMut() -> bool,
+    stop: &mut dyn FnMut(u64) -> bool,
 ) -> Option<Vec<i64>> {
     let m = basis.rank();
     let mut beginnings = vec![Beginning {
@@ -64,7 +64,7 @@ pub fn beam(
         settled: vec![0.0; m],
     }];
     for k in (0..m).rev() {
-        if stop() {
+        if stop((beginnings.len() * k) as u64) {
             return None;
         }
         let pivot = basis.r(k, k);

@@ -15,7 +15,7 @@ const SIZE: usize = 30;
 const NODES: u64 = 100_000;
 
 /// Improves `z`, whose squared distance is `value`; returns the new one. `stop` is asked before
-/// each block whether to end.
+/// each block whether to end, with the multiplications since it was last.
 ///
 /// # Errors
 /// [`Error::Overflow`](crate::Error::Overflow), as [`closest`].
@@ -24,15 +24,18 @@ pub fn improve_blocks(
     target: &Target,
     z: &mut [i64],
     mut value: f64,
-    stop: &mut dyn FnMut() -> bool,
+    stop: &mut dyn FnMut(u64) -> bool,
 ) -> Result<f64> {
     let m = basis.rank();
     // Blocks since the last improvement that did not improve.
     let mut idle = 0;
     let mut seed = 0;
-    while idle < m && !stop() {
+    let mut work = 0;
+    while idle < m && !stop(work) {
         let block = around(basis, seed);
-        let better = redecide(basis, target, z, &block)?;
+        let (better, nodes) = redecide(basis, target, z, &block)?;
+        work = (m * m + block.len() * block.len() * (m + block.len())) as u64;
+        work += nodes * block.len() as u64 / 2;
         if better {
             let now = target.distance(basis, z);
             // Where rounding alone would go round in circles, stop.
@@ -62,8 +65,8 @@ fn around(basis: &Basis, seed: usize) -> Vec<usize> {
     block
 }
 
-/// Decides the coordinates of `block` anew; whether that changed any.
-fn redecide(basis: &Basis, target: &Target, z: &mut [i64], block: &[usize]) -> Result<bool> {
+/// Decides the coordinates of `block` anew; whether that changed any, and the nodes it took.
+fn redecide(basis: &Basis, target: &Target, z: &mut [i64], block: &[usize]) -> Result<(bool, u64)> {
     let m = basis.rank();
     let mut left = vec![0.0; m];
     for j in 0..m {
@@ -85,5 +88,5 @@ fn redecide(basis: &Basis, target: &Target, z: &mut [i64], block: &[usize]) -> R
     for (&j, step) in block.iter().zip(&found.point) {
         z[j] += step;
     }
-    Ok(found.point.iter().any(|&step| step != 0))
+    Ok((found.point.iter().any(|&step| step != 0), found.nodes))
 }

@@ -26,7 +26,7 @@ pub struct Closest {
 /// [`Error::Overflow`](crate::Error::Overflow) for coordinates too large to be exact.
 pub fn closest(gram: &Gram, target: &[f64], start: Option<&[i64]>, nodes: u64) -> Result<Closest> {
     let mut basis = Basis::new(gram);
-    lll(&mut basis, DEPTH)?;
+    lll(&mut basis, DEPTH, &mut |_| false)?;
     let target = Target::new(&basis, target)?;
     let mut z = nearest_plane(&basis, &target);
     let mut value = target.distance(&basis, &z);
@@ -43,7 +43,7 @@ pub fn closest(gram: &Gram, target: &[f64], start: Option<&[i64]>, nodes: u64) -
         margin: 0.0,
         nodes,
     };
-    let found = enumerate(&basis, &target, limits, &mut |_| false);
+    let found = enumerate(&basis, &target, None, limits, &mut |_| false);
     if let Some((better, distance)) = found.near.into_iter().next() {
         (z, value) = (better, distance);
     }

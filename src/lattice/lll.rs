@@ -19,16 +19,19 @@ const ROUNDS: usize = 20;
 
 /// Reduces `basis`. A vector may move forward by up to `depth` places at a time: 1 is plain LLL.
 ///
+/// `stop` is asked before each vector whether to end, with the multiplications to expect of it; a basis that is not reduced to the end
+/// generates the same lattice and serves as any other, only worse.
+///
 /// # Errors
 /// [`Error::Overflow`](crate::Error::Overflow) where the transformation leaves 126 bits.
-pub fn lll(basis: &mut Basis, depth: usize) -> Result<()> {
+pub fn lll(basis: &mut Basis, depth: usize, stop: &mut dyn FnMut(u64) -> bool) -> Result<()> {
     for _ in 0..ROUNDS {
-        pass(basis, 1)?;
+        let mut ended = pass(basis, 1, stop)?;
         if depth > 1 {
-            pass(basis, depth)?;
+            ended = ended && pass(basis, depth, stop)?;
         }
         basis.refresh();
-        if is_reduced(basis, LOVASZ - SLACK) {
+        if !ended || is_reduced(basis, LOVASZ - SLACK) {
             break;
         }
     }
@@ -39,10 +42,13 @@ pub fn lll(basis: &mut Basis, depth: usize) -> Result<()> {
     Ok(())
 }
 
-/// One sweep to the end, as long as it takes.
-fn pass(basis: &mut Basis, depth: usize) -> Result<()> {
+/// One sweep to the end, as long as it takes; whether it came there.
+fn pass(basis: &mut Basis, depth: usize, stop: &mut dyn FnMut(u64) -> bool) -> Result<bool> {
     let mut k = 0;
     while k < basis.rank() {
+        if stop((basis.dim() * (k + 1)) as u64) {
+            return Ok(false);
+        }
         basis.size_reduce(k)?;
         match place(basis, k, depth) {
             Some(i) => {
@@ -52,7 +58,7 @@ fn pass(basis: &mut Basis, depth: usize) -> Result<()> {
             None => k += 1,
         }
     }
-    Ok(())
+    Ok(true)
 }
 
 /// The first place, at most `depth` before `k`, where vector `k` would be short enough.

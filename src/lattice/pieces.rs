@@ -3,7 +3,7 @@
 //! Integers that the Schur complement does not couple, not even through others, are decided
 //! apart: the squared distances of the parts add up.
 
-use super::{Basis, DEPTH, Target, lll, nearest_plane};
+use super::{Basis, DEPTH, Diagonals, Target, lll, nearest_plane, predicted_nodes};
 use crate::Result;
 
 /// One part: the best point so far, and what is proved about all points.
@@ -13,6 +13,8 @@ pub struct Piece {
     pub places: Vec<usize>,
     /// The reduced basis.
     pub basis: Basis,
+    /// Below the scalar products of the basis; only made where a proof needs many nodes.
+    pub diagonals: Option<Diagonals>,
     /// The relaxation's integers.
     pub target: Target,
     /// Steps from the target's whole part to the best point so far.
@@ -26,6 +28,11 @@ pub struct Piece {
 }
 
 impl Piece {
+    /// The nodes to expect of an enumeration of all that is closer than the best point.
+    pub fn predicted_nodes(&self) -> f64 {
+        predicted_nodes(&self.basis, self.diagonals.as_ref(), self.value)
+    }
+
     /// Takes `z` if it is closer to the target.
     pub fn take(&mut self, z: Vec<i64>) -> bool {
         let value = self.target.distance(&self.basis, &z);
@@ -38,11 +45,18 @@ impl Piece {
 }
 
 /// Splits the lattice with upper triangular factor `r` of `m` columns (`full`: no zero on the
-/// diagonal), reduces each part, and decides it by nearest plane from `point`.
+/// diagonal), reduces each part, and decides it by nearest plane from `point`. Where `stop` ends a
+/// reduction the parts are worse, and right all the same.
 ///
 /// # Errors
 /// [`Error::Overflow`](crate::Error::Overflow) for integers too large to be exact.
-pub fn pieces(m: usize, r: &[f64], full: bool, point: &[f64]) -> Result<Vec<Piece>> {
+pub fn pieces(
+    m: usize,
+    r: &[f64],
+    full: bool,
+    point: &[f64],
+    stop: &mut dyn FnMut(u64) -> bool,
+) -> Result<Vec<Piece>> {
     let make = |places: Vec<usize>| {
         let k = places.len();
         let mut own = vec![0.0; k * k];
@@ -52,7 +66,7 @@ pub fn pieces(m: usize, r: &[f64], full: bool, point: &[f64]) -> Result<Vec<Piec
             }
         }
         let mut basis = Basis::from_factor(k, own, full);
-        lll(&mut basis, DEPTH)?;
+        lll(&mut basis, DEPTH, stop)?;
         let point: Vec<f64> = places.iter().map(|&i| point[i]).collect();
         let target = Target::new(&basis, &point)?;
         let z = nearest_plane(&basis, &target);
@@ -62,6 +76,7 @@ pub fn pieces(m: usize, r: &[f64], full: bool, point: &[f64]) -> Result<Vec<Piec
             proved: false,
             places,
             basis,
+            diagonals: None,
             target,
             z,
         })
@@ -117,7 +132,7 @@ mod tests {
     fn uncoupled_integers_are_decided_apart() {
         // 0 and 2 are coupled, 1 stands alone.
         let r = [2.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.5, 0.0, 3.0];
-        let parts = pieces(3, &r, true, &[0.2, 1.7, -4.1]).unwrap();
+        let parts = pieces(3, &r, true, &[0.2, 1.7, -4.1], &mut |_| false).unwrap();
         let places: Vec<_> = parts.iter().map(|p| p.places.clone()).collect();
         assert_eq!(places, [vec![0, 2], vec![1]]);
         assert_eq!(assemble(&parts, 3).unwrap(), [0.0, 2.0, -4.0]);

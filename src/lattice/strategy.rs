@@ -5,8 +5,8 @@
 //! raised, so that both can be stopped at any time. Budgets count nodes, never seconds.
 
 use super::certificate::{Certificate, evaluation_error};
-use super::prove::{FIRST, GROWTH, predicted_nodes, radius_for};
-use super::{Limits, Piece, assemble, beam, enumerate, improve_blocks, pieces};
+use super::prove::{FIRST, GROWTH, radius_for};
+use super::{Diagonals, Limits, Piece, assemble, beam, enumerate, improve_blocks, pieces};
 use crate::Result;
 use crate::eliminate::ReducedModel;
 use crate::round;
@@ -15,11 +15,19 @@ use crate::solve::{Factors, Options, Phase, Search};
 /// A proof that is predicted to need more than so many budgets is not tried.
 const HOPELESS: f64 = 4.0;
 
+/// Diagonals of m dimensions take `m^4` of their steps, and so many of these take as long as a node.
+const DIAGONALS_PER_NODE: u64 = 100;
+
+/// Diagonals are made in at most so many dimensions: no proof comes to an end in more, with them or
+/// without.
+const WIDEST: usize = 160;
+
 /// No proof needs enumerations of more nodes.
 const LAST: f64 = 1e30;
 
-/// Of the budget, what is spent on the bound where a proof is not tried.
-const BOUND_SHARE: u64 = 16;
+/// Of the budget, what is spent on the bound where a proof is not tried: it rises with the logarithm
+/// of the nodes.
+const BOUND_SHARE: u64 = 1_000;
 
 /// Decides the integers of `model` as well as it can be done without a proof.
 ///
@@ -35,27 +43,33 @@ pub(crate) fn lattice(
     Ok(())
 }
 
-/// Decides the integers of `model` and proves that nothing is better, with at most `nodes` nodes.
+/// Decides the integers of `model` and proves that nothing is better, as far as the budgets of
+/// `options` and `search` last.
 ///
 /// # Errors
 /// As [`lattice`].
 pub(crate) fn exact(
     model: &ReducedModel,
     options: &Options,
-    nodes: u64,
     factors: &mut Factors,
     search: &mut Search,
 ) -> Result<()> {
     let mut pieces = decode(model, options, factors, search)?;
-    if search.monitor.check().is_err() {
+    if search.ends(0) {
         return Ok(());
     }
     let certificate = Certificate::measure(model, factors, &pieces, search)?;
+    let widest = pieces.iter().map(|p| p.basis.rank()).max().unwrap_or(0);
+    let per_node = widest as u64 / 2 + 1;
+    let nodes = (options.nodes as u64).min(search.work.left() / per_node);
     let mut left = nodes;
-    let all: f64 = pieces
-        .iter()
-        .map(|p| predicted_nodes(&p.basis, p.value))
-        .sum();
+    for piece in &mut pieces {
+        let mut stop = || search.monitor.check().is_err();
+        let price = bound_undecided(piece, left, &mut stop);
+        left -= price;
+        search.work.spend(price * per_node);
+    }
+    let all: f64 = pieces.iter().map(Piece::predicted_nodes).sum();
     if all > HOPELESS * nodes as f64 {
         left /= BOUND_SHARE;
     }
@@ -77,6 +91,7 @@ pub(crate) fn exact(
             let found = enumerate(
                 &pieces[at].basis,
                 &pieces[at].target,
+                pieces[at].diagonals.as_ref(),
                 limits,
                 &mut |nodes| {
                     let done = nodes as f64 / limits.nodes as f64;
@@ -84,6 +99,7 @@ pub(crate) fn exact(
                 },
             );
             left -= found.nodes;
+            search.work.spend(found.nodes * per_node);
             for (z, distance) in found.near {
                 try_point(model, factors, search, &mut pieces, at, z, distance)?;
             }
@@ -98,6 +114,18 @@ pub(crate) fn exact(
         goal *= GROWTH;
     }
     Ok(())
+}
+
+/// Makes the diagonals of `piece` where its proof is worth their price; returns that price, in nodes
+/// of which `left` may be spent.
+fn bound_undecided(piece: &mut Piece, left: u64, stop: &mut dyn FnMut() -> bool) -> u64 {
+    let m = piece.basis.rank();
+    let price = (m as u64).pow(4) / DIAGONALS_PER_NODE;
+    if m > WIDEST || price > left / 2 || piece.predicted_nodes() < price as f64 {
+        return 0;
+    }
+    piece.diagonals = Diagonals::new(&piece.basis, stop);
+    price
 }
 
 /// The ball to search next for piece `at`, and whether that is all that a proof needs.
@@ -124,7 +152,7 @@ fn ball(
     } else {
         full
     };
-    let radius = radius_for(&piece.basis, goal, largest);
+    let radius = radius_for(&piece.basis, piece.diagonals.as_ref(), goal, largest);
     let limits = Limits {
         radius,
         margin,
@@ -196,12 +224,17 @@ fn decode(
         model.integers().iter().map(at).collect()
     };
     let (r, full) = factors.joint(model)?.schur();
-    let mut pieces = pieces(m, r, full, &relaxed)?;
+    search.work.spend(4 * (m as u64).pow(3));
+    let mut stop = |work| search.ends(work);
+    let mut pieces = pieces(m, r, full, &relaxed, &mut stop)?;
     search.offer(factors, &assemble(&pieces, m)?)?;
+    if let Some(best) = search.incumbent_integers() {
+        start_from(&mut pieces, &best)?;
+    }
     for at in 0..pieces.len() {
         let mut better = false;
         let piece = &mut pieces[at];
-        let mut stop = || search.monitor.check().is_err();
+        let mut stop = |work| search.ends(work);
         if let Some(z) = beam(&piece.basis, &piece.target, options.beam_width, &mut stop) {
             better |= piece.take(z);
         }
@@ -214,7 +247,7 @@ fn decode(
     for _ in 0..options.lattice_rounds {
         for at in 0..pieces.len() {
             let piece = &mut pieces[at];
-            let mut stop = || search.monitor.check().is_err();
+            let mut stop = |work| search.ends(work);
             let start = perturbed(piece, &mut shaken);
             if improve(piece, start, &mut stop)? {
                 search.offer(factors, &assemble(&pieces, m)?)?;
@@ -224,8 +257,18 @@ fn decode(
     Ok(pieces)
 }
 
+/// Takes the integers that are known already where they are better.
+fn start_from(pieces: &mut [Piece], integers: &[f64]) -> Result<()> {
+    for piece in pieces {
+        let own: Vec<i64> = piece.places.iter().map(|&i| integers[i] as i64).collect();
+        let steps = piece.target.steps(&piece.basis, &own)?;
+        piece.take(steps);
+    }
+    Ok(())
+}
+
 /// Block improvement from `z`; whether it ended better than the best point.
-fn improve(piece: &mut Piece, mut z: Vec<i64>, stop: &mut dyn FnMut() -> bool) -> Result<bool> {
+fn improve(piece: &mut Piece, mut z: Vec<i64>, stop: &mut dyn FnMut(u64) -> bool) -> Result<bool> {
     let value = piece.target.distance(&piece.basis, &z);
     improve_blocks(&piece.basis, &piece.target, &mut z, value, stop)?;
     Ok(piece.take(z))

@@ -1,18 +1,16 @@
 //! Which method a strategy comes to on a given model.
 
+use super::work::{auto_limit, of_relaxation};
 use super::{Factors, Options, Search, Strategy};
 use crate::eliminate::ReducedModel;
 use crate::{Model, Result, cycle, lattice, round};
 
-/// `auto`: nodes of the proof for each entry of the reduced Hessian.
-///
-/// The relaxation reads and factors these entries at about 100 operations each on mesh problems,
-/// a node takes about ten: so a proof that succeeds costs a few relaxations, and one that fails
-/// not more.
-const AUTO_NODES: u64 = 50;
-
 /// `auto`: angle-difference systems of at most this many integers are tried to prove as well.
 const PROVABLE: usize = 60;
+
+/// Multiplications of a lattice of m integers before the first one is decided, by `m^3`: its Schur
+/// complement, and the reduction with R computed anew.
+const DENSE: u64 = 12;
 
 /// Lets the strategy of `options` search.
 ///
@@ -29,8 +27,13 @@ pub(super) fn search(
     factors: &mut Factors,
     search: &mut Search,
 ) -> Result<()> {
-    let few = model.integers().len() <= options.dense_integers;
-    let provable = model.integers().len() <= PROVABLE;
+    let m = model.integers().len();
+    let mut few = m <= options.dense_integers;
+    if options.strategy == Strategy::Auto {
+        let limit = auto_limit(of_relaxation(model));
+        search.work.limit_to(limit);
+        few &= DENSE * (m as u64).pow(3) <= limit / 2;
+    }
     match options.strategy {
         Strategy::Relax => Ok(()),
         Strategy::Direct => round::direct(model, factors, search),
@@ -39,19 +42,17 @@ pub(super) fn search(
         Strategy::Multiple => round::multiple(model, options, factors, search),
         Strategy::Lattice if cycle::lattice(given, model, factors, search)? => Ok(()),
         Strategy::Auto
-            if cycle::auto(given, model, options, factors, search)? && !(few && provable) =>
+            if cycle::auto(given, model, options, factors, search)? && !(few && m <= PROVABLE) =>
         {
             Ok(())
         }
         Strategy::Lattice if few => lattice::lattice(model, options, factors, search),
         Strategy::Exact if few => {
-            lattice::exact(model, options, options.nodes as u64, factors, search)
+            // Where angles differ the cycles know better where to begin.
+            cycle::auto(given, model, options, factors, search)?;
+            lattice::exact(model, options, factors, search)
         }
-        Strategy::Auto if few => {
-            let budget = AUTO_NODES * model.hessian().len() as u64;
-            let nodes = budget.min(options.nodes as u64);
-            lattice::exact(model, options, nodes, factors, search)
-        }
+        Strategy::Auto if few => lattice::exact(model, options, factors, search),
         Strategy::Exact if cycle::auto(given, model, options, factors, search)? => Ok(()),
         Strategy::Lattice | Strategy::Exact | Strategy::Auto => {
             round::adaptive(model, options, factors, search)

@@ -15,6 +15,7 @@ mod status;
 mod strategy;
 mod verify;
 mod warm_start;
+mod work;
 
 pub use monitor::{CancelToken, Event, EventKind, Flow, Monitor, Phase};
 pub use options::{OPTIONS, OptionInfo, OptionKind, OptionValue, Options};
@@ -29,3 +30,4 @@ pub use warm_start::WarmStart;
 
 pub(crate) use factors::Factors;
 pub(crate) use search::Search;
+pub(crate) use work::Work;

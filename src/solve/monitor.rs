@@ -46,6 +46,8 @@ pub enum EventKind<'a> {
     Log(&'a str),
     /// A better solution than any before.
     Improved,
+    /// A better lower bound than any before.
+    Raised,
 }
 
 /// One message to the callback, with where the solve stands.
@@ -216,7 +218,7 @@ impl<'a> Monitor<'a> {
     /// Takes note of a better bound and tells of it.
     pub(crate) fn raised(&mut self, lower_bound: f64) {
         self.bounded(lower_bound);
-        self.log("lower bound raised");
+        self.tell(EventKind::Raised);
     }
 
     /// Takes note of a better bound.

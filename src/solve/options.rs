@@ -49,7 +49,7 @@ pub struct Options {
 impl Default for Options {
     fn default() -> Self {
         Options {
-            strategy: Strategy::Greedy,
+            strategy: Strategy::Auto,
             time_limit: f64::INFINITY,
             threads: 1,
             rounding_threshold: 0.5,
@@ -64,7 +64,7 @@ impl Default for Options {
             dense_integers: 1000,
             beam_width: 256,
             lattice_rounds: 1,
-            nodes: 20_000_000_000,
+            nodes: 10_000_000_000,
             gap: 0.0,
         }
     }
@@ -112,7 +112,7 @@ pub const OPTIONS: &[OptionInfo] = &[
     OptionInfo {
         name: "strategy",
         kind: OptionKind::Text,
-        default: "greedy",
+        default: "auto",
         range: "relax|direct|greedy|adaptive|multiple|lattice|exact|auto",
         text: "how integers are decided",
     },
@@ -217,7 +217,7 @@ pub const OPTIONS: &[OptionInfo] = &[
     OptionInfo {
         name: "nodes",
         kind: OptionKind::Integer,
-        default: "20000000000",
+        default: "10000000000",
         range: "[0, 9007199254740992]",
         text: "exact, auto: nodes that the proof may visit",
     },

@@ -2,10 +2,11 @@
 
 use super::factors::Factors;
 use super::monitor::Monitor;
-use super::relax::relax;
+use super::relax::{Relaxation, relax};
 use super::search::Search;
 use super::solution::{Counts, Seconds, Solution};
 use super::verify::verify;
+use super::work::of_relaxation;
 use super::{Options, Phase, SolveStatus, Strategy, WarmStart};
 use crate::eliminate::{Elimination, ReducedModel};
 use crate::{Model, Problem, Result, round};
@@ -78,8 +79,12 @@ impl Prepared<'_> {
         let eliminated = monitor.seconds();
         let factored_before = factors.seconds();
 
-        let (point, lower_bound, status) =
-            decide(model, &reduced, options, start, factors, monitor)?;
+        let Decided {
+            point,
+            lower_bound,
+            status,
+            work,
+        } = decide(model, &reduced, options, start, factors, monitor)?;
         let searched = monitor.seconds();
         let factored = factors.seconds() - factored_before;
 
@@ -91,6 +96,7 @@ impl Prepared<'_> {
             energy: verdict.energy,
             lower_bound: Some(lower_bound.min(verdict.energy)),
             status,
+            work,
             counts: counts(model, &reduced, factors),
             seconds: Seconds {
                 eliminate: eliminated,
@@ -104,7 +110,16 @@ impl Prepared<'_> {
     }
 }
 
-/// The reduced point, the lower bound and how the search ended.
+/// How a search ended.
+struct Decided {
+    /// In reduced unknowns.
+    point: Vec<f64>,
+    lower_bound: f64,
+    status: SolveStatus,
+    /// Multiplications, those of the relaxation included.
+    work: u64,
+}
+
 fn decide(
     model: &Model,
     reduced: &ReducedModel,
@@ -112,16 +127,21 @@ fn decide(
     start: Option<Vec<f64>>,
     factors: &mut Factors,
     monitor: &mut Monitor,
-) -> Result<(Vec<f64>, f64, SolveStatus)> {
+) -> Result<Decided> {
     monitor.progress(Phase::Factor, 0.0)?;
     let relaxation = relax(reduced, options.strategy, factors)?;
+    let work = of_relaxation(reduced);
+    let relaxed = |status: SolveStatus, relaxation: Relaxation| Decided {
+        point: relaxation.point,
+        lower_bound: relaxation.lower_bound,
+        status,
+        work,
+    };
     if reduced.integers().is_empty() {
-        let bound = relaxation.lower_bound;
-        return Ok((relaxation.point, bound, SolveStatus::Optimal));
+        return Ok(relaxed(SolveStatus::Optimal, relaxation));
     }
     if options.strategy == Strategy::Relax {
-        let bound = relaxation.lower_bound;
-        return Ok((relaxation.point, bound, SolveStatus::Relaxed));
+        return Ok(relaxed(SolveStatus::Relaxed, relaxation));
     }
     monitor.check()?;
     let mut search = Search::new(reduced, relaxation.point, relaxation.lower_bound, monitor);
@@ -133,9 +153,14 @@ fn decide(
     if !done {
         super::decide::search(model, reduced, options, factors, &mut search)?;
     }
-    let (bound, status) = (search.lower_bound(), search.status());
-    let best = search.into_best()?;
-    Ok((best.point, bound, status))
+    let (lower_bound, status) = (search.lower_bound(), search.status());
+    let work = work + search.work.spent();
+    Ok(Decided {
+        point: search.into_best()?.point,
+        lower_bound,
+        status,
+        work,
+    })
 }
 
 /// The caller's unknowns; pins and integers exact to the last bit.

@@ -5,7 +5,7 @@
 //! time.
 
 use super::monitor::Monitor;
-use super::{Factors, Phase, SolveStatus};
+use super::{Factors, Phase, SolveStatus, Work};
 use crate::eliminate::ReducedModel;
 use crate::linalg::Minimum;
 use crate::{Error, Result};
@@ -26,6 +26,8 @@ pub(crate) struct Search<'s, 'm> {
     relaxed: Vec<f64>,
     lower_bound: f64,
     incumbent: Option<Incumbent>,
+    /// What was spent, and what may be.
+    pub work: Work,
     /// Progress, cancel, time limit.
     pub monitor: &'s mut Monitor<'m>,
 }
@@ -44,8 +46,14 @@ impl<'s, 'm> Search<'s, 'm> {
             relaxed,
             lower_bound,
             incumbent: None,
+            work: Work::unlimited(),
             monitor,
         }
+    }
+
+    /// Takes note of so many multiplications; whether to end.
+    pub fn ends(&mut self, multiplications: u64) -> bool {
+        self.work.ends(multiplications, self.monitor)
     }
 
     /// The minimiser with all integers real.

@@ -43,6 +43,7 @@ pub struct Solution {
     pub(super) energy: f64,
     pub(super) lower_bound: Option<f64>,
     pub(super) status: SolveStatus,
+    pub(super) work: u64,
     pub(super) counts: Counts,
     pub(super) seconds: Seconds,
     pub(super) max_constraint_violation: f64,
@@ -73,6 +74,13 @@ impl Solution {
     /// How the solve ended.
     pub fn status(&self) -> SolveStatus {
         self.status
+    }
+
+    /// Multiplications of the relaxation and of the search, to their order: the relaxation counts as
+    /// 50 for each entry of the reduced Hessian, roundings are not counted. The same on every
+    /// machine.
+    pub fn work(&self) -> u64 {
+        self.work
     }
 
     /// Sizes before and after elimination.

@@ -18,6 +18,10 @@ pub struct Arguments {
     #[arg(long, value_name = "DIR")]
     pub meshes: Option<PathBuf>,
 
+    /// Also show what other solvers made of the corpus: the CSV file that scripts/other-solvers writes
+    #[arg(long, value_name = "FILE.csv")]
+    pub other_solvers: Option<PathBuf>,
+
     /// Leave out larger meshes; a table that would be left without any is run at this size and
     /// below, on procedural ones
     #[arg(long, value_name = "N", default_value_t = usize::MAX, hide_default_value = true)]

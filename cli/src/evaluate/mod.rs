@@ -7,12 +7,14 @@
 //! | `cells` | one solve, in a process of its own so that its peak memory is its own |
 //! | `run` | all solves of a table, row by row |
 //! | `reference` | the figures of the thesis and of the original |
+//! | `others` | other solvers on the same MPS files, where their figures are given |
 //! | `table`, `plot`, `page` | CSV, SVG and HTML |
 
 mod arguments;
 mod cells;
 mod experiments;
 mod meshes;
+mod others;
 mod page;
 mod plot;
 mod plots;
@@ -38,6 +40,10 @@ pub fn run(arguments: &Arguments) -> Exit {
 
 fn evaluate(arguments: &Arguments) -> Result<()> {
     let out = &arguments.tables;
+    let others = match &arguments.other_solvers {
+        Some(file) => Some(others::read(file)?),
+        None => None,
+    };
     fs::create_dir_all(out).map_err(|reason| failed(out, &reason))?;
     let scratch = meshes::Scratch::new(out)?;
     let mut tables = Vec::new();
@@ -49,7 +55,10 @@ fn evaluate(arguments: &Arguments) -> Result<()> {
         tables.push((experiment, rows));
     }
     let page = out.join("index.html");
-    write(&page, &page::html(&tables, arguments.max_triangles))?;
+    write(
+        &page,
+        &page::html(&tables, others.as_ref(), arguments.max_triangles),
+    )?;
     output::print(&format!("{}\n", page.display()))
 }
 

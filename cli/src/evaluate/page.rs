@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use super::experiments::Experiment;
+use super::others::{self, Others};
 use super::plots::plots;
 use super::row::Row;
 use super::table;
@@ -24,7 +25,7 @@ svg { width: 36em; max-width: 100%; font: 12px sans-serif; }
 ";
 
 /// The page of all tables.
-pub fn html(tables: &[(Experiment, Vec<Row>)], most: usize) -> String {
+pub fn html(tables: &[(Experiment, Vec<Row>)], others: Option<&Others>, most: usize) -> String {
     let version = env!("CARGO_PKG_VERSION");
     let mut page = format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n\
@@ -39,6 +40,9 @@ pub fn html(tables: &[(Experiment, Vec<Row>)], most: usize) -> String {
             page += &plot.svg();
         }
         page += &table::html(rows, experiment.kind);
+    }
+    if let Some(others) = others {
+        page += &others::html(others);
     }
     page + "</body>\n</html>\n"
 }

@@ -76,9 +76,19 @@ fn assert_well_formed(page: &str) {
 fn a_quick_run_is_a_page_that_stands_alone_and_complete_tables() {
     let scratch = Scratch::new("evaluate");
     let out = scratch.path("tables");
-    let told = evaluate(&out, &["--max-triangles", "1000"]);
+    let others = scratch.write(
+        "others.csv",
+        "problem,solver,version,status,energy,lower_bound,gap,seconds\n\
+         ring,scip,6,timelimit,2.5,2,0.2,60\n",
+    );
+    let others = others.to_str().unwrap();
+    let told = evaluate(
+        &out,
+        &["--max-triangles", "1000", "--other-solvers", others],
+    );
     let page = fs::read_to_string(out.join("index.html")).unwrap();
     assert_well_formed(&page);
+    assert!(page.contains("<td>ring</td><td>scip 6</td><td>2.500000</td>"));
     for word in [
         "http", "src=", "href", "url(", "@import", "<script", "<link",
     ] {

@@ -241,7 +241,7 @@ fn the_summary_tells_faces_energy_and_irregular_vertices() {
     let (code, output) = finish(program(&["field", "shape:rounded-cube:3000"]));
     let text = String::from_utf8(output.stdout).unwrap();
     assert_eq!((code, text.lines().count()), (0, 4), "{text}");
-    for (line, word) in text.lines().zip(["read", "assemble", "greedy", "field"]) {
+    for (line, word) in text.lines().zip(["read", "assemble", "auto", "field"]) {
         assert!(line.starts_with(word), "{line}");
     }
     assert!(text.contains("8 irregular vertices"), "{text}");

@@ -30,7 +30,7 @@ fn a_rounded_cube_turns_around_its_corners() {
     assert_eq!(report["flipped"], json!(0));
     assert!(report["cut_edges"].as_u64() > Some(0));
     assert!(report["gradient_energy"].as_f64() <= report["energy"].as_f64());
-    assert_eq!(report["field"]["strategy"], json!("greedy"));
+    assert_eq!(report["field"]["strategy"], json!("auto"));
 }
 
 #[test]
@@ -98,7 +98,7 @@ fn the_summary_tells_each_phase() {
         "field",
         "assemble",
         "eliminate",
-        "greedy",
+        "auto",
         "untangle",
         "map",
     ];

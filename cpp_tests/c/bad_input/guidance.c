@@ -140,6 +140,8 @@ static void maps(fixture* f, const roundel_mesh* disk) {
     BAD(f, roundel_map_set_edge_lengths(map, numbers, 2), length, "got 2", NONE);
     BAD(f, roundel_map_solve(NULL, NULL, NULL), null, "map", NONE);
     BAD(f, roundel_map_solve(map, NULL, &unsized_monitor), invalid, "monitor", NONE);
+    BAD(f, roundel_map_untangle(NULL, NULL), null, "map", NONE);
+    BAD(f, roundel_map_untangle(map, NULL), invalid, "has not been solved", NONE);
     BAD(f, roundel_map_make_problem(NULL, &problem), null, "map", NONE);
     BAD(f, roundel_map_make_problem(map, NULL), null, "problem", NONE);
     BAD(f, roundel_map_take_solution(map, NULL), null, "solution", NONE);
@@ -151,7 +153,11 @@ static void maps(fixture* f, const roundel_mesh* disk) {
     BAD(f, roundel_map_solution(map, &solution), invalid, "has not been solved", NONE);
     BAD(f, roundel_map_write(map, "never.obj"), invalid, "has not been solved", NONE);
     GOOD(roundel_map_set_quads(map, 50));
+    GOOD(roundel_options_set_text(f->options, "strategy", "relax"));
+    GOOD(roundel_map_solve(map, f->options, NULL));
+    BAD(f, roundel_map_untangle(map, NULL), invalid, "relaxation", NONE);
     GOOD(roundel_map_solve(map, NULL, NULL));
+    BAD(f, roundel_map_untangle(map, &unsized_monitor), invalid, "monitor", NONE);
     BAD(f, roundel_map_corner_uvs(NULL, numbers, 2), null, "map", NONE);
     BAD(f, roundel_map_corner_uvs(map, numbers, 2), length, "corners", NONE);
     BAD(f, roundel_map_vertex_count(NULL, &count), null, "map", NONE);

@@ -80,7 +80,15 @@ void maps_are_solved_again_at_another_size() {
         CHECK(t.quarters >= 0 && t.quarters < 4);
         CHECK(t.translation[0] == std::round(t.translation[0]));
     }
-    CHECK(map.solution().energy() >= map.energy());
+    const auto rounded =
+        roundel::parametrize(mesh, field, roundel::MapOptions().set_quads(80).set_untangle(false));
+    CHECK(rounded.solution().energy() >= rounded.energy());
+    const auto untangled = roundel::parametrize(mesh, field, roundel::MapOptions().set_quads(80));
+    CHECK(untangled.flipped().size() <= rounded.flipped().size());
+    CHECK(untangled.solution().energy() == rounded.solution().energy());
+    auto relaxed = roundel::MapOptions().set_quads(80);
+    relaxed.solve.set_strategy("relax");
+    CHECK(roundel::parametrize(mesh, field, relaxed).energy() <= rounded.energy());
 
     roundel::Status status;
     map.solve(roundel::MapOptions().set_edge_length(-1.0), &status);

@@ -29,6 +29,8 @@ struct MapOptions {
     std::vector<double> edge_lengths = {};
     /// Edges that are isolines; those that the field follows where nothing is said.
     std::optional<Features> features = std::nullopt;
+    /// Whether faces that rounding turns over are turned back as far as integers allow.
+    bool untangle = true;
     /// How the problem is solved.
     Options solve = {};
 
@@ -46,6 +48,10 @@ struct MapOptions {
     }
     MapOptions& set_features(Features value) {
         features = std::move(value);
+        return *this;
+    }
+    MapOptions& set_untangle(bool value) {
+        untangle = value;
         return *this;
     }
     MapOptions& set_solve(Options value) {
@@ -81,10 +87,7 @@ class Map {
     /// Solves for another size, from what was kept of the first solve. Features stay those of the
     /// first. After a failure the map is what it was, but for the size that the next solve has.
     Map& solve(const MapOptions& options, Status* status = nullptr) {
-        const auto call = [this](const roundel_options* how, const roundel_monitor* monitor) {
-            return roundel_map_solve(get(), how, monitor);
-        };
-        if (resize(get(), options, status) && detail::watched(options.solve, call, 0, status)) {
+        if (decide(get(), options, status)) {
             read(status);
         }
         return *this;
@@ -156,6 +159,19 @@ class Map {
 
     roundel_map* get() const noexcept { return handle_.get(); }
 
+    /// Solves a map of the C interface for the size that the options name.
+    static bool decide(roundel_map* map, const MapOptions& options, Status* status) {
+        const auto call = [&](const roundel_options* how, const roundel_monitor* monitor) {
+            const roundel_status code = roundel_map_solve(map, how, monitor);
+            const bool whole = options.solve.strategy.value_or("") != "relax";
+            return code == ROUNDEL_OK && options.untangle && whole
+                       ? roundel_map_untangle(map, monitor)
+                       : code;
+        };
+        return resize(map, options, status) && detail::watched(options.solve, call, 0, status);
+    }
+
+  private:
     /// Tells a map of the C interface the size of quads.
     static bool resize(roundel_map* map, const MapOptions& options, Status* status) {
         const auto told = [&](roundel_status code) { return detail::check(code, status); };
@@ -167,7 +183,6 @@ class Map {
                                                   options.edge_lengths.size())));
     }
 
-  private:
     template <class T> static span<const T> view(const std::vector<T>& values) noexcept {
         return {values.data(), values.size()};
     }
@@ -224,11 +239,7 @@ inline Map parametrize(const Mesh& mesh, const Field& field, const MapOptions& o
         return {};
     }
     detail::Handle<roundel_map, roundel_map_free> map(made);
-    const auto call = [&](const roundel_options* how, const roundel_monitor* monitor) {
-        return roundel_map_solve(map.get(), how, monitor);
-    };
-    if (!Map::resize(map.get(), options, status) ||
-        !detail::watched(options.solve, call, 0, status)) {
+    if (!Map::decide(map.get(), options, status)) {
         return {};
     }
     return Map(map.release(), mesh.faces(status), status);

@@ -59,6 +59,7 @@ enum class EventKind : std::int32_t {
     progress = ROUNDEL_EVENT_PROGRESS,
     log = ROUNDEL_EVENT_LOG,
     improved = ROUNDEL_EVENT_IMPROVED,
+    raised = ROUNDEL_EVENT_RAISED,
 };
 
 /// A part of the solve.

@@ -1,0 +1,231 @@
+//! The tree that an enumeration walks through: a path from the root, and what is known along it.
+//!
+//! Kept by level is the real minimiser of all coordinates that are still undecided there. Deciding
+//! one moves the others along a fixed direction, so that a node costs one multiplication for each
+//! of them; what they must at least add to the distance is read off in the same sweep
+//! (see [`super::Diagonals`]).
+
+use super::enumerate::Found;
+use super::{Basis, Diagonals, Target};
+
+/// Rows are padded to whole vectors of this many numbers.
+const LANES: usize = 8;
+
+/// Adding and taking away 1.5 * 2^52 rounds to the nearest integer without a call.
+const ROUND: f64 = 6_755_399_441_055_744.0;
+
+/// A path from the root.
+pub(super) struct Tree {
+    m: usize,
+    stride: usize,
+    /// Where the path ends: candidate `z[k]` has not been looked at yet.
+    k: usize,
+    square: Vec<f64>,
+    z: Vec<f64>,
+    step: Vec<f64>,
+    /// Squared distance of the levels from here up; one more entry than levels.
+    distance: Vec<f64>,
+    /// Row `k`: where coordinates 0 to k are least, those above being decided.
+    minimiser: Vec<f64>,
+    /// Row `k`: how those of 0 to k - 1 move with coordinate k.
+    direction: Vec<f64>,
+    /// Row `k`: the diagonal over coordinates 0 to k - 1; nothing where there is none.
+    diagonal: Vec<f64>,
+    /// By level: what rounding may have added to the bound.
+    slack: Vec<f64>,
+}
+
+impl Tree {
+    pub fn new(basis: &Basis, target: &Target, diagonals: Option<&Diagonals>, radius: f64) -> Self {
+        let m = basis.rank();
+        let stride = m.div_ceil(LANES) * LANES;
+        let mut direction = vec![0.0; m * stride];
+        for k in 0..m {
+            let row = &mut direction[k * stride..][..k];
+            row.copy_from_slice(&basis.column(k)[..k]);
+            for j in (0..k).rev() {
+                row[j] /= basis.r(j, j);
+                let own = row[j];
+                let column = &basis.column(j)[..j];
+                row.iter_mut().zip(column).for_each(|(x, r)| *x -= own * r);
+            }
+        }
+        let mut tree = Tree {
+            m,
+            stride,
+            k: m - 1,
+            square: (0..m).map(|k| basis.r(k, k).powi(2)).collect(),
+            z: vec![0.0; m],
+            step: vec![0.0; m],
+            distance: vec![0.0; m + 1],
+            minimiser: vec![0.0; m * stride],
+            direction,
+            diagonal: Vec::new(),
+            slack: Vec::new(),
+        };
+        tree.minimiser[(m - 1) * stride..][..m].copy_from_slice(&target.rest);
+        if let Some(diagonals) = diagonals {
+            tree.diagonal = vec![0.0; m * stride];
+            for k in 0..m {
+                tree.diagonal[k * stride..][..k].copy_from_slice(diagonals.level(k));
+            }
+            tree.slack = tree.rounding(basis, radius);
+        }
+        tree.begin(m - 1);
+        tree
+    }
+
+    /// Bounds in advance what rounding may add to the bound of each level.
+    ///
+    /// A coordinate's error grows with each decision above it: by the error of the direction
+    /// (Higham 2002, theorem 8.5, with the growth of the triangular solve), that of the offset which
+    /// it is multiplied by, and the rounding of the sum.
+    fn rounding(&self, basis: &Basis, radius: f64) -> Vec<f64> {
+        let (m, stride) = (self.m, self.stride);
+        let growth = solve_growth(basis);
+        let unit = f64::EPSILON * m as f64 * (1.0 + growth);
+        let mut error = vec![f64::EPSILON; m];
+        let mut size = vec![1.0; m];
+        let mut slack = vec![0.0; m];
+        for k in (0..m).rev() {
+            let offset = (radius / self.square[k]).sqrt() + error[k];
+            let direction = &self.direction[k * stride..][..k];
+            let diagonal = &self.diagonal[k * stride..][..k];
+            for i in 0..k {
+                let moves = direction[i].abs();
+                size[i] += moves * offset;
+                error[i] += moves * (error[k] + unit * offset) + f64::EPSILON * size[i];
+            }
+            let terms = diagonal.iter().zip(&error);
+            slack[k] = terms.map(|(d, e)| d * (2.0 * e + e * e)).sum();
+        }
+        slack
+    }
+
+    /// Starts level `k` at the integer nearest to its centre.
+    #[inline(always)]
+    fn begin(&mut self, k: usize) {
+        let centre = self.minimiser[k * self.stride + k];
+        let z = (centre + ROUND) - ROUND;
+        self.z[k] = z;
+        self.step[k] = if centre < z { -1.0 } else { 1.0 };
+    }
+
+    /// The next nearest integer of level `k`.
+    #[inline(always)]
+    fn next(&mut self, k: usize) {
+        let step = self.step[k];
+        self.z[k] += step;
+        self.step[k] = -step - step.signum();
+    }
+
+    /// Visits up to `nodes` nodes; returns how many, and whether the tree ended.
+    pub fn walk(&mut self, found: &mut Found, nodes: u64) -> (u64, bool) {
+        let mut k = self.k;
+        for node in 0..nodes {
+            let off = self.minimiser[k * self.stride + k] - self.z[k];
+            let distance = self.distance[k + 1] + off * off * self.square[k];
+            if distance < found.radius {
+                if k == 0 {
+                    found.take(&self.z, distance);
+                    self.next(0);
+                    continue;
+                }
+                let least = if self.diagonal.is_empty() {
+                    self.descend(k, off);
+                    0.0
+                } else {
+                    self.descend_bounded(k, off) - self.slack[k]
+                };
+                if distance + least >= found.radius {
+                    self.next(k);
+                } else {
+                    self.distance[k] = distance;
+                    k -= 1;
+                    self.begin(k);
+                }
+                continue;
+            }
+            k += 1;
+            if k == self.m {
+                return (node + 1, true);
+            }
+            self.next(k);
+        }
+        self.k = k;
+        (nodes, false)
+    }
+
+    /// Moves the minimiser of the coordinates below `k` to where coordinate k is `off` from its own.
+    #[inline(always)]
+    fn descend(&mut self, k: usize, off: f64) {
+        let (below, here) = self.minimiser.split_at_mut(k * self.stride);
+        let to = &mut below[(k - 1) * self.stride..][..k];
+        let direction = &self.direction[k * self.stride..][..k];
+        for ((t, h), d) in to.iter_mut().zip(&here[..k]).zip(direction) {
+            *t = h + d * off;
+        }
+    }
+
+    /// The same; returns the bound on what the coordinates below add.
+    #[inline(always)]
+    fn descend_bounded(&mut self, k: usize, off: f64) -> f64 {
+        let stride = self.stride;
+        let whole = k.div_ceil(LANES) * LANES;
+        let (below, here) = self.minimiser.split_at_mut(k * stride);
+        let to = &mut below[(k - 1) * stride..][..whole];
+        let direction = &self.direction[k * stride..][..whole];
+        let diagonal = &self.diagonal[k * stride..][..whole];
+        let mut sums = [0.0; LANES];
+        let rows = to.chunks_exact_mut(LANES).zip(here.chunks_exact(LANES));
+        let fixed = direction
+            .chunks_exact(LANES)
+            .zip(diagonal.chunks_exact(LANES));
+        for ((to, here), (direction, diagonal)) in rows.zip(fixed) {
+            for l in 0..LANES {
+                let at = here[l] + direction[l] * off;
+                let rest = at - ((at + ROUND) - ROUND);
+                to[l] = at;
+                sums[l] += diagonal[l] * (rest * rest);
+            }
+        }
+        sums.iter().sum()
+    }
+
+    /// A lower bound on the distance of all points that were not reached: the least distance of a
+    /// candidate not looked at, on any level of the path.
+    pub fn unexplored(&self) -> f64 {
+        let here = |k: usize, z: f64| {
+            let off = self.minimiser[k * self.stride + k] - z;
+            self.distance[k + 1] + off * off * self.square[k]
+        };
+        let above = (self.k + 1..self.m).map(|k| here(k, self.z[k] + self.step[k]));
+        above.fold(here(self.k, self.z[self.k]), f64::min)
+    }
+}
+
+/// The largest row sum of `|R^-1| |R|`: how much a triangular solve can magnify rounding errors.
+fn solve_growth(basis: &Basis) -> f64 {
+    let m = basis.rank();
+    // x = |R^-1| |R| 1, the inverse bounded by that of the comparison matrix.
+    let mut x = vec![0.0; m];
+    for j in 0..m {
+        for (x, r) in x.iter_mut().zip(basis.column(j)) {
+            *x += r.abs();
+        }
+    }
+    let mut inverse = vec![0.0; m];
+    let mut growth: f64 = 0.0;
+    for i in 0..m {
+        // Row i of R^-1, from the diagonal on.
+        inverse[i] = 1.0 / basis.r(i, i);
+        for j in i + 1..m {
+            let column = basis.column(j);
+            let sum: f64 = (i..j).map(|k| inverse[k] * column[k]).sum();
+            inverse[j] = -sum / column[j];
+        }
+        let row: f64 = (i..m).map(|j| inverse[j].abs() * x[j]).sum();
+        growth = growth.max(row);
+    }
+    growth
+}
