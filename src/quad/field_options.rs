@@ -43,6 +43,9 @@ pub struct FieldOptions {
     pub symmetry: u8,
     /// Directions that faces have, each face at most once.
     pub constraints: Vec<Constraint>,
+    /// How many of the constraints, from the first, [`solve_field`](super::solve_field) keeps in any
+    /// case; it may drop the others around a vertex whose index no map can have.
+    pub firm: usize,
     /// Directions that faces should have, each face at most once. A face with a constraint keeps
     /// that.
     pub guides: Vec<Guide>,
@@ -56,6 +59,7 @@ impl Default for FieldOptions {
         FieldOptions {
             symmetry: 4,
             constraints: Vec::new(),
+            firm: usize::MAX,
             guides: Vec::new(),
             indices: None,
         }

@@ -101,6 +101,7 @@ impl Guidance {
         let mut options = FieldOptions {
             symmetry: self.symmetry,
             constraints: self.constraints.clone(),
+            firm: usize::MAX,
             guides: self.guides.clone(),
             indices: self.indices.clone(),
         };
@@ -114,6 +115,7 @@ impl Guidance {
             }
             _ => edge_constraints(mesh, features)?,
         });
+        options.firm = options.constraints.len();
         let count = constrain::count(mesh, self.constrain_curvature)?;
         constrain::check_weight(self.curvature_weight)?;
         if count > 0 || self.curvature_weight > 0.0 {

@@ -20,11 +20,12 @@ const LEAST: i32 = -2;
 
 /// The smoothest field among those that a map can follow, and the solution that it was read from.
 ///
-/// Indices that the caller prescribes are kept whatever they are. Directions of faces around a vertex
-/// give way where they alone decide an index that no map can have.
+/// Indices that the caller prescribes are kept whatever they are, and so are the
+/// [firm](FieldOptions::firm) constraints. Other directions of faces around a vertex give way where
+/// they alone decide an index that no map can have.
 ///
 /// # Errors
-/// Those of [`FieldProblem::with_options`], of [`solve`](crate::solve) and of
+/// Those of [`FieldProblem::with_options`], of [`solve`](crate::solve()) and of
 /// [`FieldProblem::field`].
 pub fn solve_field<'a>(
     mesh: &TriangleMesh,
@@ -70,8 +71,12 @@ fn give_way(mesh: &TriangleMesh, field: &OrientationField, options: &mut FieldOp
     for given in options.indices.iter().flatten() {
         steps[given.vertex] -= given.steps;
     }
-    let is_kept = |c: &Constraint| mesh.corners(c.face).iter().all(|&v| steps[v] == 0);
-    options.constraints.retain(is_kept);
+    let regular = |c: &Constraint| mesh.corners(c.face).iter().all(|&v| steps[v] == 0);
+    let given = std::mem::take(&mut options.constraints).into_iter();
+    let kept = given
+        .enumerate()
+        .filter(|(k, c)| *k < options.firm || regular(c));
+    options.constraints = kept.map(|(_, c)| c).collect();
 }
 
 fn steps(mesh: &TriangleMesh, field: &OrientationField) -> Vec<i32> {

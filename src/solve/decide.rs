@@ -32,7 +32,7 @@ pub(super) fn search(
     if options.strategy == Strategy::Auto {
         let limit = auto_limit(of_relaxation(model));
         search.work.limit_to(limit);
-        few &= DENSE * (m as u64).pow(3) <= limit / 2;
+        few &= DENSE * (m as u64).pow(3) <= limit;
     }
     match options.strategy {
         Strategy::Relax => Ok(()),

@@ -10,7 +10,7 @@ use crate::eliminate::ReducedModel;
 const ALWAYS: u64 = 200_000_000;
 
 /// `auto`: relaxations whose work is granted beyond that.
-const RELAXATIONS: u64 = 300;
+const RELAXATIONS: u64 = 1_000;
 
 /// What was spent, and what may be.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -50,7 +50,7 @@ impl Unfolded {
 /// relaxation.
 ///
 /// # Errors
-/// Those of [`solve`](crate::solve) for the first solve and of [`untangle`]; a later solve that fails
+/// Those of [`solve`](crate::solve()) for the first solve and of [`untangle`]; a later solve that fails
 /// for constraints that contradict each other ends the rounds.
 pub fn solve_unfolded<'a>(
     mesh: &TriangleMesh,
