@@ -86,7 +86,7 @@ fn the_table_of_exit_codes_is_the_programs() {
         assert!(README.contains(&row), "{row}");
         count += 1;
     }
-    assert_eq!(count, 6);
+    assert_eq!(count, 7);
 }
 
 #[test]
