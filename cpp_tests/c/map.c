@@ -149,7 +149,7 @@ static void untangled(const model* m) {
     roundel_map* map = NULL;
     size_t before = 0, after = 0;
     OK(roundel_map_new(m->mesh, m->field, NULL, &map));
-    OK(roundel_map_set_quads(map, 150));
+    OK(roundel_map_set_quads(map, 210));
     OK(roundel_map_solve(map, NULL, NULL));
     OK(roundel_map_flipped_count(map, &before));
     OK(roundel_map_untangle(map, NULL));
