@@ -4,8 +4,10 @@ use std::time::{Duration, Instant};
 
 use roundel::mesh::{jitter, shape};
 use roundel::quad::{FieldProblem, curvature_constraints};
+use roundel::solve::EventKind;
 use roundel::{
-    CancelToken, Error, Monitor, Options, Problem, SolveStatus, Strategy, solve, solve_with,
+    CancelToken, Error, Event, Flow, Monitor, Options, Problem, SolveStatus, Solver, Strategy,
+    WarmStart, solve, solve_with,
 };
 
 fn field(triangles: usize) -> Problem {
@@ -74,6 +76,32 @@ fn a_cancelled_solve_is_a_valid_solution_or_a_typed_error() {
             early += usize::from(!ended.solved);
         }
         assert!(early > 0, "cancelled at once, there is nothing to return");
+    }
+}
+
+/// The first improvement is the earlier solution, offered before the search begins.
+#[test]
+fn what_a_warm_start_offers_outlives_a_cancel() {
+    let problem = field(1_000);
+    for options in strategies() {
+        let options = Options {
+            nodes: 10_000,
+            ..options
+        };
+        let mut solver = Solver::new(&problem).unwrap();
+        let earlier = solver.solve(&options).unwrap();
+        let again = Options {
+            warm_start: WarmStart::Offer,
+            ..options
+        };
+        let stop = |event: &Event| match event.kind {
+            EventKind::Improved => Flow::Cancel,
+            _ => Flow::Continue,
+        };
+        let solution = solver.solve_with(&again, Monitor::default().on_event(stop));
+        let kept = solution.unwrap();
+        assert_eq!(kept.values(), earlier.values());
+        assert_eq!(kept.status(), SolveStatus::Cancelled);
     }
 }
 

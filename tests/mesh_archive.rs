@@ -209,7 +209,7 @@ fn small_meshes_get_valid_maps() {
 
 /// Prints the table of all sound meshes: minutes of work, and so on demand.
 #[test]
-#[ignore]
+#[ignore = "minutes of work, and more folds left than it allows"]
 fn nearly_all_sound_meshes_get_valid_maps() {
     let Some(folder) = archive() else {
         eprintln!("skipped: no {DEBIAN}, and ROUNDEL_CGAL_DATA is not set");

@@ -42,6 +42,8 @@ mod objective;
 mod option_list;
 mod options;
 mod output;
+#[cfg(all(test, feature = "test-panic"))]
+mod panic_tests;
 mod presets;
 mod problem;
 mod quads;

@@ -276,4 +276,33 @@ mod tests {
             assert_eq!(word.to_str(), Ok(error.code()));
         }
     }
+
+    /// The names in the header and the numbers behind them are what other languages bind to.
+    #[test]
+    fn every_status_has_a_word() {
+        let mut seen = 0;
+        for line in include_str!("../../include/roundel/roundel.h").lines() {
+            let Some((name, number)) = line.trim().trim_end_matches(',').split_once(" = ") else {
+                continue;
+            };
+            let Ok(number) = number.parse::<i32>() else {
+                continue;
+            };
+            let word = if name == "ROUNDEL_OK" || name.starts_with("ROUNDEL_ERROR_") {
+                roundel_status_name(number)
+            } else if name.starts_with("ROUNDEL_SOLVE_") {
+                roundel_solve_status_name(number)
+            } else {
+                continue;
+            };
+            // SAFETY: the function gives a static text.
+            let word = unsafe { CStr::from_ptr(word) }.to_str().unwrap();
+            assert!(
+                name.to_lowercase().ends_with(word),
+                "{name} is called {word}"
+            );
+            seen += 1;
+        }
+        assert!(seen >= 30, "only {seen} statuses found in the header");
+    }
 }

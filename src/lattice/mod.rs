@@ -1,4 +1,7 @@
 //! Closest lattice points: reduction, nearest plane, enumeration with proof.
+//!
+//! The lattice is that of the Schur complement of the integers, whose factor is the trailing block of
+//! [`JointFactor`](crate::linalg::JointFactor).
 
 mod basis;
 mod beam;

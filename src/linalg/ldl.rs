@@ -10,6 +10,9 @@ use super::scaling::{equilibrate, unit_scale};
 use super::{Sparse, sparse::reserve};
 use crate::Result;
 
+/// Multiplications between two questions whether to go on: some milliseconds.
+const STEPS_AT_A_TIME: usize = 1_000_000;
+
 /// `P S A S P' = L D L'` with S a diagonal scaling and P an order of elimination.
 ///
 /// Everything inside is in scaled unknowns at their positions: unknown `i` stands at
@@ -33,6 +36,19 @@ impl Ldl {
     /// # Errors
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub fn new(lower: &Sparse, order: &[u32]) -> Result<Self> {
+        let factored = Self::new_while(lower, order, || true)?;
+        Ok(factored.unwrap_or_else(|| unreachable!("nothing ends it")))
+    }
+
+    /// As [`new`](Self::new), given up as soon as `go_on` says no, which is asked now and then.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn new_while(
+        lower: &Sparse,
+        order: &[u32],
+        go_on: impl FnMut() -> bool,
+    ) -> Result<Option<Self>> {
         let tree = EliminationTree::new(lower, order);
         let scale = equilibrate(lower);
         let rows = permuted_rows(lower, &tree, &scale)?;
@@ -51,8 +67,7 @@ impl Ldl {
             values,
             pivots: vec![0.0; n],
         };
-        ldl.factor(&rows);
-        Ok(ldl)
+        Ok(ldl.factor(&rows, go_on).then_some(ldl))
     }
 
     /// The factor of `R'R` for the upper triangular `r` with `m` columns, dense and by columns; its
@@ -87,12 +102,20 @@ impl Ldl {
         ldl
     }
 
-    fn factor(&mut self, rows: &Sparse) {
+    /// Whether it came to the end.
+    fn factor(&mut self, rows: &Sparse, mut go_on: impl FnMut() -> bool) -> bool {
         let n = rows.rows();
         let mut row = vec![0.0; n];
         let mut seen = vec![NONE; n];
         let mut reach = Vec::new();
+        let mut steps = 0;
         for k in 0..n {
+            if steps >= STEPS_AT_A_TIME {
+                steps = 0;
+                if !go_on() {
+                    return false;
+                }
+            }
             let mut pivot = 0.0;
             for (j, v) in rows.row(k) {
                 if j == k {
@@ -107,6 +130,7 @@ impl Ldl {
                 let v = std::mem::take(&mut row[j]);
                 let d = self.pivots[j];
                 let entry = if d == 0.0 { 0.0 } else { v / d };
+                steps += self.ends[j] - self.offsets[j];
                 if entry != 0.0 {
                     for p in self.offsets[j]..self.ends[j] {
                         row[self.indices[p] as usize] -= self.values[p] * v;
@@ -119,6 +143,7 @@ impl Ldl {
             }
             self.pivots[k] = if pivot <= PIVOT_TOLERANCE { 0.0 } else { pivot };
         }
+        true
     }
 
     /// Number of unknowns.

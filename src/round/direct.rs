@@ -10,8 +10,21 @@ use crate::solve::{Factors, Search};
 /// Rounds the relaxation once.
 ///
 /// # Errors
-/// Of the evaluation of its one offer.
+/// Those of [`Search::prepare`] and of the evaluation of its one offer.
 pub(crate) fn direct(
+    model: &ReducedModel,
+    factors: &mut Factors,
+    search: &mut Search,
+) -> Result<()> {
+    search.prepare(factors)?;
+    round_all(model, factors, search)
+}
+
+/// Offers the relaxation rounded.
+///
+/// # Errors
+/// Of the evaluation of the offer.
+pub(super) fn round_all(
     model: &ReducedModel,
     factors: &mut Factors,
     search: &mut Search,

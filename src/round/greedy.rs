@@ -4,6 +4,7 @@
 //! step but never a factorization anew: see [`crate::linalg::FixedSolve`]. Where integers are few it
 //! works on their Schur complement alone, otherwise on the sparse factor of the whole.
 
+use super::direct::round_all;
 use super::nearest;
 use crate::Result;
 use crate::eliminate::ReducedModel;
@@ -26,7 +27,10 @@ pub(crate) fn greedy(
 ) -> Result<()> {
     let integers = model.integers();
     search.prepare(factors)?;
-    let mut ldl = factors.updatable(model)?;
+    let go_on = || search.monitor.check().is_ok();
+    let Some(mut ldl) = factors.updatable(model, go_on)? else {
+        return round_all(model, factors, search);
+    };
     let (point, watched): (Vec<f64>, Vec<u32>) = if factors.is_joint(model) {
         let at = |&i: &u32| search.relaxed()[i as usize];
         let places = 0..integers.len() as u32;

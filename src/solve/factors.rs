@@ -75,20 +75,27 @@ impl Factors {
 
     /// A factor in which unknowns can be fixed: the caller's own, since fixing uses it up. Of the
     /// Schur complement of the integers if the factor [is joint](Self::is_joint), otherwise of the
-    /// whole reduced Hessian.
-    pub fn updatable(&mut self, model: &ReducedModel) -> Result<Ldl> {
+    /// whole reduced Hessian. None if `go_on` ended it.
+    pub fn updatable(
+        &mut self,
+        model: &ReducedModel,
+        go_on: impl FnMut() -> bool,
+    ) -> Result<Option<Ldl>> {
         if self.is_joint(model) {
             let (r, _) = self.joint(model)?.schur();
-            return Ok(Ldl::dense(r, model.integers().len()));
+            return Ok(Some(Ldl::dense(r, model.integers().len())));
         }
         let (keep, ordering) = (self.keep, self.ordering);
         let kept = &mut self.updatable;
         timed(&mut self.seconds, || {
             if let Some(ldl) = kept {
-                return Ok(ldl.clone());
+                return Ok(Some(ldl.clone()));
             }
-            let made = Ldl::new(model.hessian(), &ordering.order(model.hessian())?)?;
-            *kept = keep.then(|| made.clone());
+            let order = ordering.order(model.hessian())?;
+            let made = Ldl::new_while(model.hessian(), &order, go_on)?;
+            if keep {
+                kept.clone_from(&made);
+            }
             Ok(made)
         })
     }

@@ -9,7 +9,7 @@ use super::verify::verify;
 use super::work::of_relaxation;
 use super::{Options, Phase, SolveStatus, Strategy, WarmStart};
 use crate::eliminate::{Elimination, ReducedModel};
-use crate::{Model, Problem, Result, round};
+use crate::{Error, Model, Problem, Result, round};
 
 /// Solves `problem`, watched by nobody.
 ///
@@ -151,7 +151,11 @@ fn decide(
     // Nothing is better than what is optimal already.
     let done = search.status() == SolveStatus::Optimal || options.warm_start == WarmStart::Keep;
     if !done {
-        super::decide::search(model, reduced, options, factors, &mut search)?;
+        match super::decide::search(model, reduced, options, factors, &mut search) {
+            // Whatever ended the search, what was found stays.
+            Err(Error::Cancelled | Error::TimeLimit) if search.best().is_some() => {}
+            other => other?,
+        }
     }
     let (lower_bound, status) = (search.lower_bound(), search.status());
     let work = work + search.work.spent();

@@ -53,13 +53,9 @@ impl FeatureGraph {
     /// # Errors
     /// [`Error::IndexOutOfRange`] for an edge that does not exist.
     pub fn from_edges(mesh: &TriangleMesh, edges: &[usize]) -> Result<Self> {
+        check_edges(mesh, "feature edges", edges)?;
         let mut is_feature = vec![false; mesh.edge_count()];
-        for (position, &e) in edges.iter().enumerate() {
-            match is_feature.get_mut(e) {
-                Some(is_feature) => *is_feature = true,
-                None => return Err(out_of_range("feature edges", position, e, is_feature.len())),
-            }
-        }
+        edges.iter().for_each(|&e| is_feature[e] = true);
         Ok(Self::of(mesh, is_feature))
     }
 
@@ -162,6 +158,15 @@ pub(crate) fn edge_between(mesh: &TriangleMesh, [a, b]: [usize; 2]) -> Option<us
         found.map(|(f, k)| mesh.edge_of(f, k))
     };
     along([a, b]).or_else(|| along([b, a]))
+}
+
+/// Whether all of `edges` are edges of the mesh.
+pub(crate) fn check_edges(mesh: &TriangleMesh, what: &'static str, edges: &[usize]) -> Result<()> {
+    let len = mesh.edge_count();
+    match edges.iter().position(|&e| e >= len) {
+        Some(position) => Err(out_of_range(what, position, edges[position], len)),
+        None => Ok(()),
+    }
 }
 
 fn out_of_range(what: &'static str, position: usize, value: usize, len: usize) -> Error {

@@ -22,6 +22,7 @@ pub use isolines::feature_edges;
 pub use orientation::orientation;
 
 use crate::mesh::TriangleMesh;
+use crate::mesh::features::check_edges;
 use crate::{Error, Result};
 use isolines::distance_to_isoline;
 use singular::singularities;
@@ -219,16 +220,7 @@ fn validate(mesh: &TriangleMesh, uv: &[[[f64; 2]; 3]], options: &CheckOptions) -
             index: None,
         });
     }
-    let edges = mesh.edge_count();
-    match options.features.iter().position(|&e| e >= edges) {
-        Some(position) => Err(Error::IndexOutOfRange {
-            what: "features",
-            position,
-            value: i64::try_from(options.features[position]).unwrap_or(i64::MAX),
-            len: edges,
-        }),
-        None => Ok(()),
-    }
+    check_edges(mesh, "features", &options.features)
 }
 
 fn defect(element: usize, amount: f64) -> Defect {

@@ -14,6 +14,7 @@ mod surface;
 
 use super::QuadMesh;
 use crate::mesh::TriangleMesh;
+use crate::mesh::features::check_edges;
 use crate::mesh::vector::{add, scale, sub};
 use crate::solve::Phase;
 use crate::{Error, Monitor, Result};
@@ -94,14 +95,5 @@ fn check(mesh: &TriangleMesh, options: &SmoothOptions) -> Result<()> {
             index: None,
         });
     }
-    let edges = mesh.edge_count();
-    match options.features.iter().position(|&edge| edge >= edges) {
-        Some(position) => Err(Error::IndexOutOfRange {
-            what: "features",
-            position,
-            value: i64::try_from(options.features[position]).unwrap_or(i64::MAX),
-            len: edges,
-        }),
-        None => Ok(()),
-    }
+    check_edges(mesh, "features", &options.features)
 }

@@ -1,14 +1,17 @@
 //! A panic inside of the library becomes a status, prints nothing, and gives up the handle.
 //!
-//! Needs the feature `test-panic`, which adds the one function that panics.
-#![cfg(feature = "test-panic")]
+//! Needs the feature `test-panic`, which adds the one function that panics. Stands here since who
+//! calls C functions writes `unsafe`.
 
 use std::ffi::c_char;
 use std::process::Command;
 use std::ptr;
 
-use roundel::capi::roundel_status::*;
-use roundel::capi::*;
+use super::roundel_status::*;
+use super::*;
+
+/// This module, as the test runner names its tests.
+const HERE: &str = "capi::panic_tests::";
 
 fn message() -> String {
     let mut buffer = [0u8; 256];
@@ -62,11 +65,13 @@ fn a_panic_inside_prints_nothing() {
         .args([
             "--exact",
             "--nocapture",
-            "a_panic_gives_up_the_handle_and_no_other",
+            &format!("{HERE}a_panic_gives_up_the_handle_and_no_other"),
         ])
         .output()
         .unwrap();
     assert!(output.status.success());
+    let told = String::from_utf8_lossy(&output.stdout);
+    assert!(told.contains("1 passed"), "{told}");
     let text = [output.stdout, output.stderr].concat();
     let text = String::from_utf8_lossy(&text);
     assert!(!text.contains("asked to panic"), "{text}");
@@ -82,7 +87,8 @@ fn a_panic_outside_still_prints() {
         panic!("from outside");
     }
     let output = Command::new(std::env::current_exe().unwrap())
-        .args(["--exact", "--nocapture", "a_panic_outside_still_prints"])
+        .args(["--exact", "--nocapture"])
+        .arg(format!("{HERE}a_panic_outside_still_prints"))
         .env("ROUNDEL_TEST_OUTSIDE", "1")
         .output()
         .unwrap();
