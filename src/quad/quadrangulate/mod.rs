@@ -3,14 +3,13 @@
 mod aim;
 mod attempt;
 mod options;
-mod scale;
 
 use std::time::Instant;
 
 use super::untangle::{UntangleOptions, Untangled, untangle};
-use super::{FieldProblem, OrientationField, QuadMesh, SeamlessProblem, SmoothOptions, smooth};
+use super::{OrientationField, QuadMesh, SeamlessProblem, SmoothOptions, smooth, solve_field};
 use crate::mesh::TriangleMesh;
-use crate::{Monitor, Result, Solution, Solver, solve_with};
+use crate::{Monitor, Result, Solution, Solver};
 use attempt::Attempt;
 pub use options::QuadOptions;
 
@@ -53,7 +52,7 @@ pub struct QuadSeconds {
 /// kept if they do then, or there is less to repair.
 ///
 /// # Errors
-/// Those of [`FieldProblem::with_options`], [`SeamlessProblem::with_features`], [`solve_with`],
+/// Those of [`solve_field`], [`SeamlessProblem::with_features`], [`solve`](crate::solve()),
 /// [`untangle`], [`extract`](super::extract) and [`smooth`].
 pub fn quadrangulate<'a>(
     mesh: &TriangleMesh,
@@ -63,11 +62,8 @@ pub fn quadrangulate<'a>(
     let mut seconds = QuadSeconds::default();
     let features = options.guidance.features(mesh)?;
     let (field, field_solution) = timed(&mut seconds.field, || {
-        let rounds = scale::smoothing_rounds(mesh, &options.sizing);
-        let wishes = (options.guidance).field_options_at(mesh, &features, rounds)?;
-        let problem = FieldProblem::with_options(mesh, &wishes)?;
-        let solution = solve_with(problem.problem(), &options.field, monitor())?;
-        Ok((problem.field(mesh, &solution)?, solution))
+        let wishes = (options.guidance).map_options(mesh, &features, &options.sizing)?;
+        solve_field(mesh, &wishes, &options.field, &monitor)
     })?;
     let (problem, solution) = timed(&mut seconds.map, || {
         let mut problem = SeamlessProblem::with_features(mesh, &field, &options.sizing, &features)?;
