@@ -2,6 +2,7 @@
 
 mod aim;
 mod attempt;
+mod compare;
 mod options;
 mod scale;
 
@@ -12,6 +13,8 @@ use super::{FieldProblem, OrientationField, QuadMesh, SeamlessProblem, SmoothOpt
 use crate::mesh::TriangleMesh;
 use crate::{Monitor, Result, Solution, Solver, solve_with};
 use attempt::Attempt;
+pub use compare::Compared;
+use compare::compare;
 pub use options::QuadOptions;
 
 /// Quads, and how they were come by.
@@ -29,6 +32,8 @@ pub struct Quadrangulation {
     pub solution: Solution,
     /// Edges of the mesh that edges of quads follow, in increasing order.
     pub features: Vec<usize>,
+    /// What other strategies make of both problems, where that was asked for.
+    pub compared: Vec<Compared>,
     /// What each step took.
     pub seconds: QuadSeconds,
 }
@@ -44,6 +49,8 @@ pub struct QuadSeconds {
     pub extract: f64,
     /// Smoothing.
     pub smooth: f64,
+    /// The solves that are compared.
+    pub compare: f64,
 }
 
 /// Turns a mesh into quads. `monitor` makes one watcher for each step.
@@ -62,12 +69,13 @@ pub fn quadrangulate<'a>(
 ) -> Result<Quadrangulation> {
     let mut seconds = QuadSeconds::default();
     let features = options.guidance.features(mesh)?;
-    let (field, field_solution) = timed(&mut seconds.field, || {
+    let (field_problem, field, field_solution) = timed(&mut seconds.field, || {
         let rounds = scale::smoothing_rounds(mesh, &options.sizing);
         let wishes = (options.guidance).field_options_at(mesh, &features, rounds)?;
         let problem = FieldProblem::with_options(mesh, &wishes)?;
         let solution = solve_with(problem.problem(), &options.field, monitor())?;
-        Ok((problem.field(mesh, &solution)?, solution))
+        let field = problem.field(mesh, &solution)?;
+        Ok((problem, field, solution))
     })?;
     let (problem, solution) = timed(&mut seconds.map, || {
         let mut problem = SeamlessProblem::with_features(mesh, &field, &options.sizing, &features)?;
@@ -102,6 +110,13 @@ pub fn quadrangulate<'a>(
             smooth(&mut quads, mesh, &given, &mut monitor())
         })?;
     }
+    let compared = timed(&mut seconds.compare, || {
+        let both = [
+            (field_problem.problem(), &options.field),
+            (problem.problem(), &options.map),
+        ];
+        compare(both, &options.compare, &monitor)
+    })?;
     Ok(Quadrangulation {
         quads,
         field,
@@ -109,6 +124,7 @@ pub fn quadrangulate<'a>(
         untangled: best.map,
         solution,
         features,
+        compared,
         seconds,
     })
 }
