@@ -191,10 +191,8 @@ namespace detail {
 /// `point(i)` is the array x, y, z and a face the numbers of its corners.
 template <class M, class = void> struct FromPolygons;
 
-} // namespace detail
-
-/// Quads as a mesh of another library, with the faces that are no quads.
-template <class M> M mesh_of(const Quads& quads) {
+/// The corners of every quad, and of every face that is no quad.
+inline std::vector<std::vector<std::int32_t>> polygons(const Quads& quads) {
     std::vector<std::vector<std::int32_t>> faces;
     faces.reserve(quads.size() + quads.others().size());
     const auto corners = quads.corners();
@@ -202,11 +200,18 @@ template <class M> M mesh_of(const Quads& quads) {
         faces.push_back({corners[i], corners[i + 1], corners[i + 2], corners[i + 3]});
     }
     faces.insert(faces.end(), quads.others().begin(), quads.others().end());
+    return faces;
+}
+
+} // namespace detail
+
+/// Quads as a mesh of another library, with the faces that are no quads.
+template <class M> M mesh_of(const Quads& quads) {
     const auto at = quads.vertices();
     const auto point = [&](std::size_t i) {
         return std::array<double, 3>{at[3 * i], at[3 * i + 1], at[3 * i + 2]};
     };
-    return detail::FromPolygons<M>::make(at.size() / 3, point, faces);
+    return detail::FromPolygons<M>::make(at.size() / 3, point, detail::polygons(quads));
 }
 
 /// The quads of a map as a mesh of another library: `roundel::quads<PolyMesh>(map)`.
