@@ -31,6 +31,7 @@ mod sectors;
 mod sizing;
 mod smooth;
 mod spread;
+mod strips;
 mod trace;
 pub mod untangle;
 mod uv_obj;

@@ -20,6 +20,7 @@ pub(super) struct QuadReport<'a> {
     field_irregular_vertices: usize,
     flipped_before: usize,
     flipped: usize,
+    missed_features: Vec<[usize; 2]>,
     #[serde(flatten)]
     quads: QuadCounts,
     /// Where strategies are compared.
@@ -135,6 +136,7 @@ impl<'a> QuadReport<'a> {
     /// The report of what was found.
     pub(super) fn new(arguments: &Arguments, solved: &'a Solved) -> Self {
         let (made, seconds) = (&solved.made, solved.made.seconds);
+        let missed = made.missed_features.iter();
         QuadReport {
             solve: Report::new(
                 &arguments.mesh,
@@ -150,6 +152,7 @@ impl<'a> QuadReport<'a> {
             field_irregular_vertices: made.untangled.map.cones().len(),
             flipped_before: made.untangled.flipped_before,
             flipped: made.untangled.flipped_after,
+            missed_features: missed.map(|&e| solved.mesh.edge(e).vertices).collect(),
             quads: QuadCounts::new(&made.quads),
             compared: made.compared.iter().map(Compared::new).collect(),
             phases: Phases {
