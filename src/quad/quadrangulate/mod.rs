@@ -67,7 +67,7 @@ pub struct QuadSeconds {
 ///
 /// # Errors
 /// Those of [`FieldProblem::with_options`], [`SeamlessProblem::with_features`], [`solve_with`],
-/// [`untangle`], [`extract`](super::extract) and [`smooth`].
+/// [`untangle`](super::untangle::untangle), [`extract`](super::extract) and [`smooth`].
 pub fn quadrangulate<'a>(
     mesh: &TriangleMesh,
     options: &QuadOptions,
