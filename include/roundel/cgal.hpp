@@ -75,22 +75,21 @@ template <class M> struct Properties {
 template <class G, class Points, cgal::enable<G> = 0>
 cgal::Elements<G> adapt(const G& graph, const Points& points, Status* status) {
     cgal::Elements<G> elements;
-    std::vector<double> coordinates;
-    std::vector<std::int64_t> corners;
+    detail::Soup soup;
     std::unordered_map<cgal::Vertex<G>, std::int64_t> number;
     for (const auto vertex : vertices(graph)) {
         number.emplace(vertex, static_cast<std::int64_t>(elements.vertices.size()));
         elements.vertices.push_back(vertex);
         const auto& point = get(points, vertex);
-        coordinates.push_back(CGAL::to_double(point.x()));
-        coordinates.push_back(CGAL::to_double(point.y()));
-        coordinates.push_back(CGAL::to_double(point.z()));
+        soup.coordinates.push_back(CGAL::to_double(point.x()));
+        soup.coordinates.push_back(CGAL::to_double(point.y()));
+        soup.coordinates.push_back(CGAL::to_double(point.z()));
     }
     for (const auto face : faces(graph)) {
         auto side = halfedge(face, graph);
         for (int k = 0; k < 3; ++k) {
             elements.halfedges.push_back(side);
-            corners.push_back(number.at(source(side, graph)));
+            soup.corners.push_back(number.at(source(side, graph)));
             side = next(side, graph);
         }
         if (side != halfedge(face, graph)) {
@@ -99,8 +98,7 @@ cgal::Elements<G> adapt(const G& graph, const Points& points, Status* status) {
         }
         elements.faces.push_back(face);
     }
-    elements.mesh = Mesh(span<const double>(coordinates.data(), coordinates.size()),
-                         span<const std::int64_t>(corners.data(), corners.size()), status);
+    elements.mesh = soup.mesh(status);
     return elements;
 }
 

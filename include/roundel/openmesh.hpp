@@ -56,8 +56,8 @@ struct Properties {
 template <class M, openmesh::enable<M> = 0>
 openmesh::Elements adapt(const M& mesh, Status* status = nullptr) {
     openmesh::Elements elements;
-    std::vector<double> coordinates;
-    std::vector<std::int64_t> number(mesh.n_vertices(), -1), corners;
+    detail::Soup soup;
+    std::vector<std::int64_t> number(mesh.n_vertices(), -1);
     // The skipping iterators leave out what is deleted.
     for (auto it = mesh.vertices_sbegin(); it != mesh.vertices_end(); ++it) {
         const OpenMesh::VertexHandle vertex = *it;
@@ -66,7 +66,7 @@ openmesh::Elements adapt(const M& mesh, Status* status = nullptr) {
         elements.vertices.push_back(vertex);
         const auto& point = mesh.point(vertex);
         for (unsigned axis = 0; axis < 3; ++axis) {
-            coordinates.push_back(static_cast<double>(point[axis]));
+            soup.coordinates.push_back(static_cast<double>(point[axis]));
         }
     }
     for (auto it = mesh.faces_sbegin(); it != mesh.faces_end(); ++it) {
@@ -74,7 +74,7 @@ openmesh::Elements adapt(const M& mesh, Status* status = nullptr) {
         OpenMesh::HalfedgeHandle side = mesh.halfedge_handle(face);
         for (int k = 0; k < 3; ++k) {
             elements.halfedges.push_back(side);
-            corners.push_back(
+            soup.corners.push_back(
                 number[static_cast<std::size_t>(mesh.from_vertex_handle(side).idx())]);
             side = mesh.next_halfedge_handle(side);
         }
@@ -84,8 +84,7 @@ openmesh::Elements adapt(const M& mesh, Status* status = nullptr) {
         }
         elements.faces.push_back(face);
     }
-    elements.mesh = Mesh(span<const double>(coordinates.data(), coordinates.size()),
-                         span<const std::int64_t>(corners.data(), corners.size()), status);
+    elements.mesh = soup.mesh(status);
     return elements;
 }
 

@@ -1483,6 +1483,15 @@ roundel_status roundel_guidance_set_align_boundary(struct roundel_guidance *guid
                                                    int32_t align);
 
 /**
+ * Sets the length, in units of the mesh, of details that attract no irregular vertices; their
+ * curvature is smoothed away before indices are decided. 0 is none. As long as it is not set, a
+ * field sees all details, and quads those as long as their edges.
+ *
+ * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for a length that is negative or not finite.
+ */
+roundel_status roundel_guidance_set_detail(struct roundel_guidance *guidance, double length);
+
+/**
  * Adds what a text file asks for, one wish a line: "direction FACE X Y Z [WEIGHT]" (one that the
  * face has, or with a weight should have), "edge VERTEX VERTEX" (a feature), "index VERTEX STEPS".
  * What follows a # is a comment.
@@ -1974,10 +1983,38 @@ roundel_status roundel_quads_euler_characteristic(const struct roundel_quads *qu
 
 /**
  * Gives 1 if there is nothing but quads, each edge has two faces, or one at the boundary, and the
- * Euler characteristic is that of the triangle mesh; 0 otherwise.
+ * Euler characteristic is that of the triangle mesh; 0 otherwise: roundel_quads_faults names the
+ * elements at fault.
  */
 roundel_status roundel_quads_is_conforming(const struct roundel_quads *quads,
                                            int32_t *is_conforming);
+
+/**
+ * Gives the numbers of elements that keep quads from conforming: faces that are no quads or have a
+ * vertex twice, edges with more than two faces or two that run the same way, and vertices whose
+ * faces are more than one fan; and of triangles that the map folds, which is where faults come
+ * from. No place may be NULL.
+ */
+roundel_status roundel_quads_fault_counts(const struct roundel_quads *quads,
+                                          size_t *face_count,
+                                          size_t *edge_count,
+                                          size_t *vertex_count,
+                                          size_t *triangle_count);
+
+/**
+ * Copies the elements that roundel_quads_fault_counts counts: faces, the quads numbered first and
+ * then the others; the two vertices of each edge; vertices; triangles of the mesh. The lengths are
+ * those counts.
+ */
+roundel_status roundel_quads_faults(const struct roundel_quads *quads,
+                                    size_t face_count,
+                                    int32_t *faces,
+                                    size_t edge_count,
+                                    int32_t *edges,
+                                    size_t vertex_count,
+                                    int32_t *vertices,
+                                    size_t triangle_count,
+                                    int32_t *triangles);
 
 /**
  * Writes the faces as OBJ. Reading gives back the same numbers.

@@ -21,7 +21,8 @@
 /// Problem, Solution, Solver, Mesh, Field, Map, Quads and CancelToken own their C objects, move and
 /// do not copy. A const object may be used from several threads at once, any other from one.
 ///
-/// Meshes of other libraries: <roundel/openmesh.hpp>, <roundel/cgal.hpp>, <roundel/eigen.hpp>.
+/// Meshes of other libraries: <roundel/openmesh.hpp>, <roundel/cgal.hpp>, <roundel/eigen.hpp>,
+/// <roundel/vcg.hpp>.
 
 #ifndef ROUNDEL_HPP
 #define ROUNDEL_HPP

@@ -1,6 +1,6 @@
 //! Turning that a field shall not see: the curvature of details smaller than a quad.
 //!
-//! Ray, Vallet, Alonso, Lévy 2009, "Geometry-aware direction field processing", section 3: a field
+//! Ray, Vallet, Alonso, Lévy 2009, "Geometry-aware direction field processing": a field
 //! turns around a vertex by the curvature there less 2 pi times its index, and so noise and small
 //! features attract irregular vertices, pairs of them that hardly a quad fits between. With the
 //! curvature smoothed before the indices are decided they stay where curvature is at the scale of
@@ -137,7 +137,7 @@ fn cotangent(mesh: &TriangleMesh, face: usize, k: usize) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mesh::{jitter, shape};
+    use crate::mesh::shape;
     use crate::quad::{Constraint, solve_field};
     use crate::{Monitor, Options};
 
@@ -148,8 +148,13 @@ mod tests {
         }
     }
 
+    /// A cube whose vertices are pushed in and out.
     fn rough() -> TriangleMesh {
-        jitter(&shape::by_name("rounded-cube", 3_000).unwrap(), 0.3, 7).unwrap()
+        let smooth = shape::by_name("rounded-cube", 3_000).unwrap();
+        let push =
+            |(v, p): (usize, &[f64; 3])| p.map(|x| x * (1.0 + 0.06 * (7.0 * v as f64).sin()));
+        let points = smooth.vertices().iter().enumerate().map(push);
+        TriangleMesh::new(points.collect(), smooth.triangles().to_vec()).unwrap()
     }
 
     /// What flows in at every vertex less what flows out.

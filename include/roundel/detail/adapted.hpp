@@ -90,6 +90,17 @@ template <class Vertex, class Face, class Halfedge> class AdaptedMap : public Ma
 
 namespace detail {
 
+/// The arrays that a mesh is made of.
+struct Soup {
+    std::vector<double> coordinates{};
+    std::vector<std::int64_t> corners{};
+
+    Mesh mesh(Status* status) const {
+        return Mesh(span<const double>(coordinates.data(), coordinates.size()),
+                    span<const std::int64_t>(corners.data(), corners.size()), status);
+    }
+};
+
 inline void not_a_triangle(std::size_t face, Status* status) {
     Status failure;
     failure.code = ROUNDEL_ERROR_NOT_A_TRIANGLE;

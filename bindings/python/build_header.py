@@ -1,0 +1,39 @@
+"""roundel.h as cffi takes it: plain C declarations, without a preprocessor's directives.
+
+The header's only conditions ask for C++, for C23 and whether it has been read before, so that a C
+preprocessor, and with it a compiler, is not needed.
+"""
+
+import re
+from pathlib import Path
+
+HEADER = Path(__file__).resolve().parents[2] / "include" / "roundel" / "roundel.h"
+
+#: Every condition of the header, and what it is for a C99 reader.
+CONDITIONS = {
+    "#ifndef ROUNDEL_H": True,
+    "#ifdef __cplusplus": False,
+    "#ifndef __cplusplus": True,
+    "#if __STDC_VERSION__ >= 202311L": False,
+    "#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L": False,
+}
+
+
+def declarations() -> str:
+    """The header's declarations and numeric constants.
+
+    Raises KeyError for a condition that is not known here.
+    """
+    text = re.sub(r"/\*.*?\*/", "", HEADER.read_text(encoding="utf-8"), flags=re.DOTALL)
+    kept, stack = [], []
+    for line in re.sub(r"//.*", "", text).splitlines():
+        line = line.strip()
+        if line.startswith("#if"):
+            stack.append(CONDITIONS[line])
+        elif line.startswith("#else"):
+            stack[-1] = not stack[-1]
+        elif line.startswith("#endif"):
+            stack.pop()
+        elif all(stack) and line and line != "#define ROUNDEL_H" and "#include" not in line:
+            kept.append(line)
+    return "\n".join(kept) + "\n"

@@ -1,0 +1,46 @@
+"""Mixed-integer quadratic problems of geometry processing.
+
+    minimise   1/2 x'Qx + q'x + c + sum_k w_k (a_k . x - r_k)^2
+    subject to C x = d, x_i integer for i in I
+
+`solve` for a problem in matrices, `Problem` to build one, `Solver` to solve it again; `field`, `map`
+and `quad` for triangle meshes. Elements are counted from 0, angles are in radians and
+counter-clockwise, but for that of features, which is in degrees.
+"""
+
+from . import errors as _errors
+from ._library import lib as _lib, text as _text
+from .errors import *  # noqa: F403: one class a status
+from .field import Field, field
+from .map import Map, map
+from .mesh import Mesh
+from .options import Option, options, presets
+from .problem import Problem
+from .quads import Quads, extract, quad
+from .solution import Solution
+from .solve import solve
+from .solver import Solver
+from .watch import CancelToken, Event
+
+__version__: str = _text(_lib.roundel_version_string())
+
+__all__ = [
+    "CancelToken",
+    "Event",
+    "Field",
+    "Map",
+    "Mesh",
+    "Option",
+    "Problem",
+    "Quads",
+    "Solution",
+    "Solver",
+    "extract",
+    "field",
+    "map",
+    "options",
+    "presets",
+    "quad",
+    "solve",
+    *_errors.__all__,
+]

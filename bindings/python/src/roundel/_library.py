@@ -1,0 +1,62 @@
+"""The shared library beside this file, and what its calls have in common."""
+
+from __future__ import annotations
+
+import os
+import sys
+from pathlib import Path
+from typing import Any
+
+from . import _declarations  # type: ignore[attr-defined]
+
+ffi: Any = _declarations.ffi
+_NAMES = {"darwin": "libroundel.dylib", "win32": "roundel.dll"}
+lib: Any = ffi.dlopen(str(Path(__file__).parent / _NAMES.get(sys.platform, "libroundel.so")))
+
+if lib.roundel_abi_version() != lib.ROUNDEL_ABI_VERSION:
+    raise ImportError(
+        f"the library has ABI {lib.roundel_abi_version()}, the package {lib.ROUNDEL_ABI_VERSION}"
+    )
+
+
+def text(pointer: Any) -> str:
+    """A text that the library owns."""
+    return ffi.string(pointer).decode()
+
+
+def path(file: Any) -> bytes:
+    """The name of a file as C takes it."""
+    return os.fsencode(file)
+
+
+def last_message() -> str:
+    """The message of the last call that failed on this thread."""
+    length = lib.roundel_last_error_message(ffi.NULL, 0)
+    buffer = ffi.new("char[]", length + 1)
+    lib.roundel_last_error_message(buffer, length + 1)
+    return ffi.string(buffer).decode(errors="replace")
+
+
+class Handle:
+    """An object of the library, freed with this one."""
+
+    def __init__(self, kind: str, pointer: Any) -> None:
+        self.pointer = ffi.gc(pointer, getattr(lib, f"{kind}_free"))
+
+    @classmethod
+    def made(cls, kind: str, call: Any, *arguments: Any) -> "Handle":
+        """The object that `call(*arguments, &object)` makes."""
+        from .errors import check  # the two need each other
+
+        place = ffi.new(f"{kind} **")
+        check(call(*arguments, place))
+        return cls(kind, place[0])
+
+
+def number(call: Any, *arguments: Any, kind: str = "size_t") -> Any:
+    """The number that `call(*arguments, &number)` gives."""
+    from .errors import check  # the two need each other
+
+    place = ffi.new(f"{kind} *")
+    check(call(*arguments, place))
+    return place[0]

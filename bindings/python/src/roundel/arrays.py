@@ -1,0 +1,118 @@
+"""Arrays and matrices on their way into C, without a copy where their types are right."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Sequence, Union
+
+import numpy as np
+
+from ._library import ffi
+
+ArrayLike = Union[Sequence[float], np.ndarray, Any]
+
+
+def reals(values: Any, what: str, shape: tuple[int, ...] = (-1,)) -> np.ndarray:
+    """Doubles in C's order; -1 in `shape` takes any length."""
+    found = np.ascontiguousarray(values, dtype=np.float64)
+    _fits(found, what, shape)
+    return found
+
+
+def indices(values: Any, what: str, shape: tuple[int, ...] = (-1,)) -> np.ndarray:
+    """Indices of 32 or 64 bits in C's order. Fractions and booleans are no indices."""
+    found = np.asarray(values)
+    if found.size == 0:
+        found = found.astype(np.int32)
+    if found.dtype.kind not in "iu":
+        raise TypeError(f"{what}: indices must be whole numbers, not {found.dtype}")
+    if found.dtype == np.uint64 and found.max() > np.iinfo(np.int64).max:
+        raise OverflowError(f"{what}: an index is beyond 64 bits")
+    fits = found.dtype in (np.int32, np.int64)
+    wide = found.dtype.itemsize > 4 or found.dtype == np.uint32
+    found = np.ascontiguousarray(found, None if fits else np.int64 if wide else np.int32)
+    _fits(found, what, shape)
+    return found
+
+
+def indices32(values: Any, what: str, shape: tuple[int, ...] = (-1,)) -> np.ndarray:
+    """Indices for a call that has no twin of 64 bits."""
+    found = indices(values, what, shape)
+    if found.dtype == np.int64:
+        if found.size and (found.max() > 2**31 - 1 or found.min() < -(2**31)):
+            raise OverflowError(f"{what}: an index is beyond 32 bits")
+        found = found.astype(np.int32)
+    return found
+
+
+def _fits(found: np.ndarray, what: str, shape: tuple[int, ...]) -> None:
+    fits = len(found.shape) == len(shape) and all(
+        wanted in (-1, length) for wanted, length in zip(shape, found.shape)
+    )
+    if not fits:
+        wanted = " x ".join("n" if k < 0 else str(k) for k in shape)
+        raise ValueError(f"{what}: the shape is {found.shape}, and should be {wanted}")
+
+
+_C_TYPES = {"float64": "double", "int32": "int32_t", "int64": "int64_t", "int8": "int8_t"}
+
+
+def pointer(array: np.ndarray) -> Any:
+    """Where the numbers are; the array must outlive it."""
+    kind = _C_TYPES[array.dtype.name]
+    return ffi.cast(f"{kind} *", array.ctypes.data) if array.size else ffi.NULL
+
+
+@dataclass(frozen=True)
+class Compressed:
+    """A sparse matrix in compressed rows or columns."""
+
+    #: "csr" or "csc".
+    form: str
+    shape: tuple[int, int]
+    offsets: np.ndarray
+    indices: np.ndarray
+    values: np.ndarray
+
+    @property
+    def twin(self) -> str:
+        """The end of the name of the call that takes these indices."""
+        return "_i64" if self.indices.dtype == np.int64 else ""
+
+    def arguments(self) -> tuple[Any, ...]:
+        """Offsets, and entries with their indices, as the calls of the C interface take them."""
+        return (
+            len(self.offsets),
+            pointer(self.offsets),
+            len(self.indices),
+            pointer(self.indices),
+            pointer(self.values),
+        )
+
+
+def compressed(matrix: Any, what: str, only: str = "") -> Compressed:
+    """A SciPy matrix in compressed form as it is, any other or a dense one converted.
+
+    `only` is "csr" where the other form does not serve.
+    """
+    if isinstance(matrix, Compressed):
+        return matrix
+    form = getattr(matrix, "format", "")
+    if form and (form not in ("csr", "csc") or (only and form != only)):
+        matrix = matrix.asformat(only or "csr")
+        form = matrix.format
+    if not form:
+        return _dense(matrix, what)
+    values = reals(matrix.data, what)
+    offsets, inner = indices(matrix.indptr, what), indices(matrix.indices, what)
+    if offsets.dtype != inner.dtype:
+        offsets, inner = offsets.astype(np.int64), inner.astype(np.int64)
+    return Compressed(form, matrix.shape, offsets, inner, values)
+
+
+def _dense(matrix: Any, what: str) -> Compressed:
+    dense = reals(matrix, what, (-1, -1))
+    rows, columns = np.nonzero(dense)
+    offsets = np.zeros(dense.shape[0] + 1, dtype=np.int64)
+    np.cumsum(np.bincount(rows, minlength=dense.shape[0]), out=offsets[1:])
+    return Compressed("csr", dense.shape, offsets, columns.astype(np.int64), dense[rows, columns])

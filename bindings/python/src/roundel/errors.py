@@ -1,0 +1,314 @@
+"""Exceptions: one class a status of the C interface, with the element at fault."""
+
+from __future__ import annotations
+
+from typing import Any, Optional
+
+from ._library import ffi, last_message, lib, text
+
+__all__ = [
+    "Error",
+    "CancelledError",
+    "EmptyError",
+    "InconsistentOrientationError",
+    "IndexOutOfRangeError",
+    "InfeasibleError",
+    "InvalidArgumentError",
+    "IoError",
+    "IsolatedVertexError",
+    "LengthMismatchError",
+    "NoIntegerSolutionError",
+    "NonManifoldEdgeError",
+    "NonManifoldVertexError",
+    "NotATriangleError",
+    "NotConvexError",
+    "NotFiniteError",
+    "NotSupportedError",
+    "NullPointerError",
+    "OptionRangeError",
+    "OptionTypeError",
+    "OutOfMemoryError",
+    "OverflowError",
+    "PanicError",
+    "ParseError",
+    "RepeatedVertexError",
+    "TimeLimitError",
+    "UnboundedError",
+    "UnknownOptionError",
+    "UnusableError",
+    "ZeroAreaError",
+]
+
+
+class Error(Exception):
+    """A call of the library that failed; the base of all its exceptions.
+
+    The elements of a problem or a mesh are counted from 0, lines of a file from 1. One of `row`,
+    `position`, `variable`, `face`, `vertex` is set where the element at fault is known: see the
+    subclass.
+
+    >>> import roundel
+    >>> try:
+    ...     roundel.solve(A=[[1.0, 0.0]], b=[0.0], C=[[2.0, 4.0]], d=[3.0], integers=[0, 1])
+    ... except roundel.NoIntegerSolutionError as error:
+    ...     print(error.row, error)
+    0 constraint 0: 2 x0 + 4 x1 = 3 has no integer solution
+    """
+
+    #: What `index` counts: "row", "position", "variable", "face", "vertex", or "" for what it is
+    #: by the message alone.
+    element: str = ""
+
+    def __init__(
+        self,
+        message: str,
+        code: str = "",
+        status: int = 0,
+        index: Optional[int] = None,
+        line: Optional[int] = None,
+        direction: Any = None,
+    ) -> None:
+        super().__init__(message)
+        #: The word for the status, such as "no_integer_solution".
+        self.code = code
+        #: The number of the status, a `roundel_status` of the C interface.
+        self.status = status
+        #: The element at fault, whatever it is, or None.
+        self.index = index
+        #: The line of the file at fault, from 1, or None.
+        self.line = line
+        #: The direction in which the objective falls or curves downwards, or None.
+        self.direction = direction
+
+    def _if(self, element: str) -> Optional[int]:
+        return self.index if self.element == element else None
+
+    @property
+    def row(self) -> Optional[int]:
+        """The constraint at fault."""
+        return self._if("row")
+
+    @property
+    def position(self) -> Optional[int]:
+        """The position at fault in the array that was given."""
+        return self._if("position")
+
+    @property
+    def variable(self) -> Optional[int]:
+        """A variable that the direction moves."""
+        return self._if("variable")
+
+    @property
+    def face(self) -> Optional[int]:
+        """The face at fault."""
+        return self._if("face")
+
+    @property
+    def vertex(self) -> Optional[int]:
+        """The vertex at fault."""
+        return self._if("vertex")
+
+
+class NullPointerError(Error, ValueError):
+    """A pointer was NULL: a defect of this package."""
+
+
+class InvalidArgumentError(Error, ValueError):
+    """A value that is not allowed in itself."""
+
+    element = "position"
+
+
+class LengthMismatchError(Error, ValueError):
+    """Arrays that belong together differ in length."""
+
+
+class IndexOutOfRangeError(Error, IndexError):
+    """An index is negative or too large; `position` is its place in the array."""
+
+    element = "position"
+
+
+class NotFiniteError(Error, ValueError):
+    """NaN or infinity; `index` is its place in the array, or the vertex of a mesh."""
+
+    element = "position"
+
+
+class EmptyError(Error, ValueError):
+    """A problem without variables, or a mesh without faces."""
+
+
+class OverflowError(Error, OverflowError):
+    """A count or a sum is beyond what can be represented."""
+
+
+class OutOfMemoryError(Error, MemoryError):
+    """Memory for a large array could not be had."""
+
+
+class UnknownOptionError(Error, TypeError):
+    """There is no option, and no keyword, of this name."""
+
+
+class OptionTypeError(Error, TypeError):
+    """The option takes another type of value."""
+
+
+class OptionRangeError(Error, ValueError):
+    """The option does not take this value."""
+
+
+class NotSupportedError(Error):
+    """Something that the library does not solve; `line` names it in a file."""
+
+
+class ParseError(Error, ValueError):
+    """A file that does not follow its format, at `line`."""
+
+
+class IoError(Error):
+    """A file that cannot be read or written."""
+
+
+class InfeasibleError(Error):
+    """The constraint `row` contradicts the others."""
+
+    element = "row"
+
+
+class NoIntegerSolutionError(Error):
+    """The constraint `row` has no solution in integers."""
+
+    element = "row"
+
+
+class UnboundedError(Error):
+    """The objective falls without limit along `direction`, which moves `variable`."""
+
+    element = "variable"
+
+
+class NotConvexError(Error):
+    """The objective curves downwards along `direction`, which moves `variable`."""
+
+    element = "variable"
+
+
+class NonManifoldEdgeError(Error, ValueError):
+    """An edge has more than two faces; `face` is the lowest of them."""
+
+    element = "face"
+
+
+class NonManifoldVertexError(Error, ValueError):
+    """The faces of `vertex` form more than one fan."""
+
+    element = "vertex"
+
+
+class InconsistentOrientationError(Error, ValueError):
+    """`face` and another run along their common edge the same way."""
+
+    element = "face"
+
+
+class ZeroAreaError(Error, ValueError):
+    """`face` has no area."""
+
+    element = "face"
+
+
+class IsolatedVertexError(Error, ValueError):
+    """No face uses `vertex`."""
+
+    element = "vertex"
+
+
+class NotATriangleError(Error, ValueError):
+    """`face` has another number of corners than three."""
+
+    element = "face"
+
+
+class RepeatedVertexError(Error, ValueError):
+    """`face` visits a vertex twice."""
+
+    element = "face"
+
+
+class CancelledError(Error):
+    """Cancelled before a first solution was found."""
+
+
+class TimeLimitError(Error):
+    """The time limit passed before a first solution was found."""
+
+
+class PanicError(Error):
+    """A defect of the library, kept inside; the object at fault is of no more use."""
+
+
+class UnusableError(Error):
+    """The object was given up in an earlier PanicError."""
+
+
+#: The exception of each status, by its number.
+classes: dict[int, type[Error]] = {
+    lib.ROUNDEL_ERROR_NULL_POINTER: NullPointerError,
+    lib.ROUNDEL_ERROR_INVALID_ARGUMENT: InvalidArgumentError,
+    lib.ROUNDEL_ERROR_LENGTH_MISMATCH: LengthMismatchError,
+    lib.ROUNDEL_ERROR_INDEX_OUT_OF_RANGE: IndexOutOfRangeError,
+    lib.ROUNDEL_ERROR_NOT_FINITE: NotFiniteError,
+    lib.ROUNDEL_ERROR_EMPTY: EmptyError,
+    lib.ROUNDEL_ERROR_OVERFLOW: OverflowError,
+    lib.ROUNDEL_ERROR_OUT_OF_MEMORY: OutOfMemoryError,
+    lib.ROUNDEL_ERROR_UNKNOWN_OPTION: UnknownOptionError,
+    lib.ROUNDEL_ERROR_OPTION_TYPE: OptionTypeError,
+    lib.ROUNDEL_ERROR_OPTION_RANGE: OptionRangeError,
+    lib.ROUNDEL_ERROR_NOT_SUPPORTED: NotSupportedError,
+    lib.ROUNDEL_ERROR_PARSE: ParseError,
+    lib.ROUNDEL_ERROR_IO: IoError,
+    lib.ROUNDEL_ERROR_INFEASIBLE: InfeasibleError,
+    lib.ROUNDEL_ERROR_NO_INTEGER_SOLUTION: NoIntegerSolutionError,
+    lib.ROUNDEL_ERROR_UNBOUNDED: UnboundedError,
+    lib.ROUNDEL_ERROR_NOT_CONVEX: NotConvexError,
+    lib.ROUNDEL_ERROR_NON_MANIFOLD_EDGE: NonManifoldEdgeError,
+    lib.ROUNDEL_ERROR_NON_MANIFOLD_VERTEX: NonManifoldVertexError,
+    lib.ROUNDEL_ERROR_INCONSISTENT_ORIENTATION: InconsistentOrientationError,
+    lib.ROUNDEL_ERROR_ZERO_AREA: ZeroAreaError,
+    lib.ROUNDEL_ERROR_ISOLATED_VERTEX: IsolatedVertexError,
+    lib.ROUNDEL_ERROR_NOT_A_TRIANGLE: NotATriangleError,
+    lib.ROUNDEL_ERROR_REPEATED_VERTEX: RepeatedVertexError,
+    lib.ROUNDEL_ERROR_CANCELLED: CancelledError,
+    lib.ROUNDEL_ERROR_TIME_LIMIT: TimeLimitError,
+    lib.ROUNDEL_ERROR_PANIC: PanicError,
+    lib.ROUNDEL_ERROR_UNUSABLE: UnusableError,
+}
+
+
+def check(status: int, variables: int = 0) -> None:
+    """Raises what a call's status says; `variables` is the length of a direction."""
+    if status == lib.ROUNDEL_OK:
+        return
+    index, line = lib.roundel_last_error_index(), lib.roundel_last_error_line()
+    message = last_message()
+    direction = _direction(variables) if classes.get(status, Error).element == "variable" else None
+    raise classes.get(status, Error)(
+        message,
+        text(lib.roundel_status_name(status)),
+        status,
+        None if index < 0 else index,
+        None if line < 0 else line,
+        direction,
+    )
+
+
+def _direction(variables: int) -> Any:
+    import numpy as np
+
+    found = np.empty(variables)
+    status = lib.roundel_last_error_direction(ffi.from_buffer("double[]", found), variables)
+    return found if status == lib.ROUNDEL_OK else None
+
+

@@ -1,0 +1,122 @@
+"""Orientation fields."""
+
+from __future__ import annotations
+
+from typing import Any, Optional
+
+import numpy as np
+
+from ._library import Handle, ffi, lib, number
+from .arrays import pointer
+from .errors import check
+from .guidance import guidance_handle, split
+from .mesh import Mesh, as_mesh, pointer_of
+from .options import options_handle
+from .solution import Solution, taken
+from .watch import CancelToken, Progress, Watch
+
+
+class Field:
+    """N arms in every face, a cross for N = 4, and how they match over edges. Made by `field`."""
+
+    def __init__(self, mesh: Mesh, handle: Handle, guidance: Optional[Handle]) -> None:
+        self.mesh = mesh
+        self._handle = handle
+        self._guidance = guidance
+
+    def _array(self, call: Any, length: int, dtype: Any = np.float64) -> np.ndarray:
+        found = np.empty(length, dtype=dtype)
+        check(call(self._handle.pointer, pointer(found), length))
+        return found
+
+    def _count(self, call: Any) -> int:
+        return number(call, self.mesh._handle.pointer)
+
+    @property
+    def angles(self) -> np.ndarray:
+        """One arm of every face: radians, counter-clockwise from the face's first edge."""
+        return self._array(lib.roundel_field_angles, self._count(lib.roundel_mesh_face_count))
+
+    @property
+    def directions(self) -> np.ndarray:
+        """The same arm as a unit vector in space."""
+        corners = self.mesh.vertices[self.mesh.faces]
+        first = corners[:, 1] - corners[:, 0]
+        first /= np.linalg.norm(first, axis=1)[:, None]
+        normal = np.cross(first, corners[:, 2] - corners[:, 0])
+        normal /= np.linalg.norm(normal, axis=1)[:, None]
+        angles = self.angles[:, None]
+        return np.cos(angles) * first + np.sin(angles) * np.cross(normal, first)
+
+    @property
+    def period_jumps(self) -> np.ndarray:
+        """angle + kappa + 2 pi/N jump of an edge's first face is the matching arm of its second."""
+        call, count = lib.roundel_field_period_jumps, lib.roundel_mesh_edge_count
+        return self._array(call, self._count(count), np.int32)
+
+    @property
+    def kappa(self) -> np.ndarray:
+        """The angle between the frames of an edge's two faces, in (-pi, pi]."""
+        return self._array(lib.roundel_field_kappa, self._count(lib.roundel_mesh_edge_count))
+
+    @property
+    def vertex_indices(self) -> np.ndarray:
+        """The index of every vertex in full turns: 1/4 at the corner of a cube, mostly 0."""
+        call, count = lib.roundel_field_vertex_indices, lib.roundel_mesh_vertex_count
+        return self._array(call, self._count(count))
+
+    @property
+    def boundary_indices(self) -> np.ndarray:
+        """The index of every boundary loop."""
+        return self._array(lib.roundel_field_boundary_indices, self.mesh.boundary_loops)
+
+    @property
+    def irregular(self) -> np.ndarray:
+        """The vertices whose index is not zero."""
+        return np.flatnonzero(np.rint(self.symmetry * self.vertex_indices))
+
+    @property
+    def symmetry(self) -> int:
+        """N, the number of arms in a face."""
+        return number(lib.roundel_field_symmetry, self._handle.pointer, kind="int32_t")
+
+    @property
+    def energy(self) -> float:
+        """The sum over interior edges of (angle + kappa + 2 pi/N jump - other angle)^2."""
+        return number(lib.roundel_field_energy, self._handle.pointer, kind="double")
+
+    @property
+    def solution(self) -> Solution:
+        """The solution behind the field."""
+        call = lib.roundel_field_solution
+        return taken(Handle.made("roundel_solution", call, self._handle.pointer).pointer)
+
+
+def field(
+    V: Any,
+    F: Any = None,
+    *,
+    progress: Progress = None,
+    cancel: Optional[CancelToken] = None,
+    **keywords: Any,
+) -> Field:
+    """The smoothest field of a mesh, of crosses unless `symmetry` says otherwise.
+
+    Keywords are those of the guidance (`features`, `align_boundary`, `curvature`, `constraints`,
+    `guides`, `indices`, `symmetry`, `guide_file`: see the README) and the library's options;
+    `progress` and `cancel` as in `solve`. Without any the field follows the boundary.
+
+    >>> import roundel
+    >>> cube = roundel.Mesh.shape("rounded-cube", 600)
+    >>> field = roundel.field(cube.vertices, cube.faces)
+    >>> len(field.irregular), round(float(field.vertex_indices.sum()), 9)
+    (8, 2.0)
+    """
+    mesh = as_mesh(V, F)
+    wishes, options = split(keywords)
+    guidance = guidance_handle(mesh, wishes)
+    handle, watch = options_handle(options), Watch(progress, cancel)
+    place = ffi.new("roundel_field **")
+    call, of = lib.roundel_field_solve_guided, mesh._handle.pointer
+    watch.check(call(of, pointer_of(guidance), handle.pointer, watch.pointer, place))
+    return Field(mesh, Handle("roundel_field", place[0]), guidance)

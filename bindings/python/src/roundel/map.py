@@ -1,0 +1,170 @@
+"""Seamless maps."""
+
+from __future__ import annotations
+
+from typing import Any, Optional
+
+import numpy as np
+
+from ._library import Handle, lib, number, path
+from .arrays import pointer, reals
+from .errors import check
+from .field import Field, field
+from .guidance import split
+from .mesh import pointer_of
+from .options import options_handle
+from .quads import Quads, extracted
+from .solution import Solution, taken
+from .watch import CancelToken, Progress, Watch
+
+
+class Map:
+    """Coordinates (u, v) on a surface cut open, seamless by quarter turns and integer shifts.
+
+    Made by `map`; solved again for another size by `solve`, from what was kept.
+    """
+
+    def __init__(self, of: Field) -> None:
+        self.field = of
+        mesh = of.mesh._handle.pointer
+        arguments = (mesh, of._handle.pointer, pointer_of(of._guidance))
+        self._handle = Handle.made("roundel_map", lib.roundel_map_new, *arguments)
+
+    def solve(
+        self,
+        *,
+        quads: Optional[int] = None,
+        edge_length: Any = None,
+        untangle: bool = True,
+        progress: Progress = None,
+        cancel: Optional[CancelToken] = None,
+        **options: Any,
+    ) -> None:
+        """Solves at a size: a number of quads, or the length of their edges, one or two a face.
+
+        Integers decided, `untangle` moves what they do not hold until as few triangles as can be
+        are turned over.
+        """
+        self._aim(quads, edge_length)
+        handle, watch = options_handle(options), Watch(progress, cancel)
+        watch.check(lib.roundel_map_solve(self._handle.pointer, handle.pointer, watch.pointer))
+        if untangle and self.solution.status != "relaxed" and len(self.flipped) > 0:
+            watch.check(lib.roundel_map_untangle(self._handle.pointer, watch.pointer))
+
+    def _aim(self, quads: Optional[int], edge_length: Any) -> None:
+        if quads is not None and edge_length is not None:
+            raise TypeError("quads and edge_length are two ways to say one thing")
+        if quads is not None:
+            check(lib.roundel_map_set_quads(self._handle.pointer, quads))
+        elif edge_length is not None and np.isscalar(edge_length):
+            check(lib.roundel_map_set_edge_length(self._handle.pointer, edge_length))
+        elif edge_length is not None:
+            lengths = np.asarray(edge_length, dtype=np.float64)
+            if lengths.ndim == 1:
+                lengths = np.stack([lengths, lengths], axis=1)
+            lengths = reals(lengths, "edge_length", (-1, 2))
+            call = lib.roundel_map_set_edge_lengths
+            check(call(self._handle.pointer, pointer(lengths), lengths.size))
+
+    @property
+    def uvs(self) -> np.ndarray:
+        """u, v of the three corners of every face: an array of shape (faces, 3, 2)."""
+        found = np.empty((len(self.field.mesh.faces), 3, 2))
+        check(lib.roundel_map_corner_uvs(self._handle.pointer, pointer(found), found.size))
+        return found
+
+    @property
+    def vertex_uvs(self) -> np.ndarray:
+        """u, v of every vertex of the cut surface."""
+        found = np.empty((number(lib.roundel_map_vertex_count, self._handle.pointer), 2))
+        check(lib.roundel_map_vertex_uvs(self._handle.pointer, pointer(found), found.size))
+        return found
+
+    @property
+    def vertex_corners(self) -> np.ndarray:
+        """The three corners of every face as vertices of the cut surface."""
+        found = np.empty((len(self.field.mesh.faces), 3), dtype=np.int32)
+        check(lib.roundel_map_vertex_corners(self._handle.pointer, pointer(found), found.size))
+        return found
+
+    @property
+    def transitions(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Cut edges, and over each the quarter turns (0 to 3) and the translation (s, t)."""
+        count = number(lib.roundel_map_cut_count, self._handle.pointer)
+        edges, quarters = np.empty((2, count), dtype=np.int32)
+        shifts = np.empty((count, 2))
+        arrays = (pointer(edges), pointer(quarters), pointer(shifts))
+        check(lib.roundel_map_transitions(self._handle.pointer, count, *arrays))
+        return edges, quarters, shifts
+
+    @property
+    def cones(self) -> np.ndarray:
+        """The irregular vertices of the field, which lie on integers."""
+        return self._list(lib.roundel_map_cone_count, lib.roundel_map_cones)
+
+    @property
+    def flipped(self) -> np.ndarray:
+        """The faces that the map turns over or collapses."""
+        return self._list(lib.roundel_map_flipped_count, lib.roundel_map_flipped)
+
+    @property
+    def valid(self) -> bool:
+        """Whether no face is turned over or collapsed."""
+        return number(lib.roundel_map_flipped_count, self._handle.pointer) == 0
+
+    @property
+    def energy(self) -> float:
+        """How far the gradients of u and v are from the field: area times squares."""
+        return number(lib.roundel_map_energy, self._handle.pointer, kind="double")
+
+    @property
+    def solution(self) -> Solution:
+        """The solution behind the map."""
+        call = lib.roundel_map_solution
+        return taken(Handle.made("roundel_solution", call, self._handle.pointer).pointer)
+
+    def quads(self) -> Quads:
+        """The quads of the map, as they are: vertices where integer lines cross."""
+        return extracted(self._handle)
+
+    def write(self, file: Any) -> None:
+        """Writes the mesh with its coordinates as OBJ."""
+        check(lib.roundel_map_write(self._handle.pointer, path(file)))
+
+    def _list(self, count: Any, call: Any) -> np.ndarray:
+        found = np.empty(number(count, self._handle.pointer), dtype=np.int32)
+        check(call(self._handle.pointer, pointer(found), len(found)))
+        return found
+
+
+def map(
+    V: Any,
+    F: Any = None,
+    *,
+    quads: Optional[int] = None,
+    edge_length: Any = None,
+    untangle: bool = True,
+    progress: Progress = None,
+    cancel: Optional[CancelToken] = None,
+    **keywords: Any,
+) -> Map:
+    """A seamless map of a mesh, or of a `Field`, at a size of quads (1000 of them by default).
+
+    Keywords are those of `field`; the options are those of both solves.
+
+    >>> import roundel
+    >>> cube = roundel.Mesh.shape("rounded-cube", 600)
+    >>> map = roundel.map(cube, quads=100)
+    >>> map.uvs.shape == (len(cube.faces), 3, 2), map.valid
+    (True, True)
+    """
+    wishes, options = split(keywords)
+    watched: dict[str, Any] = {"progress": progress, "cancel": cancel, **options}
+    if isinstance(V, Field):
+        if F is not None or wishes:
+            raise TypeError("a field has its mesh and its guidance: give them to the field")
+        made = Map(V)
+    else:
+        made = Map(field(V, F, **watched, **wishes))
+    made.solve(quads=quads, edge_length=edge_length, untangle=untangle, **watched)
+    return made

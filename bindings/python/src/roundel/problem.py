@@ -1,0 +1,178 @@
+"""A problem, built part by part."""
+
+from __future__ import annotations
+
+from typing import Any, Mapping, Optional
+
+import numpy as np
+
+from ._library import Handle, ffi, lib, number, path
+from .arrays import compressed, indices, indices32, pointer, reals
+from .errors import check
+from .options import options_handle
+
+_TRIANGLES = {
+    "full": lib.ROUNDEL_TRIANGLE_FULL,
+    "upper": lib.ROUNDEL_TRIANGLE_UPPER,
+    "lower": lib.ROUNDEL_TRIANGLE_LOWER,
+}
+
+
+class Problem:
+    """Minimise 1/2 x'Qx + q'x + c + sum_k w_k (a_k . x - r_k)^2 subject to C x = d, some x integer.
+
+    Parts may be given in any order and any number of times: terms add up. A call that fails
+    changes nothing. Matrices are SciPy's, of any form, or dense; CSR and CSC of 32 or 64 bits and
+    double precision go to the library without a copy in Python.
+
+    >>> import roundel
+    >>> problem = roundel.Problem(2)
+    >>> problem.least_squares([0], [1.0], 0.4)
+    0
+    >>> problem.least_squares([0, 1], [1.0, -1.0], 0.0)
+    1
+    >>> problem.integer([1])
+    >>> roundel.solve(problem).values
+    array([0.2, 0. ])
+    """
+
+    def __init__(self, variables: int, _handle: Optional[Handle] = None) -> None:
+        if _handle is None:
+            if variables < 0:
+                raise ValueError("a problem has no negative number of variables")
+            _handle = Handle.made("roundel_problem", lib.roundel_problem_new, variables)
+        self._handle = _handle
+
+    @classmethod
+    def read_mps(cls, file: Any) -> "Problem":
+        """A problem from a file in free-format MPS, gzipped or not."""
+        return cls(0, Handle.made("roundel_problem", lib.roundel_problem_read_mps, path(file)))
+
+    def write_mps(self, file: Any) -> None:
+        """Writes free-format MPS, gzipped if the file's name ends in ".gz"."""
+        check(lib.roundel_problem_write_mps(self._handle.pointer, path(file)))
+
+    def save_replay(self, file: Any, options: Mapping[str, Any] = {}) -> None:
+        """Writes the problem and how to solve it, for a solve that is repeated elsewhere."""
+        handle = options_handle(options)
+        check(lib.roundel_problem_save_replay(self._handle.pointer, handle.pointer, path(file)))
+
+    def copy(self) -> "Problem":
+        """A problem of its own with the same parts."""
+        pointer_ = self._handle.pointer
+        return Problem(0, Handle.made("roundel_problem", lib.roundel_problem_clone, pointer_))
+
+    @property
+    def variables(self) -> int:
+        """The number of variables."""
+        return number(lib.roundel_problem_variables, self._handle.pointer)
+
+    @property
+    def constraints(self) -> int:
+        """The number of constraints, which is the number of the next one."""
+        return number(lib.roundel_problem_constraints, self._handle.pointer)
+
+    def quadratic(self, Q: Any, triangle: str = "full") -> None:
+        """Adds 1/2 x'Qx. `triangle` says which entries are given: "full", "upper" or "lower"."""
+        matrix = compressed(Q, "Q")
+        if matrix.shape != (self.variables, self.variables):
+            raise ValueError(f"Q: the shape is {matrix.shape} for {self.variables} variables")
+        if triangle not in _TRIANGLES:
+            raise ValueError(f"triangle: {triangle!r} is none of {', '.join(_TRIANGLES)}")
+        call = getattr(lib, f"roundel_problem_add_quadratic_{matrix.form}{matrix.twin}")
+        check(call(self._handle.pointer, _TRIANGLES[triangle], *matrix.arguments()))
+
+    def linear(self, q: Any) -> None:
+        """Adds q'x."""
+        values = reals(q, "q")
+        check(lib.roundel_problem_add_linear(self._handle.pointer, pointer(values), len(values)))
+
+    def constant(self, c: float) -> None:
+        """Adds a number to the objective."""
+        check(lib.roundel_problem_add_constant(self._handle.pointer, c))
+
+    def least_squares(self, indices: Any, coefficients: Any, rhs: float, weight: float = 1.0) -> int:
+        """Adds weight * (coefficients . x[indices] - rhs)^2, and gives the number of the row."""
+        at = indices32(indices, "indices")
+        values = reals(coefficients, "coefficients", (len(at),))
+        row = ffi.new("size_t *")
+        check(
+            lib.roundel_problem_add_least_squares(
+                self._handle.pointer, len(at), pointer(at), pointer(values), rhs, weight, row
+            )
+        )
+        return row[0]
+
+    def least_squares_rows(self, A: Any, b: Any, weights: Any = None) -> None:
+        """Adds sum_k weights_k (A_k . x - b_k)^2, one row after the other. Weights are 1 by default."""
+        matrix = compressed(A, "A", only="csr")
+        if matrix.shape[1] != self.variables:
+            raise ValueError(f"A: {matrix.shape[1]} columns for {self.variables} variables")
+        count = matrix.shape[0]
+        rhs = reals(b, "b", (count,)).tolist()
+        factors = np.ones(count) if weights is None else reals(weights, "weights", (count,))
+        at, values = indices32(matrix.indices, "A"), matrix.values
+        first, last = pointer(at), pointer(values)
+        starts = matrix.offsets.tolist()
+        call, problem = lib.roundel_problem_add_least_squares, self._handle.pointer
+        for k, weight in enumerate(factors.tolist()):
+            start, length = starts[k], starts[k + 1] - starts[k]
+            check(call(problem, length, first + start, last + start, rhs[k], weight, ffi.NULL))
+
+    def constrain(self, indices: Any, coefficients: Any, rhs: float) -> int:
+        """Adds the constraint coefficients . x[indices] = rhs, and gives its number."""
+        at = indices32(indices, "indices")
+        values = reals(coefficients, "coefficients", (len(at),))
+        number_ = self.constraints
+        check(
+            lib.roundel_problem_add_constraint(
+                self._handle.pointer, len(at), pointer(at), pointer(values), rhs
+            )
+        )
+        return number_
+
+    def constrain_rows(self, C: Any, d: Any) -> int:
+        """Adds the constraints C x = d, one a row, and gives the number of the first."""
+        matrix = compressed(C, "C")
+        if matrix.shape[1] != self.variables:
+            raise ValueError(f"C: {matrix.shape[1]} columns for {self.variables} variables")
+        rhs = reals(d, "d")
+        call = getattr(lib, f"roundel_problem_add_constraints_{matrix.form}{matrix.twin}")
+        arguments = (*matrix.arguments(), len(rhs), pointer(rhs))
+        return number(call, self._handle.pointer, *arguments)
+
+    def integer(self, variables: Any) -> None:
+        """Makes variables integer: their numbers, or a boolean for each."""
+        given = np.asarray(variables)
+        if given.dtype == bool:
+            if given.shape != (self.variables,):
+                raise ValueError(f"integers: the shape is {given.shape} for {self.variables} variables")
+            given = np.flatnonzero(given)
+        at = indices32(given, "integers")
+        check(lib.roundel_problem_set_integers(self._handle.pointer, len(at), pointer(at)))
+
+    def pin(self, variable: int, value: float) -> None:
+        """Fixes a variable to a value."""
+        check(lib.roundel_problem_pin(self._handle.pointer, variable, value))
+
+    def unpin(self, variable: int) -> None:
+        """Frees a pinned variable again; one that is free stays so."""
+        check(lib.roundel_problem_unpin(self._handle.pointer, variable))
+
+    def guess(self, values: Any) -> None:
+        """Sets the point that variables keep to where the objective does not decide them."""
+        given = reals(values, "guess")
+        check(lib.roundel_problem_set_guess(self._handle.pointer, pointer(given), len(given)))
+
+    def hint_cycles(self, offsets: Any, rows: Any, signs: Any) -> None:
+        """Hands over short cycles of least-squares rows: see roundel_problem_hint_cycles."""
+        starts, at = indices(offsets, "offsets"), indices(rows, "rows")
+        if starts.dtype != at.dtype:
+            starts, at = starts.astype(np.int64), at.astype(np.int64)
+        twin = "_i64" if at.dtype == np.int64 else ""
+        call = getattr(lib, f"roundel_problem_hint_cycles{twin}")
+        turns = np.ascontiguousarray(signs, dtype=np.int8)
+        if turns.shape != at.shape:
+            raise ValueError("signs: there must be one for each of the rows")
+        arrays = (len(starts), pointer(starts), len(at), pointer(at), pointer(turns))
+        check(call(self._handle.pointer, *arrays))

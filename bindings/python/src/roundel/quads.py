@@ -1,0 +1,152 @@
+"""Quad meshes."""
+
+from __future__ import annotations
+
+from typing import Any, Iterator, Optional
+
+import numpy as np
+
+from ._library import Handle, ffi, lib, number, path
+from .arrays import pointer, reals
+from .errors import check
+from .guidance import guidance_handle, split
+from .mesh import Mesh, as_mesh, pointer_of
+from .options import options_handle
+from .watch import CancelToken, Progress, Watch
+
+#: The guidance of a quadrangulation that is asked for nothing: (fraction, weight).
+CURVATURE = (0.005, 0.07)
+
+
+class Quads:
+    """A mesh of quads, and of the few other polygons that a map may leave. Made by `quad`.
+
+    It unpacks into vertices and quads: `vertices, quads = roundel.quad(V, F)`.
+    """
+
+    def __init__(self, handle: Handle) -> None:
+        self._handle = handle
+
+    def __iter__(self) -> Iterator[np.ndarray]:
+        return iter((self.vertices, self.faces))
+
+    def __len__(self) -> int:
+        return number(lib.roundel_quads_count, self._handle.pointer)
+
+    @property
+    def vertices(self) -> np.ndarray:
+        """x, y, z of every vertex."""
+        found = np.empty((number(lib.roundel_quads_vertex_count, self._handle.pointer), 3))
+        check(lib.roundel_quads_vertices(self._handle.pointer, pointer(found), found.size))
+        return found
+
+    @property
+    def faces(self) -> np.ndarray:
+        """The four corners of every quad, counter-clockwise seen from outside."""
+        found = np.empty((len(self), 4), dtype=np.int32)
+        check(lib.roundel_quads_corners(self._handle.pointer, pointer(found), found.size))
+        return found
+
+    @property
+    def others(self) -> list[np.ndarray]:
+        """The corners of every face that is no quad."""
+        counts = ffi.new("size_t[2]")
+        check(lib.roundel_quads_other_count(self._handle.pointer, counts, counts + 1))
+        sizes, corners = np.empty(counts[0], np.int32), np.empty(counts[1], np.int32)
+        arrays = (len(sizes), pointer(sizes), len(corners), pointer(corners))
+        check(lib.roundel_quads_others(self._handle.pointer, *arrays))
+        return np.split(corners, np.cumsum(sizes)[:-1]) if len(sizes) else []
+
+    @property
+    def irregular_count(self) -> int:
+        """How many vertices have other than four edges, or three on the boundary."""
+        return number(lib.roundel_quads_irregular_count, self._handle.pointer)
+
+    @property
+    def euler_characteristic(self) -> int:
+        """Vertices minus edges plus faces."""
+        call = lib.roundel_quads_euler_characteristic
+        return number(call, self._handle.pointer, kind="int64_t")
+
+    @property
+    def conforming(self) -> bool:
+        """Whether there is nothing but quads, closed where the triangles were."""
+        call = lib.roundel_quads_is_conforming
+        return bool(number(call, self._handle.pointer, kind="int32_t"))
+
+    def smooth(self, mesh: Mesh, **wishes: Any) -> None:
+        """Moves the vertices over the mesh that they are from, towards squares of one size."""
+        guidance = guidance_handle(mesh, wishes)
+        arguments = (mesh._handle.pointer, pointer_of(guidance), ffi.NULL)
+        check(lib.roundel_quads_smooth(self._handle.pointer, *arguments))
+
+    def write(self, file: Any) -> None:
+        """Writes the faces as OBJ."""
+        check(lib.roundel_quads_write(self._handle.pointer, path(file)))
+
+
+def extracted(map_: Handle) -> Quads:
+    """The quads of a map's last solve."""
+    return Quads(Handle.made("roundel_quads", lib.roundel_quads_extract, map_.pointer))
+
+
+def extract(V: Any, F: Any, uvs: Any) -> Quads:
+    """The quads of an integer-grid map from anywhere: u, v of the corners, of shape (faces, 3, 2).
+
+    >>> import roundel
+    >>> mesh = roundel.Mesh.shape("plane", 200)
+    >>> flat = mesh.vertices[mesh.faces][:, :, :2]
+    >>> uvs = 4 * (flat - flat.min(axis=(0, 1)))
+    >>> len(roundel.extract(mesh.vertices, mesh.faces, uvs)) > 0
+    True
+    """
+    mesh = as_mesh(V, F)
+    given = reals(uvs, "uvs", (-1, 3, 2))
+    arguments = (mesh._handle.pointer, pointer(given), given.size)
+    return Quads(Handle.made("roundel_quads", lib.roundel_quads_extract_uvs, *arguments))
+
+
+def quad(
+    V: Any,
+    F: Any = None,
+    *,
+    quads: Optional[int] = None,
+    edge_length: Optional[float] = None,
+    progress: Progress = None,
+    cancel: Optional[CancelToken] = None,
+    **keywords: Any,
+) -> Quads:
+    """About so many quads (1000 by default), or quads with edges of about a length, of a mesh.
+
+    Field, map, extraction and smoothing in one call. Keywords are those of `field`; where none is
+    given, quads follow the boundary and the curvature. The strategy is `lattice` by default.
+
+    >>> import roundel
+    >>> cube = roundel.Mesh.shape("rounded-cube", 600)
+    >>> vertices, quads = found = roundel.quad(cube.vertices, cube.faces, quads=100)
+    >>> found.conforming, len(vertices) - len(quads)
+    (True, 2)
+    """
+    mesh = as_mesh(V, F)
+    if quads is not None and edge_length is not None:
+        raise TypeError("quads and edge_length are two ways to say one thing")
+    if edge_length is not None:
+        if not edge_length > 0.0:
+            raise ValueError("edge_length: must be above zero")
+        quads = max(1, round(_area(mesh) / edge_length**2))
+    wishes, options = split(keywords)
+    if wishes:
+        wishes.setdefault("curvature", None if "indices" in wishes else CURVATURE)
+        wishes = {name: wish for name, wish in wishes.items() if wish is not None}
+    guidance = guidance_handle(mesh, wishes)
+    handle, watch = options_handle({"strategy": "lattice", **options}), Watch(progress, cancel)
+    place = ffi.new("roundel_quads **")
+    arguments = (1000 if quads is None else quads, pointer_of(guidance), handle.pointer)
+    watch.check(lib.roundel_quads_make(mesh._handle.pointer, *arguments, watch.pointer, place))
+    return Quads(Handle("roundel_quads", place[0]))
+
+
+def _area(mesh: Mesh) -> float:
+    corners = mesh.vertices[mesh.faces]
+    sides = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    return float(np.linalg.norm(np.cross(*sides), axis=1).sum() / 2)

@@ -1,0 +1,80 @@
+"""Solutions, copied out of the library: they can be pickled and kept."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any, Optional
+
+import numpy as np
+
+from ._library import ffi, lib, number, text
+from .arrays import pointer
+from .errors import check
+
+
+@dataclass(frozen=True)
+class Solution:
+    """What a solve found.
+
+    >>> import roundel
+    >>> s = roundel.solve(A=[[1.0, 0.0], [1.0, -1.0]], b=[0.4, 0.0], integers=[1])
+    >>> s.status, s.proved, round(s.energy, 12)
+    ('optimal', True, 0.08)
+    """
+
+    #: One value a variable; integers are exact, except after a relaxation.
+    values: np.ndarray = field(repr=False)
+    #: The objective at the values, recomputed from the problem as it was given.
+    energy: float
+    #: No integer solution has less energy; None where nothing is known.
+    lower_bound: Optional[float]
+    #: (energy - lower_bound) / max(1, abs(energy)); None where nothing is known.
+    gap: Optional[float]
+    #: "optimal", "feasible", "limit", "cancelled" or "relaxed".
+    status: str
+    #: The largest relative violation of a constraint.
+    constraint_violation: float
+    #: The largest distance of an integer variable from an integer.
+    integrality_violation: float
+    #: Sizes before and after elimination: variables, integers, constraints, ...
+    counts: dict[str, int] = field(repr=False)
+    #: Wall-clock seconds by phase: eliminate, factor, round, total.
+    seconds: dict[str, float] = field(repr=False)
+
+    @property
+    def proved(self) -> bool:
+        """Whether no solution has less energy, and that is proved."""
+        return self.status == "optimal"
+
+
+def taken(pointer_: Any) -> Solution:
+    """All of a solution of the library, which stays the caller's to free."""
+    values = np.empty(number(lib.roundel_solution_variables, pointer_))
+    check(lib.roundel_solution_values(pointer_, pointer(values), len(values)))
+    violations = ffi.new("double[2]")
+    check(lib.roundel_solution_violations(pointer_, violations, violations + 1))
+    status = number(lib.roundel_solution_status, pointer_, kind="roundel_solve_status")
+    return Solution(
+        values=values,
+        energy=number(lib.roundel_solution_energy, pointer_, kind="double"),
+        lower_bound=_if_known(lib.roundel_solution_lower_bound, pointer_),
+        gap=_if_known(lib.roundel_solution_gap, pointer_),
+        status=text(lib.roundel_solve_status_name(status)),
+        constraint_violation=violations[0],
+        integrality_violation=violations[1],
+        counts=_members("roundel_counts", lib.roundel_solution_counts, pointer_),
+        seconds=_members("roundel_seconds", lib.roundel_solution_seconds, pointer_),
+    )
+
+
+def _if_known(call: Any, pointer_: Any) -> Optional[float]:
+    known, value = ffi.new("int32_t *"), ffi.new("double *")
+    check(call(pointer_, known, value))
+    return value[0] if known[0] else None
+
+
+def _members(kind: str, call: Any, pointer_: Any) -> dict[str, Any]:
+    place = ffi.new(f"{kind} *")
+    check(call(pointer_, place))
+    names = [name for name, _ in ffi.typeof(kind).fields if name != "reserved"]
+    return {name: getattr(place, name) for name in names}

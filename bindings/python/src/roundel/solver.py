@@ -1,0 +1,76 @@
+"""Solving one problem again and again."""
+
+from __future__ import annotations
+
+from typing import Any, Optional
+
+from ._library import Handle, ffi, lib
+from .arrays import pointer, reals
+from .errors import check
+from .options import options_handle
+from .problem import Problem
+from .solution import Solution, taken
+from .watch import CancelToken, Progress, Watch
+
+
+class Solver:
+    """A problem whose matrices and integers are fixed, for many solves.
+
+    Elimination, orderings and factors are kept from one solve to the next. The solution is that of
+    `solve` for the same data, except that the option `warm_start` may improve it. One thread at a
+    time may use it.
+
+    >>> import roundel
+    >>> problem = roundel.Problem(2)
+    >>> problem.least_squares_rows([[1.0, 0.0], [1.0, -1.0]], [0.4, 0.0])
+    >>> problem.integer([1])
+    >>> solver = roundel.Solver(problem)
+    >>> solver.solve().values
+    array([0.2, 0. ])
+    >>> solver.set_least_squares_right_sides([3.4, 0.0])
+    >>> solver.solve(warm_start="offer").values
+    array([3.2, 3. ])
+    """
+
+    def __init__(self, problem: Problem) -> None:
+        self._variables = problem.variables
+        self._handle = Handle.made("roundel_solver", lib.roundel_solver_new, problem._handle.pointer)
+
+    def _replace(self, call: Any, values: Any, what: str) -> None:
+        given = reals(values, what)
+        check(call(self._handle.pointer, pointer(given), len(given)))
+
+    def set_linear(self, q: Any) -> None:
+        """Replaces the linear term; what least-squares rows add to it is not touched."""
+        self._replace(lib.roundel_solver_set_linear, q, "q")
+
+    def set_constraint_right_sides(self, d: Any) -> None:
+        """Replaces the right sides of the constraints, in the order in which they were added."""
+        self._replace(lib.roundel_solver_set_constraint_right_sides, d, "d")
+
+    def set_least_squares_right_sides(self, b: Any) -> None:
+        """Replaces the right sides of the least-squares rows, in the order they were added."""
+        self._replace(lib.roundel_solver_set_least_squares_right_sides, b, "b")
+
+    def set_guess(self, values: Any) -> None:
+        """Sets the point that variables keep to where the objective does not decide them."""
+        self._replace(lib.roundel_solver_set_guess, values, "guess")
+
+    def pin(self, variable: int, value: float) -> None:
+        """Fixes a variable; one that is pinned already gets another value."""
+        check(lib.roundel_solver_pin(self._handle.pointer, variable, value))
+
+    def unpin(self, variable: int) -> None:
+        """Releases a pinned variable; one that is free stays so."""
+        check(lib.roundel_solver_unpin(self._handle.pointer, variable))
+
+    def solve(
+        self, *, progress: Progress = None, cancel: Optional[CancelToken] = None, **options: Any
+    ) -> Solution:
+        """Solves the problem as it stands; keywords as in `roundel.solve`."""
+        handle, watch = options_handle(options), Watch(progress, cancel)
+        place = ffi.new("roundel_solution **")
+        call = lib.roundel_solver_solve_with
+        status = call(self._handle.pointer, handle.pointer, watch.pointer, place)
+        watch.check(status, self._variables)
+        return taken(Handle("roundel_solution", place[0]).pointer)

@@ -1,0 +1,142 @@
+"""Who watches a solve: the caller's function, a line on the terminal, and Ctrl-C."""
+
+from __future__ import annotations
+
+import sys
+from dataclasses import dataclass
+from typing import Any, Callable, Optional, Union
+
+from ._library import Handle, ffi, lib, text
+from .errors import check
+
+
+@dataclass(frozen=True)
+class Event:
+    """One message of a solve, with where it stands."""
+
+    #: "progress", "log", "improved" or "raised"; others may come with later versions.
+    kind: str
+    #: "eliminate", "factor", "round", "untangle", "quads", or "" where it is no progress.
+    phase: str
+    #: How much of the phase is done, from 0 to 1.
+    fraction: float
+    #: A line of text; empty where there is none.
+    text: str
+    #: Seconds since the solve began.
+    seconds: float
+    #: Energy of the best solution so far; infinite before the first.
+    energy: float
+    #: The best lower bound so far; minus infinity before the first.
+    lower_bound: float
+    #: (energy - lower_bound) / max(1, abs(energy)).
+    gap: float
+
+
+#: A function of an event that returns something true to end the solve, or True for a line of
+#: progress on stderr.
+Progress = Union[bool, Callable[[Event], Any], None]
+
+
+def _words(prefix: str, *words: str) -> dict[int, str]:
+    return {getattr(lib, f"ROUNDEL_{prefix}_{word.upper()}"): word for word in words}
+
+
+_KINDS = _words("EVENT", "progress", "log", "improved", "raised")
+_PHASES = _words("PHASE", "eliminate", "factor", "round", "untangle", "quads")
+
+
+class CancelToken:
+    """A flag by which any thread may cancel a solve.
+
+    >>> import roundel
+    >>> token = roundel.CancelToken()
+    >>> token.cancel()
+    >>> token.is_cancelled
+    True
+    """
+
+    def __init__(self) -> None:
+        self._handle = Handle.made("roundel_cancel_token", lib.roundel_cancel_token_new)
+
+    def cancel(self) -> None:
+        """Asks every solve that holds this token to end."""
+        check(lib.roundel_cancel_token_cancel(self._handle.pointer))
+
+    def reset(self) -> None:
+        """Takes the request back, so that the token can be used again."""
+        check(lib.roundel_cancel_token_reset(self._handle.pointer))
+
+    @property
+    def is_cancelled(self) -> bool:
+        """Whether the token is set."""
+        place = ffi.new("int32_t *")
+        check(lib.roundel_cancel_token_is_cancelled(self._handle.pointer, place))
+        return bool(place[0])
+
+
+class Watch:
+    """The monitor of one call. The library lets go of Python's lock and takes it for an event.
+
+    Python runs the handler of a signal when it next runs code of the main thread, which is here:
+    a KeyboardInterrupt then leaves the callback, ends the solve, and goes on from `raise_caught`.
+    """
+
+    def __init__(self, progress: Progress, cancel: Optional[CancelToken]) -> None:
+        self._line = Line() if progress is True else None
+        self._tell = self._line or (progress if callable(progress) else None)
+        self._caught: Optional[BaseException] = None
+        self._cancel = cancel
+        self._callback = ffi.callback("roundel_callback", self._hear, error=1, onerror=self._catch)
+        token = cancel._handle.pointer if cancel is not None else ffi.NULL
+        size = ffi.sizeof("roundel_monitor")
+        self.pointer = ffi.new("roundel_monitor *", [size, self._callback, ffi.NULL, token])
+
+    def _hear(self, event: Any, _: Any) -> int:
+        if self._caught is not None:
+            return 1
+        if self._tell is None:
+            return 0
+        return 1 if self._tell(_event(event)) else 0
+
+    def _catch(self, _kind: Any, error: BaseException, _trace: Any) -> None:
+        self._caught = error
+
+    def check(self, status: int, variables: int = 0) -> None:
+        """Raises what the callback raised, or else what the status says."""
+        if self._line is not None:
+            self._line.end()
+        if self._caught is not None:
+            raise self._caught
+        check(status, variables)
+
+
+def _event(event: Any) -> Event:
+    return Event(
+        _KINDS.get(event.kind, "unknown"),
+        _PHASES.get(event.phase, ""),
+        event.fraction,
+        text(event.text),
+        event.seconds,
+        event.energy,
+        event.lower_bound,
+        event.gap,
+    )
+
+
+class Line:
+    """One line on stderr that is written over and over."""
+
+    def __init__(self) -> None:
+        self._width = 0
+
+    def __call__(self, event: Event) -> bool:
+        if event.kind == "progress":
+            line = f"{event.phase:9} {100 * event.fraction:3.0f} %  {event.seconds:.1f} s"
+            sys.stderr.write("\r" + line.ljust(self._width))
+            sys.stderr.flush()
+            self._width = len(line)
+        return False
+
+    def end(self) -> None:
+        if self._width > 0:
+            sys.stderr.write("\n")

@@ -1,0 +1,47 @@
+"""Every example that a reader sees is run."""
+
+import doctest
+import importlib
+import pkgutil
+import re
+from pathlib import Path
+
+import pytest
+
+import roundel
+
+README = Path(__file__).resolve().parents[3] / "README.md"
+FOUND = (module.name for module in pkgutil.iter_modules(roundel.__path__))
+MODULES = sorted(name for name in FOUND if "lib" not in name and name != "_declarations")
+
+
+@pytest.mark.parametrize("name", MODULES)
+def test_examples_of_the_documentation(name):
+    assert doctest.testmod(importlib.import_module(f"roundel.{name}")).failed == 0
+
+
+def test_every_public_function_has_an_example():
+    for name in ("solve", "Problem", "Solver", "field", "map", "quad", "extract", "options", "presets"):
+        assert ">>>" in getattr(roundel, name).__doc__, name
+
+
+def test_everything_public_is_documented():
+    for name in roundel.__all__:
+        thing = getattr(roundel, name)
+        assert thing.__doc__, name
+        for member, value in vars(thing).items() if isinstance(thing, type) else ():
+            if not member.startswith("_") and (callable(value) or isinstance(value, property)):
+                assert value.__doc__, f"{name}.{member}"
+
+
+def test_the_example_of_the_readme(tmp_path, monkeypatch, capsys):
+    blocks = re.findall(r"```python\n(.*?)```", README.read_text(encoding="utf-8"), re.DOTALL)
+    assert blocks
+    monkeypatch.chdir(tmp_path)
+    for block in blocks:
+        exec(compile(block, "README.md", "exec"), {})
+    assert capsys.readouterr().out != ""
+
+
+def test_the_package_says_that_it_is_typed():
+    assert (Path(roundel.__file__).parent / "py.typed").exists()

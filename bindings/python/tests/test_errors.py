@@ -1,0 +1,100 @@
+"""What is refused, and what the exceptions say."""
+
+import numpy as np
+import pytest
+
+import roundel
+from roundel import errors
+from roundel._library import ffi
+
+EYE = np.eye(3)
+
+
+def test_every_status_of_the_interface_has_its_exception():
+    numbers = ffi.typeof("enum roundel_status").relements
+    failures = {name: number for name, number in numbers.items() if name != "ROUNDEL_OK"}
+    assert set(errors.classes) == set(failures.values())
+    assert len(set(errors.classes.values())) == len(failures)
+    for raised in errors.classes.values():
+        assert issubclass(raised, roundel.Error) and getattr(roundel, raised.__name__) is raised
+
+
+def test_contradicting_constraints_name_the_row():
+    with pytest.raises(roundel.InfeasibleError) as caught:
+        C = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.0]]
+        roundel.solve(A=EYE, b=np.zeros(3), C=C, d=[1.0, 1.0, 3.0])
+    assert caught.value.row in (0, 1, 2) and caught.value.row == caught.value.index
+    assert caught.value.code == "infeasible" and caught.value.position is None
+
+
+def test_an_index_too_large_names_its_position_and_is_an_index_error():
+    with pytest.raises(IndexError) as caught:
+        roundel.solve(A=EYE, b=np.zeros(3), integers=[0, 7])
+    assert isinstance(caught.value, roundel.IndexOutOfRangeError) and caught.value.position == 1
+
+
+def test_not_a_number_names_its_position():
+    with pytest.raises(roundel.NotFiniteError) as caught:
+        roundel.solve(EYE, [0.0, np.nan, 0.0])
+    assert caught.value.position == 1
+
+
+@pytest.mark.parametrize("curved, kind", [(0.0, "UnboundedError"), (-1.0, "NotConvexError")])
+def test_a_direction_comes_with_what_has_no_minimum(curved, kind):
+    with pytest.raises(getattr(roundel, kind)) as caught:
+        roundel.solve(np.diag([1.0, curved, 1.0]), [0.0, 1.0, 0.0])
+    assert caught.value.variable == 1
+    assert np.allclose(np.abs(caught.value.direction), [0.0, 1.0, 0.0])
+
+
+def test_the_three_errors_of_options_differ():
+    for keywords, kind in (
+        ({"stratgy": "auto"}, roundel.UnknownOptionError),
+        ({"nodes": "many"}, roundel.OptionTypeError),
+        ({"strategy": "best"}, roundel.OptionRangeError),
+        ({"preset": "none such"}, roundel.OptionRangeError),
+    ):
+        with pytest.raises(kind, match=next(iter(keywords.values() if "preset" in keywords else keywords))):
+            roundel.solve(EYE, **keywords)
+
+
+def test_a_file_names_its_line(tmp_path):
+    (tmp_path / "bad.mps").write_text("NAME bad\nROWS\n N obj\n Z row\n")
+    with pytest.raises(roundel.ParseError) as caught:
+        roundel.Problem.read_mps(tmp_path / "bad.mps")
+    assert caught.value.line == 4
+    with pytest.raises(roundel.IoError):
+        roundel.Problem.read_mps(tmp_path / "none.mps")
+
+
+def test_meshes_name_the_face_or_the_vertex():
+    points = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]
+    for vertices, faces, kind, element in (
+        (points[:3], [[0, 1, 1]], roundel.RepeatedVertexError, ("face", 0)),
+        (points, [[0, 1, 2]], roundel.IsolatedVertexError, ("vertex", 3)),
+        (points[:3], [[0, 1, 2], [0, 1, 5]], roundel.IndexOutOfRangeError, ("position", 5)),
+    ):
+        with pytest.raises(kind) as caught:
+            roundel.Mesh(vertices, faces)
+        assert getattr(caught.value, element[0]) == element[1]
+
+
+@pytest.mark.parametrize(
+    "keywords, kind",
+    [
+        ({"A": EYE}, TypeError),
+        ({"A": EYE, "b": [0.0]}, ValueError),
+        ({"A": EYE, "b": np.zeros(3), "C": EYE}, TypeError),
+        ({"A": EYE, "b": np.zeros(3), "C": np.eye(2), "d": np.zeros(2)}, ValueError),
+        ({"Q": EYE[:2]}, ValueError),
+        ({"Q": EYE, "triangle": "left"}, ValueError),
+        ({"Q": EYE, "integers": [0.5]}, TypeError),
+        ({"Q": EYE, "integers": [True, False]}, ValueError),
+        ({"Q": EYE, "integers": [2**40]}, OverflowError),
+        ({"Q": EYE, "guess": np.zeros((3, 1))}, ValueError),
+        ({}, TypeError),
+    ],
+)
+def test_what_does_not_fit_is_refused_before_it_reaches_c(keywords, kind):
+    with pytest.raises(kind):
+        roundel.solve(**keywords)

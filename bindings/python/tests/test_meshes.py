@@ -1,0 +1,133 @@
+"""Fields, maps and quads, from arrays and from the meshes of other packages."""
+
+import numpy as np
+import pytest
+
+import roundel
+
+
+def test_a_field_turns_around_its_irregular_vertices_as_euler_says(cube):
+    field = roundel.field(cube)
+    assert field.vertex_indices.sum() == pytest.approx(cube.euler_characteristic)
+    assert field.energy == pytest.approx(field.solution.energy, rel=1e-6)
+    matched = field.angles[cube.edge_faces[:, 0]] + field.kappa + np.pi / 2 * field.period_jumps
+    off = matched - field.angles[cube.edge_faces[:, 1]]
+    assert field.energy == pytest.approx((off**2).sum(), rel=1e-6)
+
+
+def test_directions_are_unit_vectors_in_the_faces(cube):
+    directions = roundel.field(cube).directions
+    corners = cube.vertices[cube.faces]
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    assert np.allclose(np.linalg.norm(directions, axis=1), 1.0)
+    assert np.allclose((directions * normals).sum(axis=1), 0.0)
+
+
+def test_a_field_has_the_directions_and_indices_that_it_must_have(cube):
+    field = roundel.field(cube, constraints=([3, 10], [0.5, 1.0]))
+    assert np.allclose(field.angles[[3, 10]], [0.5, 1.0])
+    cones = roundel.field(cube).irregular
+    asked = roundel.field(cube, indices=(cones, np.ones(len(cones), int)))
+    assert np.array_equal(asked.irregular, cones)
+
+
+def test_lines_have_half_turns(cube):
+    field = roundel.field(cube, symmetry=2)
+    assert field.symmetry == 2
+    assert np.allclose(2 * field.vertex_indices, np.rint(2 * field.vertex_indices))
+
+
+def test_a_map_is_seamless_and_its_cones_are_integers(cube):
+    field = roundel.field(cube)
+    map = roundel.map(field, quads=200)
+    assert map.valid and len(map.flipped) == 0
+    assert np.array_equal(np.sort(map.cones), field.irregular)
+    assert np.array_equal(map.uvs, map.vertex_uvs[map.vertex_corners])
+    at_cones = map.uvs[np.isin(cube.faces, map.cones)]
+    assert np.allclose(at_cones, np.rint(at_cones), atol=1e-9)
+    edges, quarters, shifts = map.transitions
+    assert set(np.unique(quarters)) <= {0, 1, 2, 3}
+    assert np.allclose(shifts, np.rint(shifts), atol=1e-9)
+    map.solve(edge_length=0.5)
+    assert map.solution.values.shape == roundel.map(field, edge_length=0.5).solution.values.shape
+
+
+def test_quads_of_a_map_are_those_of_its_coordinates(cube):
+    map = roundel.map(cube, quads=100)
+    vertices, quads = map.quads()
+    again = roundel.extract(cube.vertices, cube.faces, map.uvs)
+    assert len(quads) == len(again) and np.allclose(vertices, again.vertices)
+
+
+def test_quads_are_as_many_as_asked_for_and_closed(cube):
+    found = roundel.quad(cube.vertices, cube.faces, quads=150)
+    vertices, quads = found
+    assert found.conforming and found.others == []
+    assert 75 < len(quads) < 300
+    assert len(vertices) - len(quads) == found.euler_characteristic == 2
+    area = roundel.quads._area(cube)
+    length = float(np.sqrt(area / 150))
+    assert len(roundel.quad(cube, edge_length=length)) == len(quads)
+
+
+def test_what_is_asked_for_by_default_is_the_library_s_own(cube):
+    silent = roundel.quad(cube, quads=100)
+    spoken = roundel.quad(cube, quads=100, curvature=roundel.quads.CURVATURE)
+    other = roundel.quad(cube, quads=100, curvature=(0.5, 0.0))
+    assert np.array_equal(silent.vertices, spoken.vertices)
+    assert not np.array_equal(silent.vertices, other.vertices)
+
+
+def test_sharp_edges_stay_sharp():
+    gear = roundel.Mesh.shape("gear", 1500)
+    found = roundel.quad(gear, quads=400, features=40)
+    tip = np.linalg.norm(gear.vertices[:, :2], axis=1).max()
+    reached = np.linalg.norm(found.vertices[:, :2], axis=1).max()
+    assert found.conforming and reached > 0.99 * tip
+
+
+def test_meshes_and_quads_are_written_and_read(cube, tmp_path):
+    cube.write(tmp_path / "cube.off")
+    read = roundel.Mesh.read(tmp_path / "cube.off")
+    assert np.array_equal(read.vertices, cube.vertices) and np.array_equal(read.faces, cube.faces)
+    found = roundel.quad(cube, quads=100)
+    found.write(tmp_path / "quads.obj")
+    lines = (tmp_path / "quads.obj").read_text().splitlines()
+    assert sum(line.startswith("f ") for line in lines) == len(found)
+
+
+def test_indices_of_any_width_are_one_mesh(cube):
+    for kind in (np.int32, np.int64, np.uint16, np.uint32, np.uint64):
+        assert np.array_equal(roundel.Mesh(cube.vertices, cube.faces.astype(kind)).faces, cube.faces)
+
+
+def test_trimesh(cube):
+    trimesh = pytest.importorskip("trimesh")
+    mesh = trimesh.Trimesh(cube.vertices, cube.faces, process=False)
+    vertices, quads = roundel.quad(mesh, quads=100)
+    back = trimesh.Trimesh(vertices, trimesh.geometry.triangulate_quads(quads), process=False)
+    assert back.is_watertight and back.volume == pytest.approx(mesh.volume, rel=0.1)
+
+
+def test_pymeshlab(cube):
+    pymeshlab = pytest.importorskip("pymeshlab")
+    meshes = pymeshlab.MeshSet()
+    meshes.add_mesh(pymeshlab.Mesh(cube.vertices, cube.faces))
+    found = roundel.quad(meshes, quads=100)
+    assert np.array_equal(found.vertices, roundel.quad(meshes.current_mesh(), quads=100).vertices)
+    faces = [list(face) for face in found.faces]
+    meshes.add_mesh(pymeshlab.Mesh(found.vertices, face_list_of_indices=faces))
+    assert meshes.current_mesh().vertex_number() == len(found.vertices)
+
+
+def test_openmesh(cube):
+    openmesh = pytest.importorskip("openmesh")
+    mesh = openmesh.TriMesh(cube.vertices, cube.faces)
+    found = roundel.quad(mesh, quads=100)
+    back = openmesh.PolyMesh(found.vertices, found.faces)
+    assert back.n_faces() == len(found) and all(back.valence(face) == 4 for face in back.faces())
+
+
+def test_a_thing_that_is_no_mesh_is_refused():
+    with pytest.raises(TypeError, match="object"):
+        roundel.field(object())

@@ -1,0 +1,143 @@
+"""Problems in matrices, in parts, and again."""
+
+import itertools
+import pickle
+
+import numpy as np
+import pytest
+
+import roundel
+from roundel.arrays import compressed
+
+scipy_sparse = pytest.importorskip("scipy.sparse")
+
+Q = np.array([[4.0, -2.0], [-2.0, 2.0]])
+q = np.array([-0.8, 0.0])
+
+
+def random_problem(seed=3):
+    draw = np.random.default_rng(seed)
+    A = draw.standard_normal((9, 6)) * (draw.random((9, 6)) < 0.6) + np.eye(9, 6)
+    C = np.array([[1.0, 1.0, 0.0, 0.0, 1.0, 0.0]])
+    return {"A": A, "b": 3.0 * draw.standard_normal(9), "C": C, "d": [2.0], "integers": [0, 1, 4]}
+
+
+def test_the_optimum_of_a_small_problem_is_that_of_all_integers_tried():
+    given = random_problem()
+    found = roundel.solve(**given)
+    tried = []
+    for x0, x1 in itertools.product(range(-12, 13), repeat=2):
+        fixed = [x0, x1, 2 - x0 - x1]
+        left = np.delete(np.arange(6), given["integers"])
+        rest = given["b"] - given["A"][:, given["integers"]] @ fixed
+        tried.append(np.linalg.lstsq(given["A"][:, left], rest, rcond=None)[1][0])
+    assert found.proved and found.gap == 0
+    assert found.energy == pytest.approx(min(tried), rel=1e-9)
+    assert found.values[[0, 1, 4]].sum() == 2.0
+
+
+def test_rows_and_their_normal_equations_are_one_problem():
+    given = random_problem()
+    A, b = given.pop("A"), given.pop("b")
+    by_rows = roundel.solve(A=A, b=b, **given)
+    by_matrix = roundel.solve(2 * A.T @ A, -2 * A.T @ b, b @ b, **given)
+    assert by_matrix.energy == pytest.approx(by_rows.energy, rel=1e-9)
+    assert np.allclose(by_matrix.values, by_rows.values)
+
+
+@pytest.mark.parametrize("form", ["csr", "csc", "coo", "bsr"])
+@pytest.mark.parametrize("width", [np.int32, np.int64])
+def test_every_form_of_a_sparse_matrix_is_the_same_problem(form, width):
+    given = random_problem()
+    dense = roundel.solve(**given)
+    for name in ("A", "C"):
+        matrix = scipy_sparse.csr_matrix(given[name]).asformat(form)
+        if form in ("csr", "csc"):
+            matrix.indices, matrix.indptr = matrix.indices.astype(width), matrix.indptr.astype(width)
+        given[name] = matrix
+    assert np.array_equal(roundel.solve(**given).values, dense.values)
+    sparse_q = scipy_sparse.csc_matrix(Q).asformat(form)
+    assert np.array_equal(roundel.solve(sparse_q, q).values, roundel.solve(Q, q).values)
+
+
+@pytest.mark.parametrize("form", ["csr", "csc"])
+@pytest.mark.parametrize("width", [np.int32, np.int64])
+def test_compressed_matrices_of_doubles_are_not_copied(form, width):
+    matrix = scipy_sparse.random(50, 40, 0.1, format=form, random_state=1)
+    matrix.indices, matrix.indptr = matrix.indices.astype(width), matrix.indptr.astype(width)
+    taken = compressed(matrix, "C")
+    assert np.shares_memory(taken.values, matrix.data)
+    assert np.shares_memory(taken.indices, matrix.indices)
+    assert np.shares_memory(taken.offsets, matrix.indptr)
+
+
+def test_one_triangle_of_a_matrix_stands_for_both():
+    whole = roundel.solve(Q, q, integers=[1]).values
+    assert np.array_equal(roundel.solve(np.triu(Q), q, integers=[1], triangle="upper").values, whole)
+    assert np.array_equal(roundel.solve(np.tril(Q), q, integers=[1], triangle="lower").values, whole)
+
+
+def test_a_built_problem_is_the_one_given_at_once():
+    given = random_problem()
+    problem = roundel.Problem(6)
+    for row, rhs in zip(given["A"], given["b"]):
+        problem.least_squares(np.arange(6), row, rhs)
+    assert problem.constrain([0, 1, 4], [1.0, 1.0, 1.0], 2.0) == 0
+    problem.integer(np.isin(np.arange(6), given["integers"]))
+    assert (problem.variables, problem.constraints) == (6, 1)
+    assert np.allclose(roundel.solve(problem).values, roundel.solve(**given).values)
+    assert np.allclose(roundel.solve(problem.copy()).values, roundel.solve(**given).values)
+
+
+def test_pins_hold_and_guesses_decide_what_the_objective_leaves_open():
+    found = roundel.solve(A=[[1.0, 1.0, 0.0]], b=[3.0], pins={0: 0.5}, guess=[9.0, 9.0, 9.0])
+    assert np.allclose(found.values, [0.5, 2.5, 9.0])
+
+
+def test_a_solver_gives_what_a_new_solve_gives():
+    given = random_problem()
+    problem = roundel.Problem(6)
+    problem.least_squares_rows(given["A"], given["b"])
+    problem.constrain_rows(given["C"], given["d"])
+    problem.integer(given["integers"])
+    solver = roundel.Solver(problem)
+    solver.solve()
+    for sides, pinned in (([5.0], None), ([2.0], 1.0)):
+        solver.set_constraint_right_sides(sides)
+        given["d"] = sides
+        if pinned is not None:
+            solver.pin(0, pinned)
+            given["pins"] = {0: pinned}
+        again, anew = solver.solve(), roundel.solve(**given)
+        assert again.energy == pytest.approx(anew.energy, rel=1e-12)
+        assert np.allclose(again.values, anew.values)
+
+
+def test_files_give_the_problem_back(tmp_path):
+    problem = roundel.Problem(2)
+    problem.quadratic(Q)
+    problem.linear(q)
+    problem.integer([1])
+    problem.write_mps(tmp_path / "a problem.mps.gz")
+    read = roundel.Problem.read_mps(tmp_path / "a problem.mps.gz")
+    assert np.array_equal(roundel.solve(read).values, roundel.solve(problem).values)
+
+
+def test_solutions_can_be_pickled():
+    found = roundel.solve(Q, q, integers=[1])
+    back = pickle.loads(pickle.dumps(found))
+    assert np.array_equal(back.values, found.values) and back.energy == found.energy
+
+
+def test_options_are_those_of_the_library_and_all_can_be_set():
+    for name, option in roundel.options().items():
+        assert isinstance(option.default, option.type) and option.text and option.range
+        roundel.solve(Q, q, integers=[1], **{name: option.default})
+    for preset in roundel.presets():
+        roundel.solve(Q, q, integers=[1], preset=preset)
+
+
+def test_the_strategy_is_obeyed():
+    assert roundel.solve(Q, q, integers=[1], strategy="relax").status == "relaxed"
+    assert roundel.solve(Q, q, integers=[1], strategy="exact").status == "optimal"
+    assert roundel.solve(Q, q, integers=[1], strategy="greedy").status == "feasible"
