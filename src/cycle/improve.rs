@@ -91,7 +91,9 @@ impl<'a> Improvement<'a> {
                     self.decide_block(&block)?;
                 }
             }
-            if self.energy == before {
+            // Not a number compares with nothing: there is no improving what overflows.
+            let improved = self.energy < before;
+            if !improved {
                 return Ok(());
             }
         }
