@@ -1974,10 +1974,38 @@ roundel_status roundel_quads_euler_characteristic(const struct roundel_quads *qu
 
 /**
  * Gives 1 if there is nothing but quads, each edge has two faces, or one at the boundary, and the
- * Euler characteristic is that of the triangle mesh; 0 otherwise.
+ * Euler characteristic is that of the triangle mesh; 0 otherwise: roundel_quads_faults names the
+ * elements at fault.
  */
 roundel_status roundel_quads_is_conforming(const struct roundel_quads *quads,
                                            int32_t *is_conforming);
+
+/**
+ * Gives the numbers of elements that keep quads from conforming: faces that are no quads or have a
+ * vertex twice, edges with more than two faces or two that run the same way, and vertices whose
+ * faces are more than one fan; and of triangles that the map folds, which is where faults come
+ * from. No place may be NULL.
+ */
+roundel_status roundel_quads_fault_counts(const struct roundel_quads *quads,
+                                          size_t *face_count,
+                                          size_t *edge_count,
+                                          size_t *vertex_count,
+                                          size_t *triangle_count);
+
+/**
+ * Copies the elements that roundel_quads_fault_counts counts: faces, the quads numbered first and
+ * then the others; the two vertices of each edge; vertices; triangles of the mesh. The lengths are
+ * those counts.
+ */
+roundel_status roundel_quads_faults(const struct roundel_quads *quads,
+                                    size_t face_count,
+                                    int32_t *faces,
+                                    size_t edge_count,
+                                    int32_t *edges,
+                                    size_t vertex_count,
+                                    int32_t *vertices,
+                                    size_t triangle_count,
+                                    int32_t *triangles);
 
 /**
  * Writes the faces as OBJ. Reading gives back the same numbers.

@@ -165,7 +165,8 @@ pub unsafe extern "C" fn roundel_quads_euler_characteristic(
 }
 
 /// Gives 1 if there is nothing but quads, each edge has two faces, or one at the boundary, and the
-/// Euler characteristic is that of the triangle mesh; 0 otherwise.
+/// Euler characteristic is that of the triangle mesh; 0 otherwise: roundel_quads_faults names the
+/// elements at fault.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_quads_is_conforming(
     quads: *const roundel_quads,
@@ -174,6 +175,80 @@ pub unsafe extern "C" fn roundel_quads_is_conforming(
     let read = |q: &QuadMesh| i32::from(q.is_conforming());
     // SAFETY: the caller gives a live handle and a place for the number, or NULL.
     unsafe { give(quads, "conforming", is_conforming, read) }
+}
+
+/// Gives the numbers of elements that keep quads from conforming: faces that are no quads or have a
+/// vertex twice, edges with more than two faces or two that run the same way, and vertices whose
+/// faces are more than one fan; and of triangles that the map folds, which is where faults come
+/// from. No place may be NULL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_quads_fault_counts(
+    quads: *const roundel_quads,
+    face_count: *mut usize,
+    edge_count: *mut usize,
+    vertex_count: *mut usize,
+    triangle_count: *mut usize,
+) -> roundel_status {
+    let body = |quads: &QuadMesh| {
+        // SAFETY: the caller gives places for the numbers, or NULL.
+        let places = unsafe {
+            [
+                Out::new("face count", face_count)?,
+                Out::new("edge count", edge_count)?,
+                Out::new("vertex count", vertex_count)?,
+                Out::new("triangle count", triangle_count)?,
+            ]
+        };
+        let faults = quads.faults();
+        let counts = [
+            faults.faces.len(),
+            faults.edges.len(),
+            faults.vertices.len(),
+            quads.folded.len(),
+        ];
+        for (place, count) in places.into_iter().zip(counts) {
+            place.set(count);
+        }
+        Ok(())
+    };
+    // SAFETY: the caller gives a live handle, or NULL.
+    unsafe { guard::read(quads, body) }
+}
+
+/// Copies the elements that roundel_quads_fault_counts counts: faces, the quads numbered first and
+/// then the others; the two vertices of each edge; vertices; triangles of the mesh. The lengths are
+/// those counts.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_quads_faults(
+    quads: *const roundel_quads,
+    face_count: usize,
+    faces: *mut i32,
+    edge_count: usize,
+    edges: *mut i32,
+    vertex_count: usize,
+    vertices: *mut i32,
+    triangle_count: usize,
+    triangles: *mut i32,
+) -> roundel_status {
+    let body = |quads: &QuadMesh| {
+        let faults = quads.faults();
+        // No more than 2^31 of anything.
+        let numbers = |list: &[usize]| list.iter().map(|&n| n as i32).collect::<Vec<i32>>();
+        let ends = numbers(faults.edges.as_flattened());
+        let pairs = ends.as_chunks::<2>().0.iter().copied();
+        // SAFETY: the caller gives arrays of the lengths given, or NULL.
+        unsafe {
+            let faces_of = numbers(&faults.faces).into_iter();
+            copy_numbers("faces", faces_of, faces, face_count)?;
+            copy_numbers("edges", pairs, edges.cast::<[i32; 2]>(), edge_count)?;
+            let vertices_of = numbers(&faults.vertices).into_iter();
+            copy_numbers("vertices", vertices_of, vertices, vertex_count)?;
+            let triangles_of = numbers(&quads.folded).into_iter();
+            copy_numbers("triangles", triangles_of, triangles, triangle_count)
+        }
+    };
+    // SAFETY: the caller gives a live handle, or NULL.
+    unsafe { guard::read(quads, body) }
 }
 
 /// Writes the faces as OBJ. Reading gives back the same numbers.

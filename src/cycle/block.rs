@@ -75,4 +75,23 @@ impl Blocks {
         }
         block
     }
+
+    /// Marks the cycles of a block and those so many edges from it.
+    pub fn mark_near(&self, block: &[u32], edges: usize, near: &mut [bool]) {
+        let mut ring = block.to_vec();
+        for &k in block {
+            near[k as usize] = true;
+        }
+        for _ in 0..edges {
+            let mut next = Vec::new();
+            for &k in &ring {
+                for (j, _) in self.neighbours.row(k as usize) {
+                    if !std::mem::replace(&mut near[j], true) {
+                        next.push(j as u32);
+                    }
+                }
+            }
+            ring = next;
+        }
+    }
 }

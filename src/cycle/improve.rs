@@ -4,7 +4,8 @@
 //! with G the block of `A^-1` and x the potentials: a closest-vector problem of few dimensions.
 //! Blocks are tried around the edges with the greatest residuals first; these are where charges
 //! sit that might sit better elsewhere. One that improved nothing is not tried again until the
-//! potentials near it change.
+//! potentials near it change. Where potentials cost much more than a block, in spaces of many
+//! cycles, moves of blocks that are far apart are made together, and one by one if that is no better.
 
 use super::block::{Blocks, Growth};
 use super::decide::decide;
@@ -22,6 +23,13 @@ const TOLERANCE: f64 = 1e-9;
 
 /// Nodes of one enumeration, at most.
 const NODES: u64 = 20_000;
+
+/// A move of a block waits for one more block an this many cycles of the space before potentials are
+/// made anew.
+const CYCLES_A_MOVE: usize = 16_384;
+
+/// Blocks within so many edges of a move that waits are not far apart from it.
+const FAR: usize = 8;
 
 /// How hard to try.
 #[derive(Debug, Clone, Copy)]
@@ -44,6 +52,10 @@ pub(super) struct Improvement<'a> {
     /// By cycle: the failed block that it was last part of, 0 if its potential changed since.
     failed: Vec<u32>,
     failures: u32,
+    /// Moves of charges that are decided but not made, a list a block.
+    waiting: Vec<Vec<(u32, f64)>>,
+    /// By cycle: whether it is not far from a move that waits.
+    near: Vec<bool>,
     work: usize,
 }
 
@@ -56,6 +68,8 @@ impl<'a> Improvement<'a> {
             blocks: Blocks::new(space)?,
             failed: vec![0; charges.len()],
             failures: 0,
+            waiting: Vec::new(),
+            near: vec![false; charges.len()],
             work: 0,
             space,
             charges,
@@ -82,7 +96,11 @@ impl<'a> Improvement<'a> {
             for e in self.seeds(effort.residual) {
                 let done = self.work() as f64 / work.max(1) as f64;
                 if done >= 1.0 || monitor.progress(Phase::Round, done).is_err() {
+                    self.make_waiting();
                     return Ok(());
+                }
+                if self.promises(e, effort.residual) && self.is_near(e) {
+                    self.make_waiting();
                 }
                 if self.promises(e, effort.residual) {
                     let cycles = self.space.through.row(e).map(|(k, _)| k as u32);
@@ -91,6 +109,7 @@ impl<'a> Improvement<'a> {
                     self.decide_block(&block)?;
                 }
             }
+            self.make_waiting();
             // Not a number compares with nothing: there is no improving what overflows.
             let improved = self.energy < before;
             if !improved {
@@ -135,6 +154,9 @@ impl<'a> Improvement<'a> {
 
     /// Decides the charges of a block exactly.
     fn decide_block(&mut self, block: &[u32]) -> Result<()> {
+        if block.iter().any(|&k| self.near[k as usize]) {
+            self.make_waiting();
+        }
         let step = self.space.system.step;
         let inverse = self.paths.inverse_block(&self.space.factor, block);
         let pull: Vec<f64> = block.iter().map(|&k| self.x[k as usize] / step).collect();
@@ -145,17 +167,48 @@ impl<'a> Improvement<'a> {
             }
             return Ok(());
         };
+        let moves = block.iter().zip(moves).map(|(&k, t)| (k, t as f64));
+        self.waiting.push(moves.collect());
+        match self.waiting.len() > self.charges.len() / CYCLES_A_MOVE {
+            true => self.make_waiting(),
+            false => self.blocks.mark_near(block, FAR, &mut self.near),
+        }
+        Ok(())
+    }
+
+    /// Whether a move that waits is not far from an edge.
+    fn is_near(&self, e: usize) -> bool {
+        let mut cycles = self.space.through.row(e);
+        cycles.any(|(k, _)| self.near[k])
+    }
+
+    /// Makes the moves that wait: together, or one by one where that is no better.
+    fn make_waiting(&mut self) {
+        let waiting = std::mem::take(&mut self.waiting);
+        if !waiting.is_empty() {
+            self.near.fill(false);
+        }
+        if waiting.len() < 2 || !self.make(&waiting.concat()) {
+            for moves in &waiting {
+                self.make(moves);
+            }
+        }
+    }
+
+    /// Moves charges if the energy is lower then. Whether it is.
+    fn make(&mut self, moves: &[(u32, f64)]) -> bool {
         let mut charges = self.charges.clone();
-        for (&k, t) in block.iter().zip(moves) {
-            charges[k as usize] += t as f64;
+        for &(k, t) in moves {
+            charges[k as usize] += t;
         }
         let (x, energy) = self.space.potentials(&charges);
         self.work += 2 * self.space.factor.len();
-        if energy < self.energy * (1.0 - TOLERANCE) {
+        let is_lower = energy < self.energy * (1.0 - TOLERANCE);
+        if is_lower {
             self.note_changes(&x);
             (self.charges, self.x, self.energy) = (charges, x, energy);
         }
-        Ok(())
+        is_lower
     }
 
     /// Blocks where the potentials change are worth another try.

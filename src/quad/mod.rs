@@ -31,6 +31,7 @@ mod sectors;
 mod sizing;
 mod smooth;
 mod spread;
+mod strips;
 mod trace;
 pub mod untangle;
 mod uv_obj;
@@ -39,13 +40,15 @@ pub use align::feature_constraints;
 pub use comb::Combing;
 pub use constrain::{curvature_constraints, curvature_guides};
 pub use cut::CutGraph;
-pub use extract::{IntegerGridMap, Origin, QuadFigures, QuadMesh, RANGE, SEAM_TOLERANCE, extract};
+pub use extract::{
+    IntegerGridMap, Origin, QuadFaults, QuadFigures, QuadMesh, RANGE, SEAM_TOLERANCE, extract,
+};
 pub use field::OrientationField;
 pub use field_options::{Constraint, FieldOptions, Guide, PrescribedIndex};
 pub use guidance::Guidance;
 pub use map::{SeamlessMap, Transition};
 pub use orientation::FieldProblem;
-pub use quadrangulate::{QuadOptions, QuadSeconds, Quadrangulation, quadrangulate};
+pub use quadrangulate::{Compared, QuadOptions, QuadSeconds, Quadrangulation, quadrangulate};
 pub use seamless::{SeamlessOptions, SeamlessProblem, TRANSLATION_WEIGHT};
 pub use sizing::Sizing;
 pub use smooth::{QuadQuality, SmoothOptions, smooth};

@@ -52,14 +52,14 @@ impl Default for SeamlessOptions {
 /// the first vertex.
 #[derive(Debug, Clone)]
 pub struct SeamlessProblem {
-    problem: Problem,
+    pub(super) problem: Problem,
     pub(super) field: OrientationField,
     pub(super) cut: CutGraph,
     pub(super) combing: Combing,
     pub(super) sectors: Sectors,
     pub(super) seams: Vec<Seam>,
     pub(super) cones: Vec<usize>,
-    isolines: Vec<Isoline>,
+    pub(super) isolines: Vec<Isoline>,
     /// The lengths of the gradients aimed at.
     density: Density,
 }

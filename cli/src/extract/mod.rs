@@ -11,7 +11,7 @@ use serde::Serialize;
 
 use crate::exit::{self, Exit};
 use crate::progress::Progress;
-use crate::quad::{QuadCounts, words};
+use crate::quad::{QuadCounts, tell_faults, words};
 use crate::summary::{counted, line};
 use crate::{interrupt, output};
 
@@ -43,7 +43,11 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> Exit {
     let told = solve(arguments).and_then(|solved| match arguments.json {
         true => output::print_json(&Report::new(arguments, &solved)),
-        false => output::print(&solved.to_string()),
+        false => {
+            output::print(&solved.to_string())?;
+            tell_faults(&arguments.map, &solved.quads);
+            Ok(())
+        }
     });
     output::conclude(&arguments.map, arguments.json, told)
 }

@@ -48,6 +48,11 @@ pub struct Arguments {
     #[arg(long, value_name = "REPORT.html")]
     pub report: Option<PathBuf>,
 
+    /// Solve field and map by these strategies as well, parted by commas, and show what each finds in
+    /// summary, page and JSON
+    #[arg(long, value_name = "WORD,...", value_delimiter = ',', value_parser = any)]
+    pub compare_strategies: Vec<Strategy>,
+
     /// Print one JSON object instead of the summary
     #[arg(long)]
     pub json: bool,
@@ -57,7 +62,15 @@ pub struct Arguments {
 }
 
 fn deciding(text: &str) -> Result<Strategy, String> {
-    let mut all = Strategy::ALL.into_iter().filter(|&s| s != Strategy::Relax);
+    one_of(text, |strategy| strategy != Strategy::Relax)
+}
+
+fn any(text: &str) -> Result<Strategy, String> {
+    one_of(text, |_| true)
+}
+
+fn one_of(text: &str, allowed: impl Fn(Strategy) -> bool) -> Result<Strategy, String> {
+    let mut all = Strategy::ALL.into_iter().filter(|&s| allowed(s));
     let words: Vec<&str> = all.clone().map(Strategy::name).collect();
     all.find(|s| s.name() == text)
         .ok_or_else(|| format!("not one of {}", words.join(", ")))

@@ -1,6 +1,7 @@
 //! `roundel quad`: from a mesh to quads in one command.
 
 mod arguments;
+mod faults;
 mod page;
 mod report;
 mod steps;
@@ -9,6 +10,7 @@ mod summary;
 use crate::exit::Exit;
 use crate::output;
 pub use arguments::Arguments;
+pub use faults::tell_faults;
 use report::QuadReport;
 pub use report::{QuadCounts, words};
 use steps::Solved;
@@ -27,6 +29,8 @@ fn tell(arguments: &Arguments, solved: &Solved) -> roundel::Result<()> {
     if arguments.json {
         output::print_json(&QuadReport::new(arguments, solved))
     } else {
-        output::print(&QuadSummary { arguments, solved }.to_string())
+        output::print(&QuadSummary { arguments, solved }.to_string())?;
+        tell_faults(&arguments.mesh, &solved.made.quads);
+        Ok(())
     }
 }

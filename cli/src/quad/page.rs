@@ -6,7 +6,7 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use roundel::quad::QuadMesh;
+use roundel::quad::{Compared, QuadMesh};
 use roundel::{Error, Result};
 use serde::Serialize;
 
@@ -114,6 +114,9 @@ fn tables(solved: &Solved) -> String {
     };
     let rows = [solve("field", field), solve("map", solution)].concat();
     table(&mut out, "Solver", &rows);
+    if !made.compared.is_empty() {
+        strategies(&mut out, &made.compared);
+    }
     let rows = [
         ("read", solved.read_seconds),
         ("field", seconds.field),
@@ -125,6 +128,34 @@ fn tables(solved: &Solved) -> String {
     table(&mut out, "Times", &rows);
     histogram(&mut out, &made.quads);
     out
+}
+
+/// One row a strategy, of the field's problem and of the map's.
+fn strategies(out: &mut String, compared: &[Compared]) {
+    for problem in ["Field", "Map"] {
+        let _ = write!(
+            out,
+            "<table class=\"strategies\"><tr><th>{problem} by strategy</th><th>outcome</th>\
+             <th>energy</th><th>lower bound</th><th>gap</th><th>seconds</th></tr>"
+        );
+        for one in compared {
+            let solution = match problem {
+                "Field" => &one.field,
+                _ => &one.map,
+            };
+            let cells = [
+                one.strategy.name().to_string(),
+                solution.status().name().to_string(),
+                format!("{:.6}", solution.energy()),
+                number(solution.lower_bound(), 1.0, ""),
+                number(solution.gap(), 100.0, " %"),
+                format!("{:.3}", solution.seconds().total),
+            ];
+            let cells = cells.map(|cell| format!("<td>{cell}</td>")).concat();
+            let _ = write!(out, "<tr>{cells}</tr>");
+        }
+        out.push_str("</table>\n");
+    }
 }
 
 fn number(value: Option<f64>, factor: f64, unit: &str) -> String {

@@ -1,9 +1,11 @@
 //! The JSON object of quads.
 
+use roundel::Solution;
 use roundel::quad::{QuadMesh, QuadQuality};
 use serde::Serialize;
 
 use super::Arguments;
+use super::faults::Faults;
 use super::steps::Solved;
 use crate::memory;
 use crate::report::{Preparation, Report};
@@ -18,9 +20,52 @@ pub(super) struct QuadReport<'a> {
     field_irregular_vertices: usize,
     flipped_before: usize,
     flipped: usize,
+    missed_features: Vec<[usize; 2]>,
     #[serde(flatten)]
     quads: QuadCounts,
+    /// Where strategies are compared.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    compared: Vec<Compared>,
     phases: Phases,
+}
+
+/// What one strategy finds.
+#[derive(Serialize)]
+struct Compared {
+    strategy: &'static str,
+    field: Found,
+    map: Found,
+}
+
+#[derive(Serialize)]
+struct Found {
+    status: &'static str,
+    energy: f64,
+    lower_bound: Option<f64>,
+    gap: Option<f64>,
+    seconds: f64,
+}
+
+impl Compared {
+    fn new(compared: &roundel::quad::Compared) -> Self {
+        Compared {
+            strategy: compared.strategy.name(),
+            field: Found::new(&compared.field),
+            map: Found::new(&compared.map),
+        }
+    }
+}
+
+impl Found {
+    fn new(solution: &Solution) -> Self {
+        Found {
+            status: solution.status().name(),
+            energy: solution.energy(),
+            lower_bound: solution.lower_bound(),
+            gap: solution.gap(),
+            seconds: solution.seconds().total,
+        }
+    }
 }
 
 /// Wall-clock seconds a phase, solve and all else.
@@ -31,6 +76,7 @@ struct Phases {
     map: f64,
     quads: f64,
     smooth: f64,
+    compare: f64,
 }
 
 /// Counts and figures of quads.
@@ -49,6 +95,8 @@ pub struct QuadCounts {
     unfolded_points: usize,
     repairs: usize,
     conforming: bool,
+    /// None of quads that conform.
+    faults: Option<Faults>,
     mean_angle_deviation: f64,
     scaled_jacobian_p1: f64,
     scaled_jacobian_min: f64,
@@ -74,6 +122,7 @@ impl QuadCounts {
             unfolded_points: quads.unfolded,
             repairs: quads.repaired,
             conforming: quads.is_conforming(),
+            faults: Faults::of(quads),
             mean_angle_deviation: quality.angle_deviation,
             scaled_jacobian_p1: quality.scaled_jacobian_p1,
             scaled_jacobian_min: quality.scaled_jacobian_min,
@@ -87,6 +136,7 @@ impl<'a> QuadReport<'a> {
     /// The report of what was found.
     pub(super) fn new(arguments: &Arguments, solved: &'a Solved) -> Self {
         let (made, seconds) = (&solved.made, solved.made.seconds);
+        let missed = made.missed_features.iter();
         QuadReport {
             solve: Report::new(
                 &arguments.mesh,
@@ -102,13 +152,16 @@ impl<'a> QuadReport<'a> {
             field_irregular_vertices: made.untangled.map.cones().len(),
             flipped_before: made.untangled.flipped_before,
             flipped: made.untangled.flipped_after,
+            missed_features: missed.map(|&e| solved.mesh.edge(e).vertices).collect(),
             quads: QuadCounts::new(&made.quads),
+            compared: made.compared.iter().map(Compared::new).collect(),
             phases: Phases {
                 read: solved.read_seconds,
                 field: seconds.field,
                 map: seconds.map,
                 quads: seconds.extract,
                 smooth: seconds.smooth,
+                compare: seconds.compare,
             },
         }
     }

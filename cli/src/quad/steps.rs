@@ -45,6 +45,7 @@ pub(super) fn solve(arguments: &Arguments) -> Result<Solved> {
         map,
         untangle: !arguments.no_untangle,
         smooth: default.smooth.filter(|_| !arguments.no_smooth),
+        compare: arguments.compare_strategies.clone(),
     };
     let monitor = || progress.monitor().cancel_token(token.clone());
     let made = quadrangulate(&mesh, &options, monitor)?;

@@ -4,7 +4,7 @@ use std::fmt;
 
 use super::steps::Solved;
 use super::{Arguments, words};
-use crate::summary::{counted, counted_vertices, line, verdict};
+use crate::summary::{counted, counted_vertices, energy, line, verdict};
 
 /// Lines for the field, the map and the quads.
 pub(super) struct QuadSummary<'a> {
@@ -33,6 +33,16 @@ impl fmt::Display for QuadSummary<'_> {
             &words(&made.quads),
             seconds.extract + seconds.smooth,
         )?;
+        for one in &made.compared {
+            for (problem, solution) in [("field", &one.field), ("map", &one.map)] {
+                let found = format!(
+                    "{problem}: {}, {}",
+                    energy(solution.energy()),
+                    verdict(solution)
+                );
+                line(f, one.strategy.name(), &found, solution.seconds().total)?;
+            }
+        }
         match &self.arguments.out {
             Some(path) => writeln!(f, "{:<10} {}", "written", path.display()),
             None => Ok(()),

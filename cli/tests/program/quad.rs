@@ -74,7 +74,8 @@ fn a_map_that_is_not_seamless_is_refused() {
 fn report(scratch: &Scratch) -> (std::path::PathBuf, Value) {
     let page = scratch.path("report.html");
     let words = ["quad", GEAR, "--quads", "400", "--features", "40", "--json"];
-    let (code, told) = run(&[&words[..], &["--report", text(&page)]].concat());
+    let more = ["--compare-strategies", "direct,relax", "--report"];
+    let (code, told) = run(&[&words[..], &more, &[text(&page)]].concat());
     assert_eq!(code, 0, "{told}");
     (page, told)
 }
@@ -109,7 +110,7 @@ fn a_browser_draws_the_page() {
         return;
     }
     let scratch = Scratch::new("quad-browser");
-    let (page, _) = report(&scratch);
+    let (page, told) = report(&scratch);
     let picture = scratch.path("page.png");
     let browse = |what: &str| {
         let mut command = Command::new("chromium");
@@ -130,6 +131,13 @@ fn a_browser_draws_the_page() {
     // The script sets the mark at its very end: nothing has thrown.
     let dom = String::from_utf8(browse("--dump-dom").stdout).unwrap();
     assert!(dom.contains("data-drawn=\"yes\""));
+    for one in told["compared"].as_array().unwrap() {
+        for problem in ["field", "map"] {
+            let energy = one[problem]["energy"].as_f64().unwrap();
+            let cells = format!("<td>{energy:.6}</td>");
+            assert!(dom.contains(&cells), "{problem} {cells}");
+        }
+    }
     browse(&format!("--screenshot={}", text(&picture)));
     let file = std::io::BufReader::new(fs::File::open(&picture).unwrap());
     let mut reader = png::Decoder::new(file).read_info().unwrap();
@@ -152,4 +160,43 @@ fn a_browser_draws_the_page() {
             colours.len()
         );
     }
+}
+
+#[test]
+fn strategies_are_compared_on_the_same_two_problems() {
+    let words = ["quad", "shape:genus-2:800", "--quads", "200", "--json"];
+    let (code, told) = run(&[
+        &words[..],
+        &["--compare-strategies", "relax,direct,lattice"],
+    ]
+    .concat());
+    assert_eq!(code, 0, "{told}");
+    let compared = told["compared"].as_array().unwrap();
+    let energy = |i: usize, problem: &str| compared[i][problem]["energy"].as_f64().unwrap();
+    assert_eq!(compared.len(), 3);
+    for (i, strategy) in ["relax", "direct", "lattice"].into_iter().enumerate() {
+        assert_eq!(compared[i]["strategy"], json!(strategy));
+    }
+    for problem in ["field", "map"] {
+        assert!(energy(0, problem) < energy(2, problem));
+        assert!(energy(2, problem) <= energy(1, problem));
+    }
+    // What was taken is what lattice decoding finds.
+    let taken = told["energy"].as_f64().unwrap();
+    assert!((energy(2, "map") - taken).abs() < 1e-9 * taken, "{taken}");
+}
+
+#[test]
+fn faults_are_told_by_number_on_one_line() {
+    let scratch = Scratch::new("quad-faults");
+    // One square of the grid that is folded over its diagonal: no quads, and a fold.
+    let square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\n";
+    let map = scratch.write("uv.obj", format!("{square}f 1/1 2/2 3/3\nf 1/1 3/3 4/2\n"));
+    let (code, told) = run(&["extract", text(&map), "--json"]);
+    assert_eq!((code, &told["conforming"]), (0, &json!(false)), "{told}");
+    assert_eq!(told["faults"]["folded_triangles"], json!([1]), "{told}");
+    let (code, output) = finish(program(&["extract", text(&map)]));
+    let stderr = String::from_utf8(output.stderr).unwrap();
+    assert_eq!((code, stderr.lines().count()), (0, 1), "{stderr}");
+    assert!(stderr.contains("triangles folded by the map 1"), "{stderr}");
 }

@@ -42,6 +42,9 @@ void meshes_become_quads_of_their_topology() {
         CHECK(same.vertices()[i] == made.vertices()[i]);
     }
 
+    const auto none_at_fault = made.faults();
+    CHECK(none_at_fault.faces.empty() && none_at_fault.edges.empty());
+
     // Extraction alone, from a map and from its coordinates.
     const auto field = roundel::orientation_field(mesh);
     const auto map = roundel::parametrize(mesh, field, roundel::MapOptions().set_quads(200));
@@ -51,6 +54,18 @@ void meshes_become_quads_of_their_topology() {
     const std::vector<double> before(quads.vertices().begin(), quads.vertices().end());
     quads.smooth(mesh);
     CHECK(quads.vertices().size() == before.size() && quads.vertices()[0] != before[0]);
+
+    // A collapsed map has no quads: triangles are at fault, by number.
+    const std::vector<double> collapsed(6 * mesh.faces(), 0.5);
+    const auto nothing = roundel::quads(mesh, {collapsed.data(), collapsed.size()});
+    CHECK(nothing && !nothing.conforming() && nothing.size() == 0);
+    const auto faults = nothing.faults();
+    CHECK(faults.faces.empty() && faults.triangles.size() == mesh.faces());
+    CHECK(faults.triangles.front() == 0);
+    CHECK(roundel_quads_faults(nothing.get(), 1, nullptr, 0, nullptr, 0, nullptr, 0, nullptr) ==
+          ROUNDEL_ERROR_LENGTH_MISMATCH);
+    CHECK(roundel_quads_fault_counts(nothing.get(), nullptr, nullptr, nullptr, nullptr) ==
+          ROUNDEL_ERROR_NULL_POINTER);
 
     roundel::Status status;
     CHECK(!roundel::quadrangulate(mesh, roundel::QuadOptions().set_quads(0), &status));

@@ -42,6 +42,19 @@ struct QuadOptions {
     }
 };
 
+/// The elements that keep quads from conforming.
+struct QuadFaults {
+    /// Faces that are no quads or have a vertex twice; the quads are numbered first, then the
+    /// others.
+    std::vector<std::int32_t> faces{};
+    /// Edges, by their vertices, with more than two faces or two that run the same way.
+    std::vector<std::array<std::int32_t, 2>> edges{};
+    /// Vertices whose faces are more than one fan.
+    std::vector<std::int32_t> vertices{};
+    /// Triangles of the mesh that the map folds, which is where faults come from.
+    std::vector<std::int32_t> triangles{};
+};
+
 /// Quads with shared vertices, and other polygons where a map left no quads to be made.
 class Quads {
   public:
@@ -78,6 +91,27 @@ class Quads {
         std::int32_t value = 0;
         detail::check(roundel_quads_is_conforming(get(), &value), status);
         return value != 0;
+    }
+
+    /// What is at fault where they do not conform.
+    QuadFaults faults(Status* status = nullptr) const {
+        QuadFaults found;
+        std::size_t faces = 0, edges = 0, vertices = 0, triangles = 0;
+        if (detail::check(roundel_quads_fault_counts(get(), &faces, &edges, &vertices, &triangles),
+                          status)) {
+            std::vector<std::int32_t> ends(2 * edges);
+            found.faces.resize(faces);
+            found.vertices.resize(vertices);
+            found.triangles.resize(triangles);
+            detail::check(roundel_quads_faults(get(), faces, found.faces.data(), edges, ends.data(),
+                                               vertices, found.vertices.data(), triangles,
+                                               found.triangles.data()),
+                          status);
+            for (std::size_t i = 0; i < ends.size(); i += 2) {
+                found.edges.push_back({ends[i], ends[i + 1]});
+            }
+        }
+        return found;
     }
 
     /// How many vertices have other than four edges, or three on the boundary.

@@ -51,6 +51,7 @@ pub(super) fn quad_mesh(mesh: &TriangleMesh, refined: &Refined, graph: &Graph) -
         partial_cells,
         unfolded: 0,
         repaired: 0,
+        folded: Vec::new(),
         expected_euler: mesh.euler_characteristic(),
     };
     place(mesh, refined, graph, &mut result);

@@ -1,6 +1,7 @@
 //! What is to be known of the connectivity of quads, counted from the faces alone.
 
 use super::QuadMesh;
+use super::faults::{has_twice, is_bad};
 
 /// Counts over a mesh of quads; edges are pairs of vertices.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -20,25 +21,14 @@ pub struct QuadFigures {
 impl QuadMesh {
     /// The counts.
     pub fn figures(&self) -> QuadFigures {
-        let mut sides: Vec<([u32; 2], bool)> = Vec::with_capacity(4 * self.quads.len());
-        let mut degenerate = 0;
-        for face in self.faces() {
-            for (k, &a) in face.iter().enumerate() {
-                let b = face[(k + 1) % face.len()];
-                sides.push(([a.min(b), a.max(b)], a < b));
-            }
-            let mut corners = face.to_vec();
-            corners.sort_unstable();
-            degenerate += usize::from(corners.windows(2).any(|pair| pair[0] == pair[1]));
-        }
-        sides.sort_unstable();
+        let sides = self.sides();
         let mut valence = vec![0; self.vertices.len()];
         let mut is_boundary = vec![false; self.vertices.len()];
         let (mut edges, mut boundary_edges, mut bad_edges) = (0, 0, 0);
         for edge in sides.chunk_by(|a, b| a.0 == b.0) {
             edges += 1;
             boundary_edges += usize::from(edge.len() == 1);
-            bad_edges += usize::from(edge.len() > 2 || edge.len() == 2 && edge[0].1 == edge[1].1);
+            bad_edges += usize::from(is_bad(edge));
             for v in edge[0].0 {
                 valence[v as usize] += 1;
                 is_boundary[v as usize] |= edge.len() == 1;
@@ -54,15 +44,16 @@ impl QuadMesh {
             irregular: irregular.count(),
             boundary_edges,
             bad_edges,
-            degenerate,
+            degenerate: self.faces().filter(|face| has_twice(face)).count(),
         }
     }
 
-    /// Whether this is what was asked for: nothing but quads, each edge with two faces (one at a
+    /// Whether this is what was asked for: quads and nothing else, each edge with two faces (one at a
     /// boundary), and the Euler characteristic of the triangle mesh.
     pub fn is_conforming(&self) -> bool {
         let figures = self.figures();
-        self.others.is_empty()
+        !self.quads.is_empty()
+            && self.others.is_empty()
             && figures.bad_edges == 0
             && figures.degenerate == 0
             && figures.euler == self.expected_euler

@@ -9,7 +9,7 @@
 //! even counts; all others are made odd, which quarter turns and integer shifts preserve. So no
 //! other vertex ever lies on an integer line, and no line ever needs a rule for passing a vertex.
 
-use super::place::turn;
+use super::place::{doubled_area, turn};
 use crate::mesh::TriangleMesh;
 use crate::quad::SeamlessMap;
 use crate::{Error, Result};
@@ -69,6 +69,13 @@ impl IntegerGridMap {
         Self::exact(mesh, &uvs, |edge| {
             quarters[mesh.edge_of(edge[0].0, edge[0].1)]
         })
+    }
+
+    /// Faces that are turned over or have no area.
+    pub(super) fn folded(&self) -> Vec<usize> {
+        let faces = self.corners.iter().enumerate();
+        let folded = faces.filter(|(_, [a, b, c])| doubled_area(*a, *b, *c) <= 0);
+        folded.map(|(face, _)| face).collect()
     }
 
     pub(super) fn check_mesh(&self, mesh: &TriangleMesh) -> Result<()> {

@@ -15,6 +15,7 @@ mod chords;
 mod cones;
 mod crossings;
 mod faces;
+mod faults;
 mod figures;
 mod graph;
 mod grid_map;
@@ -26,6 +27,7 @@ mod repair;
 mod trace;
 mod unfold;
 
+pub use faults::QuadFaults;
 pub use figures::QuadFigures;
 pub use grid_map::{IntegerGridMap, RANGE, SEAM_TOLERANCE};
 pub use quad_mesh::{Origin, QuadMesh};
@@ -60,5 +62,6 @@ pub fn extract(
     monitor.progress(Phase::Quads, 0.8)?;
     let mut quads = faces::quad_mesh(mesh, &refined, &graph);
     (quads.unfolded, quads.repaired) = (unfolded, repaired);
+    quads.folded = map.folded();
     Ok(quads)
 }

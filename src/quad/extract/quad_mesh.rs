@@ -30,6 +30,9 @@ pub struct QuadMesh {
     pub unfolded: usize,
     /// Moves that made quads of what folds had left: lines taken out, vertices put in.
     pub repaired: usize,
+    /// Triangles that the map turns over or collapses, in increasing order: where faults are, they
+    /// are the reason.
+    pub folded: Vec<usize>,
     /// The Euler characteristic of the triangle mesh.
     pub expected_euler: i64,
 }

@@ -2,16 +2,22 @@
 
 mod aim;
 mod attempt;
+mod compare;
+mod missed;
 mod options;
 mod scale;
 
 use std::time::Instant;
 
-use super::untangle::{UntangleOptions, Untangled, untangle};
-use super::{FieldProblem, OrientationField, QuadMesh, SeamlessProblem, SmoothOptions, smooth};
+use super::untangle::Untangled;
+use super::{
+    FieldProblem, OrientationField, QuadMesh, SeamlessProblem, SmoothOptions, smooth, strips,
+};
 use crate::mesh::TriangleMesh;
 use crate::{Monitor, Result, Solution, Solver, solve_with};
-use attempt::Attempt;
+use attempt::Trial;
+pub use compare::Compared;
+use compare::compare;
 pub use options::QuadOptions;
 
 /// Quads, and how they were come by.
@@ -29,6 +35,10 @@ pub struct Quadrangulation {
     pub solution: Solution,
     /// Edges of the mesh that edges of quads follow, in increasing order.
     pub features: Vec<usize>,
+    /// Those of them that no edge of a quad runs along: collapsed or folded by the map.
+    pub missed_features: Vec<usize>,
+    /// What other strategies make of both problems, where that was asked for.
+    pub compared: Vec<Compared>,
     /// What each step took.
     pub seconds: QuadSeconds,
 }
@@ -44,17 +54,20 @@ pub struct QuadSeconds {
     pub extract: f64,
     /// Smoothing.
     pub smooth: f64,
+    /// The solves that are compared.
+    pub compare: f64,
 }
 
 /// Turns a mesh into quads. `monitor` makes one watcher for each step.
 ///
 /// Whether the result is made of nothing but quads it tells itself ([`QuadMesh::is_conforming`]).
+/// Features so close that rounding puts them on one line are held apart where the quads conform then.
 /// Extraction copes with nearly all folds; untangling is tried only if its quads do not conform, and
 /// kept if they do then, or there is less to repair.
 ///
 /// # Errors
 /// Those of [`FieldProblem::with_options`], [`SeamlessProblem::with_features`], [`solve_with`],
-/// [`untangle`], [`extract`](super::extract) and [`smooth`].
+/// [`untangle`](super::untangle::untangle), [`extract`](super::extract) and [`smooth`].
 pub fn quadrangulate<'a>(
     mesh: &TriangleMesh,
     options: &QuadOptions,
@@ -62,37 +75,41 @@ pub fn quadrangulate<'a>(
 ) -> Result<Quadrangulation> {
     let mut seconds = QuadSeconds::default();
     let features = options.guidance.features(mesh)?;
-    let (field, field_solution) = timed(&mut seconds.field, || {
+    let (field_problem, field, field_solution) = timed(&mut seconds.field, || {
         let rounds = scale::smoothing_rounds(mesh, &options.sizing);
         let wishes = (options.guidance).field_options_at(mesh, &features, rounds)?;
         let problem = FieldProblem::with_options(mesh, &wishes)?;
         let solution = solve_with(problem.problem(), &options.field, monitor())?;
-        Ok((problem.field(mesh, &solution)?, solution))
+        let field = problem.field(mesh, &solution)?;
+        Ok((problem, field, solution))
     })?;
-    let (problem, solution) = timed(&mut seconds.map, || {
+    let (problem, solution, apart) = timed(&mut seconds.map, || {
         let mut problem = SeamlessProblem::with_features(mesh, &field, &options.sizing, &features)?;
         let mut solver = Solver::new(problem.problem())?;
         aim::aim(mesh, &mut problem, &mut solver, &options.sizing, monitor())?;
         let solution = solver.solve_with(&options.map, monitor())?;
-        Ok((problem, solution))
+        let apart = strips::hold_apart(mesh, &problem, &solution, &options.map, &monitor)?;
+        Ok((problem, solution, apart))
     })?;
+    let features: Vec<usize> = features.edges().collect();
     let best = timed(&mut seconds.extract, || {
-        let map = Untangled::as_it_is(problem.map(mesh, &solution)?);
-        let first = Attempt::new(mesh, map, &mut monitor())?;
-        if !options.untangle || first.conforms() {
-            return Ok(first);
+        let trial = Trial {
+            mesh,
+            features: &features,
+            options: &options.map,
+            may_untangle: options.untangle,
+            monitor: &monitor,
+        };
+        let Some((held, decided)) = apart else {
+            return trial.best(&problem, solution);
+        };
+        let best = trial.best(&held, decided)?;
+        match best.is_whole() {
+            true => Ok(best),
+            false => Ok(best.or(trial.best(&problem, solution)?)),
         }
-        let effort = UntangleOptions::default();
-        let map = untangle(mesh, &problem, &first.map.map, &effort, &mut monitor())?;
-        let second = Attempt::new(mesh, map, &mut monitor())?;
-        Ok(if second.cost() < first.cost() {
-            second
-        } else {
-            first
-        })
     })?;
     let mut quads = best.quads;
-    let features: Vec<usize> = features.edges().collect();
     if let Some(given) = &options.smooth {
         timed(&mut seconds.smooth, || {
             let given = SmoothOptions {
@@ -102,13 +119,22 @@ pub fn quadrangulate<'a>(
             smooth(&mut quads, mesh, &given, &mut monitor())
         })?;
     }
+    let compared = timed(&mut seconds.compare, || {
+        let both = [
+            (field_problem.problem(), &options.field),
+            (problem.problem(), &options.map),
+        ];
+        compare(both, &options.compare, &monitor)
+    })?;
     Ok(Quadrangulation {
         quads,
         field,
         field_solution,
         untangled: best.map,
-        solution,
+        solution: best.solution,
         features,
+        missed_features: best.missed,
+        compared,
         seconds,
     })
 }

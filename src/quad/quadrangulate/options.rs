@@ -19,6 +19,8 @@ pub struct QuadOptions {
     /// How quads are smoothed; its features are added to those of the guidance. None leaves
     /// vertices where the map has them.
     pub smooth: Option<SmoothOptions>,
+    /// Strategies that both problems are solved with as well, to be compared.
+    pub compare: Vec<Strategy>,
 }
 
 impl Default for QuadOptions {
@@ -40,6 +42,7 @@ impl Default for QuadOptions {
             map: lattice,
             untangle: true,
             smooth: Some(SmoothOptions::default()),
+            compare: Vec::new(),
         }
     }
 }

@@ -1,0 +1,64 @@
+//! From a mesh to quads in one call: what holds of the quads whatever the solver decides.
+
+use roundel::mesh::TriangleMesh;
+use roundel::quad::{Guidance, QuadOptions, Quadrangulation, Sizing, quadrangulate};
+use roundel::{Monitor, Strategy};
+
+/// A flat square of `n` by `n` units, two triangles a unit square.
+fn plane(n: usize) -> TriangleMesh {
+    let at = |i: usize, j: usize| (i * (n + 1) + j) as u32;
+    let points = (0..=n).flat_map(|i| (0..=n).map(move |j| [i as f64, j as f64, 0.0]));
+    let squares = (0..n).flat_map(|i| (0..n).map(move |j| (i, j)));
+    let triangles = squares.flat_map(|(i, j)| {
+        let [a, b, c, d] = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
+        [[a, b, c], [a, c, d]]
+    });
+    TriangleMesh::new(points.collect(), triangles.collect()).unwrap()
+}
+
+/// Quads of edge length 4 with lines across the square at these heights.
+fn with_lines(mesh: &TriangleMesh, n: usize, heights: &[usize]) -> Quadrangulation {
+    let lines = heights
+        .iter()
+        .flat_map(|&j| (0..n).map(move |i| [i, i + 1].map(|i| i * (n + 1) + j)));
+    let options = QuadOptions {
+        sizing: Sizing::EdgeLength(4.0),
+        guidance: Guidance {
+            feature_lines: lines.collect(),
+            ..Guidance::default()
+        },
+        ..QuadOptions::default()
+    };
+    quadrangulate(mesh, &options, Monitor::default).unwrap()
+}
+
+#[test]
+fn lines_closer_than_a_quad_is_wide_are_both_kept() {
+    let mesh = plane(20);
+    let heights = |made: &Quadrangulation| {
+        let mut heights: Vec<f64> = made.quads.vertices.iter().map(|p| p[1]).collect();
+        heights.sort_by(f64::total_cmp);
+        heights.dedup_by(|a, b| (*a - *b).abs() < 1e-9);
+        heights
+    };
+    let made = with_lines(&mesh, 20, &[11, 12]);
+    assert!(made.quads.is_conforming() && made.missed_features.is_empty());
+    for height in [11.0, 12.0] {
+        assert!(heights(&made).iter().any(|h| (h - height).abs() < 1e-9));
+    }
+    // One line alone gets no strip.
+    let one = with_lines(&mesh, 20, &[12]);
+    assert_eq!(heights(&made).len(), heights(&one).len() + 1);
+}
+
+#[test]
+fn strategies_are_compared_in_the_order_asked_for() {
+    let options = QuadOptions {
+        sizing: Sizing::Quads(25),
+        compare: vec![Strategy::Direct, Strategy::Relax],
+        ..QuadOptions::default()
+    };
+    let made = quadrangulate(&plane(6), &options, Monitor::default).unwrap();
+    let order: Vec<Strategy> = made.compared.iter().map(|one| one.strategy).collect();
+    assert_eq!(order, options.compare);
+}
