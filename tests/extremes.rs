@@ -44,11 +44,11 @@ fn a_solve_ends_at_every_scale() {
         let scale = 10f64.powi(exponent);
         let mut problem = Problem::new(4).unwrap();
         let edges = [([0, 1, 3], 0.4), ([1, 2, 3], 0.3), ([0, 2, 3], 0.7)];
-        let rows = edges.iter().map(|(at, rhs)| {
+        let mut rows = edges.iter().map(|(at, rhs)| {
             problem.add_least_squares(at, &[scale, -scale, 0.5 * scale], rhs * scale, 1.0)
         });
         // A scale whose square overflows is refused when it is given, or when it is solved for.
-        let given = rows.fold(true, |all, row| all && row.is_ok());
+        let given = rows.all(|row| row.is_ok());
         if given {
             problem.set_integers(&[3]).unwrap();
             assert!(ends(problem), "1e{exponent}");
