@@ -14,6 +14,8 @@ use crate::mesh::vector::{dot, sub};
 /// A feature edge in the chart of its first face.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Isoline {
+    /// The edge of the mesh.
+    pub(super) edge: usize,
     /// The copies of its ends, along the curve.
     pub(super) ends: [u32; 2],
     /// The coordinate that stays the same: 0 for u, 1 for v.
@@ -55,6 +57,7 @@ pub(super) fn isolines(
             let axis = usize::from(follows_u);
             let goes_on = last.is_some_and(|l| l.axis == axis && l.ends[1] == ends[0]);
             let isoline = Isoline {
+                edge: e,
                 ends,
                 axis,
                 is_first: !goes_on,

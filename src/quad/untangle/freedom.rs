@@ -87,6 +87,15 @@ impl Freedom {
         self.faces[range].iter().map(|&f| f as usize)
     }
 
+    /// Which coordinates of every copy cannot move.
+    pub fn held(&self) -> Vec<[bool; 2]> {
+        let is_held = |coordinate: usize| self.moves.row(coordinate).len() == 0;
+        let copies = 0..self.moves.rows() / 2;
+        copies
+            .map(|c| [is_held(2 * c), is_held(2 * c + 1)])
+            .collect()
+    }
+
     /// Whether neither coordinate of a copy can move.
     pub fn is_held(&self, copy: u32) -> bool {
         let u = 2 * copy as usize;

@@ -1,7 +1,8 @@
-//! Cones that rounding has put on top of each other, or on the wrong side, held apart.
+//! What rounding has put on top of each other, or on the wrong side, held apart: cones, and corners
+//! of features and boundary, where both coordinates are integers as well.
 //!
-//! Two cones that a short path joins cannot lie at one point, nor three of a face on one line:
-//! whatever else moves, the faces between them stay without area. Such integers are decided anew
+//! Two that a short path joins, or an isoline, cannot lie at one point, nor all three corners of a
+//! face on one line: whatever else moves, the faces between them stay without area. Such integers are decided anew
 //! with the cones held apart by constraints: along the coordinate in which the path should be
 //! longest by its rounded length, one unit at least, or, for a face, by the nearest triangle of
 //! units that is the right way round.
@@ -31,13 +32,15 @@ pub(super) struct NearCones {
 pub struct Collapsed {
     /// Pairs of cones at one point or the wrong way round.
     pub(super) pairs: Vec<NearCones>,
-    /// Faces of three cones, no two at one point, that are collinear or clockwise.
+    /// Faces of three cones or corners, no two at one point, that are collinear or clockwise.
     pub(super) faces: Vec<usize>,
+    /// Faces whose corners integers hold on one isoline: of this coordinate.
+    pub(super) flat: Vec<(usize, usize)>,
 }
 
 impl Collapsed {
-    /// What is collapsed in a map of this mesh.
-    pub(super) fn find(mesh: &TriangleMesh, near: &[NearCones], map: &SeamlessMap) -> Self {
+    /// What is collapsed in a map, of which integers hold these coordinates of every copy.
+    pub(super) fn find(held: &[[bool; 2]], near: &[NearCones], map: &SeamlessMap) -> Self {
         let uv = map.vertex_uvs();
         let is_collapsed = |pair: &&NearCones| {
             let [a, b] = pair.copies.map(|c| uv[c as usize]);
@@ -45,22 +48,35 @@ impl Collapsed {
             along[0] * pair.aim[0] + along[1] * pair.aim[1] <= 0.0
         };
         let pairs = near.iter().filter(is_collapsed).copied().collect();
-        let mut is_cone = vec![false; mesh.vertex_count()];
-        map.cones().iter().for_each(|&v| is_cone[v] = true);
+        let faces = 0..map.copies().len();
         let is_lost = |&face: &usize| {
             let at = map.uv(face).map(|p| p.map(f64::round));
             let is_short = |k: usize| at[k] == at[(k + 1) % 3];
-            mesh.corners(face).iter().all(|&v| is_cone[v])
+            map.copies()[face]
+                .iter()
+                .all(|&c| held[c as usize] == [true; 2])
                 && !(0..3).any(is_short)
                 && orientation(at) <= 0.0
         };
-        let faces = (0..mesh.face_count()).filter(is_lost).collect();
-        Collapsed { pairs, faces }
+        let flat_along = |face: usize| {
+            let is_held = |axis: usize| map.copies()[face].iter().all(|&c| held[c as usize][axis]);
+            let at = map.uv(face).map(|p| p.map(f64::round));
+            let is_flat = |&axis: &usize| {
+                is_held(axis) && at[0][axis] == at[1][axis] && at[0][axis] == at[2][axis]
+            };
+            (0..2).find(is_flat).map(|axis| (face, axis))
+        };
+        let flat: Vec<(usize, usize)> = faces.clone().filter_map(flat_along).collect();
+        Collapsed {
+            pairs,
+            faces: faces.filter(is_lost).collect(),
+            flat,
+        }
     }
 
     /// How many elements.
     pub fn count(&self) -> usize {
-        self.pairs.len() + self.faces.len()
+        self.pairs.len() + self.faces.len() + self.flat.len()
     }
 
     /// Whether there is nothing.
@@ -102,17 +118,62 @@ impl Apart {
 }
 
 impl SeamlessProblem {
-    /// Pairs of cones that a path of a few edges joins, no other cone on it and no cut across it.
-    pub(super) fn near_cones(&self, mesh: &TriangleMesh) -> Vec<NearCones> {
-        let mut is_cone = vec![false; mesh.vertex_count()];
-        self.cones.iter().for_each(|&v| is_cone[v] = true);
+    /// Pairs of cones and corners that a path of a few edges or an isoline joins, no other on it and
+    /// no cut across it.
+    pub(super) fn near_cones(&self, mesh: &TriangleMesh, held: &[[bool; 2]]) -> Vec<NearCones> {
+        let held: Vec<bool> = held.iter().map(|axes| *axes == [true; 2]).collect();
         let mut found = Vec::new();
-        for &v in &self.cones {
+        for v in 0..mesh.vertex_count() {
             for copy in self.sectors.first[v]..self.sectors.first[v + 1] {
-                self.paths_from(mesh, [v as u32, copy], &is_cone, &mut found);
+                if held[copy as usize] {
+                    self.paths_from(mesh, [v as u32, copy], &held, &mut found);
+                }
             }
         }
+        self.runs(mesh, &held, &mut found);
         found
+    }
+
+    /// Follows isolines from one cone or corner to the next, within a chart.
+    fn runs(&self, mesh: &TriangleMesh, held: &[bool], found: &mut Vec<NearCones>) {
+        let mut vertex_of = vec![0; self.sectors.count()];
+        for v in 0..mesh.vertex_count() {
+            for copy in self.sectors.first[v]..self.sectors.first[v + 1] {
+                vertex_of[copy as usize] = v as u32;
+            }
+        }
+        // Where a run began, how far it should have come, and where it is.
+        let mut run: Option<(u32, [f64; 2], u32)> = None;
+        for isoline in &self.isolines {
+            let [from, to] = isoline.ends;
+            let (begin, mut aim) = match run {
+                Some((begin, aim, at)) if at == from && !isoline.is_first => (begin, aim),
+                _ if held[from as usize] => (from, [0.0; 2]),
+                _ => {
+                    run = None;
+                    continue;
+                }
+            };
+            let step = self.aim_along(mesh, isoline.edge, [from, to]);
+            aim = [aim[0] + step[0], aim[1] + step[1]];
+            run = Some((begin, aim, to));
+            if held[to as usize] {
+                found.push(NearCones {
+                    copies: [begin, to],
+                    vertices: [begin, to].map(|copy| vertex_of[copy as usize]),
+                    aim,
+                });
+                run = None;
+            }
+        }
+    }
+
+    /// By how much the coordinates should differ along an edge in the chart of its first face.
+    fn aim_along(&self, mesh: &TriangleMesh, edge: usize, [from, to]: [u32; 2]) -> [f64; 2] {
+        let (face, _) = mesh.edge(edge).first;
+        let copies = self.sectors.copy[face];
+        let corner = |copy: u32| copies.iter().position(|&c| c == copy).unwrap_or(0);
+        self.aim(mesh, face, corner(from), corner(to))
     }
 
     /// Breadth-first from a copy of a cone; each pair is found from its lower cone.
@@ -120,7 +181,7 @@ impl SeamlessProblem {
         &self,
         mesh: &TriangleMesh,
         [from, copy]: [u32; 2],
-        is_cone: &[bool],
+        held: &[bool],
         found: &mut Vec<NearCones>,
     ) {
         let mut reached = std::collections::BTreeSet::from([copy]);
@@ -138,7 +199,7 @@ impl SeamlessProblem {
                     let w = mesh.corners(face)[end];
                     let step = self.aim(mesh, face, corner, end);
                     let aim = [aim[0] + step[0], aim[1] + step[1]];
-                    if !is_cone[w] {
+                    if !held[next as usize] {
                         if length + 1 < LONGEST_PATH {
                             queue.push_back((w, next, aim, length + 1));
                         }
@@ -170,6 +231,21 @@ impl SeamlessProblem {
                     found.push(Apart::new([copies[0], copies[1]], axis, ab[axis]));
                     found.push(Apart::new([copies[0], copies[2]], axis, ac[axis]));
                 }
+            }
+        }
+        for &(face, axis) in &collapsed.flat {
+            let sides = [[0, 1], [1, 2], [2, 0]].map(|[from, to]| {
+                let aim = self.aim(mesh, face, from, to)[axis];
+                ([from, to], aim)
+            });
+            let across = sides
+                .into_iter()
+                .max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
+            let Some((ends, aim)) = across else { continue };
+            let [a, b] = ends.map(|k| mesh.corners(face)[k]);
+            if joined.join(a, b) {
+                let copies = ends.map(|k| self.sectors.copy[face][k]);
+                found.push(Apart::new(copies, axis, 1f64.copysign(aim)));
             }
         }
         for pair in &collapsed.pairs {

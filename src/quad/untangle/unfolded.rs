@@ -1,6 +1,7 @@
 //! From the problem to a map without folds: decide, hold apart, decide anew, untangle, refine.
 
-use super::separate::{Apart, NearCones};
+use super::freedom::Freedom;
+use super::separate::Apart;
 use super::{Collapsed, UntangleOptions, Untangled, untangle};
 use crate::mesh::TriangleMesh;
 use crate::quad::{SeamlessMap, SeamlessProblem};
@@ -98,13 +99,15 @@ fn solve_size<'a>(
     refinements_left: usize,
     monitor: &impl Fn() -> Monitor<'a>,
 ) -> Result<Unfolded> {
-    let near = problem.near_cones(mesh);
-    let mut best = Decided::new(
-        mesh,
-        problem,
-        &near,
-        solve_with(problem.problem(), solver, monitor())?,
-    )?;
+    let solution = solve_with(problem.problem(), solver, monitor())?;
+    let map = problem.map(mesh, &solution)?;
+    let held = Freedom::new(problem, map.copies(), map.values(), &mut monitor())?.held();
+    let near = problem.near_cones(mesh, &held);
+    let mut best = Decided {
+        collapsed: Collapsed::find(&held, &near, &map),
+        solution,
+        map,
+    };
     let mut rounds = 0;
     let mut apart = problem.apart(mesh, &best.collapsed);
     while !best.collapsed.is_empty() && rounds < options.rounds {
@@ -112,7 +115,12 @@ fn solve_size<'a>(
             break;
         };
         rounds += 1;
-        let found = Decided::new(mesh, problem, &near, solution)?;
+        let map = problem.map(mesh, &solution)?;
+        let found = Decided {
+            collapsed: Collapsed::find(&held, &near, &map),
+            solution,
+            map,
+        };
         let before = apart.len();
         for constraint in problem.apart(mesh, &found.collapsed) {
             if !apart.iter().any(|known| known.is_between(&constraint)) {
@@ -144,22 +152,6 @@ struct Decided {
     solution: Solution,
     map: SeamlessMap,
     collapsed: Collapsed,
-}
-
-impl Decided {
-    fn new(
-        mesh: &TriangleMesh,
-        problem: &SeamlessProblem,
-        near: &[NearCones],
-        solution: Solution,
-    ) -> Result<Self> {
-        let map = problem.map(mesh, &solution)?;
-        Ok(Decided {
-            collapsed: Collapsed::find(mesh, near, &map),
-            solution,
-            map,
-        })
-    }
 }
 
 /// Solves with constraints that hold cones apart, without those found to contradict the others.
