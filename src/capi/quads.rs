@@ -94,6 +94,7 @@ unsafe fn make(
     quads: *mut *mut roundel_quads,
 ) -> Outcome {
     let mut wanted = QuadOptions::default();
+    let has_guidance = !guidance.is_null();
     // SAFETY: handed on.
     let (guidance, solve, monitor, out) = unsafe {
         (
@@ -103,6 +104,9 @@ unsafe fn make(
             Out::new("quads", quads)?,
         )
     };
+    if has_guidance {
+        wanted.constrained_per_quad = 0.0;
+    }
     (wanted.guidance, wanted.sizing) = (guidance, Sizing::Quads(quad_count));
     (wanted.field, wanted.map) = (solve.clone(), solve);
     out.set(guard::handle(quadrangulate(mesh, &wanted, monitor)?.quads));

@@ -29,7 +29,8 @@ pub(super) fn solve(arguments: &Arguments) -> Result<Solved> {
     let directions = &arguments.directions;
     let (mut guidance, features) = directions.of(&mesh, 4)?;
     let is_silent = directions.constrain_curvature.is_none() && directions.curvature_weight == 0.0;
-    if is_silent && guidance.indices.is_none() {
+    let is_silent = is_silent && guidance.indices.is_none();
+    if is_silent {
         guidance.constrain_curvature = default.guidance.constrain_curvature;
         guidance.curvature_weight = default.guidance.curvature_weight;
     }
@@ -38,6 +39,10 @@ pub(super) fn solve(arguments: &Arguments) -> Result<Solved> {
     let options = QuadOptions {
         sizing: arguments.sizing.of()?,
         guidance,
+        constrained_per_quad: match is_silent {
+            true => default.constrained_per_quad,
+            false => 0.0,
+        },
         field: Options {
             strategy: arguments.field_strategy,
             ..map.clone()

@@ -3,21 +3,22 @@
 mod aim;
 mod attempt;
 mod compare;
+mod decide;
 mod missed;
 mod options;
 mod scale;
 
 use std::time::Instant;
 
+use super::sizing::Density;
 use super::untangle::Untangled;
-use super::{
-    FieldProblem, OrientationField, QuadMesh, SeamlessProblem, SmoothOptions, smooth, strips,
-};
+use super::{OrientationField, QuadMesh, SmoothOptions, smooth, strips};
 use crate::mesh::TriangleMesh;
-use crate::{Monitor, Result, Solution, Solver, solve_with};
+use crate::{Monitor, Result, Solution};
 use attempt::Trial;
 pub use compare::Compared;
 use compare::compare;
+use decide::decide;
 pub use options::QuadOptions;
 
 /// Quads, and how they were come by.
@@ -66,7 +67,9 @@ pub struct QuadSeconds {
 /// kept if they do then, or there is less to repair.
 ///
 /// # Errors
-/// Those of [`FieldProblem::with_options`], [`SeamlessProblem::with_features`], [`solve_with`],
+/// Those of [`FieldProblem::with_options`](super::FieldProblem::with_options),
+/// [`SeamlessProblem::with_features`](super::SeamlessProblem::with_features),
+/// [`solve_with`](crate::solve_with),
 /// [`untangle`](super::untangle::untangle), [`extract`](super::extract) and [`smooth`].
 pub fn quadrangulate<'a>(
     mesh: &TriangleMesh,
@@ -74,22 +77,13 @@ pub fn quadrangulate<'a>(
     monitor: impl Fn() -> Monitor<'a>,
 ) -> Result<Quadrangulation> {
     let mut seconds = QuadSeconds::default();
+    Density::new(mesh, &options.sizing)?;
     let features = options.guidance.features(mesh)?;
-    let (field_problem, field, field_solution) = timed(&mut seconds.field, || {
-        let rounds = scale::smoothing_rounds(mesh, &options.sizing);
-        let wishes = (options.guidance).field_options_at(mesh, &features, rounds)?;
-        let problem = FieldProblem::with_options(mesh, &wishes)?;
-        let solution = solve_with(problem.problem(), &options.field, monitor())?;
-        let field = problem.field(mesh, &solution)?;
-        Ok((problem, field, solution))
-    })?;
-    let (problem, solution, apart) = timed(&mut seconds.map, || {
-        let mut problem = SeamlessProblem::with_features(mesh, &field, &options.sizing, &features)?;
-        let mut solver = Solver::new(problem.problem())?;
-        aim::aim(mesh, &mut problem, &mut solver, &options.sizing, monitor())?;
-        let solution = solver.solve_with(&options.map, monitor())?;
-        let apart = strips::hold_apart(mesh, &problem, &solution, &options.map, &monitor)?;
-        Ok((problem, solution, apart))
+    let both = [&mut seconds.field, &mut seconds.map];
+    let decided = decide(mesh, options, &features, &monitor, both)?;
+    let (problem, solution) = (decided.problem, decided.solution);
+    let apart = timed(&mut seconds.map, || {
+        strips::hold_apart(mesh, &problem, &solution, &options.map, &monitor)
     })?;
     let features: Vec<usize> = features.edges().collect();
     let best = timed(&mut seconds.extract, || {
@@ -121,15 +115,15 @@ pub fn quadrangulate<'a>(
     }
     let compared = timed(&mut seconds.compare, || {
         let both = [
-            (field_problem.problem(), &options.field),
+            (decided.field_problem.problem(), &options.field),
             (problem.problem(), &options.map),
         ];
         compare(both, &options.compare, &monitor)
     })?;
     Ok(Quadrangulation {
         quads,
-        field,
-        field_solution,
+        field: decided.field,
+        field_solution: decided.field_solution,
         untangled: best.map,
         solution: best.solution,
         features,
@@ -139,9 +133,10 @@ pub fn quadrangulate<'a>(
     })
 }
 
+/// Runs a step and adds what it took.
 fn timed<T>(seconds: &mut f64, step: impl FnOnce() -> Result<T>) -> Result<T> {
     let started = Instant::now();
     let result = step();
-    *seconds = started.elapsed().as_secs_f64();
+    *seconds += started.elapsed().as_secs_f64();
     result
 }

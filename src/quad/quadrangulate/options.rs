@@ -10,6 +10,10 @@ pub struct QuadOptions {
     pub sizing: Sizing,
     /// What they follow. Features, and the boundary where it is aligned, become chains of edges.
     pub guidance: Guidance,
+    /// So many faces a quad, those with the most reliable curvature, have its direction, where that
+    /// is more than the guidance has. On meshes that are not large, some more and fewer are tried, and
+    /// those are taken whose map has the least energy.
+    pub constrained_per_quad: f64,
     /// How the field is solved for.
     pub field: Options,
     /// How the map is solved for.
@@ -34,10 +38,10 @@ impl Default for QuadOptions {
         QuadOptions {
             sizing: Sizing::Quads(SeamlessOptions::default().quads),
             guidance: Guidance {
-                constrain_curvature: 0.005,
                 curvature_weight: 0.07,
                 ..Guidance::default()
             },
+            constrained_per_quad: 0.1,
             field: lattice.clone(),
             map: lattice,
             untangle: true,
