@@ -17,6 +17,9 @@ const TRIES: [f64; 6] = [1.0, 1.5, 0.5, 2.0, 0.25, 3.0];
 /// All tries together may have so many faces, but the first has what it has.
 const FACES: usize = 39_000;
 
+/// A map of more integers than this takes too long to be decided twice.
+const INTEGERS: usize = 300;
+
 /// The two problems and their solutions.
 pub(super) struct Decided {
     pub(super) field_problem: FieldProblem,
@@ -47,7 +50,10 @@ pub(super) fn decide<'a>(
         monitor,
         [of_field, of_map],
     )?;
-    let count = FACES / mesh.face_count().max(1);
+    let count = match best.solution.counts().reduced_integers {
+        0..=INTEGERS => FACES / mesh.face_count().max(1),
+        _ => 1,
+    };
     for multiple in TRIES.into_iter().take(count).skip(1) {
         if part(multiple) <= given {
             continue;

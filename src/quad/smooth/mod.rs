@@ -39,7 +39,7 @@ impl Default for SmoothOptions {
         SmoothOptions {
             rounds: 60,
             uniformity: 0.6,
-            hold: 0.13,
+            hold: 0.12,
             features: Vec::new(),
         }
     }
