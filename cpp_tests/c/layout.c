@@ -6,23 +6,54 @@
 
 #define WORD sizeof(void*)
 
+/* Every member that is not reserved, where it is. */
+#define AT(type, member, offset)                                                                   \
+    _Static_assert(offsetof(type, member) == (offset), #type "." #member)
+
 _Static_assert(sizeof(roundel_status) == 4, "statuses are 32-bit");
 _Static_assert(sizeof(roundel_solve_status) == 4, "statuses are 32-bit");
+
 _Static_assert(sizeof(roundel_monitor) == 4 * WORD, "monitor");
-_Static_assert(offsetof(roundel_monitor, callback) == WORD, "monitor.callback");
-_Static_assert(offsetof(roundel_monitor, user_data) == 2 * WORD, "monitor.user_data");
-_Static_assert(offsetof(roundel_monitor, cancel_token) == 3 * WORD, "monitor.cancel_token");
-_Static_assert(offsetof(roundel_event, kind) == WORD, "event.kind");
-_Static_assert(offsetof(roundel_event, phase) == WORD + 4, "event.phase");
-_Static_assert(offsetof(roundel_event, fraction) == WORD + 8, "event.fraction");
-_Static_assert(offsetof(roundel_event, text) == WORD + 16, "event.text");
+AT(roundel_monitor, size, 0);
+AT(roundel_monitor, callback, WORD);
+AT(roundel_monitor, user_data, 2 * WORD);
+AT(roundel_monitor, cancel_token, 3 * WORD);
+
 _Static_assert(sizeof(roundel_event) == (WORD == 8 ? 64 : 56), "event");
+AT(roundel_event, size, 0);
+AT(roundel_event, kind, WORD);
+AT(roundel_event, phase, WORD + 4);
+AT(roundel_event, fraction, WORD + 8);
+AT(roundel_event, text, WORD + 16);
+AT(roundel_event, seconds, WORD == 8 ? 32 : 24);
+AT(roundel_event, energy, WORD == 8 ? 40 : 32);
+AT(roundel_event, lower_bound, WORD == 8 ? 48 : 40);
+AT(roundel_event, gap, WORD == 8 ? 56 : 48);
+
 _Static_assert(sizeof(roundel_counts) == 128, "counts");
-_Static_assert(offsetof(roundel_counts, reduced_continuous) == 32, "counts.reduced_continuous");
+AT(roundel_counts, variables, 0);
+AT(roundel_counts, integers, 8);
+AT(roundel_counts, constraints, 16);
+AT(roundel_counts, reduced_integers, 24);
+AT(roundel_counts, reduced_continuous, 32);
+AT(roundel_counts, factor_nonzeros, 40);
+
 _Static_assert(sizeof(roundel_seconds) == 128, "seconds");
-_Static_assert(offsetof(roundel_seconds, total) == 24, "seconds.total");
+AT(roundel_seconds, eliminate, 0);
+AT(roundel_seconds, factor, 8);
+AT(roundel_seconds, round, 16);
+AT(roundel_seconds, total, 24);
+
 _Static_assert(sizeof(roundel_option) == 4 * WORD + 32, "option");
-_Static_assert(offsetof(roundel_option, value_type) == 4 * WORD, "option.value_type");
+AT(roundel_option, name, 0);
+AT(roundel_option, default_value, WORD);
+AT(roundel_option, range, 2 * WORD);
+AT(roundel_option, text, 3 * WORD);
+AT(roundel_option, value_type, 4 * WORD);
+
+_Static_assert(sizeof(roundel_preset) == 2 * WORD + 48, "preset");
+AT(roundel_preset, name, 0);
+AT(roundel_preset, text, WORD);
 
 int main(void) {
     return roundel_abi_version() == ROUNDEL_ABI_VERSION &&

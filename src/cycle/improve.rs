@@ -110,7 +110,9 @@ impl<'a> Improvement<'a> {
                 }
             }
             self.make_waiting();
-            if self.energy == before {
+            // Not a number compares with nothing: there is no improving what overflows.
+            let improved = self.energy < before;
+            if !improved {
                 return Ok(());
             }
         }

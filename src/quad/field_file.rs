@@ -27,7 +27,15 @@ impl OrientationField {
     pub fn read(mesh: &TriangleMesh, path: impl AsRef<Path>) -> Result<Self> {
         let path = path.as_ref();
         let text = std::fs::read(path).map_err(|reason| failed(path, &reason))?;
-        parse(mesh, &String::from_utf8_lossy(&text))
+        Self::parse(mesh, &String::from_utf8_lossy(&text))
+    }
+
+    /// Reads the field of a mesh from the contents of a file.
+    ///
+    /// # Errors
+    /// Those of [`read`](Self::read).
+    pub fn parse(mesh: &TriangleMesh, text: &str) -> Result<Self> {
+        parse(mesh, text)
     }
 
     /// Writes the field to a text file, such that reading gives the same crosses (to the last

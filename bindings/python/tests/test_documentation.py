@@ -10,7 +10,7 @@ import pytest
 
 import roundel
 
-README = Path(__file__).resolve().parents[3] / "README.md"
+ROOT = Path(__file__).resolve().parents[3]
 FOUND = (module.name for module in pkgutil.iter_modules(roundel.__path__))
 MODULES = sorted(name for name in FOUND if "lib" not in name and name != "_declarations")
 
@@ -34,13 +34,15 @@ def test_everything_public_is_documented():
                 assert value.__doc__, f"{name}.{member}"
 
 
-def test_the_example_of_the_readme(tmp_path, monkeypatch, capsys):
-    blocks = re.findall(r"```python\n(.*?)```", README.read_text(encoding="utf-8"), re.DOTALL)
+@pytest.mark.parametrize("page, says", [("README.md", "True"), ("docs/languages.md", "0.2 0\n")])
+def test_the_examples_of_the_pages(page, says, tmp_path, monkeypatch, capsys):
+    text = (ROOT / page).read_text(encoding="utf-8")
+    blocks = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
     assert blocks
     monkeypatch.chdir(tmp_path)
     for block in blocks:
-        exec(compile(block, "README.md", "exec"), {})
-    assert capsys.readouterr().out != ""
+        exec(compile(block, page, "exec"), {})
+    assert says in capsys.readouterr().out
 
 
 def test_the_package_says_that_it_is_typed():

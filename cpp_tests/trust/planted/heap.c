@@ -1,0 +1,11 @@
+/* Planted: reads behind an array on the heap. AddressSanitizer must say so. */
+
+#include <stdlib.h>
+
+int main(int argc, char** argv) {
+    (void)argv;
+    int* array = calloc(4, sizeof *array);
+    const int found = array == NULL ? 1 : array[3 + argc];
+    free(array);
+    return found == 0 ? 0 : 1;
+}

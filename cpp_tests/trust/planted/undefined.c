@@ -1,0 +1,9 @@
+/* Planted: a sum of ints that overflows. UndefinedBehaviorSanitizer must say so. */
+
+#include <limits.h>
+
+int main(int argc, char** argv) {
+    (void)argv;
+    const int sum = INT_MAX + argc;
+    return sum == 0 ? 1 : 0;
+}

@@ -1,0 +1,17 @@
+//! MPS files: whatever the bytes, a problem or an error, and a problem survives being written.
+#![no_main]
+
+use libfuzzer_sys::fuzz_target;
+use roundel::problem::mps;
+
+fuzz_target!(|bytes: &[u8]| {
+    let Ok(first) = mps::parse(bytes) else {
+        return;
+    };
+    let mut text = Vec::new();
+    mps::write_to(&mut text, &first).expect("a problem that was read can be written");
+    let again = mps::parse(text.as_slice()).expect("what was written can be read");
+    let mut same = Vec::new();
+    mps::write_to(&mut same, &again).expect("a problem that was read can be written");
+    assert!(text == same, "reading what was written changes it");
+});

@@ -1,0 +1,57 @@
+//! Problems whose numbers are at the ends of what doubles hold: the solve ends, with a solution or an
+//! error.
+
+use std::sync::mpsc;
+use std::thread;
+use std::time::Duration;
+
+use roundel::{Options, Problem, Triangle, solve};
+
+/// What `solve` says within a minute.
+fn ends(problem: Problem) -> bool {
+    let (say, hear) = mpsc::channel();
+    thread::spawn(move || {
+        let found = solve(&problem, &Options::default());
+        let _ = say.send(found.map(|s| s.values().iter().all(|x| x.is_finite())));
+    });
+    let said = hear.recv_timeout(Duration::from_secs(60));
+    said.is_ok_and(|found| found.unwrap_or(true))
+}
+
+/// Found by the fuzzer: the squares of these numbers are zero, an energy becomes 0/0, and the
+/// improvement of charges waited for it to fall.
+#[test]
+fn a_solve_ends_where_squares_underflow() {
+    let q = [
+        1.6493382969313916e-229,
+        1.7524219404896036e-229,
+        1.8619483117702038e-229,
+    ];
+    let mut problem = Problem::new(2).unwrap();
+    problem
+        .add_quadratic_triplets(Triangle::Lower, &[0, 1, 1], &[0, 0, 1], &q)
+        .unwrap();
+    problem
+        .add_linear(&[1.1339200791403318e-229, 1.2047900840866025e-229])
+        .unwrap();
+    problem.set_integers(&[1]).unwrap();
+    assert!(ends(problem));
+}
+
+#[test]
+fn a_solve_ends_at_every_scale() {
+    for exponent in (-300..=300).step_by(20) {
+        let scale = 10f64.powi(exponent);
+        let mut problem = Problem::new(4).unwrap();
+        let edges = [([0, 1, 3], 0.4), ([1, 2, 3], 0.3), ([0, 2, 3], 0.7)];
+        let mut rows = edges.iter().map(|(at, rhs)| {
+            problem.add_least_squares(at, &[scale, -scale, 0.5 * scale], rhs * scale, 1.0)
+        });
+        // A scale whose square overflows is refused when it is given, or when it is solved for.
+        let given = rows.all(|row| row.is_ok());
+        if given {
+            problem.set_integers(&[3]).unwrap();
+            assert!(ends(problem), "1e{exponent}");
+        }
+    }
+}
