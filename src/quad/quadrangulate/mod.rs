@@ -5,16 +5,16 @@ mod attempt;
 mod compare;
 mod missed;
 mod options;
-mod scale;
 
 use std::time::Instant;
 
 use super::untangle::Untangled;
 use super::{
-    FieldProblem, OrientationField, QuadMesh, SeamlessProblem, SmoothOptions, smooth, strips,
+    FieldProblem, OrientationField, QuadMesh, SeamlessProblem, SmoothOptions, smooth, solve_field,
+    strips,
 };
 use crate::mesh::TriangleMesh;
-use crate::{Monitor, Result, Solution, Solver, solve_with};
+use crate::{Monitor, Result, Solution, Solver};
 use attempt::Trial;
 pub use compare::Compared;
 use compare::compare;
@@ -66,7 +66,7 @@ pub struct QuadSeconds {
 /// kept if they do then, or there is less to repair.
 ///
 /// # Errors
-/// Those of [`FieldProblem::with_options`], [`SeamlessProblem::with_features`], [`solve_with`],
+/// Those of [`solve_field`], [`SeamlessProblem::with_features`], [`solve`](crate::solve()),
 /// [`untangle`](super::untangle::untangle), [`extract`](super::extract) and [`smooth`].
 pub fn quadrangulate<'a>(
     mesh: &TriangleMesh,
@@ -75,13 +75,9 @@ pub fn quadrangulate<'a>(
 ) -> Result<Quadrangulation> {
     let mut seconds = QuadSeconds::default();
     let features = options.guidance.features(mesh)?;
-    let (field_problem, field, field_solution) = timed(&mut seconds.field, || {
-        let rounds = scale::smoothing_rounds(mesh, &options.sizing);
-        let wishes = (options.guidance).field_options_at(mesh, &features, rounds)?;
-        let problem = FieldProblem::with_options(mesh, &wishes)?;
-        let solution = solve_with(problem.problem(), &options.field, monitor())?;
-        let field = problem.field(mesh, &solution)?;
-        Ok((problem, field, solution))
+    let wishes = (options.guidance).map_options(mesh, &features, &options.sizing)?;
+    let (field, field_solution) = timed(&mut seconds.field, || {
+        solve_field(mesh, &wishes, &options.field, &monitor)
     })?;
     let (problem, solution, apart) = timed(&mut seconds.map, || {
         let mut problem = SeamlessProblem::with_features(mesh, &field, &options.sizing, &features)?;
@@ -120,8 +116,12 @@ pub fn quadrangulate<'a>(
         })?;
     }
     let compared = timed(&mut seconds.compare, || {
+        if options.compare.is_empty() {
+            return Ok(Vec::new());
+        }
+        let field = FieldProblem::with_options(mesh, &wishes)?;
         let both = [
-            (field_problem.problem(), &options.field),
+            (field.problem(), &options.field),
             (problem.problem(), &options.map),
         ];
         compare(both, &options.compare, &monitor)

@@ -24,11 +24,12 @@ pub struct QuadOptions {
 }
 
 impl Default for QuadOptions {
-    /// As many quads as [`SeamlessOptions`] has them, along the curvature where it is clear, with
-    /// the integers of field and map decided by lattice decoding.
+    /// As many quads as [`SeamlessOptions`] has them, along the curvature where it is clear. The
+    /// integers of the map are decided by lattice decoding, those of the field adaptively: guided by
+    /// curvature it is no problem of short cycles, and rounding one by one is lower and faster.
     fn default() -> Self {
-        let lattice = Options {
-            strategy: Strategy::Lattice,
+        let by = |strategy| Options {
+            strategy,
             ..Options::default()
         };
         QuadOptions {
@@ -38,8 +39,8 @@ impl Default for QuadOptions {
                 curvature_weight: 0.07,
                 ..Guidance::default()
             },
-            field: lattice.clone(),
-            map: lattice,
+            field: by(Strategy::Adaptive),
+            map: by(Strategy::Lattice),
             untangle: true,
             smooth: Some(SmoothOptions::default()),
             compare: Vec::new(),
