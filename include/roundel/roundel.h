@@ -1483,6 +1483,15 @@ roundel_status roundel_guidance_set_align_boundary(struct roundel_guidance *guid
                                                    int32_t align);
 
 /**
+ * Sets the length, in units of the mesh, of details that attract no irregular vertices; their
+ * curvature is smoothed away before indices are decided. 0 is none. As long as it is not set, a
+ * field sees all details, and quads those as long as their edges.
+ *
+ * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for a length that is negative or not finite.
+ */
+roundel_status roundel_guidance_set_detail(struct roundel_guidance *guidance, double length);
+
+/**
  * Adds what a text file asks for, one wish a line: "direction FACE X Y Z [WEIGHT]" (one that the
  * face has, or with a weight should have), "edge VERTEX VERTEX" (a feature), "index VERTEX STEPS".
  * What follows a # is a comment.

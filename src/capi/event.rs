@@ -198,3 +198,17 @@ impl From<Phase> for roundel_phase {
         }
     }
 }
+
+/// A watcher for every step, all with the caller's callback and token.
+///
+/// # Safety
+/// As [`watched_by`], for as long as the result is used.
+pub(super) unsafe fn watchers<'a>(
+    monitor: *const roundel_monitor,
+) -> Outcome<impl Fn() -> Monitor<'a>> {
+    // What is wrong with it is told before anything is done.
+    // SAFETY: handed on.
+    unsafe { self::monitor(monitor) }?;
+    // SAFETY: handed on.
+    Ok(move || unsafe { self::monitor(monitor) }.unwrap_or_default())
+}

@@ -1,6 +1,6 @@
 //! Fields that follow a guidance: solved for, or stated as a plain problem and read back.
 
-use super::event::{monitor as watched_by, roundel_monitor};
+use super::event::{roundel_monitor, watchers};
 use super::field::{Found, roundel_field};
 use super::guard;
 use super::guidance::roundel_guidance;
@@ -12,7 +12,7 @@ use super::solution::roundel_solution;
 use super::status::roundel_status;
 use crate::mesh::TriangleMesh;
 use crate::mesh::features::FeatureGraph;
-use crate::quad::{FieldProblem, Guidance};
+use crate::quad::{FieldProblem, Guidance, smoothest_field};
 use crate::{Options, Result, Solution};
 
 /// The problem of the field that follows a guidance, and the features.
@@ -47,13 +47,13 @@ pub unsafe extern "C" fn roundel_field_solve_guided(
             (
                 guard::value_or(guidance, &crosses)?,
                 guard::value_or(options, &default)?,
-                watched_by(monitor)?,
+                watchers(monitor)?,
                 Out::new("field", field)?,
             )
         };
-        let (problem, features) = stated(mesh, guidance)?;
-        let solution = crate::solve_with(problem.problem(), options, monitor)?;
-        let found = problem.field(mesh, &solution)?;
+        let features = guidance.features(mesh)?;
+        let follows = guidance.field_options(mesh, &features)?;
+        let (found, solution) = smoothest_field(mesh, &follows, options, monitor)?;
         out.set(guard::handle(Found::new(mesh, found, features, solution)));
         Ok(())
     };

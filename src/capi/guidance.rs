@@ -299,6 +299,30 @@ pub unsafe extern "C" fn roundel_guidance_set_align_boundary(
     unsafe { change(guidance, body) }
 }
 
+/// Sets the length, in units of the mesh, of details that attract no irregular vertices; their
+/// curvature is smoothed away before indices are decided. 0 is none. As long as it is not set, a
+/// field sees all details, and quads those as long as their edges.
+///
+/// Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for a length that is negative or not finite.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_guidance_set_detail(
+    guidance: *mut roundel_guidance,
+    length: f64,
+) -> roundel_status {
+    let body = |guidance: &mut Guidance| {
+        if !(length >= 0.0 && length.is_finite()) {
+            Err(Error::InvalidArgument {
+                what: format!("details of a length of {length}"),
+                index: None,
+            })?;
+        }
+        guidance.detail = Some(length);
+        Ok(())
+    };
+    // SAFETY: the caller gives a live handle, or NULL.
+    unsafe { change(guidance, body) }
+}
+
 /// Adds what a text file asks for, one wish a line: "direction FACE X Y Z [WEIGHT]" (one that the
 /// face has, or with a weight should have), "edge VERTEX VERTEX" (a feature), "index VERTEX STEPS".
 /// What follows a # is a comment.

@@ -1,7 +1,7 @@
 //! The quads handle: extracted from a map, or made from a mesh in one call.
 
 use super::error::Outcome;
-use super::event::{monitor as watched_by, roundel_monitor};
+use super::event::{monitor as watched_by, roundel_monitor, watchers};
 use super::guard::{self, Guarded, boundary, object};
 use super::guidance::roundel_guidance;
 use super::input::slice;
@@ -22,19 +22,6 @@ use crate::{Error, Monitor};
 pub struct roundel_quads(Guarded<QuadMesh>);
 
 object!(roundel_quads, QuadMesh, "quads");
-
-/// A watcher for every step, all with the caller's callback and token.
-///
-/// # Safety
-/// As [`watched_by`], for as long as the result is used.
-unsafe fn watchers<'a>(monitor: *const roundel_monitor) -> Outcome<impl Fn() -> Monitor<'a>> {
-    // What is wrong with it is told before anything is done.
-    // SAFETY: handed on.
-    unsafe { watched_by(monitor) }?;
-    // SAFETY: handed on.
-    Ok(move || unsafe { watched_by(monitor) }.unwrap_or_default())
-}
-
 /// Turns `face_count` triangles, given as for roundel_mesh_new, into about `quad_count` quads: field,
 /// map, extraction and smoothing in one call, under the eyes of `monitor`.
 ///
@@ -94,7 +81,6 @@ unsafe fn make(
     quads: *mut *mut roundel_quads,
 ) -> Outcome {
     let mut wanted = QuadOptions::default();
-    let has_guidance = !guidance.is_null();
     // SAFETY: handed on.
     let (guidance, solve, monitor, out) = unsafe {
         (
@@ -104,9 +90,6 @@ unsafe fn make(
             Out::new("quads", quads)?,
         )
     };
-    if has_guidance {
-        wanted.constrained_per_quad = 0.0;
-    }
     (wanted.guidance, wanted.sizing) = (guidance, Sizing::Quads(quad_count));
     (wanted.field, wanted.map) = (solve.clone(), solve);
     out.set(guard::handle(quadrangulate(mesh, &wanted, monitor)?.quads));

@@ -52,6 +52,10 @@ pub struct FieldOptions {
     /// The index of every irregular vertex, all others of the interior being regular; none leaves
     /// that to the energy.
     pub indices: Option<Vec<PrescribedIndex>>,
+    /// Curvature of details smaller than this length does not count: they attract no irregular
+    /// vertices. [`solve_field`](super::solve_field) lets it decide the indices alone. Where it is
+    /// not 0, the energy of [`FieldProblem`](super::FieldProblem) is not that of its field.
+    pub detail: f64,
 }
 
 impl Default for FieldOptions {
@@ -62,6 +66,7 @@ impl Default for FieldOptions {
             firm: usize::MAX,
             guides: Vec::new(),
             indices: None,
+            detail: 0.0,
         }
     }
 }

@@ -5,7 +5,9 @@
 //! given, a feature or the boundary, a reliable curvature.
 
 use super::align::edge_constraints;
-use super::{Constraint, FieldOptions, Guide, PrescribedIndex, constrain, feature_constraints};
+use super::{
+    Constraint, FieldOptions, Guide, PrescribedIndex, Sizing, constrain, feature_constraints,
+};
 use crate::mesh::TriangleMesh;
 use crate::mesh::curvature::{SMOOTHING_ROUNDS, smoothed_curvature};
 use crate::mesh::features::FeatureGraph;
@@ -37,6 +39,10 @@ pub struct Guidance {
     /// Whether edges of the boundary are followed like features. A field of single directions,
     /// N = 1, does not: on which side of an edge it should lie nobody says.
     pub align_boundary: bool,
+    /// Details smaller than this length attract no irregular vertices, and directions of curvature
+    /// are those at this scale; see [`FieldOptions::detail`]. None stands for 0 where a field is
+    /// wanted for itself, and for the length of quads' edges where a map shall follow it.
+    pub detail: Option<f64>,
 }
 
 impl Default for Guidance {
@@ -53,6 +59,7 @@ impl Default for Guidance {
             feature_lines: Vec::new(),
             feature_edges: Vec::new(),
             align_boundary: true,
+            detail: None,
         }
     }
 }
@@ -76,7 +83,7 @@ impl Guidance {
         Ok(features)
     }
 
-    /// What a field follows that keeps to these features.
+    /// What a field follows that keeps to these features, for the field itself.
     ///
     /// # Errors
     /// [`Error::LengthMismatch`] for features of another mesh, [`Error::InvalidArgument`] for
@@ -88,15 +95,28 @@ impl Guidance {
         mesh: &TriangleMesh,
         features: &FeatureGraph,
     ) -> Result<FieldOptions> {
-        self.field_options_at(mesh, features, SMOOTHING_ROUNDS)
+        self.options_at(mesh, features, self.detail.unwrap_or(0.0))
     }
 
-    /// The same by a curvature smoothed by other than [`SMOOTHING_ROUNDS`].
-    pub(super) fn field_options_at(
+    /// The same for the field that a map of this size shall follow.
+    ///
+    /// # Errors
+    /// As [`field_options`](Self::field_options).
+    pub fn map_options(
         &self,
         mesh: &TriangleMesh,
         features: &FeatureGraph,
-        rounds: usize,
+        sizing: &Sizing,
+    ) -> Result<FieldOptions> {
+        let detail = self.detail.unwrap_or_else(|| sizing.edge_length(mesh));
+        self.options_at(mesh, features, detail)
+    }
+
+    fn options_at(
+        &self,
+        mesh: &TriangleMesh,
+        features: &FeatureGraph,
+        detail: f64,
     ) -> Result<FieldOptions> {
         let mut options = FieldOptions {
             symmetry: self.symmetry,
@@ -104,6 +124,7 @@ impl Guidance {
             firm: usize::MAX,
             guides: self.guides.clone(),
             indices: self.indices.clone(),
+            detail,
         };
         options.constrain_others(match self.symmetry {
             4 => feature_constraints(mesh, features)?,
@@ -119,11 +140,24 @@ impl Guidance {
         let count = constrain::count(mesh, self.constrain_curvature)?;
         constrain::check_weight(self.curvature_weight)?;
         if count > 0 || self.curvature_weight > 0.0 {
-            let curvature = smoothed_curvature(mesh, rounds);
+            let curvature = smoothed_curvature(mesh, smoothing_rounds(mesh, detail));
             options.constrain_others(constrain::most_reliable(&curvature, count));
             let guides = constrain::all_guides(mesh, &curvature, self.curvature_weight);
             options.guide_others(guides);
         }
         Ok(options)
     }
+}
+
+/// The most rounds of averaging curvature: a radius of 16 edges of triangles.
+const MOST_ROUNDS: usize = 256;
+
+/// Rounds of averaging, each over the neighbours of a face, whose radius is a length: as many as
+/// its square has edges' squares.
+///
+/// Directions that change within a quad are noise to it.
+fn smoothing_rounds(mesh: &TriangleMesh, length: f64) -> usize {
+    // Of an equilateral triangle with the mean area.
+    let edge = 4.0 / 3f64.sqrt() * mesh.surface_area() / mesh.face_count() as f64;
+    ((length * length / edge).round() as usize).clamp(SMOOTHING_ROUNDS, MOST_ROUNDS)
 }

@@ -11,6 +11,7 @@ mod comb;
 mod constrain;
 mod cut;
 mod cut_paths;
+mod detail;
 mod directions;
 mod dirichlet;
 mod extract;
@@ -52,4 +53,4 @@ pub use quadrangulate::{Compared, QuadOptions, QuadSeconds, Quadrangulation, qua
 pub use seamless::{SeamlessOptions, SeamlessProblem, TRANSLATION_WEIGHT};
 pub use sizing::Sizing;
 pub use smooth::{QuadQuality, SmoothOptions, smooth};
-pub use spread::solve_field;
+pub use spread::{smoothest_field, solve_field};

@@ -12,6 +12,7 @@
 //! grows from the faces whose arm is named: there no frame can be turned to move a jump away.
 
 use super::charges::{ring_sum, steps};
+use super::detail::detail;
 use super::forest::spanning_forest;
 use super::{Constraint, FieldOptions, Guide, OrientationField};
 use crate::mesh::TriangleMesh;
@@ -60,7 +61,8 @@ impl FieldProblem {
     /// [`Error::NotFinite`], [`Error::InvalidArgument`] for a face or vertex that is named twice, a
     /// negative weight or an index at the boundary. [`Error::InvalidArgument`] for another symmetry
     /// than 1, 2, 4 and 6, for indices that do not sum to the Euler characteristic, and, with the
-    /// vertex, where constrained faces alone decide an index and it is another.
+    /// vertex, where constrained faces alone decide an index and it is another, or for a negative
+    /// length of details.
     pub fn with_options(mesh: &TriangleMesh, options: &FieldOptions) -> Result<Self> {
         let step = options.step()?;
         let fixed = options.fixed_angles(mesh)?;
@@ -79,7 +81,8 @@ impl FieldProblem {
         for c in &options.constraints {
             this.problem.pin(c.face, c.angle)?;
         }
-        let row_of_edge = this.add_edges(mesh, step, &fixed)?;
+        let ignored = detail(mesh, options)?;
+        let row_of_edge = this.add_edges(mesh, step, &fixed, &ignored)?;
         for Guide {
             face,
             angle,
@@ -96,12 +99,13 @@ impl FieldProblem {
         Ok(this)
     }
 
-    /// One row an edge of the energy; gives the row of every edge that has one.
+    /// One row an edge of the energy, whose transport turns by what is `ignored` in addition; gives the row of every edge that has one.
     fn add_edges(
         &mut self,
         mesh: &TriangleMesh,
         step: f64,
         fixed: &[Option<f64>],
+        ignored: &[f64],
     ) -> Result<Vec<Option<usize>>> {
         let mut row_of_edge = vec![None; mesh.edge_count()];
         for (e, edge) in mesh.edges().enumerate() {
@@ -110,7 +114,7 @@ impl FieldProblem {
             if fixed[i].is_some() && fixed[j].is_some() {
                 continue;
             }
-            let kappa = -self.kappa[e];
+            let kappa = -(self.kappa[e] + ignored[e]);
             let problem = &mut self.problem;
             row_of_edge[e] = Some(match self.jumps[e] {
                 Jump::Unknown(p) => {

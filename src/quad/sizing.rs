@@ -15,6 +15,24 @@ pub enum Sizing {
     Lengths(Vec<[f64; 2]>),
 }
 
+impl Sizing {
+    /// The length of an edge of quads, in units of the mesh; where faces have their own, the mean.
+    pub(super) fn edge_length(&self, mesh: &TriangleMesh) -> f64 {
+        let area = mesh.surface_area();
+        match self {
+            Sizing::Quads(quads) => (area / (*quads).max(1) as f64).sqrt(),
+            Sizing::EdgeLength(length) => *length,
+            Sizing::Lengths(lengths) => {
+                let of_face = |(face, [along, across]): (usize, &[f64; 2])| {
+                    0.5 * mesh.area(face) * (along + across)
+                };
+                let faces = lengths.iter().enumerate().take(mesh.face_count());
+                faces.map(of_face).sum::<f64>() / area
+            }
+        }
+    }
+}
+
 /// Unit squares a unit length in every face.
 #[derive(Debug, Clone)]
 pub(super) enum Density {

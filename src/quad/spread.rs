@@ -3,7 +3,8 @@
 //! The smoothest field may turn at one vertex as often as the surface does: the tip of a horn gets
 //! index 1, around which no angle is left for a map, as `2 pi (1 - I)` is what its triangles have to
 //! share. Where that is too little or more than they can hold, quarters move to the nearest vertices
-//! that can take them, and the field is solved for again with those indices prescribed.
+//! that can take them, and the field is solved for again with those indices prescribed. So it is
+//! where indices are decided without the details of the surface ([`super::detail`]).
 
 use std::collections::VecDeque;
 
@@ -18,7 +19,64 @@ const MOST: i32 = 2;
 /// Quarters of the least index that a vertex keeps: six quads meet.
 const LEAST: i32 = -2;
 
+/// The smoothest field, whether a map can follow it or not, and the solution that it was read from.
+///
+/// With a length of [details](FieldOptions::detail) this is [`solve_field`], as all who want none of
+/// the details want quads.
+///
+/// # Errors
+/// Those of [`solve_field`].
+pub fn smoothest_field<'a>(
+    mesh: &TriangleMesh,
+    options: &FieldOptions,
+    solver: &Options,
+    monitor: impl Fn() -> Monitor<'a>,
+) -> Result<(OrientationField, Solution)> {
+    if options.detail > 0.0 {
+        return solve_field(mesh, options, solver, monitor);
+    }
+    solve_stated(mesh, options, solver, monitor())
+}
+
+/// The field of the problem that these options state.
+fn solve_stated(
+    mesh: &TriangleMesh,
+    options: &FieldOptions,
+    solver: &Options,
+    monitor: Monitor,
+) -> Result<(OrientationField, Solution)> {
+    let problem = FieldProblem::with_options(mesh, options)?;
+    let solution = solve_with(problem.problem(), solver, monitor)?;
+    Ok((problem.field(mesh, &solution)?, solution))
+}
+
+/// The smoothest field, all details seen, with the period jumps of a solution that did not see them.
+fn smoothest_with(
+    mesh: &TriangleMesh,
+    options: &FieldOptions,
+    decided: &Solution,
+    solver: &Options,
+    monitor: Monitor,
+) -> Result<(OrientationField, Solution)> {
+    let all = FieldOptions {
+        detail: 0.0,
+        ..options.clone()
+    };
+    let problem = FieldProblem::with_options(mesh, &all)?;
+    let mut held = problem.problem().clone();
+    for (i, &value) in decided.values().iter().enumerate() {
+        if problem.problem().integers()[i] {
+            held.pin(i, value)?;
+        }
+    }
+    let solution = solve_with(&held, solver, monitor)?;
+    Ok((problem.field(mesh, &solution)?, solution))
+}
+
 /// The smoothest field among those that a map can follow, and the solution that it was read from.
+///
+/// With a length of [details](FieldOptions::detail) a first field, which does not see them, decides
+/// the indices; the field is the smoothest with these.
 ///
 /// Indices that the caller prescribes are kept whatever they are, and so are the
 /// [firm](FieldOptions::firm) constraints. Other directions of faces around a vertex give way where
@@ -33,26 +91,30 @@ pub fn solve_field<'a>(
     solver: &Options,
     monitor: impl Fn() -> Monitor<'a>,
 ) -> Result<(OrientationField, Solution)> {
-    let problem = FieldProblem::with_options(mesh, options)?;
-    let solution = solve_with(problem.problem(), solver, monitor())?;
-    let field = problem.field(mesh, &solution)?;
+    let (field, solution) = solve_stated(mesh, options, solver, monitor())?;
     if options.indices.is_some() || options.symmetry != 4 {
         return Ok((field, solution));
     }
-    let Some(indices) = spread(mesh, &field) else {
-        return Ok((field, solution));
-    };
-    let solve_spread = |options: FieldOptions| {
-        let problem = FieldProblem::with_options(mesh, &options)?;
-        let solution = solve_with(problem.problem(), solver, monitor())?;
-        Ok((problem.field(mesh, &solution)?, solution))
-    };
+    let found = steps(mesh, &field);
+    let steps = spread(mesh, found.clone());
+    if steps == found {
+        return match options.detail > 0.0 {
+            true => smoothest_with(mesh, options, &solution, solver, monitor()),
+            false => Ok((field, solution)),
+        };
+    }
+    let irregular = (0..steps.len()).filter(|&v| steps[v] != 0);
+    let indices = irregular.map(|vertex| PrescribedIndex {
+        vertex,
+        steps: steps[vertex],
+    });
     let mut spread = FieldOptions {
-        indices: Some(indices),
+        indices: Some(indices.collect()),
+        detail: 0.0,
         ..options.clone()
     };
     for _ in 0..2 {
-        match solve_spread(spread.clone()) {
+        match solve_stated(mesh, &spread, solver, monitor()) {
             // Directions alone may decide an index.
             Err(
                 Error::InvalidArgument { .. }
@@ -84,28 +146,25 @@ fn steps(mesh: &TriangleMesh, field: &OrientationField) -> Vec<i32> {
     indices.iter().map(|i| (4.0 * i).round() as i32).collect()
 }
 
-/// The indices of a field with none beyond what a map can have; none where that is so already.
-fn spread(mesh: &TriangleMesh, field: &OrientationField) -> Option<Vec<PrescribedIndex>> {
-    let mut steps = steps(mesh, field);
-    let found = steps.clone();
+/// The same indices, none beyond what a map can have, as long as there is where to put the rest.
+fn spread(mesh: &TriangleMesh, mut steps: Vec<i32>) -> Vec<i32> {
     for v in 0..steps.len() {
         while steps[v] > MOST {
-            let to = nearest(mesh, v, |w| steps[w] < 1)?;
+            let Some(to) = nearest(mesh, v, |w| steps[w] < 1) else {
+                return steps;
+            };
             steps[v] -= 1;
             steps[to] += 1;
         }
         while steps[v] < least(mesh, v) {
-            let to = nearest(mesh, v, |w| steps[w] > least(mesh, w).max(-1))?;
+            let Some(to) = nearest(mesh, v, |w| steps[w] > least(mesh, w).max(-1)) else {
+                return steps;
+            };
             steps[v] += 1;
             steps[to] -= 1;
         }
     }
-    let irregular = (0..steps.len()).filter(|&v| steps[v] != 0);
-    let indices = irregular.map(|vertex| PrescribedIndex {
-        vertex,
-        steps: steps[vertex],
-    });
-    (steps != found).then(|| indices.collect())
+    steps
 }
 
 /// The least quarters for a vertex: its triangles share less than half a turn each.

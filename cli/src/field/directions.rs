@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use roundel::mesh::TriangleMesh;
 use roundel::mesh::features::FeatureGraph;
-use roundel::quad::{Constraint, Guidance};
+use roundel::quad::{Constraint, Guidance, QuadOptions};
 
 use super::named;
 
@@ -41,6 +41,12 @@ pub struct Directions {
     #[arg(allow_negative_numbers = true)]
     pub curvature_weight: f64,
 
+    /// Let details smaller than this length, in units of the mesh, attract no irregular vertices
+    /// [default: 0; for a map, the length of its quads' edges]
+    #[arg(long, value_name = "LENGTH", value_parser = weight)]
+    #[arg(allow_negative_numbers = true)]
+    pub detail: Option<f64>,
+
     /// Give this face this direction, in degrees counter-clockwise from its first edge; may be
     /// repeated, and comes before all else
     #[arg(long, value_name = "FACE:DEGREES", value_parser = constraint)]
@@ -65,6 +71,7 @@ impl Directions {
             curvature_weight: self.curvature_weight,
             feature_angle: self.features.map(f64::to_radians),
             align_boundary: !self.free_boundary,
+            detail: self.detail,
             ..Guidance::default()
         };
         if let Some(path) = &self.guide {
@@ -80,6 +87,21 @@ impl Directions {
         if let Some(path) = &self.feature_lines {
             let lines = FeatureGraph::read(mesh, path).map_err(|error| named(path, error))?;
             features = features.with(mesh, &lines)?;
+        }
+        Ok((guidance, features))
+    }
+}
+
+impl Directions {
+    /// As [`of`](Self::of), for crosses that a map shall follow: where nobody says how curvature
+    /// counts, it does as it does for quads.
+    pub fn of_map(&self, mesh: &TriangleMesh) -> roundel::Result<(Guidance, FeatureGraph)> {
+        let (mut guidance, features) = self.of(mesh, 4)?;
+        let is_silent = self.constrain_curvature.is_none() && self.curvature_weight == 0.0;
+        if is_silent && guidance.indices.is_none() {
+            let default = QuadOptions::default().guidance;
+            guidance.constrain_curvature = default.constrain_curvature;
+            guidance.curvature_weight = default.curvature_weight;
         }
         Ok((guidance, features))
     }

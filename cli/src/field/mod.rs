@@ -11,7 +11,7 @@ use std::time::Instant;
 use roundel::mesh::{TriangleMesh, io};
 use roundel::picture::{FieldModel, View, draw_field};
 use roundel::problem::mps::{self, MpsProblem};
-use roundel::quad::{FieldProblem, OrientationField};
+use roundel::quad::{FieldProblem, OrientationField, solve_field};
 use roundel::{Error, Options, Result, Solution, Strategy};
 
 use crate::exit::Exit;
@@ -63,9 +63,14 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
     if let Some(path) = &arguments.write_problem {
         mps::write(path, &MpsProblem::new(problem.problem().clone()))?;
     }
-    let monitor = progress.monitor().cancel_token(token);
-    let solution = roundel::solve_with(problem.problem(), &options, monitor)?;
-    let field = problem.field(&mesh, &solution)?;
+    let monitor = || progress.monitor().cancel_token(token.clone());
+    let (field, solution) = match follows.detail > 0.0 {
+        true => solve_field(&mesh, &follows, &options, monitor)?,
+        false => {
+            let solution = roundel::solve_with(problem.problem(), &options, monitor())?;
+            (problem.field(&mesh, &solution)?, solution)
+        }
+    };
     let started = Instant::now();
     write(arguments, &mesh, &field)?;
     Ok(Solved {

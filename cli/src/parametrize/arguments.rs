@@ -32,7 +32,7 @@ pub struct Arguments {
     pub directions: Directions,
 
     /// How the field's integers are decided
-    #[arg(long, value_name = "WORD", default_value = "auto", value_parser = strategy)]
+    #[arg(long, value_name = "WORD", default_value = "adaptive", value_parser = strategy)]
     pub field_strategy: Strategy,
 
     #[command(flatten)]

@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use roundel::mesh::TriangleMesh;
 use roundel::mesh::features::FeatureGraph;
-use roundel::quad::{Guidance, OrientationField, solve_field};
+use roundel::quad::{Guidance, OrientationField, Sizing, solve_field};
 use roundel::{Monitor, Options, Result};
 
 use super::Arguments;
@@ -25,13 +25,19 @@ pub(super) struct FieldSource {
 pub(super) fn of<'a>(
     arguments: &Arguments,
     mesh: &TriangleMesh,
-    (guidance, features): (&Guidance, &FeatureGraph),
+    (guidance, features, sizing): (&Guidance, &FeatureGraph, &Sizing),
     options: &Options,
     monitor: impl Fn() -> Monitor<'a>,
 ) -> Result<(OrientationField, FieldSource)> {
     match &arguments.field {
         Some(path) => read(path, mesh),
-        None => solve(arguments, mesh, (guidance, features), options, monitor),
+        None => solve(
+            arguments,
+            mesh,
+            (guidance, features, sizing),
+            options,
+            monitor,
+        ),
     }
 }
 
@@ -49,7 +55,7 @@ fn read(path: &Path, mesh: &TriangleMesh) -> Result<(OrientationField, FieldSour
 fn solve<'a>(
     arguments: &Arguments,
     mesh: &TriangleMesh,
-    (guidance, features): (&Guidance, &FeatureGraph),
+    (guidance, features, sizing): (&Guidance, &FeatureGraph, &Sizing),
     options: &Options,
     monitor: impl Fn() -> Monitor<'a>,
 ) -> Result<(OrientationField, FieldSource)> {
@@ -57,7 +63,7 @@ fn solve<'a>(
         strategy: arguments.field_strategy,
         ..options.clone()
     };
-    let follow = guidance.field_options(mesh, features)?;
+    let follow = guidance.map_options(mesh, features, sizing)?;
     let started = Instant::now();
     let (field, solution) = solve_field(mesh, &follow, &options, monitor)?;
     let source = FieldSource {

@@ -57,11 +57,11 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
     let started = Instant::now();
     let mesh = mesh::read(&arguments.mesh)?;
     let read = started.elapsed().as_secs_f64();
-    let (guidance, features) = arguments.directions.of(&mesh, 4)?;
-    let follows = (&guidance, &features);
+    let (guidance, features) = arguments.directions.of_map(&mesh)?;
+    let sizing = arguments.sizing.of()?;
+    let follows = (&guidance, &features, &sizing);
     let (field, source) = field::of(arguments, &mesh, follows, &options, monitor)?;
     let started = Instant::now();
-    let sizing = arguments.sizing.of()?;
     let problem = SeamlessProblem::with_features(&mesh, &field, &sizing, &features)?;
     // The problem holds what it needs of it.
     drop(field);

@@ -33,7 +33,7 @@ pub struct Arguments {
     pub directions: Directions,
 
     /// How the field's integers are decided
-    #[arg(long, value_name = "WORD", default_value = "lattice", value_parser = deciding)]
+    #[arg(long, value_name = "WORD", default_value = "adaptive", value_parser = deciding)]
     pub field_strategy: Strategy,
 
     /// Leave faces that the map turns over as they are

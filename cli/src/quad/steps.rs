@@ -26,23 +26,12 @@ pub(super) fn solve(arguments: &Arguments) -> Result<Solved> {
     let started = Instant::now();
     let mesh = mesh::read(&arguments.mesh)?;
     let read_seconds = started.elapsed().as_secs_f64();
-    let directions = &arguments.directions;
-    let (mut guidance, features) = directions.of(&mesh, 4)?;
-    let is_silent = directions.constrain_curvature.is_none() && directions.curvature_weight == 0.0;
-    let is_silent = is_silent && guidance.indices.is_none();
-    if is_silent {
-        guidance.constrain_curvature = default.guidance.constrain_curvature;
-        guidance.curvature_weight = default.guidance.curvature_weight;
-    }
+    let (mut guidance, features) = arguments.directions.of_map(&mesh)?;
     // Those of the command line's file are among them.
     guidance.feature_edges = features.edges().collect();
     let options = QuadOptions {
         sizing: arguments.sizing.of()?,
         guidance,
-        constrained_per_quad: match is_silent {
-            true => default.constrained_per_quad,
-            false => 0.0,
-        },
         field: Options {
             strategy: arguments.field_strategy,
             ..map.clone()

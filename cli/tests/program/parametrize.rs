@@ -30,7 +30,7 @@ fn a_rounded_cube_turns_around_its_corners() {
     assert_eq!(report["flipped"], json!(0));
     assert!(report["cut_edges"].as_u64() > Some(0));
     assert!(report["gradient_energy"].as_f64() <= report["energy"].as_f64());
-    assert_eq!(report["field"]["strategy"], json!("auto"));
+    assert_eq!(report["field"]["strategy"], json!("adaptive"));
 }
 
 #[test]
@@ -244,7 +244,9 @@ fn a_field_from_a_file_gives_the_map_of_that_field() {
         assert_eq!(code, 0, "{from_file}");
         assert_eq!(from_file["field"]["strategy"], Value::Null);
         assert_eq!(from_file["field"]["file"], json!(text(&file)));
-        let solved = parametrize(&[shape, "--field-strategy", "direct"]).1;
+        let as_it_is = ["--constrain-curvature", "0.1", "--detail", "0"];
+        let words = [&[shape, "--field-strategy", "direct"], &as_it_is[..]].concat();
+        let solved = parametrize(&words).1;
         assert_eq!(
             from_file["irregular_vertices"],
             solved["irregular_vertices"]

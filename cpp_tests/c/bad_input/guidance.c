@@ -43,6 +43,10 @@ static void settings(fixture* f) {
         "memory", NONE);
     BAD(f, roundel_guidance_set_align_boundary(NULL, 1), null, "guidance", NONE);
     BAD(f, roundel_guidance_set_align_boundary(g, 2), invalid, "not 2", NONE);
+    BAD(f, roundel_guidance_set_detail(NULL, 1.0), null, "guidance", NONE);
+    BAD(f, roundel_guidance_set_detail(g, -1.0), invalid, "-1", NONE);
+    BAD(f, roundel_guidance_set_detail(g, (double)NAN), invalid, "NaN", NONE);
+    GOOD(roundel_guidance_set_detail(g, 0.0));
     GOOD(roundel_guidance_free(g));
     GOOD(roundel_guidance_free(NULL));
 }

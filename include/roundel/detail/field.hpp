@@ -42,6 +42,9 @@ struct FieldOptions {
     std::vector<FieldGuide> guides = {};
     /// How much all others should follow the curvature; 0 not to.
     double curvature_weight = 0.0;
+    /// Details smaller than this length attract no irregular vertices: for a map, the length of its
+    /// quads' edges. 0 lets all of them.
+    double detail = 0.0;
     /// All irregular vertices; where nothing is said the energy decides.
     std::optional<std::vector<VertexIndex>> indices = std::nullopt;
     /// N, the number of arms in a face: 1, 2, 4 (crosses) or 6.
@@ -67,6 +70,10 @@ struct FieldOptions {
     }
     FieldOptions& set_curvature_weight(double value) {
         curvature_weight = value;
+        return *this;
+    }
+    FieldOptions& set_detail(double length) {
+        detail = length;
         return *this;
     }
     FieldOptions& set_indices(std::vector<VertexIndex> value) {
@@ -211,6 +218,7 @@ inline GuidanceHandle guidance_of(const FieldOptions& options, Status* status) {
          told(roundel_guidance_set_indices(to, vertices.size(), vertices.data(), steps.data()))) &&
         told(roundel_guidance_set_curvature(to, options.constrain_curvature,
                                             options.curvature_weight)) &&
+        told(roundel_guidance_set_detail(to, options.detail)) &&
         told(roundel_guidance_set_symmetry(to, options.symmetry));
     return all ? std::move(handle) : nullptr;
 }

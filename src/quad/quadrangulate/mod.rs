@@ -3,22 +3,21 @@
 mod aim;
 mod attempt;
 mod compare;
-mod decide;
 mod missed;
 mod options;
-mod scale;
 
 use std::time::Instant;
 
-use super::sizing::Density;
 use super::untangle::Untangled;
-use super::{OrientationField, QuadMesh, SmoothOptions, smooth, strips};
+use super::{
+    FieldProblem, OrientationField, QuadMesh, SeamlessProblem, SmoothOptions, smooth, solve_field,
+    strips,
+};
 use crate::mesh::TriangleMesh;
-use crate::{Monitor, Result, Solution};
+use crate::{Monitor, Result, Solution, Solver};
 use attempt::Trial;
 pub use compare::Compared;
 use compare::compare;
-use decide::decide;
 pub use options::QuadOptions;
 
 /// Quads, and how they were come by.
@@ -67,9 +66,7 @@ pub struct QuadSeconds {
 /// kept if they do then, or there is less to repair.
 ///
 /// # Errors
-/// Those of [`FieldProblem::with_options`](super::FieldProblem::with_options),
-/// [`SeamlessProblem::with_features`](super::SeamlessProblem::with_features),
-/// [`solve_with`](crate::solve_with),
+/// Those of [`solve_field`], [`SeamlessProblem::with_features`], [`solve`](crate::solve()),
 /// [`untangle`](super::untangle::untangle), [`extract`](super::extract) and [`smooth`].
 pub fn quadrangulate<'a>(
     mesh: &TriangleMesh,
@@ -77,13 +74,18 @@ pub fn quadrangulate<'a>(
     monitor: impl Fn() -> Monitor<'a>,
 ) -> Result<Quadrangulation> {
     let mut seconds = QuadSeconds::default();
-    Density::new(mesh, &options.sizing)?;
     let features = options.guidance.features(mesh)?;
-    let both = [&mut seconds.field, &mut seconds.map];
-    let decided = decide(mesh, options, &features, &monitor, both)?;
-    let (problem, solution) = (decided.problem, decided.solution);
-    let apart = timed(&mut seconds.map, || {
-        strips::hold_apart(mesh, &problem, &solution, &options.map, &monitor)
+    let wishes = (options.guidance).map_options(mesh, &features, &options.sizing)?;
+    let (field, field_solution) = timed(&mut seconds.field, || {
+        solve_field(mesh, &wishes, &options.field, &monitor)
+    })?;
+    let (problem, solution, apart) = timed(&mut seconds.map, || {
+        let mut problem = SeamlessProblem::with_features(mesh, &field, &options.sizing, &features)?;
+        let mut solver = Solver::new(problem.problem())?;
+        aim::aim(mesh, &mut problem, &mut solver, &options.sizing, monitor())?;
+        let solution = solver.solve_with(&options.map, monitor())?;
+        let apart = strips::hold_apart(mesh, &problem, &solution, &options.map, &monitor)?;
+        Ok((problem, solution, apart))
     })?;
     let features: Vec<usize> = features.edges().collect();
     let best = timed(&mut seconds.extract, || {
@@ -114,16 +116,20 @@ pub fn quadrangulate<'a>(
         })?;
     }
     let compared = timed(&mut seconds.compare, || {
+        if options.compare.is_empty() {
+            return Ok(Vec::new());
+        }
+        let field = FieldProblem::with_options(mesh, &wishes)?;
         let both = [
-            (decided.field_problem.problem(), &options.field),
+            (field.problem(), &options.field),
             (problem.problem(), &options.map),
         ];
         compare(both, &options.compare, &monitor)
     })?;
     Ok(Quadrangulation {
         quads,
-        field: decided.field,
-        field_solution: decided.field_solution,
+        field,
+        field_solution,
         untangled: best.map,
         solution: best.solution,
         features,
@@ -133,10 +139,9 @@ pub fn quadrangulate<'a>(
     })
 }
 
-/// Runs a step and adds what it took.
 fn timed<T>(seconds: &mut f64, step: impl FnOnce() -> Result<T>) -> Result<T> {
     let started = Instant::now();
     let result = step();
-    *seconds += started.elapsed().as_secs_f64();
+    *seconds = started.elapsed().as_secs_f64();
     result
 }

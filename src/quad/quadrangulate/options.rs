@@ -10,10 +10,6 @@ pub struct QuadOptions {
     pub sizing: Sizing,
     /// What they follow. Features, and the boundary where it is aligned, become chains of edges.
     pub guidance: Guidance,
-    /// So many faces a quad, those with the most reliable curvature, have its direction, where that
-    /// is more than the guidance has. On meshes that are not large, some more and fewer are tried, and
-    /// those are taken whose map has the least energy.
-    pub constrained_per_quad: f64,
     /// How the field is solved for.
     pub field: Options,
     /// How the map is solved for.
@@ -28,22 +24,23 @@ pub struct QuadOptions {
 }
 
 impl Default for QuadOptions {
-    /// As many quads as [`SeamlessOptions`] has them, along the curvature where it is clear, with
-    /// the integers of field and map decided by lattice decoding.
+    /// As many quads as [`SeamlessOptions`] has them, along the curvature where it is clear. The
+    /// integers of the map are decided by lattice decoding, those of the field adaptively: guided by
+    /// curvature it is no problem of short cycles, and rounding one by one is lower and faster.
     fn default() -> Self {
-        let lattice = Options {
-            strategy: Strategy::Lattice,
+        let by = |strategy| Options {
+            strategy,
             ..Options::default()
         };
         QuadOptions {
             sizing: Sizing::Quads(SeamlessOptions::default().quads),
             guidance: Guidance {
+                constrain_curvature: 0.005,
                 curvature_weight: 0.07,
                 ..Guidance::default()
             },
-            constrained_per_quad: 0.1,
-            field: lattice.clone(),
-            map: lattice,
+            field: by(Strategy::Adaptive),
+            map: by(Strategy::Lattice),
             untangle: true,
             smooth: Some(SmoothOptions::default()),
             compare: Vec::new(),

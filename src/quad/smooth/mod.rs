@@ -39,7 +39,7 @@ impl Default for SmoothOptions {
         SmoothOptions {
             rounds: 60,
             uniformity: 0.6,
-            hold: 0.12,
+            hold: 0.07,
             features: Vec::new(),
         }
     }
