@@ -12,7 +12,8 @@ def endless():
     draw = np.random.default_rng(1)
     count = 90
     basis = draw.integers(-9, 10, (count, count)) + 40.0 * np.eye(count)
-    return {"A": basis, "b": 1000.0 * draw.random(count), "integers": np.arange(count)}
+    given = {"A": basis, "b": 1000.0 * draw.random(count), "integers": np.arange(count)}
+    return {**given, "nodes": 10**13}
 
 
 @pytest.fixture(scope="session")

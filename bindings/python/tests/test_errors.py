@@ -1,5 +1,7 @@
 """What is refused, and what the exceptions say."""
 
+import builtins
+
 import numpy as np
 import pytest
 
@@ -19,6 +21,10 @@ def test_every_status_of_the_interface_has_its_exception():
         assert issubclass(raised, roundel.Error) and getattr(roundel, raised.__name__) is raised
 
 
+def test_no_public_name_hides_one_of_python():
+    assert not set(roundel.__all__) & set(dir(builtins))
+
+
 def test_contradicting_constraints_name_the_row():
     with pytest.raises(roundel.InfeasibleError) as caught:
         C = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.0]]
@@ -31,6 +37,15 @@ def test_an_index_too_large_names_its_position_and_is_an_index_error():
     with pytest.raises(IndexError) as caught:
         roundel.solve(A=EYE, b=np.zeros(3), integers=[0, 7])
     assert isinstance(caught.value, roundel.IndexOutOfRangeError) and caught.value.position == 1
+
+
+def test_a_row_that_is_refused_leaves_none_behind():
+    problem = roundel.Problem(3)
+    with pytest.raises(roundel.NotFiniteError, match="row 1") as caught:
+        problem.least_squares_rows([[1.0, 2.0, 0.0], [3.0, 0.0, np.inf]], np.zeros(2))
+    assert caught.value.position == 3
+    problem.linear(np.zeros(3))
+    assert problem.least_squares([0], [1.0], 0.0) == 0
 
 
 def test_not_a_number_names_its_position():

@@ -9,6 +9,9 @@ use crate::{Monitor, Options, Result, Solution};
 /// How many passes over the mesh untangling may make where quads conform and lack features alone.
 const PASSES_FOR_FEATURES: usize = 10;
 
+/// Maps of more integers are not decided anew: that takes minutes and helps none of them.
+const INTEGERS_TO_DECIDE_ANEW: usize = 600;
+
 /// A map and its quads.
 pub(super) struct Attempt {
     pub(super) solution: Solution,
@@ -49,7 +52,8 @@ impl<'a, 'm, F: Fn() -> Monitor<'m>> Trial<'a, F> {
         let untangled = untangle(mesh, problem, &best.map.map, &effort, &mut (self.monitor)())?;
         let second = self.attempt(best.solution.clone(), untangled)?;
         best = best.or(second);
-        if best.is_whole() {
+        let integers = best.solution.counts().reduced_integers;
+        if best.is_whole() || integers > INTEGERS_TO_DECIDE_ANEW {
             return Ok(best);
         }
         let unfolded = solve_unfolded(mesh, problem, self.options, &effort, self.monitor)?;

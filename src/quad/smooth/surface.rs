@@ -8,14 +8,16 @@ use crate::quad::{Origin, QuadMesh};
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Bond {
     Surface,
-    Curve,
+    /// The curve of this number.
+    Curve(u32),
     Fixed,
 }
 
 /// The surface with its curves: boundary and features.
 pub(super) struct Surface {
     faces: ClosestPoint,
-    curves: ClosestPoint,
+    /// Each by itself: curves may be closer to each other than vertices are.
+    curves: Vec<ClosestPoint>,
     bonds: Vec<Bond>,
     /// The triangle or segment where each vertex was found last.
     hints: Vec<Option<usize>>,
@@ -28,19 +30,23 @@ impl Surface {
         for &edge in features {
             is_curve[edge] = true;
         }
-        let segments = mesh
-            .edges()
-            .zip(&is_curve)
-            .filter(|(_, is_curve)| **is_curve);
-        let segments = segments.map(|(edge, _)| {
-            let [a, b] = edge.vertices.map(|v| mesh.position(v));
-            [a, b, b]
-        });
         let is_corner = corners(mesh, &is_curve);
-        let bond = |origin: &Origin| bond(mesh, &is_curve, &is_corner, origin);
+        let curve = curves(mesh, &is_curve, &is_corner);
+        let count = curve.iter().flatten().max().map_or(0, |&last| last + 1);
+        let mut segments = vec![Vec::new(); count as usize];
+        for (edge, number) in mesh.edges().zip(&curve) {
+            if let Some(number) = number {
+                let [a, b] = edge.vertices.map(|v| mesh.position(v));
+                segments[*number as usize].push([a, b, b]);
+            }
+        }
+        let bond = |origin: &Origin| bond(mesh, &curve, &is_corner, origin);
         Surface {
             faces: ClosestPoint::new(mesh),
-            curves: ClosestPoint::of_triangles(segments.collect()),
+            curves: segments
+                .into_iter()
+                .map(ClosestPoint::of_triangles)
+                .collect(),
             bonds: quads.origins.iter().map(bond).collect(),
             hints: quads.origins.iter().map(|_| None).collect(),
             fixed: quads.vertices.clone(),
@@ -51,7 +57,7 @@ impl Surface {
     pub(super) fn project(&mut self, vertex: usize, p: Vec3) -> Vec3 {
         let tree = match self.bonds[vertex] {
             Bond::Surface => &self.faces,
-            Bond::Curve => &self.curves,
+            Bond::Curve(number) => &self.curves[number as usize],
             Bond::Fixed => return self.fixed[vertex],
         };
         let Some((hint, point)) = tree.find(p, self.hints[vertex]) else {
@@ -84,18 +90,42 @@ fn corners(mesh: &TriangleMesh, is_curve: &[bool]) -> Vec<bool> {
     along.iter().map(is_corner).collect()
 }
 
-fn bond(mesh: &TriangleMesh, is_curve: &[bool], is_corner: &[bool], origin: &Origin) -> Bond {
-    let of_vertex = |v: usize| {
-        let on_curve = mesh.ring(v).any(|(f, k)| {
-            [k, (k + 2) % 3]
-                .into_iter()
-                .any(|edge| is_curve[mesh.edge_of(f, edge)])
-        });
-        match (is_corner[v], on_curve) {
-            (true, _) => Bond::Fixed,
-            (_, true) => Bond::Curve,
-            _ => Bond::Surface,
+/// The number of the curve that each edge is part of: curves end at corners.
+fn curves(mesh: &TriangleMesh, is_curve: &[bool], is_corner: &[bool]) -> Vec<Option<u32>> {
+    let mut at: Vec<Vec<usize>> = vec![Vec::new(); mesh.vertex_count()];
+    for (e, edge) in mesh.edges().enumerate().filter(|&(e, _)| is_curve[e]) {
+        edge.vertices.iter().for_each(|&v| at[v].push(e));
+    }
+    let mut number = vec![None; is_curve.len()];
+    let mut count = 0;
+    for first in (0..is_curve.len()).filter(|&e| is_curve[e]) {
+        if number[first].is_some() {
+            continue;
         }
+        number[first] = Some(count);
+        let mut open = vec![first];
+        while let Some(e) = open.pop() {
+            let ends = mesh.edge(e).vertices.into_iter();
+            for &next in ends.filter(|&v| !is_corner[v]).flat_map(|v| &at[v]) {
+                if number[next].is_none() {
+                    number[next] = Some(count);
+                    open.push(next);
+                }
+            }
+        }
+        count += 1;
+    }
+    number
+}
+
+fn bond(mesh: &TriangleMesh, curve: &[Option<u32>], is_corner: &[bool], origin: &Origin) -> Bond {
+    let on = |number: Option<u32>| number.map_or(Bond::Surface, Bond::Curve);
+    let of_vertex = |v: usize| {
+        if is_corner[v] {
+            return Bond::Fixed;
+        }
+        let mut sides = mesh.ring(v).flat_map(|(f, k)| [(f, k), (f, (k + 2) % 3)]);
+        on(sides.find_map(|(f, k)| curve[mesh.edge_of(f, k)]))
     };
     match *origin {
         Origin::Vertex(v) => of_vertex(v),
@@ -106,11 +136,8 @@ fn bond(mesh: &TriangleMesh, is_curve: &[bool], is_corner: &[bool], origin: &Ori
                 return of_vertex(corners[k]);
             }
             // On the edge opposite to a corner that it has no part of.
-            let on_curve = |k: usize| at[k] == 0.0 && is_curve[mesh.edge_of(face, (k + 1) % 3)];
-            match (0..3).any(on_curve) {
-                true => Bond::Curve,
-                false => Bond::Surface,
-            }
+            let opposite = |k: usize| curve[mesh.edge_of(face, (k + 1) % 3)];
+            on((0..3).filter(|&k| at[k] == 0.0).find_map(opposite))
         }
     }
 }

@@ -12,7 +12,10 @@ from . import errors as _errors
 from ._library import lib as _lib, text as _text
 from .errors import *  # noqa: F403: one class a status
 from .field import Field, field
-from .map import Map, map
+from .map import Map
+
+# By its full name alone: a star import must not hide Python's own.
+from .map import map as map
 from .mesh import Mesh
 from .options import Option, options, presets
 from .problem import Problem
@@ -37,7 +40,6 @@ __all__ = [
     "Solver",
     "extract",
     "field",
-    "map",
     "options",
     "presets",
     "quad",

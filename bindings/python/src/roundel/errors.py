@@ -28,7 +28,7 @@ __all__ = [
     "OptionRangeError",
     "OptionTypeError",
     "OutOfMemoryError",
-    "OverflowError",
+    "CountOverflowError",
     "PanicError",
     "ParseError",
     "RepeatedVertexError",
@@ -139,7 +139,7 @@ class EmptyError(Error, ValueError):
     """A problem without variables, or a mesh without faces."""
 
 
-class OverflowError(Error, OverflowError):
+class CountOverflowError(Error, OverflowError):
     """A count or a sum is beyond what can be represented."""
 
 
@@ -261,7 +261,7 @@ classes: dict[int, type[Error]] = {
     lib.ROUNDEL_ERROR_INDEX_OUT_OF_RANGE: IndexOutOfRangeError,
     lib.ROUNDEL_ERROR_NOT_FINITE: NotFiniteError,
     lib.ROUNDEL_ERROR_EMPTY: EmptyError,
-    lib.ROUNDEL_ERROR_OVERFLOW: OverflowError,
+    lib.ROUNDEL_ERROR_OVERFLOW: CountOverflowError,
     lib.ROUNDEL_ERROR_OUT_OF_MEMORY: OutOfMemoryError,
     lib.ROUNDEL_ERROR_UNKNOWN_OPTION: UnknownOptionError,
     lib.ROUNDEL_ERROR_OPTION_TYPE: OptionTypeError,

@@ -48,7 +48,7 @@ def guidance_handle(mesh: Any, given: Mapping[str, Any]) -> Optional[Handle]:
 
 
 def _features(guidance: Any, _mesh: Any, value: Any) -> None:
-    if np.isscalar(value):
+    if np.ndim(value) == 0:
         check(lib.roundel_guidance_set_feature_angle(guidance, math.radians(float(value))))
         return
     pairs = indices32(value, "features", (-1, 2))

@@ -8,7 +8,7 @@ import numpy as np
 
 from ._library import Handle, ffi, lib, number, path
 from .arrays import compressed, indices, indices32, pointer, reals
-from .errors import check
+from .errors import Error, check
 from .options import options_handle
 
 _TRIANGLES = {
@@ -114,10 +114,15 @@ class Problem:
         at, values = indices32(matrix.indices, "A"), matrix.values
         first, last = pointer(at), pointer(values)
         starts = matrix.offsets.tolist()
-        call, problem = lib.roundel_problem_add_least_squares, self._handle.pointer
+        # Into a copy: a row that is refused must not leave those before it behind.
+        whole = self.copy()
+        call, problem = lib.roundel_problem_add_least_squares, whole._handle.pointer
         for k, weight in enumerate(factors.tolist()):
             start, length = starts[k], starts[k + 1] - starts[k]
-            check(call(problem, length, first + start, last + start, rhs[k], weight, ffi.NULL))
+            status = call(problem, length, first + start, last + start, rhs[k], weight, ffi.NULL)
+            if status != lib.ROUNDEL_OK:
+                _raise_in_row(status, k, start)
+        self._handle = whole._handle
 
     def constrain(self, indices: Any, coefficients: Any, rhs: float) -> int:
         """Adds the constraint coefficients . x[indices] = rhs, and gives its number."""
@@ -176,3 +181,14 @@ class Problem:
             raise ValueError("signs: there must be one for each of the rows")
         arrays = (len(starts), pointer(starts), len(at), pointer(at), pointer(turns))
         check(call(self._handle.pointer, *arrays))
+
+
+def _raise_in_row(status: int, row: int, start: int) -> None:
+    """Raises an error whose position is one in the matrix, and names the row."""
+    try:
+        check(status)
+    except Error as error:
+        error.args = (f"A, row {row}: {error}",)
+        if error.position is not None:
+            error.index = start + error.position
+        raise

@@ -119,7 +119,8 @@ def quad(
     """About so many quads (1000 by default), or quads with edges of about a length, of a mesh.
 
     Field, map, extraction and smoothing in one call. Keywords are those of `field`; where none is
-    given, quads follow the boundary and the curvature. The strategy is `lattice` by default.
+    given, quads follow the boundary and the curvature. Options are those of both solves; without
+    any, each has the strategy that suits it, and with some `lattice` unless they say otherwise.
 
     >>> import roundel
     >>> cube = roundel.Mesh.shape("rounded-cube", 600)
@@ -139,9 +140,11 @@ def quad(
         wishes.setdefault("curvature", None if "indices" in wishes else CURVATURE)
         wishes = {name: wish for name, wish in wishes.items() if wish is not None}
     guidance = guidance_handle(mesh, wishes)
-    handle, watch = options_handle({"strategy": "lattice", **options}), Watch(progress, cancel)
+    watch = Watch(progress, cancel)
+    # Without options the library has its own for each of the two solves.
+    handle = options_handle({"strategy": "lattice", **options}) if options else None
     place = ffi.new("roundel_quads **")
-    arguments = (1000 if quads is None else quads, pointer_of(guidance), handle.pointer)
+    arguments = (1000 if quads is None else quads, pointer_of(guidance), pointer_of(handle))
     watch.check(lib.roundel_quads_make(mesh._handle.pointer, *arguments, watch.pointer, place))
     return Quads(Handle("roundel_quads", place[0]))
 
