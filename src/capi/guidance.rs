@@ -301,7 +301,7 @@ pub unsafe extern "C" fn roundel_guidance_set_align_boundary(
 
 /// Sets the length, in units of the mesh, of details that attract no irregular vertices; their
 /// curvature is smoothed away before indices are decided. 0 is none. As long as it is not set, a
-/// field sees all details, and quads those as long as their edges.
+/// field sees all details, and quads those as long as a quarter of their edges.
 ///
 /// Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for a length that is negative or not finite.
 #[unsafe(no_mangle)]

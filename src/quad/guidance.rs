@@ -41,7 +41,9 @@ pub struct Guidance {
     pub align_boundary: bool,
     /// Details smaller than this length attract no irregular vertices, and directions of curvature
     /// are those at this scale; see [`FieldOptions::detail`]. None stands for 0 where a field is
-    /// wanted for itself, and for the length of quads' edges where a map shall follow it.
+    /// wanted for itself, for the length of quads' edges where a map shall follow it
+    /// ([`map_options`](Self::map_options)), and for a quarter of it in
+    /// [`quadrangulate`](super::quadrangulate).
     pub detail: Option<f64>,
 }
 

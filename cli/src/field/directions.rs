@@ -42,7 +42,7 @@ pub struct Directions {
     pub curvature_weight: f64,
 
     /// Let details smaller than this length, in units of the mesh, attract no irregular vertices
-    /// [default: 0; for a map, the length of its quads' edges]
+    /// [default: 0; for a map, the length of its quads' edges, and for quads a quarter of it]
     #[arg(long, value_name = "LENGTH", value_parser = weight)]
     #[arg(allow_negative_numbers = true)]
     pub detail: Option<f64>,

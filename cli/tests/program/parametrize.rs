@@ -257,6 +257,17 @@ fn a_field_from_a_file_gives_the_map_of_that_field() {
 }
 
 #[test]
+fn holes_smaller_than_a_quad_keep_their_sides() {
+    for shape in ["shape:plate-with-holes:900", "shape:plate-with-holes:3000"] {
+        let (code, report) = parametrize(&[shape, "--quads", "20"]);
+        assert_eq!(code, 0, "{report}");
+        assert_eq!(report["flipped"], json!(0), "{report}");
+        assert_eq!(report["untangle"]["rounds"], json!(1));
+        assert_eq!(report["untangle"]["refinements"], json!(0));
+    }
+}
+
+#[test]
 fn a_field_of_something_else_is_an_error_with_its_line() {
     let scratch = Scratch::new("parametrize-wrong-field");
     let short = scratch.write("short.txt", "1 0 0\n");
