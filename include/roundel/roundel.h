@@ -1864,7 +1864,8 @@ roundel_status roundel_map_write(const struct roundel_map *map, const char *file
  *
  * `guidance` says what the quads follow; its features, and the boundary where it is followed,
  * become chains of their edges. NULL stands for the boundary and the curvature. `options` are those
- * of both solves; NULL stands for lattice decoding. `monitor` may be NULL.
+ * of both solves; NULL stands for lattice decoding of the map and adaptive rounding of the field.
+ * `monitor` may be NULL.
  *
  * Fails as roundel_mesh_new, roundel_field_solve and roundel_map_solve do, and with
  * ROUNDEL_ERROR_INVALID_ARGUMENT for no quads. Whether all faces are quads tells
