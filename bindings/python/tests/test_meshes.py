@@ -37,6 +37,17 @@ def test_lines_have_half_turns(cube):
     assert np.allclose(2 * field.vertex_indices, np.rint(2 * field.vertex_indices))
 
 
+def test_details_attract_no_irregular_vertices(cube):
+    push = 1.0 + 0.06 * np.sin(7.0 * np.arange(len(cube.vertices)))
+    rough = roundel.Mesh(cube.vertices * push[:, None], cube.faces)
+    length = 10.0 * np.linalg.norm(np.ptp(cube.vertices, axis=0)) / np.sqrt(len(cube.faces))
+    seen, unseen = roundel.field(rough), roundel.field(rough, detail=length)
+    assert len(unseen.irregular) <= len(seen.irregular)
+    assert not np.array_equal(unseen.irregular, seen.irregular)
+    with pytest.raises(roundel.InvalidArgumentError):
+        roundel.field(rough, detail=-1.0)
+
+
 def test_a_map_is_seamless_and_its_cones_are_integers(cube):
     field = roundel.field(cube)
     map = roundel.map(field, quads=200)

@@ -18,7 +18,8 @@ from .errors import check
 #: the part of the faces that have the direction of least curvature, and how strongly all others are
 #: drawn to it; `constraints`: (faces, angles) that a field must have; `guides`: (faces, angles,
 #: weights) that it should have; `indices`: (vertices, steps), all irregular vertices with their index
-#: in steps of 1/4; `symmetry`: arms of the field, 1, 2, 4 or 6; `guide_file`: a file with such wishes.
+#: in steps of 1/4; `symmetry`: arms of the field, 1, 2, 4 or 6; `detail`: the length of details that
+#: attract no irregular vertices; `guide_file`: a file with such wishes.
 KEYWORDS = (
     "features",
     "align_boundary",
@@ -27,6 +28,7 @@ KEYWORDS = (
     "guides",
     "indices",
     "symmetry",
+    "detail",
     "guide_file",
 )
 
@@ -88,6 +90,10 @@ def _indices(guidance: Any, _mesh: Any, value: Any) -> None:
 
 def _symmetry(guidance: Any, _mesh: Any, value: Any) -> None:
     check(lib.roundel_guidance_set_symmetry(guidance, value))
+
+
+def _detail(guidance: Any, _mesh: Any, value: Any) -> None:
+    check(lib.roundel_guidance_set_detail(guidance, float(value)))
 
 
 def _guide_file(guidance: Any, mesh: Any, value: Any) -> None:
