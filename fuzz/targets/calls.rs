@@ -21,11 +21,14 @@ fuzz_target!(|bytes: &[u8]| {
 /// What a call may have made of its arguments.
 fn known(status: roundel_status) {
     let number = status as i32;
+    // SAFETY: the function gives a static text.
     let name = unsafe { std::ffi::CStr::from_ptr(roundel_status_name(number)) };
     assert_ne!(name.to_bytes(), b"unknown");
     if status != roundel_status::ROUNDEL_OK {
         let mut text: [c_char; 400] = [0; 400];
+        // SAFETY: the buffer has the length given, and ends with a zero after the call.
         assert!(unsafe { roundel_last_error_message(text.as_mut_ptr(), text.len()) } > 0);
+        // SAFETY: see above.
         let text = unsafe { std::ffi::CStr::from_ptr(text.as_ptr()) };
         assert!(number < 90, "{}", text.to_string_lossy());
     }
@@ -44,6 +47,7 @@ fn built(u: &mut Unstructured, h: &mut Handles, which: u8) -> Result<()> {
     let problem = pick(u, &h.problems)?;
     let (a, b): (f64, i64) = (number(u)?, i64::from(u.arbitrary::<i8>()?));
     let triangle = u.int_in_range(-1..=3)?;
+    // SAFETY: handles are live or NULL, and arrays as long as the numbers that are told.
     known(unsafe {
         match which {
             0 => h.make(|h| &mut h.problems, |out| roundel_problem_new(b.unsigned_abs() as usize % 8, out)),
@@ -88,6 +92,7 @@ fn used(u: &mut Unstructured, h: &mut Handles, which: u8) -> Result<()> {
     let mut place = reals.clone();
     let (out, room) = (place.as_mut_ptr(), place.len());
     let small = b.unsigned_abs() as usize % 60;
+    // SAFETY: handles are live or NULL, and arrays as long as the numbers that are told.
     known(unsafe {
         match which {
             14 => h.make(|h| &mut h.options, |out| handles::modest_options(out)),

@@ -18,6 +18,7 @@ macro_rules! handles {
         impl Drop for Handles {
             fn drop(&mut self) {
                 $(for handle in self.$kind.drain(..) {
+                    // SAFETY: the handle is live, and given up here.
                     assert!(unsafe { $free(handle) } == roundel_status::ROUNDEL_OK);
                 })*
             }
@@ -25,6 +26,7 @@ macro_rules! handles {
 
         $(impl Freed for $type {
             unsafe fn free(handle: *mut Self) {
+                // SAFETY: handed on.
                 unsafe { $free(handle) };
             }
         })*
