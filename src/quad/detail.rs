@@ -8,8 +8,9 @@
 //! transport over the edge turns by as much more.
 
 use super::FieldOptions;
+use super::dirichlet::cotangent;
 use crate::linalg::{Cholesky, Sparse};
-use crate::mesh::vector::{cross, dot, norm, sub};
+use crate::mesh::vector::{norm, sub};
 use crate::mesh::{Edge, TriangleMesh};
 use crate::{Error, Result};
 
@@ -118,7 +119,7 @@ fn flowing(mesh: &TriangleMesh, options: &FieldOptions) -> Vec<f64> {
             return 0.0;
         }
         let sum: f64 = [edge.first, second]
-            .map(|(face, k)| cotangent(mesh, face, k))
+            .map(|(face, k)| opposite_cotangent(mesh, face, k))
             .iter()
             .sum();
         (0.5 * sum).clamp(WEIGHTS[0], WEIGHTS[1])
@@ -127,11 +128,10 @@ fn flowing(mesh: &TriangleMesh, options: &FieldOptions) -> Vec<f64> {
 }
 
 /// Of the angle opposite of an edge.
-fn cotangent(mesh: &TriangleMesh, face: usize, k: usize) -> f64 {
+fn opposite_cotangent(mesh: &TriangleMesh, face: usize, k: usize) -> f64 {
     let corners = mesh.corner_positions(face);
     let [a, b, c] = [0, 1, 2].map(|i| corners[(k + i) % 3]);
-    let (u, v) = (sub(a, c), sub(b, c));
-    dot(u, v) / norm(cross(u, v))
+    cotangent(sub(a, c), sub(b, c))
 }
 
 #[cfg(test)]

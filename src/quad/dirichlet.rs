@@ -98,6 +98,7 @@ impl Dirichlet {
     }
 }
 
-fn cotangent(u: [f64; 3], v: [f64; 3]) -> f64 {
+/// Of the angle between two sides of a triangle.
+pub(super) fn cotangent(u: [f64; 3], v: [f64; 3]) -> f64 {
     dot(u, v) / norm(cross(u, v))
 }
