@@ -39,6 +39,8 @@ struct Solved {
     /// Edges that are isolines.
     features: usize,
     untangled: Untangled,
+    /// Vertices around which the map turns another number of times than the field.
+    wound: Vec<usize>,
     /// How often integers were decided anew.
     rounds: usize,
     /// How often the map was made finer.
@@ -90,6 +92,7 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
         ..
     } = unfolded;
     let untangle_seconds = solved - solution.seconds().total;
+    let wound = problem.wound_vertices(&mesh, &untangled.map)?;
     if let Some(path) = &arguments.out {
         untangled.map.write_obj(&mesh, path)?;
     }
@@ -100,6 +103,7 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
         sizing,
         features: features.edges().count(),
         untangled,
+        wound,
         rounds,
         refinements,
         untangle_seconds,

@@ -25,6 +25,7 @@ pub struct MapReport<'a> {
     flipped_before: usize,
     flipped: usize,
     flipped_faces: &'a [usize],
+    wound_vertices: &'a [usize],
     untangle: Untangling,
     field: Field,
 }
@@ -77,6 +78,7 @@ impl<'a> MapReport<'a> {
             flipped_before: untangled.flipped_before,
             flipped: map.flipped().len(),
             flipped_faces: map.flipped(),
+            wound_vertices: &solved.wound,
             untangle: Untangling {
                 rounds: solved.rounds,
                 refinements: solved.refinements,

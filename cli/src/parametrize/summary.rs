@@ -20,6 +20,7 @@ impl fmt::Display for MapSummary<'_> {
             sizing: _,
             features,
             untangled,
+            wound,
             untangle_seconds,
             rounds,
             refinements,
@@ -58,7 +59,10 @@ impl fmt::Display for MapSummary<'_> {
             counted(untangled.steps, "step")
         );
         line(f, "untangle", &unfolded, *untangle_seconds)?;
-        let flipped = format!("{} flipped", counted(map.flipped().len(), "face"));
+        let mut flipped = format!("{} flipped", counted(map.flipped().len(), "face"));
+        if !wound.is_empty() {
+            flipped += &format!(", {} covered twice", counted_vertices(wound.len(), ""));
+        }
         match &self.arguments.out {
             Some(path) => writeln!(f, "{:<10} {flipped}: {}", "map", path.display()),
             None => writeln!(f, "{:<10} {flipped}", "map"),

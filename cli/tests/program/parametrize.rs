@@ -28,6 +28,7 @@ fn a_rounded_cube_turns_around_its_corners() {
     // Two coordinates for each cone but what the Euler characteristic takes away.
     assert_eq!(report["reduced_integers"], json!(12));
     assert_eq!(report["flipped"], json!(0));
+    assert_eq!(report["wound_vertices"], json!([]));
     assert!(report["cut_edges"].as_u64() > Some(0));
     assert!(report["gradient_energy"].as_f64() <= report["energy"].as_f64());
     assert_eq!(report["field"]["strategy"], json!("adaptive"));

@@ -17,6 +17,7 @@ mod isolines;
 mod orientation;
 mod singular;
 mod transitions;
+mod wound;
 
 pub use isolines::feature_edges;
 pub use orientation::orientation;

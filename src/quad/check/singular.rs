@@ -54,7 +54,7 @@ fn interior_index(mesh: &TriangleMesh, uv: &[[[f64; 2]; 3]], quarters: &[u8], v:
 
 /// The quarter turns that the map's angles around a vertex add up to; none where a triangle there
 /// is folded.
-fn angle(mesh: &TriangleMesh, uv: &[[[f64; 2]; 3]], v: usize) -> Option<i32> {
+pub(super) fn angle(mesh: &TriangleMesh, uv: &[[[f64; 2]; 3]], v: usize) -> Option<i32> {
     let mut sum = 0.0;
     for (face, corner) in mesh.ring(v) {
         if orientation(uv[face]) <= 0.0 {

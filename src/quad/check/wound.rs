@@ -1,0 +1,78 @@
+//! Vertices around which a map turns another number of times than its field.
+//!
+//! With every triangle the right way round, the angles of a map around a vertex sum to as many
+//! quarter turns as the field says only where the map covers the neighbourhood once. No single
+//! triangle shows that: a ring may go around its vertex twice without a fold.
+
+use super::singular::angle;
+use crate::Result;
+use crate::mesh::TriangleMesh;
+use crate::quad::{SeamlessMap, SeamlessProblem};
+
+impl SeamlessProblem {
+    /// The inner vertices around which a map of this problem turns another number of times than the
+    /// field, in increasing order. Vertices of flipped faces are not looked at.
+    ///
+    /// A map without flipped faces and without these is locally injective inside.
+    ///
+    /// # Errors
+    /// [`LengthMismatch`](crate::Error::LengthMismatch) for the map of another problem or mesh.
+    pub fn wound_vertices(&self, mesh: &TriangleMesh, map: &SeamlessMap) -> Result<Vec<usize>> {
+        self.check_map(mesh, map)?;
+        let (indices, uv) = (self.field.vertex_indices(mesh), map.corner_uvs());
+        let is_wound = |&v: &usize| {
+            let expected = 4 - (4.0 * indices[v]).round() as i32;
+            !mesh.is_boundary_vertex(v) && angle(mesh, &uv, v).is_some_and(|a| a != expected)
+        };
+        Ok((0..mesh.vertex_count()).filter(is_wound).collect())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::TAU;
+
+    use super::*;
+    use crate::quad::{Constraint, FieldOptions, SeamlessOptions, solve_field};
+    use crate::{Monitor, Options, solve};
+
+    /// A flat disk of eight triangles around vertex 0.
+    fn fan() -> TriangleMesh {
+        let rim = (0..8).map(|k| (TAU * f64::from(k) / 8.0).sin_cos());
+        let points = std::iter::once([0.0; 3]).chain(rim.map(|(sin, cos)| [cos, sin, 0.0]));
+        let triangles = (0..8).map(|k| [0, 1 + k, 1 + (k + 1) % 8]);
+        TriangleMesh::new(points.collect(), triangles.collect()).unwrap()
+    }
+
+    #[test]
+    fn a_ring_that_goes_around_twice_is_found_without_a_fold() {
+        let (mesh, options) = (fan(), Options::default());
+        let field = FieldOptions {
+            constraints: vec![Constraint {
+                face: 0,
+                angle: 0.0,
+            }],
+            ..FieldOptions::default()
+        };
+        let (field, _) = solve_field(&mesh, &field, &options, Monitor::default).unwrap();
+        let problem = SeamlessProblem::new(&mesh, &field, &SeamlessOptions { quads: 4 }).unwrap();
+        let solution = solve(problem.problem(), &options).unwrap();
+        let good = problem.map(&mesh, &solution).unwrap();
+        assert!(good.flipped().is_empty());
+        assert!(problem.wound_vertices(&mesh, &good).unwrap().is_empty());
+
+        let mut values = good.values().to_vec();
+        for face in 0..8 {
+            for (corner, turn) in [(1, face), (2, face + 1)] {
+                // A quarter turn a triangle.
+                let u = 2 * good.copies()[face][corner] as usize;
+                let (sin, cos) = (TAU * turn as f64 / 4.0).sin_cos();
+                let centre = 2 * good.copies()[face][0] as usize;
+                (values[u], values[u + 1]) = (values[centre] + cos, values[centre + 1] + sin);
+            }
+        }
+        let twice = SeamlessMap::new(&problem, &mesh, &values).unwrap();
+        assert!(twice.flipped().is_empty());
+        assert_eq!(problem.wound_vertices(&mesh, &twice).unwrap(), [0]);
+    }
+}
