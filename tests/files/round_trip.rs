@@ -29,6 +29,9 @@ proptest! {
     ) {
         let mut bytes = text(&MpsProblem::new(problem)).into_bytes();
         for (at, byte, edit) in edits {
+            if bytes.is_empty() {
+                break;
+            }
             let at = at.index(bytes.len());
             match edit {
                 0 => bytes[at] = byte,
