@@ -19,7 +19,7 @@ pub(super) fn singularities(
     on_boundary: bool,
 ) -> Vec<Singularity> {
     let index = |v: usize| match mesh.is_boundary_vertex(v) {
-        true if on_boundary => angle(mesh, uv, v).map_or(0, |angle| 2 - angle),
+        true if on_boundary => turns_around(mesh, |f| uv[f], v).map_or(0, |angle| 2 - angle),
         true => 0,
         false => interior_index(mesh, uv, quarters, v),
     };
@@ -44,7 +44,7 @@ fn interior_index(mesh: &TriangleMesh, uv: &[[[f64; 2]; 3]], quarters: &[u8], v:
         };
     }
     let holonomy = holonomy.rem_euclid(4);
-    match angle(mesh, uv, v).map(|angle| 4 - angle) {
+    match turns_around(mesh, |f| uv[f], v).map(|angle| 4 - angle) {
         Some(index) if (index - holonomy).rem_euclid(4) == 0 => index,
         // +3/4 and -1/4 cannot be told apart by turns; cones of -1/4 are the common ones.
         _ if holonomy == 3 => -1,
@@ -54,13 +54,18 @@ fn interior_index(mesh: &TriangleMesh, uv: &[[[f64; 2]; 3]], quarters: &[u8], v:
 
 /// The quarter turns that the map's angles around a vertex add up to; none where a triangle there
 /// is folded.
-pub(super) fn angle(mesh: &TriangleMesh, uv: &[[[f64; 2]; 3]], v: usize) -> Option<i32> {
+pub(in crate::quad) fn turns_around(
+    mesh: &TriangleMesh,
+    uv: impl Fn(usize) -> [[f64; 2]; 3],
+    v: usize,
+) -> Option<i32> {
     let mut sum = 0.0;
     for (face, corner) in mesh.ring(v) {
-        if orientation(uv[face]) <= 0.0 {
+        let uv = uv(face);
+        if orientation(uv) <= 0.0 {
             return None;
         }
-        let at = |k: usize| uv[face][(corner + k) % 3];
+        let at = |k: usize| uv[(corner + k) % 3];
         let [a, b] = [at(1), at(2)].map(|p| [p[0] - at(0)[0], p[1] - at(0)[1]]);
         sum += (a[0] * b[1] - a[1] * b[0]).atan2(a[0] * b[0] + a[1] * b[1]);
     }

@@ -4,7 +4,7 @@
 //! quarter turns as the field says only where the map covers the neighbourhood once. No single
 //! triangle shows that: a ring may go around its vertex twice without a fold.
 
-use super::singular::angle;
+use super::turns_around;
 use crate::Result;
 use crate::mesh::TriangleMesh;
 use crate::quad::{SeamlessMap, SeamlessProblem};
@@ -19,10 +19,11 @@ impl SeamlessProblem {
     /// [`LengthMismatch`](crate::Error::LengthMismatch) for the map of another problem or mesh.
     pub fn wound_vertices(&self, mesh: &TriangleMesh, map: &SeamlessMap) -> Result<Vec<usize>> {
         self.check_map(mesh, map)?;
-        let (indices, uv) = (self.field.vertex_indices(mesh), map.corner_uvs());
+        let indices = self.field.vertex_indices(mesh);
         let is_wound = |&v: &usize| {
             let expected = 4 - (4.0 * indices[v]).round() as i32;
-            !mesh.is_boundary_vertex(v) && angle(mesh, &uv, v).is_some_and(|a| a != expected)
+            !mesh.is_boundary_vertex(v)
+                && turns_around(mesh, |f| map.uv(f), v).is_some_and(|a| a != expected)
         };
         Ok((0..mesh.vertex_count()).filter(is_wound).collect())
     }

@@ -4,6 +4,8 @@
 //! elimination: what is left of them is `x = T y + t` with `y` free and continuous. Only T is
 //! needed, as steps start from a solution: `x + T dy` satisfies whatever x does.
 
+use std::ops::Range;
+
 use crate::eliminate::eliminate;
 use crate::linalg::Sparse;
 use crate::quad::SeamlessProblem;
@@ -85,6 +87,42 @@ impl Freedom {
     fn around(&self, copy: usize) -> impl Iterator<Item = usize> + '_ {
         let range = self.start[copy] as usize..self.start[copy + 1] as usize;
         self.faces[range].iter().map(|&f| f as usize)
+    }
+
+    /// The two free unknowns that move the copies of one vertex, and no other; none where there
+    /// are fewer or more.
+    pub fn of_copies(&self, copies: Range<u32>) -> Option<[usize; 2]> {
+        let rows = 2 * copies.start as usize..2 * copies.end as usize;
+        let mut unknowns: Vec<usize> = rows
+            .clone()
+            .flat_map(|i| self.moves.row(i).map(|(y, _)| y))
+            .collect();
+        unknowns.sort_unstable();
+        unknowns.dedup();
+        let is_own = |&y: &usize| self.moved.row(y).all(|(i, _)| rows.contains(&i));
+        let unknowns: [usize; 2] = unknowns.try_into().ok()?;
+        unknowns.iter().all(is_own).then_some(unknowns)
+    }
+
+    /// Moves a copy of a vertex to a point by its free unknowns, and the other copies with it.
+    pub fn put(&self, copy: u32, [p, q]: [usize; 2], to: [f64; 2], x: &mut [f64]) {
+        let entry = |row: usize, y: usize| {
+            let of = self.moves.row(row).find(|&(z, _)| z == y);
+            of.map_or(0.0, |(_, v)| v)
+        };
+        let rows = [2 * copy as usize, 2 * copy as usize + 1];
+        let by = [0, 1].map(|axis| to[axis] - x[rows[axis]]);
+        let [[a, b], [c, d]] = rows.map(|row| [entry(row, p), entry(row, q)]);
+        let determinant = a * d - b * c;
+        let steps = [
+            (p, (d * by[0] - b * by[1]) / determinant),
+            (q, (a * by[1] - c * by[0]) / determinant),
+        ];
+        for (y, step) in steps {
+            for (i, v) in self.moved.row(y) {
+                x[i] += v * step;
+            }
+        }
     }
 
     /// Which coordinates of every copy cannot move.

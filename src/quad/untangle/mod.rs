@@ -13,17 +13,23 @@
 //! | Newton steps of a region | `system` |
 //! | the schedule that closes the barrier | `schedule` |
 //! | what no motion can unfold | `stuck` |
+//! | a disk around a vertex | `disk` |
+//! | a disk around a cone, in polar coordinates | `polar` |
+//! | vertices gone around twice | `unwind` |
 //! | cones at one point, held apart | `separate` |
 //! | all of it, from the problem on | `unfolded` |
 
+mod disk;
 mod energy;
 mod freedom;
+mod polar;
 mod region;
 mod schedule;
 mod separate;
 mod stuck;
 mod system;
 mod unfolded;
+mod unwind;
 
 pub use separate::Collapsed;
 pub use unfolded::{Unfolded, solve_unfolded};
@@ -119,11 +125,11 @@ pub fn untangle(
     monitor: &mut Monitor,
 ) -> Result<Untangled> {
     problem.check_map(mesh, map)?;
-    if map.flipped().is_empty() {
-        return Ok(Untangled::as_it_is(map.clone()));
-    }
     let mut work = Untangling::new(mesh, problem, map, monitor)?;
     let flipped_before = work.folded().len();
+    if flipped_before == 0 && work.wound().is_empty() {
+        return Ok(Untangled::as_it_is(map.clone()));
+    }
     let mut budget = options.passes.saturating_mul(mesh.face_count());
     for rings in RINGS {
         let folded = work.folded();
@@ -134,6 +140,7 @@ pub fn untangle(
             work.unfold(&region, options.steps, &mut budget, monitor)?;
         }
     }
+    work.unwind(options.steps, &mut budget, monitor)?;
     monitor.progress(Phase::Untangle, 1.0)?;
     let left = work.folded();
     let stuck = Stuck::find(mesh, &work.freedom, &work.values, &left);
@@ -153,6 +160,8 @@ struct Untangling<'a> {
     problem: &'a SeamlessProblem,
     freedom: Freedom,
     values: Vec<f64>,
+    /// The index of every vertex.
+    indices: Vec<f64>,
     /// Where in the region at hand each free unknown is.
     place: Vec<u32>,
     steps: usize,
@@ -171,18 +180,20 @@ impl<'a> Untangling<'a> {
             problem,
             place: vec![NONE; freedom.dim()],
             freedom,
+            indices: problem.field.vertex_indices(mesh),
             values: map.values().to_vec(),
             steps: 0,
         })
     }
 
     fn folded(&self) -> Vec<usize> {
-        let uv = |face: usize| {
-            let copies = self.freedom.copies[face].map(|c| 2 * c as usize);
-            copies.map(|u| [self.values[u], self.values[u + 1]])
-        };
         let faces = 0..self.freedom.copies.len();
-        faces.filter(|&f| orientation(uv(f)) <= 0.0).collect()
+        faces.filter(|&f| orientation(self.uv(f)) <= 0.0).collect()
+    }
+
+    fn uv(&self, face: usize) -> [[f64; 2]; 3] {
+        let copies = self.freedom.copies[face].map(|c| 2 * c as usize);
+        copies.map(|u| [self.values[u], self.values[u + 1]])
     }
 
     /// Works on one region, and keeps what comes out if it has fewer folds.

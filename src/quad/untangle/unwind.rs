@@ -1,0 +1,141 @@
+//! Vertices that a map without folds goes around once too often, mended.
+//!
+//! Undoing folds, a cone of -1/4 may come out a quarter turn wide, and a vertex beside it two whole
+//! turns: no motion without folds leads out of it. A disk around both is laid anew in polar
+//! coordinates, larger and larger ones, and what that folds is untangled again.
+
+use super::Untangling;
+use super::disk::Disk;
+use super::polar::Layout;
+use super::region::regions;
+use crate::quad::check::orientation;
+use crate::quad::check::turns_around;
+use crate::{Monitor, Result};
+
+/// How many rings around a cone are laid anew, attempt after attempt.
+const DISKS: [usize; 8] = [2, 3, 4, 5, 6, 8, 11, 15];
+
+/// How often all such cones are looked at: mending one may wind another up.
+const ROUNDS: usize = 4;
+
+/// How far around what that folds is worked on.
+const RINGS: [usize; 3] = [2, 5, 12];
+
+impl Untangling<'_> {
+    /// The inner vertices that the map goes around another number of times than the field.
+    pub(super) fn wound(&self) -> Vec<usize> {
+        (0..self.mesh.vertex_count())
+            .filter(|&v| self.is_wound(v))
+            .collect()
+    }
+
+    fn is_wound(&self, v: usize) -> bool {
+        let is_other = |quarters| quarters != self.quarters(v);
+        !self.mesh.is_boundary_vertex(v)
+            && turns_around(self.mesh, |face| self.uv(face), v).is_some_and(is_other)
+    }
+
+    /// How many quarter turns the field has around a vertex.
+    fn quarters(&self, v: usize) -> i32 {
+        4 - (4.0 * self.indices[v]).round() as i32
+    }
+
+    /// Mends cones that are narrower than they should be, as far as it can.
+    pub(super) fn unwind(
+        &mut self,
+        most_steps: usize,
+        budget: &mut usize,
+        monitor: &mut Monitor,
+    ) -> Result<()> {
+        let mut wound = self.wound();
+        for _ in 0..ROUNDS {
+            let before = wound.len();
+            for cone in wound.clone() {
+                if self.quarters(cone) != 4 && wound.contains(&cone) {
+                    self.unwind_cone(cone, &mut wound, most_steps, budget, monitor)?;
+                }
+            }
+            if wound.is_empty() || wound.len() == before {
+                break;
+            }
+        }
+        Ok(())
+    }
+
+    /// Lays larger and larger disks around a cone anew, until fewer vertices are `wound`.
+    fn unwind_cone(
+        &mut self,
+        cone: usize,
+        wound: &mut Vec<usize>,
+        most_steps: usize,
+        budget: &mut usize,
+        monitor: &mut Monitor,
+    ) -> Result<()> {
+        let folded = self.folded().len();
+        for rings in DISKS {
+            let disk = Disk::around(self.mesh, cone, rings, |v| self.is_fixed(v));
+            let Some(disk) = disk.filter(|_| *budget > 0) else {
+                break;
+            };
+            let Some(layout) = self.layout(&disk)? else {
+                continue;
+            };
+            let before = self.values.clone();
+            self.lay(&layout);
+            self.unfold_disk(&disk, most_steps, budget, monitor)?;
+            if self.folded().len() <= folded {
+                let left = self.wound();
+                if left.len() < wound.len() {
+                    *wound = left;
+                    break;
+                }
+            }
+            self.values = before;
+        }
+        Ok(())
+    }
+
+    /// Whether a vertex cannot go wherever one likes: on the boundary, a cone, on a feature.
+    fn is_fixed(&self, v: usize) -> bool {
+        self.mesh.is_boundary_vertex(v) || self.freedom.of_copies(self.copies_of(v)).is_none()
+    }
+
+    fn copies_of(&self, v: usize) -> std::ops::Range<u32> {
+        self.problem.sectors.first[v]..self.problem.sectors.first[v + 1]
+    }
+
+    fn layout(&self, disk: &Disk) -> Result<Option<Layout>> {
+        let quarters = self.quarters(disk.center);
+        Layout::new(self.mesh, disk, quarters, &|face| self.uv(face))
+    }
+
+    fn lay(&mut self, layout: &Layout) {
+        for &(v, face, corner, to) in &layout.places {
+            let copy = self.freedom.copies[face][corner];
+            if let Some(unknowns) = self.freedom.of_copies(self.copies_of(v)) {
+                self.freedom.put(copy, unknowns, to, &mut self.values);
+            }
+        }
+    }
+
+    fn unfold_disk(
+        &mut self,
+        disk: &Disk,
+        most_steps: usize,
+        budget: &mut usize,
+        monitor: &mut Monitor,
+    ) -> Result<()> {
+        for rings in RINGS {
+            let is_folded = |&face: &usize| orientation(self.uv(face)) <= 0.0;
+            let mut folded: Vec<usize> = disk.faces.iter().copied().filter(is_folded).collect();
+            folded.sort_unstable();
+            if folded.is_empty() {
+                break;
+            }
+            for region in regions(&self.freedom, &folded, rings) {
+                self.unfold(&region, most_steps, budget, monitor)?;
+            }
+        }
+        Ok(())
+    }
+}
