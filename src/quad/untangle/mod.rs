@@ -85,6 +85,8 @@ pub struct Untangled {
     pub flipped_before: usize,
     /// Faces folded or collapsed after: [`SeamlessMap::flipped`] names them.
     pub flipped_after: usize,
+    /// Inner vertices that the map goes around another number of times than the field, afterwards.
+    pub wound_vertices: Vec<usize>,
     /// Newton steps, over all regions.
     pub steps: usize,
     /// Flipped faces that nothing can unfold, as all their corners are held by integers.
@@ -94,13 +96,19 @@ pub struct Untangled {
 }
 
 impl Untangled {
-    /// A map that nothing was done to.
+    /// How many faces and vertices keep the map from being locally injective: none in a good one.
+    pub fn faults(&self) -> usize {
+        self.flipped_after + self.wound_vertices.len()
+    }
+
+    /// A map that nothing was done to, and whose vertices were not looked at.
     pub fn as_it_is(map: SeamlessMap) -> Self {
         let flipped = map.flipped().len();
         Untangled {
             map,
             flipped_before: flipped,
             flipped_after: flipped,
+            wound_vertices: Vec::new(),
             steps: 0,
             stuck_faces: Vec::new(),
             collapsed_edges: Vec::new(),
@@ -137,7 +145,13 @@ pub fn untangle(
             break;
         }
         for region in regions(&work.freedom, &folded, rings) {
-            work.unfold(&region, options.steps, &mut budget, monitor)?;
+            work.unfold(
+                &region,
+                options.steps,
+                schedule::FIRST_EPS,
+                &mut budget,
+                monitor,
+            )?;
         }
     }
     work.unwind(options.steps, &mut budget, monitor)?;
@@ -148,6 +162,7 @@ pub fn untangle(
         stuck_faces: stuck.faces,
         collapsed_edges: stuck.edges,
         flipped_before,
+        wound_vertices: work.wound(),
         flipped_after: left.len(),
         steps: work.steps,
         map: SeamlessMap::new(problem, mesh, &work.values)?,
@@ -201,6 +216,7 @@ impl<'a> Untangling<'a> {
         &mut self,
         region: &Region,
         most_steps: usize,
+        first_eps: f64,
         budget: &mut usize,
         monitor: &mut Monitor,
     ) -> Result<()> {
@@ -219,7 +235,7 @@ impl<'a> Untangling<'a> {
         }
         let most_steps = most_steps.min(*budget / system.faces());
         let saved = system.save(&self.values);
-        let outcome = schedule::unfold(&system, &mut self.values, most_steps, monitor)?;
+        let outcome = schedule::unfold(&system, &mut self.values, most_steps, first_eps, monitor)?;
         if outcome.folded >= before {
             system.restore(&mut self.values, &saved);
         }

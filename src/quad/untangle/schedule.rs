@@ -8,7 +8,7 @@ use crate::solve::Phase;
 use crate::{Monitor, Result};
 
 /// Where eps begins: the determinant at rest.
-const FIRST_EPS: f64 = 1.0;
+pub(super) const FIRST_EPS: f64 = 1.0;
 
 /// Below, eps changes nothing that doubles can show.
 const LAST_EPS: f64 = 1e-9;
@@ -38,9 +38,10 @@ pub(super) fn unfold(
     system: &System,
     x: &mut [f64],
     most_steps: usize,
+    first_eps: f64,
     monitor: &mut Monitor,
 ) -> Result<Outcome> {
-    let mut eps = FIRST_EPS;
+    let mut eps = first_eps;
     let mut steps = 0;
     let mut folded = system.folded(x);
     while folded > 0 && steps < most_steps && eps > LAST_EPS {

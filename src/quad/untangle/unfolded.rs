@@ -43,8 +43,9 @@ impl Unfolded {
 }
 
 /// Solves the problem, holds apart the cones that its integers collapse and solves again, at most
-/// `options.rounds` times, and untangles the map. Where folds are left, the same is done for a finer
-/// map, at most `options.refinements` times; of all maps the first with the fewest folds is kept.
+/// `options.rounds` times, and untangles the map. Where folds are left, or vertices that the
+/// map goes around too often, the same is done for a finer map, at most `options.refinements` times; of
+/// all maps the first with the fewest of these is kept.
 /// `monitor` watches each solve and each untangling.
 ///
 /// With [`Strategy::Relax`] there are no integers to speak of, and the map is that of the
@@ -74,13 +75,13 @@ pub fn solve_unfolded<'a>(
         &monitor,
     )?;
     for refinements in 1..=options.refinements {
-        if best.untangled.flipped_after == 0 {
+        if best.untangled.faults() == 0 {
             break;
         }
         let finer = problem.refined(mesh, REFINEMENT.powi(refinements as i32))?;
         let left = options.refinements - refinements;
         let found = solve_size(mesh, &finer, solver, options, left, &monitor)?;
-        if found.untangled.flipped_after < best.untangled.flipped_after {
+        if found.untangled.faults() < best.untangled.faults() {
             best = Unfolded {
                 refinements,
                 ..found

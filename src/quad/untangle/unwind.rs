@@ -18,6 +18,10 @@ const DISKS: [usize; 8] = [2, 3, 4, 5, 6, 8, 11, 15];
 /// How often all such cones are looked at: mending one may wind another up.
 const ROUNDS: usize = 4;
 
+/// How closed the barrier is at first: open, it undoes more folds; nearly closed, what the layout
+/// unwound stays so.
+const FIRST_EPS: [f64; 3] = [1.0, 0.1, 0.01];
+
 /// How far around what that folds is worked on.
 const RINGS: [usize; 3] = [2, 5, 12];
 
@@ -80,17 +84,19 @@ impl Untangling<'_> {
             let Some(layout) = self.layout(&disk)? else {
                 continue;
             };
-            let before = self.values.clone();
-            self.lay(&layout);
-            self.unfold_disk(&disk, most_steps, budget, monitor)?;
-            if self.folded().len() <= folded {
-                let left = self.wound();
-                if left.len() < wound.len() {
-                    *wound = left;
-                    break;
+            for first_eps in FIRST_EPS {
+                let before = self.values.clone();
+                self.lay(&layout);
+                self.unfold_disk(&disk, most_steps, first_eps, budget, monitor)?;
+                if self.folded().len() <= folded {
+                    let left = self.wound();
+                    if left.len() < wound.len() {
+                        *wound = left;
+                        return Ok(());
+                    }
                 }
+                self.values = before;
             }
-            self.values = before;
         }
         Ok(())
     }
@@ -122,6 +128,7 @@ impl Untangling<'_> {
         &mut self,
         disk: &Disk,
         most_steps: usize,
+        first_eps: f64,
         budget: &mut usize,
         monitor: &mut Monitor,
     ) -> Result<()> {
@@ -133,7 +140,7 @@ impl Untangling<'_> {
                 break;
             }
             for region in regions(&self.freedom, &folded, rings) {
-                self.unfold(&region, most_steps, budget, monitor)?;
+                self.unfold(&region, most_steps, first_eps, budget, monitor)?;
             }
         }
         Ok(())
