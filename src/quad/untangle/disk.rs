@@ -1,4 +1,4 @@
-//! The faces within some rings of a vertex, where they are a disk.
+//! A disk of faces around a vertex.
 
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
@@ -20,15 +20,14 @@ pub(super) struct Disk {
 }
 
 impl Disk {
-    /// The faces within `rings` of `center`, but for those that touch another vertex that is fixed,
-    /// or close a ring around one; none where the center's own faces are no disk.
+    /// The largest disk of the center's own faces and such as may be in it, around the center; none
+    /// where these are no disk.
     pub fn around(
         mesh: &TriangleMesh,
         center: usize,
-        rings: usize,
-        is_fixed: impl Fn(usize) -> bool,
+        may_be_in: impl Fn(usize) -> bool,
     ) -> Option<Self> {
-        let faces = grow(mesh, center, rings, is_fixed)?;
+        let faces = grow(mesh, center, may_be_in)?;
         let is_in: BTreeSet<usize> = faces.iter().copied().collect();
         let seen: BTreeSet<usize> = faces.iter().flat_map(|&f| mesh.corners(f)).collect();
         let path = path(mesh, center, &is_in)?;
@@ -51,12 +50,11 @@ impl Disk {
     }
 }
 
-/// Faces added one by one, those nearer to the center first, as long as they leave a disk.
+/// Faces added one by one, those fewer steps away first, as long as they leave a disk.
 fn grow(
     mesh: &TriangleMesh,
     center: usize,
-    rings: usize,
-    is_fixed: impl Fn(usize) -> bool,
+    may_be_in: impl Fn(usize) -> bool,
 ) -> Option<Vec<usize>> {
     let mut faces: Vec<usize> = mesh.ring(center).map(|(face, _)| face).collect();
     let mut is_in: BTreeSet<usize> = faces.iter().copied().collect();
@@ -65,36 +63,34 @@ fn grow(
     if vertices.len() != faces.len() + 1 || mesh.is_boundary_vertex(center) {
         return None;
     }
-    for _ in 1..rings {
-        let front: Vec<usize> = vertices.iter().copied().collect();
-        let around = front
-            .iter()
-            .flat_map(|&v| mesh.ring(v).map(|(face, _)| face));
-        let mut waiting: BTreeSet<usize> = around.filter(|face| !is_in.contains(face)).collect();
-        waiting.retain(|&face| !corners(face).into_iter().any(&is_fixed));
-        loop {
-            let before = faces.len();
-            for &face in &waiting {
-                let is_shared = [0, 1, 2].map(|k| {
-                    let next = mesh.neighbor(face, k);
-                    next.is_some_and(|(next, _)| is_in.contains(&next))
-                });
-                let fits = match is_shared.iter().filter(|s| **s).count() {
-                    1 => (0..3)
-                        .all(|k| !is_shared[k] || !vertices.contains(&corners(face)[(k + 2) % 3])),
-                    2 => true,
-                    _ => false,
-                };
-                if fits && is_in.insert(face) {
-                    faces.push(face);
-                    vertices.extend(corners(face));
-                }
-            }
-            waiting.retain(|face| !is_in.contains(face));
-            if faces.len() == before {
-                break;
+    let mut front = faces.clone();
+    // Faces that would close a ring or touch at a vertex wait until more is there.
+    let mut waiting: BTreeSet<usize> = BTreeSet::new();
+    while !front.is_empty() {
+        for &face in &front {
+            let beside = (0..3).filter_map(|k| Some(mesh.neighbor(face, k)?.0));
+            waiting.extend(beside.filter(|&next| !is_in.contains(&next) && may_be_in(next)));
+        }
+        front.clear();
+        for &face in &waiting {
+            let is_shared = [0, 1, 2].map(|k| {
+                let next = mesh.neighbor(face, k);
+                next.is_some_and(|(next, _)| is_in.contains(&next))
+            });
+            let opposite = |k: usize| corners(face)[(k + 2) % 3];
+            let fits = match is_shared.iter().filter(|s| **s).count() {
+                1 => (0..3).all(|k| !is_shared[k] || !vertices.contains(&opposite(k))),
+                2 => true,
+                _ => false,
+            };
+            if fits {
+                is_in.insert(face);
+                front.push(face);
+                vertices.extend(corners(face));
             }
         }
+        waiting.retain(|face| !is_in.contains(face));
+        faces.extend(&front);
     }
     Some(faces)
 }
@@ -170,15 +166,15 @@ mod tests {
     use crate::mesh::shape;
 
     #[test]
-    fn rings_on_a_sphere_are_disks_until_they_meet() {
+    fn a_disk_on_a_sphere_grows_until_one_face_is_left() {
         let mesh = shape::by_name("sphere", 320).unwrap();
         for v in 0..mesh.vertex_count() {
-            for rings in 1..4 {
-                let disk = Disk::around(&mesh, v, rings, |_| false).unwrap();
-                for pair in disk.boundary.windows(2) {
-                    let [(f, k), (g, l)] = [pair[0], pair[1]];
-                    assert_eq!(mesh.corners(f)[(k + 1) % 3], mesh.corners(g)[l]);
-                }
+            let disk = Disk::around(&mesh, v, |_| true).unwrap();
+            assert_eq!(disk.faces.len(), mesh.face_count() - 1);
+            let small = Disk::around(&mesh, v, |face| face % 3 != 0).unwrap();
+            for pair in small.boundary.windows(2) {
+                let [(f, k), (g, l)] = [pair[0], pair[1]];
+                assert_eq!(mesh.corners(f)[(k + 1) % 3], mesh.corners(g)[l]);
             }
         }
     }

@@ -5,7 +5,7 @@
 //! is and the angle growing by q quarters on the way around, so that the disk is covered as often as
 //! the cone asks for, whatever was there before.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, VecDeque};
 use std::f64::consts::FRAC_PI_2;
 
 use super::disk::Disk;
@@ -81,6 +81,41 @@ impl Layout {
         let is_finite = |p: &(usize, usize, usize, [f64; 2])| p.3.iter().all(|x| x.is_finite());
         Ok(places.iter().all(is_finite).then_some(Layout { places }))
     }
+}
+
+/// The faces that reach within `radius` of a vertex, and its place in the chart of each, from its own
+/// faces outwards.
+pub(super) fn faces_within(
+    mesh: &TriangleMesh,
+    center: usize,
+    radius: f64,
+    uv: &impl Fn(usize) -> Shape,
+) -> BTreeMap<usize, [f64; 2]> {
+    let mut found: BTreeMap<usize, [f64; 2]> = BTreeMap::new();
+    let mut queue = VecDeque::new();
+    for (face, corner) in mesh.ring(center) {
+        found.insert(face, uv(face)[corner]);
+        queue.push_back(face);
+    }
+    while let Some(face) = queue.pop_front() {
+        for k in 0..3 {
+            let Some((next, l)) = mesh.neighbor(face, k) else {
+                continue;
+            };
+            if found.contains_key(&next) {
+                continue;
+            }
+            let (from, to) = (uv(face), uv(next));
+            let around = rotated(minus(found[&face], from[k]), quarter(from, k, to, l));
+            let at = plus(to[(l + 1) % 3], around);
+            let far = |p: [f64; 2]| (p[0] - at[0]).hypot(p[1] - at[1]);
+            if to.into_iter().all(|p| far(p) < radius) {
+                found.insert(next, at);
+                queue.push_back(next);
+            }
+        }
+    }
+    found
 }
 
 /// The center's place in the chart of every face, from its own faces outwards.

@@ -6,14 +6,14 @@
 
 use super::Untangling;
 use super::disk::Disk;
-use super::polar::Layout;
+use super::polar::{Layout, faces_within};
 use super::region::regions;
 use crate::quad::check::orientation;
 use crate::quad::check::turns_around;
 use crate::{Monitor, Result};
 
-/// How many rings around a cone are laid anew, attempt after attempt.
-const DISKS: [usize; 8] = [2, 3, 4, 5, 6, 8, 11, 15];
+/// How far around a cone, in units of the map, is laid anew, attempt after attempt.
+const RADII: [f64; 9] = [0.35, 0.5, 0.7, 1.0, 1.4, 2.0, 2.8, 4.0, 5.6];
 
 /// How often all such cones are looked at: mending one may wind another up.
 const ROUNDS: usize = 4;
@@ -76,8 +76,20 @@ impl Untangling<'_> {
         monitor: &mut Monitor,
     ) -> Result<()> {
         let folded = self.folded().len();
-        for rings in DISKS {
-            let disk = Disk::around(self.mesh, cone, rings, |v| self.is_fixed(v));
+        let mut before = 0;
+        for radius in RADII {
+            let near = faces_within(self.mesh, cone, radius, &|face| self.uv(face));
+            let may_be_in = |face: usize| {
+                let corners = self.mesh.corners(face);
+                near.contains_key(&face) && !corners.into_iter().any(|v| self.is_fixed(v))
+            };
+            let disk = Disk::around(self.mesh, cone, may_be_in);
+            if disk
+                .as_ref()
+                .is_some_and(|d| d.faces.len() == std::mem::replace(&mut before, d.faces.len()))
+            {
+                continue;
+            }
             let Some(disk) = disk.filter(|_| *budget > 0) else {
                 break;
             };
