@@ -31,6 +31,18 @@ impl OrientationField {
             .collect()
     }
 
+    /// How many quarter turns the field has around a vertex, from one boundary edge to the other at
+    /// the boundary, where that is whole only if it follows both.
+    pub(super) fn quarters(&self, mesh: &TriangleMesh, v: usize) -> i32 {
+        let mut around = angle_sum(mesh, v) + self.turning(mesh, v);
+        let mut faces = mesh.ring(v).map(|(face, _)| face);
+        if let (true, Some(first)) = (mesh.is_boundary_vertex(v), faces.next()) {
+            let last = faces.last().unwrap_or(first);
+            around -= self.angles[last] - self.angles[first];
+        }
+        (4.0 * around / TAU).round() as i32
+    }
+
     /// The index of every boundary loop, in the order of
     /// [`boundary_loops`](TriangleMesh::boundary_loops).
     pub fn boundary_indices(&self, mesh: &TriangleMesh) -> Vec<f64> {

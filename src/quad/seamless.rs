@@ -127,7 +127,7 @@ impl SeamlessProblem {
             let row = isoline.unknowns();
             this.problem.add_constraint(&row, &[1.0, -1.0], 0.0)?;
         }
-        this.set_integers()?;
+        this.set_integers(mesh)?;
         this.pin_origins(mesh)?;
         Ok(this)
     }
@@ -253,9 +253,39 @@ impl SeamlessProblem {
         first.map_or(0, |&(f, k)| self.combing.transition_from(mesh, f, k))
     }
 
-    fn set_integers(&mut self) -> Result<()> {
+    /// The boundary vertices between two isolines, in increasing order.
+    fn between_isolines(&self, mesh: &TriangleMesh) -> Vec<usize> {
+        let edges = self.isolines.iter().map(|isoline| mesh.edge(isoline.edge));
+        let mut ends: Vec<usize> = edges
+            .filter(|edge| edge.second.is_none())
+            .flat_map(|edge| edge.vertices)
+            .collect();
+        ends.sort_unstable();
+        let twice = ends.chunk_by(|a, b| a == b).filter(|same| same.len() == 2);
+        twice.map(|same| same[0]).collect()
+    }
+
+    /// How many quarter turns a map has around every vertex; none at the boundary where isolines do
+    /// not say.
+    pub(super) fn quarters(&self, mesh: &TriangleMesh) -> Vec<Option<i32>> {
+        let mut quarters: Vec<Option<i32>> = (0..mesh.vertex_count())
+            .map(|v| (!mesh.is_boundary_vertex(v)).then(|| self.field.quarters(mesh, v)))
+            .collect();
+        for v in self.between_isolines(mesh) {
+            quarters[v] = Some(self.field.quarters(mesh, v));
+        }
+        quarters
+    }
+
+    /// Integer are cones, translations, isolines, and where the boundary turns: by whole turns, so
+    /// that no second isoline holds the vertex.
+    fn set_integers(&mut self, mesh: &TriangleMesh) -> Result<()> {
         let first = &self.sectors.first;
-        let cones = self.cones.iter().flat_map(|&v| {
+        let turns = self.between_isolines(mesh);
+        let turns = turns
+            .into_iter()
+            .filter(|&v| self.field.quarters(mesh, v) != 2);
+        let cones = self.cones.iter().copied().chain(turns).flat_map(|v| {
             let u = 2 * first[v] as usize;
             [u, u + 1]
         });

@@ -10,8 +10,9 @@ use crate::mesh::TriangleMesh;
 use crate::quad::{SeamlessMap, SeamlessProblem};
 
 impl SeamlessProblem {
-    /// The inner vertices around which a map of this problem turns another number of times than the
-    /// field, in increasing order. Vertices of flipped faces are not looked at.
+    /// The vertices around which a map of this problem turns another number of times than the field, in
+    /// increasing order: inner ones, and those of a boundary of isolines. Vertices of flipped faces are
+    /// not looked at.
     ///
     /// A map without flipped faces and without these is locally injective inside.
     ///
@@ -19,11 +20,10 @@ impl SeamlessProblem {
     /// [`LengthMismatch`](crate::Error::LengthMismatch) for the map of another problem or mesh.
     pub fn wound_vertices(&self, mesh: &TriangleMesh, map: &SeamlessMap) -> Result<Vec<usize>> {
         self.check_map(mesh, map)?;
-        let indices = self.field.vertex_indices(mesh);
+        let quarters = self.quarters(mesh);
         let is_wound = |&v: &usize| {
-            let expected = 4 - (4.0 * indices[v]).round() as i32;
-            !mesh.is_boundary_vertex(v)
-                && turns_around(mesh, |f| map.uv(f), v).is_some_and(|a| a != expected)
+            let turns = || turns_around(mesh, |f| map.uv(f), v);
+            quarters[v].is_some() && turns().is_some_and(|turns| Some(turns) != quarters[v])
         };
         Ok((0..mesh.vertex_count()).filter(is_wound).collect())
     }

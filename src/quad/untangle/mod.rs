@@ -85,7 +85,7 @@ pub struct Untangled {
     pub flipped_before: usize,
     /// Faces folded or collapsed after: [`SeamlessMap::flipped`] names them.
     pub flipped_after: usize,
-    /// Inner vertices that the map goes around another number of times than the field, afterwards.
+    /// Vertices that the map goes around another number of times than the field, afterwards.
     pub wound_vertices: Vec<usize>,
     /// Newton steps, over all regions.
     pub steps: usize,
@@ -175,8 +175,8 @@ struct Untangling<'a> {
     problem: &'a SeamlessProblem,
     freedom: Freedom,
     values: Vec<f64>,
-    /// The index of every vertex.
-    indices: Vec<f64>,
+    /// How many quarter turns there should be around each vertex.
+    quarters: Vec<Option<i32>>,
     /// Where in the region at hand each free unknown is.
     place: Vec<u32>,
     steps: usize,
@@ -195,7 +195,7 @@ impl<'a> Untangling<'a> {
             problem,
             place: vec![NONE; freedom.dim()],
             freedom,
-            indices: problem.field.vertex_indices(mesh),
+            quarters: problem.quarters(mesh),
             values: map.values().to_vec(),
             steps: 0,
         })

@@ -6,9 +6,9 @@
 use super::energy::Rest;
 use super::freedom::Freedom;
 use super::region::Region;
-use crate::Result;
 use crate::linalg::{Cholesky, Sparse};
 use crate::quad::check::orientation;
+use crate::{Error, Result};
 
 /// How often a step is halved before it is given up.
 const HALVINGS: usize = 24;
@@ -95,7 +95,12 @@ impl<'a> System<'a> {
     pub fn step(&self, x: &mut [f64], eps: f64) -> Result<f64> {
         let (before, slope, hessian) = self.quadratic(x, eps)?;
         let mut step: Vec<f64> = slope.iter().map(|g| -g).collect();
-        Cholesky::new(&hessian)?.solve(&mut step)?;
+        match Cholesky::new(&hessian) {
+            Ok(factor) => factor.solve(&mut step)?,
+            // Next to a triangle without area the barrier is too steep for doubles.
+            Err(Error::Overflow { .. }) => return Ok(before),
+            Err(error) => return Err(error),
+        }
         let promised: f64 = slope.iter().zip(&step).map(|(g, s)| g * s).sum();
         let start: Vec<f64> = self.coordinates.iter().map(|&i| x[i as usize]).collect();
         let change = self.moves.mul(&step);

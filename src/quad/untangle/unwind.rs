@@ -13,7 +13,7 @@ use crate::quad::check::turns_around;
 use crate::{Monitor, Result};
 
 /// How far around a cone, in units of the map, is laid anew, attempt after attempt.
-const RADII: [f64; 9] = [0.35, 0.5, 0.7, 1.0, 1.4, 2.0, 2.8, 4.0, 5.6];
+const RADII: [f64; 12] = [0.5, 0.7, 1.0, 1.2, 1.4, 1.7, 2.0, 2.4, 2.8, 3.4, 4.0, 5.6];
 
 /// How often all such cones are looked at: mending one may wind another up.
 const ROUNDS: usize = 4;
@@ -26,7 +26,7 @@ const FIRST_EPS: [f64; 3] = [1.0, 0.1, 0.01];
 const RINGS: [usize; 3] = [2, 5, 12];
 
 impl Untangling<'_> {
-    /// The inner vertices that the map goes around another number of times than the field.
+    /// The vertices that the map goes around another number of times than the field.
     pub(super) fn wound(&self) -> Vec<usize> {
         (0..self.mesh.vertex_count())
             .filter(|&v| self.is_wound(v))
@@ -34,14 +34,8 @@ impl Untangling<'_> {
     }
 
     fn is_wound(&self, v: usize) -> bool {
-        let is_other = |quarters| quarters != self.quarters(v);
-        !self.mesh.is_boundary_vertex(v)
-            && turns_around(self.mesh, |face| self.uv(face), v).is_some_and(is_other)
-    }
-
-    /// How many quarter turns the field has around a vertex.
-    fn quarters(&self, v: usize) -> i32 {
-        4 - (4.0 * self.indices[v]).round() as i32
+        let turns = || turns_around(self.mesh, |face| self.uv(face), v);
+        self.quarters[v].is_some() && turns().is_some_and(|turns| Some(turns) != self.quarters[v])
     }
 
     /// Mends cones that are narrower than they should be, as far as it can.
@@ -55,7 +49,7 @@ impl Untangling<'_> {
         for _ in 0..ROUNDS {
             let before = wound.len();
             for cone in wound.clone() {
-                if self.quarters(cone) != 4 && wound.contains(&cone) {
+                if self.quarters[cone] != Some(4) && wound.contains(&cone) {
                     self.unwind_cone(cone, &mut wound, most_steps, budget, monitor)?;
                 }
             }
@@ -123,7 +117,7 @@ impl Untangling<'_> {
     }
 
     fn layout(&self, disk: &Disk) -> Result<Option<Layout>> {
-        let quarters = self.quarters(disk.center);
+        let quarters = self.quarters[disk.center].unwrap_or(4);
         Layout::new(self.mesh, disk, quarters, &|face| self.uv(face))
     }
 
