@@ -265,26 +265,21 @@ impl SeamlessProblem {
         twice.map(|same| same[0]).collect()
     }
 
-    /// How many quarter turns a map has around every vertex; none at the boundary where isolines do
-    /// not say.
+    /// How many quarter turns a map has around every inner vertex; none at the boundary.
     pub(super) fn quarters(&self, mesh: &TriangleMesh) -> Vec<Option<i32>> {
-        let mut quarters: Vec<Option<i32>> = (0..mesh.vertex_count())
+        (0..mesh.vertex_count())
             .map(|v| (!mesh.is_boundary_vertex(v)).then(|| self.field.quarters(mesh, v)))
-            .collect();
-        for v in self.between_isolines(mesh) {
-            quarters[v] = Some(self.field.quarters(mesh, v));
-        }
-        quarters
+            .collect()
     }
 
-    /// Integer are cones, translations, isolines, and where the boundary turns: by whole turns, so
-    /// that no second isoline holds the vertex.
+    /// Integer are cones, translations, isolines, and vertices where the boundary turns back: both its
+    /// edges lie on one isoline then, which leaves the vertex free along it.
     fn set_integers(&mut self, mesh: &TriangleMesh) -> Result<()> {
         let first = &self.sectors.first;
         let turns = self.between_isolines(mesh);
         let turns = turns
             .into_iter()
-            .filter(|&v| self.field.quarters(mesh, v) != 2);
+            .filter(|&v| self.field.quarters(mesh, v) == 4);
         let cones = self.cones.iter().copied().chain(turns).flat_map(|v| {
             let u = 2 * first[v] as usize;
             [u, u + 1]

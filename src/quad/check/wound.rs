@@ -10,9 +10,8 @@ use crate::mesh::TriangleMesh;
 use crate::quad::{SeamlessMap, SeamlessProblem};
 
 impl SeamlessProblem {
-    /// The vertices around which a map of this problem turns another number of times than the field, in
-    /// increasing order: inner ones, and those of a boundary of isolines. Vertices of flipped faces are
-    /// not looked at.
+    /// The inner vertices around which a map of this problem turns another number of times than the
+    /// field, in increasing order. Vertices of flipped faces are not looked at.
     ///
     /// A map without flipped faces and without these is locally injective inside.
     ///

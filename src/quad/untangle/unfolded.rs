@@ -10,6 +10,9 @@ use crate::{Error, Monitor, Options, Problem, Result, Solution, Strategy, solve_
 /// By how much a refinement multiplies the lengths of the map: about twice as many quads.
 const REFINEMENT: f64 = std::f64::consts::SQRT_2;
 
+/// How often a map without folds is made finer for vertices that it goes around too often.
+const REFINEMENTS_TO_UNWIND: usize = 2;
+
 /// Where integers still collapse cones and a finer map may be made, untangling gets this part of its
 /// passes: it seldom helps.
 const PART_OF_PASSES: usize = 8;
@@ -75,7 +78,12 @@ pub fn solve_unfolded<'a>(
         &monitor,
     )?;
     for refinements in 1..=options.refinements {
-        if best.untangled.faults() == 0 {
+        let untangled = &best.untangled;
+        let is_done = match untangled.flipped_after {
+            0 => untangled.wound_vertices.is_empty() || refinements > REFINEMENTS_TO_UNWIND,
+            _ => false,
+        };
+        if is_done {
             break;
         }
         let finer = problem.refined(mesh, REFINEMENT.powi(refinements as i32))?;
