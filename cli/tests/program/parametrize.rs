@@ -269,6 +269,18 @@ fn holes_smaller_than_a_quad_keep_their_sides() {
 }
 
 #[test]
+fn saddles_are_gone_around_as_often_as_the_field_says() {
+    let cases = [("genus-2", "60"), ("genus-2", "240"), ("genus-3", "30")];
+    for (name, quads) in cases {
+        let shape = format!("shape:{name}:1500");
+        let (code, report) = parametrize(&[&shape, "--quads", quads]);
+        assert_eq!(code, 0, "{report}");
+        assert_eq!(report["flipped"], json!(0), "{report}");
+        assert_eq!(report["wound_vertices"], json!([]), "{report}");
+    }
+}
+
+#[test]
 fn a_field_of_something_else_is_an_error_with_its_line() {
     let scratch = Scratch::new("parametrize-wrong-field");
     let short = scratch.write("short.txt", "1 0 0\n");

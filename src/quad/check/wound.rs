@@ -4,7 +4,7 @@
 //! quarter turns as the field says only where the map covers the neighbourhood once. No single
 //! triangle shows that: a ring may go around its vertex twice without a fold.
 
-use super::turns_around;
+use super::singular::turns_around;
 use crate::Result;
 use crate::mesh::TriangleMesh;
 use crate::quad::{SeamlessMap, SeamlessProblem};
@@ -19,13 +19,21 @@ impl SeamlessProblem {
     /// [`LengthMismatch`](crate::Error::LengthMismatch) for the map of another problem or mesh.
     pub fn wound_vertices(&self, mesh: &TriangleMesh, map: &SeamlessMap) -> Result<Vec<usize>> {
         self.check_map(mesh, map)?;
-        let quarters = self.quarters(mesh);
-        let is_wound = |&v: &usize| {
-            let turns = || turns_around(mesh, |f| map.uv(f), v);
-            quarters[v].is_some() && turns().is_some_and(|turns| Some(turns) != quarters[v])
-        };
-        Ok((0..mesh.vertex_count()).filter(is_wound).collect())
+        Ok(wound(mesh, &self.quarters(mesh), |face| map.uv(face)))
     }
+}
+
+/// The vertices that a map turns around another number of quarters than these, where they are told.
+pub(in crate::quad) fn wound(
+    mesh: &TriangleMesh,
+    quarters: &[Option<i32>],
+    uv: impl Fn(usize) -> [[f64; 2]; 3],
+) -> Vec<usize> {
+    let is_wound = |&v: &usize| {
+        let turns = || turns_around(mesh, &uv, v);
+        quarters[v].is_some() && turns().is_some_and(|turns| Some(turns) != quarters[v])
+    };
+    (0..mesh.vertex_count()).filter(is_wound).collect()
 }
 
 #[cfg(test)]

@@ -133,28 +133,23 @@ pub fn untangle(
     monitor: &mut Monitor,
 ) -> Result<Untangled> {
     problem.check_map(mesh, map)?;
-    let mut work = Untangling::new(mesh, problem, map, monitor)?;
+    let mut work = Untangling::new(mesh, problem, map, options, monitor)?;
     let flipped_before = work.folded().len();
     if flipped_before == 0 && work.wound().is_empty() {
         return Ok(Untangled::as_it_is(map.clone()));
     }
-    let mut budget = options.passes.saturating_mul(mesh.face_count());
     for rings in RINGS {
         let folded = work.folded();
-        if folded.is_empty() || budget == 0 {
+        if folded.is_empty() || work.budget == 0 {
             break;
         }
         for region in regions(&work.freedom, &folded, rings) {
-            work.unfold(
-                &region,
-                options.steps,
-                schedule::FIRST_EPS,
-                &mut budget,
-                monitor,
-            )?;
+            work.unfold(&region, schedule::FIRST_EPS, monitor)?;
         }
     }
-    work.unwind(options.steps, &mut budget, monitor)?;
+    if work.folded().is_empty() {
+        work.unwind(monitor)?;
+    }
     monitor.progress(Phase::Untangle, 1.0)?;
     let left = work.folded();
     let stuck = Stuck::find(mesh, &work.freedom, &work.values, &left);
@@ -179,7 +174,12 @@ struct Untangling<'a> {
     quarters: Vec<Option<i32>>,
     /// Where in the region at hand each free unknown is.
     place: Vec<u32>,
+    /// Newton steps made.
     steps: usize,
+    /// Newton steps a region may take.
+    most_steps: usize,
+    /// How many faces steps may still look at.
+    budget: usize,
 }
 
 impl<'a> Untangling<'a> {
@@ -187,6 +187,7 @@ impl<'a> Untangling<'a> {
         mesh: &'a TriangleMesh,
         problem: &'a SeamlessProblem,
         map: &SeamlessMap,
+        options: &UntangleOptions,
         monitor: &mut Monitor,
     ) -> Result<Self> {
         let freedom = Freedom::new(problem, map.copies(), map.values(), monitor)?;
@@ -198,6 +199,8 @@ impl<'a> Untangling<'a> {
             quarters: problem.quarters(mesh),
             values: map.values().to_vec(),
             steps: 0,
+            most_steps: options.steps,
+            budget: options.passes.saturating_mul(mesh.face_count()),
         })
     }
 
@@ -212,14 +215,7 @@ impl<'a> Untangling<'a> {
     }
 
     /// Works on one region, and keeps what comes out if it has fewer folds.
-    fn unfold(
-        &mut self,
-        region: &Region,
-        most_steps: usize,
-        first_eps: f64,
-        budget: &mut usize,
-        monitor: &mut Monitor,
-    ) -> Result<()> {
+    fn unfold(&mut self, region: &Region, first_eps: f64, monitor: &mut Monitor) -> Result<()> {
         for (k, &y) in region.unknowns.iter().enumerate() {
             self.place[y as usize] = k as u32;
         }
@@ -233,14 +229,15 @@ impl<'a> Untangling<'a> {
         if before == 0 {
             return Ok(());
         }
-        let most_steps = most_steps.min(*budget / system.faces());
+        let most_steps = self.most_steps.min(self.budget / system.faces());
         let saved = system.save(&self.values);
         let outcome = schedule::unfold(&system, &mut self.values, most_steps, first_eps, monitor)?;
         if outcome.folded >= before {
             system.restore(&mut self.values, &saved);
         }
         self.steps += outcome.steps;
-        *budget = budget.saturating_sub(outcome.steps.saturating_mul(system.faces()));
+        let looked_at = outcome.steps.saturating_mul(system.faces());
+        self.budget = self.budget.saturating_sub(looked_at);
         Ok(())
     }
 }

@@ -8,8 +8,7 @@ use super::Untangling;
 use super::disk::Disk;
 use super::polar::{Layout, faces_within};
 use super::region::regions;
-use crate::quad::check::orientation;
-use crate::quad::check::turns_around;
+use crate::quad::check::{orientation, wound};
 use crate::{Monitor, Result};
 
 /// How far around a cone, in units of the map, is laid anew, attempt after attempt.
@@ -17,6 +16,9 @@ const RADII: [f64; 12] = [0.5, 0.7, 1.0, 1.2, 1.4, 1.7, 2.0, 2.4, 2.8, 3.4, 4.0,
 
 /// How often all such cones are looked at: mending one may wind another up.
 const ROUNDS: usize = 4;
+
+/// How many faces all steps may look at, as a multiple of the mesh's faces.
+const PASSES: usize = 20;
 
 /// How closed the barrier is at first: open, it undoes more folds; nearly closed, what the layout
 /// unwound stays so.
@@ -28,29 +30,20 @@ const RINGS: [usize; 3] = [2, 5, 12];
 impl Untangling<'_> {
     /// The vertices that the map goes around another number of times than the field.
     pub(super) fn wound(&self) -> Vec<usize> {
-        (0..self.mesh.vertex_count())
-            .filter(|&v| self.is_wound(v))
-            .collect()
+        wound(self.mesh, &self.quarters, |face| self.uv(face))
     }
 
-    fn is_wound(&self, v: usize) -> bool {
-        let turns = || turns_around(self.mesh, |face| self.uv(face), v);
-        self.quarters[v].is_some() && turns().is_some_and(|turns| Some(turns) != self.quarters[v])
-    }
-
-    /// Mends cones that are narrower than they should be, as far as it can.
-    pub(super) fn unwind(
-        &mut self,
-        most_steps: usize,
-        budget: &mut usize,
-        monitor: &mut Monitor,
-    ) -> Result<()> {
+    /// Mends cones that are narrower than they should be in a map without folds, as far as it can.
+    pub(super) fn unwind(&mut self, monitor: &mut Monitor) -> Result<()> {
+        self.budget = self
+            .budget
+            .min(PASSES.saturating_mul(self.mesh.face_count()));
         let mut wound = self.wound();
         for _ in 0..ROUNDS {
             let before = wound.len();
             for cone in wound.clone() {
                 if self.quarters[cone] != Some(4) && wound.contains(&cone) {
-                    self.unwind_cone(cone, &mut wound, most_steps, budget, monitor)?;
+                    self.unwind_cone(cone, &mut wound, monitor)?;
                 }
             }
             if wound.is_empty() || wound.len() == before {
@@ -65,35 +58,24 @@ impl Untangling<'_> {
         &mut self,
         cone: usize,
         wound: &mut Vec<usize>,
-        most_steps: usize,
-        budget: &mut usize,
         monitor: &mut Monitor,
     ) -> Result<()> {
         let folded = self.folded().len();
-        let mut before = 0;
+        let mut faces = 0;
         for radius in RADII {
-            let near = faces_within(self.mesh, cone, radius, &|face| self.uv(face));
-            let may_be_in = |face: usize| {
-                let corners = self.mesh.corners(face);
-                near.contains_key(&face) && !corners.into_iter().any(|v| self.is_fixed(v))
-            };
-            let disk = Disk::around(self.mesh, cone, may_be_in);
-            if disk
-                .as_ref()
-                .is_some_and(|d| d.faces.len() == std::mem::replace(&mut before, d.faces.len()))
-            {
-                continue;
-            }
-            let Some(disk) = disk.filter(|_| *budget > 0) else {
+            let Some(disk) = self.disk(cone, radius).filter(|_| self.budget > 0) else {
                 break;
             };
+            if std::mem::replace(&mut faces, disk.faces.len()) == disk.faces.len() {
+                continue;
+            }
             let Some(layout) = self.layout(&disk)? else {
                 continue;
             };
             for first_eps in FIRST_EPS {
                 let before = self.values.clone();
                 self.lay(&layout);
-                self.unfold_disk(&disk, most_steps, first_eps, budget, monitor)?;
+                self.unfold_disk(&disk, first_eps, monitor)?;
                 if self.folded().len() <= folded {
                     let left = self.wound();
                     if left.len() < wound.len() {
@@ -107,9 +89,16 @@ impl Untangling<'_> {
         Ok(())
     }
 
-    /// Whether a vertex cannot go wherever one likes: on the boundary, a cone, on a feature.
-    fn is_fixed(&self, v: usize) -> bool {
-        self.mesh.is_boundary_vertex(v) || self.freedom.of_copies(self.copies_of(v)).is_none()
+    /// What lies within `radius` of a cone in the map, without vertices that cannot go wherever one
+    /// likes: on the boundary, cones, on features.
+    fn disk(&self, cone: usize, radius: f64) -> Option<Disk> {
+        let near = faces_within(self.mesh, cone, radius, &|face| self.uv(face));
+        let is_fixed = |v: usize| {
+            self.mesh.is_boundary_vertex(v) || self.freedom.of_copies(self.copies_of(v)).is_none()
+        };
+        Disk::around(self.mesh, cone, |face| {
+            near.contains_key(&face) && !self.mesh.corners(face).into_iter().any(is_fixed)
+        })
     }
 
     fn copies_of(&self, v: usize) -> std::ops::Range<u32> {
@@ -130,14 +119,7 @@ impl Untangling<'_> {
         }
     }
 
-    fn unfold_disk(
-        &mut self,
-        disk: &Disk,
-        most_steps: usize,
-        first_eps: f64,
-        budget: &mut usize,
-        monitor: &mut Monitor,
-    ) -> Result<()> {
+    fn unfold_disk(&mut self, disk: &Disk, first_eps: f64, monitor: &mut Monitor) -> Result<()> {
         for rings in RINGS {
             let is_folded = |&face: &usize| orientation(self.uv(face)) <= 0.0;
             let mut folded: Vec<usize> = disk.faces.iter().copied().filter(is_folded).collect();
@@ -146,9 +128,66 @@ impl Untangling<'_> {
                 break;
             }
             for region in regions(&self.freedom, &folded, rings) {
-                self.unfold(&region, most_steps, first_eps, budget, monitor)?;
+                self.unfold(&region, first_eps, monitor)?;
             }
         }
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::{jitter, shape};
+    use crate::quad::untangle::{UntangleOptions, untangle};
+    use crate::quad::{FieldOptions, SeamlessOptions, SeamlessProblem, solve_field};
+    use crate::{Options, solve};
+
+    #[test]
+    fn a_disk_around_a_cone_is_laid_as_often_as_the_cone_asks_for() {
+        let mesh = jitter(&shape::by_name("genus-2", 2000).unwrap(), 1e-3, 7).unwrap();
+        let options = Options::default();
+        let field = FieldOptions::default();
+        let (field, _) = solve_field(&mesh, &field, &options, Monitor::default).unwrap();
+        let problem = SeamlessProblem::new(&mesh, &field, &SeamlessOptions { quads: 300 }).unwrap();
+        let map = problem.map(&mesh, &solve(problem.problem(), &options).unwrap());
+        let effort = UntangleOptions::default();
+        let map = untangle(
+            &mesh,
+            &problem,
+            &map.unwrap(),
+            &effort,
+            &mut Monitor::default(),
+        );
+        let map = map.unwrap().map;
+        assert!(map.flipped().is_empty());
+        let mut laid = 0;
+        for &cone in problem.cones() {
+            let watch = &mut Monitor::default();
+            let mut work = Untangling::new(&mesh, &problem, &map, &effort, watch).unwrap();
+            let Some(disk) = work.disk(cone, 1.5).filter(|d| d.inside.len() > 5) else {
+                continue;
+            };
+            let layout = work.layout(&disk).unwrap().unwrap();
+            // Nothing is left of what was there: all inside is put beside one point.
+            let center = faces_within(&mesh, cone, 9.0, &|face| work.uv(face));
+            let beside = |face: usize, v: usize| center[&face].map(|x| x + 1e-6 * v as f64);
+            let places = layout.places.iter();
+            let places = places.map(|&(v, face, corner, _)| (v, face, corner, beside(face, v)));
+            work.lay(&Layout {
+                places: places.collect(),
+            });
+            let crushed = work.folded().len();
+            work.lay(&layout);
+            let folded = work.folded().len();
+            assert!(4 * folded < crushed, "{cone}: {folded} of {crushed}");
+            work.unfold_disk(&disk, 0.1, watch).unwrap();
+            assert!(
+                work.folded().is_empty() && work.wound().is_empty(),
+                "{cone}"
+            );
+            laid += 1;
+        }
+        assert!(laid > 3, "{laid}");
     }
 }
