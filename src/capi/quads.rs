@@ -82,17 +82,15 @@ unsafe fn make(
     quads: *mut *mut roundel_quads,
 ) -> Outcome {
     let mut wanted = QuadOptions::default();
+    wanted.sizing = Sizing::Quads(quad_count);
+    wanted.vary_curvature = guidance.is_null();
     // SAFETY: handed on.
-    let (guidance, solve, monitor, out) = unsafe {
-        (
-            guard::value_or(guidance, &wanted.guidance)?.clone(),
-            guard::value_or(options, &wanted.map)?.clone(),
-            watchers(monitor)?,
-            Out::new("quads", quads)?,
-        )
+    let (monitor, out) = unsafe {
+        wanted.guidance = guard::value_or(guidance, &wanted.guidance)?.clone();
+        wanted.field = guard::value_or(options, &wanted.field)?.clone();
+        wanted.map = guard::value_or(options, &wanted.map)?.clone();
+        (watchers(monitor)?, Out::new("quads", quads)?)
     };
-    (wanted.guidance, wanted.sizing) = (guidance, Sizing::Quads(quad_count));
-    (wanted.field, wanted.map) = (solve.clone(), solve);
     out.set(guard::handle(quadrangulate(mesh, &wanted, monitor)?.quads));
     Ok(())
 }
