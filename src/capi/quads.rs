@@ -81,15 +81,18 @@ unsafe fn make(
     monitor: *const roundel_monitor,
     quads: *mut *mut roundel_quads,
 ) -> Outcome {
-    let mut wanted = QuadOptions::default();
-    wanted.sizing = Sizing::Quads(quad_count);
-    wanted.vary_curvature = guidance.is_null();
+    let default = QuadOptions::default();
     // SAFETY: handed on.
-    let (monitor, out) = unsafe {
-        wanted.guidance = guard::value_or(guidance, &wanted.guidance)?.clone();
-        wanted.field = guard::value_or(options, &wanted.field)?.clone();
-        wanted.map = guard::value_or(options, &wanted.map)?.clone();
-        (watchers(monitor)?, Out::new("quads", quads)?)
+    let (monitor, out, wanted) = unsafe {
+        let wanted = QuadOptions {
+            sizing: Sizing::Quads(quad_count),
+            vary_curvature: guidance.is_null(),
+            guidance: guard::value_or(guidance, &default.guidance)?.clone(),
+            field: guard::value_or(options, &default.field)?.clone(),
+            map: guard::value_or(options, &default.map)?.clone(),
+            ..default
+        };
+        (watchers(monitor)?, Out::new("quads", quads)?, wanted)
     };
     out.set(guard::handle(quadrangulate(mesh, &wanted, monitor)?.quads));
     Ok(())
