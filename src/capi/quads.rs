@@ -83,16 +83,17 @@ unsafe fn make(
 ) -> Outcome {
     let mut wanted = QuadOptions::default();
     // SAFETY: handed on.
-    let (guidance, solve, monitor, out) = unsafe {
+    let (guidance, field, map, monitor, out) = unsafe {
         (
             guard::value_or(guidance, &wanted.guidance)?.clone(),
+            guard::value_or(options, &wanted.field)?.clone(),
             guard::value_or(options, &wanted.map)?.clone(),
             watchers(monitor)?,
             Out::new("quads", quads)?,
         )
     };
     (wanted.guidance, wanted.sizing) = (guidance, Sizing::Quads(quad_count));
-    (wanted.field, wanted.map) = (solve.clone(), solve);
+    (wanted.field, wanted.map) = (field, map);
     out.set(guard::handle(quadrangulate(mesh, &wanted, monitor)?.quads));
     Ok(())
 }

@@ -79,6 +79,7 @@ pub fn quadrangulate<'a>(
     monitor: impl Fn() -> Monitor<'a>,
 ) -> Result<Quadrangulation> {
     let mut seconds = QuadSeconds::default();
+    options.sizing.check(mesh)?;
     let features = options.guidance.features(mesh)?;
     let detail = || DETAIL * options.sizing.edge_length(mesh);
     let guidance = Guidance {
