@@ -1,7 +1,7 @@
 //! From a mesh to quads in one call: what holds of the quads whatever the solver decides.
 
-use roundel::mesh::TriangleMesh;
-use roundel::quad::{Guidance, QuadOptions, Quadrangulation, Sizing, quadrangulate};
+use roundel::mesh::{TriangleMesh, shape};
+use roundel::quad::{Guidance, QuadOptions, QuadQuality, Quadrangulation, Sizing, quadrangulate};
 use roundel::{Monitor, Strategy};
 
 /// A flat square of `n` by `n` units, two triangles a unit square.
@@ -61,4 +61,48 @@ fn strategies_are_compared_in_the_order_asked_for() {
     let made = quadrangulate(&plane(6), &options, Monitor::default).unwrap();
     let order: Vec<Strategy> = made.compared.iter().map(|one| one.strategy).collect();
     assert_eq!(order, options.compare);
+}
+
+fn of(shape: &TriangleMesh, quads: usize, wish: impl Fn(&mut QuadOptions)) -> Quadrangulation {
+    let mut options = QuadOptions {
+        sizing: Sizing::Quads(quads),
+        ..QuadOptions::default()
+    };
+    wish(&mut options);
+    quadrangulate(shape, &options, Monitor::default).unwrap()
+}
+
+#[test]
+fn where_curvature_may_count_for_less_quads_are_more_even() {
+    let mesh = shape::by_name("genus-2", 2000).unwrap();
+    let spread = |vary: bool| {
+        let made = of(&mesh, 1500, |options| options.vary_curvature = vary);
+        assert!(made.quads.is_conforming());
+        QuadQuality::new(&made.quads).edge_spread
+    };
+    let (one, several) = (spread(false), spread(true));
+    assert!(several < 0.8 * one, "{several} and {one}");
+}
+
+#[test]
+fn where_curvature_counts_for_nothing_it_is_not_tried() {
+    let mesh = shape::by_name("genus-2", 1000).unwrap();
+    let field = |vary: bool| {
+        let made = of(&mesh, 300, |options| {
+            (options.guidance, options.vary_curvature) = (Guidance::default(), vary);
+        });
+        made.field
+    };
+    assert_eq!(field(false), field(true));
+}
+
+#[test]
+fn where_quads_do_not_conform_larger_details_are_tried_unless_they_are_given() {
+    let mesh = shape::by_name("genus-6", 1500).unwrap();
+    let edge = (mesh.surface_area() / 40.0).sqrt();
+    let given = of(&mesh, 40, |options| {
+        options.guidance.detail = Some(0.25 * edge);
+    });
+    assert!(!given.quads.is_conforming());
+    assert!(of(&mesh, 40, |_| {}).quads.is_conforming());
 }

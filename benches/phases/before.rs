@@ -18,7 +18,8 @@ pub fn bench(criterion: &mut Criterion, case: &Case) {
     group.bench_function("relax: factor and solve", |b| {
         b.iter(|| {
             let factor = RelaxedFactor::new(hessian, case.reduced.integers())?;
-            factor.minimise(gradient, case.reduced.guess())
+            let rounding = || case.reduced.gradient_rounding(&model);
+            factor.minimise(gradient, rounding, case.reduced.guess())
         })
     });
     let options = Options {

@@ -1,7 +1,7 @@
 //! The two families of problems, each taken as far as its relaxation.
 
 use roundel::eliminate::{ReducedModel, eliminate};
-use roundel::linalg::{Minimum, RelaxedFactor};
+use roundel::linalg::{Lowest, Minimum, RelaxedFactor};
 use roundel::mesh::shape;
 use roundel::quad::{FieldProblem, SeamlessOptions, SeamlessProblem, curvature_constraints};
 use roundel::{Error, Model, Monitor, Options, Problem, Result, solve};
@@ -33,10 +33,12 @@ pub fn cases() -> Result<[Case; 2]> {
 
 impl Case {
     fn new(family: &'static str, problem: Problem) -> Result<Self> {
-        let reduced = eliminate(&Model::new(&problem)?, &mut Monitor::default())?;
+        let model = Model::new(&problem)?;
+        let reduced = eliminate(&model, &mut Monitor::default())?;
         let factor = RelaxedFactor::new(reduced.hessian(), reduced.integers())?;
-        let minimum = factor.minimise(reduced.gradient(), reduced.guess())?;
-        let Minimum::At { point, .. } = minimum else {
+        let rounding = || reduced.gradient_rounding(&model);
+        let minimum = factor.minimise(reduced.gradient(), rounding, reduced.guess())?;
+        let Minimum::At(Lowest { point, .. }) = minimum else {
             return Err(Error::NotSupported {
                 what: "a bench without a minimum".into(),
                 index: None,

@@ -126,6 +126,23 @@ pub unsafe extern "C" fn roundel_quad_options_set_guidance(
     unsafe { change(options, body) }
 }
 
+/// Sets whether curvature may count for less than the guidance has it, where the map is less
+/// distorted then: 1, as at first, or 0. On meshes that are not large a few fields are tried.
+///
+/// Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for another number.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_quad_options_set_vary_curvature(
+    options: *mut roundel_quad_options,
+    vary: i32,
+) -> roundel_status {
+    let body = |options: &mut QuadOptions| {
+        options.vary_curvature = yes("curvature is varied", vary)?;
+        Ok(())
+    };
+    // SAFETY: the caller gives a live handle, or NULL.
+    unsafe { change(options, body) }
+}
+
 /// Sets how the field is solved for, by a copy of `solve`; NULL stands for adaptive rounding.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_quad_options_set_field_options(

@@ -97,6 +97,24 @@ pub(super) fn linear(model: &Model, expansion: &Expansion) -> Result<(Vec<f64>, 
     Ok((gradient, constant))
 }
 
+/// The sums of the absolute values of all terms of [`linear`]'s first.
+pub(super) fn linear_size(model: &Model, expansion: &Expansion) -> Vec<f64> {
+    let offset = expansion.offset();
+    let mut size = model.gradient_size();
+    for (i, j, q) in model.hessian().entries() {
+        let (i, j) = (i as usize, j as usize);
+        size[i] += (q * offset[j]).abs();
+        if i != j {
+            size[j] += (q * offset[i]).abs();
+        }
+    }
+    let mut reduced = vec![0.0; expansion.matrix().cols()];
+    for (i, a, t) in expansion.matrix().entries() {
+        reduced[a as usize] += t.abs() * size[i as usize];
+    }
+    reduced
+}
+
 fn overflow() -> Error {
     Error::Overflow {
         what: "the objective overflows when the constraints are put into it".into(),

@@ -2,8 +2,9 @@
 
 use std::sync::Arc;
 
-use super::Expansion;
-use crate::linalg::{CompensatedSum, Sparse};
+use super::{Expansion, project};
+use crate::Model;
+use crate::linalg::{CANCELLED, CompensatedSum, Sparse};
 
 /// `minimise 1/2 y'Hy + g'y + c`, some entries of `y` integer, nothing else.
 ///
@@ -36,6 +37,16 @@ impl ReducedModel {
     /// The reduced linear term.
     pub fn gradient(&self) -> &[f64] {
         &self.gradient
+    }
+
+    /// How far each entry of the linear term may be from what was meant by `model`, which this was
+    /// reduced from: what is left where large terms have cancelled. An estimate from the sizes of
+    /// all terms that went into it.
+    pub fn gradient_rounding(&self, model: &Model) -> Vec<f64> {
+        project::linear_size(model, &self.expansion)
+            .into_iter()
+            .map(|size| CANCELLED * size)
+            .collect()
     }
 
     /// The reduced constant.

@@ -182,7 +182,7 @@ impl<'a> FixedSolve<'a> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Cholesky, Minimum, Sparse, minimise, minimum_degree};
+    use super::super::{Cholesky, Sparse, minimise_bounded, minimum_degree};
     use super::*;
 
     /// A grid of springs, every fifth unknown also tied to the ground.
@@ -228,10 +228,7 @@ mod tests {
         }
         let a = Sparse::from_triplets(n, n, entries.into_iter()).unwrap();
         let factor = Cholesky::new(&a).unwrap();
-        match minimise(&a, &g, &vec![0.0; n], &factor).unwrap() {
-            Minimum::At { point, .. } => point,
-            other => panic!("{other:?}"),
-        }
+        minimise_bounded(&a, &g, &vec![0.0; n], &factor).unwrap()
     }
 
     fn follows_the_reference(grounded: bool) {
@@ -243,9 +240,7 @@ mod tests {
         let mut ldl = Ldl::new(&a, &minimum_degree(&a).unwrap()).unwrap();
         let factor = Cholesky::new(&a).unwrap();
         let guess = vec![0.0; n];
-        let Minimum::At { point, .. } = minimise(&a, &gradient, &guess, &factor).unwrap() else {
-            panic!()
-        };
+        let point = minimise_bounded(&a, &gradient, &guess, &factor).unwrap();
         let watch: Vec<u32> = (0..n as u32).filter(|i| i % 2 == 0).collect();
         let mut solve = FixedSolve::new(&mut ldl, &point, &watch).unwrap();
         let mut fixed = vec![None; n];

@@ -1,19 +1,19 @@
 //! Exact minimisation with some unknowns held, by a factorization of what is left.
 
-use super::{Cholesky, Minimum, Sparse, minimise};
+use super::{Cholesky, Sparse, minimise_bounded};
 use crate::Result;
 
 /// Minimises `1/2 x'Ax + g'x` over the unknowns that are not `held`, from `point`; the held ones
-/// keep their values there.
+/// keep their values there. As [`minimise_bounded`], for an objective known to have a minimum.
 ///
 /// # Errors
-/// As [`minimise`]. Directions are in all unknowns, zero at the held ones.
+/// For lack of memory.
 pub fn minimise_held(
     lower: &Sparse,
     gradient: &[f64],
     held: &[bool],
     point: &[f64],
-) -> Result<Minimum> {
+) -> Result<Vec<f64>> {
     let free: Vec<usize> = (0..held.len()).filter(|&i| !held[i]).collect();
     let mut place = vec![u32::MAX; held.len()];
     for (k, &i) in free.iter().enumerate() {
@@ -34,22 +34,10 @@ pub fn minimise_held(
         .map(|(i, j, v)| (place[i as usize], place[j as usize], v));
     let block = Sparse::from_triplets(free.len(), free.len(), inner)?;
     let pick = |v: &[f64]| -> Vec<f64> { free.iter().map(|&i| v[i]).collect() };
-    let embed = |values: &[f64], mut all: Vec<f64>| {
-        for (&i, &v) in free.iter().zip(values) {
-            all[i] = v;
-        }
-        all
-    };
-    let minimum = minimise(&block, &pick(&pull), &pick(point), &Cholesky::new(&block)?)?;
-    Ok(match minimum {
-        Minimum::At {
-            point: best,
-            excess,
-        } => Minimum::At {
-            point: embed(&best, point.to_vec()),
-            excess,
-        },
-        Minimum::Unbounded(v) => Minimum::Unbounded(embed(&v, vec![0.0; held.len()])),
-        Minimum::NotConvex(v) => Minimum::NotConvex(embed(&v, vec![0.0; held.len()])),
-    })
+    let inner = minimise_bounded(&block, &pick(&pull), &pick(point), &Cholesky::new(&block)?)?;
+    let mut all = point.to_vec();
+    for (&i, &v) in free.iter().zip(&inner) {
+        all[i] = v;
+    }
+    Ok(all)
 }

@@ -8,8 +8,12 @@ use crate::Result;
 pub const CURVATURE_TOLERANCE: f64 = 1e-9;
 
 /// A slope along a direction without curvature counts as zero up to this, relative to the sum of
-/// the absolute values of its terms.
+/// the absolute values of its terms: so well is the direction known.
 pub const SLOPE_TOLERANCE: f64 = 1e-9;
+
+/// A sum this small next to the absolute values of its terms has cancelled: what is left are their
+/// rounding errors.
+pub const CANCELLED: f64 = 1e-12;
 
 /// How many vanished pivots are examined for a bad direction, the most suspicious first.
 const EXAMINED: usize = 16;
@@ -17,41 +21,76 @@ const EXAMINED: usize = 16;
 /// What minimisation of a quadratic ends in.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Minimum {
-    /// A minimiser. Unknowns that the objective does not decide stay at the guess.
-    At {
-        /// The point.
-        point: Vec<f64>,
-        /// At most this far (an estimate of `r' A^-1 r / 2` for the residual r) above the minimum.
-        excess: f64,
-    },
+    /// There is one, here.
+    At(Lowest),
     /// The quadratic falls without limit along this direction.
     Unbounded(Vec<f64>),
     /// The quadratic curves downwards along this direction.
     NotConvex(Vec<f64>),
 }
 
+/// A minimiser. Unknowns that the objective does not decide stay at the guess.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Lowest {
+    /// The point.
+    pub point: Vec<f64>,
+    /// At most this far (an estimate of `r' A^-1 r / 2` for the residual r) above the minimum.
+    pub excess: f64,
+}
+
 /// Minimises `1/2 x'Ax + g'x` for the `A` with lower triangle `lower`, which `factor` belongs to.
+///
+/// `rounding` tells how far each entry of `g` may be from what was meant, and is asked only where
+/// the answer hangs on it: the noise that is left of large terms is no slope.
 ///
 /// # Errors
 /// Only for lack of memory: everything else is a [`Minimum`].
 pub fn minimise(
     lower: &Sparse,
     gradient: &[f64],
+    rounding: impl FnOnce() -> Vec<f64>,
     guess: &[f64],
     factor: &Cholesky,
 ) -> Result<Minimum> {
-    let mut point = guess.to_vec();
-    let mut step = residual(lower, gradient, &point);
+    let mut step = residual(lower, gradient, guess);
     factor.solve(&mut step)?;
     if !factor.null_unknowns().is_empty() {
         if let Some(direction) = downward_curvature(lower, factor)? {
             return Ok(Minimum::NotConvex(direction));
         }
-        if let Some(direction) = endless_slope(gradient, &step, factor)? {
+        if let Some(direction) = endless_slope(gradient, rounding, &step, factor)? {
             return Ok(Minimum::Unbounded(direction));
         }
     }
-    for (x, s) in point.iter_mut().zip(&step) {
+    descend(lower, gradient, guess, &step, factor).map(Minimum::At)
+}
+
+/// [`minimise`] for what is known to be convex and bounded below: an objective that was so with
+/// all unknowns free stays so with some of them held, whatever values they are held at.
+///
+/// # Errors
+/// For lack of memory.
+pub fn minimise_bounded(
+    lower: &Sparse,
+    gradient: &[f64],
+    guess: &[f64],
+    factor: &Cholesky,
+) -> Result<Vec<f64>> {
+    let mut step = residual(lower, gradient, guess);
+    factor.solve(&mut step)?;
+    descend(lower, gradient, guess, &step, factor).map(|lowest| lowest.point)
+}
+
+/// Takes the first `step` from `guess` and refines it.
+fn descend(
+    lower: &Sparse,
+    gradient: &[f64],
+    guess: &[f64],
+    step: &[f64],
+    factor: &Cholesky,
+) -> Result<Lowest> {
+    let mut point = guess.to_vec();
+    for (x, s) in point.iter_mut().zip(step) {
         *x += s;
     }
     // One step of refinement gains the digits that an ill-conditioned factor loses.
@@ -62,7 +101,7 @@ pub fn minimise(
     for (x, s) in point.iter_mut().zip(&step) {
         *x += s;
     }
-    Ok(Minimum::At { point, excess })
+    Ok(Lowest { point, excess })
 }
 
 /// Minus the gradient of `1/2 x'Ax + g'x` at `x`.
@@ -113,11 +152,7 @@ fn downward_curvature(lower: &Sparse, factor: &Cholesky) -> Result<Option<Vec<f6
             .zip(lower.mul_symmetric(&v))
             .map(|(v, av)| v * av)
             .sum();
-        let largest = v
-            .iter()
-            .zip(scale)
-            .map(|(v, s)| (v / s).abs())
-            .fold(0.0, f64::max);
+        let largest = largest(&v, scale);
         if curvature < -CURVATURE_TOLERANCE * largest * largest {
             return Ok(Some(v));
         }
@@ -125,20 +160,39 @@ fn downward_curvature(lower: &Sparse, factor: &Cholesky) -> Result<Option<Vec<f6
     Ok(None)
 }
 
+/// The largest entry in the scaled unknowns.
+fn largest(v: &[f64], scale: &[f64]) -> f64 {
+    let scaled = v.iter().zip(scale).map(|(v, s)| (v / s).abs());
+    scaled.fold(0.0, f64::max)
+}
+
 /// A direction without curvature along which the objective falls, if there is one: then some null
 /// unknown was moved by the first step.
-fn endless_slope(gradient: &[f64], step: &[f64], factor: &Cholesky) -> Result<Option<Vec<f64>>> {
+fn endless_slope(
+    gradient: &[f64],
+    rounding: impl FnOnce() -> Vec<f64>,
+    step: &[f64],
+    factor: &Cholesky,
+) -> Result<Option<Vec<f64>>> {
     let scale = factor.scale();
     let pull = |j: u32| (step[j as usize] / scale[j as usize]).abs();
     let mut suspects: Vec<u32> = factor.null_unknowns().to_vec();
     suspects.retain(|&j| pull(j) > 0.0);
     suspects.sort_by(|&a, &b| pull(b).total_cmp(&pull(a)).then(a.cmp(&b)));
+    if suspects.is_empty() {
+        return Ok(None);
+    }
+    let rounding = rounding();
+    // What an error of each unknown, equal in the scaled ones, costs.
+    let steepest: f64 = gradient.iter().zip(scale).map(|(g, s)| (g * s).abs()).sum();
     for j in suspects.into_iter().take(EXAMINED) {
         let mut v = null_direction(factor, j)?;
         let terms = || v.iter().zip(gradient).map(|(v, g)| v * g);
         let slope: f64 = terms().sum();
         let size: f64 = terms().map(f64::abs).sum();
-        if slope.abs() > SLOPE_TOLERANCE * size {
+        let noise: f64 = v.iter().zip(&rounding).map(|(v, e)| (v * e).abs()).sum();
+        let noise = noise + CANCELLED * largest(&v, scale) * steepest;
+        if slope.abs() > SLOPE_TOLERANCE * size + noise {
             if slope > 0.0 {
                 v.iter_mut().for_each(|v| *v = -*v);
             }
@@ -167,14 +221,15 @@ mod tests {
         let n = gradient.len();
         let a = Sparse::from_triplets(n, n, lower.iter().copied()).unwrap();
         let factor = Cholesky::new(&a).unwrap();
-        minimise(&a, gradient, guess, &factor).unwrap()
+        minimise(&a, gradient, || vec![0.0; n], guess, &factor).unwrap()
     }
 
     #[test]
     fn unknowns_that_do_not_matter_stay_at_the_guess() {
         // (x0 - x1 - 1)^2: only the difference is decided; x2 not at all.
         let a = [(0, 0, 2.0), (1, 0, -2.0), (1, 1, 2.0), (2, 2, 0.0)];
-        let Minimum::At { point, .. } = solve(&a, &[-2.0, 2.0, 0.0], &[5.0, 5.0, 7.0]) else {
+        let Minimum::At(Lowest { point, .. }) = solve(&a, &[-2.0, 2.0, 0.0], &[5.0, 5.0, 7.0])
+        else {
             panic!()
         };
         assert!((point[0] - point[1] - 1.0).abs() < 1e-12);
@@ -190,6 +245,19 @@ mod tests {
         };
         assert!((v[0] - v[1]).abs() < 1e-12, "no curvature");
         assert!(-2.0 * v[0] + v[1] < 0.0, "downhill");
+    }
+
+    #[test]
+    fn what_is_left_of_larger_terms_is_no_slope() {
+        let a = Sparse::from_triplets(2, 2, [(0, 0, 2.0), (1, 0, -2.0), (1, 1, 2.0)].into_iter());
+        let a = a.unwrap();
+        let factor = Cholesky::new(&a).unwrap();
+        let run = |rounding: f64| {
+            let gradient = [1e-16, 0.0];
+            minimise(&a, &gradient, || vec![rounding; 2], &[0.0; 2], &factor).unwrap()
+        };
+        assert!(matches!(run(0.0), Minimum::Unbounded(_)));
+        assert!(matches!(run(1e-15), Minimum::At(_)));
     }
 
     #[test]
@@ -211,7 +279,7 @@ mod tests {
     #[test]
     fn a_scale_of_1e8_between_unknowns_is_no_semi_definiteness() {
         let a = [(0, 0, 1e8), (1, 0, 0.5), (1, 1, 1e-8)];
-        let Minimum::At { point, .. } = solve(&a, &[1.0, 0.0], &[0.0, 0.0]) else {
+        let Minimum::At(Lowest { point, .. }) = solve(&a, &[1.0, 0.0], &[0.0, 0.0]) else {
             panic!()
         };
         // Exact: determinant 1 - 0.25.

@@ -30,7 +30,10 @@ pub use gauss_seidel::LocalSolve;
 pub use held::minimise_held;
 pub use joint::JointFactor;
 pub use ldl::Ldl;
-pub use minimise::{CURVATURE_TOLERANCE, Minimum, SLOPE_TOLERANCE, minimise, residual};
+pub use minimise::{
+    CANCELLED, CURVATURE_TOLERANCE, Lowest, Minimum, SLOPE_TOLERANCE, minimise, minimise_bounded,
+    residual,
+};
 pub use ordering::{EliminationTree, Ordering, minimum_degree};
 pub use path::PathSolve;
 pub use plain_gradients::plain_conjugate_gradient;

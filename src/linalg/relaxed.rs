@@ -4,14 +4,10 @@
 //! only their Schur complement is ordered and factored. On an orientation field that is the
 //! Laplacian of a forest, whose factor has no fill at all.
 
-use super::minimise::{Minimum, minimise};
+use super::minimise::{CANCELLED, Lowest, Minimum, minimise};
 use super::private::private_integers;
 use super::{Cholesky, Ordering, Sparse};
 use crate::Result;
-
-/// An entry this small next to the geometric mean of the diagonal entries of its row and column,
-/// before the elimination, has cancelled.
-const CANCELLED: f64 = 1e-12;
 
 /// No place.
 const NONE: u32 = u32::MAX;
@@ -119,22 +115,30 @@ impl RelaxedFactor {
     ///
     /// # Errors
     /// Only for lack of memory.
-    pub fn minimise(&self, gradient: &[f64], guess: &[f64]) -> Result<Minimum> {
+    pub fn minimise(
+        &self,
+        gradient: &[f64],
+        rounding: impl FnOnce() -> Vec<f64>,
+        guess: &[f64],
+    ) -> Result<Minimum> {
         let start: Vec<f64> = self.rest.iter().map(|&i| guess[i as usize]).collect();
-        let slope = self.condensed_slope(gradient);
+        let slope = self.condense(gradient);
+        let noise = || self.condensed_rounding(gradient, &rounding());
         let all = |inner: &[f64], pull: f64| {
             let mut whole: Vec<f64> = gradient.iter().map(|g| -pull * g).collect();
             self.embed(inner, &mut whole);
             whole
         };
-        Ok(match minimise(&self.schur, &slope, &start, &self.factor)? {
-            Minimum::At { point, excess } => Minimum::At {
-                point: all(&point, 1.0),
-                excess,
+        Ok(
+            match minimise(&self.schur, &slope, noise, &start, &self.factor)? {
+                Minimum::At(Lowest { point, excess }) => Minimum::At(Lowest {
+                    point: all(&point, 1.0),
+                    excess,
+                }),
+                Minimum::Unbounded(v) => Minimum::Unbounded(all(&v, 0.0)),
+                Minimum::NotConvex(v) => Minimum::NotConvex(all(&v, 0.0)),
             },
-            Minimum::Unbounded(v) => Minimum::Unbounded(all(&v, 0.0)),
-            Minimum::NotConvex(v) => Minimum::NotConvex(all(&v, 0.0)),
-        })
+        )
     }
 
     /// The right side that the rest sees: `b_r - A_rp A_pp^-1 b_p`.
@@ -149,27 +153,18 @@ impl RelaxedFactor {
         inner
     }
 
-    /// The gradient that the rest sees, without the rounding errors of what cancels there: next to
-    /// each other alone they would pass for a slope.
-    fn condensed_slope(&self, gradient: &[f64]) -> Vec<f64> {
-        let mut size: Vec<f64> = self
-            .rest
-            .iter()
-            .map(|&i| gradient[i as usize].abs())
-            .collect();
+    /// How far the gradient that the rest sees may be off: what is unknown of `gradient` itself, and
+    /// what condensing it adds, which next to nothing else would pass for a slope.
+    fn condensed_rounding(&self, gradient: &[f64], rounding: &[f64]) -> Vec<f64> {
+        let noise = |i: u32| CANCELLED * gradient[i as usize].abs() + rounding[i as usize];
+        let mut inner: Vec<f64> = self.rest.iter().map(|&i| noise(i)).collect();
         for (k, &p) in self.private.iter().enumerate() {
-            let pull = gradient[p as usize] / self.curvature[k];
+            let pull = noise(p) / self.curvature[k];
             for (i, v) in self.coupling.row(k) {
-                size[i] += (v * pull).abs();
+                inner[i] += (v * pull).abs();
             }
         }
-        let mut slope = self.condense(gradient);
-        for (s, size) in slope.iter_mut().zip(size) {
-            if s.abs() <= CANCELLED * size {
-                *s = 0.0;
-            }
-        }
-        slope
+        inner
     }
 
     /// Puts the rest in place and lets the private integers follow, whose right sides are in `b`.
@@ -227,6 +222,7 @@ fn schur(
 
 #[cfg(test)]
 mod tests {
+    use super::super::minimise_bounded;
     use super::*;
 
     /// Squares of rows `x_i - x_(i+1) + 1.5 p_i` on a path, every third without its integer, and
@@ -267,8 +263,10 @@ mod tests {
         }
         let a = Sparse::from_triplets(5, 5, entries.into_iter()).unwrap();
         let factor = RelaxedFactor::new(&a, &[2, 3, 4]).unwrap();
-        let minimum = factor.minimise(&gradient, &[0.0; 5]).unwrap();
-        assert!(matches!(minimum, Minimum::At { .. }), "{minimum:?}");
+        let minimum = factor
+            .minimise(&gradient, || vec![0.0; 5], &[0.0; 5])
+            .unwrap();
+        assert!(matches!(minimum, Minimum::At(_)), "{minimum:?}");
     }
 
     #[test]
@@ -284,13 +282,13 @@ mod tests {
             })
             .collect();
         let guess = vec![0.0; 60];
-        let Minimum::At { point: x, .. } = two_steps.minimise(&gradient, &guess).unwrap() else {
+        let known = || vec![0.0; 60];
+        let minimum = two_steps.minimise(&gradient, known, &guess).unwrap();
+        let Minimum::At(Lowest { point: x, .. }) = minimum else {
             panic!()
         };
         let whole = Cholesky::new(&a).unwrap();
-        let Minimum::At { point: y, .. } = minimise(&a, &gradient, &guess, &whole).unwrap() else {
-            panic!()
-        };
+        let y = minimise_bounded(&a, &gradient, &guess, &whole).unwrap();
         let mut z: Vec<f64> = gradient.iter().map(|g| -g).collect();
         two_steps.solve(&mut z).unwrap();
         for ((x, y), z) in x.iter().zip(&y).zip(&z) {
@@ -319,7 +317,9 @@ mod tests {
         });
         let a = Sparse::from_triplets(3, 3, entries).unwrap();
         let factor = RelaxedFactor::new(&a, &[2]).unwrap();
-        let Minimum::Unbounded(v) = factor.minimise(&[1.0, 0.0, 0.0], &[0.0; 3]).unwrap() else {
+        let slope = [1.0, 0.0, 0.0];
+        let minimum = factor.minimise(&slope, || vec![0.0; 3], &[0.0; 3]).unwrap();
+        let Minimum::Unbounded(v) = minimum else {
             panic!()
         };
         assert!(v[0] < 0.0 && (v[0] - v[1] + v[2]).abs() < 1e-12, "{v:?}");

@@ -127,6 +127,18 @@ impl Model {
         &self.gradient
     }
 
+    /// The sums of the absolute values of the terms that q was summed from.
+    pub(crate) fn gradient_size(&self) -> Vec<f64> {
+        let mut size: Vec<f64> = self.gradient.iter().map(|q| q.abs()).collect();
+        for (k, &w) in self.weights.iter().enumerate() {
+            let rhs = self.least_squares.rhs()[k];
+            for (i, u) in self.least_squares.row(k) {
+                size[i] += (2.0 * w * rhs * u).abs();
+            }
+        }
+        size
+    }
+
     /// c, least-squares rows included.
     pub fn constant(&self) -> f64 {
         self.constant

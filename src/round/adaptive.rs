@@ -11,7 +11,7 @@ use super::candidates::Candidates;
 use super::{greedy, nearest};
 use crate::Result;
 use crate::eliminate::ReducedModel;
-use crate::linalg::{Effort, LocalSolve, Minimum, conjugate_gradient, minimise_held};
+use crate::linalg::{Effort, LocalSolve, conjugate_gradient, minimise_held};
 use crate::solve::{Factors, Options, Phase, Search};
 
 /// Gauss-Seidel updates between two looks at the clock.
@@ -121,12 +121,7 @@ impl Passes<'_> {
         )?;
         if !converged && options.exact_steps && search.monitor.check().is_ok() {
             let (hessian, gradient) = (self.model.hessian(), self.model.gradient());
-            // What is bounded and convex with all unknowns free stays so with some held.
-            if let Minimum::At { point: exact, .. } =
-                minimise_held(hessian, gradient, &self.fixed, &point)?
-            {
-                point = exact;
-            }
+            point = minimise_held(hessian, gradient, &self.fixed, &point)?;
         }
         self.solve.settle_at(&point);
         Ok(())

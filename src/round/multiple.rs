@@ -16,7 +16,7 @@ use super::candidates::Candidates;
 use super::nearest;
 use crate::Result;
 use crate::eliminate::ReducedModel;
-use crate::linalg::{Effort, Minimum, PlainSeidel, minimise_held, plain_conjugate_gradient};
+use crate::linalg::{Effort, PlainSeidel, minimise_held, plain_conjugate_gradient};
 use crate::solve::{Factors, Options, Phase, Search};
 
 /// Gauss-Seidel looks between two looks at the clock.
@@ -139,12 +139,7 @@ impl Passes<'_> {
             || search.monitor.check().is_ok(),
         );
         if !converged && options.exact_steps && search.monitor.check().is_ok() {
-            // What is bounded and convex with all unknowns free stays so with some held.
-            if let Minimum::At { point, .. } =
-                minimise_held(hessian, gradient, &self.fixed, &self.point)?
-            {
-                self.point = point;
-            }
+            self.point = minimise_held(hessian, gradient, &self.fixed, &self.point)?;
         }
         Ok(Changed::Anything)
     }

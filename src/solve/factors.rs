@@ -8,8 +8,8 @@ use std::time::Instant;
 
 use crate::Result;
 use crate::eliminate::ReducedModel;
-use crate::linalg::{Cholesky, JointFactor, Ldl, Minimum, Ordering, RelaxedFactor, Sparse};
-use crate::linalg::{minimise, residual};
+use crate::linalg::{Cholesky, JointFactor, Ldl, Ordering, RelaxedFactor, Sparse};
+use crate::linalg::{minimise_bounded, residual};
 
 /// The factors of one reduced model.
 #[derive(Debug, Default)]
@@ -145,9 +145,9 @@ impl Factors {
         Ok(())
     }
 
-    /// Minimises over the continuous unknowns, from `point` and with the integers as they are there;
-    /// directions are in all unknowns.
-    pub fn follow(&mut self, model: &ReducedModel, point: &[f64]) -> Result<Minimum> {
+    /// Minimises over the continuous unknowns, from `point` and with the integers as they are there.
+    /// The relaxation is known to have a minimum.
+    pub fn follow(&mut self, model: &ReducedModel, point: &[f64]) -> Result<Vec<f64>> {
         if self.is_joint(model) {
             let joint = self.joint(model)?;
             if joint.is_definite() {
@@ -207,7 +207,7 @@ impl ContinuousBlock {
         })
     }
 
-    fn follow(&self, model: &ReducedModel, point: &[f64]) -> Result<Minimum> {
+    fn follow(&self, model: &ReducedModel, point: &[f64]) -> Result<Vec<f64>> {
         let of = |unknowns: &[u32], v: &[f64]| -> Vec<f64> {
             unknowns.iter().map(|&i| v[i as usize]).collect()
         };
@@ -216,50 +216,28 @@ impl ContinuousBlock {
         for (g, p) in gradient.iter_mut().zip(pull) {
             *g += p;
         }
-        let embed = |part: &[f64], mut whole: Vec<f64>| {
-            for (&i, x) in model.continuous().iter().zip(part) {
-                whole[i as usize] = *x;
-            }
-            whole
-        };
-        let nowhere = || vec![0.0; model.dim()];
         let start = of(model.continuous(), point);
-        Ok(
-            match minimise(&self.hessian, &gradient, &start, &self.factor)? {
-                Minimum::At {
-                    point: best,
-                    excess,
-                } => Minimum::At {
-                    point: embed(&best, point.to_vec()),
-                    excess,
-                },
-                Minimum::Unbounded(v) => Minimum::Unbounded(embed(&v, nowhere())),
-                Minimum::NotConvex(v) => Minimum::NotConvex(embed(&v, nowhere())),
-            },
-        )
+        let best = minimise_bounded(&self.hessian, &gradient, &start, &self.factor)?;
+        let mut whole = point.to_vec();
+        for (&i, x) in model.continuous().iter().zip(best) {
+            whole[i as usize] = x;
+        }
+        Ok(whole)
     }
 }
 
 /// [`Factors::follow`] by the leading part of a definite factor, with one step of refinement as in
-/// [`minimise`].
-fn follow_joint(model: &ReducedModel, joint: &JointFactor, point: &[f64]) -> Minimum {
+/// [`minimise_bounded`].
+fn follow_joint(model: &ReducedModel, joint: &JointFactor, point: &[f64]) -> Vec<f64> {
     let mut point = point.to_vec();
-    let mut excess = 0.0;
     for _ in 0..2 {
-        let slope = residual(model.hessian(), model.gradient(), &point);
-        let mut step = slope.clone();
+        let mut step = residual(model.hessian(), model.gradient(), &point);
         joint.solve_continuous(&mut step);
-        excess = 0.0;
         for &i in model.continuous() {
-            let i = i as usize;
-            excess += 0.5 * slope[i] * step[i];
-            point[i] += step[i];
+            point[i as usize] += step[i as usize];
         }
     }
-    Minimum::At {
-        point,
-        excess: f64::abs(excess),
-    }
+    point
 }
 
 /// What `make` gives; the seconds it took are added to `seconds`.

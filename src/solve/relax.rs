@@ -1,10 +1,9 @@
 //! The relaxation: all integers real. Its minimum is a lower bound for every solution.
 
-use super::search::{not_convex, unbounded};
 use super::{Factors, Strategy};
-use crate::Result;
 use crate::eliminate::ReducedModel;
-use crate::linalg::{Minimum, minimise};
+use crate::linalg::{Lowest, Minimum, minimise};
+use crate::{Error, Model, Result};
 
 /// Rounding errors of the energy's own evaluation, relative to the sum of its absolute terms:
 /// the terms were themselves rounded when the model was assembled.
@@ -17,12 +16,13 @@ pub(crate) struct Relaxation {
     pub lower_bound: f64,
 }
 
-/// Minimises the reduced objective over real unknowns, by the factor that `strategy` needs as well.
+/// Minimises the reduced objective of `whole` over real unknowns, by the factor that `strategy`
+/// needs as well.
 ///
 /// # Errors
-/// [`Error::Unbounded`](crate::Error::Unbounded) and
-/// [`Error::NotConvex`](crate::Error::NotConvex), each with a direction, and for lack of memory.
+/// [`Error::Unbounded`] and [`Error::NotConvex`], each with a direction, and for lack of memory.
 pub(crate) fn relax(
+    whole: &Model,
     model: &ReducedModel,
     strategy: Strategy,
     factors: &mut Factors,
@@ -33,14 +33,17 @@ pub(crate) fn relax(
         return Err(not_convex(model, &direction));
     }
     let (gradient, guess) = (model.gradient(), model.guess());
+    let rounding = || model.gradient_rounding(whole);
     let minimum = if strategy != Strategy::Relax && factors.is_joint(model) {
         let factor = factors.joint(model)?.whole();
-        minimise(model.hessian(), gradient, guess, factor)?
+        minimise(model.hessian(), gradient, rounding, guess, factor)?
     } else {
-        factors.relaxed(model)?.minimise(gradient, guess)?
+        factors
+            .relaxed(model)?
+            .minimise(gradient, rounding, guess)?
     };
     match minimum {
-        Minimum::At { point, excess } => {
+        Minimum::At(Lowest { point, excess }) => {
             let (energy, terms) = model.energy(&point);
             Ok(Relaxation {
                 point,
@@ -59,4 +62,38 @@ fn negative_diagonal(model: &ReducedModel) -> Option<usize> {
         let size: f64 = row.clone().map(|(_, v)| v.abs()).sum();
         row.last().is_some_and(|(j, d)| j == i && d < -1e-9 * size)
     })
+}
+
+/// The error for a reduced direction along which the objective falls forever.
+fn unbounded(model: &ReducedModel, direction: &[f64]) -> Error {
+    let (variable, direction) = in_callers_unknowns(model, direction);
+    Error::Unbounded {
+        variable,
+        direction,
+    }
+}
+
+/// The error for a reduced direction along which the objective curves downwards.
+fn not_convex(model: &ReducedModel, direction: &[f64]) -> Error {
+    let (variable, direction) = in_callers_unknowns(model, direction);
+    Error::NotConvex {
+        variable,
+        direction,
+    }
+}
+
+/// The direction expanded and scaled to a largest entry of one, and where that is.
+fn in_callers_unknowns(model: &ReducedModel, direction: &[f64]) -> (usize, Vec<f64>) {
+    let mut v = model.expansion().expand_direction(direction);
+    let mut at = 0;
+    for i in 1..v.len() {
+        if v[i].abs() > v[at].abs() {
+            at = i;
+        }
+    }
+    let largest = v[at].abs();
+    if largest > 0.0 {
+        v.iter_mut().for_each(|v| *v /= largest);
+    }
+    (at, v)
 }

@@ -129,7 +129,7 @@ fn decide(
     monitor: &mut Monitor,
 ) -> Result<Decided> {
     monitor.progress(Phase::Factor, 0.0)?;
-    let relaxation = relax(reduced, options.strategy, factors)?;
+    let relaxation = relax(model, reduced, options.strategy, factors)?;
     let work = of_relaxation(reduced);
     let relaxed = |status: SolveStatus, relaxation: Relaxation| Decided {
         point: relaxation.point,

@@ -7,7 +7,6 @@
 use super::monitor::Monitor;
 use super::{Factors, Phase, SolveStatus, Work};
 use crate::eliminate::ReducedModel;
-use crate::linalg::Minimum;
 use crate::{Error, Result};
 
 /// Integers are kept as floats; beyond this they would no longer be exact.
@@ -115,11 +114,7 @@ impl<'s, 'm> Search<'s, 'm> {
             point[i as usize] = z;
         }
         if !model.continuous().is_empty() {
-            point = match factors.follow(model, &point)? {
-                Minimum::At { point, .. } => point,
-                Minimum::Unbounded(v) => return Err(unbounded(model, &v)),
-                Minimum::NotConvex(v) => return Err(not_convex(model, &v)),
-            };
+            point = factors.follow(model, &point)?;
         }
         let energy = model.energy(&point).0;
         let better = self
@@ -174,38 +169,4 @@ impl<'s, 'm> Search<'s, 'm> {
             None => SolveStatus::Feasible,
         }
     }
-}
-
-/// The error for a reduced direction along which the objective falls forever.
-pub(crate) fn unbounded(model: &ReducedModel, direction: &[f64]) -> Error {
-    let (variable, direction) = in_callers_unknowns(model, direction);
-    Error::Unbounded {
-        variable,
-        direction,
-    }
-}
-
-/// The error for a reduced direction along which the objective curves downwards.
-pub(crate) fn not_convex(model: &ReducedModel, direction: &[f64]) -> Error {
-    let (variable, direction) = in_callers_unknowns(model, direction);
-    Error::NotConvex {
-        variable,
-        direction,
-    }
-}
-
-/// The direction expanded and scaled to a largest entry of one, and where that is.
-fn in_callers_unknowns(model: &ReducedModel, direction: &[f64]) -> (usize, Vec<f64>) {
-    let mut v = model.expansion().expand_direction(direction);
-    let mut at = 0;
-    for i in 1..v.len() {
-        if v[i].abs() > v[at].abs() {
-            at = i;
-        }
-    }
-    let largest = v[at].abs();
-    if largest > 0.0 {
-        v.iter_mut().for_each(|v| *v /= largest);
-    }
-    (at, v)
 }

@@ -89,7 +89,7 @@ def test_edges_of_half_the_length_make_four_times_the_quads(cube):
 
 def test_what_is_asked_for_by_default_is_the_library_s_own(cube):
     silent = roundel.quad(cube, quads=100)
-    spoken = roundel.quad(cube, quads=100, curvature=roundel.quads.CURVATURE)
+    spoken = roundel.quad(cube, quads=100, align_boundary=True)
     other = roundel.quad(cube, quads=100, curvature=(0.5, 0.0))
     assert np.array_equal(silent.vertices, spoken.vertices)
     named = roundel.quad(cube, quads=100, strategy="lattice", field_strategy="adaptive", threads=1)

@@ -20,6 +20,8 @@ static void settings(fixture* f) {
     BAD(f, roundel_quad_options_set_map_options(NULL, NULL), null, "quad options", NONE);
     BAD(f, roundel_quad_options_set_untangle(NULL, 1), null, "quad options", NONE);
     BAD(f, roundel_quad_options_set_untangle(q, 2), invalid, "not 2", NONE);
+    BAD(f, roundel_quad_options_set_vary_curvature(NULL, 1), null, "quad options", NONE);
+    BAD(f, roundel_quad_options_set_vary_curvature(q, 3), invalid, "not 3", NONE);
     BAD(f, roundel_quad_options_set_smooth(NULL, 1), null, "quad options", NONE);
     BAD(f, roundel_quad_options_set_smooth(q, -1), invalid, "not -1", NONE);
     GOOD(roundel_quad_options_set_guidance(q, NULL));

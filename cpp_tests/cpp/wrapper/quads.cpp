@@ -40,13 +40,9 @@ void what_is_not_said_of_quads_is_as_the_library_has_it() {
     const auto mesh = roundel::Mesh::shape("rounded-cube", 800);
     const auto silent = roundel::quadrangulate(mesh, QuadOptions().set_quads(150));
     const auto lattice = roundel::Options().set_strategy("lattice");
-    const auto spoken = QuadOptions()
-                            .set_quads(150)
-                            .set_features({})
-                            .set_constrain_curvature(0.005)
-                            .set_curvature_weight(0.07)
-                            .set_solve(lattice)
-                            .set_field_strategy("adaptive");
+    const auto spoken =
+        QuadOptions().set_quads(150).set_features({}).set_solve(lattice).set_field_strategy(
+            "adaptive");
     CHECK(same(silent, roundel::quadrangulate(mesh, spoken)));
     // Watching changes nothing.
     int events = 0;

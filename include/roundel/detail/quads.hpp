@@ -30,7 +30,7 @@ struct QuadOptions {
     /// Edges that become chains of quads' edges, in the place of the boundary.
     std::optional<Features> features = std::nullopt;
     /// The part of the faces that follow the curvature, as FieldOptions has it. Where neither this
-    /// nor the weight is given, both are what quads need in general.
+    /// nor the weight is given, both are what quads need in general, or less where that is better.
     std::optional<double> constrain_curvature = std::nullopt;
     /// How much all others should follow the curvature.
     std::optional<double> curvature_weight = std::nullopt;
@@ -289,6 +289,7 @@ inline QuadOptionsHandle handle_for(const QuadOptions& options, Status* status) 
     }
     field.strategy = options.field_strategy.value_or("adaptive");
     const auto guidance = guidance_of(options, status);
+    const bool curved = options.constrain_curvature || options.curvature_weight;
     const auto by = guidance ? handle_for(map, status) : nullptr;
     const auto field_by = by ? handle_for(field, status) : nullptr;
     roundel_quad_options* made = nullptr;
@@ -299,6 +300,7 @@ inline QuadOptionsHandle handle_for(const QuadOptions& options, Status* status) 
     const bool told =
         check(resize(made, options), status) &&
         check(roundel_quad_options_set_guidance(made, guidance.get()), status) &&
+        check(roundel_quad_options_set_vary_curvature(made, curved ? 0 : 1), status) &&
         check(roundel_quad_options_set_map_options(made, by.get()), status) &&
         check(roundel_quad_options_set_field_options(made, field_by.get()), status) &&
         check(roundel_quad_options_set_untangle(made, options.untangle ? 1 : 0), status) &&

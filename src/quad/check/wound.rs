@@ -33,7 +33,7 @@ mod tests {
     use std::f64::consts::TAU;
 
     use super::*;
-    use crate::quad::{Constraint, FieldOptions, SeamlessOptions, solve_field};
+    use crate::quad::{FieldOptions, SeamlessOptions, solve_field};
     use crate::{Monitor, Options, solve};
 
     /// A flat disk of eight triangles around vertex 0.
@@ -47,13 +47,7 @@ mod tests {
     #[test]
     fn a_ring_that_goes_around_twice_is_found_without_a_fold() {
         let (mesh, options) = (fan(), Options::default());
-        let field = FieldOptions {
-            constraints: vec![Constraint {
-                face: 0,
-                angle: 0.0,
-            }],
-            ..FieldOptions::default()
-        };
+        let field = FieldOptions::default();
         let (field, _) = solve_field(&mesh, &field, &options, Monitor::default).unwrap();
         let problem = SeamlessProblem::new(&mesh, &field, &SeamlessOptions { quads: 4 }).unwrap();
         let solution = solve(problem.problem(), &options).unwrap();

@@ -146,6 +146,7 @@ def quad(
         wishes.setdefault("curvature", None if "indices" in wishes else CURVATURE)
         wishes = {name: wish for name, wish in wishes.items() if wish is not None}
     guidance = guidance_handle(mesh, wishes)
+    check(lib.roundel_quad_options_set_vary_curvature(how.pointer, int(keywords.get("curvature") is None)))
     check(lib.roundel_quad_options_set_guidance(how.pointer, pointer_of(guidance)))
     by = options if {"strategy", "preset"} & options.keys() else {"strategy": "lattice", **options}
     for call, given in (
