@@ -1979,6 +1979,15 @@ roundel_status roundel_quad_options_set_guidance(struct roundel_quad_options *op
                                                  const struct roundel_guidance *guidance);
 
 /**
+ * Sets whether curvature may count for less than the guidance has it, where the map is less
+ * distorted then: 1, as at first, or 0. On meshes that are not large a few fields are tried.
+ *
+ * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for another number.
+ */
+roundel_status roundel_quad_options_set_vary_curvature(struct roundel_quad_options *options,
+                                                       int32_t vary);
+
+/**
  * Sets how the field is solved for, by a copy of `solve`; NULL stands for adaptive rounding.
  */
 roundel_status roundel_quad_options_set_field_options(struct roundel_quad_options *options,
