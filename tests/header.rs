@@ -34,6 +34,7 @@ const SOURCES: &[&str] = &[
     "map",
     "map_results",
     "quads",
+    "quad_options",
     "quads_results",
 ];
 

@@ -55,5 +55,6 @@ void bad_meshes(fixture* f);
 void bad_sizes(fixture* f);
 void bad_solvers(fixture* f);
 void bad_guidance(fixture* f);
+void bad_quads(fixture* f);
 
 #endif

@@ -24,6 +24,7 @@ int main() {
     a_solver_gives_what_solve_gives();
     fields_follow_what_is_asked_for();
     maps_are_solved_again_at_another_size();
+    what_is_not_said_of_quads_is_as_the_library_has_it();
     meshes_become_quads_of_their_topology();
     return failures != 0;
 }

@@ -19,6 +19,7 @@ void a_solver_gives_what_solve_gives();
 void fields_follow_what_is_asked_for();
 void maps_are_solved_again_at_another_size();
 void meshes_become_quads_of_their_topology();
+void what_is_not_said_of_quads_is_as_the_library_has_it();
 
 /// A chain of `n` variables at distances of 0.3, every second one an integer.
 roundel::Problem chain(std::int32_t n);

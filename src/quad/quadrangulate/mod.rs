@@ -76,7 +76,8 @@ pub struct QuadSeconds {
 /// large details are, the field is decided anew for larger ones.
 ///
 /// # Errors
-/// Those of [`solve_field`], [`SeamlessProblem::with_features`], [`solve`](crate::solve()),
+/// Those of [`solve_field`](super::solve_field), [`solve`](crate::solve()),
+/// [`SeamlessProblem::with_features`](super::SeamlessProblem::with_features),
 /// [`untangle`](super::untangle::untangle), [`extract`](super::extract) and [`smooth`].
 pub fn quadrangulate<'a>(
     mesh: &TriangleMesh,
@@ -84,6 +85,7 @@ pub fn quadrangulate<'a>(
     monitor: impl Fn() -> Monitor<'a>,
 ) -> Result<Quadrangulation> {
     let mut seconds = QuadSeconds::default();
+    options.sizing.check(mesh)?;
     let features = options.guidance.features(mesh)?;
     let edge = options.sizing.edge_length(mesh);
     let at = |detail: f64| QuadOptions {
