@@ -1,7 +1,10 @@
 //! From a mesh to quads in one call: what holds of the quads whatever the solver decides.
 
 use roundel::mesh::{TriangleMesh, shape};
-use roundel::quad::{Guidance, QuadOptions, QuadQuality, Quadrangulation, Sizing, quadrangulate};
+use roundel::quad::{
+    Guidance, Origin, QuadMesh, QuadOptions, QuadQuality, Quadrangulation, Sizing, SmoothOptions,
+    quadrangulate, smooth,
+};
 use roundel::{Monitor, Strategy};
 
 /// A flat square of `n` by `n` units, two triangles a unit square.
@@ -105,4 +108,42 @@ fn where_quads_do_not_conform_larger_details_are_tried_unless_they_are_given() {
     });
     assert!(!given.quads.is_conforming());
     assert!(of(&mesh, 40, |_| {}).quads.is_conforming());
+}
+
+/// How far the nearest vertex of quads is from a point.
+fn off(quads: &QuadMesh, [x, y]: [f64; 2]) -> f64 {
+    let off = quads
+        .vertices
+        .iter()
+        .map(|p| (p[0] - x).hypot(p[1] - y) + p[2].abs());
+    off.fold(f64::INFINITY, f64::min)
+}
+
+#[test]
+fn a_line_that_ends_on_the_surface_has_a_vertex_at_its_end() {
+    let mesh = plane(20);
+    let along = |i: usize| [i, i + 1].map(|j| 12 * 21 + j);
+    for length in [9, 10, 11] {
+        let made = of(&mesh, 25, |options| {
+            options.guidance.feature_lines = (0..length).map(along).collect();
+        });
+        assert!(made.quads.is_conforming() && made.missed_features.is_empty());
+        assert!(off(&made.quads, [12.0, length as f64]) < 1e-9);
+    }
+}
+
+#[test]
+fn a_vertex_that_the_map_left_beside_a_line_is_smoothed_onto_it() {
+    let mesh = plane(20);
+    let mut made = with_lines(&mesh, 20, &[12]);
+    let is_inside = |p: &[f64; 3]| p[1] == 12.0 && p[0] > 6.0 && p[0] < 14.0;
+    let v = made.quads.vertices.iter().position(is_inside).unwrap();
+    made.quads.vertices[v][1] += 0.7;
+    made.quads.origins[v] = Origin::Middle;
+    let options = SmoothOptions {
+        features: made.features.clone(),
+        ..SmoothOptions::default()
+    };
+    smooth(&mut made.quads, &mesh, &options, &mut Monitor::default()).unwrap();
+    assert!((made.quads.vertices[v][1] - 12.0).abs() < 1e-9);
 }

@@ -18,6 +18,7 @@ use attempt::{Attempt, Trial};
 pub use compare::Compared;
 use compare::compare;
 use decide::{Decided, decide};
+use missed::missed;
 pub use options::QuadOptions;
 
 /// Which part of a quad's edge details attract no irregular vertices below, where nobody says:
@@ -106,14 +107,16 @@ pub fn quadrangulate<'a>(
     }
     let Made { decided, attempt } = best;
     let features: Vec<usize> = features.edges().collect();
-    let mut quads = attempt.quads;
+    let (mut quads, mut missed_features) = (attempt.quads, attempt.missed);
     if let Some(given) = &options.smooth {
         timed(&mut seconds.smooth, || {
             let given = SmoothOptions {
                 features: [&given.features[..], &features].concat(),
                 ..given.clone()
             };
-            smooth(&mut quads, mesh, &given, &mut monitor())
+            smooth(&mut quads, mesh, &given, &mut monitor())?;
+            missed_features = missed(mesh, &quads, &missed_features);
+            Ok(())
         })?;
     }
     let compared = timed(&mut seconds.compare, || {
@@ -134,7 +137,7 @@ pub fn quadrangulate<'a>(
         untangled: attempt.map,
         solution: attempt.solution,
         features,
-        missed_features: attempt.missed,
+        missed_features,
         compared,
         seconds,
     })
