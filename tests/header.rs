@@ -13,6 +13,7 @@ const SOURCES: &[&str] = &[
     "error",
     "problem",
     "objective",
+    "least_squares",
     "constraints",
     "unknowns",
     "hints",

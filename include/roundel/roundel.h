@@ -835,6 +835,69 @@ roundel_status roundel_problem_add_least_squares(struct roundel_problem *problem
                                                  size_t *row);
 
 /**
+ * Adds sum_i weights[i] ((A x)_i - rhs[i])^2 to the objective, one term a row of A, which is given
+ * in compressed rows: the entries of row i are those from offsets[i] to before offsets[i + 1].
+ * `offset_count` is one more than `row_count`, `count` the number of entries. Entries of a row may
+ * be in any order, duplicates are summed. `weights` may be NULL: all are 1 then. The number of the
+ * first new row goes to `first`, which may be NULL. After an error nothing has been added.
+ *
+ * Errors give a position in the array at fault as their index; the message names the row too.
+ */
+roundel_status roundel_problem_add_least_squares_csr(struct roundel_problem *problem,
+                                                     size_t offset_count,
+                                                     const int32_t *offsets,
+                                                     size_t count,
+                                                     const int32_t *columns,
+                                                     const double *values,
+                                                     size_t row_count,
+                                                     const double *rhs,
+                                                     const double *weights,
+                                                     size_t *first);
+
+/**
+ * roundel_problem_add_least_squares_csr with 64-bit indices.
+ */
+roundel_status roundel_problem_add_least_squares_csr_i64(struct roundel_problem *problem,
+                                                         size_t offset_count,
+                                                         const int64_t *offsets,
+                                                         size_t count,
+                                                         const int64_t *columns,
+                                                         const double *values,
+                                                         size_t row_count,
+                                                         const double *rhs,
+                                                         const double *weights,
+                                                         size_t *first);
+
+/**
+ * The same of A in compressed columns: the entries of column k are those from offsets[k] to before
+ * offsets[k + 1]. `offset_count` is one more than the number of variables.
+ */
+roundel_status roundel_problem_add_least_squares_csc(struct roundel_problem *problem,
+                                                     size_t offset_count,
+                                                     const int32_t *offsets,
+                                                     size_t count,
+                                                     const int32_t *rows,
+                                                     const double *values,
+                                                     size_t row_count,
+                                                     const double *rhs,
+                                                     const double *weights,
+                                                     size_t *first);
+
+/**
+ * roundel_problem_add_least_squares_csc with 64-bit indices.
+ */
+roundel_status roundel_problem_add_least_squares_csc_i64(struct roundel_problem *problem,
+                                                         size_t offset_count,
+                                                         const int64_t *offsets,
+                                                         size_t count,
+                                                         const int64_t *rows,
+                                                         const double *values,
+                                                         size_t row_count,
+                                                         const double *rhs,
+                                                         const double *weights,
+                                                         size_t *first);
+
+/**
  * Adds the constraint sum_k coefficients[k] x[indices[k]] = rhs. Constraints are numbered from 0
  * in the order given, and errors name them by that number. Duplicate indices are summed.
  */

@@ -46,6 +46,7 @@ void fine(const char* call, int holds);
 void bad_handles(fixture* f);
 void bad_objective(fixture* f);
 void bad_constraints(fixture* f);
+void bad_least_squares(fixture* f);
 void bad_unknowns(fixture* f);
 void bad_options(fixture* f);
 void bad_monitors(fixture* f);

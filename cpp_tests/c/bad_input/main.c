@@ -100,6 +100,7 @@ int main(void) {
     bad_handles(&f);
     bad_objective(&f);
     bad_constraints(&f);
+    bad_least_squares(&f);
     bad_unknowns(&f);
     bad_options(&f);
     bad_monitors(&f);

@@ -15,6 +15,7 @@ roundel::Problem chain(std::int32_t n) {
 int main() {
     ownership_moves_and_does_not_copy();
     every_part_of_a_problem_counts();
+    rows_given_together_are_rows_given_one_by_one();
     failures_throw_or_are_told();
     options_follow_the_librarys_list();
     callbacks_stop_and_throw();
