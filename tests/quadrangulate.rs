@@ -147,3 +147,19 @@ fn a_vertex_that_the_map_left_beside_a_line_is_smoothed_onto_it() {
     smooth(&mut made.quads, &mesh, &options, &mut Monitor::default()).unwrap();
     assert!((made.quads.vertices[v][1] - 12.0).abs() < 1e-9);
 }
+
+#[test]
+fn sharp_edges_all_around_a_face_are_no_error() {
+    let sphere = shape::by_name("sphere", 1000).unwrap();
+    let mut points = sphere.vertices().to_vec();
+    for v in sphere.corners(0) {
+        points[v] = points[v].map(|x| 1.3 * x);
+    }
+    let mesh = TriangleMesh::new(points, sphere.triangles().to_vec()).unwrap();
+    let made = of(&mesh, 500, |options| {
+        options.guidance.feature_angle = Some(40f64.to_radians());
+    });
+    let around = (0..3).map(|k| mesh.edge_of(0, k));
+    let kept = around.filter(|edge| made.features.contains(edge)).count();
+    assert!(made.quads.is_conforming() && kept == 2);
+}
