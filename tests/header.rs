@@ -13,6 +13,7 @@ const SOURCES: &[&str] = &[
     "error",
     "problem",
     "objective",
+    "least_squares",
     "constraints",
     "unknowns",
     "hints",
@@ -34,6 +35,7 @@ const SOURCES: &[&str] = &[
     "map",
     "map_results",
     "quads",
+    "quad_options",
     "quads_results",
 ];
 

@@ -50,6 +50,21 @@ fn the_csharp_example_runs() {
     assert_eq!(output(dotnet.current_dir(&place)), SOLUTION);
 }
 
+/// Mono's compiler knows C# 7, which has no `nuint` yet.
+#[test]
+fn the_csharp_example_runs_on_mono() {
+    if !(installed("mcs") && installed("mono")) {
+        return println!("mono is not installed: skipped");
+    }
+    let place = place("mono");
+    let source = format!("using nuint = System.UInt64;\n{}", example("csharp"));
+    fs::write(place.join("example.cs"), source).unwrap();
+    output(Command::new("mcs").arg("example.cs").current_dir(&place));
+    let mut mono = Command::new("mono");
+    mono.arg("example.exe").env("LD_LIBRARY_PATH", &place);
+    assert_eq!(output(mono.current_dir(&place)), SOLUTION);
+}
+
 /// The one block of the page in this language.
 fn example(language: &str) -> &'static str {
     let page = include_str!("../docs/languages.md");

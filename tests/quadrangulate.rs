@@ -1,7 +1,10 @@
 //! From a mesh to quads in one call: what holds of the quads whatever the solver decides.
 
-use roundel::mesh::TriangleMesh;
-use roundel::quad::{Guidance, QuadOptions, Quadrangulation, Sizing, quadrangulate};
+use roundel::mesh::{TriangleMesh, shape};
+use roundel::quad::{
+    Guidance, Origin, QuadMesh, QuadOptions, QuadQuality, Quadrangulation, Sizing, SmoothOptions,
+    quadrangulate, smooth,
+};
 use roundel::{Monitor, Strategy};
 
 /// A flat square of `n` by `n` units, two triangles a unit square.
@@ -61,4 +64,102 @@ fn strategies_are_compared_in_the_order_asked_for() {
     let made = quadrangulate(&plane(6), &options, Monitor::default).unwrap();
     let order: Vec<Strategy> = made.compared.iter().map(|one| one.strategy).collect();
     assert_eq!(order, options.compare);
+}
+
+fn of(shape: &TriangleMesh, quads: usize, wish: impl Fn(&mut QuadOptions)) -> Quadrangulation {
+    let mut options = QuadOptions {
+        sizing: Sizing::Quads(quads),
+        ..QuadOptions::default()
+    };
+    wish(&mut options);
+    quadrangulate(shape, &options, Monitor::default).unwrap()
+}
+
+#[test]
+fn where_curvature_may_count_for_less_quads_are_more_even() {
+    let mesh = shape::by_name("genus-2", 2000).unwrap();
+    let spread = |vary: bool| {
+        let made = of(&mesh, 1500, |options| options.vary_curvature = vary);
+        assert!(made.quads.is_conforming());
+        QuadQuality::new(&made.quads).edge_spread
+    };
+    let (one, several) = (spread(false), spread(true));
+    assert!(several < 0.8 * one, "{several} and {one}");
+}
+
+#[test]
+fn where_curvature_counts_for_nothing_it_is_not_tried() {
+    let mesh = shape::by_name("genus-2", 1000).unwrap();
+    let field = |vary: bool| {
+        let made = of(&mesh, 300, |options| {
+            (options.guidance, options.vary_curvature) = (Guidance::default(), vary);
+        });
+        made.field
+    };
+    assert_eq!(field(false), field(true));
+}
+
+#[test]
+fn where_quads_do_not_conform_larger_details_are_tried_unless_they_are_given() {
+    let mesh = shape::by_name("genus-6", 1500).unwrap();
+    let edge = (mesh.surface_area() / 40.0).sqrt();
+    let given = of(&mesh, 40, |options| {
+        options.guidance.detail = Some(0.25 * edge);
+    });
+    assert!(!given.quads.is_conforming());
+    assert!(of(&mesh, 40, |_| {}).quads.is_conforming());
+}
+
+/// How far the nearest vertex of quads is from a point.
+fn off(quads: &QuadMesh, [x, y]: [f64; 2]) -> f64 {
+    let off = quads
+        .vertices
+        .iter()
+        .map(|p| (p[0] - x).hypot(p[1] - y) + p[2].abs());
+    off.fold(f64::INFINITY, f64::min)
+}
+
+#[test]
+fn a_line_that_ends_on_the_surface_has_a_vertex_at_its_end() {
+    let mesh = plane(20);
+    let along = |i: usize| [i, i + 1].map(|j| 12 * 21 + j);
+    for length in [9, 10, 11] {
+        let made = of(&mesh, 25, |options| {
+            options.guidance.feature_lines = (0..length).map(along).collect();
+        });
+        assert!(made.quads.is_conforming() && made.missed_features.is_empty());
+        assert!(off(&made.quads, [12.0, length as f64]) < 1e-9);
+    }
+}
+
+#[test]
+fn a_vertex_that_the_map_left_beside_a_line_is_smoothed_onto_it() {
+    let mesh = plane(20);
+    let mut made = with_lines(&mesh, 20, &[12]);
+    let is_inside = |p: &[f64; 3]| p[1] == 12.0 && p[0] > 6.0 && p[0] < 14.0;
+    let v = made.quads.vertices.iter().position(is_inside).unwrap();
+    made.quads.vertices[v][1] += 0.7;
+    made.quads.origins[v] = Origin::Middle;
+    let options = SmoothOptions {
+        features: made.features.clone(),
+        ..SmoothOptions::default()
+    };
+    smooth(&mut made.quads, &mesh, &options, &mut Monitor::default()).unwrap();
+    assert!((made.quads.vertices[v][1] - 12.0).abs() < 1e-9);
+}
+
+#[test]
+fn sharp_edges_all_around_a_face_are_no_error() {
+    let sphere = shape::by_name("sphere", 1000).unwrap();
+    let mut points = sphere.vertices().to_vec();
+    for v in sphere.corners(0) {
+        points[v] = points[v].map(|x| 1.3 * x);
+    }
+    let mesh = TriangleMesh::new(points, sphere.triangles().to_vec()).unwrap();
+    let made = of(&mesh, 500, |options| {
+        options.guidance.feature_angle = Some(40f64.to_radians());
+    });
+    let around = (0..3).map(|k| mesh.edge_of(0, k));
+    let kept = around.filter(|edge| made.features.contains(edge)).count();
+    assert!(made.quads.is_conforming() && kept == 2);
 }

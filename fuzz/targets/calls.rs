@@ -35,8 +35,8 @@ fn known(status: roundel_status) {
 }
 
 fn call(u: &mut Unstructured, h: &mut Handles) -> Result<()> {
-    let which = u.int_in_range(0..=35)?;
-    if which < 14 { built(u, h, which) } else { used(u, h, which) }
+    let which = u.int_in_range(0..=41)?;
+    if which < 14 || which > 39 { built(u, h, which) } else { used(u, h, which) }
 }
 
 /// Calls that build problems and options.
@@ -66,6 +66,15 @@ fn built(u: &mut Unstructured, h: &mut Handles, which: u8) -> Result<()> {
                 roundel_problem_hint_cycles(problem, ints.len(), i, signs.len(), i, signs.as_ptr())
             }
             12 => h.make(|h| &mut h.problems, |out| roundel_problem_clone(problem, out)),
+            40 | 41 => {
+                let n = reals.len();
+                let add = match which {
+                    40 => roundel_problem_add_least_squares_csr,
+                    _ => roundel_problem_add_least_squares_csc,
+                };
+                let weights = if b > 0 { x } else { null() };
+                add(problem, ints.len(), i, count, i, x, n, x, weights, std::ptr::null_mut())
+            }
             _ => {
                 let n = reals.len();
                 roundel_problem_add_constraints_csr(
@@ -85,7 +94,7 @@ fn used(u: &mut Unstructured, h: &mut Handles, which: u8) -> Result<()> {
     let (problem, solver) = (pick(u, &h.problems)?, pick(u, &h.solvers)?);
     let (options, solution) = (pick(u, &h.options)?, pick(u, &h.solutions)?);
     let (mesh, guidance) = (pick(u, &h.meshes)?, pick(u, &h.guidances)?);
-    let (field, map) = (pick(u, &h.fields)?, pick(u, &h.maps)?);
+    let (field, map, quad) = (pick(u, &h.fields)?, pick(u, &h.maps)?, pick(u, &h.quad_options)?);
     let (a, b): (f64, i64) = (number(u)?, i64::from(u.arbitrary::<i8>()?));
     let (name, value) = (name(u)?, name(u)?);
     let shape = [c"disk", c"sphere", c"torus", c"plane"][b.unsigned_abs() as usize % 4].as_ptr();
@@ -120,6 +129,10 @@ fn used(u: &mut Unstructured, h: &mut Handles, which: u8) -> Result<()> {
             32 => h.make(|h| &mut h.maps, |out| roundel_map_new(mesh, field, guidance, out)),
             33 => roundel_map_set_quads(map, small),
             34 => roundel_map_solve(map, options, null()),
+            35 => h.make(|h| &mut h.quad_options, |out| handles::modest_quad_options(out)),
+            36 => roundel_quad_options_set_quads(quad, small),
+            37 => roundel_quad_options_set_edge_lengths(quad, x, reals.len()),
+            38 => h.make(|h| &mut h.quads, |out| roundel_quads_make_with(mesh, quad, null(), out)),
             _ => h.make(|h| &mut h.quads, |out| roundel_quads_extract(map, out)),
         }
     });

@@ -418,6 +418,14 @@ typedef struct roundel_options roundel_options;
 typedef struct roundel_problem roundel_problem;
 
 /**
+ * How to make quads: their size, what they follow, how field and map are solved, untangling and
+ * smoothing. A new one is what the program `roundel quad` does without flags: 1000 quads along the
+ * boundary and the curvature, the field's integers decided adaptively and the map's by lattice
+ * decoding. Sizes and guidance are checked when quads are made.
+ */
+typedef struct roundel_quad_options roundel_quad_options;
+
+/**
  * A mesh of quads with shared vertices. Where a map leaves no quads to be made, other polygons are
  * kept beside them. It does not need the mesh and the map that it is from any more.
  */
@@ -825,6 +833,69 @@ roundel_status roundel_problem_add_least_squares(struct roundel_problem *problem
                                                  double rhs,
                                                  double weight,
                                                  size_t *row);
+
+/**
+ * Adds sum_i weights[i] ((A x)_i - rhs[i])^2 to the objective, one term a row of A, which is given
+ * in compressed rows: the entries of row i are those from offsets[i] to before offsets[i + 1].
+ * `offset_count` is one more than `row_count`, `count` the number of entries. Entries of a row may
+ * be in any order, duplicates are summed. `weights` may be NULL: all are 1 then. The number of the
+ * first new row goes to `first`, which may be NULL. After an error nothing has been added.
+ *
+ * Errors give a position in the array at fault as their index; the message names the row too.
+ */
+roundel_status roundel_problem_add_least_squares_csr(struct roundel_problem *problem,
+                                                     size_t offset_count,
+                                                     const int32_t *offsets,
+                                                     size_t count,
+                                                     const int32_t *columns,
+                                                     const double *values,
+                                                     size_t row_count,
+                                                     const double *rhs,
+                                                     const double *weights,
+                                                     size_t *first);
+
+/**
+ * roundel_problem_add_least_squares_csr with 64-bit indices.
+ */
+roundel_status roundel_problem_add_least_squares_csr_i64(struct roundel_problem *problem,
+                                                         size_t offset_count,
+                                                         const int64_t *offsets,
+                                                         size_t count,
+                                                         const int64_t *columns,
+                                                         const double *values,
+                                                         size_t row_count,
+                                                         const double *rhs,
+                                                         const double *weights,
+                                                         size_t *first);
+
+/**
+ * The same of A in compressed columns: the entries of column k are those from offsets[k] to before
+ * offsets[k + 1]. `offset_count` is one more than the number of variables.
+ */
+roundel_status roundel_problem_add_least_squares_csc(struct roundel_problem *problem,
+                                                     size_t offset_count,
+                                                     const int32_t *offsets,
+                                                     size_t count,
+                                                     const int32_t *rows,
+                                                     const double *values,
+                                                     size_t row_count,
+                                                     const double *rhs,
+                                                     const double *weights,
+                                                     size_t *first);
+
+/**
+ * roundel_problem_add_least_squares_csc with 64-bit indices.
+ */
+roundel_status roundel_problem_add_least_squares_csc_i64(struct roundel_problem *problem,
+                                                         size_t offset_count,
+                                                         const int64_t *offsets,
+                                                         size_t count,
+                                                         const int64_t *rows,
+                                                         const double *values,
+                                                         size_t row_count,
+                                                         const double *rhs,
+                                                         const double *weights,
+                                                         size_t *first);
 
 /**
  * Adds the constraint sum_k coefficients[k] x[indices[k]] = rhs. Constraints are numbered from 0
@@ -1391,6 +1462,12 @@ roundel_status roundel_mesh_write(const struct roundel_mesh *mesh, const char *f
 roundel_status roundel_guidance_new(struct roundel_guidance **guidance);
 
 /**
+ * Makes the guidance that quads have where none is given: crosses that follow the boundary and the
+ * curvature. To be freed with roundel_guidance_free.
+ */
+roundel_status roundel_guidance_new_for_quads(struct roundel_guidance **guidance);
+
+/**
  * Frees a guidance. NULL is allowed.
  */
 roundel_status roundel_guidance_free(struct roundel_guidance *guidance);
@@ -1927,6 +2004,91 @@ roundel_status roundel_quads_smooth(struct roundel_quads *quads,
  * Frees quads. NULL is allowed.
  */
 roundel_status roundel_quads_free(struct roundel_quads *quads);
+
+/**
+ * Makes quad options. To be freed with roundel_quad_options_free.
+ */
+roundel_status roundel_quad_options_new(struct roundel_quad_options **options);
+
+/**
+ * Frees quad options. NULL is allowed.
+ */
+roundel_status roundel_quad_options_free(struct roundel_quad_options *options);
+
+/**
+ * Aims at a number of quads.
+ */
+roundel_status roundel_quad_options_set_quads(struct roundel_quad_options *options, size_t quads);
+
+/**
+ * Aims at edges of one length instead, in units of the mesh.
+ */
+roundel_status roundel_quad_options_set_edge_length(struct roundel_quad_options *options,
+                                                    double edge_length);
+
+/**
+ * Aims at edges of two lengths a face instead: along the arm that the field stores there, and
+ * across it. `length` is twice the number of faces.
+ */
+roundel_status roundel_quad_options_set_edge_lengths(struct roundel_quad_options *options,
+                                                     const double *edge_lengths,
+                                                     size_t length);
+
+/**
+ * Sets what quads follow, by a copy of `guidance`; NULL stands for the boundary and the curvature,
+ * which is what roundel_guidance_new_for_quads makes.
+ */
+roundel_status roundel_quad_options_set_guidance(struct roundel_quad_options *options,
+                                                 const struct roundel_guidance *guidance);
+
+/**
+ * Sets whether curvature may count for less than the guidance has it, where the map is less
+ * distorted then: 1, as at first, or 0. On meshes that are not large a few fields are tried.
+ *
+ * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for another number.
+ */
+roundel_status roundel_quad_options_set_vary_curvature(struct roundel_quad_options *options,
+                                                       int32_t vary);
+
+/**
+ * Sets how the field is solved for, by a copy of `solve`; NULL stands for adaptive rounding.
+ */
+roundel_status roundel_quad_options_set_field_options(struct roundel_quad_options *options,
+                                                      const struct roundel_options *solve);
+
+/**
+ * Sets how the map is solved for, by a copy of `solve`; NULL stands for lattice decoding.
+ */
+roundel_status roundel_quad_options_set_map_options(struct roundel_quad_options *options,
+                                                    const struct roundel_options *solve);
+
+/**
+ * Sets whether a map is untangled whose folds extraction cannot cope with: 1, as at first, or 0.
+ *
+ * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for another number.
+ */
+roundel_status roundel_quad_options_set_untangle(struct roundel_quad_options *options,
+                                                 int32_t untangle);
+
+/**
+ * Sets whether quads are smoothed: 1, as at first, or 0, which leaves vertices where the map has
+ * them.
+ *
+ * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for another number.
+ */
+roundel_status roundel_quad_options_set_smooth(struct roundel_quad_options *options,
+                                               int32_t smooth);
+
+/**
+ * Turns a mesh into quads, as roundel_quads_make does, with all that `options` say, under the eyes
+ * of `monitor`. Both may be NULL.
+ *
+ * Fails as roundel_quads_make, roundel_map_set_edge_length and roundel_map_set_edge_lengths do.
+ */
+roundel_status roundel_quads_make_with(const struct roundel_mesh *mesh,
+                                       const struct roundel_quad_options *options,
+                                       const struct roundel_monitor *monitor,
+                                       struct roundel_quads **quads);
 
 /**
  * Gives the number of vertices. Every vertex has a face.

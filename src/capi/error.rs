@@ -13,6 +13,11 @@ use crate::Error;
 #[derive(Debug)]
 pub(super) enum Failure {
     Library(Error),
+    /// What the library says of an entry of a matrix, and the row that it is in.
+    InRow {
+        row: usize,
+        error: Error,
+    },
     Null(&'static str),
     Panic(String),
     Unusable,
@@ -44,6 +49,7 @@ impl Failure {
     pub(super) fn record(self) -> roundel_status {
         let (status, message) = match &self {
             Failure::Library(error) => (error.into(), error.to_string()),
+            Failure::InRow { row, error } => (error.into(), format!("row {row}: {error}")),
             Failure::Null(what) => (ROUNDEL_ERROR_NULL_POINTER, format!("{what} is NULL")),
             Failure::Panic(text) => (
                 ROUNDEL_ERROR_PANIC,
@@ -55,7 +61,7 @@ impl Failure {
             ),
         };
         let error = match self {
-            Failure::Library(error) => Some(error),
+            Failure::Library(error) | Failure::InRow { error, .. } => Some(error),
             _ => None,
         };
         let last = LastError {

@@ -11,7 +11,7 @@ use super::output::{Out, copy_numbers};
 use super::status::roundel_status;
 use crate::Error;
 use crate::mesh::TriangleMesh;
-use crate::quad::{Constraint, Guidance, Guide, PrescribedIndex};
+use crate::quad::{Constraint, Guidance, Guide, PrescribedIndex, QuadOptions};
 
 /// What a field shall follow, and which edges become isolines of its map: features, boundary, given
 /// directions, curvature, given indices. Where several ask for the direction of one face, the first
@@ -33,6 +33,20 @@ pub unsafe extern "C" fn roundel_guidance_new(
         // SAFETY: the caller gives a place for the handle, or NULL.
         let out = unsafe { Out::new("guidance", guidance) }?;
         out.set(guard::handle(Guidance::default()));
+        Ok(())
+    })
+}
+
+/// Makes the guidance that quads have where none is given: crosses that follow the boundary and the
+/// curvature. To be freed with roundel_guidance_free.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_guidance_new_for_quads(
+    guidance: *mut *mut roundel_guidance,
+) -> roundel_status {
+    boundary(None, || {
+        // SAFETY: the caller gives a place for the handle, or NULL.
+        let out = unsafe { Out::new("guidance", guidance) }?;
+        out.set(guard::handle(QuadOptions::default().guidance));
         Ok(())
     })
 }

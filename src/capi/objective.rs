@@ -1,9 +1,8 @@
-//! The objective: quadratic, linear and constant terms, least-squares rows.
+//! The objective: quadratic, linear and constant terms.
 
 use super::error::{Failure, Outcome};
 use super::guard;
 use super::input::{Index, index, indices, slice};
-use super::output::optional;
 use super::problem::roundel_problem;
 use super::status::roundel_status;
 use crate::problem::MatrixRef;
@@ -59,6 +58,10 @@ unsafe fn add_triplets<I: Index>(
     Ok(problem.add_quadratic_triplets(triangle, &rows, &columns, values)?)
 }
 
+/// What errors call the entries of a matrix.
+pub(super) const INDICES: &str = "matrix indices";
+pub(super) const VALUES: &str = "matrix values";
+
 /// A matrix in the caller's arrays: where each column (or row) starts and ends, and the entries.
 pub(super) struct Compressed<I> {
     pub layout: Layout,
@@ -85,8 +88,8 @@ impl<I: Index> Compressed<I> {
         let (offsets, minor, values) = unsafe {
             (
                 indices("matrix offsets", self.offsets, self.offset_count, end)?,
-                indices("matrix indices", self.minor, self.count, bound)?,
-                slice("matrix values", self.values, self.count)?,
+                indices(INDICES, self.minor, self.count, bound)?,
+                slice(VALUES, self.values, self.count)?,
             )
         };
         let matrix = MatrixRef {
@@ -294,36 +297,4 @@ pub unsafe extern "C" fn roundel_problem_add_constant(
 ) -> roundel_status {
     // SAFETY: the caller gives a live handle, or NULL.
     unsafe { guard::write(problem, |value| Ok(value.add_constant(constant)?)) }
-}
-
-/// Adds weight * (sum_k coefficients[k] x[indices[k]] - rhs)^2 to the objective, without a factor
-/// of 1/2. The row itself is kept, and its number goes to `row`, which may be NULL.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn roundel_problem_add_least_squares(
-    problem: *mut roundel_problem,
-    count: usize,
-    indices: *const i32,
-    coefficients: *const f64,
-    rhs: f64,
-    weight: f64,
-    row: *mut usize,
-) -> roundel_status {
-    let body = |value: &mut Problem| {
-        const WHAT: &str = "least-squares row";
-        // SAFETY: the caller gives arrays of `count` entries and a place for the number, or NULL.
-        let (at, coefficients, row) = unsafe {
-            (
-                self::indices(WHAT, indices, count, value.variables())?,
-                slice("least-squares coefficients", coefficients, count)?,
-                optional("row", row)?,
-            )
-        };
-        let number = value.add_least_squares(&at, coefficients, rhs, weight)?;
-        if let Some(row) = row {
-            row.set(number);
-        }
-        Ok(())
-    };
-    // SAFETY: the caller gives a live handle, or NULL.
-    unsafe { guard::write(problem, body) }
 }

@@ -81,18 +81,19 @@ unsafe fn make(
     monitor: *const roundel_monitor,
     quads: *mut *mut roundel_quads,
 ) -> Outcome {
-    let mut wanted = QuadOptions::default();
+    let default = QuadOptions::default();
     // SAFETY: handed on.
-    let (guidance, solve, monitor, out) = unsafe {
-        (
-            guard::value_or(guidance, &wanted.guidance)?.clone(),
-            guard::value_or(options, &wanted.map)?.clone(),
-            watchers(monitor)?,
-            Out::new("quads", quads)?,
-        )
+    let (monitor, out, wanted) = unsafe {
+        let wanted = QuadOptions {
+            sizing: Sizing::Quads(quad_count),
+            vary_curvature: guidance.is_null(),
+            guidance: guard::value_or(guidance, &default.guidance)?.clone(),
+            field: guard::value_or(options, &default.field)?.clone(),
+            map: guard::value_or(options, &default.map)?.clone(),
+            ..default
+        };
+        (watchers(monitor)?, Out::new("quads", quads)?, wanted)
     };
-    (wanted.guidance, wanted.sizing) = (guidance, Sizing::Quads(quad_count));
-    (wanted.field, wanted.map) = (solve.clone(), solve);
     out.set(guard::handle(quadrangulate(mesh, &wanted, monitor)?.quads));
     Ok(())
 }

@@ -276,6 +276,45 @@ impl Problem {
         Ok(row)
     }
 
+    /// Adds `weights[i] * (A x - rhs)_i^2` for every row of the matrix and returns the first row's
+    /// number; without weights all are 1. Nothing is added on an error.
+    ///
+    /// # Errors
+    /// As for one row; positions are positions in the arrays given.
+    pub fn add_least_squares_matrix(
+        &mut self,
+        matrix: &MatrixRef,
+        rhs: &[f64],
+        weights: Option<&[f64]>,
+    ) -> Result<usize> {
+        matrix.validate("least-squares", rhs.len(), self.variables)?;
+        all_finite("least-squares right sides", rhs)?;
+        if let Some(weights) = weights {
+            same_length("least-squares weights", rhs.len(), weights.len())?;
+            all_finite("least-squares weights", weights)?;
+            if let Some(row) = weights.iter().position(|&weight| weight < 0.0) {
+                return Err(Error::InvalidArgument {
+                    what: format!(
+                        "least-squares weights: entry {row} is {}, below zero",
+                        weights[row]
+                    ),
+                    index: Some(row),
+                });
+            }
+        }
+        let kept = Arc::make_mut(&mut self.weights);
+        kept.try_reserve(rhs.len())
+            .map_err(|_| Error::OutOfMemory {
+                what: "the weights",
+            })?;
+        let first = Arc::make_mut(&mut self.least_squares).append(matrix, rhs)?;
+        match weights {
+            Some(weights) => kept.extend_from_slice(weights),
+            None => kept.resize(kept.len() + rhs.len(), 1.0),
+        }
+        Ok(first)
+    }
+
     /// Adds the constraint `sum_k coefficients[k] x[indices[k]] = rhs` and returns its number, by
     /// which errors will name it. Duplicate indices are summed.
     ///

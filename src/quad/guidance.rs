@@ -30,7 +30,8 @@ pub struct Guidance {
     pub constrain_curvature: f64,
     /// How much all others should have it ([`curvature_guides`](super::curvature_guides)).
     pub curvature_weight: f64,
-    /// Edges whose normals differ by at least this are features (radians).
+    /// Edges whose normals differ by at least this are features (radians), for crosses no more than
+    /// two of a face.
     pub feature_angle: Option<f64>,
     /// Features: edges between these vertices.
     pub feature_lines: Vec<[usize; 2]>,
@@ -70,19 +71,20 @@ impl Guidance {
     /// The edges to follow.
     ///
     /// # Errors
-    /// Those of [`FeatureGraph::by_angle`], [`FeatureGraph::from_lines`] and
+    /// Those of [`FeatureGraph::with_sharp`], [`FeatureGraph::from_lines`] and
     /// [`FeatureGraph::from_edges`].
     pub fn features(&self, mesh: &TriangleMesh) -> Result<FeatureGraph> {
         let lines = FeatureGraph::from_lines(mesh, &self.feature_lines)?;
         let edges = FeatureGraph::from_edges(mesh, &self.feature_edges)?;
         let mut features = lines.with(mesh, &edges)?;
-        if let Some(angle) = self.feature_angle {
-            features = features.with(mesh, &FeatureGraph::by_angle(mesh, angle)?)?;
-        }
         if self.align_boundary && self.symmetry != 1 {
             features = features.with(mesh, &FeatureGraph::boundary(mesh))?;
         }
-        Ok(features)
+        match self.feature_angle {
+            Some(angle) if self.symmetry == 4 => features.with_sharp(mesh, angle),
+            Some(angle) => features.with(mesh, &FeatureGraph::by_angle(mesh, angle)?),
+            None => Ok(features),
+        }
     }
 
     /// What a field follows that keeps to these features, for the field itself.

@@ -16,6 +16,12 @@ pub enum Sizing {
 }
 
 impl Sizing {
+    /// # Errors
+    /// As [`Density::new`].
+    pub(super) fn check(&self, mesh: &TriangleMesh) -> Result<()> {
+        Density::new(mesh, self).map(drop)
+    }
+
     /// The length of an edge of quads, in units of the mesh; where faces have their own, the mean.
     pub(super) fn edge_length(&self, mesh: &TriangleMesh) -> f64 {
         let area = mesh.surface_area();

@@ -76,16 +76,26 @@ def test_quads_are_as_many_as_asked_for_and_closed(cube):
     assert found.conforming and found.others == []
     assert 75 < len(quads) < 300
     assert len(vertices) - len(quads) == found.euler_characteristic == 2
-    area = roundel.quads._area(cube)
-    length = float(np.sqrt(area / 150))
-    assert len(roundel.quad(cube, edge_length=length)) == len(quads)
+    with pytest.raises(TypeError):
+        roundel.quad(cube, quads=150, edge_length=1.0)
+
+
+def test_edges_of_half_the_length_make_four_times_the_quads(cube):
+    coarse, fine = (len(roundel.quad(cube, edge_length=length)) for length in (0.4, 0.2))
+    assert 3 < fine / coarse < 5
+    with pytest.raises(roundel.InvalidArgumentError):
+        roundel.quad(cube, edge_length=0.0)
 
 
 def test_what_is_asked_for_by_default_is_the_library_s_own(cube):
     silent = roundel.quad(cube, quads=100)
-    spoken = roundel.quad(cube, quads=100, curvature=roundel.quads.CURVATURE)
+    spoken = roundel.quad(cube, quads=100, align_boundary=True)
     other = roundel.quad(cube, quads=100, curvature=(0.5, 0.0))
     assert np.array_equal(silent.vertices, spoken.vertices)
+    named = roundel.quad(cube, quads=100, strategy="lattice", field_strategy="adaptive", threads=1)
+    assert np.array_equal(silent.vertices, named.vertices)
+    rough = roundel.quad(cube, quads=100, smooth=False)
+    assert np.array_equal(silent.faces, rough.faces) and not np.array_equal(silent.vertices, rough.vertices)
     assert not np.array_equal(silent.vertices, other.vertices)
 
 
@@ -120,15 +130,25 @@ def test_trimesh(cube):
     assert back.is_watertight and back.volume == pytest.approx(mesh.volume, rel=0.1)
 
 
-def test_pymeshlab(cube):
+def test_pymeshlab_does_what_its_plugin_does(tmp_path):
     pymeshlab = pytest.importorskip("pymeshlab")
+    gear = roundel.Mesh.shape("gear", 1500)
+    gear.write(tmp_path / "gear.ply")
     meshes = pymeshlab.MeshSet()
-    meshes.add_mesh(pymeshlab.Mesh(cube.vertices, cube.faces))
-    found = roundel.quad(meshes, quads=100)
-    assert np.array_equal(found.vertices, roundel.quad(meshes.current_mesh(), quads=100).vertices)
+    meshes.load_new_mesh(str(tmp_path / "gear.ply"))
+    found = roundel.quad(meshes, quads=300, features=40)
+    same = roundel.quad(meshes.current_mesh(), quads=300, features=40)
+    assert np.array_equal(found.vertices, same.vertices) and found.conforming
+
+    # As a layer of polygons, written by MeshLab and read back.
     faces = [list(face) for face in found.faces]
     meshes.add_mesh(pymeshlab.Mesh(found.vertices, face_list_of_indices=faces))
-    assert meshes.current_mesh().vertex_number() == len(found.vertices)
+    meshes.save_current_mesh(str(tmp_path / "quads.obj"))
+    lines = (tmp_path / "quads.obj").read_text().splitlines()
+    corners = [[int(word.split("/")[0]) - 1 for word in line.split()[1:]] for line in lines if line.startswith("f ")]
+    assert {frozenset(quad) for quad in corners} == {frozenset(quad) for quad in faces}
+    written = np.array([line.split()[1:4] for line in lines if line.startswith("v ")], float)
+    assert np.allclose(written, found.vertices, atol=1e-5)
 
 
 def test_openmesh(cube):

@@ -141,3 +141,22 @@ def test_the_strategy_is_obeyed():
     assert roundel.solve(Q, q, integers=[1], strategy="relax").status == "relaxed"
     assert roundel.solve(Q, q, integers=[1], strategy="exact").status == "optimal"
     assert roundel.solve(Q, q, integers=[1], strategy="greedy").status == "feasible"
+
+
+def test_rows_are_one_matrix_in_every_form_and_one_by_one():
+    A = np.array([[1.0, -1.0, 0.0], [0.0, 1.0, -1.0], [0.0, 0.0, 2.0]])
+    b, weights = [0.3, 0.25, 0.7], [0.5, 2.0, 3.0]
+    single = roundel.Problem(3)
+    for row, rhs, weight in zip(A, b, weights):
+        single.least_squares(np.flatnonzero(row), row[row != 0], rhs, weight)
+    single.integer([1])
+    wanted = roundel.solve(single).values
+    for given in (A, scipy_sparse.csr_matrix(A), scipy_sparse.csc_matrix(A), scipy_sparse.coo_matrix(A)):
+        problem = roundel.Problem(3)
+        assert problem.least_squares_rows(given, b, weights) == 0
+        assert problem.least_squares_rows(given, b, np.zeros(3)) == 3
+        problem.integer([1])
+        assert np.array_equal(roundel.solve(problem).values, wanted)
+    with pytest.raises(roundel.InvalidArgumentError, match="entry 1 is -2") as caught:
+        problem.least_squares_rows(A, b, [1.0, -2.0, 1.0])
+    assert caught.value.position == 1

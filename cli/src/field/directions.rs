@@ -97,13 +97,17 @@ impl Directions {
     /// counts, it does as it does for quads.
     pub fn of_map(&self, mesh: &TriangleMesh) -> roundel::Result<(Guidance, FeatureGraph)> {
         let (mut guidance, features) = self.of(mesh, 4)?;
-        let is_silent = self.constrain_curvature.is_none() && self.curvature_weight == 0.0;
-        if is_silent && guidance.indices.is_none() {
+        if !self.says_curvature() && guidance.indices.is_none() {
             let default = QuadOptions::default().guidance;
             guidance.constrain_curvature = default.constrain_curvature;
             guidance.curvature_weight = default.curvature_weight;
         }
         Ok((guidance, features))
+    }
+
+    /// Whether the command line says how curvature counts.
+    pub fn says_curvature(&self) -> bool {
+        self.constrain_curvature.is_some() || self.curvature_weight != 0.0
     }
 }
 

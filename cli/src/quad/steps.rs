@@ -32,6 +32,7 @@ pub(super) fn solve(arguments: &Arguments) -> Result<Solved> {
     let options = QuadOptions {
         sizing: arguments.sizing.of()?,
         guidance,
+        vary_curvature: !arguments.directions.says_curvature(),
         field: Options {
             strategy: arguments.field_strategy,
             ..map.clone()

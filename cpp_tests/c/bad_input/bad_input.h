@@ -46,6 +46,7 @@ void fine(const char* call, int holds);
 void bad_handles(fixture* f);
 void bad_objective(fixture* f);
 void bad_constraints(fixture* f);
+void bad_least_squares(fixture* f);
 void bad_unknowns(fixture* f);
 void bad_options(fixture* f);
 void bad_monitors(fixture* f);
@@ -55,5 +56,6 @@ void bad_meshes(fixture* f);
 void bad_sizes(fixture* f);
 void bad_solvers(fixture* f);
 void bad_guidance(fixture* f);
+void bad_quads(fixture* f);
 
 #endif

@@ -25,6 +25,9 @@ static void no_problem(fixture* f) {
     BAD(f, roundel_problem_add_least_squares(NULL, 1, index, one, 0.0, 1.0, NULL), null, "problem",
         NONE);
     BAD(f, roundel_problem_add_constraint(NULL, 1, index, one, 0.0), null, "problem", NONE);
+    BAD(f,
+        roundel_problem_add_least_squares_csr(NULL, 2, offsets, 1, index, one, 1, one, NULL, NULL),
+        null, "problem", NONE);
     BAD(f, roundel_problem_add_constraints_csr(NULL, 2, offsets, 1, index, one, 1, one, NULL), null,
         "problem", NONE);
     BAD(f, roundel_problem_set_integers(NULL, 1, index), null, "problem", NONE);

@@ -100,6 +100,7 @@ int main(void) {
     bad_handles(&f);
     bad_objective(&f);
     bad_constraints(&f);
+    bad_least_squares(&f);
     bad_unknowns(&f);
     bad_options(&f);
     bad_monitors(&f);
@@ -109,6 +110,7 @@ int main(void) {
     bad_sizes(&f);
     bad_solvers(&f);
     bad_guidance(&f);
+    bad_quads(&f);
     HOLDS(roundel_solution_free(f.solution) == ROUNDEL_OK);
     HOLDS(roundel_options_free(f.options) == ROUNDEL_OK);
     HOLDS(roundel_cancel_token_free(f.token) == ROUNDEL_OK);

@@ -34,6 +34,11 @@ static roundel_status least_squares(roundel_problem* p) {
     return roundel_problem_add_least_squares(p, COUNT, zeros, values, 0.0, 1.0, NULL);
 }
 
+static roundel_status weighted_rows(roundel_problem* p) {
+    return roundel_problem_add_least_squares_csr(p, COUNT + 1, offsets, COUNT, zeros, values, COUNT,
+                                                 values, values, NULL);
+}
+
 static roundel_status by_rows(roundel_problem* p) {
     return roundel_problem_add_constraints_csr(p, COUNT + 1, offsets, COUNT, zeros, values, COUNT,
                                                values, NULL);
@@ -113,6 +118,7 @@ void bad_sizes(fixture* f) {
     sweep(f, "roundel_problem_add_quadratic_triplets, full", triplets);
     sweep(f, "roundel_problem_add_quadratic_triplets, lower", lower);
     sweep(f, "roundel_problem_add_least_squares", least_squares);
+    sweep(f, "roundel_problem_add_least_squares_csr", weighted_rows);
     sweep(f, "roundel_problem_add_constraints_csr", by_rows);
     sweep(f, "roundel_problem_add_constraints_csc", by_columns);
     free(zeros);

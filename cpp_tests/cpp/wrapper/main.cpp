@@ -15,6 +15,7 @@ roundel::Problem chain(std::int32_t n) {
 int main() {
     ownership_moves_and_does_not_copy();
     every_part_of_a_problem_counts();
+    rows_given_together_are_rows_given_one_by_one();
     failures_throw_or_are_told();
     options_follow_the_librarys_list();
     callbacks_stop_and_throw();
@@ -24,6 +25,7 @@ int main() {
     a_solver_gives_what_solve_gives();
     fields_follow_what_is_asked_for();
     maps_are_solved_again_at_another_size();
+    what_is_not_said_of_quads_is_as_the_library_has_it();
     meshes_become_quads_of_their_topology();
     return failures != 0;
 }

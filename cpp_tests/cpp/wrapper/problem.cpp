@@ -100,6 +100,43 @@ void every_part_of_a_problem_counts() {
     CHECK(std::abs(roundel::solve(problem).energy()) < 1e-12);
 }
 
+// 1/2 (x0 - x1 - 0.3)^2, 2 (x1 - 0.25 - x2)^2 and 3 (x2 - 0.7)^2, with an integer.
+void rows_given_together_are_rows_given_one_by_one() {
+    using roundel::Compressed;
+    using roundel::Layout;
+    const std::vector<std::int32_t> rows = {0, 2, 4, 5}, column_of = {0, 1, 1, 2, 2};
+    const std::vector<double> by_rows = {1.0, -1.0, 1.0, -1.0, 1.0};
+    const std::vector<std::int64_t> columns = {0, 1, 3, 5}, row_of = {0, 0, 1, 1, 2};
+    const std::vector<double> by_columns = {1.0, -1.0, 1.0, -1.0, 1.0};
+    const std::vector<double> rhs = {0.3, 0.25, 0.7}, weights = {0.5, 2.0, 3.0};
+    const Compressed<std::int32_t> A{Layout::rows, rows, column_of, by_rows};
+    const Compressed<std::int64_t> B{Layout::columns, columns, row_of, by_columns};
+    roundel::Problem given[3] = {roundel::Problem(3), roundel::Problem(3), roundel::Problem(3)};
+    given[0].least_squares({0, 1}, {1.0, -1.0}, 0.3, 0.5);
+    given[0].least_squares({1, 2}, {1.0, -1.0}, 0.25, 2.0);
+    given[0].least_squares({2}, {1.0}, 0.7, 3.0);
+    CHECK(given[1].least_squares(A, rhs, weights) == 0);
+    CHECK(given[2].least_squares(B, rhs, weights) == 0);
+    std::vector<std::vector<double>> found;
+    for (roundel::Problem& problem : given) {
+        problem.integer({1});
+        const auto solution = roundel::solve(problem);
+        found.emplace_back(solution.values().begin(), solution.values().end());
+        found.back().push_back(solution.energy());
+    }
+    CHECK(found[0] == found[1] && found[0] == found[2]);
+    // Without weights all are 1, and numbers go on.
+    CHECK(given[1].least_squares(A, rhs) == 3);
+    roundel::Status status;
+    const std::vector<double> two = {1.0, 1.0};
+    given[1].least_squares(A, rhs, two, &status);
+    CHECK(status.code == ROUNDEL_ERROR_LENGTH_MISMATCH);
+    const std::vector<double> below = {1.0, 1.0, -1.0};
+    given[1].least_squares(A, rhs, below, &status);
+    CHECK(status.code == ROUNDEL_ERROR_INVALID_ARGUMENT && status.index == 2);
+    CHECK(given[1].least_squares({0}, {1.0}) == 6);
+}
+
 void failures_throw_or_are_told() {
     roundel::Problem problem(3);
     try {

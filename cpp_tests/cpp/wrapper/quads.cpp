@@ -2,6 +2,7 @@
 
 #include "wrapper.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -21,6 +22,53 @@ std::vector<std::int32_t> corners(const roundel::Mesh& mesh) {
 }
 
 } // namespace
+
+namespace {
+
+/// Whether two meshes of quads are the same to the last bit.
+bool same(const roundel::Quads& one, const roundel::Quads& other) {
+    const auto a = one.vertices(), b = other.vertices();
+    const auto c = one.corners(), d = other.corners();
+    return std::equal(a.begin(), a.end(), b.begin(), b.end()) &&
+           std::equal(c.begin(), c.end(), d.begin(), d.end());
+}
+
+} // namespace
+
+void what_is_not_said_of_quads_is_as_the_library_has_it() {
+    using roundel::QuadOptions;
+    const auto mesh = roundel::Mesh::shape("rounded-cube", 800);
+    const auto silent = roundel::quadrangulate(mesh, QuadOptions().set_quads(150));
+    const auto lattice = roundel::Options().set_strategy("lattice");
+    const auto spoken =
+        QuadOptions().set_quads(150).set_features({}).set_solve(lattice).set_field_strategy(
+            "adaptive");
+    CHECK(same(silent, roundel::quadrangulate(mesh, spoken)));
+    // Watching changes nothing.
+    int events = 0;
+    const auto watched = roundel::Options().set_on_event([&](const roundel::Event&) {
+        ++events;
+        return roundel::go_on;
+    });
+    const auto seen = QuadOptions().set_quads(150).set_solve(watched);
+    CHECK(same(silent, roundel::quadrangulate(mesh, seen)) && events > 10);
+
+    // Everything that can be said has an effect.
+    const std::vector<QuadOptions> others = {
+        QuadOptions().set_quads(150).set_constrain_curvature(0.5),
+        QuadOptions().set_quads(150).set_detail(0.7),
+        QuadOptions().set_quads(150).set_smooth(false),
+        QuadOptions().set_edge_length(0.1),
+        QuadOptions().set_edge_lengths(std::vector<double>(2 * mesh.faces(), 0.3)),
+    };
+    for (const auto& other : others) {
+        const auto made = roundel::quadrangulate(mesh, other);
+        CHECK(made.conforming() && !same(silent, made));
+    }
+    roundel::Status status;
+    const auto unknown = QuadOptions().set_field_strategy("luck");
+    CHECK(!roundel::quadrangulate(mesh, unknown, &status) && !status);
+}
 
 void meshes_become_quads_of_their_topology() {
     const auto mesh = roundel::Mesh::shape("torus", 800);

@@ -9,6 +9,7 @@
 
 void ownership_moves_and_does_not_copy();
 void every_part_of_a_problem_counts();
+void rows_given_together_are_rows_given_one_by_one();
 void failures_throw_or_are_told();
 void options_follow_the_librarys_list();
 void callbacks_stop_and_throw();
@@ -19,6 +20,7 @@ void a_solver_gives_what_solve_gives();
 void fields_follow_what_is_asked_for();
 void maps_are_solved_again_at_another_size();
 void meshes_become_quads_of_their_topology();
+void what_is_not_said_of_quads_is_as_the_library_has_it();
 
 /// A chain of `n` variables at distances of 0.3, every second one an integer.
 roundel::Problem chain(std::int32_t n);

@@ -44,6 +44,8 @@ template <class Matrix> void matrices_are_taken_as_they_are(bool compressed) {
     problem.quadratic(q, roundel::Triangle::full);
     problem.linear(roundel::span<const double>(linear.data(), 4));
     CHECK(problem.constrain(c, d) == 0 && problem.constraints() == 1);
+    // What the constraint makes zero changes no minimiser.
+    CHECK(problem.least_squares(c, d) == 0);
     const auto solution = roundel::solve(problem);
 
     Eigen::Matrix<double, 5, 5> kkt = Eigen::Matrix<double, 5, 5>::Zero();

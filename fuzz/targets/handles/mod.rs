@@ -46,6 +46,7 @@ handles! {
     guidances: roundel_guidance, roundel_guidance_free;
     fields: roundel_field, roundel_field_free;
     maps: roundel_map, roundel_map_free;
+    quad_options: roundel_quad_options, roundel_quad_options_free;
     quads: roundel_quads, roundel_quads_free;
 }
 
@@ -83,6 +84,19 @@ pub unsafe fn modest_options(out: *mut *mut roundel_options) -> roundel_status {
         let status = roundel_options_new(out);
         roundel_options_set_int(*out, c"nodes".as_ptr(), 500);
         roundel_options_set_int(*out, c"beam_width".as_ptr(), 4);
+        status
+    }
+}
+
+/// The same for quads.
+pub unsafe fn modest_quad_options(out: *mut *mut roundel_quad_options) -> roundel_status {
+    unsafe {
+        let status = roundel_quad_options_new(out);
+        let mut solve = null_mut();
+        modest_options(&raw mut solve);
+        roundel_quad_options_set_field_options(*out, solve);
+        roundel_quad_options_set_map_options(*out, solve);
+        roundel_options_free(solve);
         status
     }
 }

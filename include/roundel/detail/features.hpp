@@ -45,7 +45,7 @@ struct Features {
 
 /// The boundary, and the edges at which the surface turns by this many degrees or more.
 inline Features feature_angle(double degrees) {
-    return Features().set_angle(degrees / 180.0 * 3.14159265358979323846);
+    return Features().set_angle(degrees * (3.14159265358979323846 / 180.0));
 }
 
 /// No edges, the boundary neither.
@@ -57,6 +57,22 @@ namespace detail {
 
 using GuidanceHandle = Handle<roundel_guidance, roundel_guidance_free>;
 
+/// Tells a guidance of the C interface these features.
+inline bool set(roundel_guidance* guidance, const Features& features, Status* status) {
+    std::vector<std::int32_t> ends;
+    ends.reserve(2 * features.lines.size());
+    for (const auto& line : features.lines) {
+        ends.insert(ends.end(), line.begin(), line.end());
+    }
+    return check(roundel_guidance_set_feature_angle(guidance, features.angle), status) &&
+           check(roundel_guidance_set_feature_edges(guidance, features.edges.size(),
+                                                    features.edges.data()),
+                 status) &&
+           check(roundel_guidance_set_feature_lines(guidance, features.lines.size(), ends.data()),
+                 status) &&
+           check(roundel_guidance_set_align_boundary(guidance, features.boundary ? 1 : 0), status);
+}
+
 /// A guidance of the C interface with these features and nothing else; none after a failure.
 inline GuidanceHandle guidance_with(const Features& features, Status* status) {
     roundel_guidance* made = nullptr;
@@ -64,20 +80,7 @@ inline GuidanceHandle guidance_with(const Features& features, Status* status) {
         return nullptr;
     }
     GuidanceHandle handle(made);
-    std::vector<std::int32_t> ends;
-    ends.reserve(2 * features.lines.size());
-    for (const auto& line : features.lines) {
-        ends.insert(ends.end(), line.begin(), line.end());
-    }
-    const bool told =
-        check(roundel_guidance_set_feature_angle(made, features.angle), status) &&
-        check(
-            roundel_guidance_set_feature_edges(made, features.edges.size(), features.edges.data()),
-            status) &&
-        check(roundel_guidance_set_feature_lines(made, features.lines.size(), ends.data()),
-              status) &&
-        check(roundel_guidance_set_align_boundary(made, features.boundary ? 1 : 0), status);
-    return told ? std::move(handle) : nullptr;
+    return set(made, features, status) ? std::move(handle) : nullptr;
 }
 
 } // namespace detail

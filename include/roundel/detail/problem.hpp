@@ -170,6 +170,44 @@ class Problem {
                              status);
     }
 
+    /// Adds sum_i weights[i] ((A x)_i - rhs[i])^2, one term a row of the matrix, and returns the
+    /// first row's number. Without weights all are 1. After a failure nothing has been added.
+    template <class Index>
+    std::size_t least_squares(const Compressed<Index>& matrix, Numbers rhs, Numbers weights = {},
+                              Status* status = nullptr) {
+        std::size_t first = 0;
+        if (!detail::same_length(matrix.indices.size(), matrix.values.size(), status) ||
+            (!weights.empty() && !detail::same_length(rhs.size(), weights.size(), status))) {
+            return first;
+        }
+        constexpr bool wide = std::is_same_v<Index, std::int64_t>;
+        const auto add = [&](auto function) {
+            return function(get(), matrix.offsets.size(), matrix.offsets.data(),
+                            matrix.indices.size(), matrix.indices.data(), matrix.values.data(),
+                            rhs.size(), rhs.data(), weights.empty() ? nullptr : weights.data(),
+                            &first);
+        };
+        const bool columns = matrix.layout == Layout::columns;
+        roundel_status code;
+        if constexpr (wide) {
+            code = columns ? add(roundel_problem_add_least_squares_csc_i64)
+                           : add(roundel_problem_add_least_squares_csr_i64);
+        } else {
+            code = columns ? add(roundel_problem_add_least_squares_csc)
+                           : add(roundel_problem_add_least_squares_csr);
+        }
+        detail::check(code, status);
+        return first;
+    }
+
+    /// Adds |A x - rhs|^2 with another library's matrix and vector.
+    template <class Matrix, class Vector, class = detail::if_compressed<Matrix>>
+    std::size_t least_squares(const Matrix& matrix, const Vector& rhs, Status* status = nullptr) {
+        const detail::CompressedView<Matrix> view(matrix);
+        return least_squares(view.get(), Numbers(rhs.data(), static_cast<std::size_t>(rhs.size())),
+                             Numbers(), status);
+    }
+
     /// Adds the constraint sum_k coefficients[k] x[indices[k]] = rhs.
     void constrain(Indices indices, Numbers coefficients, double rhs, Status* status = nullptr) {
         if (detail::same_length(indices.size(), coefficients.size(), status)) {

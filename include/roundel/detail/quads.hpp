@@ -18,26 +18,77 @@
 
 ROUNDEL_NAMESPACE_BEGIN
 
-/// What quads should be like, and how they are solved for.
+/// What quads should be like, and how they are solved for. What is not said is as the program
+/// `roundel quad` has it.
 struct QuadOptions {
-    /// About how many.
-    std::size_t quads = 1000;
-    /// Edges that become chains of quads' edges, in the place of the library's defaults: the
-    /// boundary, with fields that follow the curvature.
+    /// About how many. 1000 where no length is given either.
+    std::optional<std::size_t> quads = std::nullopt;
+    /// Edges of this length, in units of the mesh, instead.
+    std::optional<double> edge_length = std::nullopt;
+    /// Edges of two lengths a face instead: along the arm that the field stores there, and across.
+    std::vector<double> edge_lengths = {};
+    /// Edges that become chains of quads' edges, in the place of the boundary.
     std::optional<Features> features = std::nullopt;
-    /// How field and map are solved, in the place of lattice decoding.
+    /// The part of the faces that follow the curvature, as FieldOptions has it. Where neither this
+    /// nor the weight is given, both are what quads need in general, or less where that is better.
+    std::optional<double> constrain_curvature = std::nullopt;
+    /// How much all others should follow the curvature.
+    std::optional<double> curvature_weight = std::nullopt;
+    /// Details smaller than this length attract no irregular vertices; a quarter of an edge where
+    /// nothing is said.
+    std::optional<double> detail = std::nullopt;
+    /// How the map is solved, by lattice decoding where no strategy or preset is given; and, but
+    /// for the strategy, the field.
     std::optional<Options> solve = std::nullopt;
+    /// How the field's integers are decided, in the place of adaptive rounding.
+    std::optional<std::string> field_strategy = std::nullopt;
+    /// Whether a map is untangled whose folds extraction cannot cope with.
+    bool untangle = true;
+    /// Whether vertices move over the surface towards squares of one size.
+    bool smooth = true;
 
     QuadOptions& set_quads(std::size_t value) {
         quads = value;
+        return *this;
+    }
+    QuadOptions& set_edge_length(double value) {
+        edge_length = value;
+        return *this;
+    }
+    QuadOptions& set_edge_lengths(std::vector<double> value) {
+        edge_lengths = std::move(value);
         return *this;
     }
     QuadOptions& set_features(Features value) {
         features = std::move(value);
         return *this;
     }
+    QuadOptions& set_constrain_curvature(double fraction) {
+        constrain_curvature = fraction;
+        return *this;
+    }
+    QuadOptions& set_curvature_weight(double value) {
+        curvature_weight = value;
+        return *this;
+    }
+    QuadOptions& set_detail(double length) {
+        detail = length;
+        return *this;
+    }
     QuadOptions& set_solve(Options value) {
         solve = std::move(value);
+        return *this;
+    }
+    QuadOptions& set_field_strategy(std::string value) {
+        field_strategy = std::move(value);
+        return *this;
+    }
+    QuadOptions& set_untangle(bool value) {
+        untangle = value;
+        return *this;
+    }
+    QuadOptions& set_smooth(bool value) {
+        smooth = value;
         return *this;
     }
 };
@@ -195,27 +246,87 @@ inline Quads quads(const Mesh& mesh, span<const double> corner_uvs, Status* stat
     return detail::check(code, status) ? Quads(made, status) : Quads();
 }
 
-/// A mesh turned into quads: field, map, extraction and smoothing in one call.
+namespace detail {
+
+using QuadOptionsHandle = Handle<roundel_quad_options, roundel_quad_options_free>;
+
+/// What the options say of features, curvature and details; none after a failure.
+inline GuidanceHandle guidance_of(const QuadOptions& options, Status* status) {
+    roundel_guidance* made = nullptr;
+    if (!check(roundel_guidance_new_for_quads(&made), status)) {
+        return nullptr;
+    }
+    GuidanceHandle guidance(made);
+    const bool curved = options.constrain_curvature || options.curvature_weight;
+    const bool told =
+        (!options.features || set(made, *options.features, status)) &&
+        (!curved ||
+         check(roundel_guidance_set_curvature(made, options.constrain_curvature.value_or(0.0),
+                                              options.curvature_weight.value_or(0.0)),
+               status)) &&
+        (!options.detail || check(roundel_guidance_set_detail(made, *options.detail), status));
+    return told ? std::move(guidance) : nullptr;
+}
+
+/// The size that the options ask for.
+inline roundel_status resize(roundel_quad_options* made, const QuadOptions& options) {
+    if (!options.edge_lengths.empty()) {
+        return roundel_quad_options_set_edge_lengths(made, options.edge_lengths.data(),
+                                                     options.edge_lengths.size());
+    }
+    if (options.edge_length) {
+        return roundel_quad_options_set_edge_length(made, *options.edge_length);
+    }
+    return options.quads ? roundel_quad_options_set_quads(made, *options.quads) : ROUNDEL_OK;
+}
+
+/// The C interface's options for `options`; none after a failure.
+inline QuadOptionsHandle handle_for(const QuadOptions& options, Status* status) {
+    Options map = options.solve.value_or(Options());
+    Options field = map;
+    if (!map.strategy && !map.preset) {
+        map.strategy = "lattice";
+    }
+    field.strategy = options.field_strategy.value_or("adaptive");
+    const auto guidance = guidance_of(options, status);
+    const bool curved = options.constrain_curvature || options.curvature_weight;
+    const auto by = guidance ? handle_for(map, status) : nullptr;
+    const auto field_by = by ? handle_for(field, status) : nullptr;
+    roundel_quad_options* made = nullptr;
+    if (!field_by || !check(roundel_quad_options_new(&made), status)) {
+        return nullptr;
+    }
+    QuadOptionsHandle handle(made);
+    const bool told =
+        check(resize(made, options), status) &&
+        check(roundel_quad_options_set_guidance(made, guidance.get()), status) &&
+        check(roundel_quad_options_set_vary_curvature(made, curved ? 0 : 1), status) &&
+        check(roundel_quad_options_set_map_options(made, by.get()), status) &&
+        check(roundel_quad_options_set_field_options(made, field_by.get()), status) &&
+        check(roundel_quad_options_set_untangle(made, options.untangle ? 1 : 0), status) &&
+        check(roundel_quad_options_set_smooth(made, options.smooth ? 1 : 0), status);
+    return told ? std::move(handle) : nullptr;
+}
+
+} // namespace detail
+
+/// A mesh turned into quads: field, map, extraction and smoothing in one call. The options'
+/// callback sees all of it, and its token cancels it.
 inline Quads quadrangulate(const Mesh& mesh, const QuadOptions& options = {},
                            Status* status = nullptr) {
-    detail::GuidanceHandle guidance;
-    if (options.features) {
-        guidance = detail::guidance_with(*options.features, status);
-        if (!guidance) {
-            return {};
-        }
+    const auto how = detail::handle_for(options, status);
+    if (!how) {
+        return {};
     }
     detail::Handle<roundel_quads, roundel_quads_free> found;
-    const auto call = [&](const roundel_options* how, const roundel_monitor* monitor) {
+    const auto call = [&](const roundel_options*, const roundel_monitor* monitor) {
         roundel_quads* made = nullptr;
-        const auto code =
-            roundel_quads_make(mesh.get(), options.quads, guidance.get(), how, monitor, &made);
+        const auto code = roundel_quads_make_with(mesh.get(), how.get(), monitor, &made);
         found.reset(made);
         return code;
     };
-    const bool is_made = options.solve ? detail::watched(*options.solve, call, 0, status)
-                                       : detail::check(call(nullptr, nullptr), status);
-    return is_made ? Quads(found.release(), status) : Quads();
+    const auto& watching = options.solve.value_or(Options());
+    return detail::watched(watching, call, 0, status) ? Quads(found.release(), status) : Quads();
 }
 
 namespace detail {

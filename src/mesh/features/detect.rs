@@ -14,25 +14,61 @@ impl FeatureGraph {
     /// # Errors
     /// [`Error::InvalidArgument`] for an angle that is not above 0 and at most pi.
     pub fn by_angle(mesh: &TriangleMesh, angle: f64) -> Result<Self> {
-        if !(angle > 0.0 && angle <= PI) {
-            return Err(Error::InvalidArgument {
-                what: format!("the angle of features is {angle}, not above 0 and at most pi"),
-                index: None,
-            });
+        check(angle)?;
+        let is_sharp = (0..mesh.edge_count()).map(|e| turn(mesh, e).is_some_and(|t| t >= angle));
+        Ok(Self::of(mesh, is_sharp.collect()))
+    }
+
+    /// These and the sharp edges ([`by_angle`](Self::by_angle)), but no more than two edges of a
+    /// face: where all three would be, the sharp one at which the surface turns least is left out.
+    /// Quads cannot follow three edges of one triangle.
+    ///
+    /// # Errors
+    /// [`Error::LengthMismatch`] for another mesh, and those of [`by_angle`](Self::by_angle).
+    pub fn with_sharp(self, mesh: &TriangleMesh, angle: f64) -> Result<Self> {
+        self.check_mesh(mesh)?;
+        check(angle)?;
+        let mut is_feature = self.is_feature;
+        let mut found: Vec<(f64, usize)> = Vec::new();
+        for e in (0..mesh.edge_count()).filter(|&e| !is_feature[e]) {
+            found.extend(turn(mesh, e).filter(|&t| t >= angle).map(|t| (t, e)));
         }
-        let is_sharp = mesh.edges().map(|edge| {
-            let Some((j, _)) = edge.second else {
-                return false;
-            };
-            let [m, n] = [edge.first.0, j].map(|face| mesh.normal(face));
-            norm(cross(m, n)).atan2(dot(m, n)) >= angle
-        });
-        let is_sharp = is_sharp.collect();
-        Ok(Self::of(mesh, is_sharp))
+        found.iter().for_each(|&(_, e)| is_feature[e] = true);
+        found.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        // Edges that open two faces first: fewer are left out.
+        for wanted in [2, 1] {
+            for &(_, e) in &found {
+                let edge = mesh.edge(e);
+                let faces = edge.second.into_iter().chain([edge.first]);
+                let is_enclosed =
+                    |&(face, _): &_| (0..3).all(|k| is_feature[mesh.edge_of(face, k)]);
+                if faces.filter(is_enclosed).count() >= wanted {
+                    is_feature[e] = false;
+                }
+            }
+        }
+        Ok(Self::of(mesh, is_feature))
     }
 
     /// The edges with a single face.
     pub fn boundary(mesh: &TriangleMesh) -> Self {
         Self::of(mesh, mesh.edges().map(|e| e.second.is_none()).collect())
     }
+}
+
+fn check(angle: f64) -> Result<()> {
+    match angle > 0.0 && angle <= PI {
+        true => Ok(()),
+        false => Err(Error::InvalidArgument {
+            what: format!("the angle of features is {angle}, not above 0 and at most pi"),
+            index: None,
+        }),
+    }
+}
+
+/// By how much the normals of the two faces of an edge differ.
+fn turn(mesh: &TriangleMesh, edge: usize) -> Option<f64> {
+    let edge = mesh.edge(edge);
+    let [m, n] = [edge.first.0, edge.second?.0].map(|face| mesh.normal(face));
+    Some(norm(cross(m, n)).atan2(dot(m, n)))
 }

@@ -176,3 +176,40 @@ fn line_elements_of_a_file_are_features_and_what_is_wrong_is_named_by_its_line()
         assert_eq!(read(lines).unwrap_err().line(), Some(line), "{lines}");
     }
 }
+
+#[test]
+fn sharp_edges_enclose_no_face_unless_it_is_asked_for() {
+    // All edges of an octahedron turn alike.
+    let vertices = [0, 1, 2].into_iter().flat_map(|axis| {
+        [1.0, -1.0].map(|sign| {
+            let mut p = [0.0; 3];
+            p[axis] = sign;
+            p
+        })
+    });
+    let faces = [
+        [0, 2, 4],
+        [2, 1, 4],
+        [1, 3, 4],
+        [3, 0, 4],
+        [2, 0, 5],
+        [1, 2, 5],
+        [3, 1, 5],
+        [0, 3, 5],
+    ];
+    let mesh = TriangleMesh::new(vertices.collect(), faces.to_vec()).unwrap();
+    let none = FeatureGraph::none(&mesh);
+    let sharp = none.with_sharp(&mesh, 1.0).unwrap();
+    for face in 0..8 {
+        let count = (0..3)
+            .filter(|&k| sharp.contains(mesh.edge_of(face, k)))
+            .count();
+        assert!(count < 3);
+    }
+    assert!(2 * sharp.edges().count() >= mesh.edge_count());
+    // What is asked for by name stays.
+    let all: Vec<usize> = (0..mesh.edge_count()).collect();
+    let named = FeatureGraph::from_edges(&mesh, &all).unwrap();
+    let kept = named.clone().with_sharp(&mesh, 1.0).unwrap();
+    assert_eq!(kept, named);
+}

@@ -43,4 +43,15 @@ impl QuadMesh {
         let quads = self.quads.iter().map(|quad| quad.as_slice());
         quads.chain(self.others.iter().map(Vec::as_slice))
     }
+
+    /// The quads at every vertex, in increasing order.
+    pub(in crate::quad) fn around(&self) -> Vec<Vec<u32>> {
+        let mut around = vec![Vec::new(); self.vertices.len()];
+        for (q, quad) in self.quads.iter().enumerate() {
+            for &v in quad {
+                around[v as usize].push(q as u32);
+            }
+        }
+        around
+    }
 }

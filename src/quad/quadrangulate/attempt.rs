@@ -19,7 +19,8 @@ pub(super) struct Attempt {
     pub(super) quads: QuadMesh,
     /// Features that no edge of a quad runs along.
     pub(super) missed: Vec<usize>,
-    conforms: bool,
+    /// Whether they are closed where the mesh is, and nothing but quads.
+    pub(super) conforms: bool,
 }
 
 /// What attempts have in common.
@@ -84,11 +85,15 @@ impl Attempt {
 
     /// The better of two, the first if they are equal.
     pub(super) fn or(self, other: Attempt) -> Attempt {
-        if other.cost() < self.cost() {
+        if other.is_better_than(&self) {
             other
         } else {
             self
         }
+    }
+
+    pub(super) fn is_better_than(&self, other: &Attempt) -> bool {
+        self.cost() < other.cost()
     }
 
     /// What is to be as small as can be, the most important first.

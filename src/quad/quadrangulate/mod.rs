@@ -3,27 +3,31 @@
 mod aim;
 mod attempt;
 mod compare;
+mod decide;
 mod missed;
 mod options;
 
 use std::time::Instant;
 
 use super::untangle::Untangled;
-use super::{
-    FieldProblem, Guidance, OrientationField, QuadMesh, SeamlessProblem, SmoothOptions, smooth,
-    solve_field, strips,
-};
+use super::{FieldProblem, Guidance, OrientationField, QuadMesh, SmoothOptions, smooth, strips};
 use crate::mesh::TriangleMesh;
-use crate::{Monitor, Result, Solution, Solver};
-use attempt::Trial;
+use crate::mesh::features::FeatureGraph;
+use crate::{Monitor, Result, Solution};
+use attempt::{Attempt, Trial};
 pub use compare::Compared;
 use compare::compare;
+use decide::{Decided, decide};
+use missed::missed;
 pub use options::QuadOptions;
 
 /// Which part of a quad's edge details attract no irregular vertices below, where nobody says:
 /// extraction copes with folds, and where details have irregular vertices of their own quads are
 /// more even.
 const DETAIL: f64 = 0.25;
+
+/// What is tried next where quads do not conform: fewer irregular vertices leave less to fold.
+const COARSER: [f64; 2] = [1.0, 2.0];
 
 /// Quads, and how they were come by.
 #[derive(Debug)]
@@ -68,10 +72,12 @@ pub struct QuadSeconds {
 /// Whether the result is made of nothing but quads it tells itself ([`QuadMesh::is_conforming`]).
 /// Features so close that rounding puts them on one line are held apart where the quads conform then.
 /// Extraction copes with nearly all folds; untangling is tried only if its quads do not conform, and
-/// kept if they do then, or there is less to repair.
+/// kept if they do then, or there is less to repair. Where they still do not, and nobody says how
+/// large details are, the field is decided anew for larger ones.
 ///
 /// # Errors
-/// Those of [`solve_field`], [`SeamlessProblem::with_features`], [`solve`](crate::solve()),
+/// Those of [`solve_field`](super::solve_field), [`solve`](crate::solve()),
+/// [`SeamlessProblem::with_features`](super::SeamlessProblem::with_features),
 /// [`untangle`](super::untangle::untangle), [`extract`](super::extract) and [`smooth`].
 pub fn quadrangulate<'a>(
     mesh: &TriangleMesh,
@@ -79,79 +85,110 @@ pub fn quadrangulate<'a>(
     monitor: impl Fn() -> Monitor<'a>,
 ) -> Result<Quadrangulation> {
     let mut seconds = QuadSeconds::default();
+    options.sizing.check(mesh)?;
     let features = options.guidance.features(mesh)?;
-    let detail = || DETAIL * options.sizing.edge_length(mesh);
-    let guidance = Guidance {
-        detail: Some(options.guidance.detail.unwrap_or_else(detail)),
-        ..options.guidance.clone()
+    let edge = options.sizing.edge_length(mesh);
+    let at = |detail: f64| QuadOptions {
+        guidance: Guidance {
+            detail: options.guidance.detail.or(Some(detail * edge)),
+            ..options.guidance.clone()
+        },
+        ..options.clone()
     };
-    let wishes = guidance.field_options(mesh, &features)?;
-    let (field, field_solution) = timed(&mut seconds.field, || {
-        solve_field(mesh, &wishes, &options.field, &monitor)
-    })?;
-    let (problem, solution, apart) = timed(&mut seconds.map, || {
-        let mut problem = SeamlessProblem::with_features(mesh, &field, &options.sizing, &features)?;
-        let mut solver = Solver::new(problem.problem())?;
-        aim::aim(mesh, &mut problem, &mut solver, &options.sizing, monitor())?;
-        let solution = solver.solve_with(&options.map, monitor())?;
-        let apart = strips::hold_apart(mesh, &problem, &solution, &options.map, &monitor)?;
-        Ok((problem, solution, apart))
-    })?;
-    let features: Vec<usize> = features.edges().collect();
-    let best = timed(&mut seconds.extract, || {
-        let trial = Trial {
-            mesh,
-            features: &features,
-            options: &options.map,
-            may_untangle: options.untangle,
-            monitor: &monitor,
-        };
-        let Some((held, decided)) = apart else {
-            return trial.best(&problem, solution);
-        };
-        let best = trial.best(&held, decided)?;
-        match best.is_whole() {
-            true => Ok(best),
-            false => Ok(best.or(trial.best(&problem, solution)?)),
+    let mut best = go(mesh, &at(DETAIL), &features, &monitor, &mut seconds)?;
+    for coarser in COARSER {
+        if best.attempt.conforms || options.guidance.detail.is_some() {
+            break;
         }
-    })?;
-    let mut quads = best.quads;
+        let next = go(mesh, &at(coarser), &features, &monitor, &mut seconds)?;
+        if next.attempt.is_better_than(&best.attempt) {
+            best = next;
+        }
+    }
+    let Made { decided, attempt } = best;
+    let features: Vec<usize> = features.edges().collect();
+    let (mut quads, mut missed_features) = (attempt.quads, attempt.missed);
     if let Some(given) = &options.smooth {
         timed(&mut seconds.smooth, || {
             let given = SmoothOptions {
                 features: [&given.features[..], &features].concat(),
                 ..given.clone()
             };
-            smooth(&mut quads, mesh, &given, &mut monitor())
+            smooth(&mut quads, mesh, &given, &mut monitor())?;
+            missed_features = missed(mesh, &quads, &missed_features);
+            Ok(())
         })?;
     }
     let compared = timed(&mut seconds.compare, || {
         if options.compare.is_empty() {
             return Ok(Vec::new());
         }
-        let field = FieldProblem::with_options(mesh, &wishes)?;
+        let field = FieldProblem::with_options(mesh, &decided.wishes)?;
         let both = [
             (field.problem(), &options.field),
-            (problem.problem(), &options.map),
+            (decided.problem.problem(), &options.map),
         ];
         compare(both, &options.compare, &monitor)
     })?;
     Ok(Quadrangulation {
         quads,
-        field,
-        field_solution,
-        untangled: best.map,
-        solution: best.solution,
+        field: decided.field,
+        field_solution: decided.field_solution,
+        untangled: attempt.map,
+        solution: attempt.solution,
         features,
-        missed_features: best.missed,
+        missed_features,
         compared,
         seconds,
     })
 }
 
+/// A field, its map and its quads.
+struct Made {
+    decided: Decided,
+    attempt: Attempt,
+}
+
+/// Field, map and quads for details of one size.
+fn go<'a>(
+    mesh: &TriangleMesh,
+    options: &QuadOptions,
+    features: &FeatureGraph,
+    monitor: &impl Fn() -> Monitor<'a>,
+    seconds: &mut QuadSeconds,
+) -> Result<Made> {
+    let of_both = [&mut seconds.field, &mut seconds.map];
+    let mut decided = decide(mesh, options, features, monitor, of_both)?;
+    let problem = &decided.problem;
+    let (solution, apart) = timed(&mut seconds.map, || {
+        let solution = decided.solver.solve_with(&options.map, monitor())?;
+        let apart = strips::hold_apart(mesh, problem, &solution, &options.map, monitor)?;
+        Ok((solution, apart))
+    })?;
+    let features: Vec<usize> = features.edges().collect();
+    let attempt = timed(&mut seconds.extract, || {
+        let trial = Trial {
+            mesh,
+            features: &features,
+            options: &options.map,
+            may_untangle: options.untangle,
+            monitor,
+        };
+        let Some((held, decided)) = apart else {
+            return trial.best(problem, solution);
+        };
+        let best = trial.best(&held, decided)?;
+        match best.is_whole() {
+            true => Ok(best),
+            false => Ok(best.or(trial.best(problem, solution)?)),
+        }
+    })?;
+    Ok(Made { decided, attempt })
+}
+
 fn timed<T>(seconds: &mut f64, step: impl FnOnce() -> Result<T>) -> Result<T> {
     let started = Instant::now();
     let result = step();
-    *seconds = started.elapsed().as_secs_f64();
+    *seconds += started.elapsed().as_secs_f64();
     result
 }

@@ -10,6 +10,10 @@ pub struct QuadOptions {
     pub sizing: Sizing,
     /// What they follow. Features, and the boundary where it is aligned, become chains of edges.
     pub guidance: Guidance,
+    /// Whether curvature may count for less than the guidance has it, where the map is less
+    /// distorted then: on meshes that are not large a few fields are tried. Never where it counts for
+    /// nothing, or indices are given.
+    pub vary_curvature: bool,
     /// How the field is solved for.
     pub field: Options,
     /// How the map is solved for.
@@ -39,6 +43,7 @@ impl Default for QuadOptions {
                 curvature_weight: 0.07,
                 ..Guidance::default()
             },
+            vary_curvature: true,
             field: by(Strategy::Adaptive),
             map: by(Strategy::Lattice),
             untangle: true,

@@ -18,12 +18,7 @@ const ROUNDS: usize = 20;
 
 /// Mends what it can.
 pub(super) fn mend(quads: &mut QuadMesh, surface: &mut Surface) {
-    let mut around = vec![Vec::new(); quads.vertices.len()];
-    for (q, quad) in quads.quads.iter().enumerate() {
-        for &v in quad {
-            around[v as usize].push(q);
-        }
-    }
+    let around = quads.around();
     for _ in 0..ROUNDS {
         let mut is_better = false;
         for q in 0..quads.quads.len() {
@@ -44,13 +39,13 @@ fn quality(quads: &QuadMesh, quad: usize) -> f64 {
     scaled_jacobian(quads.quads[quad].map(|v| quads.vertices[v as usize]))
 }
 
-fn worst(quads: &QuadMesh, around: &[usize]) -> f64 {
-    let qualities = around.iter().map(|&q| quality(quads, q));
+fn worst(quads: &QuadMesh, around: &[u32]) -> f64 {
+    let qualities = around.iter().map(|&q| quality(quads, q as usize));
     qualities.fold(f64::INFINITY, f64::min)
 }
 
 /// Moves a vertex to the best of the places tried. Whether it moved.
-fn improve(quads: &mut QuadMesh, surface: &mut Surface, v: usize, around: &[usize]) -> bool {
+fn improve(quads: &mut QuadMesh, surface: &mut Surface, v: usize, around: &[u32]) -> bool {
     /// What is not better by this much is not worth a move.
     const GAIN: f64 = 1e-3;
     let before = quads.vertices[v];
@@ -67,14 +62,14 @@ fn improve(quads: &mut QuadMesh, surface: &mut Surface, v: usize, around: &[usiz
     best.1 != before
 }
 
-fn places(quads: &QuadMesh, v: usize, around: &[usize]) -> Vec<Vec3> {
+fn places(quads: &QuadMesh, v: usize, around: &[u32]) -> Vec<Vec3> {
     let here = quads.vertices[v];
     let (mut ring, mut asked) = ([0.0; 3], [0.0; 3]);
     let mut arms = Vec::new();
     for &q in around {
-        let corners = quads.quads[q].map(|v| quads.vertices[v as usize]);
+        let corners = quads.quads[q as usize].map(|v| quads.vertices[v as usize]);
         let targets = square::closest(corners, 0.0, 0.0);
-        for (k, _) in quads.quads[q]
+        for (k, _) in quads.quads[q as usize]
             .iter()
             .enumerate()
             .filter(|(_, w)| **w as usize == v)

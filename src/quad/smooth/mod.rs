@@ -4,9 +4,11 @@
 //! of Bouaziz, Deuss, Schwartzburg, Weise, Pauly 2012, "Shape-Up: shaping discrete geometry with
 //! projections", section 4), of a size between its own and that of all; a vertex goes to the mean of
 //! what its quads ask, and from there to the closest point of the surface. Vertices on the boundary
-//! and on features slide along them; corners stay. What is left turned over is mended one vertex at
+//! and on features slide along them; where these end, meet or turn, one stays. What is left turned over is mended one vertex at
 //! a time.
 
+mod chains;
+mod curve;
 mod mend;
 mod quality;
 mod square;
@@ -14,7 +16,7 @@ mod surface;
 
 use super::QuadMesh;
 use crate::mesh::TriangleMesh;
-use crate::mesh::features::check_edges;
+use crate::mesh::features::FeatureGraph;
 use crate::mesh::vector::{add, scale, sub};
 use crate::solve::Phase;
 use crate::{Error, Monitor, Result};
@@ -58,8 +60,11 @@ pub fn smooth(
     options: &SmoothOptions,
     monitor: &mut Monitor,
 ) -> Result<()> {
-    check(mesh, options)?;
-    let mut surface = Surface::new(quads, mesh, &options.features);
+    check(options)?;
+    let features = FeatureGraph::from_edges(mesh, &options.features)?;
+    let features = features.with(mesh, &FeatureGraph::boundary(mesh))?;
+    let mut surface = Surface::new(quads, mesh, &features);
+    chains::close(quads, mesh, &mut surface);
     let home = quads.vertices.clone();
     for round in 0..options.rounds {
         monitor.progress(Phase::Quads, round as f64 / options.rounds as f64)?;
@@ -88,12 +93,12 @@ pub fn smooth(
     Ok(())
 }
 
-fn check(mesh: &TriangleMesh, options: &SmoothOptions) -> Result<()> {
+fn check(options: &SmoothOptions) -> Result<()> {
     if !(0.0..=1.0).contains(&options.uniformity) {
         return Err(Error::InvalidArgument {
             what: format!("the uniformity is {}, outside 0 to 1", options.uniformity),
             index: None,
         });
     }
-    check_edges(mesh, "features", &options.features)
+    Ok(())
 }

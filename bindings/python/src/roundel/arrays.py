@@ -90,16 +90,13 @@ class Compressed:
         )
 
 
-def compressed(matrix: Any, what: str, only: str = "") -> Compressed:
-    """A SciPy matrix in compressed form as it is, any other or a dense one converted.
-
-    `only` is "csr" where the other form does not serve.
-    """
+def compressed(matrix: Any, what: str) -> Compressed:
+    """A SciPy matrix in compressed form as it is, any other or a dense one converted."""
     if isinstance(matrix, Compressed):
         return matrix
     form = getattr(matrix, "format", "")
-    if form and (form not in ("csr", "csc") or (only and form != only)):
-        matrix = matrix.asformat(only or "csr")
+    if form and form not in ("csr", "csc"):
+        matrix = matrix.asformat("csr")
         form = matrix.format
     if not form:
         return _dense(matrix, what)

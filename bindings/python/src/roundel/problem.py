@@ -8,7 +8,7 @@ import numpy as np
 
 from ._library import Handle, ffi, lib, number, path
 from .arrays import compressed, indices, indices32, pointer, reals
-from .errors import Error, check
+from .errors import check
 from .options import options_handle
 
 _TRIANGLES = {
@@ -103,26 +103,19 @@ class Problem:
         )
         return row[0]
 
-    def least_squares_rows(self, A: Any, b: Any, weights: Any = None) -> None:
-        """Adds sum_k weights_k (A_k . x - b_k)^2, one row after the other. Weights are 1 by default."""
-        matrix = compressed(A, "A", only="csr")
+    def least_squares_rows(self, A: Any, b: Any, weights: Any = None) -> int:
+        """Adds sum_k weights_k (A_k . x - b_k)^2, and gives the number of the first row.
+
+        Weights are 1 by default.
+        """
+        matrix = compressed(A, "A")
         if matrix.shape[1] != self.variables:
             raise ValueError(f"A: {matrix.shape[1]} columns for {self.variables} variables")
-        count = matrix.shape[0]
-        rhs = reals(b, "b", (count,)).tolist()
-        factors = np.ones(count) if weights is None else reals(weights, "weights", (count,))
-        at, values = indices32(matrix.indices, "A"), matrix.values
-        first, last = pointer(at), pointer(values)
-        starts = matrix.offsets.tolist()
-        # Into a copy: a row that is refused must not leave those before it behind.
-        whole = self.copy()
-        call, problem = lib.roundel_problem_add_least_squares, whole._handle.pointer
-        for k, weight in enumerate(factors.tolist()):
-            start, length = starts[k], starts[k + 1] - starts[k]
-            status = call(problem, length, first + start, last + start, rhs[k], weight, ffi.NULL)
-            if status != lib.ROUNDEL_OK:
-                _raise_in_row(status, k, start)
-        self._handle = whole._handle
+        rhs = reals(b, "b", (matrix.shape[0],))
+        factors = None if weights is None else reals(weights, "weights", rhs.shape)
+        call = getattr(lib, f"roundel_problem_add_least_squares_{matrix.form}{matrix.twin}")
+        given = ffi.NULL if factors is None else pointer(factors)
+        return number(call, self._handle.pointer, *matrix.arguments(), len(rhs), pointer(rhs), given)
 
     def constrain(self, indices: Any, coefficients: Any, rhs: float) -> int:
         """Adds the constraint coefficients . x[indices] = rhs, and gives its number."""
@@ -181,14 +174,3 @@ class Problem:
             raise ValueError("signs: there must be one for each of the rows")
         arrays = (len(starts), pointer(starts), len(at), pointer(at), pointer(turns))
         check(call(self._handle.pointer, *arrays))
-
-
-def _raise_in_row(status: int, row: int, start: int) -> None:
-    """Raises an error whose position is one in the matrix, and names the row."""
-    try:
-        check(status)
-    except Error as error:
-        error.args = (f"A, row {row}: {error}",)
-        if error.position is not None:
-            error.index = start + error.position
-        raise

@@ -112,15 +112,20 @@ def quad(
     *,
     quads: Optional[int] = None,
     edge_length: Optional[float] = None,
+    field_strategy: Optional[str] = None,
+    untangle: bool = True,
+    smooth: bool = True,
     progress: Progress = None,
     cancel: Optional[CancelToken] = None,
     **keywords: Any,
 ) -> Quads:
     """About so many quads (1000 by default), or quads with edges of about a length, of a mesh.
 
-    Field, map, extraction and smoothing in one call. Keywords are those of `field`; where none is
-    given, quads follow the boundary and the curvature. Options are those of both solves; without
-    any, each has the strategy that suits it, and with some `lattice` unless they say otherwise.
+    Field, map, extraction and smoothing in one call, as the program `roundel quad` does it. Keywords
+    are those of `field`; quads follow the boundary and the curvature unless these say otherwise.
+    Options are those of the map's solve, `lattice` without a strategy; and but for the strategy of the
+    field's, which is `adaptive` or `field_strategy`. `untangle` turns faces back that the map turns
+    over where quads need it, `smooth` moves vertices over the surface towards squares of one size.
 
     >>> import roundel
     >>> cube = roundel.Mesh.shape("rounded-cube", 600)
@@ -131,25 +136,27 @@ def quad(
     mesh = as_mesh(V, F)
     if quads is not None and edge_length is not None:
         raise TypeError("quads and edge_length are two ways to say one thing")
-    if edge_length is not None:
-        if not edge_length > 0.0:
-            raise ValueError("edge_length: must be above zero")
-        quads = max(1, round(_area(mesh) / edge_length**2))
     wishes, options = split(keywords)
+    how = Handle.made("roundel_quad_options", lib.roundel_quad_options_new)
+    if quads is not None:
+        check(lib.roundel_quad_options_set_quads(how.pointer, quads))
+    if edge_length is not None:
+        check(lib.roundel_quad_options_set_edge_length(how.pointer, edge_length))
     if wishes:
         wishes.setdefault("curvature", None if "indices" in wishes else CURVATURE)
         wishes = {name: wish for name, wish in wishes.items() if wish is not None}
     guidance = guidance_handle(mesh, wishes)
+    check(lib.roundel_quad_options_set_vary_curvature(how.pointer, int(keywords.get("curvature") is None)))
+    check(lib.roundel_quad_options_set_guidance(how.pointer, pointer_of(guidance)))
+    by = options if {"strategy", "preset"} & options.keys() else {"strategy": "lattice", **options}
+    for call, given in (
+        (lib.roundel_quad_options_set_map_options, by),
+        (lib.roundel_quad_options_set_field_options, {**options, "strategy": field_strategy or "adaptive"}),
+    ):
+        check(call(how.pointer, options_handle(given).pointer))
+    check(lib.roundel_quad_options_set_untangle(how.pointer, int(untangle)))
+    check(lib.roundel_quad_options_set_smooth(how.pointer, int(smooth)))
     watch = Watch(progress, cancel)
-    # Without options the library has its own for each of the two solves.
-    handle = options_handle({"strategy": "lattice", **options}) if options else None
     place = ffi.new("roundel_quads **")
-    arguments = (1000 if quads is None else quads, pointer_of(guidance), pointer_of(handle))
-    watch.check(lib.roundel_quads_make(mesh._handle.pointer, *arguments, watch.pointer, place))
+    watch.check(lib.roundel_quads_make_with(mesh._handle.pointer, how.pointer, watch.pointer, place))
     return Quads(Handle("roundel_quads", place[0]))
-
-
-def _area(mesh: Mesh) -> float:
-    corners = mesh.vertices[mesh.faces]
-    sides = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
-    return float(np.linalg.norm(np.cross(*sides), axis=1).sum() / 2)

@@ -98,7 +98,7 @@ def _assembled(
     elif q is not None:
         variables = len(q)
     elif A is not None:
-        A = compressed(A, "A", only="csr")
+        A = compressed(A, "A")
         variables = A.shape[1]
     else:
         raise TypeError("one of Q, q and A must be given")

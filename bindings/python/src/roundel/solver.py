@@ -23,6 +23,7 @@ class Solver:
     >>> import roundel
     >>> problem = roundel.Problem(2)
     >>> problem.least_squares_rows([[1.0, 0.0], [1.0, -1.0]], [0.4, 0.0])
+    0
     >>> problem.integer([1])
     >>> solver = roundel.Solver(problem)
     >>> solver.solve().values

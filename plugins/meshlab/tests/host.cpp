@@ -1,0 +1,158 @@
+// A host for the plugin: what MeshLab's program does with it, and what meshlabserver cannot do,
+// which is to cancel.
+
+#include <common/interfaces.h>
+
+#include <vcg/complex/algorithms/create/platonic.h>
+
+#include <QApplication>
+#include <QFileInfo>
+#include <QPluginLoader>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <vector>
+
+#define CHECK(condition)                                                                           \
+    do {                                                                                           \
+        if (!(condition)) {                                                                        \
+            std::fprintf(stderr, "%s:%d: %s\n", __FILE__, __LINE__, #condition);                   \
+            std::exit(1);                                                                          \
+        }                                                                                          \
+    } while (false)
+
+namespace {
+
+std::vector<int> percents;
+int calls_until_cancel = -1;
+
+bool callback(const int percent, const char*) {
+    percents.push_back(percent);
+    return calls_until_cancel < 0 || static_cast<int>(percents.size()) <= calls_until_cancel;
+}
+
+/// A document with a torus.
+struct Torus {
+    MeshDocument document;
+
+    Torus() {
+        MeshModel& model = *document.addNewMesh("", "torus", true);
+        vcg::tri::Torus(model.cm, 2.0F, 0.7F, 40, 20);
+        model.UpdateBoxAndNormals();
+    }
+};
+
+struct Host {
+    MeshFilterInterface* filter;
+    QAction* action;
+
+    RichParameterList defaults(Torus& torus) const {
+        RichParameterList list;
+        filter->initParameterSet(action, torus.document, list);
+        return list;
+    }
+
+    bool apply(Torus& torus, const RichParameterList& list) const {
+        percents.clear();
+        return filter->applyFilter(action, torus.document, list, callback);
+    }
+};
+
+void makes_a_layer_of_pairs_of_triangles(const Host& host) {
+    Torus torus;
+    auto list = host.defaults(torus);
+    list.setValue("Quads", IntValue(300));
+    torus.document.mm()->cm.Tr.SetTranslate(1.0F, 2.0F, 3.0F);
+    const auto placement = torus.document.mm()->cm.Tr;
+    CHECK(host.apply(torus, list));
+    CHECK(torus.document.size() == 2);
+    MeshModel& layer = *torus.document.mm();
+    CHECK(layer.label() == "torus quads" && layer.cm.Tr == placement);
+    CHECK(layer.hasDataMask(MeshModel::MM_POLYGONAL));
+    const int faces = layer.cm.fn;
+    CHECK(faces > 2 * 200 && faces < 2 * 400 && faces == 2 * layer.cm.vn);
+    for (int f = 0; f < faces; f += 2) {
+        const auto &one = layer.cm.face[f], &other = layer.cm.face[f + 1];
+        CHECK(one.IsF(2) && !one.IsF(0) && !one.IsF(1));
+        CHECK(other.IsF(0) && !other.IsF(1) && !other.IsF(2));
+        CHECK(one.cV(0) == other.cV(0) && one.cV(2) == other.cV(1));
+        CHECK(one.cN() == other.cN());
+    }
+    // A bar that moves and does not go back.
+    CHECK(percents.size() > 10 && percents.front() >= 0 && percents.back() <= 100);
+    CHECK(std::is_sorted(percents.begin(), percents.end()) && percents.front() < percents.back());
+}
+
+void sizes_agree_however_they_are_said(const Host& host) {
+    int vertices[2];
+    for (const int by : {1, 2}) {
+        Torus torus;
+        const float diagonal = torus.document.mm()->cm.bbox.Diag();
+        auto list = host.defaults(torus);
+        list.setValue("Size", EnumValue(by));
+        list.setValue("GradientSize", FloatValue(16.0F));
+        list.setValue("EdgeLength", AbsPercValue(diagonal / 16.0F));
+        CHECK(host.apply(torus, list));
+        vertices[by - 1] = torus.document.mm()->cm.vn;
+    }
+    CHECK(vertices[0] == vertices[1] && vertices[0] > 100 && vertices[0] < 1000);
+}
+
+void a_cancel_leaves_no_layer(const Host& host) {
+    for (const int calls : {0, 3, 10}) {
+        Torus torus;
+        calls_until_cancel = calls;
+        CHECK(!host.apply(torus, host.defaults(torus)));
+        calls_until_cancel = -1;
+        CHECK(host.filter->errorMsg() == "cancelled");
+        CHECK(torus.document.size() == 1);
+    }
+}
+
+void errors_are_messages(const Host& host) {
+    const auto refused = [&](const char* name, const Value& value) {
+        Torus torus;
+        auto list = host.defaults(torus);
+        list.setValue(name, value);
+        CHECK(!host.apply(torus, list));
+        CHECK(torus.document.size() == 1);
+        return host.filter->errorMsg();
+    };
+    CHECK(refused("Quads", IntValue(0)).contains("no quads"));
+    CHECK(refused("Quads", IntValue(-5)).contains("no quads"));
+    CHECK(refused("FeatureAngle", FloatValue(-1.0F)).contains("angle of features"));
+    CHECK(refused("Strategy", EnumValue(99)) == "Strategy: choice 99 of 0 to 6");
+    CHECK(refused("SolverOptions", StringValue("speed=3")) == "no option is called speed");
+    CHECK(refused("SolverOptions", StringValue("speed")) == "not NAME=VALUE: speed");
+    CHECK(refused("SolverOptions", StringValue("threads=few")).contains("not a number"));
+    CHECK(refused("SolverOptions", StringValue("threads=-1")).contains("threads"));
+
+    // A mesh that is none: three triangles at an edge.
+    Torus torus;
+    auto& mesh = torus.document.mm()->cm;
+    mesh.face[0].V(2) = mesh.face[200].V(2);
+    CHECK(!host.apply(torus, host.defaults(torus)) && !host.filter->errorMsg().isEmpty());
+}
+
+} // namespace
+
+int main(int count, char** words) {
+    QApplication application(count, words);
+    CHECK(count == 2);
+    QPluginLoader loader(QFileInfo(words[1]).absoluteFilePath());
+    QObject* plugin = loader.instance();
+    if (!plugin) {
+        std::fprintf(stderr, "%s\n", qUtf8Printable(loader.errorString()));
+        return 1;
+    }
+    auto* filter = qobject_cast<MeshFilterInterface*>(plugin);
+    CHECK(filter && filter->actions().size() == 1);
+    const Host host{filter, filter->actions().front()};
+    makes_a_layer_of_pairs_of_triangles(host);
+    sizes_agree_however_they_are_said(host);
+    a_cancel_leaves_no_layer(host);
+    errors_are_messages(host);
+    std::puts("the plugin loads, makes quads, cancels and tells errors");
+    return 0;
+}

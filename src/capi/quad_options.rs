@@ -1,0 +1,248 @@
+//! The handle of quad options: all that can be decided on the way from a mesh to quads.
+
+use super::error::Outcome;
+use super::event::{roundel_monitor, watchers};
+use super::guard::{self, Guarded, boundary, object};
+use super::guidance::roundel_guidance;
+use super::input::slice;
+use super::mesh::roundel_mesh;
+use super::options::roundel_options;
+use super::output::Out;
+use super::quads::roundel_quads;
+use super::status::roundel_status;
+use crate::Error;
+use crate::mesh::TriangleMesh;
+use crate::quad::{QuadOptions, Sizing, SmoothOptions, quadrangulate};
+
+/// How to make quads: their size, what they follow, how field and map are solved, untangling and
+/// smoothing. A new one is what the program `roundel quad` does without flags: 1000 quads along the
+/// boundary and the curvature, the field's integers decided adaptively and the map's by lattice
+/// decoding. Sizes and guidance are checked when quads are made.
+pub struct roundel_quad_options(Guarded<QuadOptions>);
+
+object!(roundel_quad_options, QuadOptions, "quad options");
+
+/// Makes quad options. To be freed with roundel_quad_options_free.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_quad_options_new(
+    options: *mut *mut roundel_quad_options,
+) -> roundel_status {
+    boundary(None, || {
+        // SAFETY: the caller gives a place for the handle, or NULL.
+        let out = unsafe { Out::new("quad options", options) }?;
+        out.set(guard::handle(QuadOptions::default()));
+        Ok(())
+    })
+}
+
+/// Frees quad options. NULL is allowed.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_quad_options_free(
+    options: *mut roundel_quad_options,
+) -> roundel_status {
+    // SAFETY: the caller gives up the handle, or NULL.
+    unsafe { guard::free(options) }
+}
+
+/// An entry that changes quad options.
+///
+/// # Safety
+/// `options` is NULL or a live handle that nobody else uses.
+unsafe fn change(
+    options: *mut roundel_quad_options,
+    change: impl FnOnce(&mut QuadOptions) -> Outcome,
+) -> roundel_status {
+    // SAFETY: handed on.
+    unsafe { guard::write(options, change) }
+}
+
+/// Aims at a number of quads.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_quad_options_set_quads(
+    options: *mut roundel_quad_options,
+    quads: usize,
+) -> roundel_status {
+    let body = |options: &mut QuadOptions| {
+        options.sizing = Sizing::Quads(quads);
+        Ok(())
+    };
+    // SAFETY: the caller gives a live handle, or NULL.
+    unsafe { change(options, body) }
+}
+
+/// Aims at edges of one length instead, in units of the mesh.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_quad_options_set_edge_length(
+    options: *mut roundel_quad_options,
+    edge_length: f64,
+) -> roundel_status {
+    let body = |options: &mut QuadOptions| {
+        options.sizing = Sizing::EdgeLength(edge_length);
+        Ok(())
+    };
+    // SAFETY: the caller gives a live handle, or NULL.
+    unsafe { change(options, body) }
+}
+
+/// Aims at edges of two lengths a face instead: along the arm that the field stores there, and
+/// across it. `length` is twice the number of faces.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_quad_options_set_edge_lengths(
+    options: *mut roundel_quad_options,
+    edge_lengths: *const f64,
+    length: usize,
+) -> roundel_status {
+    let body = |options: &mut QuadOptions| {
+        // SAFETY: the caller gives an array of `length` numbers, or NULL.
+        let lengths = unsafe { slice("edge lengths of faces", edge_lengths, length) }?;
+        let (pairs, rest) = lengths.as_chunks::<2>();
+        if !rest.is_empty() {
+            Err(Error::InvalidArgument {
+                what: format!("{length} edge lengths of faces: two a face are"),
+                index: None,
+            })?;
+        }
+        options.sizing = Sizing::Lengths(pairs.to_vec());
+        Ok(())
+    };
+    // SAFETY: the caller gives a live handle, or NULL.
+    unsafe { change(options, body) }
+}
+
+/// Sets what quads follow, by a copy of `guidance`; NULL stands for the boundary and the curvature,
+/// which is what roundel_guidance_new_for_quads makes.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_quad_options_set_guidance(
+    options: *mut roundel_quad_options,
+    guidance: *const roundel_guidance,
+) -> roundel_status {
+    let body = |options: &mut QuadOptions| {
+        let default = QuadOptions::default().guidance;
+        // SAFETY: the caller gives a live handle, or NULL.
+        options.guidance = unsafe { guard::value_or(guidance, &default) }?.clone();
+        Ok(())
+    };
+    // SAFETY: the caller gives a live handle, or NULL.
+    unsafe { change(options, body) }
+}
+
+/// Sets whether curvature may count for less than the guidance has it, where the map is less
+/// distorted then: 1, as at first, or 0. On meshes that are not large a few fields are tried.
+///
+/// Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for another number.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_quad_options_set_vary_curvature(
+    options: *mut roundel_quad_options,
+    vary: i32,
+) -> roundel_status {
+    let body = |options: &mut QuadOptions| {
+        options.vary_curvature = yes("curvature is varied", vary)?;
+        Ok(())
+    };
+    // SAFETY: the caller gives a live handle, or NULL.
+    unsafe { change(options, body) }
+}
+
+/// Sets how the field is solved for, by a copy of `solve`; NULL stands for adaptive rounding.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_quad_options_set_field_options(
+    options: *mut roundel_quad_options,
+    solve: *const roundel_options,
+) -> roundel_status {
+    let body = |options: &mut QuadOptions| {
+        let default = QuadOptions::default().field;
+        // SAFETY: the caller gives a live handle, or NULL.
+        options.field = unsafe { guard::value_or(solve, &default) }?.clone();
+        Ok(())
+    };
+    // SAFETY: the caller gives a live handle, or NULL.
+    unsafe { change(options, body) }
+}
+
+/// Sets how the map is solved for, by a copy of `solve`; NULL stands for lattice decoding.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_quad_options_set_map_options(
+    options: *mut roundel_quad_options,
+    solve: *const roundel_options,
+) -> roundel_status {
+    let body = |options: &mut QuadOptions| {
+        let default = QuadOptions::default().map;
+        // SAFETY: the caller gives a live handle, or NULL.
+        options.map = unsafe { guard::value_or(solve, &default) }?.clone();
+        Ok(())
+    };
+    // SAFETY: the caller gives a live handle, or NULL.
+    unsafe { change(options, body) }
+}
+
+/// Sets whether a map is untangled whose folds extraction cannot cope with: 1, as at first, or 0.
+///
+/// Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for another number.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_quad_options_set_untangle(
+    options: *mut roundel_quad_options,
+    untangle: i32,
+) -> roundel_status {
+    let body = |options: &mut QuadOptions| {
+        options.untangle = yes("maps are untangled", untangle)?;
+        Ok(())
+    };
+    // SAFETY: the caller gives a live handle, or NULL.
+    unsafe { change(options, body) }
+}
+
+/// Sets whether quads are smoothed: 1, as at first, or 0, which leaves vertices where the map has
+/// them.
+///
+/// Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for another number.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_quad_options_set_smooth(
+    options: *mut roundel_quad_options,
+    smooth: i32,
+) -> roundel_status {
+    let body = |options: &mut QuadOptions| {
+        options.smooth = yes("quads are smoothed", smooth)?.then(SmoothOptions::default);
+        Ok(())
+    };
+    // SAFETY: the caller gives a live handle, or NULL.
+    unsafe { change(options, body) }
+}
+
+fn yes(what: &str, number: i32) -> Outcome<bool> {
+    match number {
+        0 => Ok(false),
+        1 => Ok(true),
+        _ => Err(Error::InvalidArgument {
+            what: format!("{what} by 1 or not by 0, not {number}"),
+            index: None,
+        })?,
+    }
+}
+
+/// Turns a mesh into quads, as roundel_quads_make does, with all that `options` say, under the eyes
+/// of `monitor`. Both may be NULL.
+///
+/// Fails as roundel_quads_make, roundel_map_set_edge_length and roundel_map_set_edge_lengths do.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_quads_make_with(
+    mesh: *const roundel_mesh,
+    options: *const roundel_quad_options,
+    monitor: *const roundel_monitor,
+    quads: *mut *mut roundel_quads,
+) -> roundel_status {
+    let body = |mesh: &TriangleMesh| {
+        let default = QuadOptions::default();
+        // SAFETY: the caller gives live handles, a monitor as its members say and a place, or NULL.
+        let (options, monitor, out) = unsafe {
+            (
+                guard::value_or(options, &default)?,
+                watchers(monitor)?,
+                Out::new("quads", quads)?,
+            )
+        };
+        out.set(guard::handle(quadrangulate(mesh, options, monitor)?.quads));
+        Ok(())
+    };
+    // SAFETY: the caller gives a live handle, or NULL.
+    unsafe { guard::read(mesh, body) }
+}
