@@ -9,6 +9,7 @@
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::OnceLock;
 
 use roundel::mesh::{MeshError, TriangleMesh, io};
 use roundel::quad::check::{CheckOptions, check_map};
@@ -110,8 +111,13 @@ const BROKEN: &[(&str, &str, usize)] = &[
     ("cube-ouvert", "isolated_vertex", 8),
 ];
 
-/// The folder of the meshes, unpacked if need be.
+/// The folder of the meshes. Tests run side by side; the first that asks unpacks it.
 fn archive() -> Option<PathBuf> {
+    static FOLDER: OnceLock<Option<PathBuf>> = OnceLock::new();
+    FOLDER.get_or_init(unpacked).clone()
+}
+
+fn unpacked() -> Option<PathBuf> {
     let given = std::env::var_os("ROUNDEL_CGAL_DATA").map(PathBuf::from);
     let place = given.clone().unwrap_or_else(|| PathBuf::from(DEBIAN));
     if place.is_dir() {
@@ -128,11 +134,11 @@ fn archive() -> Option<PathBuf> {
     }
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("cgal-data");
     std::fs::create_dir_all(&folder).expect("a folder");
-    let unpacked = Command::new("tar")
+    let tar = Command::new("tar")
         .args([Path::new("-xzf"), &place, Path::new("-C"), &folder])
         .status()
         .expect("tar");
-    assert!(unpacked.success());
+    assert!(tar.success());
     Some(folder.join("data/meshes"))
 }
 

@@ -263,8 +263,9 @@ fn holes_smaller_than_a_quad_keep_their_sides() {
         let (code, report) = parametrize(&[shape, "--quads", "20"]);
         assert_eq!(code, 0, "{report}");
         assert_eq!(report["flipped"], json!(0), "{report}");
-        assert_eq!(report["untangle"]["rounds"], json!(1));
-        assert_eq!(report["untangle"]["refinements"], json!(0));
+        // Finer only for vertices that it would go around too often.
+        let refinements = report["untangle"]["refinements"].as_u64();
+        assert!(refinements.is_some_and(|n| n <= 2), "{report}");
     }
 }
 
