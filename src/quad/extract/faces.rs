@@ -1,6 +1,6 @@
 //! Faces: walks along lines that keep to the left.
 
-use super::graph::{Graph, Place};
+use super::graph::{Graph, Place, Walk};
 use super::grid_map::ONE;
 use super::place::barycentric;
 use super::quad_mesh::{Origin, QuadMesh};
@@ -13,36 +13,17 @@ pub(super) fn quad_mesh(mesh: &TriangleMesh, refined: &Refined, graph: &Graph) -
     let mut quads = Vec::new();
     let mut others = Vec::new();
     let mut partial_cells = 0;
-    let mut is_seen = vec![false; graph.port_count()];
-    let mut corners = Vec::new();
-    for first in 0..graph.port_count() as u32 {
-        if graph.vertex(first) == NONE || is_seen[first as usize] {
-            continue;
+    graph.for_each_cell(|cell, end| {
+        partial_cells += usize::from(end == Walk::Cut);
+        if end != Walk::Closed {
+            return;
         }
-        corners.clear();
-        let mut port = first;
-        let is_closed = loop {
-            is_seen[port as usize] = true;
-            corners.push(graph.vertex(port));
-            let Some(mate) = graph.mate(port) else {
-                partial_cells += 1;
-                break false;
-            };
-            port = graph.previous(mate);
-            if port == first {
-                break true;
-            }
-            // The end of a walk that began in the middle of a cell that is not closed.
-            if is_seen[port as usize] {
-                break false;
-            }
-        };
-        match (is_closed, <[u32; 4]>::try_from(corners.as_slice())) {
-            (false, _) => {}
-            (true, Ok(quad)) => quads.push(quad),
-            (true, Err(_)) => others.push(corners.clone()),
+        let corners: Vec<u32> = cell.iter().map(|&port| graph.vertex(port)).collect();
+        match <[u32; 4]>::try_from(corners) {
+            Ok(quad) => quads.push(quad),
+            Err(corners) => others.push(corners),
         }
-    }
+    });
     let mut result = QuadMesh {
         vertices: Vec::new(),
         origins: Vec::new(),

@@ -17,6 +17,17 @@ pub(super) enum Place {
     Middle(Vec<u32>),
 }
 
+/// How a walk around a cell ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Walk {
+    /// Where it began.
+    Closed,
+    /// At a line that leaves the surface.
+    Cut,
+    /// Where another walk had begun, in the middle of a cell that is not closed.
+    Met,
+}
+
 /// The graph.
 #[derive(Debug, Default)]
 pub(super) struct Graph {
@@ -107,6 +118,35 @@ impl Graph {
             at = self.next(at);
         }
         ring
+    }
+
+    /// Walks around all cells, along lines that keep to the left: the ports at which its lines leave
+    /// their vertices, and how the walk ended.
+    pub(super) fn for_each_cell(&self, mut visit: impl FnMut(&[u32], Walk)) {
+        let mut is_seen = vec![false; self.port_count()];
+        let mut cell = Vec::new();
+        for first in 0..self.port_count() as u32 {
+            if self.vertex(first) == NONE || is_seen[first as usize] {
+                continue;
+            }
+            cell.clear();
+            let mut port = first;
+            let end = loop {
+                is_seen[port as usize] = true;
+                cell.push(port);
+                let Some(mate) = self.mate(port) else {
+                    break Walk::Cut;
+                };
+                port = self.previous(mate);
+                if port == first {
+                    break Walk::Closed;
+                }
+                if is_seen[port as usize] {
+                    break Walk::Met;
+                }
+            };
+            visit(&cell, end);
+        }
     }
 
     /// Takes a port out of its ring.

@@ -11,7 +11,7 @@
 //! - of two lines between the same two vertices one goes, where its two cells have four sides each;
 //! - a cell of six or more sides gets a vertex in its middle, joined to every other of its corners.
 
-use super::graph::{Graph, Place};
+use super::graph::{Graph, Place, Walk};
 use super::refined::NONE;
 
 /// So few vertices are left as they are: those of the least closed surface of quads, a cube.
@@ -144,34 +144,16 @@ fn fill_from(graph: &mut Graph, first: u32) -> usize {
 
 /// Puts a vertex into every cell of six sides or more. Returns how many.
 fn fill(graph: &mut Graph) -> usize {
-    let mut filled = 0;
-    let mut is_seen = vec![false; graph.port_count()];
-    for first in 0..graph.port_count() as u32 {
-        if graph.vertex(first) == NONE || is_seen[first as usize] {
-            continue;
+    let mut large = Vec::new();
+    graph.for_each_cell(|cell, end| {
+        if end == Walk::Closed && cell.len() >= 6 && cell.len().is_multiple_of(2) {
+            large.push(cell.to_vec());
         }
-        let mut cell = Vec::new();
-        let mut port = first;
-        let is_closed = loop {
-            is_seen[port as usize] = true;
-            cell.push(port);
-            let Some(mate) = graph.mate(port) else {
-                break false;
-            };
-            port = graph.previous(mate);
-            if port == first {
-                break true;
-            }
-            if is_seen[port as usize] {
-                break false;
-            }
-        };
-        if is_closed && cell.len() >= 6 && cell.len().is_multiple_of(2) {
-            graph.fill(&cell[better_half(graph, &cell)..]);
-            filled += 1;
-        }
+    });
+    for cell in &large {
+        graph.fill(&cell[better_half(graph, cell)..]);
     }
-    filled
+    large.len()
 }
 
 /// Whether the even corners of a cell, 0, or the odd ones, 1, are better off with one line more.
