@@ -114,14 +114,14 @@ class Server:
 
     def run(self, *words):
         environment = {**os.environ, "HOME": str(self.folder), "XDG_RUNTIME_DIR": str(self.folder)}
-        command = ["xvfb-run", "-a", self.binary, *words]
+        # Ends the display as well, where the time is up.
+        command = ["timeout", "120", "xvfb-run", "-a", self.binary, *words]
         return subprocess.run(
             [str(word) for word in command],
             env=environment,
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
             text=True,
-            timeout=240,
         )
 
     def filter(self, mesh, parameters, *words):
