@@ -3,7 +3,7 @@
 use super::missed::missed;
 use crate::mesh::TriangleMesh;
 use crate::quad::untangle::{UntangleOptions, Untangled, solve_unfolded, untangle};
-use crate::quad::{IntegerGridMap, QuadMesh, SeamlessProblem, extract};
+use crate::quad::{IntegerGridMap, QuadMesh, SeamlessMap, SeamlessProblem, extract};
 use crate::{Monitor, Options, Result, Solution};
 
 /// How many passes over the mesh untangling may make where quads conform and lack features alone.
@@ -11,6 +11,9 @@ const PASSES_FOR_FEATURES: usize = 10;
 
 /// Maps of more integers are not decided anew: that takes minutes and helps none of them.
 const INTEGERS_TO_DECIDE_ANEW: usize = 600;
+
+/// A map with more than one face in so many folded is not worked on.
+const FOLDED_PART: usize = 4;
 
 /// A map and its quads.
 pub(super) struct Attempt {
@@ -39,7 +42,7 @@ impl<'a, 'm, F: Fn() -> Monitor<'m>> Trial<'a, F> {
         let mesh = self.mesh;
         let as_it_is = Untangled::as_it_is(problem.map(mesh, &solution)?);
         let mut best = self.attempt(solution, as_it_is)?;
-        if !self.may_untangle || best.is_whole() {
+        if !self.may_untangle || best.is_whole() || is_hopeless(mesh, &best.map.map) {
             return Ok(best);
         }
         let effort = UntangleOptions {
@@ -75,6 +78,12 @@ impl<'a, 'm, F: Fn() -> Monitor<'m>> Trial<'a, F> {
             quads,
         })
     }
+}
+
+/// Whether so much of a map is folded that neither untangling nor other integers help: there is more
+/// to be followed than quads of this size can.
+pub(super) fn is_hopeless(mesh: &TriangleMesh, map: &SeamlessMap) -> bool {
+    FOLDED_PART * map.flipped().len() > mesh.face_count()
 }
 
 impl Attempt {

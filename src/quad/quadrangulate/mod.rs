@@ -14,7 +14,7 @@ use super::{FieldProblem, Guidance, OrientationField, QuadMesh, SmoothOptions, s
 use crate::mesh::TriangleMesh;
 use crate::mesh::features::FeatureGraph;
 use crate::{Monitor, Result, Solution};
-use attempt::{Attempt, Trial};
+use attempt::{Attempt, Trial, is_hopeless};
 pub use compare::Compared;
 use compare::compare;
 use decide::{Decided, decide};
@@ -97,7 +97,8 @@ pub fn quadrangulate<'a>(
     };
     let mut best = go(mesh, &at(DETAIL), &features, &monitor, &mut seconds)?;
     for coarser in COARSER {
-        if best.attempt.conforms || options.guidance.detail.is_some() {
+        let is_hopeless = is_hopeless(mesh, &best.attempt.map.map);
+        if best.attempt.conforms || options.guidance.detail.is_some() || is_hopeless {
             break;
         }
         let next = go(mesh, &at(coarser), &features, &monitor, &mut seconds)?;
@@ -162,7 +163,10 @@ fn go<'a>(
     let problem = &decided.problem;
     let (solution, apart) = timed(&mut seconds.map, || {
         let solution = decided.solver.solve_with(&options.map, monitor())?;
-        let apart = strips::hold_apart(mesh, problem, &solution, &options.map, monitor)?;
+        let apart = match is_hopeless(mesh, &problem.map(mesh, &solution)?) {
+            true => None,
+            false => strips::hold_apart(mesh, problem, &solution, &options.map, monitor)?,
+        };
         Ok((solution, apart))
     })?;
     let features: Vec<usize> = features.edges().collect();
