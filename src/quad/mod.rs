@@ -8,6 +8,7 @@ mod align;
 mod charges;
 pub mod check;
 mod comb;
+mod compatible;
 mod constrain;
 mod cut;
 mod cut_paths;

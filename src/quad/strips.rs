@@ -6,10 +6,11 @@
 
 use std::collections::{BTreeSet, VecDeque};
 
+use super::compatible::{Wish, with_wishes};
 use super::{SeamlessMap, SeamlessProblem};
 use crate::mesh::TriangleMesh;
 use crate::mesh::vector::{dot, sub};
-use crate::{Error, Monitor, Options, Result, Solution, solve_with};
+use crate::{Monitor, Options, Problem, Result, Solution, solve_with};
 
 /// Strips narrower than this part of a quad are left collapsed: quads in them would be slivers.
 const NARROWEST: f64 = 0.2;
@@ -62,27 +63,28 @@ pub(super) fn hold_apart<'a>(
     Ok(best)
 }
 
-/// Solves without the strips that contradict the others. None where something else contradicts.
+/// Solves without the strips that contradict the others. None if none is left.
 fn decide<'a>(
     problem: &SeamlessProblem,
     held: &mut Vec<Strip>,
     options: &Options,
     monitor: &impl Fn() -> Monitor<'a>,
 ) -> Result<Option<(SeamlessProblem, Solution)>> {
-    let stated = problem.problem().constraints();
-    while !held.is_empty() {
-        let apart = problem.apart_by(held)?;
-        let row = match solve_with(apart.problem(), options, monitor()) {
-            Ok(solution) => return Ok(Some((apart, solution))),
-            Err(
-                Error::Infeasible { constraint, .. } | Error::NoIntegerSolution { constraint, .. },
-            ) => constraint,
-            Err(error) => return Err(error),
-        };
-        let at = row.checked_sub(stated).unwrap_or(held.len() - 1);
-        held.remove(at);
+    let Some(apart) = with_wishes(problem.problem(), held, monitor)? else {
+        return Ok(None);
+    };
+    let solution = solve_with(&apart, options, monitor())?;
+    let mut held = problem.clone();
+    held.problem = apart;
+    Ok(Some((held, solution)))
+}
+
+impl Wish for Strip {
+    fn add_to(&self, problem: &mut Problem) -> Result<()> {
+        let [low, high] = self.unknowns;
+        problem.add_constraint(&[high, low], &[1.0, -1.0], 1.0)?;
+        Ok(())
     }
-    Ok(None)
 }
 
 impl Strip {
@@ -93,17 +95,6 @@ impl Strip {
 }
 
 impl SeamlessProblem {
-    fn apart_by(&self, strips: &[Strip]) -> Result<Self> {
-        let mut apart = self.clone();
-        for strip in strips {
-            let [low, high] = strip.unknowns;
-            apart
-                .problem
-                .add_constraint(&[high, low], &[1.0, -1.0], 1.0)?;
-        }
-        Ok(apart)
-    }
-
     /// Pairs of curves side by side, each pair once a chart.
     fn strips(&self, mesh: &TriangleMesh) -> Vec<Strip> {
         let lines = Lines::new(self);

@@ -9,7 +9,8 @@ use std::ops::Range;
 use crate::eliminate::eliminate;
 use crate::linalg::Sparse;
 use crate::quad::SeamlessProblem;
-use crate::{Model, Monitor, Problem, Result};
+use crate::quad::compatible::constraints_of;
+use crate::{Model, Monitor, Result};
 
 /// Which coordinates each free unknown moves, and which faces.
 pub(super) struct Freedom {
@@ -37,12 +38,7 @@ impl Freedom {
         monitor: &mut Monitor,
     ) -> Result<Self> {
         let stated = map.problem();
-        let mut held = Problem::new(stated.variables())?;
-        let rows = stated.constraint_rows();
-        for row in 0..rows.len() {
-            let (indices, coefficients): (Vec<_>, Vec<_>) = rows.row(row).unzip();
-            held.add_constraint(&indices, &coefficients, rows.rhs()[row])?;
-        }
+        let mut held = constraints_of(stated)?;
         for (i, &value) in values.iter().enumerate() {
             if let Some(pin) = stated.pins()[i] {
                 held.pin(i, pin)?;

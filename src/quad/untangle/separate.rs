@@ -12,6 +12,7 @@ use std::collections::VecDeque;
 use crate::mesh::TriangleMesh;
 use crate::mesh::vector::{dot, sub};
 use crate::quad::check::orientation;
+use crate::quad::compatible::Wish;
 use crate::quad::{SeamlessMap, SeamlessProblem};
 use crate::{Problem, Result};
 
@@ -109,8 +110,10 @@ impl Apart {
     pub(super) fn is_between(&self, other: &Self) -> bool {
         self.unknowns == other.unknowns
     }
+}
 
-    pub(super) fn add_to(&self, problem: &mut Problem) -> Result<()> {
+impl Wish for Apart {
+    fn add_to(&self, problem: &mut Problem) -> Result<()> {
         let [a, b] = self.unknowns;
         problem.add_constraint(&[b, a], &[1.0, -1.0], self.by)?;
         Ok(())

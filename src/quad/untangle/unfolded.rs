@@ -4,8 +4,9 @@ use super::freedom::Freedom;
 use super::separate::Apart;
 use super::{Collapsed, UntangleOptions, Untangled, untangle};
 use crate::mesh::TriangleMesh;
+use crate::quad::compatible::with_wishes;
 use crate::quad::{SeamlessMap, SeamlessProblem};
-use crate::{Error, Monitor, Options, Problem, Result, Solution, Strategy, solve_with};
+use crate::{Monitor, Options, Problem, Result, Solution, Strategy, solve_with};
 
 /// By how much a refinement multiplies the lengths of the map: about twice as many quads.
 const REFINEMENT: f64 = std::f64::consts::SQRT_2;
@@ -163,33 +164,16 @@ struct Decided {
     collapsed: Collapsed,
 }
 
-/// Solves with constraints that hold cones apart, without those found to contradict the others.
-///
-/// None where what contradicts is not one of them.
+/// Solves with constraints that hold cones apart, without those found to contradict the others. None
+/// if none is left.
 fn solve_apart<'a>(
     stated: &Problem,
     apart: &mut Vec<Apart>,
     solver: &Options,
     monitor: &impl Fn() -> Monitor<'a>,
 ) -> Result<Option<Solution>> {
-    loop {
-        let mut problem = stated.clone();
-        for constraint in apart.iter() {
-            constraint.add_to(&mut problem)?;
-        }
-        let row = match solve_with(&problem, solver, monitor()) {
-            Ok(solution) => return Ok(Some(solution)),
-            Err(
-                Error::Infeasible { constraint, .. } | Error::NoIntegerSolution { constraint, .. },
-            ) => constraint,
-            Err(error) => return Err(error),
-        };
-        match row.checked_sub(stated.constraints()) {
-            Some(k) => drop(apart.remove(k)),
-            None => match apart.pop() {
-                Some(_) => {}
-                None => return Ok(None),
-            },
-        }
-    }
+    let problem = with_wishes(stated, apart, monitor)?;
+    problem
+        .map(|held| solve_with(&held, solver, monitor()))
+        .transpose()
 }
