@@ -18,6 +18,13 @@ const REFINEMENTS_TO_UNWIND: usize = 2;
 /// passes: it seldom helps.
 const PART_OF_PASSES: usize = 8;
 
+/// Where a finer map may be made, untangling may look at so many faces,
+const FACES_BEFORE_REFINING: usize = 500_000;
+
+/// and at so many times those of the mesh: what small regions do not unfold large ones seldom do, and
+/// a finer map costs less than they.
+const PASSES_BEFORE_REFINING: usize = 5;
+
 /// A map, the solution that its integers are from, and what became of it.
 #[derive(Debug)]
 pub struct Unfolded {
@@ -145,8 +152,12 @@ fn solve_size<'a>(
         }
     }
     let mut effort = *options;
-    if !best.collapsed.is_empty() && refinements_left > 0 {
-        effort.passes /= PART_OF_PASSES;
+    if refinements_left > 0 {
+        let few = PASSES_BEFORE_REFINING + FACES_BEFORE_REFINING / mesh.face_count().max(1);
+        effort.passes = effort.passes.min(few);
+        if !best.collapsed.is_empty() {
+            effort.passes /= PART_OF_PASSES;
+        }
     }
     Ok(Unfolded {
         untangled: untangle(mesh, problem, &best.map, &effort, &mut monitor())?,
