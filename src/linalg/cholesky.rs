@@ -76,7 +76,10 @@ impl Cholesky {
             place[i as usize] = k as u32;
         }
         let order = PermRef::new_checked(order, &place, order.len());
-        Self::with(&Analysis::ordered(lower, SymmetricOrdering::Custom(order))?, lower)
+        Self::with(
+            &Analysis::ordered(lower, SymmetricOrdering::Custom(order))?,
+            lower,
+        )
     }
 
     /// As [`new`](Self::new), for a matrix that has the pattern of the one that was analysed.

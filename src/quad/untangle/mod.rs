@@ -239,7 +239,13 @@ impl<'a> Untangling<'a> {
             return Ok(());
         }
         let saved = system.save(&self.values);
-        let outcome = schedule::unfold(&mut system, &mut self.values, most_steps, first_eps, monitor)?;
+        let outcome = schedule::unfold(
+            &mut system,
+            &mut self.values,
+            most_steps,
+            first_eps,
+            monitor,
+        )?;
         if outcome.folded >= before {
             system.restore(&mut self.values, &saved);
         }
