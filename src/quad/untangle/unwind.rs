@@ -4,15 +4,20 @@
 //! turns: no motion without folds leads out of it. A disk around both is laid anew in polar
 //! coordinates, larger and larger ones, and what that folds is untangled again.
 
+use std::collections::BTreeSet;
+
 use super::Untangling;
 use super::disk::Disk;
 use super::polar::{Layout, faces_within};
 use super::region::regions;
-use crate::quad::check::{orientation, wound};
+use crate::quad::check::{is_wound, orientation, wound};
 use crate::{Monitor, Result};
 
 /// How far around a cone, in units of the map, is laid anew, attempt after attempt.
 const RADII: [f64; 12] = [0.5, 0.7, 1.0, 1.2, 1.4, 1.7, 2.0, 2.4, 2.8, 3.4, 4.0, 5.6];
+
+/// A disk of more faces than these is not worth the work that it makes.
+const MOST_FACES: usize = 4000;
 
 /// How often all such cones are looked at: mending one may wind another up.
 const ROUNDS: usize = 4;
@@ -60,7 +65,6 @@ impl Untangling<'_> {
         wound: &mut Vec<usize>,
         monitor: &mut Monitor,
     ) -> Result<()> {
-        let folded = self.folded().len();
         let mut faces = 0;
         for radius in RADII {
             let Some(disk) = self.disk(cone, radius).filter(|_| self.budget > 0) else {
@@ -69,6 +73,9 @@ impl Untangling<'_> {
             if std::mem::replace(&mut faces, disk.faces.len()) == disk.faces.len() {
                 continue;
             }
+            if faces > MOST_FACES {
+                break;
+            }
             let Some(layout) = self.layout(&disk)? else {
                 continue;
             };
@@ -76,17 +83,40 @@ impl Untangling<'_> {
                 let before = self.values.clone();
                 self.lay(&layout);
                 self.unfold_disk(&disk, first_eps, monitor)?;
-                if self.folded().len() <= folded {
-                    let left = self.wound();
-                    if left.len() < wound.len() {
-                        *wound = left;
-                        return Ok(());
-                    }
+                let left = self.wound_since(&before, wound);
+                if let Some(left) = left.filter(|left| left.len() < wound.len()) {
+                    *wound = left;
+                    return Ok(());
                 }
                 self.values = before;
             }
         }
         Ok(())
+    }
+
+    /// The wound vertices, which at other values were these; none where what moved is folded.
+    fn wound_since(&self, before: &[f64], wound: &[usize]) -> Option<Vec<usize>> {
+        let first = &self.problem.sectors.first;
+        let vertex = |i: usize| first.partition_point(|&copy| copy as usize <= i / 2) - 1;
+        let both = self.values.iter().zip(before).enumerate();
+        let moved: BTreeSet<usize> = both
+            .filter(|(_, (x, y))| x != y)
+            .map(|(i, _)| vertex(i))
+            .collect();
+        let around = moved.iter().flat_map(|&v| self.mesh.ring(v));
+        let faces: BTreeSet<usize> = around.map(|(face, _)| face).collect();
+        if faces.iter().any(|&face| orientation(self.uv(face)) <= 0.0) {
+            return None;
+        }
+        let corners = faces.iter().flat_map(|&face| self.mesh.corners(face));
+        let near: BTreeSet<usize> = corners.collect();
+        let uv = |face| self.uv(face);
+        let is_wound = |v: &usize| is_wound(self.mesh, &self.quarters, uv, *v);
+        let far = wound.iter().filter(|v| !near.contains(v));
+        let found = near.iter().copied().filter(is_wound);
+        let mut left: Vec<usize> = far.copied().chain(found).collect();
+        left.sort_unstable();
+        Some(left)
     }
 
     /// What lies within `radius` of a cone in the map, without vertices that cannot go wherever one
