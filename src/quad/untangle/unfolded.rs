@@ -18,6 +18,10 @@ const REFINEMENTS_TO_UNWIND: usize = 2;
 /// passes: it seldom helps.
 const PART_OF_PASSES: usize = 8;
 
+/// Nodes that a proof may visit with [`Strategy::Auto`]: of large maps none is tried that would take
+/// longer than all else.
+const NODES: usize = 30_000_000;
+
 /// Where a finer map may be made, untangling may look at so many faces,
 const FACES_BEFORE_REFINING: usize = 500_000;
 
@@ -59,7 +63,8 @@ impl Unfolded {
 /// all maps the first with the fewest of these is kept.
 /// `monitor` watches each solve and each untangling.
 ///
-/// With [`Strategy::Relax`] there are no integers to speak of, and the map is that of the
+/// With [`Strategy::Auto`] a proof visits at most thirty million nodes; [`Strategy::Exact`] is there for
+/// more. With [`Strategy::Relax`] there are no integers to speak of, and the map is that of the
 /// relaxation.
 ///
 /// # Errors
@@ -77,10 +82,14 @@ pub fn solve_unfolded<'a>(
         let map = problem.map(mesh, &solution)?;
         return Ok(Unfolded::as_it_is(solution, map));
     }
+    let mut solver = solver.clone();
+    if solver.strategy == Strategy::Auto {
+        solver.nodes = solver.nodes.min(NODES);
+    }
     let mut best = solve_size(
         mesh,
         problem,
-        solver,
+        &solver,
         options,
         options.refinements,
         &monitor,
@@ -96,7 +105,7 @@ pub fn solve_unfolded<'a>(
         }
         let finer = problem.refined(mesh, REFINEMENT.powi(refinements as i32))?;
         let left = options.refinements - refinements;
-        let found = solve_size(mesh, &finer, solver, options, left, &monitor)?;
+        let found = solve_size(mesh, &finer, &solver, options, left, &monitor)?;
         if found.untangled.faults() < best.untangled.faults() {
             best = Unfolded {
                 refinements,
