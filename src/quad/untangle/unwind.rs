@@ -20,7 +20,7 @@ const RADII: [f64; 12] = [0.5, 0.7, 1.0, 1.2, 1.4, 1.7, 2.0, 2.4, 2.8, 3.4, 4.0,
 const MOST_FACES: usize = 4000;
 
 /// How often all such cones are looked at: mending one may wind another up.
-const ROUNDS: usize = 4;
+const ROUNDS: usize = 8;
 
 /// How many faces all steps may look at, as a multiple of the mesh's faces.
 const PASSES: usize = 20;
@@ -44,14 +44,15 @@ impl Untangling<'_> {
             .budget
             .min(PASSES.saturating_mul(self.mesh.face_count()));
         let mut wound = self.wound();
+        let mut left_behind = BTreeSet::new();
         for _ in 0..ROUNDS {
-            let before = wound.len();
-            for cone in wound.clone() {
+            let before = wound.clone();
+            for cone in before.iter().copied() {
                 if self.quarters[cone] != Some(4) && wound.contains(&cone) {
-                    self.unwind_cone(cone, &mut wound, monitor)?;
+                    self.unwind_cone(cone, &mut wound, &mut left_behind, monitor)?;
                 }
             }
-            if wound.is_empty() || wound.len() == before {
+            if wound.is_empty() || wound == before {
                 break;
             }
         }
@@ -59,12 +60,17 @@ impl Untangling<'_> {
     }
 
     /// Lays larger and larger disks around a cone anew, until fewer vertices are `wound`.
+    ///
+    /// Where none helps, the first is taken that winds another cone in its stead which was not
+    /// `left_behind` so before: that one may have more room.
     fn unwind_cone(
         &mut self,
         cone: usize,
         wound: &mut Vec<usize>,
+        left_behind: &mut BTreeSet<usize>,
         monitor: &mut Monitor,
     ) -> Result<()> {
+        let mut instead = None;
         let mut faces = 0;
         for radius in RADII {
             let Some(disk) = self.disk(cone, radius).filter(|_| self.budget > 0) else {
@@ -84,12 +90,22 @@ impl Untangling<'_> {
                 self.lay(&layout);
                 self.unfold_disk(&disk, first_eps, monitor)?;
                 let left = self.wound_since(&before, wound);
-                if let Some(left) = left.filter(|left| left.len() < wound.len()) {
-                    *wound = left;
+                let now = std::mem::replace(&mut self.values, before);
+                let Some(left) = left else { continue };
+                if left.len() < wound.len() {
+                    (self.values, *wound) = (now, left);
                     return Ok(());
                 }
-                self.values = before;
+                let is_other = |v: &usize| !left_behind.contains(v);
+                let moves = left.len() == wound.len() && !left.contains(&cone);
+                if instead.is_none() && moves && left.iter().all(is_other) {
+                    instead = Some((now, left));
+                }
             }
+        }
+        if let Some((values, left)) = instead {
+            left_behind.insert(cone);
+            (self.values, *wound) = (values, left);
         }
         Ok(())
     }
