@@ -18,8 +18,10 @@ const REFINEMENTS_TO_UNWIND: usize = 2;
 /// passes: it seldom helps.
 const PART_OF_PASSES: usize = 8;
 
-/// Nodes that a proof may visit with [`Strategy::Auto`]: of large maps none is tried that would take
-/// longer than all else.
+/// With [`Strategy::Auto`] a proof is tried for maps of at most so many unknowns,
+const PROVED: usize = 50_000;
+
+/// and may visit so many nodes: a map shall not wait for it.
 const NODES: usize = 30_000_000;
 
 /// Where a finer map may be made, untangling may look at so many faces,
@@ -63,8 +65,8 @@ impl Unfolded {
 /// all maps the first with the fewest of these is kept.
 /// `monitor` watches each solve and each untangling.
 ///
-/// With [`Strategy::Auto`] a proof visits at most thirty million nodes; [`Strategy::Exact`] is there for
-/// more. With [`Strategy::Relax`] there are no integers to speak of, and the map is that of the
+/// With [`Strategy::Auto`] a proof is tried only where the map need not wait for it long: up to fifty
+/// thousand unknowns, for at most thirty million nodes; [`Strategy::Exact`] is there for more. With [`Strategy::Relax`] there are no integers to speak of, and the map is that of the
 /// relaxation.
 ///
 /// # Errors
@@ -85,6 +87,9 @@ pub fn solve_unfolded<'a>(
     let mut solver = solver.clone();
     if solver.strategy == Strategy::Auto {
         solver.nodes = solver.nodes.min(NODES);
+        if problem.problem().variables() > PROVED {
+            solver.strategy = Strategy::Lattice;
+        }
     }
     let mut best = solve_size(
         mesh,
