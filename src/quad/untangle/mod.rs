@@ -64,6 +64,10 @@ pub struct UntangleOptions {
     pub steps: usize,
     /// How many faces all steps together may look at, as a multiple of the mesh's faces.
     pub passes: usize,
+    /// How often a map with folds is solved for again, stiffer where it is distorted
+    /// ([`SeamlessProblem::stiffened`]), before anything else is done. The classical remedy; where
+    /// the other steps may follow, most maps do without.
+    pub stiffenings: usize,
     /// How often the integers of collapsed cones are decided anew.
     pub rounds: usize,
     /// How often a map that keeps folds is made finer.
@@ -75,6 +79,7 @@ impl Default for UntangleOptions {
         UntangleOptions {
             steps: 100,
             passes: 200,
+            stiffenings: 0,
             rounds: 6,
             refinements: 5,
         }

@@ -1,5 +1,7 @@
 //! From the problem to a map without folds: decide, hold apart, decide anew, untangle, refine.
 
+use std::borrow::Cow;
+
 use super::freedom::Freedom;
 use super::separate::Apart;
 use super::{Collapsed, UntangleOptions, Untangled, untangle};
@@ -59,7 +61,7 @@ impl Unfolded {
     }
 }
 
-/// Solves the problem, holds apart the cones that its integers collapse and solves again, at most
+/// Solves the problem, stiffens what is folded where `options` say so, holds apart the cones that its integers collapse and solves again, at most
 /// `options.rounds` times, and untangles the map. Where folds are left, or vertices that the
 /// map goes around too often, the same is done for a finer map, at most `options.refinements` times; of
 /// all maps the first with the fewest of these is kept.
@@ -132,6 +134,14 @@ fn solve_size<'a>(
 ) -> Result<Unfolded> {
     let solution = solve_with(problem.problem(), solver, monitor())?;
     let map = problem.map(mesh, &solution)?;
+    let (stiff, solution, map) = stiffen(
+        mesh,
+        (problem, solution, map),
+        solver,
+        options.stiffenings,
+        monitor,
+    )?;
+    let problem = stiff.as_ref();
     let held = Freedom::new(problem, map.copies(), map.values(), &mut monitor())?.held();
     let near = problem.near_cones(mesh, &held);
     let mut best = Decided {
@@ -180,6 +190,32 @@ fn solve_size<'a>(
         refinements: 0,
         collapsed: best.collapsed,
     })
+}
+
+/// Makes the triangles stiffer that the map distorts, and solves again, so often or until none is
+/// folded: the map with the fewest folds, and the problem that it solves.
+fn stiffen<'a, 'b>(
+    mesh: &TriangleMesh,
+    (problem, solution, map): (&'b SeamlessProblem, Solution, SeamlessMap),
+    solver: &Options,
+    stiffenings: usize,
+    monitor: &impl Fn() -> Monitor<'a>,
+) -> Result<(Cow<'b, SeamlessProblem>, Solution, SeamlessMap)> {
+    let mut best = (Cow::Borrowed(problem), solution, map);
+    let mut last = (problem.clone(), best.2.clone());
+    for _ in 0..stiffenings {
+        if best.2.flipped().is_empty() {
+            break;
+        }
+        let stiffer = last.0.stiffened(mesh, &last.1)?;
+        let solution = solve_with(stiffer.problem(), solver, monitor())?;
+        let map = stiffer.map(mesh, &solution)?;
+        last = (stiffer, map);
+        if last.1.flipped().len() < best.2.flipped().len() {
+            best = (Cow::Owned(last.0.clone()), solution, last.1.clone());
+        }
+    }
+    Ok(best)
 }
 
 /// Integers, and what they collapse.
