@@ -161,6 +161,43 @@ static void untangled(const model* m) {
     OK(roundel_map_free(map));
 }
 
+/* Integers decided anew where they collapse cones, and a finer map where folds are left: what is
+ * asked for again, the plain map at the size asked for, is as if there had been none. */
+static void unfolded(const model* m) {
+    roundel_map* map = NULL;
+    size_t rounded = 0, flipped = 9, wound = 9, rounds = 0, refinements = 9;
+    OK(roundel_map_new(m->mesh, m->field, NULL, &map));
+    OK(roundel_map_set_quads(map, 210));
+    OK(roundel_map_solve(map, NULL, NULL));
+    OK(roundel_map_flipped_count(map, &rounded));
+    double* plain = corners(map, m->faces);
+    OK(roundel_map_refinement_count(map, &refinements));
+    CHECK(rounded > 0 && refinements == 0);
+
+    OK(roundel_map_solve_unfolded(map, NULL, NULL));
+    OK(roundel_map_flipped_count(map, &flipped));
+    OK(roundel_map_wound_count(map, &wound));
+    OK(roundel_map_round_count(map, &rounds));
+    OK(roundel_map_refinement_count(map, &refinements));
+    CHECK(flipped == 0 && wound == 0 && rounds + refinements > 0);
+    OK(roundel_map_wound(map, NULL, 0));
+    double* uv = corners(map, m->faces);
+    CHECK(isolines(m, uv) > 100);
+    OK(roundel_map_untangle(map, NULL));
+    double* still = corners(map, m->faces);
+    CHECK(memcmp(uv, still, 6 * m->faces * sizeof *uv) == 0);
+
+    OK(roundel_map_solve(map, NULL, NULL));
+    OK(roundel_map_corner_uvs(map, uv, 6 * m->faces));
+    CHECK(memcmp(uv, plain, 6 * m->faces * sizeof *uv) == 0);
+    OK(roundel_map_round_count(map, &rounds));
+    CHECK(rounds == 0);
+    free(still);
+    free(plain);
+    free(uv);
+    OK(roundel_map_free(map));
+}
+
 /* A solution of the plain problem is as good as a solve. */
 static void elsewhere(const model* m, roundel_map* map) {
     roundel_problem* problem = NULL;
@@ -197,6 +234,7 @@ static void watched(const model* m) {
     int calls = 0;
     OK(roundel_map_new(m->mesh, m->field, NULL, &map));
     CHECK(roundel_map_solve(map, NULL, &monitor) == ROUNDEL_ERROR_CANCELLED);
+    CHECK(roundel_map_solve_unfolded(map, NULL, &monitor) == ROUNDEL_ERROR_CANCELLED);
     CHECK(roundel_map_energy(map, &energy) == ROUNDEL_ERROR_INVALID_ARGUMENT && energy == 7.0);
     monitor.callback = count_events;
     monitor.user_data = &calls;
@@ -224,6 +262,7 @@ int main(void) {
         elsewhere(&m, map);
         if (i == 1) {
             untangled(&m);
+            unfolded(&m);
         }
         watched(&m);
         free(uv);

@@ -35,8 +35,8 @@ fn known(status: roundel_status) {
 }
 
 fn call(u: &mut Unstructured, h: &mut Handles) -> Result<()> {
-    let which = u.int_in_range(0..=41)?;
-    if which < 14 || which > 39 { built(u, h, which) } else { used(u, h, which) }
+    let which = u.int_in_range(0..=43)?;
+    if matches!(which, 14..=39 | 42..=43) { used(u, h, which) } else { built(u, h, which) }
 }
 
 /// Calls that build problems and options.
@@ -132,6 +132,8 @@ fn used(u: &mut Unstructured, h: &mut Handles, which: u8) -> Result<()> {
             35 => h.make(|h| &mut h.quad_options, |out| handles::modest_quad_options(out)),
             36 => roundel_quad_options_set_quads(quad, small),
             37 => roundel_quad_options_set_edge_lengths(quad, x, reals.len()),
+            42 => roundel_map_solve_unfolded(map, options, null()),
+            43 => roundel_map_untangle(map, null()),
             38 => h.make(|h| &mut h.quads, |out| roundel_quads_make_with(mesh, quad, null(), out)),
             _ => h.make(|h| &mut h.quads, |out| roundel_quads_extract(map, out)),
         }

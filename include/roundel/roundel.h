@@ -1829,17 +1829,6 @@ roundel_status roundel_map_solve(struct roundel_map *map,
                                  const struct roundel_monitor *monitor);
 
 /**
- * Moves the vertices that integers do not hold until as few faces as can be are turned over or
- * collapsed, under the eyes of `monitor`, which may be NULL. Seams, cones and isolines stay what
- * they are. roundel_map_flipped_count tells what is left; the solution stays that of the solve.
- *
- * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT where nothing has been solved for, and after a
- * relaxation, which has no integers to hold; ROUNDEL_ERROR_CANCELLED, which leaves the map as it
- * was.
- */
-roundel_status roundel_map_untangle(struct roundel_map *map, const struct roundel_monitor *monitor);
-
-/**
  * Makes a copy of the mixed-integer problem of a map at its present size, to be kept or solved in
  * another way. Variables 2 c and 2 c + 1 are u and v of vertex c of the cut surface; the
  * translations of the seams follow.
@@ -1854,6 +1843,62 @@ roundel_status roundel_map_make_problem(const struct roundel_map *map,
  */
 roundel_status roundel_map_take_solution(struct roundel_map *map,
                                          const struct roundel_solution *solution);
+
+/**
+ * Solves for a map without folds, as the program `roundel parametrize` does: integers that collapse
+ * cones are decided anew, faces that are turned over are untangled, vertices that the map goes around
+ * once too often are laid anew, and where folds are left all that is done for a finer map.
+ * Of all maps that with the fewest folds is kept. `options` are those of every solve, `monitor`
+ * watches each; both may be NULL. Every solve starts from nothing. A relaxation is not untangled.
+ *
+ * roundel_map_flipped_count and roundel_map_wound_count tell what is left, roundel_map_round_count and
+ * roundel_map_refinement_count what it took. A map that was made finer keeps the size asked for
+ * in mind, for the next solve.
+ *
+ * Fails as roundel_solve does for the first solve, with ROUNDEL_ERROR_CANCELLED also later, and
+ * leaves what an earlier solve found. The callback must not use the map.
+ */
+roundel_status roundel_map_solve_unfolded(struct roundel_map *map,
+                                          const struct roundel_options *options,
+                                          const struct roundel_monitor *monitor);
+
+/**
+ * Moves the vertices that integers do not hold until as few faces as can be are turned over or
+ * collapsed, under the eyes of `monitor`, which may be NULL. Seams, cones and isolines stay what
+ * they are. roundel_map_flipped_count tells what is left; the solution stays that of the solve. After
+ * roundel_map_solve_unfolded there is nothing left to do.
+ *
+ * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT where nothing has been solved for, and after a
+ * relaxation, which has no integers to hold; ROUNDEL_ERROR_CANCELLED, which leaves the map as it
+ * was.
+ */
+roundel_status roundel_map_untangle(struct roundel_map *map,
+                                    const struct roundel_monitor *monitor);
+
+/**
+ * Gives the number of inner vertices around which the map turns another number of times than the
+ * field, faces that are turned over left aside: a ring of faces may go around its vertex twice
+ * without a fold. Recomputed from the mesh. With none of these and no flipped faces, a map is
+ * one to one around every inner point.
+ */
+roundel_status roundel_map_wound_count(const struct roundel_map *map, size_t *count);
+
+/**
+ * Copies the vertices of roundel_map_wound_count, in increasing order. `length` is their number.
+ */
+roundel_status roundel_map_wound(const struct roundel_map *map, int32_t *vertices, size_t length);
+
+/**
+ * Gives how often roundel_map_solve_unfolded decided integers anew, at the size that the map has; 0
+ * after any other solve.
+ */
+roundel_status roundel_map_round_count(const struct roundel_map *map, size_t *count);
+
+/**
+ * Gives how often roundel_map_solve_unfolded made the map finer than asked for, each time by the
+ * square root of two in length; 0 after any other solve.
+ */
+roundel_status roundel_map_refinement_count(const struct roundel_map *map, size_t *count);
 
 /**
  * Copies u, v of the three corners of every face. `length` is six times the number of faces.

@@ -2,11 +2,10 @@
 
 use super::guard;
 use super::input::{Index, indices, slice};
-use super::objective::Compressed;
-use super::output::optional;
+use super::matrix::{Compressed, add_rows};
 use super::problem::roundel_problem;
 use super::status::roundel_status;
-use crate::{Layout, Problem};
+use crate::Problem;
 
 /// Adds the constraint sum_k coefficients[k] x[indices[k]] = rhs. Constraints are numbered from 0
 /// in the order given, and errors name them by that number. Duplicate indices are summed.
@@ -34,7 +33,7 @@ pub unsafe extern "C" fn roundel_problem_add_constraint(
 }
 
 /// # Safety
-/// The arrays are as the caller of the entry says.
+/// As the callers of the entries below say.
 unsafe fn add_matrix<I: Index>(
     problem: *mut roundel_problem,
     matrix: Compressed<I>,
@@ -42,24 +41,13 @@ unsafe fn add_matrix<I: Index>(
     rhs: *const f64,
     first: *mut usize,
 ) -> roundel_status {
-    let body = |value: &mut Problem| {
-        let bound = match matrix.layout {
-            Layout::Rows => value.variables(),
-            Layout::Columns => constraint_count,
-        };
-        // SAFETY: handed on.
-        unsafe {
-            let rhs = slice("constraint right sides", rhs, constraint_count)?;
-            let first = optional("first", first)?;
-            let number = matrix.with(bound, |m| value.add_constraint_matrix(m, rhs))?;
-            if let Some(first) = first {
-                first.set(number);
-            }
-        }
-        Ok(())
-    };
-    // SAFETY: the caller gives a live handle, or NULL.
-    unsafe { guard::write(problem, body) }
+    let rhs = ("constraint right sides", rhs, constraint_count);
+    // SAFETY: handed on.
+    unsafe {
+        add_rows(problem, matrix, rhs, first, |problem, matrix, rhs| {
+            Ok(problem.add_constraint_matrix(matrix, rhs)?)
+        })
+    }
 }
 
 /// Adds the constraints C x = rhs, one a row of C, which is given in compressed rows: the
@@ -81,14 +69,7 @@ pub unsafe extern "C" fn roundel_problem_add_constraints_csr(
     rhs: *const f64,
     first: *mut usize,
 ) -> roundel_status {
-    let matrix = Compressed {
-        layout: Layout::Rows,
-        offset_count,
-        offsets,
-        count,
-        minor: columns,
-        values,
-    };
+    let matrix = Compressed::rows(offset_count, offsets, count, columns, values);
     // SAFETY: the caller gives a live handle and arrays of the lengths given, or NULL.
     unsafe { add_matrix(problem, matrix, constraint_count, rhs, first) }
 }
@@ -106,14 +87,7 @@ pub unsafe extern "C" fn roundel_problem_add_constraints_csr_i64(
     rhs: *const f64,
     first: *mut usize,
 ) -> roundel_status {
-    let matrix = Compressed {
-        layout: Layout::Rows,
-        offset_count,
-        offsets,
-        count,
-        minor: columns,
-        values,
-    };
+    let matrix = Compressed::rows(offset_count, offsets, count, columns, values);
     // SAFETY: the caller gives a live handle and arrays of the lengths given, or NULL.
     unsafe { add_matrix(problem, matrix, constraint_count, rhs, first) }
 }
@@ -137,14 +111,7 @@ pub unsafe extern "C" fn roundel_problem_add_constraints_csc(
     rhs: *const f64,
     first: *mut usize,
 ) -> roundel_status {
-    let matrix = Compressed {
-        layout: Layout::Columns,
-        offset_count,
-        offsets,
-        count,
-        minor: rows,
-        values,
-    };
+    let matrix = Compressed::columns(offset_count, offsets, count, rows, values);
     // SAFETY: the caller gives a live handle and arrays of the lengths given, or NULL.
     unsafe { add_matrix(problem, matrix, constraint_count, rhs, first) }
 }
@@ -162,14 +129,7 @@ pub unsafe extern "C" fn roundel_problem_add_constraints_csc_i64(
     rhs: *const f64,
     first: *mut usize,
 ) -> roundel_status {
-    let matrix = Compressed {
-        layout: Layout::Columns,
-        offset_count,
-        offsets,
-        count,
-        minor: rows,
-        values,
-    };
+    let matrix = Compressed::columns(offset_count, offsets, count, rows, values);
     // SAFETY: the caller gives a live handle and arrays of the lengths given, or NULL.
     unsafe { add_matrix(problem, matrix, constraint_count, rhs, first) }
 }

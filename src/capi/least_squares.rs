@@ -1,13 +1,13 @@
 //! Least-squares rows, one by one or as a matrix.
 
-use super::error::Failure;
 use super::guard;
 use super::input::{Index, indices, slice};
-use super::objective::{Compressed, INDICES, VALUES};
+use super::matrix::{Compressed, add_rows};
 use super::output::optional;
 use super::problem::roundel_problem;
 use super::status::roundel_status;
-use crate::{Error, Layout, Problem};
+use crate::Problem;
+use crate::problem::MatrixRef;
 
 /// Adds weight * (sum_k coefficients[k] x[indices[k]] - rhs)^2 to the objective, without a factor
 /// of 1/2. The row itself is kept, and its number goes to `row`, which may be NULL.
@@ -42,7 +42,7 @@ pub unsafe extern "C" fn roundel_problem_add_least_squares(
 }
 
 /// # Safety
-/// The arrays are as the caller of the entry says.
+/// As the callers of the entries below say.
 unsafe fn add_matrix<I: Index>(
     problem: *mut roundel_problem,
     matrix: Compressed<I>,
@@ -51,77 +51,17 @@ unsafe fn add_matrix<I: Index>(
     weights: *const f64,
     first: *mut usize,
 ) -> roundel_status {
-    let body = |value: &mut Problem| {
-        let bound = match matrix.layout {
-            Layout::Rows => value.variables(),
-            Layout::Columns => row_count,
+    let add = |problem: &mut Problem, matrix: &MatrixRef, rhs: &[f64]| {
+        let weights = match weights.is_null() {
+            true => None,
+            // SAFETY: handed on.
+            false => Some(unsafe { slice("least-squares weights", weights, row_count) }?),
         };
-        // SAFETY: handed on.
-        unsafe {
-            let rhs = slice("least-squares right sides", rhs, row_count)?;
-            let weights = match weights.is_null() {
-                true => None,
-                false => Some(slice("least-squares weights", weights, row_count)?),
-            };
-            let first = optional("first", first)?;
-            let added = matrix.with(bound, |m| value.add_least_squares_matrix(m, rhs, weights));
-            let number = added.map_err(|failure| matrix.naming_row(failure))?;
-            if let Some(first) = first {
-                first.set(number);
-            }
-        }
-        Ok(())
+        Ok(problem.add_least_squares_matrix(matrix, rhs, weights)?)
     };
-    // SAFETY: the caller gives a live handle, or NULL.
-    unsafe { guard::write(problem, body) }
-}
-
-impl<I: Index> Compressed<I> {
-    /// A failure of an entry with the row that it is in.
-    ///
-    /// # Safety
-    /// As [`with`](Self::with).
-    unsafe fn naming_row(&self, failure: Failure) -> Failure {
-        let Failure::Library(error) = failure else {
-            return failure;
-        };
-        let position = match error {
-            Error::IndexOutOfRange { what, position, .. }
-                if what == INDICES && self.layout == Layout::Rows =>
-            {
-                position
-            }
-            Error::NotFinite { what, position } if what == VALUES => position,
-            _ => return Failure::Library(error),
-        };
-        // SAFETY: handed on.
-        let row = unsafe { self.row_of(position) };
-        match row {
-            Some(row) => Failure::InRow { row, error },
-            None => Failure::Library(error),
-        }
-    }
-
-    /// The row of an entry, if the arrays say so.
-    ///
-    /// # Safety
-    /// As [`with`](Self::with).
-    unsafe fn row_of(&self, position: usize) -> Option<usize> {
-        match self.layout {
-            Layout::Rows => {
-                let end = self.count.saturating_add(1);
-                // SAFETY: handed on.
-                let offsets = unsafe { indices("", self.offsets, self.offset_count, end) }.ok()?;
-                let is_here = |ends: &[usize]| ends[0] <= position && position < ends[1];
-                offsets.windows(2).position(is_here)
-            }
-            Layout::Columns => {
-                // SAFETY: handed on.
-                let rows = unsafe { indices("", self.minor, self.count, usize::MAX) }.ok()?;
-                rows.get(position).copied()
-            }
-        }
-    }
+    let rhs = ("least-squares right sides", rhs, row_count);
+    // SAFETY: handed on.
+    unsafe { add_rows(problem, matrix, rhs, first, add) }
 }
 
 /// Adds sum_i weights[i] ((A x)_i - rhs[i])^2 to the objective, one term a row of A, which is given
@@ -144,14 +84,7 @@ pub unsafe extern "C" fn roundel_problem_add_least_squares_csr(
     weights: *const f64,
     first: *mut usize,
 ) -> roundel_status {
-    let matrix = Compressed {
-        layout: Layout::Rows,
-        offset_count,
-        offsets,
-        count,
-        minor: columns,
-        values,
-    };
+    let matrix = Compressed::rows(offset_count, offsets, count, columns, values);
     // SAFETY: the caller gives a live handle and arrays of the lengths given, or NULL.
     unsafe { add_matrix(problem, matrix, row_count, rhs, weights, first) }
 }
@@ -170,14 +103,7 @@ pub unsafe extern "C" fn roundel_problem_add_least_squares_csr_i64(
     weights: *const f64,
     first: *mut usize,
 ) -> roundel_status {
-    let matrix = Compressed {
-        layout: Layout::Rows,
-        offset_count,
-        offsets,
-        count,
-        minor: columns,
-        values,
-    };
+    let matrix = Compressed::rows(offset_count, offsets, count, columns, values);
     // SAFETY: the caller gives a live handle and arrays of the lengths given, or NULL.
     unsafe { add_matrix(problem, matrix, row_count, rhs, weights, first) }
 }
@@ -197,14 +123,7 @@ pub unsafe extern "C" fn roundel_problem_add_least_squares_csc(
     weights: *const f64,
     first: *mut usize,
 ) -> roundel_status {
-    let matrix = Compressed {
-        layout: Layout::Columns,
-        offset_count,
-        offsets,
-        count,
-        minor: rows,
-        values,
-    };
+    let matrix = Compressed::columns(offset_count, offsets, count, rows, values);
     // SAFETY: the caller gives a live handle and arrays of the lengths given, or NULL.
     unsafe { add_matrix(problem, matrix, row_count, rhs, weights, first) }
 }
@@ -223,14 +142,7 @@ pub unsafe extern "C" fn roundel_problem_add_least_squares_csc_i64(
     weights: *const f64,
     first: *mut usize,
 ) -> roundel_status {
-    let matrix = Compressed {
-        layout: Layout::Columns,
-        offset_count,
-        offsets,
-        count,
-        minor: rows,
-        values,
-    };
+    let matrix = Compressed::columns(offset_count, offsets, count, rows, values);
     // SAFETY: the caller gives a live handle and arrays of the lengths given, or NULL.
     unsafe { add_matrix(problem, matrix, row_count, rhs, weights, first) }
 }

@@ -2,7 +2,7 @@
 
 use super::error::Outcome;
 use super::event::{monitor as watched_by, roundel_monitor};
-use super::field::{Found, roundel_field};
+use super::field::{Found as FoundField, roundel_field};
 use super::guard::{self, Guarded, object};
 use super::guidance::roundel_guidance;
 use super::input::slice;
@@ -13,16 +13,29 @@ use super::problem::roundel_problem;
 use super::solution::roundel_solution;
 use super::status::roundel_status;
 use crate::mesh::TriangleMesh;
-use crate::quad::untangle::{UntangleOptions, untangle};
+use crate::quad::untangle::Unfolded;
 use crate::quad::{SeamlessMap, SeamlessOptions, SeamlessProblem, Sizing};
-use crate::{Error, Options, Solution, SolveStatus, Solver};
+use crate::{Error, Options, Result, Solution, SolveStatus, Solver};
 
 /// All that a solve at another size needs again, and what the last one found.
 pub(super) struct Mapped {
     mesh: TriangleMesh,
     problem: SeamlessProblem,
     solver: Solver,
-    found: Option<(SeamlessMap, Solution)>,
+    found: Option<Found>,
+}
+
+/// What a solve found.
+pub(super) struct Found {
+    pub(super) map: SeamlessMap,
+    /// That which the integers are from.
+    pub(super) solution: Solution,
+    /// How often integers were decided anew.
+    pub(super) rounds: usize,
+    /// How often the map was made finer.
+    pub(super) refinements: usize,
+    /// Whether it was untangled as it was solved for, in the size that it then had.
+    pub(super) unfolded: bool,
 }
 
 impl Mapped {
@@ -30,8 +43,34 @@ impl Mapped {
         &self.mesh
     }
 
-    /// The last map, and the solution behind it.
-    pub(super) fn found(&self) -> Outcome<&(SeamlessMap, Solution)> {
+    pub(super) fn problem(&self) -> &SeamlessProblem {
+        &self.problem
+    }
+
+    /// Takes what became of a solve of this problem, or of a finer one.
+    pub(super) fn unfold(
+        &mut self,
+        how: impl FnOnce(&TriangleMesh, &SeamlessProblem) -> Result<Unfolded>,
+    ) -> Outcome {
+        let unfolded = how(&self.mesh, &self.problem)?;
+        self.found = Some(Found {
+            map: unfolded.untangled.map,
+            unfolded: unfolded.solution.status() != SolveStatus::Relaxed,
+            solution: unfolded.solution,
+            rounds: unfolded.rounds,
+            refinements: unfolded.refinements,
+        });
+        Ok(())
+    }
+
+    /// Takes another map of the same integers.
+    pub(super) fn replace(&mut self, map: SeamlessMap) {
+        if let Some(found) = &mut self.found {
+            found.map = map;
+        }
+    }
+
+    pub(super) fn found(&self) -> Outcome<&Found> {
         let none = || Error::InvalidArgument {
             what: "the map has not been solved for".into(),
             index: None,
@@ -45,7 +84,13 @@ impl Mapped {
 
     fn take(&mut self, solution: Solution) -> Outcome {
         let map = self.problem.map(&self.mesh, &solution)?;
-        self.found = Some((map, solution));
+        self.found = Some(Found {
+            map,
+            solution,
+            rounds: 0,
+            refinements: 0,
+            unfolded: false,
+        });
         Ok(())
     }
 }
@@ -76,7 +121,8 @@ pub unsafe extern "C" fn roundel_map_new(
 ) -> roundel_status {
     let body = |mesh: &TriangleMesh| {
         // SAFETY: the caller gives a live handle and a place, or NULL.
-        let (found, out): (&Found, _) = unsafe { (guard::value(field)?, Out::new("map", map)?) };
+        let (found, out): (&FoundField, _) =
+            unsafe { (guard::value(field)?, Out::new("map", map)?) };
         let given;
         let features = if guidance.is_null() {
             found.features()
@@ -178,37 +224,6 @@ pub unsafe extern "C" fn roundel_map_solve(
             unsafe { (guard::value_or(options, &default)?, watched_by(monitor)?) };
         let solution = map.solver.solve_with(options, monitor)?;
         map.take(solution)
-    };
-    // SAFETY: the caller gives a live handle, or NULL.
-    unsafe { guard::write(map, body) }
-}
-
-/// Moves the vertices that integers do not hold until as few faces as can be are turned over or
-/// collapsed, under the eyes of `monitor`, which may be NULL. Seams, cones and isolines stay what
-/// they are. roundel_map_flipped_count tells what is left; the solution stays that of the solve.
-///
-/// Fails with ROUNDEL_ERROR_INVALID_ARGUMENT where nothing has been solved for, and after a
-/// relaxation, which has no integers to hold; ROUNDEL_ERROR_CANCELLED, which leaves the map as it
-/// was.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn roundel_map_untangle(
-    map: *mut roundel_map,
-    monitor: *const roundel_monitor,
-) -> roundel_status {
-    let body = |map: &mut Mapped| {
-        // SAFETY: the caller gives a monitor as its members say, or NULL.
-        let mut monitor = unsafe { watched_by(monitor) }?;
-        let (found, solution) = map.found()?;
-        if solution.status() == SolveStatus::Relaxed {
-            Err(Error::InvalidArgument {
-                what: "a relaxation has no integers that untangling could hold".into(),
-                index: None,
-            })?;
-        }
-        let effort = UntangleOptions::default();
-        let untangled = untangle(&map.mesh, &map.problem, found, &effort, &mut monitor)?;
-        map.found = Some((untangled.map, solution.clone()));
-        Ok(())
     };
     // SAFETY: the caller gives a live handle, or NULL.
     unsafe { guard::write(map, body) }

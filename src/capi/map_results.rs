@@ -5,7 +5,7 @@ use std::ffi::c_char;
 use super::error::Outcome;
 use super::guard;
 use super::input::{path, slice_mut};
-use super::map::{Mapped, roundel_map};
+use super::map::{Found, Mapped, roundel_map};
 use super::output::{Out, copy_numbers};
 use super::solution::roundel_solution;
 use super::status::roundel_status;
@@ -16,16 +16,16 @@ use crate::quad::SeamlessMap;
 ///
 /// # Safety
 /// `map` is NULL or a live handle, `out` NULL or a place for the number.
-unsafe fn give<T>(
+pub(super) unsafe fn give<T>(
     map: *const roundel_map,
     what: &'static str,
     out: *mut T,
-    read: impl FnOnce(&SeamlessMap) -> T,
+    read: impl FnOnce(&Found) -> T,
 ) -> roundel_status {
     let body = |map: &Mapped| {
         // SAFETY: handed on.
         let out = unsafe { Out::new(what, out) }?;
-        out.set(read(&map.found()?.0));
+        out.set(read(map.found()?));
         Ok(())
     };
     // SAFETY: handed on.
@@ -44,7 +44,7 @@ unsafe fn copy<T: Copy>(
     length: usize,
 ) -> roundel_status {
     let body = |map: &Mapped| -> Outcome {
-        let values = values(&map.found()?.0);
+        let values = values(&map.found()?.map);
         // SAFETY: handed on.
         unsafe { copy_numbers(what, values.into_iter(), to, length) }
     };
@@ -75,7 +75,11 @@ pub unsafe extern "C" fn roundel_map_vertex_count(
     count: *mut usize,
 ) -> roundel_status {
     // SAFETY: the caller gives a live handle and a place for the number, or NULL.
-    unsafe { give(map, "vertex count", count, |m| m.vertex_uvs().len()) }
+    unsafe {
+        give(map, "vertex count", count, |found| {
+            found.map.vertex_uvs().len()
+        })
+    }
 }
 
 /// Copies u, v of every vertex of the cut surface. `length` is twice their number.
@@ -114,7 +118,11 @@ pub unsafe extern "C" fn roundel_map_cut_count(
     count: *mut usize,
 ) -> roundel_status {
     // SAFETY: the caller gives a live handle and a place for the number, or NULL.
-    unsafe { give(map, "cut count", count, |m| m.transitions().len()) }
+    unsafe {
+        give(map, "cut count", count, |found| {
+            found.map.transitions().len()
+        })
+    }
 }
 
 /// Copies the cut edges in increasing order, and how coordinates change over each from its first to
@@ -129,7 +137,7 @@ pub unsafe extern "C" fn roundel_map_transitions(
     translations: *mut f64,
 ) -> roundel_status {
     let body = |map: &Mapped| {
-        let transitions = map.found()?.0.transitions();
+        let transitions = map.found()?.map.transitions();
         if count != transitions.len() {
             Err(Error::LengthMismatch {
                 what: "cut edges",
@@ -164,7 +172,7 @@ pub unsafe extern "C" fn roundel_map_cone_count(
     count: *mut usize,
 ) -> roundel_status {
     // SAFETY: the caller gives a live handle and a place for the number, or NULL.
-    unsafe { give(map, "cone count", count, |m| m.cones().len()) }
+    unsafe { give(map, "cone count", count, |found| found.map.cones().len()) }
 }
 
 /// Copies the cones in increasing order. `length` is their number.
@@ -186,7 +194,11 @@ pub unsafe extern "C" fn roundel_map_flipped_count(
     count: *mut usize,
 ) -> roundel_status {
     // SAFETY: the caller gives a live handle and a place for the number, or NULL.
-    unsafe { give(map, "flipped count", count, |m| m.flipped().len()) }
+    unsafe {
+        give(map, "flipped count", count, |found| {
+            found.map.flipped().len()
+        })
+    }
 }
 
 /// Copies the faces that the map turns over or collapses, in increasing order. `length` is their
@@ -211,7 +223,7 @@ pub unsafe extern "C" fn roundel_map_energy(
     energy: *mut f64,
 ) -> roundel_status {
     // SAFETY: the caller gives a live handle and a place for the number, or NULL.
-    unsafe { give(map, "energy", energy, SeamlessMap::energy) }
+    unsafe { give(map, "energy", energy, |found| found.map.energy()) }
 }
 
 /// Makes a copy of the solution behind a map, which tells how the solve ended, its lower bound and
@@ -224,7 +236,7 @@ pub unsafe extern "C" fn roundel_map_solution(
     let body = |map: &Mapped| {
         // SAFETY: the caller gives a place for the handle, or NULL.
         let out = unsafe { Out::new("solution", solution) }?;
-        out.set(guard::handle(map.found()?.1.clone()));
+        out.set(guard::handle(map.found()?.solution.clone()));
         Ok(())
     };
     // SAFETY: the caller gives a live handle, or NULL.
@@ -240,7 +252,7 @@ pub unsafe extern "C" fn roundel_map_write(
     let body = |map: &Mapped| {
         // SAFETY: the caller gives a text, or NULL.
         let file = unsafe { path("file", file) }?;
-        Ok(map.found()?.0.write_obj(map.mesh(), file)?)
+        Ok(map.found()?.map.write_obj(map.mesh(), file)?)
     };
     // SAFETY: the caller gives a live handle, or NULL.
     unsafe { guard::read(map, body) }

@@ -3,10 +3,10 @@
 use super::error::{Failure, Outcome};
 use super::guard;
 use super::input::{Index, index, indices, slice};
+use super::matrix::Compressed;
 use super::problem::roundel_problem;
 use super::status::roundel_status;
-use crate::problem::MatrixRef;
-use crate::{Error, Layout, Problem, Triangle};
+use crate::{Error, Problem, Triangle};
 
 /// Which entries of a symmetric matrix are given.
 #[repr(i32)]
@@ -58,50 +58,6 @@ unsafe fn add_triplets<I: Index>(
     Ok(problem.add_quadratic_triplets(triangle, &rows, &columns, values)?)
 }
 
-/// What errors call the entries of a matrix.
-pub(super) const INDICES: &str = "matrix indices";
-pub(super) const VALUES: &str = "matrix values";
-
-/// A matrix in the caller's arrays: where each column (or row) starts and ends, and the entries.
-pub(super) struct Compressed<I> {
-    pub layout: Layout,
-    pub offset_count: usize,
-    pub offsets: *const I,
-    pub count: usize,
-    pub minor: *const I,
-    pub values: *const f64,
-}
-
-impl<I: Index> Compressed<I> {
-    /// Hands the matrix, whose row (or column) indices are below `bound`, to `body`.
-    ///
-    /// # Safety
-    /// The arrays are as the caller of the entry says.
-    pub(super) unsafe fn with<T>(
-        &self,
-        bound: usize,
-        body: impl FnOnce(&MatrixRef) -> crate::Result<T>,
-    ) -> Outcome<T> {
-        // An offset may equal the number of entries, and an array of no offsets has none to check.
-        let end = self.count.saturating_add(1);
-        // SAFETY: handed on.
-        let (offsets, minor, values) = unsafe {
-            (
-                indices("matrix offsets", self.offsets, self.offset_count, end)?,
-                indices(INDICES, self.minor, self.count, bound)?,
-                slice(VALUES, self.values, self.count)?,
-            )
-        };
-        let matrix = MatrixRef {
-            layout: self.layout,
-            offsets: &offsets,
-            indices: &minor,
-            values,
-        };
-        Ok(body(&matrix)?)
-    }
-}
-
 /// # Safety
 /// The arrays are as the caller of the entry says.
 unsafe fn add_matrix<I: Index>(
@@ -113,7 +69,7 @@ unsafe fn add_matrix<I: Index>(
         let triangle = triangle(number)?;
         let n = value.variables();
         // SAFETY: handed on.
-        unsafe { matrix.with(n, |m| value.add_quadratic_matrix(triangle, m)) }
+        unsafe { matrix.with(n, |m| Ok(value.add_quadratic_matrix(triangle, m)?)) }
     };
     // SAFETY: the caller gives a live handle, or NULL.
     unsafe { guard::write(problem, body) }
@@ -173,14 +129,7 @@ pub unsafe extern "C" fn roundel_problem_add_quadratic_csc(
     rows: *const i32,
     values: *const f64,
 ) -> roundel_status {
-    let matrix = Compressed {
-        layout: Layout::Columns,
-        offset_count,
-        offsets,
-        count,
-        minor: rows,
-        values,
-    };
+    let matrix = Compressed::columns(offset_count, offsets, count, rows, values);
     // SAFETY: the caller gives a live handle and arrays of the lengths given, or NULL.
     unsafe { add_matrix(problem, triangle, matrix) }
 }
@@ -196,14 +145,7 @@ pub unsafe extern "C" fn roundel_problem_add_quadratic_csc_i64(
     rows: *const i64,
     values: *const f64,
 ) -> roundel_status {
-    let matrix = Compressed {
-        layout: Layout::Columns,
-        offset_count,
-        offsets,
-        count,
-        minor: rows,
-        values,
-    };
+    let matrix = Compressed::columns(offset_count, offsets, count, rows, values);
     // SAFETY: the caller gives a live handle and arrays of the lengths given, or NULL.
     unsafe { add_matrix(problem, triangle, matrix) }
 }
@@ -223,14 +165,7 @@ pub unsafe extern "C" fn roundel_problem_add_quadratic_csr(
     columns: *const i32,
     values: *const f64,
 ) -> roundel_status {
-    let matrix = Compressed {
-        layout: Layout::Rows,
-        offset_count,
-        offsets,
-        count,
-        minor: columns,
-        values,
-    };
+    let matrix = Compressed::rows(offset_count, offsets, count, columns, values);
     // SAFETY: the caller gives a live handle and arrays of the lengths given, or NULL.
     unsafe { add_matrix(problem, triangle, matrix) }
 }
@@ -246,14 +181,7 @@ pub unsafe extern "C" fn roundel_problem_add_quadratic_csr_i64(
     columns: *const i64,
     values: *const f64,
 ) -> roundel_status {
-    let matrix = Compressed {
-        layout: Layout::Rows,
-        offset_count,
-        offsets,
-        count,
-        minor: columns,
-        values,
-    };
+    let matrix = Compressed::rows(offset_count, offsets, count, columns, values);
     // SAFETY: the caller gives a live handle and arrays of the lengths given, or NULL.
     unsafe { add_matrix(problem, triangle, matrix) }
 }

@@ -2,7 +2,7 @@
 
 use super::error::Outcome;
 use super::event::{roundel_monitor, watchers};
-use super::guard::{self, Guarded, boundary, object};
+use super::guard::{self, Guarded, Object, boundary, object};
 use super::guidance::roundel_guidance;
 use super::input::slice;
 use super::mesh::roundel_mesh;
@@ -54,6 +54,53 @@ unsafe fn change(
 ) -> roundel_status {
     // SAFETY: handed on.
     unsafe { guard::write(options, change) }
+}
+
+/// An entry that decides yes or no by a number.
+///
+/// # Safety
+/// As [`change`].
+unsafe fn decide(
+    options: *mut roundel_quad_options,
+    what: &str,
+    number: i32,
+    set: impl FnOnce(&mut QuadOptions, bool),
+) -> roundel_status {
+    let body = |options: &mut QuadOptions| {
+        let yes = match number {
+            0 => false,
+            1 => true,
+            _ => Err(Error::InvalidArgument {
+                what: format!("{what} by 1 or not by 0, not {number}"),
+                index: None,
+            })?,
+        };
+        set(options, yes);
+        Ok(())
+    };
+    // SAFETY: handed on.
+    unsafe { change(options, body) }
+}
+
+/// An entry that puts a copy of another handle's value in its place; NULL stands for what new quad
+/// options have there.
+///
+/// # Safety
+/// As [`change`]; `given` is NULL or a live handle.
+unsafe fn put<H: Object<Value: Clone>>(
+    options: *mut roundel_quad_options,
+    given: *const H,
+    place: fn(&mut QuadOptions) -> &mut H::Value,
+) -> roundel_status {
+    let body = |options: &mut QuadOptions| {
+        let mut default = QuadOptions::default();
+        // SAFETY: handed on.
+        let given = unsafe { guard::value_or(given, place(&mut default)) }?;
+        place(options).clone_from(given);
+        Ok(())
+    };
+    // SAFETY: handed on.
+    unsafe { change(options, body) }
 }
 
 /// Aims at a number of quads.
@@ -116,14 +163,8 @@ pub unsafe extern "C" fn roundel_quad_options_set_guidance(
     options: *mut roundel_quad_options,
     guidance: *const roundel_guidance,
 ) -> roundel_status {
-    let body = |options: &mut QuadOptions| {
-        let default = QuadOptions::default().guidance;
-        // SAFETY: the caller gives a live handle, or NULL.
-        options.guidance = unsafe { guard::value_or(guidance, &default) }?.clone();
-        Ok(())
-    };
-    // SAFETY: the caller gives a live handle, or NULL.
-    unsafe { change(options, body) }
+    // SAFETY: the caller gives live handles, or NULL.
+    unsafe { put(options, guidance, |options| &mut options.guidance) }
 }
 
 /// Sets whether curvature may count for less than the guidance has it, where the map is less
@@ -135,12 +176,9 @@ pub unsafe extern "C" fn roundel_quad_options_set_vary_curvature(
     options: *mut roundel_quad_options,
     vary: i32,
 ) -> roundel_status {
-    let body = |options: &mut QuadOptions| {
-        options.vary_curvature = yes("curvature is varied", vary)?;
-        Ok(())
-    };
+    let set = |options: &mut QuadOptions, yes: bool| options.vary_curvature = yes;
     // SAFETY: the caller gives a live handle, or NULL.
-    unsafe { change(options, body) }
+    unsafe { decide(options, "curvature is varied", vary, set) }
 }
 
 /// Sets how the field is solved for, by a copy of `solve`; NULL stands for adaptive rounding.
@@ -149,14 +187,8 @@ pub unsafe extern "C" fn roundel_quad_options_set_field_options(
     options: *mut roundel_quad_options,
     solve: *const roundel_options,
 ) -> roundel_status {
-    let body = |options: &mut QuadOptions| {
-        let default = QuadOptions::default().field;
-        // SAFETY: the caller gives a live handle, or NULL.
-        options.field = unsafe { guard::value_or(solve, &default) }?.clone();
-        Ok(())
-    };
-    // SAFETY: the caller gives a live handle, or NULL.
-    unsafe { change(options, body) }
+    // SAFETY: the caller gives live handles, or NULL.
+    unsafe { put(options, solve, |options| &mut options.field) }
 }
 
 /// Sets how the map is solved for, by a copy of `solve`; NULL stands for lattice decoding.
@@ -165,14 +197,8 @@ pub unsafe extern "C" fn roundel_quad_options_set_map_options(
     options: *mut roundel_quad_options,
     solve: *const roundel_options,
 ) -> roundel_status {
-    let body = |options: &mut QuadOptions| {
-        let default = QuadOptions::default().map;
-        // SAFETY: the caller gives a live handle, or NULL.
-        options.map = unsafe { guard::value_or(solve, &default) }?.clone();
-        Ok(())
-    };
-    // SAFETY: the caller gives a live handle, or NULL.
-    unsafe { change(options, body) }
+    // SAFETY: the caller gives live handles, or NULL.
+    unsafe { put(options, solve, |options| &mut options.map) }
 }
 
 /// Sets whether a map is untangled whose folds extraction cannot cope with: 1, as at first, or 0.
@@ -183,12 +209,9 @@ pub unsafe extern "C" fn roundel_quad_options_set_untangle(
     options: *mut roundel_quad_options,
     untangle: i32,
 ) -> roundel_status {
-    let body = |options: &mut QuadOptions| {
-        options.untangle = yes("maps are untangled", untangle)?;
-        Ok(())
-    };
+    let set = |options: &mut QuadOptions, yes: bool| options.untangle = yes;
     // SAFETY: the caller gives a live handle, or NULL.
-    unsafe { change(options, body) }
+    unsafe { decide(options, "maps are untangled", untangle, set) }
 }
 
 /// Sets whether quads are smoothed: 1, as at first, or 0, which leaves vertices where the map has
@@ -200,23 +223,10 @@ pub unsafe extern "C" fn roundel_quad_options_set_smooth(
     options: *mut roundel_quad_options,
     smooth: i32,
 ) -> roundel_status {
-    let body = |options: &mut QuadOptions| {
-        options.smooth = yes("quads are smoothed", smooth)?.then(SmoothOptions::default);
-        Ok(())
-    };
+    let set =
+        |options: &mut QuadOptions, yes: bool| options.smooth = yes.then(SmoothOptions::default);
     // SAFETY: the caller gives a live handle, or NULL.
-    unsafe { change(options, body) }
-}
-
-fn yes(what: &str, number: i32) -> Outcome<bool> {
-    match number {
-        0 => Ok(false),
-        1 => Ok(true),
-        _ => Err(Error::InvalidArgument {
-            what: format!("{what} by 1 or not by 0, not {number}"),
-            index: None,
-        })?,
-    }
+    unsafe { decide(options, "quads are smoothed", smooth, set) }
 }
 
 /// Turns a mesh into quads, as roundel_quads_make does, with all that `options` say, under the eyes

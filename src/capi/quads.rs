@@ -110,7 +110,7 @@ pub unsafe extern "C" fn roundel_quads_extract(
     let body = |map: &Mapped| {
         // SAFETY: the caller gives a place for the handle, or NULL.
         let out = unsafe { Out::new("quads", quads) }?;
-        let exact = IntegerGridMap::from_seamless(map.mesh(), &map.found()?.0)?;
+        let exact = IntegerGridMap::from_seamless(map.mesh(), &map.found()?.map)?;
         let found = extract(map.mesh(), &exact, &mut Monitor::default())?;
         out.set(guard::handle(found));
         Ok(())

@@ -33,16 +33,20 @@ pub fn improve_blocks(
     let mut work = 0;
     while idle < m && !stop(work) {
         let block = around(basis, seed);
+        let before = z.to_vec();
         let (better, nodes) = redecide(basis, target, z, &block)?;
         work = (m * m + block.len() * block.len() * (m + block.len())) as u64;
         work += nodes * block.len() as u64 / 2;
+        idle += 1;
         if better {
             let now = target.distance(basis, z);
-            // Where rounding alone would go round in circles, stop.
-            idle = if now < value { 0 } else { idle + 1 };
-            value = now;
-        } else {
-            idle += 1;
+            // Of a lattice that is nearly singular a block may see less than the whole: what is no
+            // better is taken back, or two points could take turns forever.
+            if now < value {
+                (idle, value) = (0, now);
+            } else {
+                z.copy_from_slice(&before);
+            }
         }
         seed = (seed + 1) % m;
     }

@@ -144,6 +144,8 @@ static void maps(fixture* f, const roundel_mesh* disk) {
     BAD(f, roundel_map_set_edge_lengths(map, numbers, 2), length, "got 2", NONE);
     BAD(f, roundel_map_solve(NULL, NULL, NULL), null, "map", NONE);
     BAD(f, roundel_map_solve(map, NULL, &unsized_monitor), invalid, "monitor", NONE);
+    BAD(f, roundel_map_solve_unfolded(NULL, NULL, NULL), null, "map", NONE);
+    BAD(f, roundel_map_solve_unfolded(map, NULL, &unsized_monitor), invalid, "monitor", NONE);
     BAD(f, roundel_map_untangle(NULL, NULL), null, "map", NONE);
     BAD(f, roundel_map_untangle(map, NULL), invalid, "has not been solved", NONE);
     BAD(f, roundel_map_make_problem(NULL, &problem), null, "map", NONE);
@@ -153,6 +155,8 @@ static void maps(fixture* f, const roundel_mesh* disk) {
     BAD(f, roundel_map_energy(map, numbers), invalid, "has not been solved", NONE);
     BAD(f, roundel_map_vertex_count(map, &count), invalid, "has not been solved", NONE);
     BAD(f, roundel_map_corner_uvs(map, numbers, 2), invalid, "has not been solved", NONE);
+    BAD(f, roundel_map_wound_count(map, &count), invalid, "has not been solved", NONE);
+    BAD(f, roundel_map_round_count(map, &count), invalid, "has not been solved", NONE);
     BAD(f, roundel_map_transitions(map, 0, NULL, NULL, NULL), invalid, "solved", NONE);
     BAD(f, roundel_map_solution(map, &solution), invalid, "has not been solved", NONE);
     BAD(f, roundel_map_write(map, "never.obj"), invalid, "has not been solved", NONE);
@@ -166,6 +170,10 @@ static void maps(fixture* f, const roundel_mesh* disk) {
     BAD(f, roundel_map_corner_uvs(map, numbers, 2), length, "corners", NONE);
     BAD(f, roundel_map_vertex_count(NULL, &count), null, "map", NONE);
     BAD(f, roundel_map_vertex_count(map, NULL), null, "vertex count", NONE);
+    BAD(f, roundel_map_wound_count(map, NULL), null, "wound count", NONE);
+    BAD(f, roundel_map_wound(map, whole, 2), length, "wound vertices", NONE);
+    BAD(f, roundel_map_round_count(NULL, &count), null, "map", NONE);
+    BAD(f, roundel_map_refinement_count(map, NULL), null, "refinement count", NONE);
     BAD(f, roundel_map_vertex_uvs(map, numbers, 2), length, "vertices", NONE);
     BAD(f, roundel_map_vertex_corners(map, whole, 2), length, "corners", NONE);
     BAD(f, roundel_map_cut_count(map, NULL), null, "cut count", NONE);

@@ -2,6 +2,16 @@
 
 #include "bad_input.h"
 
+/* Where the number of the first row would go. */
+static size_t first = 7;
+
+/* Three rows of three entries. */
+static roundel_status csr(roundel_problem* p, const int32_t* starts, const int32_t* columns,
+                          const double* values, const double* rhs, const double* weights) {
+    return roundel_problem_add_least_squares_csr(p, 4, starts, 3, columns, values, 3, rhs, weights,
+                                                 &first);
+}
+
 static void rows(fixture* f) {
     const roundel_status null = ROUNDEL_ERROR_NULL_POINTER;
     const roundel_status range = ROUNDEL_ERROR_INDEX_OUT_OF_RANGE;
@@ -11,41 +21,26 @@ static void rows(fixture* f) {
     const int64_t starts64[4] = {0, 2, 2, 3}, negative64[3] = {0, -1, 1};
     const double one[3] = {1.0, 1.0, 1.0}, nan_last[3] = {1.0, 1.0, (double)NAN};
     const double negative[3] = {1.0, -2.0, 1.0};
-    size_t first = 7;
     roundel_problem* p = f->problem;
     BAD(f,
         roundel_problem_add_least_squares_csr(p, 3, starts, 3, columns, one, 3, one, one, &first),
         ROUNDEL_ERROR_LENGTH_MISMATCH, "expected 4 entries, got 3", NONE);
-    BAD(f, roundel_problem_add_least_squares_csr(p, 4, falling, 3, columns, one, 3, one, one, NULL),
-        ROUNDEL_ERROR_INVALID_ARGUMENT, "offset 2", 2);
-    BAD(f, roundel_problem_add_least_squares_csr(p, 4, starts, 3, large, one, 3, one, one, &first),
-        range, "row 2: matrix indices: entry 2 is 3", 2);
+    BAD(f, csr(p, falling, columns, one, one, one), ROUNDEL_ERROR_INVALID_ARGUMENT, "offset 2", 2);
+    BAD(f, csr(p, starts, large, one, one, one), range, "row 2: matrix indices: entry 2 is 3", 2);
     BAD(f,
         roundel_problem_add_least_squares_csr_i64(p, 4, starts64, 3, negative64, one, 3, one, NULL,
                                                   &first),
         range, "row 0: matrix indices: entry 1 is -1", 1);
-    BAD(f,
-        roundel_problem_add_least_squares_csr(p, 4, starts, 3, columns, nan_last, 3, one, one,
-                                              &first),
-        finite, "row 2: matrix values: entry 2", 2);
-    BAD(f,
-        roundel_problem_add_least_squares_csr(p, 4, starts, 3, columns, one, 3, nan_last, one,
-                                              &first),
-        finite, "least-squares right sides: entry 2", 2);
-    BAD(f,
-        roundel_problem_add_least_squares_csr(p, 4, starts, 3, columns, one, 3, one, nan_last,
-                                              &first),
-        finite, "least-squares weights: entry 2", 2);
-    BAD(f,
-        roundel_problem_add_least_squares_csr(p, 4, starts, 3, columns, one, 3, one, negative,
-                                              &first),
-        ROUNDEL_ERROR_INVALID_ARGUMENT, "entry 1 is -2", 1);
-    BAD(f, roundel_problem_add_least_squares_csr(p, 4, NULL, 3, columns, one, 3, one, one, &first),
-        null, "matrix offsets", NONE);
-    BAD(f, roundel_problem_add_least_squares_csr(p, 4, starts, 3, NULL, one, 3, one, one, &first),
-        null, "matrix indices", NONE);
-    BAD(f, roundel_problem_add_least_squares_csr(p, 4, starts, 3, columns, one, 3, NULL, one, NULL),
-        null, "right sides", NONE);
+    BAD(f, csr(p, starts, columns, nan_last, one, one), finite, "row 2: matrix values: entry 2", 2);
+    BAD(f, csr(p, starts, columns, one, nan_last, one), finite,
+        "least-squares right sides: entry 2", 2);
+    BAD(f, csr(p, starts, columns, one, one, nan_last), finite, "least-squares weights: entry 2",
+        2);
+    BAD(f, csr(p, starts, columns, one, one, negative), ROUNDEL_ERROR_INVALID_ARGUMENT,
+        "entry 1 is -2", 1);
+    BAD(f, csr(p, NULL, columns, one, one, one), null, "matrix offsets", NONE);
+    BAD(f, csr(p, starts, NULL, one, one, one), null, "matrix indices", NONE);
+    BAD(f, csr(p, starts, columns, one, NULL, one), null, "right sides", NONE);
     HOLDS(first == 7);
 }
 

@@ -29,7 +29,9 @@ struct MapOptions {
     std::vector<double> edge_lengths = {};
     /// Edges that are isolines; those that the field follows where nothing is said.
     std::optional<Features> features = std::nullopt;
-    /// Whether faces that rounding turns over are turned back as far as integers allow.
+    /// Whether the map is freed of folds, as `roundel parametrize` does: integers that collapse
+    /// cones are decided anew, faces that are turned over are turned back, and where some are left
+    /// the map is made finer. Each solve starts from nothing then.
     bool untangle = true;
     /// How the problem is solved.
     Options solve = {};
@@ -84,8 +86,9 @@ class Map {
     /// Whether there is one.
     explicit operator bool() const noexcept { return handle_ != nullptr; }
 
-    /// Solves for another size, from what was kept of the first solve. Features stay those of the
-    /// first. After a failure the map is what it was, but for the size that the next solve has.
+    /// Solves for another size, without untangling from what was kept of the first solve. Features
+    /// stay those of the first. After a failure the map is what it was, but for the size that the
+    /// next solve has.
     Map& solve(const MapOptions& options, Status* status = nullptr) {
         if (decide(get(), options, status)) {
             read(status);
@@ -112,6 +115,26 @@ class Map {
     /// Faces that are turned over or collapsed.
     span<const std::int32_t> flipped() const& noexcept { return view(flipped_); }
     span<const std::int32_t> flipped() const&& = delete;
+
+    /// Vertices around which coordinates turn another number of times than the field, as in a ring
+    /// of faces that goes around its vertex twice without a fold.
+    span<const std::int32_t> wound() const& noexcept { return view(wound_); }
+    span<const std::int32_t> wound() const&& = delete;
+
+    /// How often untangling made the map finer than asked for, each time by the square root of two
+    /// in length.
+    std::size_t refinements(Status* status = nullptr) const {
+        std::size_t count = 0;
+        detail::check(roundel_map_refinement_count(get(), &count), status);
+        return count;
+    }
+
+    /// How often untangling decided integers anew, at the size that the map has.
+    std::size_t rounds(Status* status = nullptr) const {
+        std::size_t count = 0;
+        detail::check(roundel_map_round_count(get(), &count), status);
+        return count;
+    }
 
     /// Whether no face is turned over or collapsed.
     bool valid() const noexcept { return handle_ != nullptr && flipped_.empty(); }
@@ -162,11 +185,8 @@ class Map {
     /// Solves a map of the C interface for the size that the options name.
     static bool decide(roundel_map* map, const MapOptions& options, Status* status) {
         const auto call = [&](const roundel_options* how, const roundel_monitor* monitor) {
-            const roundel_status code = roundel_map_solve(map, how, monitor);
-            const bool whole = options.solve.strategy.value_or("") != "relax";
-            return code == ROUNDEL_OK && options.untangle && whole
-                       ? roundel_map_untangle(map, monitor)
-                       : code;
+            return options.untangle ? roundel_map_solve_unfolded(map, how, monitor)
+                                    : roundel_map_solve(map, how, monitor);
         };
         return resize(map, options, status) && detail::watched(options.solve, call, 0, status);
     }
@@ -210,7 +230,8 @@ class Map {
             told(roundel_map_vertex_uvs(get(), vertex_uvs_.data(), vertex_uvs_.size())) &&
             told(roundel_map_vertex_corners(get(), vertex_corners_.data(),
                                             vertex_corners_.size())) &&
-            listed(roundel_map_cone_count, roundel_map_cones, cones_, status)) {
+            listed(roundel_map_cone_count, roundel_map_cones, cones_, status) &&
+            listed(roundel_map_wound_count, roundel_map_wound, wound_, status)) {
             listed(roundel_map_flipped_count, roundel_map_flipped, flipped_, status);
         }
     }
@@ -221,6 +242,7 @@ class Map {
     std::vector<double> vertex_uvs_;
     std::vector<std::int32_t> vertex_corners_;
     std::vector<std::int32_t> cones_;
+    std::vector<std::int32_t> wound_;
     std::vector<std::int32_t> flipped_;
 };
 

@@ -42,14 +42,13 @@ class Map:
     ) -> None:
         """Solves at a size: a number of quads, or the length of their edges, one or two a face.
 
-        Integers decided, `untangle` moves what they do not hold until as few triangles as can be
-        are turned over.
+        `untangle` frees the map of folds: integers that collapse cones are decided anew, triangles
+        that are turned over are turned back, and where some are left the map is made finer.
         """
         self._aim(quads, edge_length)
         handle, watch = options_handle(options), Watch(progress, cancel)
-        watch.check(lib.roundel_map_solve(self._handle.pointer, handle.pointer, watch.pointer))
-        if untangle and self.solution.status != "relaxed" and len(self.flipped) > 0:
-            watch.check(lib.roundel_map_untangle(self._handle.pointer, watch.pointer))
+        call = lib.roundel_map_solve_unfolded if untangle else lib.roundel_map_solve
+        watch.check(call(self._handle.pointer, handle.pointer, watch.pointer))
 
     def _aim(self, quads: Optional[int], edge_length: Any) -> None:
         if quads is not None and edge_length is not None:
@@ -106,6 +105,16 @@ class Map:
     def flipped(self) -> np.ndarray:
         """The faces that the map turns over or collapses."""
         return self._list(lib.roundel_map_flipped_count, lib.roundel_map_flipped)
+
+    @property
+    def wound(self) -> np.ndarray:
+        """The vertices around which the map turns another number of times than the field."""
+        return self._list(lib.roundel_map_wound_count, lib.roundel_map_wound)
+
+    @property
+    def refinements(self) -> int:
+        """How often untangling made the map finer, each time by the square root of two in length."""
+        return number(lib.roundel_map_refinement_count, self._handle.pointer)
 
     @property
     def valid(self) -> bool:

@@ -1,0 +1,140 @@
+//! Maps without folds: solved for as a whole, or untangled afterwards, and what that left and took.
+
+use super::error::Outcome;
+use super::event::{monitor as watched_by, roundel_monitor, watchers};
+use super::guard;
+use super::map::{Mapped, roundel_map};
+use super::map_results::give;
+use super::options::roundel_options;
+use super::output::{Out, copy_numbers};
+use super::status::roundel_status;
+use crate::quad::untangle::{UntangleOptions, solve_unfolded, untangle};
+use crate::{Error, Options, SolveStatus};
+
+/// Solves for a map without folds, as the program `roundel parametrize` does: integers that collapse
+/// cones are decided anew, faces that are turned over are untangled, vertices that the map goes around
+/// once too often are laid anew, and where folds are left all that is done for a finer map.
+/// Of all maps that with the fewest folds is kept. `options` are those of every solve, `monitor`
+/// watches each; both may be NULL. Every solve starts from nothing. A relaxation is not untangled.
+///
+/// roundel_map_flipped_count and roundel_map_wound_count tell what is left, roundel_map_round_count and
+/// roundel_map_refinement_count what it took. A map that was made finer keeps the size asked for
+/// in mind, for the next solve.
+///
+/// Fails as roundel_solve does for the first solve, with ROUNDEL_ERROR_CANCELLED also later, and
+/// leaves what an earlier solve found. The callback must not use the map.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_map_solve_unfolded(
+    map: *mut roundel_map,
+    options: *const roundel_options,
+    monitor: *const roundel_monitor,
+) -> roundel_status {
+    let body = |map: &mut Mapped| {
+        let default = Options::default();
+        // SAFETY: the caller gives a live handle and a monitor as its members say, or NULL.
+        let (options, monitor) =
+            unsafe { (guard::value_or(options, &default)?, watchers(monitor)?) };
+        let effort = UntangleOptions::default();
+        map.unfold(|mesh, problem| solve_unfolded(mesh, problem, options, &effort, monitor))
+    };
+    // SAFETY: the caller gives a live handle, or NULL.
+    unsafe { guard::write(map, body) }
+}
+
+/// Moves the vertices that integers do not hold until as few faces as can be are turned over or
+/// collapsed, under the eyes of `monitor`, which may be NULL. Seams, cones and isolines stay what
+/// they are. roundel_map_flipped_count tells what is left; the solution stays that of the solve. After
+/// roundel_map_solve_unfolded there is nothing left to do.
+///
+/// Fails with ROUNDEL_ERROR_INVALID_ARGUMENT where nothing has been solved for, and after a
+/// relaxation, which has no integers to hold; ROUNDEL_ERROR_CANCELLED, which leaves the map as it
+/// was.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_map_untangle(
+    map: *mut roundel_map,
+    monitor: *const roundel_monitor,
+) -> roundel_status {
+    let body = |map: &mut Mapped| {
+        // SAFETY: the caller gives a monitor as its members say, or NULL.
+        let mut monitor = unsafe { watched_by(monitor) }?;
+        let found = map.found()?;
+        if found.unfolded {
+            return Ok(());
+        }
+        if found.solution.status() == SolveStatus::Relaxed {
+            Err(Error::InvalidArgument {
+                what: "a relaxation has no integers that untangling could hold".into(),
+                index: None,
+            })?;
+        }
+        let effort = UntangleOptions::default();
+        let (mesh, problem) = (map.mesh(), map.problem());
+        let untangled = untangle(mesh, problem, &found.map, &effort, &mut monitor)?;
+        map.replace(untangled.map);
+        Ok(())
+    };
+    // SAFETY: the caller gives a live handle, or NULL.
+    unsafe { guard::write(map, body) }
+}
+
+/// Gives the number of inner vertices around which the map turns another number of times than the
+/// field, faces that are turned over left aside: a ring of faces may go around its vertex twice
+/// without a fold. Recomputed from the mesh. With none of these and no flipped faces, a map is
+/// one to one around every inner point.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_map_wound_count(
+    map: *const roundel_map,
+    count: *mut usize,
+) -> roundel_status {
+    let body = |map: &Mapped| {
+        // SAFETY: the caller gives a place for the number, or NULL.
+        let out = unsafe { Out::new("wound count", count) }?;
+        out.set(wound(map)?.len());
+        Ok(())
+    };
+    // SAFETY: the caller gives a live handle, or NULL.
+    unsafe { guard::read(map, body) }
+}
+
+/// Copies the vertices of roundel_map_wound_count, in increasing order. `length` is their number.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_map_wound(
+    map: *const roundel_map,
+    vertices: *mut i32,
+    length: usize,
+) -> roundel_status {
+    let body = |map: &Mapped| {
+        let wound = wound(map)?.into_iter().map(|v| v as i32);
+        // SAFETY: the caller gives an array of `length` numbers, or NULL.
+        unsafe { copy_numbers("wound vertices", wound, vertices, length) }
+    };
+    // SAFETY: the caller gives a live handle, or NULL.
+    unsafe { guard::read(map, body) }
+}
+
+fn wound(map: &Mapped) -> Outcome<Vec<usize>> {
+    let found = map.found()?;
+    Ok(map.problem().wound_vertices(map.mesh(), &found.map)?)
+}
+
+/// Gives how often roundel_map_solve_unfolded decided integers anew, at the size that the map has; 0
+/// after any other solve.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_map_round_count(
+    map: *const roundel_map,
+    count: *mut usize,
+) -> roundel_status {
+    // SAFETY: the caller gives a live handle and a place for the number, or NULL.
+    unsafe { give(map, "round count", count, |found| found.rounds) }
+}
+
+/// Gives how often roundel_map_solve_unfolded made the map finer than asked for, each time by the
+/// square root of two in length; 0 after any other solve.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_map_refinement_count(
+    map: *const roundel_map,
+    count: *mut usize,
+) -> roundel_status {
+    // SAFETY: the caller gives a live handle and a place for the number, or NULL.
+    unsafe { give(map, "refinement count", count, |found| found.refinements) }
+}
