@@ -9,18 +9,20 @@
 //! This is L D L' and not L L' because faer 0.24 leaves the old value on the diagonal of a pivot that
 //! it replaces in the latter.
 
+use std::sync::Arc;
+
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::ldlt::factor::LdltRegularization;
 use faer::perm::PermRef;
-use faer::sparse::linalg::SupernodalThreshold;
+use faer::sparse::SparseColMatRef;
 use faer::sparse::linalg::cholesky::{
-    CholeskySymbolicParams, LdltRef, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
-    factorize_symbolic_cholesky, supernodal::SupernodalLdltRef,
+    LdltRef, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
+    supernodal::SupernodalLdltRef,
 };
-use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Conj, MatMut, Par, Side};
 
 use super::Sparse;
+use super::analysis::{Analysis, offsets_u32, pattern};
 use super::ordering::Ordering;
 use super::scaling::equilibrate;
 use crate::{Error, Result};
@@ -37,7 +39,7 @@ pub const NULL_PIVOT: f64 = 9.0;
 /// `A = L D L'` of the scaled and permuted matrix.
 #[derive(Debug)]
 pub struct Cholesky {
-    pub(super) symbolic: SymbolicCholesky<u32>,
+    pub(super) symbolic: Arc<SymbolicCholesky<u32>>,
     pub(super) values: Vec<f64>,
     pub(super) scale: Vec<f64>,
     null: Vec<u32>,
@@ -61,7 +63,7 @@ impl Cholesky {
             Ordering::FillReducing | Ordering::LargestPivot => SymmetricOrdering::Amd,
             Ordering::Natural => SymmetricOrdering::Identity,
         };
-        Self::factor(lower, ordering)
+        Self::with(&Analysis::ordered(lower, ordering)?, lower)
     }
 
     /// As [`new`](Self::new), but eliminates unknown `order[k]` as the k-th.
@@ -74,10 +76,18 @@ impl Cholesky {
             place[i as usize] = k as u32;
         }
         let order = PermRef::new_checked(order, &place, order.len());
-        Self::factor(lower, SymmetricOrdering::Custom(order))
+        Self::with(
+            &Analysis::ordered(lower, SymmetricOrdering::Custom(order))?,
+            lower,
+        )
     }
 
-    fn factor(lower: &Sparse, ordering: SymmetricOrdering<u32>) -> Result<Self> {
+    /// As [`new`](Self::new), for a matrix that has the pattern of the one that was analysed.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn with(analysis: &Analysis, lower: &Sparse) -> Result<Self> {
+        let symbolic = Arc::clone(&analysis.symbolic);
         let n = lower.rows();
         let scale = equilibrate(lower);
         let col_ptr = offsets_u32(lower)?;
@@ -85,18 +95,6 @@ impl Cholesky {
         for i in 0..n {
             scaled.extend(lower.row(i).map(|(j, v)| v * scale[i] * scale[j]));
         }
-        // Rows of the lower triangle are columns of the upper one.
-        let pattern = SymbolicSparseColMatRef::new_checked(n, n, &col_ptr, None, lower.indices());
-        let symbolic = factorize_symbolic_cholesky(
-            pattern,
-            Side::Upper,
-            ordering,
-            CholeskySymbolicParams {
-                supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
-                ..Default::default()
-            },
-        )
-        .map_err(|_| too_large())?;
         let mut values = super::sparse::reserve(symbolic.len_val())?;
         values.resize(symbolic.len_val(), 0.0);
         let mut memory = MemBuffer::try_new(
@@ -112,7 +110,7 @@ impl Cholesky {
         symbolic
             .factorize_numeric_ldlt(
                 &mut values,
-                SparseColMatRef::new(pattern, &scaled),
+                SparseColMatRef::new(pattern(lower, &col_ptr), &scaled),
                 Side::Upper,
                 regularization,
                 Par::Seq,
@@ -260,18 +258,6 @@ impl Cholesky {
             *b *= s;
         }
         Ok(())
-    }
-}
-
-fn offsets_u32(lower: &Sparse) -> Result<Vec<u32>> {
-    let convert = |&o: &usize| u32::try_from(o).map_err(|_| too_large());
-    lower.offsets().iter().map(convert).collect()
-}
-
-fn too_large() -> Error {
-    Error::Overflow {
-        what: "the factor would have more than 2^32 entries".into(),
-        index: None,
     }
 }
 

@@ -1,6 +1,7 @@
 //! What faer lacks: fixing unknowns in a sparse factor, semi-definite systems with a documented
 //! choice of minimiser, sums whose terms cancel.
 
+mod analysis;
 mod cholesky;
 mod compensated;
 mod condensed;
@@ -22,6 +23,7 @@ mod scaling;
 pub mod sparse;
 mod substitute;
 
+pub use analysis::Analysis;
 pub use cholesky::{Cholesky, NULL_PIVOT, PIVOT_TOLERANCE};
 pub use compensated::CompensatedSum;
 pub use conjugate_gradient::{Effort, conjugate_gradient};

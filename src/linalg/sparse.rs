@@ -154,6 +154,11 @@ impl Sparse {
         &self.values
     }
 
+    /// Its entries' values, to be changed.
+    pub fn values_mut(&mut self) -> &mut [f64] {
+        &mut self.values
+    }
+
     /// The entries `(column, value)` of row `i`.
     pub fn row(&self, i: usize) -> impl ExactSizeIterator<Item = (usize, f64)> + Clone + '_ {
         let range = self.offsets[i]..self.offsets[i + 1];

@@ -177,7 +177,7 @@ fn energy(problem: &SeamlessProblem, mesh: &TriangleMesh, map: &SeamlessMap) -> 
 }
 
 /// The gradient of the linear function with these values at the corners.
-fn gradient(mesh: &TriangleMesh, face: usize, values: [f64; 3]) -> Vec3 {
+pub(super) fn gradient(mesh: &TriangleMesh, face: usize, values: [f64; 3]) -> Vec3 {
     let corners = mesh.corner_positions(face);
     let normal = mesh.normal(face);
     let opposite = |k: usize| sub(corners[(k + 2) % 3], corners[(k + 1) % 3]);

@@ -33,6 +33,7 @@ mod sectors;
 mod sizing;
 mod smooth;
 mod spread;
+mod stiffen;
 mod strips;
 mod trace;
 pub mod untangle;

@@ -62,6 +62,8 @@ pub struct SeamlessProblem {
     pub(super) isolines: Vec<Isoline>,
     /// The lengths of the gradients aimed at.
     density: Density,
+    /// What each triangle counts beside its area; empty for 1 everywhere.
+    stiffness: Vec<f64>,
 }
 
 impl SeamlessProblem {
@@ -118,18 +120,38 @@ impl SeamlessProblem {
             cones,
             isolines,
             density,
+            stiffness: Vec::new(),
         };
-        this.add_energy(mesh)?;
-        for seam in 0..this.seams.len() {
-            this.add_seam(mesh, seam)?;
-        }
-        for isoline in &this.isolines {
-            let row = isoline.unknowns();
-            this.problem.add_constraint(&row, &[1.0, -1.0], 0.0)?;
-        }
-        this.set_integers(mesh)?;
-        this.pin_origins(mesh)?;
+        this.state(mesh)?;
         Ok(this)
+    }
+
+    /// The same problem with other weights of triangles.
+    pub(super) fn with_stiffness(&self, mesh: &TriangleMesh, stiffness: Vec<f64>) -> Result<Self> {
+        let mut this = self.clone();
+        this.problem = Problem::new(self.problem.variables())?;
+        this.stiffness = stiffness;
+        this.state(mesh)?;
+        Ok(this)
+    }
+
+    /// What a triangle counts beside its area.
+    pub(super) fn stiffness_of(&self, face: usize) -> f64 {
+        self.stiffness.get(face).copied().unwrap_or(1.0)
+    }
+
+    /// Fills the problem.
+    fn state(&mut self, mesh: &TriangleMesh) -> Result<()> {
+        self.add_energy(mesh)?;
+        for seam in 0..self.seams.len() {
+            self.add_seam(mesh, seam)?;
+        }
+        for isoline in &self.isolines {
+            let row = isoline.unknowns();
+            self.problem.add_constraint(&row, &[1.0, -1.0], 0.0)?;
+        }
+        self.set_integers(mesh)?;
+        self.pin_origins(mesh)
     }
 
     /// Aims at another size of quads. Only linear terms change: the solver of this problem keeps

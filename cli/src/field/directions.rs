@@ -30,7 +30,8 @@ pub struct Directions {
     pub free_boundary: bool,
 
     /// Give this part of the faces, those with the most reliable curvature, the direction of least
-    /// curvature; from 0 to 1 [default: 0.1, and 0 with features, indices or --symmetry 1]
+    /// curvature; from 0 to 1 [default: 0.1, for a map or quads 0.005; 0 with features, indices or
+    /// --symmetry 1]
     #[arg(long, value_name = "FRACTION", value_parser = fraction)]
     #[arg(allow_negative_numbers = true)]
     pub constrain_curvature: Option<f64>,

@@ -38,6 +38,16 @@ pub struct Arguments {
     #[command(flatten)]
     pub sizing: SizingFlags,
 
+    /// Solve again up to so often while triangles are folded, each time with those stiffer that the
+    /// map distorts
+    #[arg(
+        long,
+        value_name = "TIMES",
+        default_value_t = 0,
+        conflicts_with = "no_untangle"
+    )]
+    pub stiffen: usize,
+
     /// Leave the triangles folded that rounding folds
     #[arg(long)]
     pub no_untangle: bool,

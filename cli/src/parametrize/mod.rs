@@ -79,7 +79,10 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
             Unfolded::as_it_is(solution, map)
         }
         false => {
-            let work = UntangleOptions::default();
+            let work = UntangleOptions {
+                stiffenings: arguments.stiffen,
+                ..UntangleOptions::default()
+            };
             solve_unfolded(&mesh, &problem, &options, &work, monitor)?
         }
     };

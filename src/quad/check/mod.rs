@@ -21,7 +21,7 @@ mod wound;
 
 pub use isolines::feature_edges;
 pub use orientation::orientation;
-pub(super) use wound::wound;
+pub(super) use wound::{is_wound, wound};
 
 use crate::mesh::TriangleMesh;
 use crate::mesh::features::check_edges;

@@ -29,11 +29,19 @@ pub(in crate::quad) fn wound(
     quarters: &[Option<i32>],
     uv: impl Fn(usize) -> [[f64; 2]; 3],
 ) -> Vec<usize> {
-    let is_wound = |&v: &usize| {
-        let turns = || turns_around(mesh, &uv, v);
-        quarters[v].is_some() && turns().is_some_and(|turns| Some(turns) != quarters[v])
-    };
+    let is_wound = |&v: &usize| is_wound(mesh, quarters, &uv, v);
     (0..mesh.vertex_count()).filter(is_wound).collect()
+}
+
+/// Whether a map turns around a vertex another number of quarters than these.
+pub(in crate::quad) fn is_wound(
+    mesh: &TriangleMesh,
+    quarters: &[Option<i32>],
+    uv: impl Fn(usize) -> [[f64; 2]; 3],
+    v: usize,
+) -> bool {
+    let turns = || turns_around(mesh, uv, v);
+    quarters[v].is_some() && turns().is_some_and(|turns| Some(turns) != quarters[v])
 }
 
 #[cfg(test)]

@@ -10,6 +10,7 @@
 //! | what may move | `freedom` |
 //! | which part of it is worked on | `region` |
 //! | the energy of a triangle, to second order | `energy` |
+//! | the Hessian of a region | `hessian` |
 //! | Newton steps of a region | `system` |
 //! | the schedule that closes the barrier | `schedule` |
 //! | what no motion can unfold | `stuck` |
@@ -22,6 +23,7 @@
 mod disk;
 mod energy;
 mod freedom;
+mod hessian;
 mod polar;
 mod region;
 mod schedule;
@@ -52,6 +54,9 @@ const NONE: u32 = u32::MAX;
 /// How far around a fold is worked on, attempt after attempt.
 const RINGS: [usize; 6] = [3, 8, 20, 50, 120, usize::MAX];
 
+/// A region that the budget allows fewer steps is left as it is.
+const LEAST_STEPS: usize = 10;
+
 /// How much work to spend.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct UntangleOptions {
@@ -59,6 +64,10 @@ pub struct UntangleOptions {
     pub steps: usize,
     /// How many faces all steps together may look at, as a multiple of the mesh's faces.
     pub passes: usize,
+    /// How often a map with folds is solved for again, stiffer where it is distorted
+    /// ([`SeamlessProblem::stiffened`]), before anything else is done. The classical remedy; where
+    /// the other steps may follow, most maps do without.
+    pub stiffenings: usize,
     /// How often the integers of collapsed cones are decided anew.
     pub rounds: usize,
     /// How often a map that keeps folds is made finer.
@@ -70,6 +79,7 @@ impl Default for UntangleOptions {
         UntangleOptions {
             steps: 100,
             passes: 200,
+            stiffenings: 0,
             rounds: 6,
             refinements: 5,
         }
@@ -220,7 +230,7 @@ impl<'a> Untangling<'a> {
             self.place[y as usize] = k as u32;
         }
         let rest = |face: usize| at_rest(self.mesh, self.problem, face);
-        let system = System::new(&self.freedom, region, rest, &self.place)?;
+        let mut system = System::new(&self.freedom, region, rest, &self.place)?;
         region
             .unknowns
             .iter()
@@ -230,8 +240,17 @@ impl<'a> Untangling<'a> {
             return Ok(());
         }
         let most_steps = self.most_steps.min(self.budget / system.faces());
+        if most_steps < LEAST_STEPS.min(self.most_steps) {
+            return Ok(());
+        }
         let saved = system.save(&self.values);
-        let outcome = schedule::unfold(&system, &mut self.values, most_steps, first_eps, monitor)?;
+        let outcome = schedule::unfold(
+            &mut system,
+            &mut self.values,
+            most_steps,
+            first_eps,
+            monitor,
+        )?;
         if outcome.folded >= before {
             system.restore(&mut self.values, &saved);
         }

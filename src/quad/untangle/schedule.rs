@@ -35,7 +35,7 @@ pub(super) struct Outcome {
 
 /// Works on a region until nothing is folded, or for so many steps.
 pub(super) fn unfold(
-    system: &System,
+    system: &mut System,
     x: &mut [f64],
     most_steps: usize,
     first_eps: f64,
@@ -76,7 +76,7 @@ fn narrowed(eps: f64, gain: f64, least: f64) -> f64 {
 }
 
 /// Steps that keep everything unfolded.
-fn polish(system: &System, x: &mut [f64], eps: f64) -> Result<usize> {
+fn polish(system: &mut System, x: &mut [f64], eps: f64) -> Result<usize> {
     let eps = eps.min(system.least_determinant(x)).max(LAST_EPS);
     for step in 0..POLISHING_STEPS {
         let before = system.save(x);

@@ -16,8 +16,11 @@ use crate::quad::compatible::Wish;
 use crate::quad::{SeamlessMap, SeamlessProblem};
 use crate::{Problem, Result};
 
-/// How many edges a path between two cones has at most.
+/// How many edges a path between two cones has at most,
 const LONGEST_PATH: usize = 4;
+
+/// unless edges are so short that more of them span so many quads.
+const LONGEST_REACH: f64 = 2.0;
 
 /// Two copies of cones in one chart, and by how much the coordinates should differ from the first
 /// to the second: along a shortest path between them.
@@ -125,16 +128,27 @@ impl SeamlessProblem {
     /// no cut across it.
     pub(super) fn near_cones(&self, mesh: &TriangleMesh, held: &[[bool; 2]]) -> Vec<NearCones> {
         let held: Vec<bool> = held.iter().map(|axes| *axes == [true; 2]).collect();
+        let longest = LONGEST_PATH.max((LONGEST_REACH / self.mean_aim(mesh)) as usize);
         let mut found = Vec::new();
         for v in 0..mesh.vertex_count() {
             for copy in self.sectors.first[v]..self.sectors.first[v + 1] {
                 if held[copy as usize] {
-                    self.paths_from(mesh, [v as u32, copy], &held, &mut found);
+                    self.paths_from(mesh, [v as u32, copy], longest, &held, &mut found);
                 }
             }
         }
         self.runs(mesh, &held, &mut found);
         found
+    }
+
+    /// The mean length of edges in the map as it should be.
+    fn mean_aim(&self, mesh: &TriangleMesh) -> f64 {
+        let faces = 0..mesh.face_count();
+        let length = |face: usize| {
+            let [u, v] = self.aim(mesh, face, 0, 1);
+            u.hypot(v)
+        };
+        faces.map(length).sum::<f64>() / mesh.face_count() as f64
     }
 
     /// Follows isolines from one cone or corner to the next, within a chart.
@@ -184,6 +198,7 @@ impl SeamlessProblem {
         &self,
         mesh: &TriangleMesh,
         [from, copy]: [u32; 2],
+        longest: usize,
         held: &[bool],
         found: &mut Vec<NearCones>,
     ) {
@@ -203,7 +218,7 @@ impl SeamlessProblem {
                     let step = self.aim(mesh, face, corner, end);
                     let aim = [aim[0] + step[0], aim[1] + step[1]];
                     if !held[next as usize] {
-                        if length + 1 < LONGEST_PATH {
+                        if length + 1 < longest {
                             queue.push_back((w, next, aim, length + 1));
                         }
                     } else if from < w as u32 {

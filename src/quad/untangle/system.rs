@@ -5,8 +5,9 @@
 
 use super::energy::Rest;
 use super::freedom::Freedom;
+use super::hessian::Hessian;
 use super::region::Region;
-use crate::linalg::{Cholesky, Sparse};
+use crate::linalg::Sparse;
 use crate::quad::check::orientation;
 use crate::{Error, Result};
 
@@ -27,6 +28,8 @@ pub(super) struct System<'a> {
     corners: Sparse,
     /// One row a coordinate of the region.
     moves: Sparse,
+    /// From the first step on.
+    hessian: Option<Hessian>,
 }
 
 impl<'a> System<'a> {
@@ -64,6 +67,7 @@ impl<'a> System<'a> {
             moves: matrix(&coordinates)?,
             rests: region.faces.iter().map(|&f| rest(f as usize)).collect(),
             coordinates,
+            hessian: None,
             freedom,
             region,
         })
@@ -92,10 +96,16 @@ impl<'a> System<'a> {
     }
 
     /// One step of Newton's method with line search; gives the energy after it.
-    pub fn step(&self, x: &mut [f64], eps: f64) -> Result<f64> {
-        let (before, slope, hessian) = self.quadratic(x, eps)?;
+    pub fn step(&mut self, x: &mut [f64], eps: f64) -> Result<f64> {
+        let mut hessian = match self.hessian.take() {
+            Some(hessian) => hessian,
+            None => Hessian::new(&self.corners)?,
+        };
+        let (before, slope) = self.quadratic(x, eps, &mut hessian);
         let mut step: Vec<f64> = slope.iter().map(|g| -g).collect();
-        match Cholesky::new(&hessian) {
+        let factor = hessian.factor();
+        self.hessian = Some(hessian);
+        match factor {
             Ok(factor) => factor.solve(&mut step)?,
             // Next to a triangle without area the barrier is too steep for doubles.
             Err(Error::Overflow { .. }) => return Ok(before),
@@ -144,27 +154,21 @@ impl<'a> System<'a> {
         })
     }
 
-    /// Energy, slope, and lower triangle of the projected Hessian in the region's unknowns.
-    fn quadratic(&self, x: &[f64], eps: f64) -> Result<(f64, Vec<f64>, Sparse)> {
-        let dim = self.region.unknowns.len();
-        let mut slope = vec![0.0; dim];
-        let mut entries = Vec::with_capacity(21 * self.faces());
+    /// Energy and slope in the region's unknowns; `hessian` becomes the projected one.
+    fn quadratic(&self, x: &[f64], eps: f64, hessian: &mut Hessian) -> (f64, Vec<f64>) {
+        let mut slope = vec![0.0; self.region.unknowns.len()];
         let mut energy = 0.0;
-        for (k, (rest, uv)) in self.shapes(x).enumerate() {
+        let forms = self.shapes(x).enumerate().map(|(k, (rest, uv))| {
             energy += rest.energy(&uv, eps);
             let local = rest.quadratic(&uv, eps);
             for a in 0..6 {
                 for (i, u) in self.corners.row(6 * k + a) {
                     slope[i] += u * local.slope[a];
-                    for b in 0..6 {
-                        let row = self.corners.row(6 * k + b).filter(|&(j, _)| j <= i);
-                        let value = u * local.hessian[a][b];
-                        entries.extend(row.map(|(j, v)| (i as u32, j as u32, value * v)));
-                    }
                 }
             }
-        }
-        let hessian = Sparse::from_triplets(dim, dim, entries.into_iter())?;
-        Ok((energy, slope, hessian))
+            local.hessian
+        });
+        hessian.sum(&self.corners, forms);
+        (energy, slope)
     }
 }

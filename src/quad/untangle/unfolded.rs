@@ -1,5 +1,7 @@
 //! From the problem to a map without folds: decide, hold apart, decide anew, untangle, refine.
 
+use std::borrow::Cow;
+
 use super::freedom::Freedom;
 use super::separate::Apart;
 use super::{Collapsed, UntangleOptions, Untangled, untangle};
@@ -17,6 +19,19 @@ const REFINEMENTS_TO_UNWIND: usize = 2;
 /// Where integers still collapse cones and a finer map may be made, untangling gets this part of its
 /// passes: it seldom helps.
 const PART_OF_PASSES: usize = 8;
+
+/// With [`Strategy::Auto`] a proof is tried for maps of at most so many unknowns,
+const PROVED: usize = 50_000;
+
+/// and may visit so many nodes: a map shall not wait for it.
+const NODES: usize = 30_000_000;
+
+/// Where a finer map may be made, untangling may look at so many faces,
+const FACES_BEFORE_REFINING: usize = 500_000;
+
+/// and at so many times those of the mesh: what small regions do not unfold large ones seldom do, and
+/// a finer map costs less than they.
+const PASSES_BEFORE_REFINING: usize = 5;
 
 /// A map, the solution that its integers are from, and what became of it.
 #[derive(Debug)]
@@ -46,13 +61,14 @@ impl Unfolded {
     }
 }
 
-/// Solves the problem, holds apart the cones that its integers collapse and solves again, at most
+/// Solves the problem, stiffens what is folded where `options` say so, holds apart the cones that its integers collapse and solves again, at most
 /// `options.rounds` times, and untangles the map. Where folds are left, or vertices that the
 /// map goes around too often, the same is done for a finer map, at most `options.refinements` times; of
 /// all maps the first with the fewest of these is kept.
 /// `monitor` watches each solve and each untangling.
 ///
-/// With [`Strategy::Relax`] there are no integers to speak of, and the map is that of the
+/// With [`Strategy::Auto`] a proof is tried only where the map need not wait for it long: up to fifty
+/// thousand unknowns, for at most thirty million nodes; [`Strategy::Exact`] is there for more. With [`Strategy::Relax`] there are no integers to speak of, and the map is that of the
 /// relaxation.
 ///
 /// # Errors
@@ -70,10 +86,17 @@ pub fn solve_unfolded<'a>(
         let map = problem.map(mesh, &solution)?;
         return Ok(Unfolded::as_it_is(solution, map));
     }
+    let mut solver = solver.clone();
+    if solver.strategy == Strategy::Auto {
+        solver.nodes = solver.nodes.min(NODES);
+        if problem.problem().variables() > PROVED {
+            solver.strategy = Strategy::Lattice;
+        }
+    }
     let mut best = solve_size(
         mesh,
         problem,
-        solver,
+        &solver,
         options,
         options.refinements,
         &monitor,
@@ -89,7 +112,7 @@ pub fn solve_unfolded<'a>(
         }
         let finer = problem.refined(mesh, REFINEMENT.powi(refinements as i32))?;
         let left = options.refinements - refinements;
-        let found = solve_size(mesh, &finer, solver, options, left, &monitor)?;
+        let found = solve_size(mesh, &finer, &solver, options, left, &monitor)?;
         if found.untangled.faults() < best.untangled.faults() {
             best = Unfolded {
                 refinements,
@@ -111,6 +134,14 @@ fn solve_size<'a>(
 ) -> Result<Unfolded> {
     let solution = solve_with(problem.problem(), solver, monitor())?;
     let map = problem.map(mesh, &solution)?;
+    let (stiff, solution, map) = stiffen(
+        mesh,
+        (problem, solution, map),
+        solver,
+        options.stiffenings,
+        monitor,
+    )?;
+    let problem = stiff.as_ref();
     let held = Freedom::new(problem, map.copies(), map.values(), &mut monitor())?.held();
     let near = problem.near_cones(mesh, &held);
     let mut best = Decided {
@@ -145,8 +176,12 @@ fn solve_size<'a>(
         }
     }
     let mut effort = *options;
-    if !best.collapsed.is_empty() && refinements_left > 0 {
-        effort.passes /= PART_OF_PASSES;
+    if refinements_left > 0 {
+        let few = PASSES_BEFORE_REFINING + FACES_BEFORE_REFINING / mesh.face_count().max(1);
+        effort.passes = effort.passes.min(few);
+        if !best.collapsed.is_empty() {
+            effort.passes /= PART_OF_PASSES;
+        }
     }
     Ok(Unfolded {
         untangled: untangle(mesh, problem, &best.map, &effort, &mut monitor())?,
@@ -155,6 +190,32 @@ fn solve_size<'a>(
         refinements: 0,
         collapsed: best.collapsed,
     })
+}
+
+/// Makes the triangles stiffer that the map distorts, and solves again, so often or until none is
+/// folded: the map with the fewest folds, and the problem that it solves.
+fn stiffen<'a, 'b>(
+    mesh: &TriangleMesh,
+    (problem, solution, map): (&'b SeamlessProblem, Solution, SeamlessMap),
+    solver: &Options,
+    stiffenings: usize,
+    monitor: &impl Fn() -> Monitor<'a>,
+) -> Result<(Cow<'b, SeamlessProblem>, Solution, SeamlessMap)> {
+    let mut best = (Cow::Borrowed(problem), solution, map);
+    let mut last = (problem.clone(), best.2.clone());
+    for _ in 0..stiffenings {
+        if best.2.flipped().is_empty() {
+            break;
+        }
+        let stiffer = last.0.stiffened(mesh, &last.1)?;
+        let solution = solve_with(stiffer.problem(), solver, monitor())?;
+        let map = stiffer.map(mesh, &solution)?;
+        last = (stiffer, map);
+        if last.1.flipped().len() < best.2.flipped().len() {
+            best = (Cow::Owned(last.0.clone()), solution, last.1.clone());
+        }
+    }
+    Ok(best)
 }
 
 /// Integers, and what they collapse.

@@ -4,18 +4,23 @@
 //! turns: no motion without folds leads out of it. A disk around both is laid anew in polar
 //! coordinates, larger and larger ones, and what that folds is untangled again.
 
+use std::collections::BTreeSet;
+
 use super::Untangling;
 use super::disk::Disk;
 use super::polar::{Layout, faces_within};
 use super::region::regions;
-use crate::quad::check::{orientation, wound};
+use crate::quad::check::{is_wound, orientation, wound};
 use crate::{Monitor, Result};
 
 /// How far around a cone, in units of the map, is laid anew, attempt after attempt.
 const RADII: [f64; 12] = [0.5, 0.7, 1.0, 1.2, 1.4, 1.7, 2.0, 2.4, 2.8, 3.4, 4.0, 5.6];
 
+/// A disk of more faces than these is not worth the work that it makes.
+const MOST_FACES: usize = 4000;
+
 /// How often all such cones are looked at: mending one may wind another up.
-const ROUNDS: usize = 4;
+const ROUNDS: usize = 8;
 
 /// How many faces all steps may look at, as a multiple of the mesh's faces.
 const PASSES: usize = 20;
@@ -39,14 +44,15 @@ impl Untangling<'_> {
             .budget
             .min(PASSES.saturating_mul(self.mesh.face_count()));
         let mut wound = self.wound();
+        let mut left_behind = BTreeSet::new();
         for _ in 0..ROUNDS {
-            let before = wound.len();
-            for cone in wound.clone() {
+            let before = wound.clone();
+            for cone in before.iter().copied() {
                 if self.quarters[cone] != Some(4) && wound.contains(&cone) {
-                    self.unwind_cone(cone, &mut wound, monitor)?;
+                    self.unwind_cone(cone, &mut wound, &mut left_behind, monitor)?;
                 }
             }
-            if wound.is_empty() || wound.len() == before {
+            if wound.is_empty() || wound == before {
                 break;
             }
         }
@@ -54,13 +60,17 @@ impl Untangling<'_> {
     }
 
     /// Lays larger and larger disks around a cone anew, until fewer vertices are `wound`.
+    ///
+    /// Where none helps, the first is taken that winds another cone in its stead which was not
+    /// `left_behind` so before: that one may have more room.
     fn unwind_cone(
         &mut self,
         cone: usize,
         wound: &mut Vec<usize>,
+        left_behind: &mut BTreeSet<usize>,
         monitor: &mut Monitor,
     ) -> Result<()> {
-        let folded = self.folded().len();
+        let mut instead = None;
         let mut faces = 0;
         for radius in RADII {
             let Some(disk) = self.disk(cone, radius).filter(|_| self.budget > 0) else {
@@ -69,6 +79,9 @@ impl Untangling<'_> {
             if std::mem::replace(&mut faces, disk.faces.len()) == disk.faces.len() {
                 continue;
             }
+            if faces > MOST_FACES {
+                break;
+            }
             let Some(layout) = self.layout(&disk)? else {
                 continue;
             };
@@ -76,17 +89,50 @@ impl Untangling<'_> {
                 let before = self.values.clone();
                 self.lay(&layout);
                 self.unfold_disk(&disk, first_eps, monitor)?;
-                if self.folded().len() <= folded {
-                    let left = self.wound();
-                    if left.len() < wound.len() {
-                        *wound = left;
-                        return Ok(());
-                    }
+                let left = self.wound_since(&before, wound);
+                let now = std::mem::replace(&mut self.values, before);
+                let Some(left) = left else { continue };
+                if left.len() < wound.len() {
+                    (self.values, *wound) = (now, left);
+                    return Ok(());
                 }
-                self.values = before;
+                let is_other = |v: &usize| !left_behind.contains(v);
+                let moves = left.len() == wound.len() && !left.contains(&cone);
+                if instead.is_none() && moves && left.iter().all(is_other) {
+                    instead = Some((now, left));
+                }
             }
         }
+        if let Some((values, left)) = instead {
+            left_behind.insert(cone);
+            (self.values, *wound) = (values, left);
+        }
         Ok(())
+    }
+
+    /// The wound vertices, which at other values were these; none where what moved is folded.
+    fn wound_since(&self, before: &[f64], wound: &[usize]) -> Option<Vec<usize>> {
+        let first = &self.problem.sectors.first;
+        let vertex = |i: usize| first.partition_point(|&copy| copy as usize <= i / 2) - 1;
+        let both = self.values.iter().zip(before).enumerate();
+        let moved: BTreeSet<usize> = both
+            .filter(|(_, (x, y))| x != y)
+            .map(|(i, _)| vertex(i))
+            .collect();
+        let around = moved.iter().flat_map(|&v| self.mesh.ring(v));
+        let faces: BTreeSet<usize> = around.map(|(face, _)| face).collect();
+        if faces.iter().any(|&face| orientation(self.uv(face)) <= 0.0) {
+            return None;
+        }
+        let corners = faces.iter().flat_map(|&face| self.mesh.corners(face));
+        let near: BTreeSet<usize> = corners.collect();
+        let uv = |face| self.uv(face);
+        let is_wound = |v: &usize| is_wound(self.mesh, &self.quarters, uv, *v);
+        let far = wound.iter().filter(|v| !near.contains(v));
+        let found = near.iter().copied().filter(is_wound);
+        let mut left: Vec<usize> = far.copied().chain(found).collect();
+        left.sort_unstable();
+        Some(left)
     }
 
     /// What lies within `radius` of a cone in the map, without vertices that cannot go wherever one

@@ -1,0 +1,67 @@
+//! What a factorization does before it looks at numbers: the order of elimination and the pattern
+//! of the factor. Matrices of one pattern share it.
+
+use std::sync::Arc;
+
+use faer::Side;
+use faer::sparse::SymbolicSparseColMatRef;
+use faer::sparse::linalg::SupernodalThreshold;
+use faer::sparse::linalg::cholesky::{
+    CholeskySymbolicParams, SymbolicCholesky, SymmetricOrdering, factorize_symbolic_cholesky,
+};
+
+use super::Sparse;
+use crate::{Error, Result};
+
+/// The order of elimination and the pattern of the factor, for all matrices of one pattern.
+#[derive(Debug, Clone)]
+pub struct Analysis {
+    pub(super) symbolic: Arc<SymbolicCholesky<u32>>,
+}
+
+impl Analysis {
+    /// Of matrices whose lower triangle has this pattern, in an order that keeps the factor sparse.
+    ///
+    /// # Errors
+    /// [`Error::Overflow`] where the factor would exceed 2^32 entries.
+    pub fn new(lower: &Sparse) -> Result<Self> {
+        Self::ordered(lower, SymmetricOrdering::Amd)
+    }
+
+    pub(super) fn ordered(lower: &Sparse, ordering: SymmetricOrdering<u32>) -> Result<Self> {
+        let col_ptr = offsets_u32(lower)?;
+        let symbolic = factorize_symbolic_cholesky(
+            pattern(lower, &col_ptr),
+            Side::Upper,
+            ordering,
+            CholeskySymbolicParams {
+                supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
+                ..Default::default()
+            },
+        );
+        Ok(Analysis {
+            symbolic: Arc::new(symbolic.map_err(|_| too_large())?),
+        })
+    }
+}
+
+/// Rows of the lower triangle are columns of the upper one.
+pub(super) fn pattern<'a>(
+    lower: &'a Sparse,
+    col_ptr: &'a [u32],
+) -> SymbolicSparseColMatRef<'a, u32> {
+    let n = lower.rows();
+    SymbolicSparseColMatRef::new_checked(n, n, col_ptr, None, lower.indices())
+}
+
+pub(super) fn offsets_u32(lower: &Sparse) -> Result<Vec<u32>> {
+    let convert = |&o: &usize| u32::try_from(o).map_err(|_| too_large());
+    lower.offsets().iter().map(convert).collect()
+}
+
+fn too_large() -> Error {
+    Error::Overflow {
+        what: "the factor would have more than 2^32 entries".into(),
+        index: None,
+    }
+}
