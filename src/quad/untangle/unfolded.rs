@@ -36,7 +36,7 @@ const PASSES_BEFORE_REFINING: usize = 5;
 /// A map, the solution that its integers are from, and what became of it.
 #[derive(Debug)]
 pub struct Unfolded {
-    /// The solution: of the problem with the constraints that were added.
+    /// The solution: of the problem with the constraints, and the stiffness, that were added.
     pub solution: Solution,
     /// The map after untangling.
     pub untangled: Untangled,
@@ -61,15 +61,15 @@ impl Unfolded {
     }
 }
 
-/// Solves the problem, stiffens what is folded where `options` say so, holds apart the cones that its integers collapse and solves again, at most
-/// `options.rounds` times, and untangles the map. Where folds are left, or vertices that the
-/// map goes around too often, the same is done for a finer map, at most `options.refinements` times; of
-/// all maps the first with the fewest of these is kept.
+/// Solves the problem, with what is folded stiffer where `options` say so, holds apart the cones that
+/// its integers collapse and solves again, at most `options.rounds` times, and untangles the map.
+/// Where folds are left, or vertices that the map goes around too often, the same is done for a finer
+/// map, at most `options.refinements` times; of all maps the first with the fewest of these is kept.
 /// `monitor` watches each solve and each untangling.
 ///
 /// With [`Strategy::Auto`] a proof is tried only where the map need not wait for it long: up to fifty
-/// thousand unknowns, for at most thirty million nodes; [`Strategy::Exact`] is there for more. With [`Strategy::Relax`] there are no integers to speak of, and the map is that of the
-/// relaxation.
+/// thousand unknowns, for at most thirty million nodes; [`Strategy::Exact`] is there for more. With
+/// [`Strategy::Relax`] there are no integers to speak of, and the map is that of the relaxation.
 ///
 /// # Errors
 /// Those of [`solve`](crate::solve()) for the first solve and of [`untangle`]; a later solve that fails
@@ -202,18 +202,21 @@ fn stiffen<'a, 'b>(
     monitor: &impl Fn() -> Monitor<'a>,
 ) -> Result<(Cow<'b, SeamlessProblem>, Solution, SeamlessMap)> {
     let mut best = (Cow::Borrowed(problem), solution, map);
-    let mut last = (problem.clone(), best.2.clone());
+    let mut last: Option<(SeamlessProblem, SeamlessMap)> = None;
     for _ in 0..stiffenings {
         if best.2.flipped().is_empty() {
             break;
         }
-        let stiffer = last.0.stiffened(mesh, &last.1)?;
+        let stiffer = match &last {
+            Some((problem, map)) => problem.stiffened(mesh, map)?,
+            None => problem.stiffened(mesh, &best.2)?,
+        };
         let solution = solve_with(stiffer.problem(), solver, monitor())?;
         let map = stiffer.map(mesh, &solution)?;
-        last = (stiffer, map);
-        if last.1.flipped().len() < best.2.flipped().len() {
-            best = (Cow::Owned(last.0.clone()), solution, last.1.clone());
+        if map.flipped().len() < best.2.flipped().len() {
+            best = (Cow::Owned(stiffer.clone()), solution, map.clone());
         }
+        last = Some((stiffer, map));
     }
     Ok(best)
 }

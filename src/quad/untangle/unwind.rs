@@ -215,6 +215,7 @@ mod tests {
                 continue;
             };
             let layout = work.layout(&disk).unwrap().unwrap();
+            let (before, wound) = (work.values.clone(), work.wound());
             // Nothing is left of what was there: all inside is put beside one point.
             let center = faces_within(&mesh, cone, 9.0, &|face| work.uv(face));
             let beside = |face: usize, v: usize| center[&face].map(|x| x + 1e-6 * v as f64);
@@ -224,6 +225,7 @@ mod tests {
                 places: places.collect(),
             });
             let crushed = work.folded().len();
+            assert_eq!(work.wound_since(&before, &wound), None, "folded");
             work.lay(&layout);
             let folded = work.folded().len();
             assert!(4 * folded < crushed, "{cone}: {folded} of {crushed}");
@@ -232,6 +234,10 @@ mod tests {
                 work.folded().is_empty() && work.wound().is_empty(),
                 "{cone}"
             );
+            // What moved alone tells what a look at everything tells.
+            assert_eq!(work.wound_since(&before, &wound), Some(Vec::new()));
+            assert_eq!(work.wound_since(&before, &[]), Some(Vec::new()));
+            assert_eq!(work.wound_since(&work.values, &[cone]), Some(vec![cone]));
             laid += 1;
         }
         assert!(laid > 3, "{laid}");
