@@ -91,3 +91,29 @@ fn a_solve_ends_at_every_scale() {
         }
     }
 }
+
+/// All that is asked for is that `x + sqrt2 y + sqrt3 z - 0.3` be small: the larger the integers may be,
+/// the smaller it is, and nothing is least.
+#[test]
+fn a_dense_lattice_is_rounded_and_no_error() {
+    let mut problem = Problem::new(4).unwrap();
+    problem.set_integers(&[0, 1, 2, 3]).unwrap();
+    let flat = [1.0, 2f64.sqrt(), 3f64.sqrt(), 5f64.sqrt()];
+    problem
+        .add_least_squares(&[0, 1, 2, 3], &flat, 0.3, 1.0)
+        .unwrap();
+    for strategy in [
+        Strategy::Greedy,
+        Strategy::Lattice,
+        Strategy::Exact,
+        Strategy::Auto,
+    ] {
+        let options = Options {
+            strategy,
+            nodes: 10_000,
+            ..Options::default()
+        };
+        let solution = solve(&problem, &options).unwrap();
+        assert!(solution.energy() < 0.3 * 0.3 + 1e-12, "{strategy:?}");
+    }
+}

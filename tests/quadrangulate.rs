@@ -101,7 +101,7 @@ fn where_curvature_counts_for_nothing_it_is_not_tried() {
 
 #[test]
 fn where_quads_do_not_conform_larger_details_are_tried_unless_they_are_given() {
-    let mesh = shape::by_name("genus-6", 1500).unwrap();
+    let mesh = shape::by_name("genus-5", 2000).unwrap();
     let edge = (mesh.surface_area() / 40.0).sqrt();
     let given = of(&mesh, 40, |options| {
         options.guidance.detail = Some(0.25 * edge);

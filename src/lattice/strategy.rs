@@ -7,10 +7,10 @@
 use super::certificate::{Certificate, evaluation_error};
 use super::prove::{FIRST, GROWTH, radius_for};
 use super::{Diagonals, Limits, Piece, assemble, beam, enumerate, improve_blocks, pieces};
-use crate::Result;
 use crate::eliminate::ReducedModel;
 use crate::round;
 use crate::solve::{Factors, Options, Phase, Search};
+use crate::{Error, Result};
 
 /// A proof that is predicted to need more than so many budgets is not tried.
 const HOPELESS: f64 = 4.0;
@@ -32,15 +32,35 @@ const BOUND_SHARE: u64 = 1_000;
 /// Decides the integers of `model` as well as it can be done without a proof.
 ///
 /// # Errors
-/// For lack of memory, and for integers too large to be exact.
+/// For lack of memory, and for integers too large to be exact where roundings have them as well.
 pub(crate) fn lattice(
     model: &ReducedModel,
     options: &Options,
     factors: &mut Factors,
     search: &mut Search,
 ) -> Result<()> {
-    decode(model, options, factors, search)?;
-    Ok(())
+    let found = decode(model, options, factors, search);
+    or_rounded(found.map(drop), model, options, factors, search)
+}
+
+/// Where the lattice ends at integers too large to be exact, or basis vectors too short to divide by, what
+/// rounding finds.
+///
+/// In an objective that is all but flat along some direction which no integer point lies on, ever
+/// larger integers come ever closer to its minimum; nobody means those.
+fn or_rounded(
+    found: Result<()>,
+    model: &ReducedModel,
+    options: &Options,
+    factors: &mut Factors,
+    search: &mut Search,
+) -> Result<()> {
+    match found {
+        Err(Error::Overflow { .. } | Error::NotFinite { .. }) if search.best().is_some() => {
+            round::adaptive(model, options, factors, search)
+        }
+        other => other,
+    }
 }
 
 /// Decides the integers of `model` and proves that nothing is better, as far as the budgets of
@@ -49,6 +69,16 @@ pub(crate) fn lattice(
 /// # Errors
 /// As [`lattice`].
 pub(crate) fn exact(
+    model: &ReducedModel,
+    options: &Options,
+    factors: &mut Factors,
+    search: &mut Search,
+) -> Result<()> {
+    let proved = prove(model, options, factors, search);
+    or_rounded(proved, model, options, factors, search)
+}
+
+fn prove(
     model: &ReducedModel,
     options: &Options,
     factors: &mut Factors,
