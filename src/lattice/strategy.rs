@@ -4,7 +4,7 @@
 //! Every improvement is offered to the search as soon as it is known, and every proved bound
 //! raised, so that both can be stopped at any time. Budgets count nodes, never seconds.
 
-use super::certificate::{Certificate, evaluation_error};
+use super::certificate::Certificate;
 use super::prove::{FIRST, GROWTH, radius_for};
 use super::{Diagonals, Limits, Piece, assemble, beam, enumerate, improve_blocks, pieces};
 use crate::eliminate::ReducedModel;
@@ -40,26 +40,34 @@ pub(crate) fn lattice(
     search: &mut Search,
 ) -> Result<()> {
     let found = decode(model, options, factors, search);
-    or_rounded(found.map(drop), model, options, factors, search)
+    let discrete = found.map(|pieces| are_discrete(&pieces));
+    or_rounded(discrete, model, options, factors, search)
 }
 
-/// Where the lattice ends at integers too large to be exact, or basis vectors too short to divide by, what
-/// rounding finds.
+/// Whether every piece is a lattice, to working precision.
+fn are_discrete(pieces: &[Piece]) -> bool {
+    pieces.iter().all(|p| p.basis.is_discrete())
+}
+
+/// What rounding finds as well, where the lattice ends at integers too large to be exact or basis vectors
+/// too short to divide by, or what was `found` is that it is no lattice.
 ///
 /// In an objective that is all but flat along some direction which no integer point lies on, ever
 /// larger integers come ever closer to its minimum; nobody means those.
 fn or_rounded(
-    found: Result<()>,
+    found: Result<bool>,
     model: &ReducedModel,
     options: &Options,
     factors: &mut Factors,
     search: &mut Search,
 ) -> Result<()> {
     match found {
+        Ok(true) => Ok(()),
+        Ok(false) => round::adaptive(model, options, factors, search),
         Err(Error::Overflow { .. } | Error::NotFinite { .. }) if search.best().is_some() => {
             round::adaptive(model, options, factors, search)
         }
-        other => other,
+        Err(other) => Err(other),
     }
 }
 
@@ -78,15 +86,17 @@ pub(crate) fn exact(
     or_rounded(proved, model, options, factors, search)
 }
 
+/// Whether the pieces are lattices; where they are not there is nothing to prove.
 fn prove(
     model: &ReducedModel,
     options: &Options,
     factors: &mut Factors,
     search: &mut Search,
-) -> Result<()> {
+) -> Result<bool> {
     let mut pieces = decode(model, options, factors, search)?;
-    if search.ends(0) {
-        return Ok(());
+    let discrete = are_discrete(&pieces);
+    if !discrete || search.ends(0) {
+        return Ok(discrete);
     }
     let certificate = Certificate::measure(model, factors, &pieces, search)?;
     let widest = pieces.iter().map(|p| p.basis.rank()).max().unwrap_or(0);
@@ -135,15 +145,15 @@ fn prove(
             }
             pieces[at].bound = pieces[at].bound.max(found.bound);
             if !found.complete {
-                raise(model, &pieces, &certificate, search);
-                return Ok(());
+                raise(&pieces, &certificate, search);
+                return Ok(true);
             }
             pieces[at].proved = whole;
         }
-        raise(model, &pieces, &certificate, search);
+        raise(&pieces, &certificate, search);
         goal *= GROWTH;
     }
-    Ok(())
+    Ok(true)
 }
 
 /// Makes the diagonals of `piece` where its proof is worth their price; returns that price, in nodes
@@ -215,7 +225,7 @@ fn try_point(
 }
 
 /// Raises the bound to what the balls prove that have been searched.
-fn raise(model: &ReducedModel, pieces: &[Piece], certificate: &Certificate, search: &mut Search) {
+fn raise(pieces: &[Piece], certificate: &Certificate, search: &mut Search) {
     let least = |p: &Piece| {
         if p.proved {
             p.value
@@ -235,12 +245,13 @@ fn raise(model: &ReducedModel, pieces: &[Piece], certificate: &Certificate, sear
     };
     let beyond = certificate.energy_bound(square);
     if let Some(best) = search.best() {
-        let evaluated = best.energy - evaluation_error(model, search.relaxed(), &best.point);
+        let evaluated = best.energy - search.evaluation_error(&best.point);
         search.raise_bound(beyond.min(evaluated));
     }
 }
 
-/// Direct rounding, nearest plane, beam and blocks, each offered; then perturbation rounds.
+/// Direct rounding, nearest plane, beam and blocks, each offered; then perturbation rounds. Pieces that are
+/// no lattices are left as nearest plane has them.
 fn decode(
     model: &ReducedModel,
     options: &Options,
@@ -261,7 +272,12 @@ fn decode(
     if let Some(best) = search.incumbent_integers() {
         start_from(&mut pieces, &best)?;
     }
-    for at in 0..pieces.len() {
+    // Where distances are not those of a lattice, ever larger integers improve them, by their rounding
+    // errors in the end.
+    let discrete: Vec<usize> = (0..pieces.len())
+        .filter(|&at| pieces[at].basis.is_discrete())
+        .collect();
+    for &at in &discrete {
         let mut better = false;
         let piece = &mut pieces[at];
         let mut stop = |work| search.ends(work);
@@ -275,7 +291,7 @@ fn decode(
     }
     let mut shaken = 0;
     for _ in 0..options.lattice_rounds {
-        for at in 0..pieces.len() {
+        for &at in &discrete {
             let piece = &mut pieces[at];
             let mut stop = |work| search.ends(work);
             let start = perturbed(piece, &mut shaken);

@@ -5,6 +5,7 @@
 //! time.
 
 use super::monitor::Monitor;
+use super::status::GAP_TOLERANCE;
 use super::{Factors, Phase, SolveStatus, Work};
 use crate::eliminate::ReducedModel;
 use crate::{Error, Result};
@@ -117,15 +118,37 @@ impl<'s, 'm> Search<'s, 'm> {
             point = factors.follow(model, &point)?;
         }
         let energy = model.energy(&point).0;
-        let better = self
-            .incumbent
-            .as_ref()
-            .is_none_or(|best| energy < best.energy);
+        let better = match &self.incumbent {
+            Some(best) => energy < best.energy && self.is_certain(best, energy, &point),
+            None => true,
+        };
         if better {
             self.incumbent = Some(Incumbent { point, energy });
             self.monitor.improved(energy);
         }
         Ok(better)
+    }
+
+    /// Whether `energy`, less than that of `best`, is so in spite of what it may be off by, or that is
+    /// too little to matter. Of huge integers nothing else is left of it.
+    fn is_certain(&self, best: &Incumbent, energy: f64, point: &[f64]) -> bool {
+        let error = self.evaluation_error(point);
+        error <= GAP_TOLERANCE * best.energy.abs().max(1.0) || energy + error < best.energy
+    }
+
+    /// What the difference between the energies of two evaluated solutions may be off by.
+    ///
+    /// Energies are summed with compensation. What is left is the rounding of the model's entries,
+    /// which counts as far as solutions differ: in the terms of the quadratic form of the step from
+    /// the relaxation to `point`, a few units in the last place of each.
+    pub fn evaluation_error(&self, point: &[f64]) -> f64 {
+        let steps = point.iter().zip(&self.relaxed);
+        let step: Vec<f64> = steps.map(|(p, r)| p - r).collect();
+        let terms = self.model.hessian().entries();
+        let size: f64 = terms
+            .map(|(i, j, v)| (v * step[i as usize] * step[j as usize]).abs())
+            .sum();
+        4.0 * f64::EPSILON * size
     }
 
     /// The best solution so far.
@@ -149,7 +172,7 @@ impl<'s, 'm> Search<'s, 'm> {
 
     /// Whether the incumbent's relative gap is at most `gap`, or it counts as proved.
     pub fn is_within(&self, gap: f64) -> bool {
-        let gap = gap.max(super::status::GAP_TOLERANCE);
+        let gap = gap.max(GAP_TOLERANCE);
         let best = self.incumbent.as_ref();
         best.is_some_and(|b| super::monitor::gap(b.energy, self.lower_bound) <= gap)
     }
@@ -160,7 +183,7 @@ impl<'s, 'm> Search<'s, 'm> {
             return SolveStatus::Relaxed;
         };
         let gap = super::monitor::gap(best.energy, self.lower_bound);
-        if gap <= super::status::GAP_TOLERANCE {
+        if gap <= GAP_TOLERANCE {
             return SolveStatus::Optimal;
         }
         match self.monitor.stopped() {
