@@ -40,34 +40,26 @@ pub(crate) fn lattice(
     search: &mut Search,
 ) -> Result<()> {
     let found = decode(model, options, factors, search);
-    let discrete = found.map(|pieces| are_discrete(&pieces));
-    or_rounded(discrete, model, options, factors, search)
+    or_rounded(found.map(drop), model, options, factors, search)
 }
 
-/// Whether every piece is a lattice, to working precision.
-fn are_discrete(pieces: &[Piece]) -> bool {
-    pieces.iter().all(|p| p.basis.is_discrete())
-}
-
-/// What rounding finds as well, where the lattice ends at integers too large to be exact or basis vectors
-/// too short to divide by, or what was `found` is that it is no lattice.
+/// Where the lattice ends at integers too large to be exact, or basis vectors too short to divide by, what
+/// rounding finds.
 ///
 /// In an objective that is all but flat along some direction which no integer point lies on, ever
 /// larger integers come ever closer to its minimum; nobody means those.
 fn or_rounded(
-    found: Result<bool>,
+    found: Result<()>,
     model: &ReducedModel,
     options: &Options,
     factors: &mut Factors,
     search: &mut Search,
 ) -> Result<()> {
     match found {
-        Ok(true) => Ok(()),
-        Ok(false) => round::adaptive(model, options, factors, search),
         Err(Error::Overflow { .. } | Error::NotFinite { .. }) if search.best().is_some() => {
             round::adaptive(model, options, factors, search)
         }
-        Err(other) => Err(other),
+        other => other,
     }
 }
 
@@ -86,17 +78,16 @@ pub(crate) fn exact(
     or_rounded(proved, model, options, factors, search)
 }
 
-/// Whether the pieces are lattices; where they are not there is nothing to prove.
 fn prove(
     model: &ReducedModel,
     options: &Options,
     factors: &mut Factors,
     search: &mut Search,
-) -> Result<bool> {
+) -> Result<()> {
     let mut pieces = decode(model, options, factors, search)?;
-    let discrete = are_discrete(&pieces);
-    if !discrete || search.ends(0) {
-        return Ok(discrete);
+    // Where distances are not those of a lattice they prove nothing.
+    if search.ends(0) || pieces.iter().any(|p| !p.basis.is_discrete()) {
+        return Ok(());
     }
     let certificate = Certificate::measure(model, factors, &pieces, search)?;
     let widest = pieces.iter().map(|p| p.basis.rank()).max().unwrap_or(0);
@@ -146,14 +137,14 @@ fn prove(
             pieces[at].bound = pieces[at].bound.max(found.bound);
             if !found.complete {
                 raise(&pieces, &certificate, search);
-                return Ok(true);
+                return Ok(());
             }
             pieces[at].proved = whole;
         }
         raise(&pieces, &certificate, search);
         goal *= GROWTH;
     }
-    Ok(true)
+    Ok(())
 }
 
 /// Makes the diagonals of `piece` where its proof is worth their price; returns that price, in nodes
@@ -250,8 +241,10 @@ fn raise(pieces: &[Piece], certificate: &Certificate, search: &mut Search) {
     }
 }
 
-/// Direct rounding, nearest plane, beam and blocks, each offered; then perturbation rounds. Pieces that are
-/// no lattices are left as nearest plane has them.
+/// Direct rounding, nearest plane, beam and blocks, each offered; then perturbation rounds.
+///
+/// Where vectors depend the reduction hangs on tolerances, and adaptive rounding is offered as well; pieces
+/// that are no lattices are left at that.
 fn decode(
     model: &ReducedModel,
     options: &Options,
@@ -269,11 +262,14 @@ fn decode(
     let mut stop = |work| search.ends(work);
     let mut pieces = pieces(m, r, full, &relaxed, &mut stop)?;
     search.offer(factors, &assemble(&pieces, m)?)?;
+    if !pieces.iter().all(Piece::is_regular) {
+        round::adaptive(model, options, factors, search)?;
+    }
     if let Some(best) = search.incumbent_integers() {
         start_from(&mut pieces, &best)?;
     }
-    // Where distances are not those of a lattice, ever larger integers improve them, by their rounding
-    // errors in the end.
+    // Where distances are not those of a lattice, ever larger integers improve them, in the end by
+    // rounding errors.
     let discrete: Vec<usize> = (0..pieces.len())
         .filter(|&at| pieces[at].basis.is_discrete())
         .collect();

@@ -1,6 +1,7 @@
 //! One solve from beginning to end: validate, eliminate, relax, search, expand, verify.
 
 use super::factors::Factors;
+use super::held;
 use super::monitor::{Monitor, gap};
 use super::relax::{Relaxation, relax};
 use super::search::Search;
@@ -92,13 +93,14 @@ impl Prepared<'_> {
         let searched = monitor.seconds();
         let factored = factors.seconds() - factored_before;
 
-        let values = expand(&reduced, model, options.strategy, &point);
-        let verdict = verify(self.problem, &values)?;
-        let searched_for = !reduced.integers().is_empty();
+        let mut values = expand(&reduced, model, options.strategy, &point);
+        let mut verdict = verify(self.problem, &values)?;
+        let decided = !reduced.integers().is_empty() && options.strategy != Strategy::Relax;
+        if decided && let Some(better) = held::mend(self.problem, &values, verdict) {
+            (values, verdict) = better;
+        }
         let status = match status {
-            SolveStatus::Optimal
-                if searched_for && gap(verdict.energy, lower_bound) > VERIFIED_GAP =>
-            {
+            SolveStatus::Optimal if decided && gap(verdict.energy, lower_bound) > VERIFIED_GAP => {
                 SolveStatus::Feasible
             }
             status => status,

@@ -18,6 +18,8 @@ const LARGEST_INTEGER: f64 = 9_007_199_254_740_992.0;
 pub(crate) struct Incumbent {
     pub point: Vec<f64>,
     pub energy: f64,
+    /// The energy, and what it may be off by where that matters.
+    at_most: f64,
 }
 
 /// Incumbent, bound, and who watches.
@@ -117,23 +119,37 @@ impl<'s, 'm> Search<'s, 'm> {
         if !model.continuous().is_empty() {
             point = factors.follow(model, &point)?;
         }
-        let energy = model.energy(&point).0;
-        let better = match &self.incumbent {
-            Some(best) => energy < best.energy && self.is_certain(best, energy, &point),
-            None => true,
-        };
+        let (energy, size) = model.energy(&point);
+        let at_most = self.at_most(energy, size, &point);
+        let best = self.incumbent.as_ref();
+        let better = best.is_none_or(|best| at_most < best.at_most);
         if better {
-            self.incumbent = Some(Incumbent { point, energy });
+            self.incumbent = Some(Incumbent {
+                point,
+                energy,
+                at_most,
+            });
             self.monitor.improved(energy);
         }
         Ok(better)
     }
 
-    /// Whether `energy`, less than that of `best`, is so in spite of what it may be off by, or that is
-    /// too little to matter. Of huge integers nothing else is left of it.
-    fn is_certain(&self, best: &Incumbent, energy: f64, point: &[f64]) -> bool {
-        let error = self.evaluation_error(point);
-        error <= GAP_TOLERANCE * best.energy.abs().max(1.0) || energy + error < best.energy
+    /// What `energy`, that of `point` with terms of this `size`, may be at most: more where rounding errors
+    /// matter, which are all that is left of huge integers. An energy below the bound is off at least by that
+    /// much, and as well in the other direction.
+    fn at_most(&self, energy: f64, size: f64, point: &[f64]) -> f64 {
+        let enough = GAP_TOLERANCE * energy.abs().max(1.0);
+        let below = 2.0 * (self.lower_bound - energy);
+        let own = 4.0 * f64::EPSILON * size;
+        if own.max(below) <= enough {
+            return energy;
+        }
+        let error = own.min(self.evaluation_error(point)).max(below);
+        if error <= enough {
+            energy
+        } else {
+            energy + error
+        }
     }
 
     /// What the difference between the energies of two evaluated solutions may be off by.
