@@ -117,3 +117,36 @@ fn a_dense_lattice_is_rounded_and_no_error() {
         assert!(solution.energy() < 0.3 * 0.3 + 1e-12, "{strategy:?}");
     }
 }
+
+/// Found by the fuzzer: the integers of these constraints are multiples of one parameter around 6e8, plus
+/// offsets of 1e14, of which the continuous unknowns beside them kept six digits.
+#[test]
+fn a_chain_of_integer_constraints_costs_continuous_unknowns_no_digits() {
+    let rows: [(&[usize], &[f64], f64); 7] = [
+        (&[5, 2, 1, 3], &[0.5, 4.5, -8.0, 2.5], 2.5),
+        (&[4, 0, 2, 5], &[4.0, 4.0, 0.5, -7.0], 4.5),
+        (&[3, 0, 2], &[6.5, 4.5, 4.0], 4.0),
+        (&[5, 2, 1, 3], &[0.5, 4.5, -8.0, 2.5], 2.5),
+        (&[2, 0, 4], &[-6.5, -5.5, 2.5], 0.5),
+        (&[0, 1, 4], &[-4.0, 4.0, 5.0], -8.0),
+        (&[4, 0, 2, 5], &[4.0, 4.0, 0.5, -7.0], 4.5),
+    ];
+    let mut problem = Problem::new(6).unwrap();
+    for (indices, values, rhs) in rows {
+        problem.add_constraint(indices, values, rhs).unwrap();
+    }
+    problem
+        .add_least_squares(&[0, 3], &[9.5, -4.0], -8.0, 8.0)
+        .unwrap();
+    problem.set_integers(&[0, 1, 4, 5]).unwrap();
+    for strategy in [Strategy::Adaptive, Strategy::Exact, Strategy::Auto] {
+        let options = Options {
+            strategy,
+            ..Options::default()
+        };
+        let solution = solve(&problem, &options).unwrap();
+        let violation = solution.max_constraint_violation();
+        assert!(violation < 1e-12, "{strategy:?}: {violation}");
+        assert_eq!(solution.max_integrality_violation(), 0.0);
+    }
+}

@@ -44,6 +44,8 @@ fn run(u: &mut Unstructured) -> Result<()> {
         let scale = solution.energy().abs().max(1e3);
         let bound = solution.lower_bound().unwrap_or(f64::NEG_INFINITY);
         assert!(solution.energy() >= bound - 1e-6 * scale, "below its bound");
+        let proved = solution.status() == SolveStatus::Optimal;
+        assert!(!proved || solution.energy() <= bound + 1e-6 * scale, "proved, above its bound");
     }
     Ok(())
 }

@@ -82,11 +82,17 @@ impl Basis {
         self.rank
     }
 
-    /// Whether distances from a lattice: false if vectors depend in a way that no integer
+    /// Whether these are distances from a lattice: false if vectors depend in a way that no integer
     /// relation explains. Then the least distance is not attained, and distances measured here
     /// prove nothing.
     pub fn is_discrete(&self) -> bool {
         self.discrete
+    }
+
+    /// Whether vector `k` leaves the span of those before it: its multiple can be told from distances.
+    pub fn decides(&self, k: usize) -> bool {
+        let column = self.column(k);
+        column[k] > DENSE * column.iter().map(|v| v * v).sum::<f64>().sqrt()
     }
 
     /// The entry of R in row `i`, column `j`, `i <= j`.
@@ -258,10 +264,7 @@ impl Basis {
         self.rank = kept;
         self.settled = true;
         self.refresh();
-        self.discrete = (0..kept).all(|k| {
-            let column = &self.r[k * self.dim..][..=k];
-            column[k] > DENSE * column.iter().map(|v| v * v).sum::<f64>().sqrt()
-        });
+        self.discrete = (0..kept).all(|k| self.decides(k));
     }
 
     /// `R0 U`.

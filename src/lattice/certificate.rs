@@ -122,20 +122,6 @@ impl Piece {
     }
 }
 
-/// What the difference between the energies of two evaluated solutions may be off by.
-///
-/// Energies are summed with compensation. What is left is the rounding of the model's entries,
-/// which counts as far as solutions differ: in the terms of the quadratic form of the step from
-/// `relaxed` to `point`, a few units in the last place of each.
-pub(crate) fn evaluation_error(model: &ReducedModel, relaxed: &[f64], point: &[f64]) -> f64 {
-    let step: Vec<f64> = point.iter().zip(relaxed).map(|(p, r)| p - r).collect();
-    let terms = model.hessian().entries();
-    let size: f64 = terms
-        .map(|(i, j, v)| (v * step[i as usize] * step[j as usize]).abs())
-        .sum();
-    4.0 * f64::EPSILON * size
-}
-
 /// What a force on all unknowns comes to on the integers when the continuous ones give way, with
 /// one step of refinement.
 fn condensed(model: &ReducedModel, factors: &mut Factors, mut force: Vec<f64>) -> Result<Vec<f64>> {

@@ -9,14 +9,17 @@ use crate::round::nearest;
 
 /// The steps from the whole part of `target` to the lattice point that nearest plane reaches.
 ///
-/// Ties go away from zero, as everywhere in the library.
+/// Ties go away from zero, as everywhere in the library. What distances do not decide
+/// ([`Basis::decides`]) stays at the whole part.
 pub fn nearest_plane(basis: &Basis, target: &Target) -> Vec<i64> {
     let m = basis.rank();
     let mut z = vec![0i64; m];
     // What the decided coordinates add up to, in each row.
     let mut settled = vec![0.0; m];
     for k in (0..m).rev() {
-        z[k] = nearest(target.rest[k] + settled[k] / basis.r(k, k)) as i64;
+        if basis.is_discrete() || basis.decides(k) {
+            z[k] = nearest(target.rest[k] + settled[k] / basis.r(k, k)) as i64;
+        }
         let offset = target.rest[k] - z[k] as f64;
         for i in 0..k {
             settled[i] += basis.r(i, k) * offset;

@@ -33,6 +33,11 @@ impl Piece {
         predicted_nodes(&self.basis, self.diagonals.as_ref(), self.value)
     }
 
+    /// Whether its vectors are independent.
+    pub fn is_regular(&self) -> bool {
+        self.basis.is_discrete() && self.basis.rank() == self.basis.dim()
+    }
+
     /// Takes `z` if it is closer to the target.
     pub fn take(&mut self, z: Vec<i64>) -> bool {
         let value = self.target.distance(&self.basis, &z);

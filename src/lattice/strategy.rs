@@ -4,7 +4,7 @@
 //! Every improvement is offered to the search as soon as it is known, and every proved bound
 //! raised, so that both can be stopped at any time. Budgets count nodes, never seconds.
 
-use super::certificate::{Certificate, evaluation_error};
+use super::certificate::Certificate;
 use super::prove::{FIRST, GROWTH, radius_for};
 use super::{Diagonals, Limits, Piece, assemble, beam, enumerate, improve_blocks, pieces};
 use crate::eliminate::ReducedModel;
@@ -85,7 +85,8 @@ fn prove(
     search: &mut Search,
 ) -> Result<()> {
     let mut pieces = decode(model, options, factors, search)?;
-    if search.ends(0) {
+    // Where distances are not those of a lattice they prove nothing.
+    if search.ends(0) || pieces.iter().any(|p| !p.basis.is_discrete()) {
         return Ok(());
     }
     let certificate = Certificate::measure(model, factors, &pieces, search)?;
@@ -135,12 +136,12 @@ fn prove(
             }
             pieces[at].bound = pieces[at].bound.max(found.bound);
             if !found.complete {
-                raise(model, &pieces, &certificate, search);
+                raise(&pieces, &certificate, search);
                 return Ok(());
             }
             pieces[at].proved = whole;
         }
-        raise(model, &pieces, &certificate, search);
+        raise(&pieces, &certificate, search);
         goal *= GROWTH;
     }
     Ok(())
@@ -215,7 +216,7 @@ fn try_point(
 }
 
 /// Raises the bound to what the balls prove that have been searched.
-fn raise(model: &ReducedModel, pieces: &[Piece], certificate: &Certificate, search: &mut Search) {
+fn raise(pieces: &[Piece], certificate: &Certificate, search: &mut Search) {
     let least = |p: &Piece| {
         if p.proved {
             p.value
@@ -235,12 +236,15 @@ fn raise(model: &ReducedModel, pieces: &[Piece], certificate: &Certificate, sear
     };
     let beyond = certificate.energy_bound(square);
     if let Some(best) = search.best() {
-        let evaluated = best.energy - evaluation_error(model, search.relaxed(), &best.point);
+        let evaluated = best.energy - search.evaluation_error(&best.point);
         search.raise_bound(beyond.min(evaluated));
     }
 }
 
 /// Direct rounding, nearest plane, beam and blocks, each offered; then perturbation rounds.
+///
+/// Where vectors depend the reduction hangs on tolerances, and adaptive rounding is offered as well; pieces
+/// that are no lattices are left at that.
 fn decode(
     model: &ReducedModel,
     options: &Options,
@@ -258,10 +262,18 @@ fn decode(
     let mut stop = |work| search.ends(work);
     let mut pieces = pieces(m, r, full, &relaxed, &mut stop)?;
     search.offer(factors, &assemble(&pieces, m)?)?;
+    if !pieces.iter().all(Piece::is_regular) {
+        round::adaptive(model, options, factors, search)?;
+    }
     if let Some(best) = search.incumbent_integers() {
         start_from(&mut pieces, &best)?;
     }
-    for at in 0..pieces.len() {
+    // Where distances are not those of a lattice, ever larger integers improve them, in the end by
+    // rounding errors.
+    let discrete: Vec<usize> = (0..pieces.len())
+        .filter(|&at| pieces[at].basis.is_discrete())
+        .collect();
+    for &at in &discrete {
         let mut better = false;
         let piece = &mut pieces[at];
         let mut stop = |work| search.ends(work);
@@ -275,7 +287,7 @@ fn decode(
     }
     let mut shaken = 0;
     for _ in 0..options.lattice_rounds {
-        for at in 0..pieces.len() {
+        for &at in &discrete {
             let piece = &mut pieces[at];
             let mut stop = |work| search.ends(work);
             let start = perturbed(piece, &mut shaken);

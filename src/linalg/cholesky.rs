@@ -171,26 +171,34 @@ impl Cholesky {
 
     /// The upper triangular factor `R'R = S` of what is left of A when all but the last `m`
     /// unknowns are eliminated, dense and by columns, in the order of elimination; and whether no
-    /// pivot vanished. A vanished pivot leaves a zero row.
+    /// pivot vanished. A vanished pivot leaves a zero row, and a zero column where nothing else is left
+    /// of that unknown but rounding errors: the others do not see it.
     pub fn trailing_factor(&self, m: usize) -> (Vec<f64>, bool) {
         let first = self.dim() - m;
         let mut r = vec![0.0; m * m];
-        let mut full = true;
+        let mut null = Vec::new();
+        // Each column's largest entry in the scaled complement.
+        let mut size = vec![0.0f64; m];
         let mut set = |row: usize, pivot: f64, column: usize, entry: f64| {
             let value = entry * pivot.sqrt() / self.scale[self.unknown(column)];
             r[(column - first) * m + row - first] = value;
+            size[column - first] = size[column - first].max((entry * pivot).abs());
         };
         self.for_each_column(|k, pivot, entries| {
             if k < first {
                 return;
             }
             if pivot == NULL_PIVOT {
-                full = false;
+                null.push(k - first);
                 return;
             }
             set(k, pivot, k, 1.0);
             entries.for_each(|(i, v)| set(k, pivot, i, v));
         });
+        for &k in null.iter().filter(|&&k| size[k] <= PIVOT_TOLERANCE) {
+            r[k * m..(k + 1) * m].fill(0.0);
+        }
+        let full = null.is_empty();
         (r, full)
     }
 

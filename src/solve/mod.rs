@@ -2,6 +2,7 @@
 
 mod decide;
 mod factors;
+mod held;
 mod monitor;
 mod options;
 mod presets;

@@ -1,7 +1,8 @@
 //! One solve from beginning to end: validate, eliminate, relax, search, expand, verify.
 
 use super::factors::Factors;
-use super::monitor::Monitor;
+use super::held;
+use super::monitor::{Monitor, gap};
 use super::relax::{Relaxation, relax};
 use super::search::Search;
 use super::solution::{Counts, Seconds, Solution};
@@ -10,6 +11,10 @@ use super::work::of_relaxation;
 use super::{Options, Phase, SolveStatus, Strategy, WarmStart};
 use crate::eliminate::{Elimination, ReducedModel};
 use crate::{Error, Model, Problem, Result, round};
+
+/// What the search holds for proved is not called so where verification, from the caller's own numbers,
+/// finds a relative gap beyond this.
+const VERIFIED_GAP: f64 = 1e-6;
 
 /// Solves `problem`, watched by nobody.
 ///
@@ -94,21 +99,31 @@ impl Prepared<'_> {
     pub(super) fn conclude(
         &mut self,
         reduced: &ReducedModel,
-        decided: Decided,
+        found: Decided,
         strategy: Strategy,
         clock: &Clock,
         monitor: &mut Monitor,
     ) -> Result<Solution> {
         let searched = monitor.seconds();
         let factored = self.factors.seconds() - clock.factored_before;
-        let values = expand(reduced, self.model, strategy, &decided.point);
-        let verdict = verify(self.problem, &values)?;
+
+        let mut values = expand(reduced, self.model, strategy, &found.point);
+        let mut verdict = verify(self.problem, &values)?;
+        let is_decided = !reduced.integers().is_empty() && strategy != Strategy::Relax;
+        if is_decided && let Some(better) = held::mend(self.problem, &values, verdict) {
+            (values, verdict) = better;
+        }
+        let is_proved = || gap(verdict.energy, found.lower_bound) <= VERIFIED_GAP;
+        let status = match found.status {
+            SolveStatus::Optimal if is_decided && !is_proved() => SolveStatus::Feasible,
+            status => status,
+        };
         Ok(Solution {
             values,
             energy: verdict.energy,
-            lower_bound: Some(decided.lower_bound.min(verdict.energy)),
-            status: decided.status,
-            work: decided.work,
+            lower_bound: Some(found.lower_bound.min(verdict.energy)),
+            status,
+            work: found.work,
             counts: counts(self.model, reduced, self.factors),
             seconds: Seconds {
                 eliminate: clock.eliminated,

@@ -5,6 +5,7 @@
 //! time.
 
 use super::monitor::Monitor;
+use super::status::GAP_TOLERANCE;
 use super::{Factors, Phase, SolveStatus, Work};
 use crate::eliminate::ReducedModel;
 use crate::{Error, Result};
@@ -17,6 +18,8 @@ const LARGEST_INTEGER: f64 = 9_007_199_254_740_992.0;
 pub(crate) struct Incumbent {
     pub point: Vec<f64>,
     pub energy: f64,
+    /// The energy, and what it may be off by where that matters.
+    at_most: f64,
 }
 
 /// Incumbent, bound, and who watches.
@@ -116,16 +119,52 @@ impl<'s, 'm> Search<'s, 'm> {
         if !model.continuous().is_empty() {
             point = factors.follow(model, &point)?;
         }
-        let energy = model.energy(&point).0;
-        let better = self
-            .incumbent
-            .as_ref()
-            .is_none_or(|best| energy < best.energy);
+        let (energy, size) = model.energy(&point);
+        let at_most = self.at_most(energy, size, &point);
+        let best = self.incumbent.as_ref();
+        let better = best.is_none_or(|best| at_most < best.at_most);
         if better {
-            self.incumbent = Some(Incumbent { point, energy });
+            self.incumbent = Some(Incumbent {
+                point,
+                energy,
+                at_most,
+            });
             self.monitor.improved(energy);
         }
         Ok(better)
+    }
+
+    /// What `energy`, that of `point` with terms of this `size`, may be at most: more where rounding errors
+    /// matter, which are all that is left of huge integers. An energy below the bound is off at least by that
+    /// much, and as well in the other direction.
+    fn at_most(&self, energy: f64, size: f64, point: &[f64]) -> f64 {
+        let enough = GAP_TOLERANCE * energy.abs().max(1.0);
+        let below = 2.0 * (self.lower_bound - energy);
+        let own = 4.0 * f64::EPSILON * size;
+        if own.max(below) <= enough {
+            return energy;
+        }
+        let error = own.min(self.evaluation_error(point)).max(below);
+        if error <= enough {
+            energy
+        } else {
+            energy + error
+        }
+    }
+
+    /// What the difference between the energies of two evaluated solutions may be off by.
+    ///
+    /// Energies are summed with compensation. What is left is the rounding of the model's entries,
+    /// which counts as far as solutions differ: in the terms of the quadratic form of the step from
+    /// the relaxation to `point`, a few units in the last place of each.
+    pub fn evaluation_error(&self, point: &[f64]) -> f64 {
+        let steps = point.iter().zip(&self.relaxed);
+        let step: Vec<f64> = steps.map(|(p, r)| p - r).collect();
+        let terms = self.model.hessian().entries();
+        let size: f64 = terms
+            .map(|(i, j, v)| (v * step[i as usize] * step[j as usize]).abs())
+            .sum();
+        4.0 * f64::EPSILON * size
     }
 
     /// The best solution so far.
@@ -149,7 +188,7 @@ impl<'s, 'm> Search<'s, 'm> {
 
     /// Whether the incumbent's relative gap is at most `gap`, or it counts as proved.
     pub fn is_within(&self, gap: f64) -> bool {
-        let gap = gap.max(super::status::GAP_TOLERANCE);
+        let gap = gap.max(GAP_TOLERANCE);
         let best = self.incumbent.as_ref();
         best.is_some_and(|b| super::monitor::gap(b.energy, self.lower_bound) <= gap)
     }
@@ -160,7 +199,7 @@ impl<'s, 'm> Search<'s, 'm> {
             return SolveStatus::Relaxed;
         };
         let gap = super::monitor::gap(best.energy, self.lower_bound);
-        if gap <= super::status::GAP_TOLERANCE {
+        if gap <= GAP_TOLERANCE {
             return SolveStatus::Optimal;
         }
         match self.monitor.stopped() {

@@ -1,0 +1,166 @@
+//! Lattices that are singular but for rounding errors, or in no basis that double precision can tell: a
+//! solve takes little work, is no worse than rounding, and proves nothing that is not so.
+
+use roundel::{Options, Problem, Solution, SolveStatus, Strategy, Triangle, solve};
+
+/// Multiplications that no problem of eight unknowns needs: forty times the most of a hundred thousand
+/// random ones.
+const PLENTY: u64 = 1_000_000;
+
+const OF_LATTICES: [Strategy; 3] = [Strategy::Lattice, Strategy::Exact, Strategy::Auto];
+
+/// Indices, coefficients, right side and weight of a square.
+type Row<'a> = (&'a [usize], &'a [f64], f64, f64);
+
+fn problem(variables: usize, integers: &[usize], rows: &[Row]) -> Problem {
+    let mut problem = Problem::new(variables).unwrap();
+    for (indices, values, rhs, weight) in rows {
+        problem
+            .add_least_squares(indices, values, *rhs, *weight)
+            .unwrap();
+    }
+    problem.set_integers(integers).unwrap();
+    problem
+}
+
+fn try_solve(problem: &Problem, strategy: Strategy) -> roundel::Result<Solution> {
+    let options = Options {
+        strategy,
+        nodes: 500,
+        ..Options::default()
+    };
+    solve(problem, &options)
+}
+
+fn solved(problem: &Problem, strategy: Strategy) -> Solution {
+    try_solve(problem, strategy).unwrap()
+}
+
+/// Found by the fuzzer: the improvement of blocks went on along a vector of no length but rounding errors,
+/// four hundred thousand times, and its answer was called optimal.
+#[test]
+fn what_is_no_lattice_is_left_at_rounding() {
+    let rows: [Row; 5] = [
+        (&[5, 1, 0, 4], &[4.0, -8.0, -5.0, -2.5], -2.5, 0.5),
+        (&[5, 3, 0], &[-8.0, 2.5, 5.0], 2.5, 5.0),
+        (&[1, 3], &[2.5, 12.0], 4.0, 4.5),
+        (&[2, 3, 5], &[-8.0, -5.5, -3.5], -3.0, 8.0),
+        (&[2, 1, 5, 0], &[7.0, 4.5, 4.5, 2.5], 2.5, 2.5),
+    ];
+    let problem = problem(6, &[0, 1, 4], &rows);
+    let rounded = solved(&problem, Strategy::Adaptive).energy();
+    for strategy in OF_LATTICES {
+        let solution = solved(&problem, strategy);
+        assert!(solution.work() < PLENTY, "{strategy:?}");
+        assert!(solution.energy() <= rounded, "{strategy:?}");
+        assert_eq!(solution.status(), SolveStatus::Feasible, "{strategy:?}");
+    }
+}
+
+/// Found by the fuzzer: variable 2 gives way to integer 5 whatever it is, which left rounding errors of
+/// it, integers of 1e16 because of them, and an energy of -6e17, which is below the proved bound.
+#[test]
+fn an_integer_that_nobody_sees_takes_no_part() {
+    let rows: [Row; 3] = [
+        (&[0, 1, 3], &[7.0, -1.0, 8.0], 3.5, 1.5),
+        (&[5, 2, 3], &[5.0, -5.5, 8.0], 8.0, 8.0),
+        (&[0], &[-24.0], -8.0, 8.0),
+    ];
+    let mut problem = problem(6, &[1, 3, 5], &rows);
+    problem
+        .add_quadratic_triplets(Triangle::Lower, &[1, 0, 3], &[0, 0, 3], &[8.0, 4.5, 1.5])
+        .unwrap();
+    // With x0 = x where it is least for given integers 1 and 3.
+    let energy = |y: f64, z: f64| {
+        let a = 0.5 * 4.5 + 1.5 * 49.0 + 8.0 * 576.0;
+        let b = 8.0 * y + 2.0 * 1.5 * 7.0 * (8.0 * z - y - 3.5) - 2.0 * 8.0 * 24.0 * 8.0;
+        let c = 0.75 * z * z + 1.5 * (8.0 * z - y - 3.5).powi(2) + 8.0 * 64.0;
+        c - b * b / (4.0 * a)
+    };
+    let near = (-400..400).flat_map(|y| (-60..60).map(move |z| (f64::from(y), f64::from(z))));
+    let least = near
+        .map(|(y, z)| energy(y, z))
+        .fold(f64::INFINITY, f64::min);
+    for strategy in OF_LATTICES {
+        let solution = solved(&problem, strategy);
+        assert!(solution.work() < PLENTY, "{strategy:?}");
+        let excess = solution.energy() - least;
+        assert!(excess.abs() < 1e-8 * least.abs(), "{strategy:?}: {excess}");
+        assert!(solution.values()[5].abs() < 1e3, "{strategy:?}");
+    }
+    let proved = solved(&problem, Strategy::Exact);
+    assert_eq!(proved.status(), SolveStatus::Optimal);
+}
+
+/// Numbers below `limit` (xorshift, Marsaglia 2003).
+struct Random(u64);
+
+impl Random {
+    fn below(&mut self, limit: usize) -> usize {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        ((self.0 >> 11) % limit as u64) as usize
+    }
+
+    /// A half from -8 to 8; where it is to be `wild` now and then beside it by what makes relations between
+    /// integers impossible, or next to nothing.
+    fn number(&mut self, wild: bool) -> f64 {
+        let half = self.below(33) as f64 / 2.0 - 8.0;
+        match self.below(9) {
+            0 if wild => half + 2f64.sqrt(),
+            1 if wild => half + 3f64.sqrt(),
+            2 if wild => half + 1e-9,
+            _ => half,
+        }
+    }
+
+    /// Few squares of few unknowns each: with luck less than there are integers.
+    fn problem(&mut self) -> Problem {
+        let n = 1 + self.below(8);
+        let wild = self.below(2) == 0;
+        let mut problem = Problem::new(n).unwrap();
+        for _ in 0..1 + self.below(n + 2) {
+            let terms = 1 + self.below(4);
+            let indices: Vec<usize> = (0..terms).map(|_| self.below(n)).collect();
+            let values: Vec<f64> = (0..terms).map(|_| self.number(wild)).collect();
+            let weight = (1 + self.below(16)) as f64 / 2.0;
+            problem
+                .add_least_squares(&indices, &values, self.number(wild), weight)
+                .unwrap();
+        }
+        let integers: Vec<usize> = (0..n).filter(|_| self.below(3) > 0).collect();
+        problem.set_integers(&integers).unwrap();
+        problem
+    }
+}
+
+#[test]
+fn lattices_of_few_unknowns_take_little_work_are_no_worse_than_rounding_and_never_lie() {
+    let mut random = Random(0x9E37_79B9_7F4A_7C15);
+    let mut bounded = 0;
+    for round in 0..3000 {
+        let problem = random.problem();
+        // Next to nothing in the right place, and there is no telling whether there is a minimum.
+        let Ok(rounded) = try_solve(&problem, Strategy::Adaptive) else {
+            continue;
+        };
+        bounded += 1;
+        let rounded = rounded.energy();
+        let solutions = OF_LATTICES.map(|strategy| (strategy, solved(&problem, strategy)));
+        let of_lattices = solutions.iter().map(|(_, s)| s.energy());
+        let least = of_lattices.fold(rounded, f64::min);
+        let tolerance = 1e-6 * least.max(1.0);
+        for (strategy, solution) in &solutions {
+            let energy = solution.energy();
+            assert!(solution.work() < PLENTY, "{round}, {strategy:?}");
+            assert!(energy <= rounded + tolerance, "{round}, {strategy:?}");
+            let optimal = solution.status() == SolveStatus::Optimal;
+            assert!(
+                !optimal || energy <= least + tolerance,
+                "{round}, {strategy:?}"
+            );
+        }
+    }
+    assert!(bounded > 2700, "{bounded}");
+}
