@@ -232,11 +232,12 @@ fn nearly_all_sound_meshes_get_valid_maps() {
             let untangled = &unfolded.untangled;
             valid += usize::from(is_valid);
             println!(
-                "{name:<26}{faces:>7} cones {:>4} flipped {:>4} -> {:>3} refined {} {seconds:>6.1} s",
+                "{name:<26}{faces:>7} cones {:>4} flipped {:>4} -> {:>3} refined {} graded {} {seconds:>6.1} s",
                 untangled.map.cones().len(),
                 untangled.flipped_before,
                 untangled.flipped_after,
                 unfolded.refinements,
+                unfolded.gradings,
             );
         }
         println!("{valid} of {}", meshes.len());

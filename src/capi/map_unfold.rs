@@ -129,7 +129,8 @@ pub unsafe extern "C" fn roundel_map_round_count(
 }
 
 /// Gives how often roundel_map_solve_unfolded made the map finer than asked for, each time by the
-/// square root of two in length; 0 after any other solve.
+/// square root of two in length; 0 after any other solve. Smaller quads around what folds were left
+/// after that are not counted.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_map_refinement_count(
     map: *const roundel_map,

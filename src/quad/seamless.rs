@@ -186,8 +186,27 @@ impl SeamlessProblem {
         factor: f64,
         solver: &mut Solver,
     ) -> Result<Self> {
+        self.with_density(mesh, self.density.scaled(factor), solver)
+    }
+
+    /// The same for a map so many times as large in every face.
+    pub(super) fn graded(
+        &self,
+        mesh: &TriangleMesh,
+        factors: &[f64],
+        solver: &mut Solver,
+    ) -> Result<Self> {
+        self.with_density(mesh, self.density.graded(factors), solver)
+    }
+
+    fn with_density(
+        &self,
+        mesh: &TriangleMesh,
+        density: Density,
+        solver: &mut Solver,
+    ) -> Result<Self> {
         let mut this = self.clone();
-        this.density = self.density.scaled(factor);
+        this.density = density;
         let energy = Dirichlet::new(&this, mesh);
         solver.set_linear(&energy.linear)?;
         solver.set_constant(energy.constant)?;

@@ -93,6 +93,16 @@ impl Density {
         }
     }
 
+    /// So many times as dense in every face.
+    pub(super) fn graded(&self, factors: &[f64]) -> Self {
+        let of = |face: usize| match self {
+            Density::Uniform(density) => [*density; 2],
+            Density::Faces(faces) => faces[face],
+        };
+        let graded = factors.iter().enumerate();
+        Density::Faces(graded.map(|(face, f)| of(face).map(|d| f * d)).collect())
+    }
+
     /// Along the two arms of a face that is combed by this many quarter turns.
     pub(super) fn of(&self, face: usize, quarters: u8) -> [f64; 2] {
         match self {

@@ -45,6 +45,8 @@ struct Solved {
     rounds: usize,
     /// How often the map was made finer.
     refinements: usize,
+    /// How often it was made finer around its faults alone.
+    gradings: usize,
     /// Seconds of the map beside those of the last solve.
     untangle_seconds: f64,
     solution: Solution,
@@ -92,6 +94,7 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
         untangled,
         rounds,
         refinements,
+        gradings,
         ..
     } = unfolded;
     let untangle_seconds = solved - solution.seconds().total;
@@ -109,6 +112,7 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
         wound,
         rounds,
         refinements,
+        gradings,
         untangle_seconds,
         solution,
         before: Preparation {

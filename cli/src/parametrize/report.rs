@@ -35,6 +35,7 @@ pub struct MapReport<'a> {
 struct Untangling {
     rounds: usize,
     refinements: usize,
+    gradings: usize,
     steps: usize,
     seconds: f64,
     stuck_faces: Vec<usize>,
@@ -82,6 +83,7 @@ impl<'a> MapReport<'a> {
             untangle: Untangling {
                 rounds: solved.rounds,
                 refinements: solved.refinements,
+                gradings: solved.gradings,
                 steps: untangled.steps,
                 seconds: solved.untangle_seconds,
                 stuck_faces: untangled.stuck_faces.clone(),

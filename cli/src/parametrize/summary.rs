@@ -24,6 +24,7 @@ impl fmt::Display for MapSummary<'_> {
             untangle_seconds,
             rounds,
             refinements,
+            gradings,
             solution,
             before,
         } = self.solved;
@@ -51,13 +52,16 @@ impl fmt::Display for MapSummary<'_> {
         let found = format!("{}, {}", energy(solution.energy()), verdict(solution));
         let search = seconds.factor + seconds.round;
         line(f, options.strategy.name(), &found, search)?;
-        let unfolded = format!(
+        let mut unfolded = format!(
             "{} flipped, {}, {}, {}",
             counted(untangled.flipped_before, "face"),
             counted(*rounds, "round"),
             counted(*refinements, "refinement"),
             counted(untangled.steps, "step")
         );
+        if *gradings > 0 {
+            unfolded += &format!(", {} around faults", counted(*gradings, "grading"));
+        }
         line(f, "untangle", &unfolded, *untangle_seconds)?;
         let mut flipped = format!("{} flipped", counted(map.flipped().len(), "face"));
         if !wound.is_empty() {

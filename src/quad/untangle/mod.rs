@@ -18,11 +18,13 @@
 //! | a disk around a cone, in polar coordinates | `polar` |
 //! | vertices gone around twice | `unwind` |
 //! | cones at one point, held apart | `separate` |
+//! | smaller quads around what is left | `graded` |
 //! | all of it, from the problem on | `unfolded` |
 
 mod disk;
 mod energy;
 mod freedom;
+mod graded;
 mod hessian;
 mod polar;
 mod region;
@@ -70,7 +72,8 @@ pub struct UntangleOptions {
     pub stiffenings: usize,
     /// How often the integers of collapsed cones are decided anew.
     pub rounds: usize,
-    /// How often a map that keeps folds is made finer.
+    /// How often a map that keeps folds is made finer as a whole. Where that is allowed at all, what is
+    /// left of folds afterwards gets smaller quads around it a few times.
     pub refinements: usize,
 }
 

@@ -140,7 +140,7 @@ impl SeamlessProblem {
     }
 
     /// The mean length of edges in the map as it should be.
-    fn mean_aim(&self, mesh: &TriangleMesh) -> f64 {
+    pub(super) fn mean_aim(&self, mesh: &TriangleMesh) -> f64 {
         let faces = 0..mesh.face_count();
         let length = |face: usize| {
             let [u, v] = self.aim(mesh, face, 0, 1);

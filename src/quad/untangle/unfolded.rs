@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 
+use super::graded::grow_around;
 use super::{Collapsed, Structure, UntangleOptions, Untangled, untangle_in};
 use crate::mesh::TriangleMesh;
 use crate::quad::compatible::solve_with_wishes;
@@ -13,6 +14,9 @@ const REFINEMENT: f64 = std::f64::consts::SQRT_2;
 
 /// How often a map without folds is made finer for vertices that it goes around too often.
 const REFINEMENTS_TO_UNWIND: usize = 2;
+
+/// How often a map that keeps folds is made finer around them alone.
+const GRADINGS: usize = 4;
 
 /// Where integers still collapse cones and a finer map may be made, untangling gets this part of its
 /// passes: it seldom helps.
@@ -43,6 +47,8 @@ pub struct Unfolded {
     pub rounds: usize,
     /// How often the map was made finer, each time by the square root of two in length.
     pub refinements: usize,
+    /// How often, after that, it was made finer around its faults alone.
+    pub gradings: usize,
     /// What the integers still collapse.
     pub collapsed: Collapsed,
 }
@@ -55,6 +61,7 @@ impl Unfolded {
             solution,
             rounds: 0,
             refinements: 0,
+            gradings: 0,
             collapsed: Collapsed::default(),
         }
     }
@@ -63,7 +70,8 @@ impl Unfolded {
 /// Solves the problem, with what is folded stiffer where `options` say so, holds apart the cones that
 /// its integers collapse and solves again, at most `options.rounds` times, and untangles the map.
 /// Where folds are left, or vertices that the map goes around too often, the same is done for a finer
-/// map, at most `options.refinements` times; of all maps the first with the fewest of these is kept.
+/// map, at most `options.refinements` times, and then with smaller quads around them alone; of all maps
+/// the first with the fewest of these is kept.
 /// `monitor` watches each solve and each untangling.
 ///
 /// With [`Strategy::Auto`] a proof is tried only where the map need not wait for it long: up to fifty
@@ -120,7 +128,11 @@ pub fn solve_unfolded<'a>(
             };
         }
     }
-    Ok(best)
+    if options.refinements > 0 {
+        sizes.grade(problem, best)
+    } else {
+        Ok(best)
+    }
 }
 
 /// What the maps of one problem have in common, whatever their size.
@@ -136,6 +148,31 @@ struct Sizes<'s, M> {
 }
 
 impl<'m, M: Fn() -> Monitor<'m>> Sizes<'_, M> {
+    /// The best map so far, or one that has smaller quads around its faults, if it has fewer.
+    fn grade(&mut self, problem: &SeamlessProblem, mut best: Unfolded) -> Result<Unfolded> {
+        let by = REFINEMENT.powi(best.refinements as i32);
+        let mut lengths = vec![by; self.mesh.face_count()];
+        let mut last = None;
+        for gradings in 1..=GRADINGS {
+            if best.untangled.faults() == 0 {
+                break;
+            }
+            let seen = last.as_ref().unwrap_or(&best.untangled);
+            grow_around(self.mesh, problem, seen, &mut lengths);
+            let graded = problem.graded(self.mesh, &lengths, &mut self.kept)?;
+            let found = self.solve(&graded, 1)?;
+            last = Some(found.untangled.clone());
+            if found.untangled.faults() < best.untangled.faults() {
+                best = Unfolded {
+                    refinements: best.refinements,
+                    gradings,
+                    ..found
+                };
+            }
+        }
+        Ok(best)
+    }
+
     /// A map of the size that the problem aims at, after which so many refinements are left.
     fn solve(&mut self, problem: &SeamlessProblem, refinements_left: usize) -> Result<Unfolded> {
         let Sizes { mesh, monitor, .. } = self;
@@ -204,6 +241,7 @@ impl<'m, M: Fn() -> Monitor<'m>> Sizes<'_, M> {
             solution: best.solution,
             rounds,
             refinements: 0,
+            gradings: 0,
             collapsed: best.collapsed,
         })
     }
