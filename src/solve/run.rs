@@ -95,15 +95,16 @@ impl Prepared<'_> {
 
         let mut values = expand(&reduced, model, options.strategy, &point);
         let mut verdict = verify(self.problem, &values)?;
-        let decided = !reduced.integers().is_empty() && options.strategy != Strategy::Relax;
+        // Of a search that was stopped, what it found is returned as it is.
+        let ended = matches!(status, SolveStatus::Optimal | SolveStatus::Feasible);
+        let decided = ended && !reduced.integers().is_empty();
         if decided && let Some(better) = held::mend(self.problem, &values, verdict) {
             (values, verdict) = better;
         }
-        let status = match status {
-            SolveStatus::Optimal if decided && gap(verdict.energy, lower_bound) > VERIFIED_GAP => {
-                SolveStatus::Feasible
-            }
-            status => status,
+        let status = if decided && gap(verdict.energy, lower_bound) > VERIFIED_GAP {
+            SolveStatus::Feasible
+        } else {
+            status
         };
         let total = monitor.seconds();
         Ok(Solution {
