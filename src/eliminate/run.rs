@@ -75,8 +75,11 @@ impl Elimination {
             eliminate_row(&mut tableau, r)?;
         }
         let (matrix, free) = back::substitute_back(&tableau, monitor)?;
+        let pins = model.pinned().iter().flatten().count();
         let hessian = if tableau.stack.len() == 0 {
             project::with_diagonal(model.hessian())?
+        } else if tableau.stack.len() == pins {
+            project::with_diagonal(&hold::hessian(model.hessian(), &free)?)?
         } else {
             project::hessian(model.hessian(), &matrix, monitor)?
         };

@@ -19,6 +19,11 @@ pub(super) struct Condensed {
     private: Vec<bool>,
     rows: Vec<Row>,
     entries: Vec<Entry>,
+    /// For each unknown the free private integers that couple to it: those of unknown `i` are the
+    /// first `followers_left[i]` from `followers_start[i]` on.
+    followers: Vec<u32>,
+    followers_start: Vec<u32>,
+    followers_left: Vec<u32>,
 }
 
 /// A row of the condensed matrix: its diagonal entry, and where the others stand.
@@ -72,6 +77,16 @@ impl Condensed {
             end: offsets[i + 1] as u32,
         });
         let entries = pattern.indices().iter().zip(pattern.values());
+        let mut followers = Vec::new();
+        let mut followers_start = Vec::with_capacity(n);
+        let mut followers_left = Vec::with_capacity(n);
+        for i in 0..n {
+            let start = followers.len();
+            let couplings = matrix.row(i).map(|(j, _)| j as u32);
+            followers.extend(couplings.filter(|&j| private[j as usize]));
+            followers_start.push(start as u32);
+            followers_left.push((followers.len() - start) as u32);
+        }
         let mut condensed = Condensed {
             rows: rows.collect(),
             entries: entries
@@ -80,6 +95,9 @@ impl Condensed {
             matrix,
             diagonal,
             private,
+            followers,
+            followers_start,
+            followers_left,
         };
         for p in 0..n {
             if condensed.private[p] {
@@ -124,9 +142,25 @@ impl Condensed {
         &self.entries[row.start as usize..row.end as usize]
     }
 
+    /// The free private integers that couple to unknown `i`.
+    pub fn followers(&self, i: usize) -> &[u32] {
+        let start = self.followers_start[i] as usize;
+        &self.followers[start..start + self.followers_left[i] as usize]
+    }
+
     /// Gives back the part of a private integer that is fixed from now on.
     pub fn release(&mut self, p: usize) {
         self.change(p, 1.0);
+        for a in self.coupling_range(p) {
+            let (i, _) = self.coupling(a);
+            let own = self.followers(i).iter().position(|&q| q as usize == p);
+            if let Some(place) = own {
+                let start = self.followers_start[i] as usize;
+                let last = start + self.followers_left[i] as usize - 1;
+                self.followers.swap(start + place, last);
+                self.followers_left[i] -= 1;
+            }
+        }
     }
 
     /// Adds `sign` times the part that private integer `p` has in the Schur complement.

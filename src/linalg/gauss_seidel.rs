@@ -159,12 +159,11 @@ impl<'a> LocalSolve<'a> {
             if self.integer[k] && !self.unknowns[k].fixed {
                 integers.push(i);
             }
-            for at in self.system.coupling_range(k) {
-                let (j, _) = self.system.coupling(at);
-                let follower = &mut self.unknowns[j];
-                if self.system.is_private(j) && !follower.fixed && !follower.moved {
+            for &j in self.system.followers(k) {
+                let follower = &mut self.unknowns[j as usize];
+                if !follower.moved {
                     follower.moved = true;
-                    integers.push(j as u32);
+                    integers.push(j);
                 }
             }
         }

@@ -60,7 +60,7 @@ impl RowList {
             .map(|(&j, &v)| (j as usize, v))
     }
 
-    pub(super) fn push(
+    pub(crate) fn push(
         &mut self,
         what: &'static str,
         variables: usize,

@@ -1,12 +1,13 @@
 //! Constraints added to a problem, without those that contradict the others.
 
 use crate::eliminate::eliminate;
-use crate::{Error, Model, Monitor, Problem, Result};
+use crate::problem::RowList;
+use crate::{Error, Model, Monitor, Options, Problem, Result, Solution, Solver, solve_with};
 
 /// A constraint that something asks for, on top of those that there are.
 pub(super) trait Wish {
-    /// Adds it to a problem, as one row.
-    fn add_to(&self, problem: &mut Problem) -> Result<()>;
+    /// The two unknowns, their coefficients, and the right side.
+    fn row(&self) -> ([usize; 2], [f64; 2], f64);
 }
 
 /// The problem with the wishes as constraints, those left out that contradict it or the wishes before
@@ -35,10 +36,43 @@ pub(super) fn with_wishes<'a, W: Wish>(
     Ok(None)
 }
 
+/// The solution under the wishes as further constraints, those left out that contradict the problem or
+/// the wishes before them; none if none is left.
+///
+/// # Errors
+/// Those of [`solve_with`], but for constraints that contradict each other.
+pub(super) fn solve_with_wishes<'a, W: Wish>(
+    solver: &mut Solver,
+    wishes: &mut Vec<W>,
+    options: &Options,
+    monitor: &impl Fn() -> Monitor<'a>,
+) -> Result<Option<Solution>> {
+    while !wishes.is_empty() {
+        let mut rows = RowList::default();
+        for (indices, coefficients, rhs) in wishes.iter().map(Wish::row) {
+            let variables = solver.problem().variables();
+            rows.push("wish", variables, &indices, &coefficients, rhs)?;
+        }
+        match solver.solve_subject_to(&rows, options, monitor()) {
+            Ok(Some(solution)) => return Ok(Some(solution)),
+            Ok(None) => {
+                let problem = with_wishes(solver.problem(), wishes, monitor)?;
+                let solved = problem.map(|problem| solve_with(&problem, options, monitor()));
+                return solved.transpose();
+            }
+            Err(
+                Error::Infeasible { constraint, .. } | Error::NoIntegerSolution { constraint, .. },
+            ) => wishes.remove(constraint),
+            Err(error) => return Err(error),
+        };
+    }
+    Ok(None)
+}
+
 fn with<W: Wish>(stated: &Problem, wishes: &[W]) -> Result<Problem> {
     let mut problem = stated.clone();
-    for wish in wishes {
-        wish.add_to(&mut problem)?;
+    for (indices, coefficients, rhs) in wishes.iter().map(Wish::row) {
+        problem.add_constraint(&indices, &coefficients, rhs)?;
     }
     Ok(problem)
 }
@@ -75,9 +109,8 @@ mod tests {
     struct Differ(usize, usize, f64);
 
     impl Wish for Differ {
-        fn add_to(&self, problem: &mut Problem) -> Result<()> {
-            problem.add_constraint(&[self.1, self.0], &[1.0, -1.0], self.2)?;
-            Ok(())
+        fn row(&self) -> ([usize; 2], [f64; 2], f64) {
+            ([self.1, self.0], [1.0, -1.0], self.2)
         }
     }
 

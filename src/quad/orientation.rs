@@ -169,6 +169,21 @@ impl FieldProblem {
         &self.problem
     }
 
+    /// The right sides of the least-squares rows where the field sees all details, whatever it was
+    /// stated to ignore.
+    pub(super) fn right_sides_with_details(&self, mesh: &TriangleMesh) -> Vec<f64> {
+        let mut rhs = self.problem.least_squares().0.rhs().to_vec();
+        let is_fixed = |face: usize| self.problem.pins()[face].is_some();
+        let inner = mesh.edges().enumerate().filter(|(_, edge)| {
+            let second = edge.second.map(|(face, _)| face);
+            second.is_some_and(|second| !(is_fixed(edge.first.0) && is_fixed(second)))
+        });
+        for (row, (e, _)) in rhs.iter_mut().zip(inner) {
+            *row = -self.kappa[e];
+        }
+        rhs
+    }
+
     /// The field that belongs to a solution of the problem.
     ///
     /// # Errors

@@ -178,11 +178,19 @@ impl SeamlessProblem {
         self.problem.set_constant(energy.constant)
     }
 
-    /// The same problem for a map so many times as large in length.
-    pub(super) fn refined(&self, mesh: &TriangleMesh, factor: f64) -> Result<Self> {
+    /// The same problem for a map so many times as large in length, which `solver` is told as well: it
+    /// keeps what does not depend on the size.
+    pub(super) fn refined(
+        &self,
+        mesh: &TriangleMesh,
+        factor: f64,
+        solver: &mut Solver,
+    ) -> Result<Self> {
         let mut this = self.clone();
         this.density = self.density.scaled(factor);
         let energy = Dirichlet::new(&this, mesh);
+        solver.set_linear(&energy.linear)?;
+        solver.set_constant(energy.constant)?;
         this.problem.set_linear(&energy.linear)?;
         this.problem.set_constant(energy.constant)?;
         Ok(this)

@@ -10,7 +10,7 @@ use std::collections::VecDeque;
 
 use super::{Constraint, FieldOptions, FieldProblem, OrientationField, PrescribedIndex};
 use crate::mesh::TriangleMesh;
-use crate::{Error, Monitor, Options, Result, Solution, solve_with};
+use crate::{Error, Monitor, Options, Result, Solution, Solver, WarmStart, solve_with};
 
 /// Quarters of the largest index that a vertex keeps: half a turn is left, as at the end of a
 /// pillow.
@@ -50,26 +50,21 @@ fn solve_stated(
     Ok((problem.field(mesh, &solution)?, solution))
 }
 
-/// The smoothest field, all details seen, with the period jumps of a solution that did not see them.
+/// The smoothest field, all details seen, with the period jumps of the solver's last solution, which
+/// did not see them.
 fn smoothest_with(
     mesh: &TriangleMesh,
-    options: &FieldOptions,
-    decided: &Solution,
-    solver: &Options,
+    problem: &FieldProblem,
+    solver: &mut Solver,
+    options: &Options,
     monitor: Monitor,
 ) -> Result<(OrientationField, Solution)> {
-    let all = FieldOptions {
-        detail: 0.0,
+    solver.set_least_squares_right_sides(&problem.right_sides_with_details(mesh))?;
+    let keep = Options {
+        warm_start: WarmStart::Keep,
         ..options.clone()
     };
-    let problem = FieldProblem::with_options(mesh, &all)?;
-    let mut held = problem.problem().clone();
-    for (i, &value) in decided.values().iter().enumerate() {
-        if problem.problem().integers()[i] {
-            held.pin(i, value)?;
-        }
-    }
-    let solution = solve_with(&held, solver, monitor)?;
+    let solution = solver.solve_with(&keep, monitor)?;
     Ok((problem.field(mesh, &solution)?, solution))
 }
 
@@ -91,7 +86,10 @@ pub fn solve_field<'a>(
     solver: &Options,
     monitor: impl Fn() -> Monitor<'a>,
 ) -> Result<(OrientationField, Solution)> {
-    let (field, solution) = solve_stated(mesh, options, solver, monitor())?;
+    let problem = FieldProblem::with_options(mesh, options)?;
+    let mut kept = Solver::new(problem.problem())?;
+    let solution = kept.solve_with(solver, monitor())?;
+    let field = problem.field(mesh, &solution)?;
     if options.indices.is_some() || options.symmetry != 4 {
         return Ok((field, solution));
     }
@@ -99,7 +97,7 @@ pub fn solve_field<'a>(
     let steps = spread(mesh, found.clone());
     if steps == found {
         return match options.detail > 0.0 {
-            true => smoothest_with(mesh, options, &solution, solver, monitor()),
+            true => smoothest_with(mesh, &problem, &mut kept, solver, monitor()),
             false => Ok((field, solution)),
         };
     }

@@ -10,7 +10,7 @@ use super::compatible::{Wish, with_wishes};
 use super::{SeamlessMap, SeamlessProblem};
 use crate::mesh::TriangleMesh;
 use crate::mesh::vector::{dot, sub};
-use crate::{Monitor, Options, Problem, Result, Solution, solve_with};
+use crate::{Monitor, Options, Result, Solution, solve_with};
 
 /// Strips narrower than this part of a quad are left collapsed: quads in them would be slivers.
 const NARROWEST: f64 = 0.2;
@@ -80,10 +80,9 @@ fn decide<'a>(
 }
 
 impl Wish for Strip {
-    fn add_to(&self, problem: &mut Problem) -> Result<()> {
+    fn row(&self) -> ([usize; 2], [f64; 2], f64) {
         let [low, high] = self.unknowns;
-        problem.add_constraint(&[high, low], &[1.0, -1.0], 1.0)?;
-        Ok(())
+        ([high, low], [1.0, -1.0], 1.0)
     }
 }
 

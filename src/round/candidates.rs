@@ -1,4 +1,5 @@
-//! Integers by their distance from the nearest one: a heap whose stale entries are passed over.
+//! Integers by their distance from the nearest one: heaps whose stale entries are passed over, each
+//! for a range of distances, so that one fits the cache.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -6,14 +7,19 @@ use std::collections::BinaryHeap;
 use super::greedy::TIE;
 use super::nearest;
 
+/// Ranges of deviations.
+const RANGES: usize = 1024;
+
 /// The undecided integers, the closest to an integer first; deviations that agree to [`TIE`] are
 /// told apart by their unknowns, lowest first.
 ///
-/// The heap holds a lower bound of each deviation: what comes closer to an integer is entered
+/// The heaps hold a lower bound of each deviation: what comes closer to an integer is entered
 /// anew, what moves away is found out when its turn comes.
 #[derive(Debug)]
 pub(crate) struct Candidates {
-    heap: BinaryHeap<Reverse<(u64, u32)>>,
+    heaps: Vec<BinaryHeap<Reverse<(u64, u32)>>>,
+    /// All heaps before this one are empty.
+    lowest: usize,
     /// The least rank under which each unknown stands in the heap.
     entered: Vec<u64>,
 }
@@ -22,7 +28,8 @@ impl Candidates {
     /// None so far, of unknowns below `dim`.
     pub fn new(dim: usize) -> Self {
         Candidates {
-            heap: BinaryHeap::new(),
+            heaps: vec![BinaryHeap::new(); RANGES],
+            lowest: 0,
             entered: vec![u64::MAX; dim],
         }
     }
@@ -36,8 +43,18 @@ impl Candidates {
         let entered = &mut self.entered[unknown as usize];
         if rank < *entered {
             *entered = rank;
-            self.heap.push(Reverse((rank, unknown)));
+            let range = range_of(rank);
+            self.heaps[range].push(Reverse((rank, unknown)));
+            self.lowest = self.lowest.min(range);
         }
+    }
+
+    /// The least entry, stale or not, and the heap that it is in.
+    fn least(&mut self) -> Option<(usize, u64, u32)> {
+        let at = (self.lowest..RANGES).find(|&range| !self.heaps[range].is_empty())?;
+        self.lowest = at;
+        let &Reverse((rank, unknown)) = self.heaps[at].peek()?;
+        Some((at, rank, unknown))
     }
 
     /// Takes the least deviations whose sum stays at or below `threshold`, at least one.
@@ -46,7 +63,7 @@ impl Candidates {
     pub fn take(&mut self, threshold: f64, value: impl Fn(u32) -> Option<f64>) -> Vec<u32> {
         let mut taken = Vec::new();
         let mut sum = 0.0;
-        while let Some(&Reverse((stored, unknown))) = self.heap.peek() {
+        while let Some((range, stored, unknown)) = self.least() {
             let stale = self.entered[unknown as usize] != stored;
             let current = value(unknown).filter(|_| !stale);
             if let Some(x) = current.filter(|&x| rank(x) == stored) {
@@ -56,7 +73,7 @@ impl Candidates {
                 }
                 taken.push(unknown);
             }
-            self.heap.pop();
+            self.heaps[range].pop();
             if !stale {
                 self.entered[unknown as usize] = u64::MAX;
             }
@@ -66,6 +83,12 @@ impl Candidates {
         }
         taken
     }
+}
+
+/// The heap for deviations of this rank.
+fn range_of(rank: u64) -> usize {
+    let deviation = rank as f64 * TIE;
+    ((2.0 * deviation * RANGES as f64) as usize).min(RANGES - 1)
 }
 
 fn rank(value: f64) -> u64 {

@@ -14,6 +14,7 @@ mod solution;
 mod solver;
 mod status;
 mod strategy;
+mod subject_to;
 mod verify;
 mod warm_start;
 mod work;

@@ -66,9 +66,9 @@ pub(super) struct Prepared<'a> {
 
 impl Prepared<'_> {
     /// Right sides, relaxation, search, expansion, verification.
-    pub fn solve(self, options: &Options, monitor: &mut Monitor) -> Result<Solution> {
-        let Prepared { model, factors, .. } = self;
-        let reduced = self.elimination.reduce(model, monitor)?;
+    pub fn solve(mut self, options: &Options, monitor: &mut Monitor) -> Result<Solution> {
+        let model = self.model;
+        let (reduced, clock) = self.reduce(monitor)?;
         let start = match options.warm_start {
             WarmStart::Off => None,
             WarmStart::Offer | WarmStart::Keep => {
@@ -81,44 +81,57 @@ impl Prepared<'_> {
                 )
             }
         };
-        let eliminated = monitor.seconds();
-        let factored_before = factors.seconds();
+        let decided = decide(model, &reduced, options, start, self.factors, monitor)?;
+        self.conclude(&reduced, decided, options.strategy, &clock, monitor)
+    }
 
-        let Decided {
-            point,
-            lower_bound,
-            status,
-            work,
-        } = decide(model, &reduced, options, start, factors, monitor)?;
+    /// The reduced model for the right sides as they are, and when that was.
+    pub(super) fn reduce(&mut self, monitor: &mut Monitor) -> Result<(ReducedModel, Clock)> {
+        let reduced = self.elimination.reduce(self.model, monitor)?;
+        let clock = Clock {
+            eliminated: monitor.seconds(),
+            factored_before: self.factors.seconds(),
+        };
+        Ok((reduced, clock))
+    }
+
+    /// Expansion and verification.
+    pub(super) fn conclude(
+        &mut self,
+        reduced: &ReducedModel,
+        found: Decided,
+        strategy: Strategy,
+        clock: &Clock,
+        monitor: &mut Monitor,
+    ) -> Result<Solution> {
         let searched = monitor.seconds();
-        let factored = factors.seconds() - factored_before;
+        let factored = self.factors.seconds() - clock.factored_before;
 
-        let mut values = expand(&reduced, model, options.strategy, &point);
+        let mut values = expand(reduced, self.model, strategy, &found.point);
         let mut verdict = verify(self.problem, &values)?;
         // Of a search that was stopped, what it found is returned as it is.
-        let ended = matches!(status, SolveStatus::Optimal | SolveStatus::Feasible);
-        let decided = ended && !reduced.integers().is_empty();
-        if decided && let Some(better) = held::mend(self.problem, &values, verdict) {
+        let ended = matches!(found.status, SolveStatus::Optimal | SolveStatus::Feasible);
+        let is_decided = ended && !reduced.integers().is_empty();
+        if is_decided && let Some(better) = held::mend(self.problem, &values, verdict) {
             (values, verdict) = better;
         }
-        let status = if decided && gap(verdict.energy, lower_bound) > VERIFIED_GAP {
-            SolveStatus::Feasible
-        } else {
-            status
+        let is_proved = || gap(verdict.energy, found.lower_bound) <= VERIFIED_GAP;
+        let status = match found.status {
+            SolveStatus::Optimal if is_decided && !is_proved() => SolveStatus::Feasible,
+            status => status,
         };
-        let total = monitor.seconds();
         Ok(Solution {
             values,
             energy: verdict.energy,
-            lower_bound: Some(lower_bound.min(verdict.energy)),
+            lower_bound: Some(found.lower_bound.min(verdict.energy)),
             status,
-            work,
-            counts: counts(model, &reduced, factors),
+            work: found.work,
+            counts: counts(self.model, reduced, self.factors),
             seconds: Seconds {
-                eliminate: eliminated,
+                eliminate: clock.eliminated,
                 factor: factored,
-                round: searched - eliminated - factored,
-                total,
+                round: searched - clock.eliminated - factored,
+                total: monitor.seconds(),
             },
             max_constraint_violation: verdict.constraint_violation,
             max_integrality_violation: verdict.integrality_violation,
@@ -126,14 +139,20 @@ impl Prepared<'_> {
     }
 }
 
+/// Seconds when the search began.
+pub(super) struct Clock {
+    eliminated: f64,
+    factored_before: f64,
+}
+
 /// How a search ended.
-struct Decided {
+pub(super) struct Decided {
     /// In reduced unknowns.
-    point: Vec<f64>,
-    lower_bound: f64,
-    status: SolveStatus,
+    pub point: Vec<f64>,
+    pub lower_bound: f64,
+    pub status: SolveStatus,
     /// Multiplications, those of the relaxation included.
-    work: u64,
+    pub work: u64,
 }
 
 fn decide(

@@ -10,6 +10,7 @@ use super::run::{Prepared, tell_of_ignored_hint};
 use super::{Options, Solution, SolveStatus};
 use crate::eliminate::Elimination;
 use crate::linalg::Ordering;
+use crate::problem::RowList;
 use crate::{Model, Problem, Result};
 
 /// A problem whose structure is fixed, and what was learned of it.
@@ -140,31 +141,52 @@ impl Solver {
     /// # Errors
     /// As [`solve_with`](crate::solve_with).
     pub fn solve_with(&mut self, options: &Options, mut monitor: Monitor) -> Result<Solution> {
+        let prepared = self.prepare(options, &mut monitor)?;
+        let solution = prepared.solve(options, &mut monitor)?;
+        if solution.status() != SolveStatus::Relaxed {
+            self.earlier = Some(solution.values().to_vec());
+        }
+        Ok(solution)
+    }
+
+    /// Solves the problem as it stands under further constraints between integers, which are forgotten
+    /// afterwards, with the elimination and the factors of the problem without them. None where that
+    /// cannot be: see [`subject_to`](super::subject_to).
+    ///
+    /// # Errors
+    /// As [`solve_with`](crate::solve_with); the constraint that an error names is the row.
+    pub(crate) fn solve_subject_to(
+        &mut self,
+        rows: &RowList,
+        options: &Options,
+        mut monitor: Monitor,
+    ) -> Result<Option<Solution>> {
+        self.prepare(options, &mut monitor)?
+            .solve_subject_to(rows, options, &mut monitor)
+    }
+
+    /// The problem as it stands with all that is kept of it, made where it is not.
+    fn prepare(&mut self, options: &Options, monitor: &mut Monitor) -> Result<Prepared<'_>> {
         monitor.start(options.time_limit);
         monitor.check()?;
         if self.stale {
             self.model = self.model.with_data_of(&self.problem)?;
             self.stale = false;
         }
-        tell_of_ignored_hint(&self.model, &mut monitor);
+        tell_of_ignored_hint(&self.model, monitor);
         let mut kept = match self.kept.take() {
             Some(kept) if kept.serves(&self.model, options.ordering) => kept,
-            _ => Kept::new(&self.model, options.ordering, &mut monitor)?,
+            _ => Kept::new(&self.model, options.ordering, monitor)?,
         };
         kept.leave_out_pinned(&self.model);
         let kept = self.kept.insert(kept);
-        let prepared = Prepared {
+        Ok(Prepared {
             problem: &self.problem,
             model: &self.model,
             elimination: &kept.elimination,
             factors: &mut kept.factors,
             earlier: self.earlier.as_deref().unwrap_or(self.model.guess()),
-        };
-        let solution = prepared.solve(options, &mut monitor)?;
-        if solution.status() != SolveStatus::Relaxed {
-            self.earlier = Some(solution.values().to_vec());
-        }
-        Ok(solution)
+        })
     }
 }
 

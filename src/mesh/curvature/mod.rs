@@ -63,20 +63,32 @@ pub fn smoothed_curvature(mesh: &TriangleMesh, rounds: usize) -> Curvature {
     found
 }
 
+/// A face across an edge, and what its deviator is multiplied by: cosine and sine of twice the turn.
+#[derive(Clone, Copy)]
+struct Beside {
+    face: u32,
+    turn: [f64; 2],
+}
+
 fn smooth(mesh: &TriangleMesh, mut tensors: Vec<Tensor>, rounds: usize) -> Vec<Tensor> {
     if rounds == 0 {
         return tensors;
     }
     let area: Vec<f64> = (0..mesh.face_count()).map(|f| mesh.area(f)).collect();
-    // What each neighbour's deviator is multiplied by: cosine and sine of twice the turn.
-    let mut turn = vec![[[1.0, 0.0]; 3]; mesh.face_count()];
+    let mut beside: Vec<[Option<Beside>; 3]> = vec![[None; 3]; mesh.face_count()];
     for edge in mesh.edges() {
         let ((f, k), Some((g, l))) = (edge.first, edge.second) else {
             continue;
         };
         let (sin, cos) = (-2.0 * mesh.transport(f, k).unwrap_or(0.0)).sin_cos();
-        turn[f][k] = [cos, sin];
-        turn[g][l] = [cos, -sin];
+        let across = |face: usize, turn| {
+            Some(Beside {
+                face: face as u32,
+                turn,
+            })
+        };
+        beside[f][k] = across(g, [cos, sin]);
+        beside[g][l] = across(f, [cos, -sin]);
     }
     let mut before = tensors.clone();
     for _ in 0..rounds {
@@ -84,11 +96,10 @@ fn smooth(mesh: &TriangleMesh, mut tensors: Vec<Tensor>, rounds: usize) -> Vec<T
         for (f, smoothed) in tensors.iter_mut().enumerate() {
             let mut total = area[f];
             let mut sum = before[f].scaled(area[f]);
-            for (k, turn) in turn[f].iter().enumerate() {
-                if let Some((g, _)) = mesh.neighbor(f, k) {
-                    total += area[g];
-                    sum = sum.plus(before[g].turned(*turn).scaled(area[g]));
-                }
+            for Beside { face, turn } in beside[f].iter().flatten() {
+                let (other, area) = (before[*face as usize], area[*face as usize]);
+                total += area;
+                sum = sum.plus(other.turned(*turn).scaled(area));
             }
             *smoothed = sum.scaled(1.0 / total);
         }

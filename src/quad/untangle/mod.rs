@@ -143,7 +143,42 @@ pub fn untangle(
     monitor: &mut Monitor,
 ) -> Result<Untangled> {
     problem.check_map(mesh, map)?;
-    let mut work = Untangling::new(mesh, problem, map, options, monitor)?;
+    let structure = Structure::new(mesh, problem, map, monitor)?;
+    untangle_in(&structure, mesh, problem, map, options, monitor)
+}
+
+/// What integers and size of a map do not change.
+struct Structure {
+    freedom: Freedom,
+    /// How many quarter turns there should be around each vertex.
+    quarters: Vec<Option<i32>>,
+}
+
+impl Structure {
+    /// Of all maps of this problem, whatever their size: of which this is one.
+    fn new(
+        mesh: &TriangleMesh,
+        problem: &SeamlessProblem,
+        map: &SeamlessMap,
+        monitor: &mut Monitor,
+    ) -> Result<Self> {
+        Ok(Structure {
+            freedom: Freedom::new(problem, map.copies(), map.values(), monitor)?,
+            quarters: problem.quarters(mesh),
+        })
+    }
+}
+
+/// [`untangle`], for a map of known structure.
+fn untangle_in(
+    structure: &Structure,
+    mesh: &TriangleMesh,
+    problem: &SeamlessProblem,
+    map: &SeamlessMap,
+    options: &UntangleOptions,
+    monitor: &mut Monitor,
+) -> Result<Untangled> {
+    let mut work = Untangling::new(structure, mesh, problem, map, options);
     let flipped_before = work.folded().len();
     if flipped_before == 0 && work.wound().is_empty() {
         return Ok(Untangled::as_it_is(map.clone()));
@@ -153,7 +188,7 @@ pub fn untangle(
         if folded.is_empty() || work.budget == 0 {
             break;
         }
-        for region in regions(&work.freedom, &folded, rings) {
+        for region in regions(work.freedom, &folded, rings) {
             work.unfold(&region, schedule::FIRST_EPS, monitor)?;
         }
     }
@@ -162,7 +197,7 @@ pub fn untangle(
     }
     monitor.progress(Phase::Untangle, 1.0)?;
     let left = work.folded();
-    let stuck = Stuck::find(mesh, &work.freedom, &work.values, &left);
+    let stuck = Stuck::find(mesh, work.freedom, &work.values, &left);
     Ok(Untangled {
         stuck_faces: stuck.faces,
         collapsed_edges: stuck.edges,
@@ -178,10 +213,9 @@ pub fn untangle(
 struct Untangling<'a> {
     mesh: &'a TriangleMesh,
     problem: &'a SeamlessProblem,
-    freedom: Freedom,
+    freedom: &'a Freedom,
+    quarters: &'a [Option<i32>],
     values: Vec<f64>,
-    /// How many quarter turns there should be around each vertex.
-    quarters: Vec<Option<i32>>,
     /// Where in the region at hand each free unknown is.
     place: Vec<u32>,
     /// Newton steps made.
@@ -194,24 +228,23 @@ struct Untangling<'a> {
 
 impl<'a> Untangling<'a> {
     fn new(
+        structure: &'a Structure,
         mesh: &'a TriangleMesh,
         problem: &'a SeamlessProblem,
         map: &SeamlessMap,
         options: &UntangleOptions,
-        monitor: &mut Monitor,
-    ) -> Result<Self> {
-        let freedom = Freedom::new(problem, map.copies(), map.values(), monitor)?;
-        Ok(Untangling {
+    ) -> Self {
+        Untangling {
             mesh,
             problem,
-            place: vec![NONE; freedom.dim()],
-            freedom,
-            quarters: problem.quarters(mesh),
+            freedom: &structure.freedom,
+            quarters: &structure.quarters,
+            place: vec![NONE; structure.freedom.dim()],
             values: map.values().to_vec(),
             steps: 0,
             most_steps: options.steps,
             budget: options.passes.saturating_mul(mesh.face_count()),
-        })
+        }
     }
 
     fn folded(&self) -> Vec<usize> {
@@ -230,7 +263,7 @@ impl<'a> Untangling<'a> {
             self.place[y as usize] = k as u32;
         }
         let rest = |face: usize| at_rest(self.mesh, self.problem, face);
-        let mut system = System::new(&self.freedom, region, rest, &self.place)?;
+        let mut system = System::new(self.freedom, region, rest, &self.place)?;
         region
             .unknowns
             .iter()

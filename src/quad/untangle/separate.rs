@@ -14,7 +14,6 @@ use crate::mesh::vector::{dot, sub};
 use crate::quad::check::orientation;
 use crate::quad::compatible::Wish;
 use crate::quad::{SeamlessMap, SeamlessProblem};
-use crate::{Problem, Result};
 
 /// How many edges a path between two cones has at most,
 const LONGEST_PATH: usize = 4;
@@ -116,10 +115,9 @@ impl Apart {
 }
 
 impl Wish for Apart {
-    fn add_to(&self, problem: &mut Problem) -> Result<()> {
+    fn row(&self) -> ([usize; 2], [f64; 2], f64) {
         let [a, b] = self.unknowns;
-        problem.add_constraint(&[b, a], &[1.0, -1.0], self.by)?;
-        Ok(())
+        ([b, a], [1.0, -1.0], self.by)
     }
 }
 

@@ -2,13 +2,11 @@
 
 use std::borrow::Cow;
 
-use super::freedom::Freedom;
-use super::separate::Apart;
-use super::{Collapsed, UntangleOptions, Untangled, untangle};
+use super::{Collapsed, Structure, UntangleOptions, Untangled, untangle_in};
 use crate::mesh::TriangleMesh;
-use crate::quad::compatible::with_wishes;
+use crate::quad::compatible::solve_with_wishes;
 use crate::quad::{SeamlessMap, SeamlessProblem};
-use crate::{Monitor, Options, Problem, Result, Solution, Strategy, solve_with};
+use crate::{Monitor, Options, Result, Solution, Solver, Strategy, solve_with};
 
 /// By how much a refinement multiplies the lengths of the map: about twice as many quads.
 const REFINEMENT: f64 = std::f64::consts::SQRT_2;
@@ -36,7 +34,8 @@ const PASSES_BEFORE_REFINING: usize = 5;
 /// A map, the solution that its integers are from, and what became of it.
 #[derive(Debug)]
 pub struct Unfolded {
-    /// The solution: of the problem with the constraints, and the stiffness, that were added.
+    /// The solution: of the problem with the constraints, and the stiffness, that were added. Its bound
+    /// may be that without the constraints.
     pub solution: Solution,
     /// The map after untangling.
     pub untangled: Untangled,
@@ -72,7 +71,7 @@ impl Unfolded {
 /// [`Strategy::Relax`] there are no integers to speak of, and the map is that of the relaxation.
 ///
 /// # Errors
-/// Those of [`solve`](crate::solve()) for the first solve and of [`untangle`]; a later solve that fails
+/// Those of [`solve`](crate::solve()) for the first solve and of [`untangle`](super::untangle); a later solve that fails
 /// for constraints that contradict each other ends the rounds.
 pub fn solve_unfolded<'a>(
     mesh: &TriangleMesh,
@@ -93,14 +92,15 @@ pub fn solve_unfolded<'a>(
             solver.strategy = Strategy::Lattice;
         }
     }
-    let mut best = solve_size(
+    let mut sizes = Sizes {
         mesh,
-        problem,
-        &solver,
+        solver,
         options,
-        options.refinements,
-        &monitor,
-    )?;
+        monitor,
+        kept: Solver::new(problem.problem())?,
+        structure: None,
+    };
+    let mut best = sizes.solve(problem, options.refinements)?;
     for refinements in 1..=options.refinements {
         let untangled = &best.untangled;
         let is_done = match untangled.flipped_after {
@@ -110,9 +110,9 @@ pub fn solve_unfolded<'a>(
         if is_done {
             break;
         }
-        let finer = problem.refined(mesh, REFINEMENT.powi(refinements as i32))?;
-        let left = options.refinements - refinements;
-        let found = solve_size(mesh, &finer, &solver, options, left, &monitor)?;
+        let by = REFINEMENT.powi(refinements as i32);
+        let finer = problem.refined(mesh, by, &mut sizes.kept)?;
+        let found = sizes.solve(&finer, options.refinements - refinements)?;
         if found.untangled.faults() < best.untangled.faults() {
             best = Unfolded {
                 refinements,
@@ -123,73 +123,90 @@ pub fn solve_unfolded<'a>(
     Ok(best)
 }
 
-/// A map of the size that the problem aims at, after which so many refinements are left.
-fn solve_size<'a>(
-    mesh: &TriangleMesh,
-    problem: &SeamlessProblem,
-    solver: &Options,
-    options: &UntangleOptions,
-    refinements_left: usize,
-    monitor: &impl Fn() -> Monitor<'a>,
-) -> Result<Unfolded> {
-    let solution = solve_with(problem.problem(), solver, monitor())?;
-    let map = problem.map(mesh, &solution)?;
-    let (stiff, solution, map) = stiffen(
-        mesh,
-        (problem, solution, map),
-        solver,
-        options.stiffenings,
-        monitor,
-    )?;
-    let problem = stiff.as_ref();
-    let held = Freedom::new(problem, map.copies(), map.values(), &mut monitor())?.held();
-    let near = problem.near_cones(mesh, &held);
-    let mut best = Decided {
-        collapsed: Collapsed::find(&held, &near, &map),
-        solution,
-        map,
-    };
-    let mut rounds = 0;
-    let mut apart = problem.apart(mesh, &best.collapsed);
-    while !best.collapsed.is_empty() && rounds < options.rounds {
-        let Some(solution) = solve_apart(problem.problem(), &mut apart, solver, monitor)? else {
-            break;
-        };
-        rounds += 1;
+/// What the maps of one problem have in common, whatever their size.
+struct Sizes<'s, M> {
+    mesh: &'s TriangleMesh,
+    solver: Options,
+    options: &'s UntangleOptions,
+    monitor: M,
+    /// Of the problem for the size at hand.
+    kept: Solver,
+    /// Known once there is a map.
+    structure: Option<Structure>,
+}
+
+impl<'m, M: Fn() -> Monitor<'m>> Sizes<'_, M> {
+    /// A map of the size that the problem aims at, after which so many refinements are left.
+    fn solve(&mut self, problem: &SeamlessProblem, refinements_left: usize) -> Result<Unfolded> {
+        let Sizes { mesh, monitor, .. } = self;
+        let solution = self.kept.solve_with(&self.solver, monitor())?;
         let map = problem.map(mesh, &solution)?;
-        let found = Decided {
+        let first = (problem, solution, map);
+        let (stiff, solution, map) = stiffen(mesh, first, &self.solver, self.options, monitor)?;
+        let mut stiffer;
+        let kept = match &stiff {
+            Cow::Borrowed(_) => &mut self.kept,
+            Cow::Owned(problem) => {
+                stiffer = Solver::new(problem.problem())?;
+                &mut stiffer
+            }
+        };
+        let problem = stiff.as_ref();
+        let structure = match &mut self.structure {
+            Some(known) => known,
+            unknown => unknown.insert(Structure::new(mesh, problem, &map, &mut monitor())?),
+        };
+        let held = structure.freedom.held();
+        let near = problem.near_cones(mesh, &held);
+        let mut best = Decided {
             collapsed: Collapsed::find(&held, &near, &map),
             solution,
             map,
         };
-        let before = apart.len();
-        for constraint in problem.apart(mesh, &found.collapsed) {
-            if !apart.iter().any(|known| known.is_between(&constraint)) {
-                apart.push(constraint);
+        let mut rounds = 0;
+        let mut apart = problem.apart(mesh, &best.collapsed);
+        while !best.collapsed.is_empty() && rounds < self.options.rounds {
+            let solved = solve_with_wishes(kept, &mut apart, &self.solver, monitor)?;
+            let Some(solution) = solved else {
+                break;
+            };
+            rounds += 1;
+            let map = problem.map(mesh, &solution)?;
+            let found = Decided {
+                collapsed: Collapsed::find(&held, &near, &map),
+                solution,
+                map,
+            };
+            let before = apart.len();
+            for constraint in problem.apart(mesh, &found.collapsed) {
+                if !apart.iter().any(|known| known.is_between(&constraint)) {
+                    apart.push(constraint);
+                }
+            }
+            if found.collapsed.count() < best.collapsed.count() {
+                best = found;
+            }
+            if apart.len() == before {
+                break;
             }
         }
-        if found.collapsed.count() < best.collapsed.count() {
-            best = found;
+        let mut effort = *self.options;
+        if refinements_left > 0 {
+            let few = PASSES_BEFORE_REFINING + FACES_BEFORE_REFINING / mesh.face_count().max(1);
+            effort.passes = effort.passes.min(few);
+            if !best.collapsed.is_empty() {
+                effort.passes /= PART_OF_PASSES;
+            }
         }
-        if apart.len() == before {
-            break;
-        }
+        let map = &best.map;
+        Ok(Unfolded {
+            untangled: untangle_in(structure, mesh, problem, map, &effort, &mut monitor())?,
+            solution: best.solution,
+            rounds,
+            refinements: 0,
+            collapsed: best.collapsed,
+        })
     }
-    let mut effort = *options;
-    if refinements_left > 0 {
-        let few = PASSES_BEFORE_REFINING + FACES_BEFORE_REFINING / mesh.face_count().max(1);
-        effort.passes = effort.passes.min(few);
-        if !best.collapsed.is_empty() {
-            effort.passes /= PART_OF_PASSES;
-        }
-    }
-    Ok(Unfolded {
-        untangled: untangle(mesh, problem, &best.map, &effort, &mut monitor())?,
-        solution: best.solution,
-        rounds,
-        refinements: 0,
-        collapsed: best.collapsed,
-    })
 }
 
 /// Makes the triangles stiffer that the map distorts, and solves again, so often or until none is
@@ -198,12 +215,12 @@ fn stiffen<'a, 'b>(
     mesh: &TriangleMesh,
     (problem, solution, map): (&'b SeamlessProblem, Solution, SeamlessMap),
     solver: &Options,
-    stiffenings: usize,
+    options: &UntangleOptions,
     monitor: &impl Fn() -> Monitor<'a>,
 ) -> Result<(Cow<'b, SeamlessProblem>, Solution, SeamlessMap)> {
     let mut best = (Cow::Borrowed(problem), solution, map);
     let mut last: Option<(SeamlessProblem, SeamlessMap)> = None;
-    for _ in 0..stiffenings {
+    for _ in 0..options.stiffenings {
         if best.2.flipped().is_empty() {
             break;
         }
@@ -226,18 +243,4 @@ struct Decided {
     solution: Solution,
     map: SeamlessMap,
     collapsed: Collapsed,
-}
-
-/// Solves with constraints that hold cones apart, without those found to contradict the others. None
-/// if none is left.
-fn solve_apart<'a>(
-    stated: &Problem,
-    apart: &mut Vec<Apart>,
-    solver: &Options,
-    monitor: &impl Fn() -> Monitor<'a>,
-) -> Result<Option<Solution>> {
-    let problem = with_wishes(stated, apart, monitor)?;
-    problem
-        .map(|held| solve_with(&held, solver, monitor()))
-        .transpose()
 }

@@ -35,7 +35,7 @@ const RINGS: [usize; 3] = [2, 5, 12];
 impl Untangling<'_> {
     /// The vertices that the map goes around another number of times than the field.
     pub(super) fn wound(&self) -> Vec<usize> {
-        wound(self.mesh, &self.quarters, |face| self.uv(face))
+        wound(self.mesh, self.quarters, |face| self.uv(face))
     }
 
     /// Mends cones that are narrower than they should be in a map without folds, as far as it can.
@@ -127,7 +127,7 @@ impl Untangling<'_> {
         let corners = faces.iter().flat_map(|&face| self.mesh.corners(face));
         let near: BTreeSet<usize> = corners.collect();
         let uv = |face| self.uv(face);
-        let is_wound = |v: &usize| is_wound(self.mesh, &self.quarters, uv, *v);
+        let is_wound = |v: &usize| is_wound(self.mesh, self.quarters, uv, *v);
         let far = wound.iter().filter(|v| !near.contains(v));
         let found = near.iter().copied().filter(is_wound);
         let mut left: Vec<usize> = far.copied().chain(found).collect();
@@ -173,7 +173,7 @@ impl Untangling<'_> {
             if folded.is_empty() {
                 break;
             }
-            for region in regions(&self.freedom, &folded, rings) {
+            for region in regions(self.freedom, &folded, rings) {
                 self.unfold(&region, first_eps, monitor)?;
             }
         }
@@ -185,7 +185,7 @@ impl Untangling<'_> {
 mod tests {
     use super::*;
     use crate::mesh::{jitter, shape};
-    use crate::quad::untangle::{UntangleOptions, untangle};
+    use crate::quad::untangle::{Structure, UntangleOptions, untangle};
     use crate::quad::{FieldOptions, SeamlessOptions, SeamlessProblem, solve_field};
     use crate::{Options, solve};
 
@@ -207,10 +207,11 @@ mod tests {
         );
         let map = map.unwrap().map;
         assert!(map.flipped().is_empty());
+        let watch = &mut Monitor::default();
+        let structure = Structure::new(&mesh, &problem, &map, watch).unwrap();
         let mut laid = 0;
         for &cone in problem.cones() {
-            let watch = &mut Monitor::default();
-            let mut work = Untangling::new(&mesh, &problem, &map, &effort, watch).unwrap();
+            let mut work = Untangling::new(&structure, &mesh, &problem, &map, &effort);
             let Some(disk) = work.disk(cone, 1.5).filter(|d| d.inside.len() > 5) else {
                 continue;
             };
