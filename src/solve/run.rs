@@ -109,7 +109,9 @@ impl Prepared<'_> {
 
         let mut values = expand(reduced, self.model, strategy, &found.point);
         let mut verdict = verify(self.problem, &values)?;
-        let is_decided = !reduced.integers().is_empty() && strategy != Strategy::Relax;
+        // Of a search that was stopped, what it found is returned as it is.
+        let ended = matches!(found.status, SolveStatus::Optimal | SolveStatus::Feasible);
+        let is_decided = ended && !reduced.integers().is_empty();
         if is_decided && let Some(better) = held::mend(self.problem, &values, verdict) {
             (values, verdict) = better;
         }
