@@ -1896,7 +1896,8 @@ roundel_status roundel_map_round_count(const struct roundel_map *map, size_t *co
 
 /**
  * Gives how often roundel_map_solve_unfolded made the map finer than asked for, each time by the
- * square root of two in length; 0 after any other solve.
+ * square root of two in length; 0 after any other solve. Smaller quads around what folds were left
+ * after that are not counted.
  */
 roundel_status roundel_map_refinement_count(const struct roundel_map *map, size_t *count);
 
