@@ -187,6 +187,12 @@ static void unfolded(const model* m) {
     double* still = corners(map, m->faces);
     CHECK(memcmp(uv, still, 6 * m->faces * sizeof *uv) == 0);
 
+    OK(roundel_map_set_stiffening_count(map, 3));
+    OK(roundel_map_solve_unfolded(map, NULL, NULL));
+    OK(roundel_map_flipped_count(map, &flipped));
+    OK(roundel_map_corner_uvs(map, still, 6 * m->faces));
+    CHECK(flipped == 0 && memcmp(uv, still, 6 * m->faces * sizeof *uv) != 0);
+
     OK(roundel_map_solve(map, NULL, NULL));
     OK(roundel_map_corner_uvs(map, uv, 6 * m->faces));
     CHECK(memcmp(uv, plain, 6 * m->faces * sizeof *uv) == 0);

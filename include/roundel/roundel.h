@@ -1863,6 +1863,14 @@ roundel_status roundel_map_solve_unfolded(struct roundel_map *map,
                                           const struct roundel_monitor *monitor);
 
 /**
+ * Sets how often roundel_map_solve_unfolded first solves again a map with folds, stiffer where it is
+ * distorted, the classical remedy: 0 unless told otherwise, since the others do without. Each time
+ * costs a solve.
+ */
+roundel_status roundel_map_set_stiffening_count(struct roundel_map *map,
+                                                size_t count);
+
+/**
  * Moves the vertices that integers do not hold until as few faces as can be are turned over or
  * collapsed, under the eyes of `monitor`, which may be NULL. Seams, cones and isolines stay what
  * they are. roundel_map_flipped_count tells what is left; the solution stays that of the solve. After

@@ -23,6 +23,8 @@ pub(super) struct Mapped {
     problem: SeamlessProblem,
     solver: Solver,
     found: Option<Found>,
+    /// How often a map with folds is stiffened before anything else is done for it.
+    pub(super) stiffenings: usize,
 }
 
 /// What a solve found.
@@ -138,6 +140,7 @@ pub unsafe extern "C" fn roundel_map_new(
             solver: Solver::new(problem.problem())?,
             problem,
             found: None,
+            stiffenings: 0,
         }));
         Ok(())
     };

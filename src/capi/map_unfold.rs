@@ -34,8 +34,27 @@ pub unsafe extern "C" fn roundel_map_solve_unfolded(
         // SAFETY: the caller gives a live handle and a monitor as its members say, or NULL.
         let (options, monitor) =
             unsafe { (guard::value_or(options, &default)?, watchers(monitor)?) };
-        let effort = UntangleOptions::default();
+        let effort = UntangleOptions {
+            stiffenings: map.stiffenings,
+            ..UntangleOptions::default()
+        };
         map.unfold(|mesh, problem| solve_unfolded(mesh, problem, options, &effort, monitor))
+    };
+    // SAFETY: the caller gives a live handle, or NULL.
+    unsafe { guard::write(map, body) }
+}
+
+/// Sets how often roundel_map_solve_unfolded first solves again a map with folds, stiffer where it is
+/// distorted, the classical remedy: 0 unless told otherwise, since the others do without. Each time
+/// costs a solve.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_map_set_stiffening_count(
+    map: *mut roundel_map,
+    count: usize,
+) -> roundel_status {
+    let body = |map: &mut Mapped| {
+        map.stiffenings = count;
+        Ok(())
     };
     // SAFETY: the caller gives a live handle, or NULL.
     unsafe { guard::write(map, body) }

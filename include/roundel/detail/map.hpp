@@ -33,6 +33,8 @@ struct MapOptions {
     /// cones are decided anew, faces that are turned over are turned back, and where some are left
     /// the map is made finer. Each solve starts from nothing then.
     bool untangle = true;
+    /// How often a map with folds is first solved for again, stiffer where it is distorted.
+    std::size_t stiffenings = 0;
     /// How the problem is solved.
     Options solve = {};
 
@@ -54,6 +56,10 @@ struct MapOptions {
     }
     MapOptions& set_untangle(bool value) {
         untangle = value;
+        return *this;
+    }
+    MapOptions& set_stiffenings(std::size_t value) {
+        stiffenings = value;
         return *this;
     }
     MapOptions& set_solve(Options value) {
@@ -188,7 +194,9 @@ class Map {
             return options.untangle ? roundel_map_solve_unfolded(map, how, monitor)
                                     : roundel_map_solve(map, how, monitor);
         };
-        return resize(map, options, status) && detail::watched(options.solve, call, 0, status);
+        return resize(map, options, status) &&
+               detail::check(roundel_map_set_stiffening_count(map, options.stiffenings), status) &&
+               detail::watched(options.solve, call, 0, status);
     }
 
   private:

@@ -36,6 +36,7 @@ class Map:
         quads: Optional[int] = None,
         edge_length: Any = None,
         untangle: bool = True,
+        stiffenings: int = 0,
         progress: Progress = None,
         cancel: Optional[CancelToken] = None,
         **options: Any,
@@ -44,9 +45,12 @@ class Map:
 
         `untangle` frees the map of folds: integers that collapse cones are decided anew, triangles
         that are turned over are turned back, and where some are left the map is made finer.
+        `stiffenings` is how often a map with folds is first solved for again, stiffer where it is
+        distorted.
         """
         self._aim(quads, edge_length)
         handle, watch = options_handle(options), Watch(progress, cancel)
+        check(lib.roundel_map_set_stiffening_count(self._handle.pointer, stiffenings))
         call = lib.roundel_map_solve_unfolded if untangle else lib.roundel_map_solve
         watch.check(call(self._handle.pointer, handle.pointer, watch.pointer))
 
@@ -153,13 +157,14 @@ def map(
     quads: Optional[int] = None,
     edge_length: Any = None,
     untangle: bool = True,
+    stiffenings: int = 0,
     progress: Progress = None,
     cancel: Optional[CancelToken] = None,
     **keywords: Any,
 ) -> Map:
     """A seamless map of a mesh, or of a `Field`, at a size of quads (1000 of them by default).
 
-    Keywords are those of `field`; the options are those of both solves.
+    Keywords are those of `field` and of `Map.solve`; the options are those of both solves.
 
     >>> import roundel
     >>> cube = roundel.Mesh.shape("rounded-cube", 600)
@@ -175,5 +180,6 @@ def map(
         made = Map(V)
     else:
         made = Map(field(V, F, **watched, **wishes))
-    made.solve(quads=quads, edge_length=edge_length, untangle=untangle, **watched)
+    remedies: dict[str, Any] = {"untangle": untangle, "stiffenings": stiffenings}
+    made.solve(quads=quads, edge_length=edge_length, **remedies, **watched)
     return made
