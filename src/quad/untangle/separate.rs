@@ -30,6 +30,34 @@ pub(super) struct NearCones {
     aim: [f64; 2],
 }
 
+/// A face all corners of which are on isolines of one coordinate, and by how much that should differ from
+/// each corner to the next.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Banded {
+    face: usize,
+    axis: usize,
+    aim: [f64; 3],
+}
+
+impl Banded {
+    /// Between which two corners, if any, integers on this face's isolines must differ otherwise: the two
+    /// that should be farthest apart of a face on one isoline, and an edge on an isoline from a corner that is on the wrong
+    /// side of it.
+    fn wrong(&self, map: &SeamlessMap) -> Option<([usize; 2], f64)> {
+        let at = map.uv(self.face).map(|p| p[self.axis].round());
+        let ahead = |k: usize| (k + 1) % 3;
+        if at[0] == at[1] && at[0] == at[2] {
+            let size = |k: &usize| self.aim[*k].abs();
+            let across = (0..3).max_by(|a, b| size(a).total_cmp(&size(b)))?;
+            return Some(([across, ahead(across)], self.aim[across]));
+        }
+        let along = (0..3).find(|&k| at[k] == at[ahead(k)])?;
+        let apex = ahead(ahead(along));
+        let aim = 0.5 * (self.aim[ahead(along)] - self.aim[apex]);
+        ((at[apex] - at[along]) * aim < 0.0).then_some(([along, apex], aim))
+    }
+}
+
 /// What the integers of cones collapse.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Collapsed {
@@ -37,13 +65,18 @@ pub struct Collapsed {
     pub(super) pairs: Vec<NearCones>,
     /// Faces of three cones or corners, no two at one point, that are collinear or clockwise.
     pub(super) faces: Vec<usize>,
-    /// Faces whose corners integers hold on one isoline: of this coordinate.
-    pub(super) flat: Vec<(usize, usize)>,
+    /// Faces of corners that integers hold on isolines where these leave them no area, or turn them over.
+    pub(super) banded: Vec<Banded>,
 }
 
 impl Collapsed {
     /// What is collapsed in a map, of which integers hold these coordinates of every copy.
-    pub(super) fn find(held: &[[bool; 2]], near: &[NearCones], map: &SeamlessMap) -> Self {
+    pub(super) fn find(
+        held: &[[bool; 2]],
+        near: &[NearCones],
+        banded: &[Banded],
+        map: &SeamlessMap,
+    ) -> Self {
         let uv = map.vertex_uvs();
         let is_collapsed = |pair: &&NearCones| {
             let [a, b] = pair.copies.map(|c| uv[c as usize]);
@@ -61,25 +94,17 @@ impl Collapsed {
                 && !(0..3).any(is_short)
                 && orientation(at) <= 0.0
         };
-        let flat_along = |face: usize| {
-            let is_held = |axis: usize| map.copies()[face].iter().all(|&c| held[c as usize][axis]);
-            let at = map.uv(face).map(|p| p.map(f64::round));
-            let is_flat = |&axis: &usize| {
-                is_held(axis) && at[0][axis] == at[1][axis] && at[0][axis] == at[2][axis]
-            };
-            (0..2).find(is_flat).map(|axis| (face, axis))
-        };
-        let flat: Vec<(usize, usize)> = faces.clone().filter_map(flat_along).collect();
+        let is_wrong = |face: &&Banded| face.wrong(map).is_some();
         Collapsed {
             pairs,
             faces: faces.filter(is_lost).collect(),
-            flat,
+            banded: banded.iter().filter(is_wrong).copied().collect(),
         }
     }
 
     /// How many elements.
     pub fn count(&self) -> usize {
-        self.pairs.len() + self.faces.len() + self.flat.len()
+        self.pairs.len() + self.faces.len() + self.banded.len()
     }
 
     /// Whether there is nothing.
@@ -136,6 +161,21 @@ impl SeamlessProblem {
             }
         }
         self.runs(mesh, &held, &mut found);
+        found
+    }
+
+    /// The faces all corners of which are on isolines of one coordinate, whose integers hold them.
+    pub(super) fn banded(&self, mesh: &TriangleMesh, held: &[[bool; 2]]) -> Vec<Banded> {
+        let mut found = Vec::new();
+        for face in 0..mesh.face_count() {
+            let copies = self.sectors.copy[face];
+            for axis in 0..2 {
+                if copies.iter().all(|&c| held[c as usize][axis]) {
+                    let aim = [0, 1, 2].map(|k| self.aim(mesh, face, k, (k + 1) % 3)[axis]);
+                    found.push(Banded { face, axis, aim });
+                }
+            }
+        }
         found
     }
 
@@ -235,7 +275,12 @@ impl SeamlessProblem {
     ///
     /// No two cones are joined twice, so that they seldom contradict each other; constraints of
     /// earlier rounds they may.
-    pub(super) fn apart(&self, mesh: &TriangleMesh, collapsed: &Collapsed) -> Vec<Apart> {
+    pub(super) fn apart(
+        &self,
+        mesh: &TriangleMesh,
+        map: &SeamlessMap,
+        collapsed: &Collapsed,
+    ) -> Vec<Apart> {
         let mut joined = Joined((0..mesh.vertex_count() as u32).collect());
         let mut found = Vec::new();
         for &face in &collapsed.faces {
@@ -249,19 +294,14 @@ impl SeamlessProblem {
                 }
             }
         }
-        for &(face, axis) in &collapsed.flat {
-            let sides = [[0, 1], [1, 2], [2, 0]].map(|[from, to]| {
-                let aim = self.aim(mesh, face, from, to)[axis];
-                ([from, to], aim)
-            });
-            let across = sides
-                .into_iter()
-                .max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
-            let Some((ends, aim)) = across else { continue };
-            let [a, b] = ends.map(|k| mesh.corners(face)[k]);
+        for banded in &collapsed.banded {
+            let Some((ends, aim)) = banded.wrong(map) else {
+                continue;
+            };
+            let [a, b] = ends.map(|k| mesh.corners(banded.face)[k]);
             if joined.join(a, b) {
-                let copies = ends.map(|k| self.sectors.copy[face][k]);
-                found.push(Apart::new(copies, axis, 1f64.copysign(aim)));
+                let copies = ends.map(|k| self.sectors.copy[banded.face][k]);
+                found.push(Apart::new(copies, banded.axis, 1f64.copysign(aim)));
             }
         }
         for pair in &collapsed.pairs {
