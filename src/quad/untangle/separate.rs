@@ -2,13 +2,14 @@
 //! of features and boundary, where both coordinates are integers as well.
 //!
 //! Two that a short path joins, or an isoline, cannot lie at one point, nor all three corners of a
-//! face on one line: whatever else moves, the faces between them stay without area. Such integers are decided anew
-//! with the cones held apart by constraints: along the coordinate in which the path should be
-//! longest by its rounded length, one unit at least, or, for a face, by the nearest triangle of
-//! units that is the right way round.
+//! face on one line: whatever else moves, the faces between them stay without area. Such integers are
+//! decided anew with the cones held apart by constraints: along the coordinate in which the path should be
+//! longest by its rounded length, one unit at least, or, for a face, by the nearest triangle of units that
+//! is the right way round. Corners of a face between isolines are held one unit apart.
 
 use std::collections::VecDeque;
 
+use super::banded::Banded;
 use crate::mesh::TriangleMesh;
 use crate::mesh::vector::{dot, sub};
 use crate::quad::check::orientation;
@@ -30,34 +31,6 @@ pub(super) struct NearCones {
     aim: [f64; 2],
 }
 
-/// A face all corners of which are on isolines of one coordinate, and by how much that should differ from
-/// each corner to the next.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Banded {
-    face: usize,
-    axis: usize,
-    aim: [f64; 3],
-}
-
-impl Banded {
-    /// Between which two corners, if any, integers on this face's isolines must differ otherwise: the two
-    /// that should be farthest apart of a face on one isoline, and an edge on an isoline from a corner that is on the wrong
-    /// side of it.
-    fn wrong(&self, map: &SeamlessMap) -> Option<([usize; 2], f64)> {
-        let at = map.uv(self.face).map(|p| p[self.axis].round());
-        let ahead = |k: usize| (k + 1) % 3;
-        if at[0] == at[1] && at[0] == at[2] {
-            let size = |k: &usize| self.aim[*k].abs();
-            let across = (0..3).max_by(|a, b| size(a).total_cmp(&size(b)))?;
-            return Some(([across, ahead(across)], self.aim[across]));
-        }
-        let along = (0..3).find(|&k| at[k] == at[ahead(k)])?;
-        let apex = ahead(ahead(along));
-        let aim = 0.5 * (self.aim[ahead(along)] - self.aim[apex]);
-        ((at[apex] - at[along]) * aim < 0.0).then_some(([along, apex], aim))
-    }
-}
-
 /// What the integers of cones collapse.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Collapsed {
@@ -65,7 +38,7 @@ pub struct Collapsed {
     pub(super) pairs: Vec<NearCones>,
     /// Faces of three cones or corners, no two at one point, that are collinear or clockwise.
     pub(super) faces: Vec<usize>,
-    /// Faces of corners that integers hold on isolines where these leave them no area, or turn them over.
+    /// Faces between isolines that these leave no area, or turn over.
     pub(super) banded: Vec<Banded>,
 }
 
@@ -94,7 +67,8 @@ impl Collapsed {
                 && !(0..3).any(is_short)
                 && orientation(at) <= 0.0
         };
-        let is_wrong = |face: &&Banded| face.wrong(map).is_some();
+        let along = |face: &Banded| map.uv(face.face).map(|p| p[face.axis]);
+        let is_wrong = |face: &&Banded| face.wrong(along(face)).is_some();
         Collapsed {
             pairs,
             faces: faces.filter(is_lost).collect(),
@@ -161,21 +135,6 @@ impl SeamlessProblem {
             }
         }
         self.runs(mesh, &held, &mut found);
-        found
-    }
-
-    /// The faces all corners of which are on isolines of one coordinate, whose integers hold them.
-    pub(super) fn banded(&self, mesh: &TriangleMesh, held: &[[bool; 2]]) -> Vec<Banded> {
-        let mut found = Vec::new();
-        for face in 0..mesh.face_count() {
-            let copies = self.sectors.copy[face];
-            for axis in 0..2 {
-                if copies.iter().all(|&c| held[c as usize][axis]) {
-                    let aim = [0, 1, 2].map(|k| self.aim(mesh, face, k, (k + 1) % 3)[axis]);
-                    found.push(Banded { face, axis, aim });
-                }
-            }
-        }
         found
     }
 
@@ -295,7 +254,8 @@ impl SeamlessProblem {
             }
         }
         for banded in &collapsed.banded {
-            let Some((ends, aim)) = banded.wrong(map) else {
+            let at = map.uv(banded.face).map(|p| p[banded.axis]);
+            let Some((ends, aim)) = banded.wrong(at) else {
                 continue;
             };
             let [a, b] = ends.map(|k| mesh.corners(banded.face)[k]);
@@ -317,7 +277,7 @@ impl SeamlessProblem {
     }
 
     /// By how much the coordinates of two corners of a face should differ.
-    fn aim(&self, mesh: &TriangleMesh, face: usize, from: usize, to: usize) -> [f64; 2] {
+    pub(super) fn aim(&self, mesh: &TriangleMesh, face: usize, from: usize, to: usize) -> [f64; 2] {
         let corners = mesh.corner_positions(face);
         let step = sub(corners[to], corners[from]);
         self.targets(mesh, face).map(|target| dot(target, step))
