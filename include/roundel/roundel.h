@@ -1863,12 +1863,10 @@ roundel_status roundel_map_solve_unfolded(struct roundel_map *map,
                                           const struct roundel_monitor *monitor);
 
 /**
- * Sets how often roundel_map_solve_unfolded first solves again a map with folds, stiffer where it is
- * distorted, the classical remedy: 0 unless told otherwise, since the others do without. Each time
- * costs a solve.
+ * Sets how often the surroundings of faces that are turned over are made stiffer before these are
+ * untangled, the classical remedy, with the integers kept: at most 5 times unless told otherwise.
  */
-roundel_status roundel_map_set_stiffening_count(struct roundel_map *map,
-                                                size_t count);
+roundel_status roundel_map_set_stiffening_count(struct roundel_map *map, size_t count);
 
 /**
  * Moves the vertices that integers do not hold until as few faces as can be are turned over or

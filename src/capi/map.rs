@@ -13,7 +13,7 @@ use super::problem::roundel_problem;
 use super::solution::roundel_solution;
 use super::status::roundel_status;
 use crate::mesh::TriangleMesh;
-use crate::quad::untangle::Unfolded;
+use crate::quad::untangle::{Unfolded, UntangleOptions};
 use crate::quad::{SeamlessMap, SeamlessOptions, SeamlessProblem, Sizing};
 use crate::{Error, Options, Result, Solution, SolveStatus, Solver};
 
@@ -23,7 +23,7 @@ pub(super) struct Mapped {
     problem: SeamlessProblem,
     solver: Solver,
     found: Option<Found>,
-    /// How often a map with folds is stiffened before anything else is done for it.
+    /// How often the surroundings of folds are made stiffer before anything else is done for them.
     pub(super) stiffenings: usize,
 }
 
@@ -140,7 +140,7 @@ pub unsafe extern "C" fn roundel_map_new(
             solver: Solver::new(problem.problem())?,
             problem,
             found: None,
-            stiffenings: 0,
+            stiffenings: UntangleOptions::default().stiffenings,
         }));
         Ok(())
     };

@@ -34,19 +34,22 @@ pub unsafe extern "C" fn roundel_map_solve_unfolded(
         // SAFETY: the caller gives a live handle and a monitor as its members say, or NULL.
         let (options, monitor) =
             unsafe { (guard::value_or(options, &default)?, watchers(monitor)?) };
-        let effort = UntangleOptions {
-            stiffenings: map.stiffenings,
-            ..UntangleOptions::default()
-        };
+        let effort = effort(map);
         map.unfold(|mesh, problem| solve_unfolded(mesh, problem, options, &effort, monitor))
     };
     // SAFETY: the caller gives a live handle, or NULL.
     unsafe { guard::write(map, body) }
 }
 
-/// Sets how often roundel_map_solve_unfolded first solves again a map with folds, stiffer where it is
-/// distorted, the classical remedy: 0 unless told otherwise, since the others do without. Each time
-/// costs a solve.
+fn effort(map: &Mapped) -> UntangleOptions {
+    UntangleOptions {
+        stiffenings: map.stiffenings,
+        ..UntangleOptions::default()
+    }
+}
+
+/// Sets how often the surroundings of faces that are turned over are made stiffer before these are
+/// untangled, the classical remedy, with the integers kept: at most 5 times unless told otherwise.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_map_set_stiffening_count(
     map: *mut roundel_map,
@@ -86,7 +89,7 @@ pub unsafe extern "C" fn roundel_map_untangle(
                 index: None,
             })?;
         }
-        let effort = UntangleOptions::default();
+        let effort = effort(map);
         let (mesh, problem) = (map.mesh(), map.problem());
         let untangled = untangle(mesh, problem, &found.map, &effort, &mut monitor)?;
         map.replace(untangled.map);

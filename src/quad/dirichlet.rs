@@ -40,12 +40,11 @@ impl Dirichlet {
         for face in 0..mesh.face_count() {
             let copy = map.sectors.copy[face];
             let targets = map.targets(mesh, face);
-            let stiffness = map.stiffness_of(face);
             let corners = mesh.corner_positions(face);
             for k in 0..3 {
                 let ends = [copy[k], copy[(k + 1) % 3]];
                 let [a, b, c] = [0, 1, 2].map(|i| corners[(k + i) % 3]);
-                let weight = 0.5 * stiffness * cotangent(sub(a, c), sub(b, c));
+                let weight = 0.5 * cotangent(sub(a, c), sub(b, c));
                 let aims = targets.map(|target| dot(target, sub(b, a)));
                 sum.add_edge(ends, weight, aims);
 

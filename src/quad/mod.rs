@@ -33,7 +33,6 @@ mod sectors;
 mod sizing;
 mod smooth;
 mod spread;
-mod stiffen;
 mod strips;
 mod trace;
 pub mod untangle;

@@ -62,8 +62,6 @@ pub struct SeamlessProblem {
     pub(super) isolines: Vec<Isoline>,
     /// The lengths of the gradients aimed at.
     density: Density,
-    /// What each triangle counts beside its area; empty for 1 everywhere.
-    stiffness: Vec<f64>,
 }
 
 impl SeamlessProblem {
@@ -120,24 +118,9 @@ impl SeamlessProblem {
             cones,
             isolines,
             density,
-            stiffness: Vec::new(),
         };
         this.state(mesh)?;
         Ok(this)
-    }
-
-    /// The same problem with other weights of triangles.
-    pub(super) fn with_stiffness(&self, mesh: &TriangleMesh, stiffness: Vec<f64>) -> Result<Self> {
-        let mut this = self.clone();
-        this.problem = Problem::new(self.problem.variables())?;
-        this.stiffness = stiffness;
-        this.state(mesh)?;
-        Ok(this)
-    }
-
-    /// What a triangle counts beside its area.
-    pub(super) fn stiffness_of(&self, face: usize) -> f64 {
-        self.stiffness.get(face).copied().unwrap_or(1.0)
     }
 
     /// Fills the problem.

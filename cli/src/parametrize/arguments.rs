@@ -38,12 +38,11 @@ pub struct Arguments {
     #[command(flatten)]
     pub sizing: SizingFlags,
 
-    /// Solve again up to so often while triangles are folded, each time with those stiffer that the
-    /// map distorts
+    /// Make the surroundings of folded triangles stiffer at most so often before they are untangled
     #[arg(
         long,
         value_name = "TIMES",
-        default_value_t = 0,
+        default_value_t = 5,
         conflicts_with = "no_untangle"
     )]
     pub stiffen: usize,

@@ -53,8 +53,9 @@ impl fmt::Display for MapSummary<'_> {
         let search = seconds.factor + seconds.round;
         line(f, options.strategy.name(), &found, search)?;
         let mut unfolded = format!(
-            "{} flipped, {}, {}, {}",
+            "{} flipped, {} stiffened, {}, {}, {}",
             counted(untangled.flipped_before, "face"),
+            thousands(untangled.flipped_stiffened),
             counted(*rounds, "round"),
             counted(*refinements, "refinement"),
             counted(untangled.steps, "step")

@@ -33,8 +33,8 @@ struct MapOptions {
     /// cones are decided anew, faces that are turned over are turned back, and where some are left
     /// the map is made finer. Each solve starts from nothing then.
     bool untangle = true;
-    /// How often a map with folds is first solved for again, stiffer where it is distorted.
-    std::size_t stiffenings = 0;
+    /// How often the surroundings of folded triangles are made stiffer before these are untangled.
+    std::size_t stiffenings = 5;
     /// How the problem is solved.
     Options solve = {};
 

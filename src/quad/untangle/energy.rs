@@ -40,6 +40,13 @@ pub(super) struct Quadratic {
     pub hessian: [[f64; 6]; 6],
 }
 
+impl Quadratic {
+    pub const ZERO: Quadratic = Quadratic {
+        slope: [0.0; 6],
+        hessian: [[0.0; 6]; 6],
+    };
+}
+
 impl Rest {
     /// From the corners of the triangle, counter-clockwise, in the plane.
     pub fn new([a, b, c]: [[f64; 2]; 3]) -> Self {
@@ -82,10 +89,7 @@ impl Rest {
         let (slope, hessian) = in_parts(&parts, eps);
         // Each part is a linear function of the six coordinates.
         let rows: [[f64; 6]; 4] = self.rows();
-        let mut sum = Quadratic {
-            slope: [0.0; 6],
-            hessian: [[0.0; 6]; 6],
-        };
+        let mut sum = Quadratic::ZERO;
         for i in 0..6 {
             sum.slope[i] = (0..4).map(|a| self.weight * rows[a][i] * slope[a]).sum();
             let column: [f64; 4] =

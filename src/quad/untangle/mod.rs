@@ -8,6 +8,7 @@
 //! | step | file |
 //! | --- | --- |
 //! | what may move | `freedom` |
+//! | folds made stiffer | `stiffen` |
 //! | which part of it is worked on | `region` |
 //! | the energy of a triangle, to second order | `energy` |
 //! | the Hessian of a region | `hessian` |
@@ -30,6 +31,7 @@ mod polar;
 mod region;
 mod schedule;
 mod separate;
+mod stiffen;
 mod stuck;
 mod system;
 mod unfolded;
@@ -66,9 +68,8 @@ pub struct UntangleOptions {
     pub steps: usize,
     /// How many faces all steps together may look at, as a multiple of the mesh's faces.
     pub passes: usize,
-    /// How often a map with folds is solved for again, stiffer where it is distorted
-    /// ([`SeamlessProblem::stiffened`]), before anything else is done. The classical remedy; where
-    /// the other steps may follow, most maps do without.
+    /// How often the surroundings of a fold are made stiffer where the map distorts them, before anything
+    /// else is done: the classical remedy, here with the integers kept.
     pub stiffenings: usize,
     /// How often the integers of collapsed cones are decided anew.
     pub rounds: usize,
@@ -82,7 +83,7 @@ impl Default for UntangleOptions {
         UntangleOptions {
             steps: 100,
             passes: 200,
-            stiffenings: 0,
+            stiffenings: 5,
             rounds: 6,
             refinements: 5,
         }
@@ -96,6 +97,8 @@ pub struct Untangled {
     pub map: SeamlessMap,
     /// Faces folded or collapsed before.
     pub flipped_before: usize,
+    /// What local stiffening left of them.
+    pub flipped_stiffened: usize,
     /// Faces folded or collapsed after: [`SeamlessMap::flipped`] names them.
     pub flipped_after: usize,
     /// Vertices that the map goes around another number of times than the field, afterwards.
@@ -120,6 +123,7 @@ impl Untangled {
         Untangled {
             map,
             flipped_before: flipped,
+            flipped_stiffened: flipped,
             flipped_after: flipped,
             wound_vertices: Vec::new(),
             steps: 0,
@@ -186,6 +190,8 @@ fn untangle_in(
     if flipped_before == 0 && work.wound().is_empty() {
         return Ok(Untangled::as_it_is(map.clone()));
     }
+    work.stiffen(options.stiffenings, monitor)?;
+    let flipped_stiffened = work.folded().len();
     for rings in RINGS {
         let folded = work.folded();
         if folded.is_empty() || work.budget == 0 {
@@ -205,6 +211,7 @@ fn untangle_in(
         stuck_faces: stuck.faces,
         collapsed_edges: stuck.edges,
         flipped_before,
+        flipped_stiffened,
         wound_vertices: work.wound(),
         flipped_after: left.len(),
         steps: work.steps,
@@ -260,17 +267,25 @@ impl<'a> Untangling<'a> {
         copies.map(|u| [self.values[u], self.values[u + 1]])
     }
 
-    /// Works on one region, and keeps what comes out if it has fewer folds.
-    fn unfold(&mut self, region: &Region, first_eps: f64, monitor: &mut Monitor) -> Result<()> {
+    fn system<'r>(&mut self, region: &'r Region) -> Result<System<'r>>
+    where
+        'a: 'r,
+    {
         for (k, &y) in region.unknowns.iter().enumerate() {
             self.place[y as usize] = k as u32;
         }
         let rest = |face: usize| at_rest(self.mesh, self.problem, face);
-        let mut system = System::new(self.freedom, region, rest, &self.place)?;
+        let system = System::new(self.freedom, region, rest, &self.place);
         region
             .unknowns
             .iter()
             .for_each(|&y| self.place[y as usize] = NONE);
+        system
+    }
+
+    /// Works on one region, and keeps what comes out if it has fewer folds.
+    fn unfold(&mut self, region: &Region, first_eps: f64, monitor: &mut Monitor) -> Result<()> {
+        let mut system = self.system(region)?;
         let before = system.folded(&self.values);
         if before == 0 {
             return Ok(());

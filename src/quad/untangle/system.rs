@@ -3,7 +3,7 @@
 //! Coordinates of the region are affine in its unknowns; slope and Hessian of each face go through
 //! that map, and the sum is factored by sparse Cholesky.
 
-use super::energy::Rest;
+use super::energy::{Quadratic, Rest};
 use super::freedom::Freedom;
 use super::hessian::Hessian;
 use super::region::Region;
@@ -125,6 +125,27 @@ impl<'a> System<'a> {
         }
         self.place(x, &start, &change, 0.0);
         Ok(before)
+    }
+
+    /// Goes to the least of the sum of these forms, one a face, with their slopes at `x`.
+    pub fn minimise(&mut self, x: &mut [f64], forms: &[Quadratic]) -> Result<()> {
+        let hessian = match &mut self.hessian {
+            Some(hessian) => hessian,
+            none => none.insert(Hessian::new(&self.corners)?),
+        };
+        let mut step = vec![0.0; self.region.unknowns.len()];
+        for (k, form) in forms.iter().enumerate() {
+            for (a, slope) in form.slope.iter().enumerate() {
+                for (i, u) in self.corners.row(6 * k + a) {
+                    step[i] -= u * slope;
+                }
+            }
+        }
+        hessian.sum(&self.corners, forms.iter().map(|form| form.hessian));
+        hessian.factor()?.solve(&mut step)?;
+        let change = self.moves.mul(&step);
+        self.place(x, &self.save(x), &change, 1.0);
+        Ok(())
     }
 
     /// The coordinates of the region, to be put back with [`restore`](Self::restore).

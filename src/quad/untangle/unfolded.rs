@@ -1,7 +1,5 @@
 //! From the problem to a map without folds: decide, hold apart, decide anew, untangle, refine.
 
-use std::borrow::Cow;
-
 use super::graded::grow_around;
 use super::{Collapsed, Structure, UntangleOptions, Untangled, untangle_in};
 use crate::mesh::TriangleMesh;
@@ -38,8 +36,8 @@ const PASSES_BEFORE_REFINING: usize = 5;
 /// A map, the solution that its integers are from, and what became of it.
 #[derive(Debug)]
 pub struct Unfolded {
-    /// The solution: of the problem with the constraints, and the stiffness, that were added. Its bound
-    /// may be that without the constraints.
+    /// The solution: of the problem with the constraints that were added. Its bound may be that without
+    /// them.
     pub solution: Solution,
     /// The map after untangling.
     pub untangled: Untangled,
@@ -67,11 +65,10 @@ impl Unfolded {
     }
 }
 
-/// Solves the problem, with what is folded stiffer where `options` say so, holds apart the cones that
-/// its integers collapse and solves again, at most `options.rounds` times, and untangles the map.
-/// Where folds are left, or vertices that the map goes around too often, the same is done for a finer
-/// map, at most `options.refinements` times, and then with smaller quads around them alone; of all maps
-/// the first with the fewest of these is kept.
+/// Solves the problem, holds apart the cones that its integers collapse and solves again, at most
+/// `options.rounds` times, and untangles the map. Where folds are left, or vertices that the map goes
+/// around too often, the same is done for a finer map, at most `options.refinements` times, and then with
+/// smaller quads around them alone; of all maps the first with the fewest of these is kept.
 /// `monitor` watches each solve and each untangling.
 ///
 /// With [`Strategy::Auto`] a proof is tried only where the map need not wait for it long: up to fifty
@@ -175,20 +172,14 @@ impl<'m, M: Fn() -> Monitor<'m>> Sizes<'_, M> {
 
     /// A map of the size that the problem aims at, after which so many refinements are left.
     fn solve(&mut self, problem: &SeamlessProblem, refinements_left: usize) -> Result<Unfolded> {
-        let Sizes { mesh, monitor, .. } = self;
-        let solution = self.kept.solve_with(&self.solver, monitor())?;
+        let Sizes {
+            mesh,
+            monitor,
+            kept,
+            ..
+        } = self;
+        let solution = kept.solve_with(&self.solver, monitor())?;
         let map = problem.map(mesh, &solution)?;
-        let first = (problem, solution, map);
-        let (stiff, solution, map) = stiffen(mesh, first, &self.solver, self.options, monitor)?;
-        let mut stiffer;
-        let kept = match &stiff {
-            Cow::Borrowed(_) => &mut self.kept,
-            Cow::Owned(problem) => {
-                stiffer = Solver::new(problem.problem())?;
-                &mut stiffer
-            }
-        };
-        let problem = stiff.as_ref();
         let structure = match &mut self.structure {
             Some(known) => known,
             unknown => unknown.insert(Structure::new(mesh, problem, &map, &mut monitor())?),
@@ -245,35 +236,6 @@ impl<'m, M: Fn() -> Monitor<'m>> Sizes<'_, M> {
             collapsed: best.collapsed,
         })
     }
-}
-
-/// Makes the triangles stiffer that the map distorts, and solves again, so often or until none is
-/// folded: the map with the fewest folds, and the problem that it solves.
-fn stiffen<'a, 'b>(
-    mesh: &TriangleMesh,
-    (problem, solution, map): (&'b SeamlessProblem, Solution, SeamlessMap),
-    solver: &Options,
-    options: &UntangleOptions,
-    monitor: &impl Fn() -> Monitor<'a>,
-) -> Result<(Cow<'b, SeamlessProblem>, Solution, SeamlessMap)> {
-    let mut best = (Cow::Borrowed(problem), solution, map);
-    let mut last: Option<(SeamlessProblem, SeamlessMap)> = None;
-    for _ in 0..options.stiffenings {
-        if best.2.flipped().is_empty() {
-            break;
-        }
-        let stiffer = match &last {
-            Some((problem, map)) => problem.stiffened(mesh, map)?,
-            None => problem.stiffened(mesh, &best.2)?,
-        };
-        let solution = solve_with(stiffer.problem(), solver, monitor())?;
-        let map = stiffer.map(mesh, &solution)?;
-        if map.flipped().len() < best.2.flipped().len() {
-            best = (Cow::Owned(stiffer.clone()), solution, map.clone());
-        }
-        last = Some((stiffer, map));
-    }
-    Ok(best)
 }
 
 /// Integers, and what they collapse.

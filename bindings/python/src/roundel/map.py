@@ -36,7 +36,7 @@ class Map:
         quads: Optional[int] = None,
         edge_length: Any = None,
         untangle: bool = True,
-        stiffenings: int = 0,
+        stiffenings: int = 5,
         progress: Progress = None,
         cancel: Optional[CancelToken] = None,
         **options: Any,
@@ -45,8 +45,7 @@ class Map:
 
         `untangle` frees the map of folds: integers that collapse cones are decided anew, triangles
         that are turned over are turned back, and where some are left the map is made finer.
-        `stiffenings` is how often a map with folds is first solved for again, stiffer where it is
-        distorted.
+        `stiffenings` is how often the surroundings of turned triangles are first made stiffer.
         """
         self._aim(quads, edge_length)
         handle, watch = options_handle(options), Watch(progress, cancel)
@@ -157,7 +156,7 @@ def map(
     quads: Optional[int] = None,
     edge_length: Any = None,
     untangle: bool = True,
-    stiffenings: int = 0,
+    stiffenings: int = 5,
     progress: Progress = None,
     cancel: Optional[CancelToken] = None,
     **keywords: Any,
