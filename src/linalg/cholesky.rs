@@ -36,6 +36,10 @@ pub const PIVOT_TOLERANCE: f64 = 1e-12;
 /// What a vanished pivot of the scaled matrix is replaced by. No honest pivot is as large.
 pub const NULL_PIVOT: f64 = 9.0;
 
+/// Next to a pivot that counts as zero, a column of a semi-definite matrix has no entry beyond the root of
+/// twice [`PIVOT_TOLERANCE`]; with a margin of ten.
+const COUPLED: f64 = 1.5e-5;
+
 /// `A = L D L'` of the scaled and permuted matrix.
 #[derive(Debug)]
 pub struct Cholesky {
@@ -43,6 +47,7 @@ pub struct Cholesky {
     pub(super) values: Vec<f64>,
     pub(super) scale: Vec<f64>,
     null: Vec<u32>,
+    coupled: Vec<u32>,
 }
 
 impl Cholesky {
@@ -126,14 +131,19 @@ impl Cholesky {
             values,
             scale,
             null: Vec::new(),
+            coupled: Vec::new(),
         };
-        let mut null = Vec::new();
-        factor.for_each_column(|k, pivot, _| {
+        let (mut null, mut coupled) = (Vec::new(), Vec::new());
+        factor.for_each_column(|k, pivot, entries| {
             if pivot == NULL_PIVOT {
                 null.push(factor.unknown(k) as u32);
+                let largest = entries.fold(0.0, |m: f64, (_, v)| m.max(v.abs()));
+                if largest * NULL_PIVOT > COUPLED {
+                    coupled.push(factor.unknown(k) as u32);
+                }
             }
         });
-        factor.null = null;
+        (factor.null, factor.coupled) = (null, coupled);
         Ok(factor)
     }
 
@@ -167,6 +177,11 @@ impl Cholesky {
     /// Unknowns whose pivot vanished, in order of elimination.
     pub fn null_unknowns(&self) -> &[u32] {
         &self.null
+    }
+
+    /// Those of them that others depend on nevertheless: the matrix is not semi-definite.
+    pub fn coupled_unknowns(&self) -> &[u32] {
+        &self.coupled
     }
 
     /// The upper triangular factor `R'R = S` of what is left of A when all but the last `m`

@@ -122,7 +122,8 @@ fn null_direction(factor: &Cholesky, j: u32) -> Result<Vec<f64>> {
     Ok(v)
 }
 
-/// A direction of negative curvature, if some pivot that counted as zero was in truth negative.
+/// A direction of negative curvature, if some pivot that counted as zero was in truth negative, or zero in
+/// a column that is not.
 ///
 /// With negative pivots `p_j` the factor belongs to `A + sum_j (NULL_PIVOT - p_j) e_j e_j'`, so
 /// one solve with a random right side shows all `p_j` at once as residuals.
@@ -145,19 +146,46 @@ fn downward_curvature(lower: &Sparse, factor: &Cholesky) -> Result<Option<Vec<f6
         })
         .collect();
     suspects.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-    for (_, j) in suspects.into_iter().take(EXAMINED) {
+    let suspects = suspects.into_iter().map(|(_, j)| j).take(EXAMINED);
+    let coupled = factor.coupled_unknowns().iter().copied().take(EXAMINED);
+    let curves_down = |v: &[f64]| {
+        let product = lower.mul_symmetric(v);
+        let curvature: f64 = v.iter().zip(product).map(|(v, av)| v * av).sum();
+        let largest = largest(v, scale);
+        curvature < -CURVATURE_TOLERANCE * largest * largest
+    };
+    for j in suspects.chain(coupled) {
         let v = null_direction(factor, j)?;
-        let curvature: f64 = v
-            .iter()
-            .zip(lower.mul_symmetric(&v))
-            .map(|(v, av)| v * av)
-            .sum();
-        let largest = largest(&v, scale);
-        if curvature < -CURVATURE_TOLERANCE * largest * largest {
+        if curves_down(&v) {
+            return Ok(Some(v));
+        }
+        let v = with_partner(factor, j, v)?;
+        if curves_down(&v) {
             return Ok(Some(v));
         }
     }
     Ok(None)
+}
+
+/// The direction `v` of null unknown `j` and that of the null unknown that it moves most, against each
+/// other: of a product of two unknowns without squares, which curves down as much as up, either direction
+/// alone shows the square of what both show.
+fn with_partner(factor: &Cholesky, j: u32, mut v: Vec<f64>) -> Result<Vec<f64>> {
+    let scale = factor.scale();
+    v.iter_mut().for_each(|v| *v /= scale[j as usize]);
+    let others = factor.null_unknowns().iter().filter(|&&i| i != j);
+    let moved = |&i: &u32| v[i as usize] / scale[i as usize];
+    let partner = others
+        .copied()
+        .max_by(|a, b| moved(a).abs().total_cmp(&moved(b).abs()));
+    if let Some(i) = partner {
+        let factor_of = moved(&i).signum() / scale[i as usize];
+        let other = null_direction(factor, i)?;
+        v.iter_mut()
+            .zip(other)
+            .for_each(|(v, w)| *v += factor_of * w);
+    }
+    Ok(v)
 }
 
 /// The largest entry in the scaled unknowns.
@@ -266,11 +294,22 @@ mod tests {
             vec![(0, 0, -1.0), (1, 1, 1.0)],
             vec![(0, 0, 1.0), (1, 0, 2.0), (1, 1, 1.0)],
             vec![(0, 0, 0.0), (1, 0, 1.0), (1, 1, 0.0)],
+            vec![(0, 0, 0.0), (1, 0, 0.5), (1, 1, 106.0)],
+            vec![
+                (0, 0, 1.0),
+                (1, 0, 2e-5),
+                (1, 1, 1.0),
+                (2, 1, 1.0),
+                (2, 2, 1.0),
+                (3, 0, 1.0),
+                (3, 3, 1.0),
+            ],
         ] {
-            let Minimum::NotConvex(v) = solve(&a, &[0.0, 0.0], &[0.0, 0.0]) else {
+            let n = 1 + a.iter().map(|e| e.0).max().unwrap() as usize;
+            let Minimum::NotConvex(v) = solve(&a, &vec![0.0; n], &vec![0.0; n]) else {
                 panic!("{a:?}")
             };
-            let m = Sparse::from_triplets(2, 2, a.iter().copied()).unwrap();
+            let m = Sparse::from_triplets(n, n, a.iter().copied()).unwrap();
             let curvature: f64 = v.iter().zip(m.mul_symmetric(&v)).map(|(v, w)| v * w).sum();
             assert!(curvature < 0.0, "{a:?}: {v:?}");
         }

@@ -353,6 +353,13 @@ impl Problem {
         Ok(())
     }
 
+    /// A copy without integers.
+    pub(crate) fn relaxed(&self) -> Problem {
+        let mut relaxed = self.clone();
+        relaxed.integer.fill(false);
+        relaxed
+    }
+
     /// Fixes one unknown to a value; an integer unknown must be given an integer by the time of
     /// the solve.
     ///

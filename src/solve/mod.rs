@@ -1,11 +1,13 @@
 //! Orchestration: options, budgets, progress and cancel, the search, the solution.
 
+mod claim;
 mod decide;
 mod factors;
 mod held;
 mod monitor;
 mod options;
 mod presets;
+mod reformulate;
 mod relax;
 pub mod replay;
 mod run;

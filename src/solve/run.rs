@@ -1,20 +1,15 @@
 //! One solve from beginning to end: validate, eliminate, relax, search, expand, verify.
 
+use super::claim::Claim;
 use super::factors::Factors;
-use super::held;
-use super::monitor::{Monitor, gap};
+use super::monitor::Monitor;
 use super::relax::{Relaxation, relax};
 use super::search::Search;
 use super::solution::{Counts, Seconds, Solution};
-use super::verify::verify;
 use super::work::of_relaxation;
 use super::{Options, Phase, SolveStatus, Strategy, WarmStart};
 use crate::eliminate::{Elimination, ReducedModel};
 use crate::{Error, Model, Problem, Result, round};
-
-/// What the search holds for proved is not called so where verification, from the caller's own numbers,
-/// finds a relative gap beyond this.
-const VERIFIED_GAP: f64 = 1e-6;
 
 /// Solves `problem`, watched by nobody.
 ///
@@ -65,14 +60,36 @@ pub(super) struct Prepared<'a> {
 }
 
 impl Prepared<'_> {
-    /// Right sides, relaxation, search, expansion, verification.
+    /// Right sides, relaxation, search, expansion, verification; in short steps where that is called for.
     pub fn solve(mut self, options: &Options, monitor: &mut Monitor) -> Result<Solution> {
-        let model = self.model;
         let (reduced, clock) = self.reduce(monitor)?;
+        match self.solve_in_short_steps(&reduced, options, monitor)? {
+            Some(solution) => Ok(solution),
+            None => self.search(&reduced, &clock, options, monitor),
+        }
+    }
+
+    /// As [`solve`](Self::solve), in the unknowns that the elimination leaves.
+    pub(super) fn solve_as_it_is(
+        mut self,
+        options: &Options,
+        monitor: &mut Monitor,
+    ) -> Result<Solution> {
+        let (reduced, clock) = self.reduce(monitor)?;
+        self.search(&reduced, &clock, options, monitor)
+    }
+
+    fn search(
+        &mut self,
+        reduced: &ReducedModel,
+        clock: &Clock,
+        options: &Options,
+        monitor: &mut Monitor,
+    ) -> Result<Solution> {
         let start = match options.warm_start {
             WarmStart::Off => None,
             WarmStart::Offer | WarmStart::Keep => {
-                let point = self.elimination.restrict(&reduced, self.earlier);
+                let point = self.elimination.restrict(reduced, self.earlier);
                 let integers = reduced.integers().iter();
                 Some(
                     integers
@@ -81,8 +98,8 @@ impl Prepared<'_> {
                 )
             }
         };
-        let decided = decide(model, &reduced, options, start, self.factors, monitor)?;
-        self.conclude(&reduced, decided, options.strategy, &clock, monitor)
+        let decided = decide(self.model, reduced, options, start, self.factors, monitor)?;
+        self.conclude(reduced, decided, options.strategy, clock, monitor)
     }
 
     /// The reduced model for the right sides as they are, and when that was.
@@ -107,24 +124,18 @@ impl Prepared<'_> {
         let searched = monitor.seconds();
         let factored = self.factors.seconds() - clock.factored_before;
 
-        let mut values = expand(reduced, self.model, strategy, &found.point);
-        let mut verdict = verify(self.problem, &values)?;
-        // Of a search that was stopped, what it found is returned as it is.
-        let ended = matches!(found.status, SolveStatus::Optimal | SolveStatus::Feasible);
-        let is_decided = ended && !reduced.integers().is_empty();
-        if is_decided && let Some(better) = held::mend(self.problem, &values, verdict) {
-            (values, verdict) = better;
-        }
-        let is_proved = || gap(verdict.energy, found.lower_bound) <= VERIFIED_GAP;
-        let status = match found.status {
-            SolveStatus::Optimal if is_decided && !is_proved() => SolveStatus::Feasible,
-            status => status,
+        let claim = Claim {
+            values: expand(reduced, self.model, strategy, &found.point),
+            lower_bound: found.lower_bound,
+            status: found.status,
+            decided: !reduced.integers().is_empty(),
         };
+        let (claim, verdict) = claim.verified(self.problem)?;
         Ok(Solution {
-            values,
+            values: claim.values,
             energy: verdict.energy,
-            lower_bound: Some(found.lower_bound.min(verdict.energy)),
-            status,
+            lower_bound: Some(claim.lower_bound),
+            status: claim.status,
             work: found.work,
             counts: counts(self.model, reduced, self.factors),
             seconds: Seconds {

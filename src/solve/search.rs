@@ -11,7 +11,7 @@ use crate::eliminate::ReducedModel;
 use crate::{Error, Result};
 
 /// Integers are kept as floats; beyond this they would no longer be exact.
-const LARGEST_INTEGER: f64 = 9_007_199_254_740_992.0;
+pub(super) const LARGEST_INTEGER: f64 = 9_007_199_254_740_992.0;
 
 /// The best solution so far, in reduced unknowns.
 #[derive(Debug, Clone)]

@@ -1,0 +1,47 @@
+//! What a search claims, held against the problem as it was given.
+
+use super::monitor::gap;
+use super::verify::{Verdict, verify};
+use super::{SolveStatus, held};
+use crate::{Problem, Result};
+
+/// What the search holds for proved is not called so where verification, from the caller's own numbers,
+/// finds a relative gap beyond this.
+const VERIFIED_GAP: f64 = 1e-6;
+
+/// Values in the caller's unknowns, and what is said of them.
+pub(super) struct Claim {
+    pub values: Vec<f64>,
+    pub lower_bound: f64,
+    pub status: SolveStatus,
+    /// Whether integers were decided.
+    pub decided: bool,
+}
+
+impl Claim {
+    /// What is left of the claim where it is measured on `problem`, and the measures: constraints that do
+    /// not hold are mended, no bound is above the energy, and what is not proved is not called so.
+    pub fn verified(mut self, problem: &Problem) -> Result<(Self, Verdict)> {
+        let mut verdict = verify(problem, &self.values)?;
+        // Of a search that was stopped, what it found is returned as it is.
+        let mended = match self.status {
+            SolveStatus::Optimal | SolveStatus::Feasible => {
+                held::with_integers_held(problem, &self.values, &verdict)
+            }
+            SolveStatus::Relaxed => held::with_integers_real(problem, &verdict),
+            SolveStatus::Limit | SolveStatus::Cancelled => None,
+        };
+        if let Some(better) = mended {
+            (self.values, verdict) = (better.values, better.verdict);
+            if self.status == SolveStatus::Relaxed {
+                self.lower_bound = self.lower_bound.max(better.lower_bound);
+            }
+        }
+        let proved = gap(verdict.energy, self.lower_bound) <= VERIFIED_GAP;
+        if self.status == SolveStatus::Optimal && self.decided && !proved {
+            self.status = SolveStatus::Feasible;
+        }
+        self.lower_bound = self.lower_bound.min(verdict.energy);
+        Ok((self, verdict))
+    }
+}
