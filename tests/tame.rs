@@ -1,8 +1,10 @@
 //! Problems of few unknowns and small halves, whose eliminated constraints may nevertheless lead to numbers
 //! of ten digits: what is promised holds of all of them.
 
+use roundel::eliminate::eliminate;
 use roundel::solve::verify;
-use roundel::{Error, Options, Problem, Solution, SolveStatus, Strategy, Triangle, solve};
+use roundel::{Error, Options, Problem, Solution, SolveStatus, Solver, Strategy, Triangle};
+use roundel::{Model, Monitor, WarmStart, solve};
 
 /// Indices, coefficients, right side.
 type Row<'a> = (&'a [usize], &'a [f64], f64);
@@ -27,6 +29,15 @@ fn try_solve(problem: &Problem, strategy: Strategy) -> roundel::Result<Solution>
         ..Options::default()
     };
     solve(problem, &options)
+}
+
+/// The largest number by which integers follow those that the elimination leaves.
+fn largest_step(problem: &Problem) -> f64 {
+    let model = Model::new(problem).unwrap();
+    let reduced = eliminate(&model, &mut Monitor::default()).unwrap();
+    let integer = |&(i, _, _): &(u32, u32, f64)| model.integer()[i as usize];
+    let steps = reduced.expansion().matrix().entries().filter(integer);
+    steps.map(|(_, _, t)| t.abs()).fold(0.0, f64::max)
 }
 
 /// Found by the fuzzer: four constraints, two of which are between integers but for one unknown that they
@@ -59,28 +70,31 @@ fn the_relaxation_holds_the_constraints_as_well_as_a_solution() {
     assert!(solution.energy() >= relaxed.energy());
 }
 
+/// Between six integers.
+const CHAIN: [Row; 5] = [
+    (&[4, 0, 1], &[6.5, -4.0, -4.0], 68.5),
+    (&[2, 3, 1], &[-3.0, 7.5, 6.5], 22.0),
+    (&[0, 1, 2], &[-4.5, -2.5, -5.5], 10.5),
+    (&[5, 4, 1], &[-8.0, -4.5, 4.5], 7.5),
+    (&[2, 0, 4], &[7.0, 8.0, 4.5], 10.5),
+];
+
 /// Five constraints leave one integer, by steps of 1e5 from a point at 1e10: of the energy in it no digit was
 /// left, and 4.8e13 passed for the least.
 #[test]
 fn what_is_optimal_is_so_behind_a_chain_of_constraints() {
-    let constraints: [Row; 5] = [
-        (&[4, 0, 1], &[6.5, -4.0, -4.0], 68.5),
-        (&[2, 3, 1], &[-3.0, 7.5, 6.5], 22.0),
-        (&[0, 1, 2], &[-4.5, -2.5, -5.5], 10.5),
-        (&[5, 4, 1], &[-8.0, -4.5, 4.5], 7.5),
-        (&[2, 0, 4], &[7.0, 8.0, 4.5], 10.5),
-    ];
     let squares: [(Row, f64); 3] = [
         ((&[5, 1], &[-1.0, 8.0], 7.0), 4.0),
         ((&[1], &[6.5], 3.0), 3.5),
         ((&[0, 1, 4], &[2.0, -1.5, 4.0], 5.5), 7.0),
     ];
-    let mut problem = problem(6, &constraints, &squares);
+    let mut problem = problem(6, &CHAIN, &squares);
     let terms = (&[3], &[2], &[1.0]);
     problem
         .add_quadratic_triplets(Triangle::Lower, terms.0, terms.1, terms.2)
         .unwrap();
     problem.set_integers(&[0, 1, 2, 3, 4, 5]).unwrap();
+    assert!(largest_step(&problem) > 1e4, "{}", largest_step(&problem));
     for strategy in Strategy::ALL {
         let solution = try_solve(&problem, strategy).unwrap();
         let relaxed = strategy == Strategy::Relax;
@@ -89,6 +103,47 @@ fn what_is_optimal_is_so_behind_a_chain_of_constraints() {
     }
     let proved = try_solve(&problem, Strategy::Exact).unwrap();
     assert_eq!(proved.status(), SolveStatus::Optimal);
+}
+
+/// The constraints of the problem before, and a continuous unknown.
+#[test]
+fn solving_again_behind_a_chain_of_constraints_is_solving_from_the_start() {
+    let squares: [(Row, f64); 4] = [
+        ((&[5, 1], &[-1.0, 8.0], 7.0), 4.0),
+        ((&[1], &[6.5], 3.0), 3.5),
+        ((&[0, 4, 6], &[2.0, -1.5, 4.0], 5.5), 7.0),
+        ((&[6, 3], &[1.0, -1.0], 0.5), 1.0),
+    ];
+    let mut problem = problem(7, &CHAIN, &squares);
+    problem.set_integers(&[0, 1, 2, 3, 4, 5]).unwrap();
+    assert!(largest_step(&problem) > 1e4, "{}", largest_step(&problem));
+    let options = Options::default();
+    let mut solver = Solver::new(&problem).unwrap();
+    let points = [
+        [0.0; 6],
+        [-5.0, -4.0, 4.0, 8.0, 5.0, -6.0],
+        [1.0, 2.0, -3.0, 0.0, 7.0, 40.0],
+        [0.0; 6],
+    ];
+    for point in points {
+        let row = |(indices, values, _): &Row| {
+            let terms = indices.iter().zip(*values);
+            terms.map(|(&i, v)| v * point[i]).sum()
+        };
+        let rhs: Vec<f64> = CHAIN.iter().map(row).collect();
+        solver.set_constraint_right_sides(&rhs).unwrap();
+        problem.set_constraint_right_sides(&rhs).unwrap();
+        let again = solver.solve(&options).unwrap();
+        let fresh = solve(&problem, &options).unwrap();
+        assert_eq!(again.values(), fresh.values());
+        assert_eq!(fresh.status(), SolveStatus::Optimal);
+        let warm = Options {
+            warm_start: WarmStart::Offer,
+            ..options.clone()
+        };
+        let warm = solver.solve(&warm).unwrap();
+        assert_eq!(warm.energy(), fresh.energy());
+    }
 }
 
 /// An unknown without a square, but in a product with another: its pivot was zero and not negative.
@@ -234,12 +289,16 @@ impl Random {
 }
 
 /// What is told of a direction without a minimum is so by the problem's own numbers.
-fn a_direction_is_proved(tame: &Tame, error: &Error, name: &str) {
+fn a_direction_is_proved(tame: &Tame, error: &Error, name: &dyn Fn() -> String) {
     let Some(direction) = error.direction() else {
         return;
     };
     let verdict = verify(&tame.homogeneous, direction).unwrap();
-    assert!(verdict.constraint_violation < 1e-9, "{name}: {verdict:?}");
+    assert!(
+        verdict.constraint_violation < 1e-9,
+        "{}: {verdict:?}",
+        name()
+    );
     let Some(at) = &tame.at else { return };
     let energy = |t: f64| {
         let point = at.iter().zip(direction).map(|(x, v)| x + t * v);
@@ -250,11 +309,11 @@ fn a_direction_is_proved(tame: &Tame, error: &Error, name: &str) {
     let (back, here, on) = (energy(-1.0), energy(0.0), energy(1.0));
     let (slope, curvature) = ((on - back) / 2.0, (on - here) + (back - here));
     if let Error::NotConvex { .. } = error {
-        assert!(curvature < 0.0, "{name}: {curvature}");
+        assert!(curvature < 0.0, "{}: {curvature}", name());
     } else {
-        assert!(slope < 0.0, "{name}: {slope}");
+        assert!(slope < 0.0, "{}: {slope}", name());
         let noise = 1e-9 * (1.0 + here.abs());
-        assert!(curvature < noise, "{name}: {curvature}");
+        assert!(curvature < noise, "{}: {curvature}", name());
     }
 }
 
@@ -266,8 +325,7 @@ fn every_promise_is_kept(tame: &Tame, name: &str) -> usize {
         .iter()
         .filter_map(|(s, t)| Some((s, t.as_ref().err()?)));
     for (strategy, error) in refused {
-        let name = format!("{name}, {strategy:?}: {error:?}");
-        a_direction_is_proved(tame, error, &name);
+        a_direction_is_proved(tame, error, &|| format!("{name}, {strategy:?}: {error:?}"));
     }
     let solved = || {
         tried
@@ -277,19 +335,27 @@ fn every_promise_is_kept(tame: &Tame, name: &str) -> usize {
     let of_integers = solved().filter(|(_, t)| t.status() != SolveStatus::Relaxed);
     let least = of_integers.fold(f64::INFINITY, |least, (_, t)| least.min(t.energy()));
     for (strategy, solution) in solved() {
-        let name = format!("{name}, {strategy:?}: {solution:?}");
+        let name = || format!("{name}, {strategy:?}: {solution:?}");
         let tolerance = 1e-6 * solution.energy().abs().max(1e3);
         let bound = solution.lower_bound().unwrap();
-        assert!(solution.values().iter().all(|x| x.is_finite()), "{name}");
-        assert!(solution.max_constraint_violation() < 1e-6, "{name}");
-        assert!(solution.energy() >= bound - tolerance, "{name}");
-        assert!(bound <= least + tolerance, "{name}: {least} was found");
+        assert!(
+            solution.values().iter().all(|x| x.is_finite()),
+            "{}",
+            name()
+        );
+        assert!(solution.max_constraint_violation() < 1e-6, "{}", name());
+        assert!(solution.energy() >= bound - tolerance, "{}", name());
+        assert!(bound <= least + tolerance, "{}: {least} was found", name());
         if solution.status() != SolveStatus::Relaxed {
-            assert_eq!(solution.max_integrality_violation(), 0.0, "{name}");
+            assert_eq!(solution.max_integrality_violation(), 0.0, "{}", name());
         }
         if solution.status() == SolveStatus::Optimal {
-            assert!(solution.energy() <= bound + tolerance, "{name}");
-            assert!(solution.energy() <= least + tolerance, "{name}: {least}");
+            assert!(solution.energy() <= bound + tolerance, "{}", name());
+            assert!(
+                solution.energy() <= least + tolerance,
+                "{}: {least}",
+                name()
+            );
         }
     }
     solved().count()

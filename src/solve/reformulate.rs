@@ -23,8 +23,9 @@ const HARMLESS: f64 = 1000.0;
 /// How much smaller numbers must get.
 const WORTH_IT: f64 = 16.0;
 
-/// Bases with more vectors than this are not reduced.
+/// Bases with more vectors than this are not reduced, nor those with more numbers.
 const MOST: usize = 64;
+const MOST_NUMBERS: usize = 1 << 20;
 
 /// Of a sum this small against its terms nothing is left.
 const CANCELLED: f64 = 64.0 * f64::EPSILON;
@@ -170,7 +171,7 @@ impl Reformulation {
         };
         let size = integers.iter().map(largest).fold(0.0, f64::max);
         let m = reduced.integers().len();
-        if size <= HARMLESS || m == 0 || m > MOST {
+        if size <= HARMLESS || m == 0 || m > MOST || m * integers.len() > MOST_NUMBERS {
             return None;
         }
         let mut column = vec![0; reduced.dim()];
