@@ -18,10 +18,12 @@
 //! | a disk around a vertex | `disk` |
 //! | a disk around a cone, in polar coordinates | `polar` |
 //! | vertices gone around twice | `unwind` |
+//! | faces between isolines, turned over | `banded` |
 //! | cones at one point, held apart | `separate` |
 //! | smaller quads around what is left | `graded` |
 //! | all of it, from the problem on | `unfolded` |
 
+mod banded;
 mod disk;
 mod energy;
 mod freedom;

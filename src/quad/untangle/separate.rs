@@ -2,13 +2,14 @@
 //! of features and boundary, where both coordinates are integers as well.
 //!
 //! Two that a short path joins, or an isoline, cannot lie at one point, nor all three corners of a
-//! face on one line: whatever else moves, the faces between them stay without area. Such integers are decided anew
-//! with the cones held apart by constraints: along the coordinate in which the path should be
-//! longest by its rounded length, one unit at least, or, for a face, by the nearest triangle of
-//! units that is the right way round.
+//! face on one line: whatever else moves, the faces between them stay without area. Such integers are
+//! decided anew with the cones held apart by constraints: along the coordinate in which the path should be
+//! longest by its rounded length, one unit at least, or, for a face, by the nearest triangle of units that
+//! is the right way round. Corners of a face between isolines are held one unit apart.
 
 use std::collections::VecDeque;
 
+use super::banded::Banded;
 use crate::mesh::TriangleMesh;
 use crate::mesh::vector::{dot, sub};
 use crate::quad::check::orientation;
@@ -37,13 +38,18 @@ pub struct Collapsed {
     pub(super) pairs: Vec<NearCones>,
     /// Faces of three cones or corners, no two at one point, that are collinear or clockwise.
     pub(super) faces: Vec<usize>,
-    /// Faces whose corners integers hold on one isoline: of this coordinate.
-    pub(super) flat: Vec<(usize, usize)>,
+    /// Faces between isolines that these leave no area, or turn over.
+    pub(super) banded: Vec<Banded>,
 }
 
 impl Collapsed {
     /// What is collapsed in a map, of which integers hold these coordinates of every copy.
-    pub(super) fn find(held: &[[bool; 2]], near: &[NearCones], map: &SeamlessMap) -> Self {
+    pub(super) fn find(
+        held: &[[bool; 2]],
+        near: &[NearCones],
+        banded: &[Banded],
+        map: &SeamlessMap,
+    ) -> Self {
         let uv = map.vertex_uvs();
         let is_collapsed = |pair: &&NearCones| {
             let [a, b] = pair.copies.map(|c| uv[c as usize]);
@@ -61,25 +67,18 @@ impl Collapsed {
                 && !(0..3).any(is_short)
                 && orientation(at) <= 0.0
         };
-        let flat_along = |face: usize| {
-            let is_held = |axis: usize| map.copies()[face].iter().all(|&c| held[c as usize][axis]);
-            let at = map.uv(face).map(|p| p.map(f64::round));
-            let is_flat = |&axis: &usize| {
-                is_held(axis) && at[0][axis] == at[1][axis] && at[0][axis] == at[2][axis]
-            };
-            (0..2).find(is_flat).map(|axis| (face, axis))
-        };
-        let flat: Vec<(usize, usize)> = faces.clone().filter_map(flat_along).collect();
+        let along = |face: &Banded| map.uv(face.face).map(|p| p[face.axis]);
+        let is_wrong = |face: &&Banded| face.wrong(along(face)).is_some();
         Collapsed {
             pairs,
             faces: faces.filter(is_lost).collect(),
-            flat,
+            banded: banded.iter().filter(is_wrong).copied().collect(),
         }
     }
 
     /// How many elements.
     pub fn count(&self) -> usize {
-        self.pairs.len() + self.faces.len() + self.flat.len()
+        self.pairs.len() + self.faces.len() + self.banded.len()
     }
 
     /// Whether there is nothing.
@@ -235,7 +234,12 @@ impl SeamlessProblem {
     ///
     /// No two cones are joined twice, so that they seldom contradict each other; constraints of
     /// earlier rounds they may.
-    pub(super) fn apart(&self, mesh: &TriangleMesh, collapsed: &Collapsed) -> Vec<Apart> {
+    pub(super) fn apart(
+        &self,
+        mesh: &TriangleMesh,
+        map: &SeamlessMap,
+        collapsed: &Collapsed,
+    ) -> Vec<Apart> {
         let mut joined = Joined((0..mesh.vertex_count() as u32).collect());
         let mut found = Vec::new();
         for &face in &collapsed.faces {
@@ -249,19 +253,15 @@ impl SeamlessProblem {
                 }
             }
         }
-        for &(face, axis) in &collapsed.flat {
-            let sides = [[0, 1], [1, 2], [2, 0]].map(|[from, to]| {
-                let aim = self.aim(mesh, face, from, to)[axis];
-                ([from, to], aim)
-            });
-            let across = sides
-                .into_iter()
-                .max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
-            let Some((ends, aim)) = across else { continue };
-            let [a, b] = ends.map(|k| mesh.corners(face)[k]);
+        for banded in &collapsed.banded {
+            let at = map.uv(banded.face).map(|p| p[banded.axis]);
+            let Some((ends, aim)) = banded.wrong(at) else {
+                continue;
+            };
+            let [a, b] = ends.map(|k| mesh.corners(banded.face)[k]);
             if joined.join(a, b) {
-                let copies = ends.map(|k| self.sectors.copy[face][k]);
-                found.push(Apart::new(copies, axis, 1f64.copysign(aim)));
+                let copies = ends.map(|k| self.sectors.copy[banded.face][k]);
+                found.push(Apart::new(copies, banded.axis, 1f64.copysign(aim)));
             }
         }
         for pair in &collapsed.pairs {
@@ -277,7 +277,7 @@ impl SeamlessProblem {
     }
 
     /// By how much the coordinates of two corners of a face should differ.
-    fn aim(&self, mesh: &TriangleMesh, face: usize, from: usize, to: usize) -> [f64; 2] {
+    pub(super) fn aim(&self, mesh: &TriangleMesh, face: usize, from: usize, to: usize) -> [f64; 2] {
         let corners = mesh.corner_positions(face);
         let step = sub(corners[to], corners[from]);
         self.targets(mesh, face).map(|target| dot(target, step))

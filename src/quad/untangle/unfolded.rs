@@ -186,13 +186,14 @@ impl<'m, M: Fn() -> Monitor<'m>> Sizes<'_, M> {
         };
         let held = structure.freedom.held();
         let near = problem.near_cones(mesh, &held);
+        let banded = problem.banded(mesh, &held);
         let mut best = Decided {
-            collapsed: Collapsed::find(&held, &near, &map),
+            collapsed: Collapsed::find(&held, &near, &banded, &map),
             solution,
             map,
         };
         let mut rounds = 0;
-        let mut apart = problem.apart(mesh, &best.collapsed);
+        let mut apart = problem.apart(mesh, &best.map, &best.collapsed);
         while !best.collapsed.is_empty() && rounds < self.options.rounds {
             let solved = solve_with_wishes(kept, &mut apart, &self.solver, monitor)?;
             let Some(solution) = solved else {
@@ -201,12 +202,12 @@ impl<'m, M: Fn() -> Monitor<'m>> Sizes<'_, M> {
             rounds += 1;
             let map = problem.map(mesh, &solution)?;
             let found = Decided {
-                collapsed: Collapsed::find(&held, &near, &map),
+                collapsed: Collapsed::find(&held, &near, &banded, &map),
                 solution,
                 map,
             };
             let before = apart.len();
-            for constraint in problem.apart(mesh, &found.collapsed) {
+            for constraint in problem.apart(mesh, &found.map, &found.collapsed) {
                 if !apart.iter().any(|known| known.is_between(&constraint)) {
                     apart.push(constraint);
                 }
