@@ -213,6 +213,28 @@ fn a_product_of_unknowns_whose_squares_cancel_is_not_convex() {
     }
 }
 
+/// The constraints leave x0 at zero, of which rounding errors remained: a slope of x2 in `x0 x2`.
+#[test]
+fn rounding_errors_of_a_right_side_are_no_slope() {
+    let constraints: [Row; 6] = [
+        (&[3, 4], &[-0.5, -1.0], -2.0),
+        (&[4, 3, 1], &[-4.0, 6.5, 5.5], -41.75),
+        (&[4, 1], &[-0.5, 2.5], -5.5),
+        (&[1, 3, 0], &[4.5, -0.5, 3.5], -5.25),
+        (&[4, 0, 1, 5], &[-3.5, 6.5, 4.5, 4.0], 5.0),
+        (&[5], &[3.0], 18.0),
+    ];
+    let mut problem = problem(6, &constraints, &[]);
+    problem
+        .add_quadratic_triplets(Triangle::Lower, &[2], &[0], &[1.0])
+        .unwrap();
+    problem.set_integers(&[5]).unwrap();
+    for strategy in Strategy::ALL {
+        let solution = try_solve(&problem, strategy);
+        assert!(solution.is_ok(), "{strategy:?}: {solution:?}");
+    }
+}
+
 /// Four unknowns fall along `x4 = 7.5 x0 + 6.5`, in numbers that the elimination makes large.
 #[test]
 fn an_endless_slope_behind_a_chain_of_constraints_is_told() {
