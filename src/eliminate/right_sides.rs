@@ -82,10 +82,10 @@ fn constants(elimination: &Elimination, model: &Model, monitor: &mut Monitor) ->
             }
             Step::Solve { row, pivot } => {
                 let side = sides[row as usize];
-                constants.push(Side {
-                    value: side.value / pivot,
-                    ..side
-                });
+                // A slope must not come of what is left where a right side cancels.
+                let cancelled = side.value.abs() <= NOISE * side.magnitude;
+                let value = if cancelled { 0.0 } else { side.value / pivot };
+                constants.push(Side { value, ..side });
             }
             Step::Introduce => constants.push(Side::default()),
             Step::Check {

@@ -33,8 +33,9 @@ impl Claim {
         };
         if let Some(better) = mended {
             (self.values, verdict) = (better.values, better.verdict);
-            if self.status == SolveStatus::Relaxed {
-                self.lower_bound = self.lower_bound.max(better.lower_bound);
+            // With no integer decided both solves are of the same problem, and the first is off.
+            if self.status == SolveStatus::Relaxed || !self.decided {
+                self.lower_bound = better.lower_bound;
             }
         }
         let proved = gap(verdict.energy, self.lower_bound) <= VERIFIED_GAP;
