@@ -162,6 +162,7 @@ class Field {
         return Solution(copy, status);
     }
 
+    /// The handle, for calls of the C interface.
     const roundel_field* get() const noexcept { return handle_.get(); }
 
   private:

@@ -186,6 +186,7 @@ class Map {
         detail::check(roundel_map_write(get(), file.c_str()), status);
     }
 
+    /// The handle, for calls of the C interface.
     roundel_map* get() const noexcept { return handle_.get(); }
 
     /// Solves a map of the C interface for the size that the options name.

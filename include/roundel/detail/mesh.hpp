@@ -126,6 +126,7 @@ class Mesh {
         return found;
     }
 
+    /// The handle, for calls of the C interface.
     const roundel_mesh* get() const noexcept { return handle_.get(); }
 
   private:
