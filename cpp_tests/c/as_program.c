@@ -4,22 +4,13 @@
  * coordinates at every corner, to the last digit, and the same file when written to OTHER.obj.
  * Edges that turn by DEGREES or more are features; 0: there are none. */
 
+#include "check.h"
+
 #include <roundel/roundel.h>
 
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
-
-#define CHECK(condition)                                                                           \
-    do {                                                                                           \
-        if (!(condition)) {                                                                        \
-            char text[256];                                                                        \
-            roundel_last_error_message(text, sizeof text);                                         \
-            fprintf(stderr, "%s:%d: %s (%s)\n", __FILE__, __LINE__, #condition, text);             \
-            exit(1);                                                                               \
-        }                                                                                          \
-    } while (0)
-#define OK(call) CHECK((call) == ROUNDEL_OK)
 
 static const double turn = 3.14159265358979323846 / 180.0;
 

@@ -1,6 +1,8 @@
 /* A gear with its sharp edges and the rim of a plate as isolines, from the C interface: exactly,
  * the same when it is solved again, and cancelled when the callback says so. */
 
+#include "check.h"
+
 #include <roundel/roundel.h>
 
 #include <math.h>
@@ -9,17 +11,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-#define CHECK(condition)                                                                           \
-    do {                                                                                           \
-        if (!(condition)) {                                                                        \
-            char text[256];                                                                        \
-            roundel_last_error_message(text, sizeof text);                                         \
-            fprintf(stderr, "%s:%d: %s (%s)\n", __FILE__, __LINE__, #condition, text);             \
-            exit(1);                                                                               \
-        }                                                                                          \
-    } while (0)
-#define OK(call) CHECK((call) == ROUNDEL_OK)
 
 typedef struct {
     roundel_mesh* mesh;
@@ -161,8 +152,7 @@ static void untangled(const model* m) {
     OK(roundel_map_free(map));
 }
 
-/* Folds of hasty rounding, with and without stiffer surroundings: no more of them, and another map.
- */
+/* Folds of hasty rounding get fewer with stiffer surroundings and without, in two maps. */
 static void stiffened(const model* m) {
     roundel_map* map = NULL;
     roundel_options* direct = NULL;
