@@ -1,7 +1,10 @@
 //! Lattices that are singular but for rounding errors, or in no basis that double precision can tell: a
 //! solve takes little work, is no worse than rounding, and proves nothing that is not so.
 
-use roundel::{Options, Problem, Solution, SolveStatus, Strategy, Triangle, solve};
+mod common;
+
+use common::{Random, solve_briefly};
+use roundel::{Problem, Solution, SolveStatus, Strategy, Triangle};
 
 /// Multiplications that no problem of eight unknowns needs: forty times the most of a hundred thousand
 /// random ones.
@@ -23,17 +26,8 @@ fn problem(variables: usize, integers: &[usize], rows: &[Row]) -> Problem {
     problem
 }
 
-fn try_solve(problem: &Problem, strategy: Strategy) -> roundel::Result<Solution> {
-    let options = Options {
-        strategy,
-        nodes: 500,
-        ..Options::default()
-    };
-    solve(problem, &options)
-}
-
 fn solved(problem: &Problem, strategy: Strategy) -> Solution {
-    try_solve(problem, strategy).unwrap()
+    solve_briefly(problem, strategy).unwrap()
 }
 
 /// Found by the fuzzer: the improvement of blocks went on along a vector of no length but rounding errors,
@@ -92,17 +86,7 @@ fn an_integer_that_nobody_sees_takes_no_part() {
     assert_eq!(proved.status(), SolveStatus::Optimal);
 }
 
-/// Numbers below `limit` (xorshift, Marsaglia 2003).
-struct Random(u64);
-
 impl Random {
-    fn below(&mut self, limit: usize) -> usize {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        ((self.0 >> 11) % limit as u64) as usize
-    }
-
     /// A half from -8 to 8; where it is to be `wild` now and then beside it by what makes relations between
     /// integers impossible, or next to nothing.
     fn number(&mut self, wild: bool) -> f64 {
@@ -137,12 +121,12 @@ impl Random {
 
 #[test]
 fn lattices_of_few_unknowns_take_little_work_are_no_worse_than_rounding_and_never_lie() {
-    let mut random = Random(0x9E37_79B9_7F4A_7C15);
+    let mut random = Random::new(1);
     let mut bounded = 0;
     for round in 0..3000 {
         let problem = random.problem();
         // Next to nothing in the right place, and there is no telling whether there is a minimum.
-        let Ok(rounded) = try_solve(&problem, Strategy::Adaptive) else {
+        let Ok(rounded) = solve_briefly(&problem, Strategy::Adaptive) else {
             continue;
         };
         bounded += 1;

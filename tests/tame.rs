@@ -1,9 +1,12 @@
 //! Problems of few unknowns and small halves, whose eliminated constraints may nevertheless lead to numbers
 //! of ten digits: what is promised holds of all of them.
 
+mod common;
+
+use common::{Random, solve_briefly};
 use roundel::eliminate::eliminate;
 use roundel::solve::verify;
-use roundel::{Error, Options, Problem, Solution, SolveStatus, Solver, Strategy, Triangle};
+use roundel::{Error, Options, Problem, SolveStatus, Solver, Strategy, Triangle};
 use roundel::{Model, Monitor, WarmStart, solve};
 
 /// Indices, coefficients, right side.
@@ -20,15 +23,6 @@ fn problem(variables: usize, constraints: &[Row], squares: &[(Row, f64)]) -> Pro
             .unwrap();
     }
     problem
-}
-
-fn try_solve(problem: &Problem, strategy: Strategy) -> roundel::Result<Solution> {
-    let options = Options {
-        strategy,
-        nodes: 500,
-        ..Options::default()
-    };
-    solve(problem, &options)
 }
 
 /// The largest number by which integers follow those that the elimination leaves.
@@ -63,10 +57,10 @@ fn the_relaxation_holds_the_constraints_as_well_as_a_solution() {
     ];
     let mut problem = problem(6, &constraints, &squares);
     problem.set_integers(&[0, 1, 4, 5]).unwrap();
-    let relaxed = try_solve(&problem, Strategy::Relax).unwrap();
+    let relaxed = solve_briefly(&problem, Strategy::Relax).unwrap();
     assert!(relaxed.max_constraint_violation() < 1e-12);
     assert!(relaxed.gap().unwrap() < 1e-9, "{relaxed:?}");
-    let solution = try_solve(&problem, Strategy::Exact).unwrap();
+    let solution = solve_briefly(&problem, Strategy::Exact).unwrap();
     assert!(solution.energy() >= relaxed.energy());
 }
 
@@ -96,12 +90,12 @@ fn what_is_optimal_is_so_behind_a_chain_of_constraints() {
     problem.set_integers(&[0, 1, 2, 3, 4, 5]).unwrap();
     assert!(largest_step(&problem) > 1e4, "{}", largest_step(&problem));
     for strategy in Strategy::ALL {
-        let solution = try_solve(&problem, strategy).unwrap();
+        let solution = solve_briefly(&problem, strategy).unwrap();
         let relaxed = strategy == Strategy::Relax;
         assert!(relaxed || solution.energy() == 8103.25, "{strategy:?}");
         assert!(solution.lower_bound().unwrap() > 1798.6, "{strategy:?}");
     }
-    let proved = try_solve(&problem, Strategy::Exact).unwrap();
+    let proved = solve_briefly(&problem, Strategy::Exact).unwrap();
     assert_eq!(proved.status(), SolveStatus::Optimal);
 }
 
@@ -168,7 +162,7 @@ fn the_one_solution_of_the_constraints_is_its_own_bound() {
     let mut problem = problem(6, &constraints, &squares);
     problem.set_integers(&[0, 1, 2, 3, 4]).unwrap();
     for strategy in Strategy::ALL {
-        let solution = try_solve(&problem, strategy).unwrap();
+        let solution = solve_briefly(&problem, strategy).unwrap();
         assert_eq!(solution.values(), [3.0, 5.0, 1.0, -2.0, 8.0, -7.5]);
         assert_eq!(solution.status(), SolveStatus::Optimal);
         assert!(solution.gap().unwrap() < 1e-9, "{solution:?}");
@@ -188,7 +182,7 @@ fn a_product_with_an_unknown_without_curvature_is_not_convex() {
         .unwrap();
     problem.set_integers(&[0, 1, 2, 3]).unwrap();
     for strategy in Strategy::ALL {
-        let error = try_solve(&problem, strategy);
+        let error = solve_briefly(&problem, strategy);
         assert!(matches!(error, Err(Error::NotConvex { .. })), "{error:?}");
     }
 }
@@ -208,7 +202,7 @@ fn a_product_of_unknowns_whose_squares_cancel_is_not_convex() {
         .unwrap();
     problem.set_integers(&[0, 1, 4, 5]).unwrap();
     for strategy in Strategy::ALL {
-        let error = try_solve(&problem, strategy);
+        let error = solve_briefly(&problem, strategy);
         assert!(matches!(error, Err(Error::NotConvex { .. })), "{error:?}");
     }
 }
@@ -230,7 +224,7 @@ fn rounding_errors_of_a_right_side_are_no_slope() {
         .unwrap();
     problem.set_integers(&[5]).unwrap();
     for strategy in Strategy::ALL {
-        let solution = try_solve(&problem, strategy);
+        let solution = solve_briefly(&problem, strategy);
         assert!(solution.is_ok(), "{strategy:?}: {solution:?}");
     }
 }
@@ -249,7 +243,7 @@ fn an_endless_slope_behind_a_chain_of_constraints_is_told() {
     problem.add_linear_term(0, -4.0).unwrap();
     problem.set_integers(&[0, 1, 2, 3, 4]).unwrap();
     for strategy in Strategy::ALL {
-        let error = try_solve(&problem, strategy).unwrap_err();
+        let error = solve_briefly(&problem, strategy).unwrap_err();
         let Error::Unbounded { direction, .. } = error else {
             panic!("{strategy:?}: {error}")
         };
@@ -266,17 +260,7 @@ struct Tame {
     at: Option<Vec<f64>>,
 }
 
-/// Numbers below `limit` (xorshift, Marsaglia 2003).
-struct Random(u64);
-
 impl Random {
-    fn below(&mut self, limit: usize) -> usize {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        ((self.0 >> 11) % limit as u64) as usize
-    }
-
     /// A half from -8 to 8.
     fn number(&mut self) -> f64 {
         self.below(33) as f64 / 2.0 - 8.0
@@ -370,7 +354,7 @@ fn a_direction_is_proved(tame: &Tame, error: &Error, name: &dyn Fn() -> String) 
 /// Solves the problem by every strategy, and holds each against what is promised and against the others;
 /// how many solutions there were.
 fn every_promise_is_kept(tame: &Tame, name: &str) -> usize {
-    let tried = Strategy::ALL.map(|strategy| (strategy, try_solve(&tame.problem, strategy)));
+    let tried = Strategy::ALL.map(|strategy| (strategy, solve_briefly(&tame.problem, strategy)));
     let refused = tried
         .iter()
         .filter_map(|(s, t)| Some((s, t.as_ref().err()?)));
@@ -414,10 +398,7 @@ fn every_promise_is_kept(tame: &Tame, name: &str) -> usize {
 fn promises_are_kept_of(problems: usize, seed: u64) {
     let mut solved = 0;
     for round in 0..problems as u64 {
-        let start = seed
-            .wrapping_add(round + 1)
-            .wrapping_mul(0x9E37_79B9_7F4A_7C15);
-        let tame = Random(start | 1).problem();
+        let tame = Random::new(seed.wrapping_add(round + 1)).problem();
         let name = format!("problem {round} of seed {seed}");
         solved += every_promise_is_kept(&tame, &name);
     }
