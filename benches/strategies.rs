@@ -1,8 +1,9 @@
 //! Time of each strategy on orientation fields and parametrizations of growing size.
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
+use roundel::field::{FieldProblem, curvature_constraints};
+use roundel::map::{SeamlessOptions, SeamlessProblem};
 use roundel::mesh::shape;
-use roundel::quad::{FieldProblem, SeamlessOptions, SeamlessProblem, curvature_constraints};
 use roundel::{Options, Problem, Strategy, solve};
 
 fn problems(triangles: usize) -> roundel::Result<[(&'static str, Problem); 2]> {

@@ -149,15 +149,29 @@ pub enum Error {
         /// The system's reason, with the file's name.
         message: String,
     },
-    /// A mesh that is refused.
+    /// Input of a client of the solver that is refused, such as a mesh.
     #[error(transparent)]
-    Mesh(#[from] crate::mesh::MeshError),
+    Input(#[from] InputError),
     /// Cancelled by the caller before a first solution was found.
     #[error("cancelled before a first solution was found")]
     Cancelled,
     /// Out of time before a first solution was found.
     #[error("the time limit passed before a first solution was found")]
     TimeLimit,
+}
+
+/// Why a client of the solver refuses its input, in a form that every layer can pass on.
+///
+/// The client has an error type of its own, which converts into this one.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error("{message}")]
+pub struct InputError {
+    /// A word for the kind of error that stays the same from version to version.
+    pub code: &'static str,
+    /// What is wrong, in words.
+    pub message: String,
+    /// The element at fault, counted from 0, where there is one.
+    pub index: Option<usize>,
 }
 
 impl Error {
@@ -181,7 +195,7 @@ impl Error {
             Error::NotSupported { .. } => "not_supported",
             Error::Parse { .. } => "parse",
             Error::Io { .. } => "io",
-            Error::Mesh(error) => error.code(),
+            Error::Input(error) => error.code,
             Error::Cancelled => "cancelled",
             Error::TimeLimit => "time_limit",
         }
@@ -202,7 +216,7 @@ impl Error {
             Error::Unbounded { variable, .. } | Error::NotConvex { variable, .. } => {
                 Some(*variable)
             }
-            Error::Mesh(error) => error.index(),
+            Error::Input(error) => error.index,
             _ => None,
         }
     }
@@ -212,7 +226,6 @@ impl Error {
         match self {
             Error::Parse { line, .. } => Some(*line),
             Error::NotSupported { line, .. } => *line,
-            Error::Mesh(error) => error.line(),
             _ => None,
         }
     }

@@ -35,25 +35,32 @@
 #![deny(missing_docs)]
 
 pub mod capi;
+pub mod check;
 mod cycle;
 pub mod eliminate;
 mod error;
+pub mod extract;
+pub mod field;
 pub mod lattice;
 pub mod linalg;
+pub mod map;
 pub mod mesh;
+pub mod monitor;
 #[cfg(feature = "pictures")]
 pub mod picture;
 pub mod problem;
 pub mod quad;
 pub mod round;
+pub mod search;
+pub mod smooth;
 pub mod solve;
+pub mod untangle;
 
-pub use error::{Error, Result};
+pub use error::{Error, InputError, Result};
+pub use monitor::{CancelToken, Event, Flow, Monitor};
 pub use problem::{Layout, Model, Problem, Triangle};
-pub use solve::{
-    CancelToken, Event, Flow, Monitor, Options, Seconds, Solution, SolveStatus, Solver, Strategy,
-    WarmStart, solve, solve_with,
-};
+pub use search::{Options, SolveStatus, Strategy, WarmStart};
+pub use solve::{Seconds, Solution, Solver, solve, solve_with};
 
 /// The README's Rust example is one of the tests.
 #[cfg(doctest)]

@@ -2,8 +2,8 @@
 
 mod common;
 
+use roundel::field::{FieldProblem, curvature_constraints};
 use roundel::mesh::{TriangleMesh, shape};
-use roundel::quad::{FieldProblem, curvature_constraints};
 use roundel::{Options, Problem, Solution, SolveStatus, Strategy, solve};
 
 fn adaptive() -> Options {

@@ -1,34 +1,65 @@
 //! What the layout promises, read off the sources.
 //!
-//! Geometry and the C interface are clients of the solver, `unsafe` has one home, the library never
-//! prints, and files stay short enough to be one idea.
+//! Each layer names only those below it, `unsafe` has one home, the library never prints, and files
+//! stay short enough to be one idea.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// The parts that solve. None of them names a client.
-const SOLVER: [&str; 7] = [
+/// The layers, from the ground up. A file names its own layer and those before it, nothing else.
+const LAYERS: [&str; 19] = [
+    "error",
+    "monitor",
+    "linalg",
     "problem",
     "eliminate",
-    "linalg",
+    "search",
     "round",
     "lattice",
     "cycle",
     "solve",
+    "mesh",
+    "field",
+    "map",
+    "untangle",
+    "check",
+    "extract",
+    "smooth",
+    "quad",
+    "capi",
 ];
-
-/// The parts that use the solver.
-const CLIENTS: [&str; 4] = ["mesh", "quad", "picture", "capi"];
 
 /// No file is longer, in lines.
 const LONGEST: usize = 600;
 
 #[test]
-fn the_solver_never_names_its_clients() {
+fn every_file_names_only_its_own_layer_and_those_below() {
+    let at_root = names_at_root();
     for (path, text) in sources() {
-        if SOLVER.contains(&module(&path)) {
-            let named = named_in_paths(&tokens(&text), &CLIENTS);
-            assert!(named.is_empty(), "{} names {named:?}", path.display());
+        let own = module(&path);
+        if own == "lib" {
+            continue;
+        }
+        let height = height(own).unwrap_or_else(|| panic!("{} is in no layer", path.display()));
+        for name in layers_named(&tokens(&text), depth(&path), &at_root) {
+            let below = self::height(&name).is_some_and(|other| other <= height);
+            assert!(below, "{} names {name}", path.display());
+        }
+    }
+}
+
+#[test]
+fn checking_shares_no_code_with_what_makes_maps() {
+    let makers = ["solve", "field", "map", "untangle"];
+    let at_root = names_at_root();
+    for (path, text) in sources() {
+        if module(&path) == "check" {
+            let named = layers_named(&tokens(&text), depth(&path), &at_root);
+            let shared: Vec<_> = named
+                .iter()
+                .filter(|n| makers.contains(&n.as_str()))
+                .collect();
+            assert!(shared.is_empty(), "{} names {shared:?}", path.display());
         }
     }
 }
@@ -81,31 +112,36 @@ fn every_file_says_first_what_it_is() {
 }
 
 #[test]
-fn a_client_is_found_in_every_way_to_name_it() {
+fn a_layer_is_found_in_every_way_to_name_it() {
+    let at_root = [("Solver".to_string(), "solve".to_string())];
     for text in [
-        "use crate::mesh::Mesh;",
-        "use crate::{error::Error, mesh};",
-        "use super::super::quad as q;",
-        "fn f(m: &crate::mesh::Mesh) {}",
-        "let m = mesh::read(path);",
-        "mod capi;",
+        "use crate::solve::Thing;",
+        "use crate::{solve};",
+        "use crate::{solve::{Thing, Other}};",
+        "use crate::{self as root, solve as s};",
+        "use super::super::solve::Thing;",
+        "fn f(s: &crate::solve::Thing) {}",
+        "use crate::Solver;",
+        "use crate::{Solver as S};",
+        "fn f(s: crate::Solver) {}",
     ] {
-        let named = named_in_paths(&tokens(text), &CLIENTS);
-        assert_eq!(named.len(), 1, "{text}");
+        let named = layers_named(&tokens(text), 2, &at_root);
+        assert_eq!(named, ["solve"], "{text}");
     }
 }
 
 #[test]
-fn words_in_comments_strings_and_longer_names_are_no_paths() {
+fn words_in_comments_strings_and_inner_paths_name_no_layer() {
     for text in [
         "// use crate::mesh;",
         "/* crate::mesh /* crate::quad */ mesh::x */",
         "let s = \"crate::mesh \\\" println!()\";",
         "let s = r#\"crate::mesh \" println!()\"#;",
-        "use crate::problem::mesh_free; let quadratic = quad_terms::<'static>('\"');",
+        "use super::mesh::Thing; let quadratic = quad_terms::<'static>('\"');",
+        "use std::{mesh, quad};",
     ] {
         let tokens = tokens(text);
-        assert!(named_in_paths(&tokens, &CLIENTS).is_empty(), "{text}");
+        assert!(layers_named(&tokens, 2, &[]).is_empty(), "{text}");
         assert!(macros_called(&tokens, &["println"]).is_empty(), "{text}");
     }
 }
@@ -236,21 +272,76 @@ fn skip_character_or_lifetime(chars: &[char], from: usize) -> usize {
     }
 }
 
-/// Those of `names` that stand in a path, in a `use`, or behind `mod`.
-fn named_in_paths(tokens: &[String], names: &[&str]) -> Vec<String> {
+/// Where a layer stands, from the ground up.
+fn height(layer: &str) -> Option<usize> {
+    LAYERS.iter().position(|&l| l == layer)
+}
+
+/// How many modules a file is below the root of the crate.
+fn depth(path: &Path) -> usize {
+    let inner = path.strip_prefix(root()).unwrap();
+    let is_folder = inner.ends_with("mod.rs");
+    inner.iter().count() - usize::from(is_folder)
+}
+
+/// The names that `lib.rs` brings to the root of the crate, each with its layer.
+fn names_at_root() -> Vec<(String, String)> {
+    let text = fs::read_to_string(root().join("lib.rs")).unwrap();
+    let tokens = tokens(&text);
     let mut found = Vec::new();
-    let mut in_use = false;
+    for (i, _) in tokens.iter().enumerate().filter(|(_, t)| *t == "use") {
+        let layer = &tokens[i + 1];
+        let names = tokens[i + 2..].iter().take_while(|t| *t != ";");
+        let names = names.filter(|t| t.chars().all(char::is_alphanumeric));
+        found.extend(names.map(|name| (name.clone(), layer.clone())));
+    }
+    assert!(found.iter().any(|(name, _)| name == "Problem"), "{found:?}");
+    found
+}
+
+/// The layers that paths from the root of the crate lead to, once a path, in a file so many modules
+/// below it. A name of the root that is no module stands for its layer.
+fn layers_named(tokens: &[String], depth: usize, at_root: &[(String, String)]) -> Vec<String> {
+    let mut found = Vec::new();
+    let mut i = 0;
+    while i < tokens.len() {
+        let supers = tokens[i..]
+            .chunks(2)
+            .take_while(|pair| matches!(pair, [a, b] if a == "super" && b == "::"));
+        let climbs = supers.count();
+        let from_root = tokens[i] == "crate" && tokens.get(i + 1).is_some_and(|t| t == "::");
+        if from_root || climbs >= depth {
+            i += if from_root { 2 } else { 2 * climbs };
+            found.extend(first_segments(&tokens[i..]));
+        } else {
+            i += (2 * climbs).max(1);
+        }
+    }
+    let layer_of = |name: String| {
+        let known = at_root.iter().find(|(known, _)| *known == name);
+        known.map_or(name, |(_, layer)| layer.clone())
+    };
+    let found = found.into_iter().filter(|name| name != "self");
+    found.map(layer_of).collect()
+}
+
+/// The first segment of a path, or those of each path of a group in braces.
+fn first_segments(tokens: &[String]) -> Vec<String> {
+    if tokens[0] != "{" {
+        return vec![tokens[0].clone()];
+    }
+    let (mut open, mut found) = (0, Vec::new());
     for (i, token) in tokens.iter().enumerate() {
         match token.as_str() {
-            "use" => in_use = true,
-            ";" => in_use = false,
+            "{" => open += 1,
+            "}" => open -= 1,
             _ => {}
         }
-        let before = i.checked_sub(1).map(|k| tokens[k].as_str());
-        let after = tokens.get(i + 1).map(String::as_str);
-        let is_path = in_use || matches!(before, Some("::" | "mod")) || after == Some("::");
-        if is_path && names.contains(&token.as_str()) {
-            found.push(token.clone());
+        if open == 0 {
+            break;
+        }
+        if open == 1 && matches!(token.as_str(), "{" | ",") && tokens[i + 1] != "}" {
+            found.push(tokens[i + 1].clone());
         }
     }
     found

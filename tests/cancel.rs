@@ -2,9 +2,9 @@
 
 use std::time::{Duration, Instant};
 
+use roundel::field::{FieldProblem, curvature_constraints};
 use roundel::mesh::{jitter, shape};
-use roundel::quad::{FieldProblem, curvature_constraints};
-use roundel::solve::EventKind;
+use roundel::monitor::EventKind;
 use roundel::{
     CancelToken, Error, Event, Flow, Monitor, Options, Problem, SolveStatus, Solver, Strategy,
     WarmStart, solve, solve_with,

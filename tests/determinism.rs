@@ -2,8 +2,9 @@
 
 mod common;
 
+use roundel::field::{FieldProblem, curvature_constraints};
+use roundel::map::{SeamlessOptions, SeamlessProblem};
 use roundel::mesh::{jitter, shape};
-use roundel::quad::{FieldProblem, SeamlessOptions, SeamlessProblem, curvature_constraints};
 use roundel::{Options, Problem, Strategy, solve};
 
 fn problems() -> Vec<Problem> {

@@ -1,10 +1,10 @@
 //! Quad extraction: what must hold for any map, sound or not.
 
+use roundel::extract::{IntegerGridMap, Origin, QuadMesh, extract};
+use roundel::field::{FieldProblem, curvature_constraints};
+use roundel::map::{SeamlessMap, SeamlessOptions, SeamlessProblem};
 use roundel::mesh::{TriangleMesh, shape};
-use roundel::quad::{
-    FieldProblem, IntegerGridMap, Origin, QuadMesh, QuadQuality, SeamlessMap, SeamlessOptions,
-    SeamlessProblem, SmoothOptions, curvature_constraints, extract, smooth,
-};
+use roundel::smooth::{QuadQuality, SmoothOptions, smooth};
 use roundel::{CancelToken, Error, Monitor, Options, solve};
 
 type Corners = Vec<[[f64; 2]; 3]>;

@@ -1,7 +1,7 @@
 //! Orientation fields on procedural shapes: what must hold on any mesh.
 
+use roundel::field::{Constraint, FieldProblem, OrientationField, curvature_constraints};
 use roundel::mesh::{TriangleMesh, shape};
-use roundel::quad::{Constraint, FieldProblem, OrientationField, curvature_constraints};
 use roundel::{Options, Solution, solve};
 
 fn shape(name: &str, triangles: usize) -> TriangleMesh {

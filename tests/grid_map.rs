@@ -1,8 +1,8 @@
 //! The integer-grid-map check: perfect maps pass, and of a planted defect exactly what it spoils is
 //! named.
 
+use roundel::check::{CheckOptions, MapCheck, Singularity, check_map, feature_edges};
 use roundel::mesh::{TriangleMesh, shape};
-use roundel::quad::check::{CheckOptions, MapCheck, Singularity, check_map, feature_edges};
 
 type Corners = Vec<[[f64; 2]; 3]>;
 
@@ -105,7 +105,7 @@ fn check(case: &Case) -> MapCheck {
     check_map(&case.mesh, &case.uv, &CheckOptions::default()).unwrap()
 }
 
-fn elements(defects: &[roundel::quad::check::Defect]) -> Vec<usize> {
+fn elements(defects: &[roundel::check::Defect]) -> Vec<usize> {
     defects.iter().map(|d| d.element).collect()
 }
 

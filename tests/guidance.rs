@@ -2,12 +2,12 @@
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
 
-use roundel::mesh::features::FeatureGraph;
-use roundel::mesh::{TriangleMesh, shape};
-use roundel::quad::{
+use roundel::field::{
     FieldOptions, FieldProblem, Guidance, OrientationField, PrescribedIndex, curvature_constraints,
     curvature_guides, feature_constraints,
 };
+use roundel::mesh::features::FeatureGraph;
+use roundel::mesh::{TriangleMesh, shape};
 use roundel::{Options, Solution, solve};
 
 fn noisy(name: &str, triangles: usize) -> TriangleMesh {
@@ -300,7 +300,7 @@ fn curvature_counts_the_same_whatever_the_size_of_the_mesh() {
 
 #[test]
 fn bad_options_of_a_field_are_refused_by_position() {
-    use roundel::quad::Guide;
+    use roundel::field::Guide;
     let mesh = noisy("torus", 300);
     let refused = |change: &dyn Fn(&mut FieldOptions)| {
         let mut options = FieldOptions::default();
@@ -343,7 +343,7 @@ fn what_is_given_comes_before_features_and_those_before_curvature() {
     let mesh = noisy("gear", 1_500);
     let sharp = FeatureGraph::by_angle(&mesh, FRAC_PI_4).unwrap();
     let beside = feature_constraints(&mesh, &sharp).unwrap();
-    let given = roundel::quad::Constraint {
+    let given = roundel::field::Constraint {
         face: beside[0].face,
         angle: beside[0].angle + 0.3,
     };

@@ -2,12 +2,12 @@
 
 use std::f64::consts::{FRAC_PI_4, PI};
 
+use roundel::field::{
+    FieldOptions, FieldProblem, Guidance, OrientationField, PrescribedIndex, feature_constraints,
+};
+use roundel::map::{SeamlessMap, SeamlessOptions, SeamlessProblem, Sizing};
 use roundel::mesh::features::FeatureGraph;
 use roundel::mesh::{TriangleMesh, shape};
-use roundel::quad::{
-    FieldOptions, FieldProblem, Guidance, OrientationField, PrescribedIndex, SeamlessMap,
-    SeamlessOptions, SeamlessProblem, Sizing, feature_constraints,
-};
 use roundel::{Options, Solver, solve};
 
 fn features(mesh: &TriangleMesh) -> FeatureGraph {

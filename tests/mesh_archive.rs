@@ -11,10 +11,12 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::OnceLock;
 
+use roundel::check::{CheckOptions, check_map};
+use roundel::field::solve_field;
+use roundel::map::{SeamlessProblem, Sizing};
 use roundel::mesh::{MeshError, TriangleMesh, io};
-use roundel::quad::check::{CheckOptions, check_map};
-use roundel::quad::untangle::{Unfolded, UntangleOptions, solve_unfolded};
-use roundel::quad::{QuadOptions, SeamlessProblem, Sizing, solve_field};
+use roundel::quad::QuadOptions;
+use roundel::untangle::{Unfolded, UntangleOptions, solve_unfolded};
 use roundel::{Monitor, Options, Strategy};
 
 const DEBIAN: &str = "/usr/share/doc/libcgal-dev/data.tar.gz";
@@ -182,7 +184,9 @@ fn unfold(mesh: &TriangleMesh) -> (Unfolded, bool) {
     let sizing = Sizing::Quads(mesh.face_count().div_ceil(4));
     let guidance = QuadOptions::default().guidance;
     let features = guidance.features(mesh).unwrap();
-    let follow = guidance.map_options(mesh, &features, &sizing).unwrap();
+    let follow = guidance
+        .map_options(mesh, &features, sizing.edge_length(mesh))
+        .unwrap();
     let adaptive = Options {
         strategy: Strategy::Adaptive,
         ..Options::default()

@@ -1,10 +1,11 @@
 //! From a mesh to quads in one call: what holds of the quads whatever the solver decides.
 
+use roundel::extract::{Origin, QuadMesh};
+use roundel::field::Guidance;
+use roundel::map::Sizing;
 use roundel::mesh::{TriangleMesh, shape};
-use roundel::quad::{
-    Guidance, Origin, QuadMesh, QuadOptions, QuadQuality, Quadrangulation, Sizing, SmoothOptions,
-    quadrangulate, smooth,
-};
+use roundel::quad::{QuadOptions, Quadrangulation, quadrangulate};
+use roundel::smooth::{QuadQuality, SmoothOptions, smooth};
 use roundel::{Monitor, Strategy};
 
 /// A flat square of `n` by `n` units, two triangles a unit square.

@@ -2,11 +2,11 @@
 
 use std::collections::HashSet;
 
-use roundel::mesh::{TriangleMesh, shape};
-use roundel::quad::{
-    Combing, Constraint, CutGraph, FieldProblem, OrientationField, SeamlessMap, SeamlessOptions,
-    SeamlessProblem, TRANSLATION_WEIGHT, curvature_constraints,
+use roundel::field::{Constraint, FieldProblem, OrientationField, curvature_constraints};
+use roundel::map::{
+    Combing, CutGraph, SeamlessMap, SeamlessOptions, SeamlessProblem, TRANSLATION_WEIGHT,
 };
+use roundel::mesh::{TriangleMesh, shape};
 use roundel::{Options, Solution, Strategy, solve};
 
 const SHAPES: [&str; 8] = [

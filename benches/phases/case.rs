@@ -1,9 +1,10 @@
 //! The two families of problems, each taken as far as its relaxation.
 
 use roundel::eliminate::{ReducedModel, eliminate};
+use roundel::field::{FieldProblem, curvature_constraints};
 use roundel::linalg::{Lowest, Minimum, RelaxedFactor};
+use roundel::map::{SeamlessOptions, SeamlessProblem};
 use roundel::mesh::shape;
-use roundel::quad::{FieldProblem, SeamlessOptions, SeamlessProblem, curvature_constraints};
 use roundel::{Error, Model, Monitor, Options, Problem, Result, solve};
 
 /// Faces of the mesh.

@@ -1,12 +1,10 @@
 //! From a mesh to the two problems.
 
 use criterion::Criterion;
+use roundel::field::{FieldProblem, OrientationField, curvature_constraints};
+use roundel::map::{Combing, CutGraph, SeamlessOptions, SeamlessProblem};
 use roundel::mesh::curvature::curvature;
 use roundel::mesh::{TriangleMesh, shape, subdivide};
-use roundel::quad::{
-    Combing, CutGraph, FieldProblem, OrientationField, SeamlessOptions, SeamlessProblem,
-    curvature_constraints,
-};
 use roundel::{Options, Result, solve};
 
 use crate::case::TRIANGLES;

@@ -7,7 +7,7 @@ use clap::builder::{PossibleValuesParser, TypedValueParser, ValueParser};
 use clap::parser::ValueSource;
 use clap::{Arg, ArgMatches, Args, Command, FromArgMatches};
 use roundel::Options;
-use roundel::solve::{OPTIONS, OptionInfo, OptionKind, OptionValue, PRESETS};
+use roundel::search::{OPTIONS, OptionInfo, OptionKind, OptionValue, PRESETS};
 
 /// Options of the solver, from flags named as the options are, `-` for `_`.
 #[derive(Debug, Clone, Default)]

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use roundel::solve::{EventKind, Phase};
+use roundel::monitor::{EventKind, Phase};
 use roundel::{Event, Flow, Monitor};
 
 /// The line. It is gone once this is dropped.

@@ -7,7 +7,7 @@ use super::cancel::roundel_cancel_token;
 use super::error::{Failure, Outcome};
 use super::guard;
 use super::input::{aligned, slice};
-use crate::solve::{EventKind, Phase};
+use crate::monitor::{EventKind, Phase};
 use crate::{Error, Event, Flow, Monitor};
 
 /// What an event tells.

@@ -9,9 +9,9 @@ use super::options::roundel_options;
 use super::output::{Out, copy_numbers};
 use super::solution::roundel_solution;
 use super::status::roundel_status;
+use crate::field::{FieldProblem, OrientationField};
 use crate::mesh::TriangleMesh;
 use crate::mesh::features::FeatureGraph;
-use crate::quad::{FieldProblem, OrientationField};
 use crate::{Options, Solution};
 
 /// All that can be asked of a field, so that the mesh need not live as long.

@@ -10,9 +10,9 @@ use super::output::Out;
 use super::problem::roundel_problem;
 use super::solution::roundel_solution;
 use super::status::roundel_status;
+use crate::field::{FieldProblem, Guidance, smoothest_field};
 use crate::mesh::TriangleMesh;
 use crate::mesh::features::FeatureGraph;
-use crate::quad::{FieldProblem, Guidance, smoothest_field};
 use crate::{Options, Result, Solution};
 
 /// The problem of the field that follows a guidance, and the features.

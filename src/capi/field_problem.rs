@@ -9,9 +9,9 @@ use super::output::Out;
 use super::problem::roundel_problem;
 use super::solution::roundel_solution;
 use super::status::roundel_status;
+use crate::field::{Constraint, FieldProblem, curvature_constraints};
 use crate::mesh::TriangleMesh;
 use crate::mesh::features::FeatureGraph;
-use crate::quad::{Constraint, FieldProblem, curvature_constraints};
 use crate::{Error, Solution};
 
 /// The caller's constraints.

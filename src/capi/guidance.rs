@@ -10,8 +10,9 @@ use super::mesh::roundel_mesh;
 use super::output::{Out, copy_numbers};
 use super::status::roundel_status;
 use crate::Error;
+use crate::field::{Constraint, Guidance, Guide, PrescribedIndex};
 use crate::mesh::TriangleMesh;
-use crate::quad::{Constraint, Guidance, Guide, PrescribedIndex, QuadOptions};
+use crate::quad::QuadOptions;
 
 /// What a field shall follow, and which edges become isolines of its map: features, boundary, given
 /// directions, curvature, given indices. Where several ask for the direction of one face, the first

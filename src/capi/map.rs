@@ -12,9 +12,9 @@ use super::output::Out;
 use super::problem::roundel_problem;
 use super::solution::roundel_solution;
 use super::status::roundel_status;
+use crate::map::{SeamlessMap, SeamlessOptions, SeamlessProblem, Sizing};
 use crate::mesh::TriangleMesh;
-use crate::quad::untangle::{Unfolded, UntangleOptions};
-use crate::quad::{SeamlessMap, SeamlessOptions, SeamlessProblem, Sizing};
+use crate::untangle::{Unfolded, UntangleOptions};
 use crate::{Error, Options, Result, Solution, SolveStatus, Solver};
 
 /// All that a solve at another size needs again, and what the last one found.

@@ -10,7 +10,7 @@ use super::output::{Out, copy_numbers};
 use super::solution::roundel_solution;
 use super::status::roundel_status;
 use crate::Error;
-use crate::quad::SeamlessMap;
+use crate::map::SeamlessMap;
 
 /// An entry that gives one number of a map.
 ///

@@ -8,7 +8,7 @@ use super::map_results::give;
 use super::options::roundel_options;
 use super::output::{Out, copy_numbers};
 use super::status::roundel_status;
-use crate::quad::untangle::{UntangleOptions, solve_unfolded, untangle};
+use crate::untangle::{UntangleOptions, solve_unfolded, untangle};
 use crate::{Error, Options, SolveStatus};
 
 /// Solves for a map without folds, as the program `roundel parametrize` does: integers that collapse

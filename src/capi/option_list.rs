@@ -7,7 +7,7 @@ use super::guard::boundary;
 use super::output::Out;
 use super::status::roundel_status;
 use crate::Error;
-use crate::solve::{OPTIONS, OptionKind};
+use crate::search::{OPTIONS, OptionKind};
 
 /// The type of an option's value.
 #[repr(i32)]

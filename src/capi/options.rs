@@ -7,7 +7,7 @@ use super::guard::{self, Guarded, boundary, object};
 use super::input::text;
 use super::output::{Out, copy_whole};
 use super::status::roundel_status;
-use crate::solve::OptionValue;
+use crate::search::OptionValue;
 use crate::{Error, Options};
 
 /// How to solve. roundel_option_info lists the options that there are.
@@ -104,7 +104,7 @@ unsafe fn get<T>(
 }
 
 fn name_of(name: &str) -> &'static str {
-    let mut names = crate::solve::OPTIONS.iter().map(|info| info.name);
+    let mut names = crate::search::OPTIONS.iter().map(|info| info.name);
     names.find(|&known| known == name).unwrap_or_default()
 }
 

@@ -9,7 +9,7 @@ use super::options::roundel_options;
 use super::output::Out;
 use super::status::roundel_status;
 use crate::Error;
-use crate::solve::PRESETS;
+use crate::search::PRESETS;
 
 /// What there is to know about one preset. The texts live as long as the library is loaded.
 #[repr(C)]

@@ -11,8 +11,10 @@ use super::output::Out;
 use super::quads::roundel_quads;
 use super::status::roundel_status;
 use crate::Error;
+use crate::map::Sizing;
 use crate::mesh::TriangleMesh;
-use crate::quad::{QuadOptions, Sizing, SmoothOptions, quadrangulate};
+use crate::quad::{QuadOptions, quadrangulate};
+use crate::smooth::SmoothOptions;
 
 /// How to make quads: their size, what they follow, how field and map are solved, untangling and
 /// smoothing. A new one is what the program `roundel quad` does without flags: 1000 quads along the

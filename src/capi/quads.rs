@@ -10,11 +10,12 @@ use super::mesh::{roundel_mesh, triangles};
 use super::options::roundel_options;
 use super::output::Out;
 use super::status::roundel_status;
+use crate::extract::{IntegerGridMap, QuadMesh, extract};
+use crate::field::Guidance;
+use crate::map::Sizing;
 use crate::mesh::TriangleMesh;
-use crate::quad::{
-    Guidance, IntegerGridMap, QuadMesh, QuadOptions, Sizing, SmoothOptions, extract, quadrangulate,
-    smooth,
-};
+use crate::quad::{QuadOptions, quadrangulate};
+use crate::smooth::{SmoothOptions, smooth};
 use crate::{Error, Monitor};
 
 /// A mesh of quads with shared vertices. Where a map leaves no quads to be made, other polygons are

@@ -7,7 +7,7 @@ use super::input::path;
 use super::output::{Out, copy_numbers};
 use super::quads::roundel_quads;
 use super::status::roundel_status;
-use crate::quad::QuadMesh;
+use crate::extract::QuadMesh;
 
 /// An entry that gives one number of quads.
 ///

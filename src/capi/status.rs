@@ -2,7 +2,6 @@
 
 use std::ffi::{CStr, c_char};
 
-use crate::mesh::MeshError;
 use crate::{Error, SolveStatus};
 
 /// How a call went. The numbers never change; new ones may be added, so treat every number other
@@ -173,7 +172,7 @@ impl From<&Error> for roundel_status {
             Error::OptionType { .. } => ROUNDEL_ERROR_OPTION_TYPE,
             Error::OptionRange { .. } => ROUNDEL_ERROR_OPTION_RANGE,
             Error::NotSupported { .. } => ROUNDEL_ERROR_NOT_SUPPORTED,
-            Error::Mesh(error) => error.into(),
+            Error::Input(error) => of_mesh(error.code),
             Error::Parse { .. } => ROUNDEL_ERROR_PARSE,
             Error::Io { .. } => ROUNDEL_ERROR_IO,
             Error::Infeasible { .. } => ROUNDEL_ERROR_INFEASIBLE,
@@ -186,28 +185,31 @@ impl From<&Error> for roundel_status {
     }
 }
 
-impl From<&MeshError> for roundel_status {
-    fn from(error: &MeshError) -> Self {
-        match error {
-            MeshError::NoFaces => ROUNDEL_ERROR_EMPTY,
-            MeshError::TooLarge { .. } => ROUNDEL_ERROR_OVERFLOW,
-            MeshError::NotFinite { .. } => ROUNDEL_ERROR_NOT_FINITE,
-            MeshError::NotATriangle { .. } => ROUNDEL_ERROR_NOT_A_TRIANGLE,
-            MeshError::IndexOutOfRange { .. } => ROUNDEL_ERROR_INDEX_OUT_OF_RANGE,
-            MeshError::RepeatedVertex { .. } => ROUNDEL_ERROR_REPEATED_VERTEX,
-            MeshError::ZeroArea { .. } => ROUNDEL_ERROR_ZERO_AREA,
-            MeshError::NonManifoldEdge { .. } => ROUNDEL_ERROR_NON_MANIFOLD_EDGE,
-            MeshError::InconsistentOrientation { .. } => ROUNDEL_ERROR_INCONSISTENT_ORIENTATION,
-            MeshError::IsolatedVertex { .. } => ROUNDEL_ERROR_ISOLATED_VERTEX,
-            MeshError::NonManifoldVertex { .. } => ROUNDEL_ERROR_NON_MANIFOLD_VERTEX,
-            MeshError::Parse { .. } | MeshError::Malformed { .. } => ROUNDEL_ERROR_PARSE,
-            MeshError::Io { .. } => ROUNDEL_ERROR_IO,
-            MeshError::UnknownFormat { .. } => ROUNDEL_ERROR_NOT_SUPPORTED,
-            MeshError::UnknownShape { .. } | MeshError::InvalidArgument { .. } => {
-                ROUNDEL_ERROR_INVALID_ARGUMENT
-            }
-        }
-    }
+/// The status of each reason for which a mesh is refused, by [`MeshError::code`](crate::mesh::MeshError::code).
+const OF_MESHES: [(&str, roundel_status); 15] = [
+    ("no_faces", ROUNDEL_ERROR_EMPTY),
+    ("mesh_too_large", ROUNDEL_ERROR_OVERFLOW),
+    ("vertex_not_finite", ROUNDEL_ERROR_NOT_FINITE),
+    ("not_a_triangle", ROUNDEL_ERROR_NOT_A_TRIANGLE),
+    ("vertex_out_of_range", ROUNDEL_ERROR_INDEX_OUT_OF_RANGE),
+    ("repeated_vertex", ROUNDEL_ERROR_REPEATED_VERTEX),
+    ("zero_area", ROUNDEL_ERROR_ZERO_AREA),
+    ("non_manifold_edge", ROUNDEL_ERROR_NON_MANIFOLD_EDGE),
+    (
+        "inconsistent_orientation",
+        ROUNDEL_ERROR_INCONSISTENT_ORIENTATION,
+    ),
+    ("isolated_vertex", ROUNDEL_ERROR_ISOLATED_VERTEX),
+    ("non_manifold_vertex", ROUNDEL_ERROR_NON_MANIFOLD_VERTEX),
+    ("malformed", ROUNDEL_ERROR_PARSE),
+    ("unknown_format", ROUNDEL_ERROR_NOT_SUPPORTED),
+    ("unknown_shape", ROUNDEL_ERROR_INVALID_ARGUMENT),
+    ("invalid_argument", ROUNDEL_ERROR_INVALID_ARGUMENT),
+];
+
+fn of_mesh(code: &str) -> roundel_status {
+    let found = OF_MESHES.iter().find(|(known, _)| *known == code);
+    found.map_or(ROUNDEL_ERROR_INVALID_ARGUMENT, |(_, status)| *status)
 }
 
 impl From<SolveStatus> for roundel_solve_status {
@@ -225,6 +227,7 @@ impl From<SolveStatus> for roundel_solve_status {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::mesh::MeshError;
 
     #[test]
     fn the_word_for_a_status_is_the_rust_errors_code() {
@@ -253,19 +256,19 @@ mod tests {
                 constraint: 0,
                 row: "".into(),
             },
-            Error::Mesh(MeshError::NonManifoldVertex { vertex: 0 }),
-            Error::Mesh(MeshError::ZeroArea { face: 0 }),
-            Error::Mesh(MeshError::IsolatedVertex { vertex: 0 }),
-            Error::Mesh(MeshError::RepeatedVertex { face: 0, vertex: 0 }),
-            Error::Mesh(MeshError::NotATriangle {
+            Error::from(MeshError::NonManifoldVertex { vertex: 0 }),
+            Error::from(MeshError::ZeroArea { face: 0 }),
+            Error::from(MeshError::IsolatedVertex { vertex: 0 }),
+            Error::from(MeshError::RepeatedVertex { face: 0, vertex: 0 }),
+            Error::from(MeshError::NotATriangle {
                 face: 0,
                 corners: 4,
             }),
-            Error::Mesh(MeshError::NonManifoldEdge {
+            Error::from(MeshError::NonManifoldEdge {
                 vertices: [0, 1],
                 faces: vec![0, 1, 2],
             }),
-            Error::Mesh(MeshError::InconsistentOrientation {
+            Error::from(MeshError::InconsistentOrientation {
                 vertices: [0, 1],
                 faces: [0, 1],
             }),

@@ -8,12 +8,12 @@
 //! cycles, moves of blocks that are far apart are made together, and one by one if that is no better.
 
 use super::block::{Blocks, Growth};
-use super::decide::decide;
+use super::closest::decide;
 use super::laplacian::LONG;
 use super::space::CycleSpace;
 use crate::Result;
 use crate::linalg::PathSolve;
-use crate::solve::{Monitor, Phase};
+use crate::monitor::{Monitor, Phase};
 
 /// Potentials count as changed from here on, in units of the step.
 const CHANGED: f64 = 0.02;

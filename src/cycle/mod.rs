@@ -17,8 +17,8 @@
 
 mod basis;
 mod block;
+mod closest;
 mod cycles;
-mod decide;
 mod detect;
 mod forest;
 mod fundamental;

@@ -10,7 +10,7 @@ use super::hint::hinted_cycles;
 use super::improve::{Effort, Improvement};
 use super::space::CycleSpace;
 use crate::eliminate::ReducedModel;
-use crate::solve::{Factors, Options, Search};
+use crate::search::{Factors, Options, Search};
 use crate::{Model, Result, round};
 
 /// Multiplications of `lattice` for each entry of the factor.

@@ -7,7 +7,7 @@ use super::tolerance::NOISE;
 use super::unknowns::Unknowns;
 use crate::linalg::Sparse;
 use crate::linalg::sparse::reserve;
-use crate::solve::Monitor;
+use crate::monitor::Monitor;
 use crate::{Error, Result};
 
 /// T, and the unknowns that are left, in their order.

@@ -8,7 +8,7 @@
 use super::unknowns::Unknowns;
 use crate::Result;
 use crate::linalg::Sparse;
-use crate::solve::Monitor;
+use crate::monitor::Monitor;
 
 /// Unknowns in a piece. Few make the tree deep, many couple more unknowns with each other.
 const PIECE: usize = 4;

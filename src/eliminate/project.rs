@@ -9,7 +9,7 @@
 use super::Expansion;
 use crate::linalg::sparse::reserve;
 use crate::linalg::{CompensatedSum, Sparse};
-use crate::solve::Monitor;
+use crate::monitor::Monitor;
 use crate::{Error, Model, Result};
 
 /// The lower triangle of `T'QT` with every diagonal entry stored, by rows (Gustavson 1978): first

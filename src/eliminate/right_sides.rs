@@ -10,8 +10,8 @@ use super::steps::Step;
 use super::tolerance::{CONSISTENT, LARGEST, NOISE, near_integer};
 use super::unknowns::Unknowns;
 use crate::linalg::CompensatedSum;
+use crate::monitor::Monitor;
 use crate::problem::row_text;
-use crate::solve::Monitor;
 use crate::{Error, Model, Result};
 
 /// A number and the largest number that took part in making it: what noise is measured against.

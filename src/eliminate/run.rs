@@ -10,7 +10,7 @@ use super::{
     Expansion, ReducedModel, back, continuous, hold, integral, project, right_sides, subtree, sweep,
 };
 use crate::linalg::{Ordering, Sparse};
-use crate::solve::{Monitor, Phase};
+use crate::monitor::{Monitor, Phase};
 use crate::{Model, Result};
 
 /// Removes the equality constraints and the pinned unknowns of `model`, in the order that keeps

@@ -27,7 +27,7 @@ use super::tableau::Tableau;
 use super::tolerance::LONG;
 use super::unknowns::Unknowns;
 use crate::Result;
-use crate::solve::Monitor;
+use crate::monitor::Monitor;
 
 /// A level of sums of sums costs this factor in the length that is tolerated.
 const LEVEL: usize = 8;

@@ -17,7 +17,7 @@ use super::tableau::Tableau;
 use super::tolerance::NOISE;
 use super::unknowns::Unknowns;
 use crate::Result;
-use crate::solve::Monitor;
+use crate::monitor::Monitor;
 
 /// Frees row `r` of all unknowns that have been replaced.
 pub(super) fn sweep(tableau: &mut Tableau, r: usize, monitor: &mut Monitor) -> Result<()> {

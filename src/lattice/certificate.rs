@@ -20,7 +20,7 @@
 use super::Piece;
 use crate::Result;
 use crate::eliminate::ReducedModel;
-use crate::solve::{Factors, Search};
+use crate::search::{Factors, Search};
 
 /// Random vectors that the factor is tried on.
 const PROBES: usize = 8;

@@ -3,7 +3,7 @@
 //! The lattice is that of the Schur complement of the integers, whose factor is the trailing block of
 //! [`JointFactor`](crate::linalg::JointFactor).
 
-mod affine;
+mod affine_lattice;
 mod basis;
 mod beam;
 mod blocks;
@@ -21,7 +21,7 @@ mod target;
 mod transform;
 mod tree;
 
-pub use affine::Affine;
+pub use affine_lattice::Affine;
 pub use basis::Basis;
 pub use beam::beam;
 pub use blocks::improve_blocks;

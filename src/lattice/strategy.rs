@@ -8,8 +8,9 @@ use super::certificate::Certificate;
 use super::prove::{FIRST, GROWTH, radius_for};
 use super::{Diagonals, Limits, Piece, assemble, beam, enumerate, improve_blocks, pieces};
 use crate::eliminate::ReducedModel;
+use crate::monitor::Phase;
 use crate::round;
-use crate::solve::{Factors, Options, Phase, Search};
+use crate::search::{Factors, Options, Search};
 use crate::{Error, Result};
 
 /// A proof that is predicted to need more than so many budgets is not tried.

@@ -5,13 +5,13 @@
 //! measured on orientation fields of 20,000 faces:
 //!
 //! - *Private* integers, which couple to a few unknowns that are not integer, are not relaxed but
-//!   follow exactly: see [`super::condensed`].
+//!   follow exactly: see [`super::static_condensation`].
 //! - Over-relaxation (Young 1954) by [`OVERRELAXATION`].
 
 use std::collections::VecDeque;
 
 use super::Sparse;
-use super::condensed::{Condensed, Entry};
+use super::static_condensation::{Condensed, Entry};
 use crate::Result;
 
 /// Among 1.0, 1.4, 1.6 and 1.8, the factor that left the least error for the least updates.

@@ -4,24 +4,24 @@
 mod analysis;
 mod cholesky;
 mod compensated;
-mod condensed;
 mod conjugate_gradient;
 mod fix;
 mod gauss_seidel;
-mod held;
-mod joint;
 mod ldl;
 mod leading;
+mod local_integers;
 mod minimise;
+mod minimise_fixed;
 mod ordering;
 mod path;
-mod plain_gradients;
-mod plain_seidel;
-mod private;
+mod queue_gauss_seidel;
 mod relaxed;
 mod scaling;
+mod schur_factor;
 pub mod sparse;
+mod static_condensation;
 mod substitute;
+mod unpreconditioned_cg;
 
 pub use analysis::Analysis;
 pub use cholesky::{Cholesky, NULL_PIVOT, PIVOT_TOLERANCE};
@@ -29,17 +29,17 @@ pub use compensated::CompensatedSum;
 pub use conjugate_gradient::{Effort, conjugate_gradient};
 pub use fix::FixedSolve;
 pub use gauss_seidel::LocalSolve;
-pub use held::minimise_held;
-pub use joint::JointFactor;
 pub use ldl::Ldl;
 pub use minimise::{
     CANCELLED, CURVATURE_TOLERANCE, Lowest, Minimum, SLOPE_TOLERANCE, minimise, minimise_bounded,
     residual,
 };
+pub use minimise_fixed::minimise_held;
 pub use ordering::{EliminationTree, Ordering, minimum_degree};
 pub use path::PathSolve;
-pub use plain_gradients::plain_conjugate_gradient;
-pub use plain_seidel::PlainSeidel;
+pub use queue_gauss_seidel::PlainSeidel;
 pub use relaxed::RelaxedFactor;
 pub use scaling::equilibrate;
+pub use schur_factor::JointFactor;
 pub use sparse::Sparse;
+pub use unpreconditioned_cg::plain_conjugate_gradient;

@@ -1,11 +1,11 @@
 //! The factor of a whole reduced Hessian, all integers real.
 //!
-//! [Private](super::private) integers are eliminated by hand first, which is one division each, and
+//! [Private](super::local_integers) integers are eliminated by hand first, which is one division each, and
 //! only their Schur complement is ordered and factored. On an orientation field that is the
 //! Laplacian of a forest, whose factor has no fill at all.
 
+use super::local_integers::private_integers;
 use super::minimise::{CANCELLED, Lowest, Minimum, minimise};
-use super::private::private_integers;
 use super::{Cholesky, Ordering, Sparse};
 use crate::Result;
 

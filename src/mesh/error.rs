@@ -1,5 +1,7 @@
 //! Why a mesh is refused: one variant a reason, each naming the element at fault.
 
+use crate::error::InputError;
+
 /// Why a mesh cannot be made, read, written or drawn up by name.
 ///
 /// Faces, vertices and corners are counted from 0, lines of a file from 1.
@@ -172,6 +174,20 @@ impl MeshError {
             MeshError::UnknownFormat { .. } => "unknown_format",
             MeshError::UnknownShape { .. } => "unknown_shape",
             MeshError::InvalidArgument { .. } => "invalid_argument",
+        }
+    }
+}
+
+impl From<MeshError> for crate::Error {
+    fn from(error: MeshError) -> Self {
+        match error {
+            MeshError::Parse { line, message } => crate::Error::Parse { line, message },
+            MeshError::Io { message } => crate::Error::Io { message },
+            other => crate::Error::Input(InputError {
+                code: other.code(),
+                message: other.to_string(),
+                index: other.index(),
+            }),
         }
     }
 }

@@ -46,3 +46,8 @@ pub fn normalize(a: Vec3) -> Vec3 {
         a
     }
 }
+
+/// The cotangent of the angle between a and b; infinite or NaN where they are parallel.
+pub fn cotangent(a: Vec3, b: Vec3) -> f64 {
+    dot(a, b) / norm(cross(a, b))
+}

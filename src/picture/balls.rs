@@ -1,8 +1,8 @@
 //! Irregular vertices as balls, coloured by index.
 
+use crate::field::OrientationField;
 use crate::mesh::TriangleMesh;
 use crate::mesh::vector::{Vec3, add, normalize, scale};
-use crate::quad::OrientationField;
 
 const POSITIVE: [u8; 3] = [214, 48, 38];
 const NEGATIVE: [u8; 3] = [30, 92, 205];

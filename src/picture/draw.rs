@@ -9,9 +9,9 @@ use super::ribbons::add_ribbon;
 use super::scene::{Scene, Vertex};
 use super::shading::linear;
 use super::streamlines::streamlines;
+use crate::field::OrientationField;
 use crate::mesh::TriangleMesh;
 use crate::mesh::vector::{Vec3, add, normalize};
-use crate::quad::OrientationField;
 use crate::{Error, Result};
 
 const SURFACE: [u8; 3] = [246, 239, 226];

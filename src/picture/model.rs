@@ -1,10 +1,10 @@
 //! A field as triangles that any mesh viewer shows.
 
 use super::balls::{balls, unit_sphere};
+use crate::field::OrientationField;
 use crate::mesh::TriangleMesh;
 use crate::mesh::io::Drawing;
 use crate::mesh::vector::{Vec3, add, cross, norm, scale, sub};
-use crate::quad::OrientationField;
 
 const SURFACE: [u8; 3] = [226, 222, 214];
 const CROSS: [u8; 3] = [40, 56, 84];

@@ -2,9 +2,9 @@
 
 use super::streamlines::streamlines;
 use super::{FieldModel, View, draw_field};
+use crate::field::{FieldProblem, OrientationField, curvature_constraints};
 use crate::mesh::vector::{dot, norm, sub};
 use crate::mesh::{TriangleMesh, io, shape};
-use crate::quad::{FieldProblem, OrientationField, curvature_constraints};
 use crate::{Error, Options, solve};
 
 fn field(name: &str, triangles: usize) -> (TriangleMesh, OrientationField) {

@@ -12,7 +12,8 @@ use super::{greedy, nearest};
 use crate::Result;
 use crate::eliminate::ReducedModel;
 use crate::linalg::{Effort, LocalSolve, conjugate_gradient, minimise_held};
-use crate::solve::{Factors, Options, Phase, Search};
+use crate::monitor::Phase;
+use crate::search::{Factors, Options, Search};
 
 /// Gauss-Seidel updates between two looks at the clock.
 const UPDATES_AT_A_TIME: usize = 10_000;

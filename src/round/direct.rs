@@ -5,7 +5,7 @@
 use super::nearest;
 use crate::Result;
 use crate::eliminate::ReducedModel;
-use crate::solve::{Factors, Search};
+use crate::search::{Factors, Search};
 
 /// Rounds the relaxation once.
 ///

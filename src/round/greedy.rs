@@ -9,7 +9,8 @@ use super::nearest;
 use crate::Result;
 use crate::eliminate::ReducedModel;
 use crate::linalg::FixedSolve;
-use crate::solve::{Factors, Phase, Search};
+use crate::monitor::Phase;
+use crate::search::{Factors, Search};
 
 /// Deviations this close to the least one are a tie, which the lowest variable wins.
 pub const TIE: f64 = 1e-9;

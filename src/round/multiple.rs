@@ -17,7 +17,8 @@ use super::nearest;
 use crate::Result;
 use crate::eliminate::ReducedModel;
 use crate::linalg::{Effort, PlainSeidel, minimise_held, plain_conjugate_gradient};
-use crate::solve::{Factors, Options, Phase, Search};
+use crate::monitor::Phase;
+use crate::search::{Factors, Options, Search};
 
 /// Gauss-Seidel looks between two looks at the clock.
 const LOOKS_AT_A_TIME: usize = 10_000;

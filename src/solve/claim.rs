@@ -1,8 +1,9 @@
 //! What a search claims, held against the problem as it was given.
 
-use super::monitor::gap;
+use super::polish;
 use super::verify::{Verdict, verify};
-use super::{SolveStatus, held};
+use crate::monitor::relative_gap;
+use crate::search::SolveStatus;
 use crate::{Problem, Result};
 
 /// What the search holds for proved is not called so where verification, from the caller's own numbers,
@@ -26,9 +27,9 @@ impl Claim {
         // Of a search that was stopped, what it found is returned as it is.
         let mended = match self.status {
             SolveStatus::Optimal | SolveStatus::Feasible => {
-                held::with_integers_held(problem, &self.values, &verdict)
+                polish::with_integers_held(problem, &self.values, &verdict)
             }
-            SolveStatus::Relaxed => held::with_integers_real(problem, &verdict),
+            SolveStatus::Relaxed => polish::with_integers_real(problem, &verdict),
             SolveStatus::Limit | SolveStatus::Cancelled => None,
         };
         if let Some(better) = mended {
@@ -38,7 +39,7 @@ impl Claim {
                 self.lower_bound = better.lower_bound;
             }
         }
-        let proved = gap(verdict.energy, self.lower_bound) <= VERIFIED_GAP;
+        let proved = relative_gap(verdict.energy, self.lower_bound) <= VERIFIED_GAP;
         if self.status == SolveStatus::Optimal && self.decided && !proved {
             self.status = SolveStatus::Feasible;
         }

@@ -8,13 +8,14 @@
 //! continuous unknowns, from the caller's numbers, and solved as any other.
 
 use super::claim::Claim;
-use super::monitor::Monitor;
 use super::run::Prepared;
-use super::search::LARGEST_INTEGER;
-use super::{Counts, Factors, Options, Seconds, Solution};
+use super::{Counts, Seconds, Solution};
 use crate::eliminate::{Elimination, ReducedModel};
 use crate::lattice::Affine;
 use crate::linalg::CompensatedSum;
+use crate::monitor::Monitor;
+use crate::search::LARGEST_INTEGER;
+use crate::search::{Factors, Options};
 use crate::{Error, Model, Problem, Result};
 
 /// Numbers up to here do no harm: their squares leave twelve digits.

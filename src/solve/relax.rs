@@ -1,8 +1,8 @@
 //! The relaxation: all integers real. Its minimum is a lower bound for every solution.
 
-use super::{Factors, Strategy};
 use crate::eliminate::ReducedModel;
 use crate::linalg::{Lowest, Minimum, minimise};
+use crate::search::{Factors, Strategy};
 use crate::{Error, Model, Result};
 
 /// Rounding errors of the energy's own evaluation, relative to the sum of its absolute terms:

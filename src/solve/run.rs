@@ -1,14 +1,15 @@
 //! One solve from beginning to end: validate, eliminate, relax, search, expand, verify.
 
 use super::claim::Claim;
-use super::factors::Factors;
-use super::monitor::Monitor;
 use super::relax::{Relaxation, relax};
-use super::search::Search;
 use super::solution::{Counts, Seconds, Solution};
-use super::work::of_relaxation;
-use super::{Options, Phase, SolveStatus, Strategy, WarmStart};
 use crate::eliminate::{Elimination, ReducedModel};
+use crate::monitor::Monitor;
+use crate::monitor::Phase;
+use crate::search::Factors;
+use crate::search::Search;
+use crate::search::of_relaxation;
+use crate::search::{Options, SolveStatus, Strategy, WarmStart};
 use crate::{Error, Model, Problem, Result, round};
 
 /// Solves `problem`, watched by nobody.
@@ -197,7 +198,7 @@ fn decide(
     // Nothing is better than what is optimal already.
     let done = search.status() == SolveStatus::Optimal || options.warm_start == WarmStart::Keep;
     if !done {
-        match super::decide::search(model, reduced, options, factors, &mut search) {
+        match super::choose::search(model, reduced, options, factors, &mut search) {
             // Whatever ended the search, what was found stays.
             Err(Error::Cancelled | Error::TimeLimit) if search.best().is_some() => {}
             other => other?,

@@ -1,7 +1,7 @@
 //! What a solve gives back.
 
-use super::SolveStatus;
-use super::monitor::gap;
+use crate::monitor::relative_gap;
+use crate::search::SolveStatus;
 
 /// Sizes of a problem before and after elimination.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -68,7 +68,8 @@ impl Solution {
 
     /// `(energy - lower_bound) / max(1, |energy|)`, where there is a bound.
     pub fn gap(&self) -> Option<f64> {
-        self.lower_bound.map(|bound| gap(self.energy, bound))
+        self.lower_bound
+            .map(|bound| relative_gap(self.energy, bound))
     }
 
     /// How the solve ended.

@@ -4,13 +4,14 @@
 //! the recorded steps of the elimination ([`Elimination::reduce`]), which is what a first solve
 //! does as well: the same data give the same bits as a solve from the start.
 
-use super::factors::Factors;
-use super::monitor::Monitor;
+use super::Solution;
 use super::run::{Prepared, tell_of_ignored_hint};
-use super::{Options, Solution, SolveStatus};
 use crate::eliminate::Elimination;
 use crate::linalg::Ordering;
+use crate::monitor::Monitor;
 use crate::problem::RowList;
+use crate::search::Factors;
+use crate::search::{Options, SolveStatus};
 use crate::{Model, Problem, Result};
 
 /// A problem whose structure is fixed, and what was learned of it.

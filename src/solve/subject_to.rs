@@ -5,14 +5,15 @@
 //! between integers alone are rows in z. So with them the problem is a small dense one, decided like
 //! any other, and what it decides is handed to the problem itself.
 
-use super::monitor::Monitor;
+use super::Solution;
 use super::relax::{Relaxation, relax};
 use super::run::{Decided, Prepared};
-use super::search::Search;
-use super::work::of_relaxation;
-use super::{Factors, Options, Solution, SolveStatus, Strategy, WarmStart};
 use crate::eliminate::{Elimination, ReducedModel};
+use crate::monitor::Monitor;
 use crate::problem::RowList;
+use crate::search::Search;
+use crate::search::of_relaxation;
+use crate::search::{Factors, Options, SolveStatus, Strategy, WarmStart};
 use crate::{Model, Problem, Result};
 
 impl Prepared<'_> {

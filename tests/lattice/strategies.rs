@@ -4,9 +4,10 @@ use std::cell::{Cell, RefCell};
 use std::time::Instant;
 
 use super::common;
+use roundel::field::{FieldProblem, curvature_constraints};
+use roundel::map::{SeamlessOptions, SeamlessProblem};
 use roundel::mesh::{jitter, shape};
-use roundel::quad::{FieldProblem, SeamlessOptions, SeamlessProblem, curvature_constraints};
-use roundel::solve::EventKind;
+use roundel::monitor::EventKind;
 use roundel::{Event, Flow, Monitor, Options, Problem, SolveStatus, Strategy, solve, solve_with};
 
 fn with(strategy: Strategy) -> Options {

@@ -7,8 +7,8 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use roundel::Result;
+use roundel::check::{CheckOptions, MAP_TOLERANCE, MapCheck, check_map, feature_edges};
 use roundel::mesh::{TriangleMesh, io};
-use roundel::quad::check::{CheckOptions, MAP_TOLERANCE, MapCheck, check_map, feature_edges};
 
 use crate::exit::{self, Exit};
 use crate::output;

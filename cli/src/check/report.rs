@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use roundel::quad::check::Defect;
+use roundel::check::Defect;
 use serde::Serialize;
 
 use super::Checked;

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use roundel::quad::check::Defect;
+use roundel::check::Defect;
 
 use super::Checked;
 use crate::summary::{counted, counted_vertices, line, thousands};

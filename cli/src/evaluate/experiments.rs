@@ -248,7 +248,7 @@ fn orderings() -> Vec<Solver> {
 
 #[cfg(test)]
 mod tests {
-    use roundel::solve::PRESETS;
+    use roundel::search::PRESETS;
 
     use super::*;
 

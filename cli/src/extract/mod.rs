@@ -5,8 +5,9 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use roundel::Result;
+use roundel::extract::{IntegerGridMap, QuadMesh, extract};
 use roundel::mesh::{TriangleMesh, io};
-use roundel::quad::{IntegerGridMap, QuadMesh, SmoothOptions, extract, smooth};
+use roundel::smooth::{SmoothOptions, smooth};
 use serde::Serialize;
 
 use crate::exit::{self, Exit};

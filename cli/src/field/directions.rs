@@ -2,9 +2,10 @@
 
 use std::path::PathBuf;
 
+use roundel::field::{Constraint, Guidance};
 use roundel::mesh::TriangleMesh;
 use roundel::mesh::features::FeatureGraph;
-use roundel::quad::{Constraint, Guidance, QuadOptions};
+use roundel::quad::QuadOptions;
 
 use super::named;
 

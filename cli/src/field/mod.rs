@@ -8,10 +8,10 @@ mod summary;
 use std::path::Path;
 use std::time::Instant;
 
+use roundel::field::{FieldProblem, OrientationField, solve_field};
 use roundel::mesh::{TriangleMesh, io};
 use roundel::picture::{FieldModel, View, draw_field};
 use roundel::problem::mps::{self, MpsProblem};
-use roundel::quad::{FieldProblem, OrientationField, solve_field};
 use roundel::{Error, Options, Result, Solution, Strategy};
 
 use crate::exit::Exit;
@@ -89,14 +89,11 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
 
 /// The error with the name of a file: what is told of a failure begins with the mesh's.
 pub fn named(path: &Path, error: Error) -> Error {
-    use roundel::mesh::MeshError;
     match error {
-        Error::Parse { line, message } | Error::Mesh(MeshError::Parse { line, message }) => {
-            Error::Parse {
-                line,
-                message: format!("{message} ({})", path.display()),
-            }
-        }
+        Error::Parse { line, message } => Error::Parse {
+            line,
+            message: format!("{message} ({})", path.display()),
+        },
         other => other,
     }
 }

@@ -3,9 +3,10 @@
 use std::path::Path;
 use std::time::Instant;
 
+use roundel::field::{Guidance, OrientationField, solve_field};
+use roundel::map::Sizing;
 use roundel::mesh::TriangleMesh;
 use roundel::mesh::features::FeatureGraph;
-use roundel::quad::{Guidance, OrientationField, Sizing, solve_field};
 use roundel::{Monitor, Options, Result};
 
 use super::Arguments;
@@ -63,7 +64,7 @@ fn solve<'a>(
         strategy: arguments.field_strategy,
         ..options.clone()
     };
-    let follow = guidance.map_options(mesh, features, sizing)?;
+    let follow = guidance.map_options(mesh, features, sizing.edge_length(mesh))?;
     let started = Instant::now();
     let (field, solution) = solve_field(mesh, &follow, &options, monitor)?;
     let source = FieldSource {

@@ -8,10 +8,10 @@ mod summary;
 
 use std::time::Instant;
 
+use roundel::map::{SeamlessProblem, Sizing};
 use roundel::mesh::TriangleMesh;
 use roundel::problem::mps::{self, MpsProblem};
-use roundel::quad::untangle::{Unfolded, UntangleOptions, Untangled, solve_unfolded};
-use roundel::quad::{SeamlessProblem, Sizing};
+use roundel::untangle::{Unfolded, UntangleOptions, Untangled, solve_unfolded};
 use roundel::{Options, Result, Solution};
 
 use crate::exit::Exit;

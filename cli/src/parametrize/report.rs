@@ -1,6 +1,6 @@
 //! The JSON object of a map: that of a solve, and what is known of the mesh and its field.
 
-use roundel::quad::Sizing;
+use roundel::map::Sizing;
 use serde::Serialize;
 
 use super::{Arguments, Solved};

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use roundel::Error;
-use roundel::quad::{SeamlessOptions, Sizing};
+use roundel::map::{SeamlessOptions, Sizing};
 
 /// A number of quads, a length of their edges, or a length for every face.
 #[derive(clap::Args)]

@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 use std::path::Path;
 
-use roundel::quad::QuadMesh;
+use roundel::extract::QuadMesh;
 use serde::Serialize;
 
 /// The elements at fault, and the triangles that the map folds.

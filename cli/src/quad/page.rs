@@ -6,7 +6,8 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use roundel::quad::{Compared, QuadMesh};
+use roundel::extract::QuadMesh;
+use roundel::quad::Compared;
 use roundel::{Error, Result};
 use serde::Serialize;
 
@@ -69,7 +70,7 @@ fn escaped(text: &str) -> String {
 
 fn tables(solved: &Solved) -> String {
     let made = &solved.made;
-    let quality = roundel::quad::QuadQuality::new(&made.quads);
+    let quality = roundel::smooth::QuadQuality::new(&made.quads);
     let (solution, seconds) = (&made.solution, made.seconds);
     let mut out = String::new();
     let rows = [

@@ -1,7 +1,8 @@
 //! The JSON object of quads.
 
 use roundel::Solution;
-use roundel::quad::{QuadMesh, QuadQuality};
+use roundel::extract::QuadMesh;
+use roundel::smooth::QuadQuality;
 use serde::Serialize;
 
 use super::Arguments;

@@ -3,7 +3,8 @@
 use std::fs;
 use std::process::Command;
 
-use roundel::solve::{OPTIONS, replay};
+use roundel::search::OPTIONS;
+use roundel::solve::replay;
 use roundel::{Options, Problem, Strategy};
 use serde_json::{Value, json};
 

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use roundel::solve::{OPTIONS, OptionKind};
+use roundel::search::{OPTIONS, OptionKind};
 
 use crate::run::{Scratch, finish, only_object, program};
 

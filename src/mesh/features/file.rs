@@ -71,8 +71,8 @@ fn vertex(word: &str, seen: i64) -> Option<usize> {
 }
 
 fn wrong(line: usize, message: &str) -> Error {
-    Error::Mesh(MeshError::Parse {
+    Error::Parse {
         line,
         message: message.into(),
-    })
+    }
 }

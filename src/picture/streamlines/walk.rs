@@ -6,9 +6,9 @@
 
 use std::f64::consts::FRAC_PI_2;
 
+use crate::field::OrientationField;
 use crate::mesh::TriangleMesh;
 use crate::mesh::vector::{Vec3, add, cross, dot, norm, scale, sub};
-use crate::quad::OrientationField;
 
 /// A place on the surface, and the arm of the cross there that is followed.
 #[derive(Debug, Clone, Copy)]

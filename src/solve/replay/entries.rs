@@ -8,7 +8,7 @@ use std::fmt;
 
 use serde::de::{DeserializeSeed, Deserializer, Error, MapAccess, Visitor};
 
-use crate::solve::OptionValue;
+use crate::search::OptionValue;
 
 /// Hands each entry of an object to a function, whose refusal is an error on that entry's line.
 pub(super) struct Entries<F>(pub F);

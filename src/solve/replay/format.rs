@@ -7,7 +7,7 @@ use serde::ser::{SerializeMap, Serializer};
 use serde::{Deserialize, Serialize};
 
 use super::entries::Entries;
-use crate::solve::{OPTIONS, OptionInfo, OptionKind, OptionValue, Options};
+use crate::search::{OPTIONS, OptionInfo, OptionKind, OptionValue, Options};
 use crate::{Error, Result};
 
 /// The format written, and the only one read.

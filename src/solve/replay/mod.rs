@@ -13,8 +13,8 @@ mod format;
 
 use std::path::{Path, PathBuf};
 
-use super::Options;
 use crate::problem::mps;
+use crate::search::Options;
 use crate::{Error, Model, Problem, Result};
 
 use format::{Replay, Values};

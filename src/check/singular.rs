@@ -1,0 +1,73 @@
+//! Singular vertices: those around which the map turns other than once.
+//!
+//! The quarter turns around a vertex, composed, are its index up to whole turns; these are told by
+//! the angles of the map, which are trusted where all triangles around are the right way round.
+
+use std::f64::consts::FRAC_PI_2;
+
+use super::{Singularity, orientation};
+use crate::mesh::TriangleMesh;
+
+/// The singular vertices, in increasing order.
+///
+/// `quarters` holds the turn of each edge from its first to its second face. At the boundary a
+/// vertex is singular where the angle is not a half turn, and only looked at if `on_boundary`.
+pub(super) fn singularities(
+    mesh: &TriangleMesh,
+    uv: &[[[f64; 2]; 3]],
+    quarters: &[u8],
+    on_boundary: bool,
+) -> Vec<Singularity> {
+    let index = |v: usize| match mesh.is_boundary_vertex(v) {
+        true if on_boundary => turns_around(mesh, |f| uv[f], v).map_or(0, |angle| 2 - angle),
+        true => 0,
+        false => interior_index(mesh, uv, quarters, v),
+    };
+    let all = (0..mesh.vertex_count()).map(|vertex| Singularity {
+        vertex,
+        quarters: index(vertex),
+    });
+    all.filter(|singularity| singularity.quarters != 0)
+        .collect()
+}
+
+fn interior_index(mesh: &TriangleMesh, uv: &[[[f64; 2]; 3]], quarters: &[u8], v: usize) -> i32 {
+    let mut holonomy = 0;
+    for (face, corner) in mesh.ring(v) {
+        let k = (corner + 2) % 3;
+        let e = mesh.edge_of(face, k);
+        let forth = i32::from(quarters[e]);
+        holonomy += if mesh.edge(e).first == (face, k) {
+            forth
+        } else {
+            -forth
+        };
+    }
+    let holonomy = holonomy.rem_euclid(4);
+    match turns_around(mesh, |f| uv[f], v).map(|angle| 4 - angle) {
+        Some(index) if (index - holonomy).rem_euclid(4) == 0 => index,
+        // +3/4 and -1/4 cannot be told apart by turns; cones of -1/4 are the common ones.
+        _ if holonomy == 3 => -1,
+        _ => holonomy,
+    }
+}
+
+/// The quarter turns that the map's angles around a vertex add up to; none where a triangle there
+/// is folded.
+pub(super) fn turns_around(
+    mesh: &TriangleMesh,
+    uv: impl Fn(usize) -> [[f64; 2]; 3],
+    v: usize,
+) -> Option<i32> {
+    let mut sum = 0.0;
+    for (face, corner) in mesh.ring(v) {
+        let uv = uv(face);
+        if orientation(uv) <= 0.0 {
+            return None;
+        }
+        let at = |k: usize| uv[(corner + k) % 3];
+        let [a, b] = [at(1), at(2)].map(|p| [p[0] - at(0)[0], p[1] - at(0)[1]]);
+        sum += (a[0] * b[1] - a[1] * b[0]).atan2(a[0] * b[0] + a[1] * b[1]);
+    }
+    Some((sum / FRAC_PI_2).round() as i32)
+}

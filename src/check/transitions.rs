@@ -1,0 +1,58 @@
+//! How coordinates change over an edge, read off the coordinates alone.
+//!
+//! Bommes 2012, chapter 6: the transition of an integer-grid map is a quarter turn and an integer
+//! translation. Both ends of an edge are seen from both faces, so that a turn and a translation
+//! explain them but for a residual; the turn with the least is taken.
+
+use super::distance;
+use crate::mesh::TriangleMesh;
+
+/// What carries the coordinates of an edge's first face to those of its second.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Seen {
+    /// Quarter turns counter-clockwise, 0 to 3.
+    pub quarters: u8,
+    /// How far the edge, turned, is from itself as the other face has it.
+    pub rotation_error: f64,
+    /// How far the translation is from integers.
+    pub translation_error: f64,
+}
+
+/// The transition of an interior edge; none at the boundary.
+///
+/// An edge without length says nothing of the turn: of all turns that explain it, the one with the
+/// translation nearest to integers is taken.
+pub(super) fn seen(
+    mesh: &TriangleMesh,
+    uv: &[[[f64; 2]; 3]],
+    edge: usize,
+    tolerance: f64,
+) -> Option<Seen> {
+    let edge = mesh.edge(edge);
+    let ((i, k), (j, l)) = (edge.first, edge.second?);
+    let here = [uv[i][k], uv[i][(k + 1) % 3]];
+    let there = [uv[j][(l + 1) % 3], uv[j][l]];
+    let turns = [0u8, 1, 2, 3].map(|quarters| {
+        let turned = here.map(|point| turn(quarters, point));
+        let shifts = [0, 1].map(|end| [0, 1].map(|a| there[end][a] - turned[end][a]));
+        let shift = [0, 1].map(|a| 0.5 * (shifts[0][a] + shifts[1][a]));
+        Seen {
+            quarters,
+            rotation_error: distance(shifts[0], shifts[1]),
+            translation_error: shift
+                .map(|x| (x - x.round()).abs())
+                .into_iter()
+                .fold(0.0, f64::max),
+        }
+    });
+    let explains = |seen: &&Seen| seen.rotation_error <= tolerance;
+    let by_translation = |a: &&Seen, b: &&Seen| a.translation_error.total_cmp(&b.translation_error);
+    let by_rotation = |a: &&Seen, b: &&Seen| a.rotation_error.total_cmp(&b.rotation_error);
+    let best = turns.iter().filter(explains).min_by(by_translation);
+    best.or_else(|| turns.iter().min_by(by_rotation)).copied()
+}
+
+/// A point turned by quarters counter-clockwise about the origin.
+fn turn(quarters: u8, [x, y]: [f64; 2]) -> [f64; 2] {
+    [[x, y], [-y, x], [-x, -y], [y, -x]][usize::from(quarters)]
+}

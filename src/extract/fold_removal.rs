@@ -1,0 +1,123 @@
+//! Folds taken out: lines that cross once forth and once back are pulled apart.
+//!
+//! Where the map turns triangles over, an integer point has several preimages, as many forth as
+//! back but for one, and lines run back to the level they came from. Ebke et al. 2013, section 6,
+//! join such points by rules for their cases. Here three moves of the drawing do it, none of which
+//! changes the surface it is drawn on:
+//!
+//! - two lines that bound an empty lens cross at two points of which one is turned over: both
+//!   points go, and the lines pass each other;
+//! - a line from an irregular vertex that comes back at once goes;
+//! - a line without length between an irregular vertex and a point is drawn to one point.
+//!
+//! On a disk two families of lines without lenses cross no more often than they must (the bigon
+//! criterion), so folds away from irregular vertices leave no trace; at irregular ones the moves
+//! leave as many lines as the coordinates turn by quarters around all that was folded together.
+
+use std::collections::VecDeque;
+
+use super::graph::{Graph, Place};
+
+/// Takes folds out until there are none. Returns how many points were taken out or joined.
+pub(super) fn remove_folds(graph: &mut Graph) -> usize {
+    let before = graph.live_vertices();
+    let mut queue: VecDeque<u32> = (0..graph.port_count() as u32)
+        .filter(|&port| graph.is_fold(port))
+        .collect();
+    settle(graph, &mut queue);
+    for joins in [joins_irregular, joins_any] {
+        loop {
+            let mut is_changed = false;
+            for port in 0..graph.port_count() as u32 {
+                if !graph.is_fold(port) || !joins(graph, port) {
+                    continue;
+                }
+                is_changed = true;
+                let mate = graph.mate[port as usize];
+                let kept = match graph.places[graph.vertex(port) as usize] {
+                    Place::Vertex(_) => port,
+                    _ => mate,
+                };
+                let around = neighbours(graph, &[port, mate]);
+                if graph.vertex(port) == graph.vertex(mate) {
+                    graph.remove_line(port);
+                } else {
+                    graph.contract(kept);
+                }
+                queue.extend(around);
+                settle(graph, &mut queue);
+            }
+            if !is_changed {
+                break;
+            }
+        }
+    }
+    before - graph.live_vertices()
+}
+
+/// A line between different vertices, one of them irregular.
+fn joins_irregular(graph: &Graph, port: u32) -> bool {
+    let ends = [port, graph.mate[port as usize]].map(|p| graph.vertex(p));
+    let is_irregular = |v: u32| matches!(graph.places[v as usize], Place::Vertex(_));
+    ends[0] != ends[1] && ends.into_iter().any(is_irregular)
+}
+
+fn joins_any(_: &Graph, _: u32) -> bool {
+    true
+}
+
+/// Pulls lenses apart and drops loops, until none is left.
+fn settle(graph: &mut Graph, queue: &mut VecDeque<u32>) {
+    while let Some(port) = queue.pop_front() {
+        if !graph.is_fold(port) {
+            continue;
+        }
+        let mate = graph.mate[port as usize];
+        if graph.next(port) == mate || graph.next(mate) == port {
+            let around = neighbours(graph, &[port, mate]);
+            graph.remove_line(port);
+            queue.extend(around);
+        } else if let Some(lens) = lens(graph, port).or_else(|| lens(graph, mate)) {
+            let around = neighbours(graph, &lens);
+            // The first may take lines of the second along, but not its ports.
+            graph.uncross(lens[0]);
+            graph.uncross(lens[1]);
+            queue.extend(around);
+        }
+    }
+}
+
+/// Two ports, one at each corner of the lens to the left of a line, if there is one: a face of two
+/// lines that fold, between two plain crossings.
+fn lens(graph: &Graph, port: u32) -> Option<[u32; 2]> {
+    let mate = graph.mate[port as usize];
+    let other = graph.next(port);
+    let is_lens = graph.is_fold(other)
+        && graph.mate[other as usize] == graph.previous(mate)
+        && other != mate
+        && graph.vertex(port) != graph.vertex(mate)
+        && is_crossing(graph, port)
+        && is_crossing(graph, mate);
+    is_lens.then_some([port, mate])
+}
+
+/// Whether the vertex of a port is a crossing of two lines as it was found.
+fn is_crossing(graph: &Graph, port: u32) -> bool {
+    let is_face = matches!(graph.places[graph.vertex(port) as usize], Place::Face(..));
+    let around = graph.next(graph.next(graph.next(graph.next(port))));
+    is_face && around == port && graph.next(graph.next(port)) != port
+}
+
+/// Ports at and across from the vertices of these, where a move may make room for the next.
+fn neighbours(graph: &Graph, ports: &[u32]) -> Vec<u32> {
+    let mut found = Vec::new();
+    for &port in ports {
+        for p in graph.ring(port) {
+            found.push(p);
+            if let Some(mate) = graph.mate(p) {
+                found.extend([mate, graph.next(mate), graph.previous(mate)]);
+            }
+        }
+    }
+    found
+}

@@ -1,0 +1,57 @@
+//! The quads, and what is to be known of them.
+
+use crate::mesh::vector::Vec3;
+
+/// Where a vertex of the quads lies on the triangle mesh.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Origin {
+    /// At an irregular vertex.
+    Vertex(usize),
+    /// In a face, with barycentric coordinates.
+    Face(usize, [f64; 3]),
+    /// Off the surface: in the middle of a cell that was no square.
+    Middle,
+}
+
+/// Polygons with shared vertices; all of them quads where extraction succeeded.
+#[derive(Debug, Clone, PartialEq)]
+pub struct QuadMesh {
+    /// Positions. Every vertex has a face.
+    pub vertices: Vec<Vec3>,
+    /// Where each vertex was on the triangle mesh.
+    pub origins: Vec<Origin>,
+    /// Corners of the quads, counter-clockwise.
+    pub quads: Vec<[u32; 4]>,
+    /// Corners of the faces that are no quads.
+    pub others: Vec<Vec<u32>>,
+    /// Cells that the boundary cuts through and that are left out.
+    pub partial_cells: usize,
+    /// Integer points that folds of the map had doubled, taken out or joined.
+    pub unfolded: usize,
+    /// Moves that made quads of what folds had left: lines taken out, vertices put in.
+    pub repaired: usize,
+    /// Triangles that the map turns over or collapses, in increasing order: where faults are, they
+    /// are the reason.
+    pub folded: Vec<usize>,
+    /// The Euler characteristic of the triangle mesh.
+    pub expected_euler: i64,
+}
+
+impl QuadMesh {
+    /// All faces: the quads, then the others.
+    pub fn faces(&self) -> impl Iterator<Item = &[u32]> {
+        let quads = self.quads.iter().map(|quad| quad.as_slice());
+        quads.chain(self.others.iter().map(Vec::as_slice))
+    }
+
+    /// The quads at every vertex, in increasing order.
+    pub(crate) fn around(&self) -> Vec<Vec<u32>> {
+        let mut around = vec![Vec::new(); self.vertices.len()];
+        for (q, quad) in self.quads.iter().enumerate() {
+            for &v in quad {
+                around[v as usize].push(q as u32);
+            }
+        }
+        around
+    }
+}

@@ -1,0 +1,28 @@
+//! The orientation field of a mesh as a mixed-integer problem: an angle a face, a period jump an edge.
+//!
+//! Bommes, Zimmer, Kobbelt 2009, section 4. A client of the solver: it builds a
+//! [`Problem`](crate::Problem) and reads a [`Solution`](crate::Solution).
+
+mod curvature_guidance;
+mod detail;
+mod directions;
+mod feasible_indices;
+mod feature_alignment;
+mod file;
+mod guidance;
+mod guidance_file;
+mod index;
+mod options;
+mod orientation_field;
+mod prescribed_indices;
+mod problem;
+mod spanning_forest;
+mod traced_index;
+
+pub use curvature_guidance::{curvature_constraints, curvature_guides};
+pub use feasible_indices::{smoothest_field, solve_field};
+pub use feature_alignment::feature_constraints;
+pub use guidance::Guidance;
+pub use options::{Constraint, FieldOptions, Guide, PrescribedIndex};
+pub use orientation_field::OrientationField;
+pub use problem::FieldProblem;

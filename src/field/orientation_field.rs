@@ -1,0 +1,98 @@
+//! An orientation field, and its energy measured on the mesh.
+
+use std::f64::consts::TAU;
+
+use super::Guide;
+use crate::linalg::CompensatedSum;
+use crate::mesh::TriangleMesh;
+use crate::{Error, Result};
+
+/// An N-symmetric direction field: N arms evenly around in every face, a cross for N = 4, and how
+/// they match over edges.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OrientationField {
+    pub(crate) symmetry: u8,
+    pub(crate) angles: Vec<f64>,
+    pub(crate) period_jumps: Vec<i32>,
+    pub(crate) kappa: Vec<f64>,
+    pub(crate) constrained: Vec<bool>,
+}
+
+impl OrientationField {
+    /// N, the number of arms in a face: 4 for crosses.
+    pub fn symmetry(&self) -> u8 {
+        self.symmetry
+    }
+
+    /// One arm of each face: radians, counter-clockwise about the normal from the first edge. Not
+    /// reduced to the angle between arms: the period jumps belong to these very angles.
+    pub fn angles(&self) -> &[f64] {
+        &self.angles
+    }
+
+    /// One number an edge of the mesh, from its first to its second face: `angle + kappa +
+    /// 2 pi/N jump` is the matching arm of the second. Zero at the boundary.
+    pub fn period_jumps(&self) -> &[i32] {
+        &self.period_jumps
+    }
+
+    /// One angle an edge: the frame of its first face seen in that of its second, after unfolding,
+    /// in (-pi, pi]. Zero at the boundary.
+    pub fn kappa(&self) -> &[f64] {
+        &self.kappa
+    }
+
+    /// Which faces had their direction given.
+    pub fn constrained(&self) -> &[bool] {
+        &self.constrained
+    }
+
+    /// The angle from arm to arm.
+    pub(crate) fn step(&self) -> f64 {
+        TAU / f64::from(self.symmetry)
+    }
+
+    /// Whether this can be a field on that mesh.
+    pub(crate) fn check_mesh(&self, mesh: &TriangleMesh) -> Result<()> {
+        let mismatch = |what, expected, actual| Error::LengthMismatch {
+            what,
+            expected,
+            actual,
+        };
+        let (faces, edges) = (mesh.face_count(), mesh.edge_count());
+        match (self.angles.len(), self.period_jumps.len()) {
+            (angles, _) if angles != faces => Err(mismatch("angles", faces, angles)),
+            (_, jumps) if jumps != edges => Err(mismatch("period jumps", edges, jumps)),
+            _ => Ok(()),
+        }
+    }
+
+    /// Sum over interior edges, not between two constrained faces, of
+    /// `(theta_i + kappa_ij + 2 pi/N p_ij - theta_j)^2`, recomputed from the mesh.
+    pub fn energy(&self, mesh: &TriangleMesh) -> f64 {
+        let mut sum = CompensatedSum::new(0.0);
+        for (e, edge) in mesh.edges().enumerate() {
+            let (i, k) = edge.first;
+            let Some((j, _)) = edge.second else { continue };
+            if self.constrained[i] && self.constrained[j] {
+                continue;
+            }
+            let kappa = mesh.transport(i, k).unwrap_or(0.0);
+            let turn = self.angles[i] + kappa + self.step() * f64::from(self.period_jumps[e]);
+            let residual = turn - self.angles[j];
+            sum.add_product(residual, residual);
+        }
+        sum.value()
+    }
+
+    /// Sum of `weight (theta - angle)^2` over the guides of faces that are not constrained: with
+    /// [`energy`](Self::energy), what the solver made least.
+    pub fn guide_energy(&self, guides: &[Guide]) -> f64 {
+        let mut sum = CompensatedSum::new(0.0);
+        for guide in guides.iter().filter(|g| !self.constrained[g.face]) {
+            let error = self.angles[guide.face] - guide.angle;
+            sum.add_product(guide.weight * error, error);
+        }
+        sum.value()
+    }
+}

@@ -1,0 +1,138 @@
+//! Shortest paths from a cut graph to the cones that it does not yet reach.
+//!
+//! One sweep of Dijkstra's algorithm from all that is cut so far and from the boundary. A cone that
+//! is settled puts its path into the cut graph, and the sweep goes on from there at distance zero,
+//! so that every cone joins what is nearest to it at that time (the shortest-path heuristic for
+//! Steiner trees: Takahashi, Matsuyama 1980).
+
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+use crate::mesh::TriangleMesh;
+
+/// Adds the paths to `is_cut`.
+pub(crate) fn join_cones(mesh: &TriangleMesh, cones: &[usize], is_cut: &mut [bool]) {
+    let mut sweep = Sweep::new(mesh, cones);
+    for (e, edge) in mesh.edges().enumerate() {
+        if is_cut[e] || edge.second.is_none() {
+            edge.vertices.into_iter().for_each(|v| sweep.start(v));
+        }
+    }
+    let seeds = sweep.seed_closed_spheres(cones);
+    sweep.run(is_cut);
+    for seed in seeds {
+        // A sphere is a disk only when an edge is cut, not when a vertex is marked.
+        let mut spokes = mesh.ring(seed).map(|(f, k)| mesh.edge_of(f, k));
+        if let Some(lowest) = mesh.ring(seed).map(|(f, k)| mesh.edge_of(f, k)).min()
+            && !spokes.any(|e| is_cut[e])
+        {
+            is_cut[lowest] = true;
+        }
+    }
+}
+
+struct Sweep<'a> {
+    mesh: &'a TriangleMesh,
+    distance: Vec<f64>,
+    /// The edge over which a vertex is reached.
+    via: Vec<u32>,
+    /// Cones not yet joined.
+    is_open: Vec<bool>,
+    /// By distance, ties by number. Distances are not negative, so their bits sort as they do.
+    heap: BinaryHeap<Reverse<(u64, u32)>>,
+}
+
+impl<'a> Sweep<'a> {
+    fn new(mesh: &'a TriangleMesh, cones: &[usize]) -> Self {
+        let mut is_open = vec![false; mesh.vertex_count()];
+        cones.iter().for_each(|&v| is_open[v] = true);
+        Sweep {
+            mesh,
+            distance: vec![f64::INFINITY; mesh.vertex_count()],
+            via: vec![0; mesh.vertex_count()],
+            is_open,
+            heap: BinaryHeap::new(),
+        }
+    }
+
+    /// Makes a vertex one from which paths start.
+    fn start(&mut self, v: usize) {
+        self.is_open[v] = false;
+        if self.distance[v] != 0.0 {
+            self.reach(v, 0.0);
+        }
+    }
+
+    fn reach(&mut self, v: usize, distance: f64) {
+        self.distance[v] = distance;
+        self.heap.push(Reverse((distance.to_bits(), v as u32)));
+    }
+
+    /// Starts at one vertex of every component that has neither cut nor boundary, and returns
+    /// these: the lowest cone there, or the lowest vertex.
+    fn seed_closed_spheres(&mut self, cones: &[usize]) -> Vec<usize> {
+        let components = self.mesh.components();
+        let of_vertex = |v: usize| {
+            let face = self.mesh.ring(v).next().map_or(0, |(face, _)| face);
+            components.of_face[face] as usize
+        };
+        let mut has_start = vec![false; components.count];
+        for v in 0..self.distance.len() {
+            has_start[of_vertex(v)] |= self.distance[v] == 0.0;
+        }
+        let mut sorted = cones.to_vec();
+        sorted.sort_unstable();
+        let mut seeds = Vec::new();
+        for v in sorted.into_iter().chain(0..self.distance.len()) {
+            if !has_start[of_vertex(v)] {
+                has_start[of_vertex(v)] = true;
+                seeds.push(v);
+            }
+        }
+        seeds.iter().for_each(|&v| self.start(v));
+        seeds
+    }
+
+    fn run(&mut self, is_cut: &mut [bool]) {
+        let mut open = self.is_open.iter().filter(|&&c| c).count();
+        while open > 0 {
+            let Some(Reverse((bits, v))) = self.heap.pop() else {
+                break;
+            };
+            let (distance, v) = (f64::from_bits(bits), v as usize);
+            if distance > self.distance[v] {
+                continue;
+            }
+            if self.is_open[v] {
+                open -= 1;
+                self.join(v, is_cut);
+            } else {
+                self.relax(v, distance);
+            }
+        }
+    }
+
+    fn relax(&mut self, v: usize, distance: f64) {
+        let mesh = self.mesh;
+        for (face, k) in mesh.ring(v) {
+            let tip = mesh.corners(face)[(k + 1) % 3];
+            let farther = distance + mesh.edge_length(face, k);
+            if farther < self.distance[tip] {
+                self.via[tip] = mesh.edge_of(face, k) as u32;
+                self.reach(tip, farther);
+            }
+        }
+    }
+
+    /// Cuts the path to `cone`, and starts from all its vertices.
+    fn join(&mut self, cone: usize, is_cut: &mut [bool]) {
+        let mut v = cone;
+        while self.distance[v] > 0.0 {
+            let edge = self.via[v] as usize;
+            is_cut[edge] = true;
+            self.start(v);
+            let [a, b] = self.mesh.edge(edge).vertices;
+            v = if v == a { b } else { a };
+        }
+    }
+}

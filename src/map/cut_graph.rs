@@ -1,0 +1,118 @@
+//! The cut graph: edges along which a surface is opened so that one chart covers it.
+//!
+//! Bommes, Zimmer, Kobbelt 2009, section 5 ("computing the cut graph"). A spanning tree of the dual
+//! graph glues the triangles to one disk a component; the other edges, pruned of their loose ends,
+//! are a cut graph of the topology alone (Erickson, Har-Peled 2004, section 3). Shortest paths then
+//! join it to every cone, so that what is left is simply connected and holds no cone.
+
+use std::collections::VecDeque;
+
+use super::cone_paths::join_cones;
+use crate::mesh::TriangleMesh;
+use crate::{Error, Result};
+
+/// A set of interior edges whose removal leaves one disk a component, and no cone in its interior.
+///
+/// The boundary bounds the disk as well, but is no part of the set: nothing lies across it. A
+/// closed sphere without two cones is opened along one edge.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct CutGraph {
+    is_cut: Vec<bool>,
+}
+
+impl CutGraph {
+    /// The cut graph of a mesh through these vertices.
+    ///
+    /// # Errors
+    /// [`Error::IndexOutOfRange`] for a vertex that does not exist.
+    pub fn new(mesh: &TriangleMesh, cones: &[usize]) -> Result<Self> {
+        let vertices = mesh.vertex_count();
+        if let Some(position) = cones.iter().position(|&v| v >= vertices) {
+            return Err(Error::IndexOutOfRange {
+                what: "cones",
+                position,
+                value: i64::try_from(cones[position]).unwrap_or(i64::MAX),
+                len: vertices,
+            });
+        }
+        let mut is_cut = edges_off_the_dual_tree(mesh);
+        prune(mesh, &mut is_cut);
+        join_cones(mesh, cones, &mut is_cut);
+        Ok(CutGraph { is_cut })
+    }
+
+    /// Whether an edge of the mesh is cut.
+    pub fn contains(&self, edge: usize) -> bool {
+        self.is_cut[edge]
+    }
+
+    /// The cut edges, in increasing order.
+    pub fn edges(&self) -> impl Iterator<Item = usize> + '_ {
+        (0..self.is_cut.len()).filter(|&e| self.is_cut[e])
+    }
+
+    /// How many cut edges end at every vertex.
+    pub fn degrees(&self, mesh: &TriangleMesh) -> Vec<u32> {
+        degrees(mesh, &self.is_cut)
+    }
+}
+
+/// Interior edges that a breadth-first tree of the dual graph does not cross.
+fn edges_off_the_dual_tree(mesh: &TriangleMesh) -> Vec<bool> {
+    let mut off: Vec<bool> = mesh.edges().map(|e| e.second.is_some()).collect();
+    let mut reached = vec![false; mesh.face_count()];
+    let mut queue = VecDeque::new();
+    for root in 0..mesh.face_count() {
+        if reached[root] {
+            continue;
+        }
+        reached[root] = true;
+        queue.push_back(root);
+        while let Some(face) = queue.pop_front() {
+            for k in 0..3 {
+                let Some((across, _)) = mesh.neighbor(face, k) else {
+                    continue;
+                };
+                if !reached[across] {
+                    reached[across] = true;
+                    off[mesh.edge_of(face, k)] = false;
+                    queue.push_back(across);
+                }
+            }
+        }
+    }
+    off
+}
+
+/// Takes away edges with a loose end until there is none. The boundary holds on to what ends there.
+fn prune(mesh: &TriangleMesh, is_cut: &mut [bool]) {
+    let mut degree = degrees(mesh, is_cut);
+    let is_loose = |v: usize, degree: u32| degree == 1 && !mesh.is_boundary_vertex(v);
+    let mut loose: Vec<usize> = (0..degree.len())
+        .filter(|&v| is_loose(v, degree[v]))
+        .collect();
+    while let Some(v) = loose.pop() {
+        let mut spokes = mesh.ring(v);
+        let Some((face, k)) = spokes.find(|&(f, k)| is_cut[mesh.edge_of(f, k)]) else {
+            continue;
+        };
+        is_cut[mesh.edge_of(face, k)] = false;
+        let tip = mesh.corners(face)[(k + 1) % 3];
+        for end in [v, tip] {
+            degree[end] -= 1;
+        }
+        if is_loose(tip, degree[tip]) {
+            loose.push(tip);
+        }
+    }
+}
+
+fn degrees(mesh: &TriangleMesh, is_cut: &[bool]) -> Vec<u32> {
+    let mut degree = vec![0; mesh.vertex_count()];
+    for (edge, _) in mesh.edges().zip(is_cut).filter(|&(_, &cut)| cut) {
+        for v in edge.vertices {
+            degree[v] += 1;
+        }
+    }
+    degree
+}

@@ -1,0 +1,99 @@
+//! How far gradients are from what they should be, as a quadratic form in the vertices.
+//!
+//! On a triangle, area |g|^2 is the sum over its edges of w_k (g . e_k)^2 with w_k half the
+//! cotangent of the opposite angle (Pinkall, Polthier 1993), and a gradient times an edge is a
+//! difference of two values. So is, with the value aimed at,
+//!
+//! ```text
+//! area |grad u - X|^2 = sum over edges (a, b) of w_k (u_b - u_a - X . e_k)^2
+//! ```
+//!
+//! The sums are formed here, one entry an edge and a vertex, since a quadratic matrix from least
+//! squares over the triangles would need three times the memory on the way.
+
+use super::SeamlessProblem;
+use crate::mesh::TriangleMesh;
+use crate::mesh::vector::{cotangent, dot, sub};
+use crate::{Problem, Result, Triangle};
+
+/// Matrix, linear term and constant for the two coordinates of all copies.
+pub(crate) struct Dirichlet {
+    /// Sum of weights around every copy.
+    diagonal: Vec<f64>,
+    /// Two copies and the weight between them.
+    pairs: Vec<([u32; 2], f64)>,
+    pub(crate) linear: Vec<f64>,
+    pub(crate) constant: f64,
+}
+
+impl Dirichlet {
+    pub(crate) fn new(map: &SeamlessProblem, mesh: &TriangleMesh) -> Self {
+        let copies = map.sectors.count();
+        let mut sum = Dirichlet {
+            diagonal: vec![0.0; copies],
+            pairs: Vec::with_capacity(mesh.edge_count() + 1000),
+            linear: vec![0.0; map.translation(map.seams.len())],
+            constant: 0.0,
+        };
+        // The weight of an edge that is not cut waits here for its second face.
+        let mut pending = vec![0.0; mesh.edge_count()];
+        for face in 0..mesh.face_count() {
+            let copy = map.sectors.copy[face];
+            let targets = map.targets(mesh, face);
+            let corners = mesh.corner_positions(face);
+            for k in 0..3 {
+                let ends = [copy[k], copy[(k + 1) % 3]];
+                let [a, b, c] = [0, 1, 2].map(|i| corners[(k + i) % 3]);
+                let weight = 0.5 * cotangent(sub(a, c), sub(b, c));
+                let aims = targets.map(|target| dot(target, sub(b, a)));
+                sum.add_edge(ends, weight, aims);
+
+                let e = mesh.edge_of(face, k);
+                let edge = mesh.edge(e);
+                let waits = edge.first == (face, k) && edge.second.is_some();
+                if map.cut.contains(e) {
+                    sum.pairs.push((ends, weight));
+                } else if waits {
+                    pending[e] = weight;
+                } else {
+                    sum.pairs.push((ends, weight + pending[e]));
+                }
+            }
+        }
+        sum
+    }
+
+    fn add_edge(&mut self, [a, b]: [u32; 2], weight: f64, aims: [f64; 2]) {
+        let [a, b] = [a as usize, b as usize];
+        self.diagonal[a] += weight;
+        self.diagonal[b] += weight;
+        for (axis, aim) in aims.into_iter().enumerate() {
+            self.linear[2 * a + axis] += 2.0 * weight * aim;
+            self.linear[2 * b + axis] -= 2.0 * weight * aim;
+            self.constant += weight * aim * aim;
+        }
+    }
+
+    pub(crate) fn add_to(&self, problem: &mut Problem) -> Result<()> {
+        let count = 2 * (self.diagonal.len() + self.pairs.len());
+        let mut rows = Vec::with_capacity(count);
+        let mut cols = Vec::with_capacity(count);
+        let mut values = Vec::with_capacity(count);
+        let mut add = |i: usize, j: usize, value: f64| {
+            for axis in 0..2 {
+                rows.push(2 * i.max(j) + axis);
+                cols.push(2 * i.min(j) + axis);
+                values.push(2.0 * value);
+            }
+        };
+        for (i, &weight) in self.diagonal.iter().enumerate() {
+            add(i, i, weight);
+        }
+        for &([a, b], weight) in &self.pairs {
+            add(a as usize, b as usize, -weight);
+        }
+        problem.add_quadratic_triplets(Triangle::Lower, &rows, &cols, &values)?;
+        problem.add_linear(&self.linear)?;
+        problem.add_constant(self.constant)
+    }
+}

@@ -1,0 +1,201 @@
+//! Features that rounding has put on one line, held apart.
+//!
+//! Two feature curves side by side, closer than a quad is wide, round to the same integer more often
+//! than not: the strip between them is collapsed, and one of the curves is lost to the quads. Such
+//! integers are decided anew with the curves one unit apart, across as the strip is.
+
+use std::collections::{BTreeSet, VecDeque};
+
+use super::separation::{Wish, with_wishes};
+use super::{SeamlessMap, SeamlessProblem};
+use crate::mesh::TriangleMesh;
+use crate::mesh::vector::{dot, sub};
+use crate::{Monitor, Options, Result, Solution, solve_with};
+
+/// Strips narrower than this part of a quad are left collapsed: quads in them would be slivers.
+const NARROWEST: f64 = 0.2;
+
+/// Curves farther apart than this, in quads, are not looked at: they do not round to one line.
+const WIDEST: f64 = 1.5;
+
+/// Across a strip must be at least this part of along it: at the corner of a curve the field turns on
+/// the way to the next, and the shortest way goes along as much as across.
+const LEVEL: f64 = 0.5;
+
+/// How often integers are decided anew.
+const ROUNDS: usize = 3;
+
+/// Two unknowns, one of each curve: the second is one more than the first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Strip {
+    unknowns: [usize; 2],
+}
+
+/// The problem with the strips held apart that its solution collapses, and its solution; none if
+/// there are no such strips, or nothing holds them apart.
+///
+/// # Errors
+/// Those of [`solve_with`], but for constraints that contradict each other.
+pub(crate) fn hold_apart<'a>(
+    mesh: &TriangleMesh,
+    problem: &SeamlessProblem,
+    solution: &Solution,
+    options: &Options,
+    monitor: &impl Fn() -> Monitor<'a>,
+) -> Result<Option<(SeamlessProblem, Solution)>> {
+    let pairs = problem.strips(mesh);
+    let mut held: Vec<Strip> = Vec::new();
+    let mut best = None;
+    let mut map = problem.map(mesh, solution)?;
+    for _ in 0..ROUNDS {
+        let collapsed = pairs.iter().filter(|strip| strip.is_collapsed(&map));
+        let new: Vec<Strip> = collapsed.filter(|s| !held.contains(s)).copied().collect();
+        if new.is_empty() {
+            break;
+        }
+        held.extend(new);
+        let Some(found) = decide(problem, &mut held, options, monitor)? else {
+            break;
+        };
+        map = found.0.map(mesh, &found.1)?;
+        best = Some(found);
+    }
+    Ok(best)
+}
+
+/// Solves without the strips that contradict the others. None if none is left.
+fn decide<'a>(
+    problem: &SeamlessProblem,
+    held: &mut Vec<Strip>,
+    options: &Options,
+    monitor: &impl Fn() -> Monitor<'a>,
+) -> Result<Option<(SeamlessProblem, Solution)>> {
+    let Some(apart) = with_wishes(problem.problem(), held, monitor)? else {
+        return Ok(None);
+    };
+    let solution = solve_with(&apart, options, monitor())?;
+    let mut held = problem.clone();
+    held.problem = apart;
+    Ok(Some((held, solution)))
+}
+
+impl Wish for Strip {
+    fn row(&self) -> ([usize; 2], [f64; 2], f64) {
+        let [low, high] = self.unknowns;
+        ([high, low], [1.0, -1.0], 1.0)
+    }
+}
+
+impl Strip {
+    fn is_collapsed(&self, map: &SeamlessMap) -> bool {
+        let [low, high] = self.unknowns.map(|unknown| map.values()[unknown].round());
+        high <= low
+    }
+}
+
+impl SeamlessProblem {
+    /// Pairs of curves side by side, each pair once a chart.
+    fn strips(&self, mesh: &TriangleMesh) -> Vec<Strip> {
+        let lines = Lines::new(self);
+        let mut found = Vec::new();
+        let mut known = BTreeSet::new();
+        for v in 0..mesh.vertex_count() {
+            for copy in self.sectors.first[v]..self.sectors.first[v + 1] {
+                for axis in 0..2 {
+                    if lines.of(copy, axis).is_some() {
+                        self.strips_from(mesh, &lines, (v, copy, axis), |strip, curves| {
+                            if known.insert(curves) {
+                                found.push(strip);
+                            }
+                        });
+                    }
+                }
+            }
+        }
+        found
+    }
+
+    /// Breadth-first from a vertex on a curve across to other curves of the same coordinate.
+    fn strips_from(
+        &self,
+        mesh: &TriangleMesh,
+        lines: &Lines,
+        (vertex, copy, axis): (usize, u32, usize),
+        mut tell: impl FnMut(Strip, [u32; 2]),
+    ) {
+        let here = lines.of(copy, axis);
+        let mut reached = BTreeSet::from([copy]);
+        let mut queue = VecDeque::from([(vertex, copy, [0.0; 2])]);
+        while let Some((v, at, from)) = queue.pop_front() {
+            for (face, corner) in mesh.ring(v) {
+                if self.sectors.copy[face][corner] != at {
+                    continue;
+                }
+                let positions = mesh.corner_positions(face);
+                let targets = self.targets(mesh, face);
+                for end in [(corner + 1) % 3, (corner + 2) % 3] {
+                    let next = self.sectors.copy[face][end];
+                    let step = sub(positions[end], positions[corner]);
+                    let width = [0, 1].map(|i| from[i] + dot(targets[i], step));
+                    let [across, along] = [width[axis], width[1 - axis]].map(f64::abs);
+                    if across > WIDEST || along > WIDEST || !reached.insert(next) {
+                        continue;
+                    }
+                    let there = lines.of(next, axis);
+                    if there.is_none() {
+                        queue.push_back((mesh.corners(face)[end], next, width));
+                    } else if there != here && across >= NARROWEST && across >= LEVEL * along {
+                        let mut unknowns = [copy, next].map(|c| 2 * c as usize + axis);
+                        let mut curves = [here, there].map(|line| line.unwrap_or(0));
+                        if width[axis] < 0.0 {
+                            unknowns.reverse();
+                            curves.reverse();
+                        }
+                        tell(Strip { unknowns }, curves);
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Which unknowns the isolines make equal: union-find with path halving.
+struct Lines {
+    parent: Vec<u32>,
+    is_on_line: Vec<bool>,
+}
+
+impl Lines {
+    fn new(problem: &SeamlessProblem) -> Self {
+        let count = 2 * problem.sectors.count();
+        let mut lines = Lines {
+            parent: (0..count as u32).collect(),
+            is_on_line: vec![false; count],
+        };
+        for isoline in &problem.isolines {
+            let ends = isoline.unknowns();
+            ends.iter().for_each(|&end| lines.is_on_line[end] = true);
+            let [a, b] = ends.map(|end| lines.root(end as u32));
+            lines.parent[a.max(b) as usize] = a.min(b);
+        }
+        for unknown in 0..count as u32 {
+            lines.parent[unknown as usize] = lines.root(unknown);
+        }
+        lines
+    }
+
+    fn root(&mut self, unknown: u32) -> u32 {
+        let mut at = unknown as usize;
+        while self.parent[at] as usize != at {
+            self.parent[at] = self.parent[self.parent[at] as usize];
+            at = self.parent[at] as usize;
+        }
+        at as u32
+    }
+
+    /// The curve on which a copy's coordinate is held, if it is.
+    fn of(&self, copy: u32, axis: usize) -> Option<u32> {
+        let unknown = 2 * copy as usize + axis;
+        self.is_on_line[unknown].then(|| self.parent[unknown])
+    }
+}

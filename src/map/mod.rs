@@ -1,0 +1,31 @@
+//! The seamless parametrization that follows a field, as a mixed-integer problem: coordinates on the
+//! surface cut open, integer translations over the cut.
+//!
+//! Bommes, Zimmer, Kobbelt 2009, section 5. A client of the solver: it builds a
+//! [`Problem`](crate::Problem) and reads a [`Solution`](crate::Solution).
+
+mod combing;
+mod cone_paths;
+mod cut_graph;
+mod dirichlet;
+mod feature_strips;
+mod isolines;
+mod problem;
+mod seamless_map;
+mod seams;
+mod sectors;
+mod separation;
+mod sizing;
+mod uv_obj;
+mod winding;
+
+pub use combing::Combing;
+pub use cut_graph::CutGraph;
+pub use problem::{SeamlessOptions, SeamlessProblem, TRANSLATION_WEIGHT};
+pub use seamless_map::{SeamlessMap, Transition};
+pub use sizing::Sizing;
+
+pub(crate) use feature_strips::hold_apart;
+pub(crate) use seamless_map::gradient;
+pub(crate) use separation::{Wish, constraints_of, solve_with_wishes};
+pub(crate) use winding::{is_wound, wound};

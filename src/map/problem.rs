@@ -1,0 +1,395 @@
+//! The seamless parametrization that follows a field, as a mixed-integer problem.
+//!
+//! Bommes, Zimmer, Kobbelt 2009, section 5: coordinates (u, v) on the surface cut open, with
+//!
+//! ```text
+//! E = sum over triangles of area (|grad u - h X|^2 + |grad v - h Y|^2) + 1e-6 |translations|^2
+//! ```
+//!
+//! X the combed arm of the field, Y a quarter turn counter-clockwise about the normal from it, so
+//! that the map keeps the orientation of the surface. Over a seam the coordinates turn by quarters
+//! and shift by integers, and cones lie on integers, so that the integer lines of both sides meet:
+//!
+//! ```text
+//! (u', v') = R^r (u, v) + (s, t),    R = [0 -1; 1 0]
+//! ```
+//!
+//! Feature edges are isolines of integer value ([`super::isolines`]).
+
+use super::dirichlet::Dirichlet;
+use super::isolines::{Isoline, isolines};
+use super::seams::{Seam, seams};
+use super::sectors::Sectors;
+use super::sizing::Density;
+use super::{Combing, CutGraph, SeamlessMap, Sizing};
+use crate::field::OrientationField;
+use crate::mesh::features::FeatureGraph;
+use crate::mesh::{TriangleMesh, turned};
+use crate::{Error, Problem, Result, Solution, Solver, Triangle};
+
+/// What the square of an integer translation costs: enough to decide those that nothing else does,
+/// too little to change any other.
+pub const TRANSLATION_WEIGHT: f64 = 1e-6;
+
+/// How to parametrize.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct SeamlessOptions {
+    /// How many unit squares the map shall cover: the number of quads aimed at.
+    pub quads: usize,
+}
+
+impl Default for SeamlessOptions {
+    fn default() -> Self {
+        SeamlessOptions { quads: 1000 }
+    }
+}
+
+/// The mixed-integer problem of a seamless parametrization, and how to read its solution.
+///
+/// Unknowns: u and v of copy `c` of the cut surface's vertices are unknowns `2 c` and `2 c + 1`;
+/// the translation (s, t) of each seam follows. Integer are all translations, the first copy of
+/// every cone, and one coordinate a feature curve and chart. In every component the first cone is
+/// pinned to the origin; without cones, each coordinate of the first feature that has it, or else of
+/// the first vertex.
+#[derive(Debug, Clone)]
+pub struct SeamlessProblem {
+    pub(crate) problem: Problem,
+    pub(crate) field: OrientationField,
+    pub(crate) cut: CutGraph,
+    pub(crate) combing: Combing,
+    pub(crate) sectors: Sectors,
+    pub(crate) seams: Vec<Seam>,
+    pub(crate) cones: Vec<usize>,
+    pub(crate) isolines: Vec<Isoline>,
+    /// The lengths of the gradients aimed at.
+    density: Density,
+}
+
+impl SeamlessProblem {
+    /// The problem for a mesh and a field on it, without features.
+    ///
+    /// # Errors
+    /// Those of [`with_features`](Self::with_features).
+    pub fn new(
+        mesh: &TriangleMesh,
+        field: &OrientationField,
+        options: &SeamlessOptions,
+    ) -> Result<Self> {
+        let sizing = Sizing::Quads(options.quads);
+        Self::with_features(mesh, field, &sizing, &FeatureGraph::none(mesh))
+    }
+
+    /// The problem for a mesh, a field on it, the size of quads and the edges that shall be
+    /// isolines: the field should follow them
+    /// ([`feature_constraints`](crate::field::feature_constraints)).
+    ///
+    /// # Errors
+    /// [`Error::LengthMismatch`] for field, sizes or features of another mesh,
+    /// [`Error::InvalidArgument`] for a field of other than crosses, for no quads or lengths not
+    /// above zero, [`Error::NotFinite`] for lengths, [`Error::Overflow`] for more than 2^31 - 1
+    /// unknowns, [`Error::OutOfMemory`].
+    pub fn with_features(
+        mesh: &TriangleMesh,
+        field: &OrientationField,
+        sizing: &Sizing,
+        features: &FeatureGraph,
+    ) -> Result<Self> {
+        let density = Density::new(mesh, sizing)?;
+        field.check_mesh(mesh)?;
+        features.check_mesh(mesh)?;
+        if field.symmetry() != 4 {
+            return Err(Error::InvalidArgument {
+                what: format!("a map follows crosses, not {} arms", field.symmetry()),
+                index: None,
+            });
+        }
+        let cones = field.irregular_vertices(mesh);
+        let cut = CutGraph::new(mesh, &cones)?;
+        let combing = Combing::new(mesh, field, &cut)?;
+        let sectors = Sectors::new(mesh, &cut);
+        let seams = seams(mesh, &cut, &cones);
+        let isolines = isolines(mesh, field, &combing, &sectors, features);
+        let mut this = SeamlessProblem {
+            problem: Problem::new(2 * (sectors.count() + seams.len()))?,
+            field: field.clone(),
+            cut,
+            combing,
+            sectors,
+            seams,
+            cones,
+            isolines,
+            density,
+        };
+        this.state(mesh)?;
+        Ok(this)
+    }
+
+    /// Fills the problem.
+    fn state(&mut self, mesh: &TriangleMesh) -> Result<()> {
+        self.add_energy(mesh)?;
+        for seam in 0..self.seams.len() {
+            self.add_seam(mesh, seam)?;
+        }
+        for isoline in &self.isolines {
+            let row = isoline.unknowns();
+            self.problem.add_constraint(&row, &[1.0, -1.0], 0.0)?;
+        }
+        self.set_integers(mesh)?;
+        self.pin_origins(mesh)
+    }
+
+    /// Aims at another size of quads. Only linear terms change: the solver of this problem keeps
+    /// elimination, orderings and factors, and its next solve is that of a new problem of that size.
+    ///
+    /// # Errors
+    /// [`Error::LengthMismatch`] for another mesh or the solver of another problem, and those of
+    /// [`with_features`](Self::with_features) for sizes.
+    pub fn resize(
+        &mut self,
+        mesh: &TriangleMesh,
+        sizing: &Sizing,
+        solver: &mut Solver,
+    ) -> Result<()> {
+        self.field.check_mesh(mesh)?;
+        let before = std::mem::replace(&mut self.density, Density::new(mesh, sizing)?);
+        let energy = Dirichlet::new(self, mesh);
+        let told = solver.set_linear(&energy.linear);
+        if let Err(error) = told.and_then(|()| solver.set_constant(energy.constant)) {
+            self.density = before;
+            return Err(error);
+        }
+        self.problem.set_linear(&energy.linear)?;
+        self.problem.set_constant(energy.constant)
+    }
+
+    /// The same problem for a map so many times as large in length, which `solver` is told as well: it
+    /// keeps what does not depend on the size.
+    pub(crate) fn refined(
+        &self,
+        mesh: &TriangleMesh,
+        factor: f64,
+        solver: &mut Solver,
+    ) -> Result<Self> {
+        self.with_density(mesh, self.density.scaled(factor), solver)
+    }
+
+    /// The same for a map so many times as large in every face.
+    pub(crate) fn graded(
+        &self,
+        mesh: &TriangleMesh,
+        factors: &[f64],
+        solver: &mut Solver,
+    ) -> Result<Self> {
+        self.with_density(mesh, self.density.graded(factors), solver)
+    }
+
+    fn with_density(
+        &self,
+        mesh: &TriangleMesh,
+        density: Density,
+        solver: &mut Solver,
+    ) -> Result<Self> {
+        let mut this = self.clone();
+        this.density = density;
+        let energy = Dirichlet::new(&this, mesh);
+        solver.set_linear(&energy.linear)?;
+        solver.set_constant(energy.constant)?;
+        this.problem.set_linear(&energy.linear)?;
+        this.problem.set_constant(energy.constant)?;
+        Ok(this)
+    }
+
+    /// The problem, to be solved by any strategy.
+    pub fn problem(&self) -> &Problem {
+        &self.problem
+    }
+
+    /// The edges along which the surface is cut.
+    pub fn cut(&self) -> &CutGraph {
+        &self.cut
+    }
+
+    /// The arms that the coordinates follow.
+    pub fn combing(&self) -> &Combing {
+        &self.combing
+    }
+
+    /// The irregular vertices, in increasing order.
+    pub fn cones(&self) -> &[usize] {
+        &self.cones
+    }
+
+    /// The map that belongs to a solution of the problem.
+    ///
+    /// # Errors
+    /// [`Error::LengthMismatch`] for another mesh or the solution of another problem.
+    pub fn map(&self, mesh: &TriangleMesh, solution: &Solution) -> Result<SeamlessMap> {
+        self.field.check_mesh(mesh)?;
+        SeamlessMap::new(self, mesh, solution.values())
+    }
+
+    /// Whether this is a map of that mesh and this problem.
+    pub(crate) fn check_map(&self, mesh: &TriangleMesh, map: &SeamlessMap) -> Result<()> {
+        self.field.check_mesh(mesh)?;
+        let (expected, actual) = (self.problem.variables(), map.values().len());
+        match expected == actual && map.copies() == self.sectors.copy {
+            true => Ok(()),
+            false => Err(Error::LengthMismatch {
+                what: "the map of the parametrization",
+                expected,
+                actual,
+            }),
+        }
+    }
+
+    /// Combed arms of a face, as long as the gradients shall be.
+    pub(crate) fn targets(&self, mesh: &TriangleMesh, face: usize) -> [[f64; 3]; 2] {
+        let arms = self.combing.arms(mesh, &self.field, face);
+        let density = self.density.of(face, self.combing.quarters()[face]);
+        [0, 1].map(|axis| arms[axis].map(|x| density[axis] * x))
+    }
+
+    /// The unknown that is `s` of a seam; `t` is the next.
+    pub(crate) fn translation(&self, seam: usize) -> usize {
+        2 * (self.sectors.count() + seam)
+    }
+
+    fn add_energy(&mut self, mesh: &TriangleMesh) -> Result<()> {
+        let energy = Dirichlet::new(self, mesh);
+        energy.add_to(&mut self.problem)?;
+        let translations: Vec<usize> =
+            (self.translation(0)..self.translation(self.seams.len())).collect();
+        let weights = vec![2.0 * TRANSLATION_WEIGHT; translations.len()];
+        self.problem
+            .add_quadratic_triplets(Triangle::Lower, &translations, &translations, &weights)
+    }
+
+    /// The transition of one seam at each of its vertices, from its left to its right side.
+    fn add_seam(&mut self, mesh: &TriangleMesh, seam: usize) -> Result<()> {
+        let s = self.translation(seam);
+        let turns = self.seam_turns(mesh, seam);
+        for pair in seam_copies(mesh, &self.sectors, &self.seams[seam]) {
+            let [left, right] = pair.map(|copy| 2 * copy as usize);
+            for axis in 0..2 {
+                let (from, sign) = turned_axis(turns, axis);
+                let row = [right + axis, left + from, s + axis];
+                self.problem
+                    .add_constraint(&row, &[1.0, -sign, -1.0], 0.0)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// The quarter turns of a seam, from its left to its right side.
+    pub(crate) fn seam_turns(&self, mesh: &TriangleMesh, seam: usize) -> u8 {
+        let first = self.seams[seam].first();
+        first.map_or(0, |&(f, k)| self.combing.transition_from(mesh, f, k))
+    }
+
+    /// The boundary vertices between two isolines, in increasing order.
+    fn between_isolines(&self, mesh: &TriangleMesh) -> Vec<usize> {
+        let edges = self.isolines.iter().map(|isoline| mesh.edge(isoline.edge));
+        let mut ends: Vec<usize> = edges
+            .filter(|edge| edge.second.is_none())
+            .flat_map(|edge| edge.vertices)
+            .collect();
+        ends.sort_unstable();
+        let twice = ends.chunk_by(|a, b| a == b).filter(|same| same.len() == 2);
+        twice.map(|same| same[0]).collect()
+    }
+
+    /// How many quarter turns a map has around every inner vertex; none at the boundary.
+    pub(crate) fn quarters(&self, mesh: &TriangleMesh) -> Vec<Option<i32>> {
+        (0..mesh.vertex_count())
+            .map(|v| (!mesh.is_boundary_vertex(v)).then(|| self.field.quarters(mesh, v)))
+            .collect()
+    }
+
+    /// Integer are cones, translations, isolines, and vertices where the boundary turns back: both its
+    /// edges lie on one isoline then, which leaves the vertex free along it.
+    fn set_integers(&mut self, mesh: &TriangleMesh) -> Result<()> {
+        let first = &self.sectors.first;
+        let turns = self.between_isolines(mesh);
+        let turns = turns
+            .into_iter()
+            .filter(|&v| self.field.quarters(mesh, v) == 4);
+        let cones = self.cones.iter().copied().chain(turns).flat_map(|v| {
+            let u = 2 * first[v] as usize;
+            [u, u + 1]
+        });
+        let translations = self.translation(0)..self.translation(self.seams.len());
+        let first = self.isolines.iter().filter(|isoline| isoline.is_first);
+        let values = first.map(|isoline| isoline.unknowns()[0]);
+        self.problem
+            .set_integers(&cones.chain(translations).chain(values).collect::<Vec<_>>())
+    }
+
+    /// Fixes what no term and no constraint does: where the origin of a component lies.
+    fn pin_origins(&mut self, mesh: &TriangleMesh) -> Result<()> {
+        let components = mesh.components();
+        let component_of = |v: usize| {
+            let face = mesh.ring(v).next().map_or(0, |(face, _)| face);
+            components.of_face[face] as usize
+        };
+        let mut is_pinned = vec![[false; 2]; components.count];
+        for i in 0..self.cones.len() {
+            let v = self.cones[i];
+            if !std::mem::replace(&mut is_pinned[component_of(v)], [true; 2])[0] {
+                self.pin_first_copy(v, 0)?;
+                self.pin_first_copy(v, 1)?;
+            }
+        }
+        // Isolines lie on integers already: a shift by anything else is not free.
+        let component_of_copy = self.component_of_copy(mesh, &components.of_face);
+        for isoline in &self.isolines {
+            let pinned = &mut is_pinned[component_of_copy[isoline.ends[0] as usize] as usize];
+            if !std::mem::replace(&mut pinned[isoline.axis], true) {
+                self.problem.pin(isoline.unknowns()[0], 0.0)?;
+            }
+        }
+        for v in 0..mesh.vertex_count() {
+            for axis in 0..2 {
+                if !std::mem::replace(&mut is_pinned[component_of(v)][axis], true) {
+                    self.pin_first_copy(v, axis)?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn pin_first_copy(&mut self, vertex: usize, axis: usize) -> Result<()> {
+        let unknown = 2 * self.sectors.first[vertex] as usize + axis;
+        self.problem.pin(unknown, 0.0)
+    }
+
+    fn component_of_copy(&self, mesh: &TriangleMesh, of_face: &[u32]) -> Vec<u32> {
+        let mut component = vec![0; self.sectors.count()];
+        for face in 0..mesh.face_count() {
+            for copy in self.sectors.copy[face] {
+                component[copy as usize] = of_face[face];
+            }
+        }
+        component
+    }
+}
+
+/// Where coordinate `axis` of a point comes from when it is turned by quarters: (axis, sign).
+fn turned_axis(quarters: u8, axis: usize) -> (usize, f64) {
+    let signed = turned(quarters, [1.0_f64, 2.0])[axis];
+    (signed.abs() as usize - 1, signed.signum())
+}
+
+/// The copies [left, right] of each vertex along a seam, from its first to its last.
+fn seam_copies<'a>(
+    mesh: &'a TriangleMesh,
+    sectors: &'a Sectors,
+    seam: &'a Seam,
+) -> impl Iterator<Item = [u32; 2]> + 'a {
+    let at = |&(face, k): &(usize, usize), end: usize| {
+        let (across, j) = mesh.neighbor(face, k)?;
+        let left = sectors.copy[face][(k + end) % 3];
+        Some([left, sectors.copy[across][(j + 1 - end) % 3]])
+    };
+    let starts = seam.iter().filter_map(move |side| at(side, 0));
+    starts.chain(seam.last().and_then(move |side| at(side, 1)))
+}

@@ -1,0 +1,136 @@
+//! How large the quads of a map shall be.
+
+use crate::mesh::TriangleMesh;
+use crate::{Error, Result};
+
+/// The size of quads, as a number of them or as lengths of their edges in units of the mesh.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Sizing {
+    /// As many squares as this cover the surface.
+    Quads(usize),
+    /// Edges of this length.
+    EdgeLength(f64),
+    /// Edges of these lengths in every face: along the arm that the field stores (its angle), and
+    /// across it.
+    Lengths(Vec<[f64; 2]>),
+}
+
+impl Sizing {
+    /// # Errors
+    /// As [`Density::new`].
+    pub(crate) fn check(&self, mesh: &TriangleMesh) -> Result<()> {
+        Density::new(mesh, self).map(drop)
+    }
+
+    /// The length of an edge of quads, in units of the mesh; where faces have their own, the mean.
+    pub fn edge_length(&self, mesh: &TriangleMesh) -> f64 {
+        let area = mesh.surface_area();
+        match self {
+            Sizing::Quads(quads) => (area / (*quads).max(1) as f64).sqrt(),
+            Sizing::EdgeLength(length) => *length,
+            Sizing::Lengths(lengths) => {
+                let of_face = |(face, [along, across]): (usize, &[f64; 2])| {
+                    0.5 * mesh.area(face) * (along + across)
+                };
+                let faces = lengths.iter().enumerate().take(mesh.face_count());
+                faces.map(of_face).sum::<f64>() / area
+            }
+        }
+    }
+}
+
+/// Unit squares a unit length in every face.
+#[derive(Debug, Clone)]
+pub(crate) enum Density {
+    Uniform(f64),
+    /// Along the arm that the field stores, and across.
+    Faces(Vec<[f64; 2]>),
+}
+
+impl Density {
+    /// # Errors
+    /// [`Error::InvalidArgument`] for no quads and for lengths that are not above zero, with the
+    /// face where there is one; [`Error::NotFinite`]; [`Error::LengthMismatch`].
+    pub(crate) fn new(mesh: &TriangleMesh, sizing: &Sizing) -> Result<Self> {
+        match sizing {
+            Sizing::Quads(0) => Err(Error::InvalidArgument {
+                what: "a parametrization for no quads".into(),
+                index: None,
+            }),
+            Sizing::Quads(quads) => {
+                let density = (*quads as f64 / mesh.surface_area()).sqrt();
+                Ok(Density::Uniform(density))
+            }
+            &Sizing::EdgeLength(length) => {
+                check("edge length", length, None)?;
+                Ok(Density::Uniform(1.0 / length))
+            }
+            Sizing::Lengths(lengths) => {
+                if lengths.len() != mesh.face_count() {
+                    return Err(Error::LengthMismatch {
+                        what: "edge lengths of faces",
+                        expected: mesh.face_count(),
+                        actual: lengths.len(),
+                    });
+                }
+                for (face, &[along, across]) in lengths.iter().enumerate() {
+                    check("edge lengths of faces", along, Some(face))?;
+                    check("edge lengths of faces", across, Some(face))?;
+                }
+                let densities = lengths.iter().map(|pair| pair.map(|length| 1.0 / length));
+                Ok(Density::Faces(densities.collect()))
+            }
+        }
+    }
+
+    /// So many times as dense.
+    pub(crate) fn scaled(&self, factor: f64) -> Self {
+        match self {
+            Density::Uniform(density) => Density::Uniform(factor * density),
+            Density::Faces(faces) => {
+                Density::Faces(faces.iter().map(|pair| pair.map(|d| factor * d)).collect())
+            }
+        }
+    }
+
+    /// So many times as dense in every face.
+    pub(crate) fn graded(&self, factors: &[f64]) -> Self {
+        let of = |face: usize| match self {
+            Density::Uniform(density) => [*density; 2],
+            Density::Faces(faces) => faces[face],
+        };
+        let graded = factors.iter().enumerate();
+        Density::Faces(graded.map(|(face, f)| of(face).map(|d| f * d)).collect())
+    }
+
+    /// Along the two arms of a face that is combed by this many quarter turns.
+    pub(crate) fn of(&self, face: usize, quarters: u8) -> [f64; 2] {
+        match self {
+            Density::Uniform(density) => [*density; 2],
+            Density::Faces(densities) => {
+                let [along, across] = densities[face];
+                match quarters % 2 {
+                    0 => [along, across],
+                    _ => [across, along],
+                }
+            }
+        }
+    }
+}
+
+fn check(what: &'static str, length: f64, face: Option<usize>) -> Result<()> {
+    // A reciprocal that overflows is no density either.
+    if !length.is_finite() || (length > 0.0 && !(1.0 / length).is_finite()) {
+        return Err(Error::NotFinite {
+            what,
+            position: face.unwrap_or(0),
+        });
+    }
+    match length > 0.0 {
+        true => Ok(()),
+        false => Err(Error::InvalidArgument {
+            what: format!("{what}: {length} is not above zero"),
+            index: face,
+        }),
+    }
+}

@@ -1,0 +1,106 @@
+//! Vertices around which a map turns another number of times than its field.
+//!
+//! With every triangle the right way round, the angles of a map around a vertex sum to as many
+//! quarter turns as the field says only where the map covers the neighbourhood once. No single
+//! triangle shows that: a ring may go around its vertex twice without a fold.
+
+use std::f64::consts::FRAC_PI_2;
+
+use super::{SeamlessMap, SeamlessProblem};
+use crate::Result;
+use crate::mesh::{TriangleMesh, orientation};
+
+impl SeamlessProblem {
+    /// The inner vertices around which a map of this problem turns another number of times than the
+    /// field, in increasing order. Vertices of flipped faces are not looked at.
+    ///
+    /// A map without flipped faces and without these is locally injective inside.
+    ///
+    /// # Errors
+    /// [`LengthMismatch`](crate::Error::LengthMismatch) for the map of another problem or mesh.
+    pub fn wound_vertices(&self, mesh: &TriangleMesh, map: &SeamlessMap) -> Result<Vec<usize>> {
+        self.check_map(mesh, map)?;
+        Ok(wound(mesh, &self.quarters(mesh), |face| map.uv(face)))
+    }
+}
+
+/// The vertices that a map turns around another number of quarters than these, where they are told.
+pub(crate) fn wound(
+    mesh: &TriangleMesh,
+    quarters: &[Option<i32>],
+    uv: impl Fn(usize) -> [[f64; 2]; 3],
+) -> Vec<usize> {
+    let is_wound = |&v: &usize| is_wound(mesh, quarters, &uv, v);
+    (0..mesh.vertex_count()).filter(is_wound).collect()
+}
+
+/// Whether a map turns around a vertex another number of quarters than these.
+pub(crate) fn is_wound(
+    mesh: &TriangleMesh,
+    quarters: &[Option<i32>],
+    uv: impl Fn(usize) -> [[f64; 2]; 3],
+    v: usize,
+) -> bool {
+    let turns = || turns_around(mesh, uv, v);
+    quarters[v].is_some() && turns().is_some_and(|turns| Some(turns) != quarters[v])
+}
+
+/// The quarter turns that the map's angles around a vertex add up to; none where a triangle there
+/// is folded.
+fn turns_around(mesh: &TriangleMesh, uv: impl Fn(usize) -> [[f64; 2]; 3], v: usize) -> Option<i32> {
+    let mut sum = 0.0;
+    for (face, corner) in mesh.ring(v) {
+        let uv = uv(face);
+        if orientation(uv) <= 0.0 {
+            return None;
+        }
+        let at = |k: usize| uv[(corner + k) % 3];
+        let [a, b] = [at(1), at(2)].map(|p| [p[0] - at(0)[0], p[1] - at(0)[1]]);
+        sum += (a[0] * b[1] - a[1] * b[0]).atan2(a[0] * b[0] + a[1] * b[1]);
+    }
+    Some((sum / FRAC_PI_2).round() as i32)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::TAU;
+
+    use super::*;
+    use crate::field::{FieldOptions, solve_field};
+    use crate::map::SeamlessOptions;
+    use crate::{Monitor, Options, solve};
+
+    /// A flat disk of eight triangles around vertex 0.
+    fn fan() -> TriangleMesh {
+        let rim = (0..8).map(|k| (TAU * f64::from(k) / 8.0).sin_cos());
+        let points = std::iter::once([0.0; 3]).chain(rim.map(|(sin, cos)| [cos, sin, 0.0]));
+        let triangles = (0..8).map(|k| [0, 1 + k, 1 + (k + 1) % 8]);
+        TriangleMesh::new(points.collect(), triangles.collect()).unwrap()
+    }
+
+    #[test]
+    fn a_ring_that_goes_around_twice_is_found_without_a_fold() {
+        let (mesh, options) = (fan(), Options::default());
+        let field = FieldOptions::default();
+        let (field, _) = solve_field(&mesh, &field, &options, Monitor::default).unwrap();
+        let problem = SeamlessProblem::new(&mesh, &field, &SeamlessOptions { quads: 4 }).unwrap();
+        let solution = solve(problem.problem(), &options).unwrap();
+        let good = problem.map(&mesh, &solution).unwrap();
+        assert!(good.flipped().is_empty());
+        assert!(problem.wound_vertices(&mesh, &good).unwrap().is_empty());
+
+        let mut values = good.values().to_vec();
+        for face in 0..8 {
+            for (corner, turn) in [(1, face), (2, face + 1)] {
+                // A quarter turn a triangle.
+                let u = 2 * good.copies()[face][corner] as usize;
+                let (sin, cos) = (TAU * turn as f64 / 4.0).sin_cos();
+                let centre = 2 * good.copies()[face][0] as usize;
+                (values[u], values[u + 1]) = (values[centre] + cos, values[centre + 1] + sin);
+            }
+        }
+        let twice = SeamlessMap::new(&problem, &mesh, &values).unwrap();
+        assert!(twice.flipped().is_empty());
+        assert_eq!(problem.wound_vertices(&mesh, &twice).unwrap(), [0]);
+    }
+}

@@ -1,0 +1,138 @@
+//! Which field the map follows: of several, the one whose map is least distorted.
+//!
+//! How much curvature should count depends on the shape: where it is clear everywhere, directions that
+//! are given keep irregular vertices from where the map would need them, and a field that follows
+//! nothing is often the better. The relaxation of the map's problem tells before any integer is
+//! decided: its energy is how far quads are from squares of one size. So on meshes that are not large
+//! several fields are tried.
+
+use super::QuadOptions;
+use super::aim::aim;
+use super::quadrangulate::timed;
+use crate::field::{FieldOptions, Guidance, OrientationField, solve_field};
+use crate::map::{SeamlessProblem, Sizing};
+use crate::mesh::TriangleMesh;
+use crate::mesh::features::FeatureGraph;
+use crate::{Error, Monitor, Result, Solution, Solver};
+
+/// Another use of curvature.
+struct Use {
+    /// How many faces have a direction, for each quad.
+    constrained_per_quad: f64,
+    /// What the weight of all others is multiplied by.
+    weight: f64,
+}
+
+/// What is tried beside the guidance, in this order.
+const OTHERS: [Use; 4] = [
+    Use {
+        constrained_per_quad: 0.0,
+        weight: 0.0,
+    },
+    Use {
+        constrained_per_quad: 0.1,
+        weight: 0.0,
+    },
+    Use {
+        constrained_per_quad: 0.05,
+        weight: 0.0,
+    },
+    Use {
+        constrained_per_quad: 0.0,
+        weight: 1.0,
+    },
+];
+
+/// All fields together may have so many faces, but the first has what it has: a mesh of 10,000 faces
+/// takes no longer than one of 40,000.
+const FACES: usize = 39_000;
+
+/// What an irregular vertex costs, in the energy of a map of unit squares. A few more are worth it
+/// where they make all quads more even, many are not.
+const PRICE: f64 = 2.0;
+
+/// A field, and the problem of the map that follows it.
+pub(super) struct Decided {
+    pub(super) wishes: FieldOptions,
+    pub(super) field: OrientationField,
+    pub(super) field_solution: Solution,
+    pub(super) problem: SeamlessProblem,
+    pub(super) solver: Solver,
+    cost: f64,
+}
+
+/// The best of the fields that may be tried. `seconds` are those of fields and of maps.
+pub(super) fn decide<'a>(
+    mesh: &TriangleMesh,
+    options: &QuadOptions,
+    features: &FeatureGraph,
+    monitor: &impl Fn() -> Monitor<'a>,
+    seconds: [&mut f64; 2],
+) -> Result<Decided> {
+    let [of_field, of_map] = seconds;
+    let mut best = follow(mesh, options, features, monitor, [of_field, of_map])?;
+    for other in others(mesh, options) {
+        let seconds = [&mut *of_field, &mut *of_map];
+        match follow(mesh, &other, features, monitor, seconds) {
+            Ok(found) if found.cost < best.cost => best = found,
+            // What the caller asks for can be had, and so that is no error.
+            Ok(_) | Err(Error::Infeasible { .. } | Error::NoIntegerSolution { .. }) => {}
+            Err(error) => return Err(error),
+        }
+    }
+    Ok(best)
+}
+
+/// The same with other uses of curvature, as many as the mesh is small enough for.
+fn others(mesh: &TriangleMesh, options: &QuadOptions) -> impl Iterator<Item = QuadOptions> {
+    let given = &options.guidance;
+    let follows = given.constrain_curvature > 0.0 || given.curvature_weight > 0.0;
+    let count = match options.vary_curvature && follows && given.indices.is_none() {
+        true => FACES / mesh.face_count().max(1),
+        false => 0,
+    };
+    let edge = options.sizing.edge_length(mesh);
+    let face = mesh.surface_area() / mesh.face_count() as f64;
+    let of = move |other: &Use| QuadOptions {
+        guidance: Guidance {
+            constrain_curvature: (other.constrained_per_quad * face / (edge * edge)).min(1.0),
+            curvature_weight: other.weight * given.curvature_weight,
+            ..given.clone()
+        },
+        ..options.clone()
+    };
+    OTHERS.iter().take(count.saturating_sub(1)).map(of)
+}
+
+/// The field that follows this guidance, and the problem of its map.
+fn follow<'a>(
+    mesh: &TriangleMesh,
+    options: &QuadOptions,
+    features: &FeatureGraph,
+    monitor: &impl Fn() -> Monitor<'a>,
+    [of_field, of_map]: [&mut f64; 2],
+) -> Result<Decided> {
+    let wishes = options.guidance.field_options(mesh, features)?;
+    let (field, field_solution) = timed(of_field, || {
+        solve_field(mesh, &wishes, &options.field, monitor)
+    })?;
+    timed(of_map, || {
+        let sizing = &options.sizing;
+        let mut problem = SeamlessProblem::with_features(mesh, &field, sizing, features)?;
+        let mut solver = Solver::new(problem.problem())?;
+        let relaxed = aim(mesh, &mut problem, &mut solver, sizing, monitor())?;
+        let squares = match sizing {
+            Sizing::Quads(wanted) => *wanted as f64,
+            _ => relaxed.squares,
+        };
+        let cones = problem.cones().len() as f64;
+        Ok(Decided {
+            cost: relaxed.energy / relaxed.squares * squares + PRICE * cones,
+            wishes,
+            field,
+            field_solution,
+            problem,
+            solver,
+        })
+    })
+}

@@ -1,0 +1,227 @@
+//! What a strategy talks to: it offers integers, and the search does the rest.
+//!
+//! The search re-optimises the continuous unknowns exactly for every offer and evaluates it
+//! itself, so that energies never come from a strategy and every strategy can be stopped at any
+//! time.
+
+mod factors;
+mod options;
+mod presets;
+mod status;
+mod strategy;
+mod warm_start;
+mod work;
+
+pub use options::{OPTIONS, OptionInfo, OptionKind, OptionValue, Options};
+pub use presets::{PRESETS, Preset};
+pub use status::{GAP_TOLERANCE, SolveStatus};
+pub use strategy::Strategy;
+pub use warm_start::WarmStart;
+
+pub(crate) use factors::Factors;
+pub(crate) use work::{Work, auto_limit, of_relaxation};
+
+use crate::eliminate::ReducedModel;
+use crate::monitor::Phase;
+use crate::monitor::{Monitor, Stop, relative_gap};
+use crate::{Error, Result};
+
+/// Integers are kept as floats; beyond this they would no longer be exact.
+pub(crate) const LARGEST_INTEGER: f64 = 9_007_199_254_740_992.0;
+
+/// The best solution so far, in reduced unknowns.
+#[derive(Debug, Clone)]
+pub(crate) struct Incumbent {
+    pub point: Vec<f64>,
+    pub energy: f64,
+    /// The energy, and what it may be off by where that matters.
+    at_most: f64,
+}
+
+/// Incumbent, bound, and who watches.
+pub(crate) struct Search<'s, 'm> {
+    model: &'s ReducedModel,
+    relaxed: Vec<f64>,
+    lower_bound: f64,
+    incumbent: Option<Incumbent>,
+    /// What was spent, and what may be.
+    pub work: Work,
+    /// Progress, cancel, time limit.
+    pub monitor: &'s mut Monitor<'m>,
+}
+
+impl<'s, 'm> Search<'s, 'm> {
+    /// A search that starts from the relaxation's minimiser and the bound that it proves.
+    pub fn new(
+        model: &'s ReducedModel,
+        relaxed: Vec<f64>,
+        lower_bound: f64,
+        monitor: &'s mut Monitor<'m>,
+    ) -> Self {
+        monitor.bounded(lower_bound);
+        Search {
+            model,
+            relaxed,
+            lower_bound,
+            incumbent: None,
+            work: Work::unlimited(),
+            monitor,
+        }
+    }
+
+    /// Takes note of so many multiplications; whether to end.
+    pub fn ends(&mut self, multiplications: u64) -> bool {
+        self.work.ends(multiplications, self.monitor)
+    }
+
+    /// The minimiser with all integers real.
+    pub fn relaxed(&self) -> &[f64] {
+        &self.relaxed
+    }
+
+    /// The integers of the best solution so far, in their order.
+    pub fn incumbent_integers(&self) -> Option<Vec<f64>> {
+        let of = |best: &Incumbent| {
+            let integers = self.model.integers().iter();
+            integers.map(|&i| best.point[i as usize]).collect()
+        };
+        self.incumbent.as_ref().map(of)
+    }
+
+    /// No solution has less energy than this.
+    pub fn lower_bound(&self) -> f64 {
+        self.lower_bound
+    }
+
+    /// The best solution that was offered.
+    ///
+    /// # Errors
+    /// Why the search was stopped, if that was before the first offer.
+    pub fn into_best(self) -> Result<Incumbent> {
+        let stopped = self.monitor.stopped();
+        self.incumbent
+            .ok_or_else(|| stopped.map_or(Error::Cancelled, Error::from))
+    }
+
+    /// Makes the factor that offers need, so that an offer costs two solves and no more whenever a
+    /// strategy has to stop.
+    ///
+    /// # Errors
+    /// For lack of memory, and why the search was stopped: there is no solution yet.
+    pub fn prepare(&mut self, factors: &mut Factors) -> Result<()> {
+        self.monitor.progress(Phase::Factor, 0.5)?;
+        factors.prepare(self.model)?;
+        self.monitor.progress(Phase::Factor, 1.0)?;
+        Ok(())
+    }
+
+    /// Offers one value an integer unknown, in their order; returns whether it is the best so far.
+    ///
+    /// # Errors
+    /// [`Error::Overflow`] for integers beyond 2^53, and for lack of memory.
+    pub fn offer(&mut self, factors: &mut Factors, integers: &[f64]) -> Result<bool> {
+        let model = self.model;
+        let too_large = |z: &f64| z.abs().is_nan() || z.abs() > LARGEST_INTEGER;
+        if let Some(k) = integers.iter().position(too_large) {
+            return Err(Error::Overflow {
+                what: "an integer of the solution is beyond 2^53".into(),
+                index: Some(model.integers()[k] as usize),
+            });
+        }
+        let mut point = self.relaxed.clone();
+        for (&i, &z) in model.integers().iter().zip(integers) {
+            point[i as usize] = z;
+        }
+        if !model.continuous().is_empty() {
+            point = factors.follow(model, &point)?;
+        }
+        let (energy, size) = model.energy(&point);
+        let at_most = self.at_most(energy, size, &point);
+        let best = self.incumbent.as_ref();
+        let better = best.is_none_or(|best| at_most < best.at_most);
+        if better {
+            self.incumbent = Some(Incumbent {
+                point,
+                energy,
+                at_most,
+            });
+            self.monitor.improved(energy);
+        }
+        Ok(better)
+    }
+
+    /// What `energy`, that of `point` with terms of this `size`, may be at most: more where rounding errors
+    /// matter, which are all that is left of huge integers. An energy below the bound is off at least by that
+    /// much, and as well in the other direction.
+    fn at_most(&self, energy: f64, size: f64, point: &[f64]) -> f64 {
+        let enough = GAP_TOLERANCE * energy.abs().max(1.0);
+        let below = 2.0 * (self.lower_bound - energy);
+        let own = 4.0 * f64::EPSILON * size;
+        if own.max(below) <= enough {
+            return energy;
+        }
+        let error = own.min(self.evaluation_error(point)).max(below);
+        if error <= enough {
+            energy
+        } else {
+            energy + error
+        }
+    }
+
+    /// What the difference between the energies of two evaluated solutions may be off by.
+    ///
+    /// Energies are summed with compensation. What is left is the rounding of the model's entries,
+    /// which counts as far as solutions differ: in the terms of the quadratic form of the step from
+    /// the relaxation to `point`, a few units in the last place of each.
+    pub fn evaluation_error(&self, point: &[f64]) -> f64 {
+        let steps = point.iter().zip(&self.relaxed);
+        let step: Vec<f64> = steps.map(|(p, r)| p - r).collect();
+        let terms = self.model.hessian().entries();
+        let size: f64 = terms
+            .map(|(i, j, v)| (v * step[i as usize] * step[j as usize]).abs())
+            .sum();
+        4.0 * f64::EPSILON * size
+    }
+
+    /// The best solution so far.
+    pub fn best(&self) -> Option<&Incumbent> {
+        self.incumbent.as_ref()
+    }
+
+    /// Takes note that no solution has less energy than `bound`.
+    pub fn raise_bound(&mut self, bound: f64) {
+        if bound > self.lower_bound {
+            self.lower_bound = bound;
+            self.monitor.raised(bound);
+        }
+    }
+
+    /// The bound that leaves the incumbent a relative gap of `gap`.
+    pub fn wanted_bound(&self, gap: f64) -> f64 {
+        let best = self.incumbent.as_ref();
+        best.map_or(f64::INFINITY, |b| b.energy - gap * b.energy.abs().max(1.0))
+    }
+
+    /// Whether the incumbent's relative gap is at most `gap`, or it counts as proved.
+    pub fn is_within(&self, gap: f64) -> bool {
+        let most = gap.max(GAP_TOLERANCE);
+        let best = self.incumbent.as_ref();
+        best.is_some_and(|b| relative_gap(b.energy, self.lower_bound) <= most)
+    }
+
+    /// How the search stands, were it to end now.
+    pub fn status(&self) -> SolveStatus {
+        let Some(best) = &self.incumbent else {
+            return SolveStatus::Relaxed;
+        };
+        let gap = relative_gap(best.energy, self.lower_bound);
+        if gap <= GAP_TOLERANCE {
+            return SolveStatus::Optimal;
+        }
+        match self.monitor.stopped() {
+            Some(Stop::Cancelled) => SolveStatus::Cancelled,
+            Some(Stop::TimeLimit) => SolveStatus::Limit,
+            None => SolveStatus::Feasible,
+        }
+    }
+}

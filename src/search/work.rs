@@ -1,0 +1,90 @@
+//! Work, counted in multiplications: a budget that no machine's speed changes.
+//!
+//! Counted are the loops that may run long, to the order of what they multiply. Roundings (direct,
+//! greedy, adaptive) are not: their work is what it is.
+
+use crate::eliminate::ReducedModel;
+use crate::monitor::Monitor;
+
+/// `auto`: multiplications that are always granted, about a tenth of a second.
+const ALWAYS: u64 = 200_000_000;
+
+/// `auto`: relaxations whose work is granted beyond that.
+const RELAXATIONS: u64 = 1_000;
+
+/// What was spent, and what may be.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Work {
+    spent: u64,
+    limit: u64,
+}
+
+impl Work {
+    /// Nothing spent yet, and no limit.
+    pub fn unlimited() -> Self {
+        Work {
+            spent: 0,
+            limit: u64::MAX,
+        }
+    }
+
+    /// Sets the limit: see [`auto_limit`].
+    pub fn limit_to(&mut self, limit: u64) {
+        self.limit = limit;
+    }
+
+    /// Takes note of so many multiplications.
+    pub fn spend(&mut self, multiplications: u64) {
+        self.spent = self.spent.saturating_add(multiplications);
+    }
+
+    /// Multiplications so far.
+    pub fn spent(&self) -> u64 {
+        self.spent
+    }
+
+    /// Multiplications that are left.
+    pub fn left(&self) -> u64 {
+        self.limit.saturating_sub(self.spent)
+    }
+
+    /// Takes note of so many multiplications; whether to end, for lack of more or because the monitor
+    /// says so.
+    pub fn ends(&mut self, multiplications: u64, monitor: &mut Monitor) -> bool {
+        self.spend(multiplications);
+        self.left() == 0 || monitor.check().is_err()
+    }
+}
+
+/// What a relaxation is counted as for each entry of the reduced Hessian. On mesh problems it
+/// multiplies more, whatever the order of elimination.
+const PER_ENTRY: u64 = 50;
+
+/// The work of a relaxation.
+pub(crate) fn of_relaxation(model: &ReducedModel) -> u64 {
+    PER_ENTRY * model.hessian().len() as u64
+}
+
+/// Multiplications that `auto` may spend beyond roundings.
+pub(crate) fn auto_limit(relaxation: u64) -> u64 {
+    relaxation
+        .saturating_mul(RELAXATIONS)
+        .saturating_add(ALWAYS)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_spent_is_left_no_more() {
+        let mut work = Work::unlimited();
+        assert!(!work.ends(1 << 60, &mut Monitor::default()));
+        work.limit_to((1 << 60) + 10);
+        assert_eq!((work.spent(), work.left()), (1 << 60, 10));
+        assert!(!work.ends(9, &mut Monitor::default()));
+        assert!(work.ends(1, &mut Monitor::default()));
+        work.spend(u64::MAX);
+        assert_eq!(work.left(), 0);
+    }
+}

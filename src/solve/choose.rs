@@ -1,0 +1,61 @@
+//! Which method a strategy comes to on a given model.
+
+use crate::eliminate::ReducedModel;
+use crate::search::{Factors, Options, Search, Strategy};
+use crate::search::{auto_limit, of_relaxation};
+use crate::{Model, Result, cycle, lattice, round};
+
+/// `auto`: angle-difference systems of at most this many integers are tried to prove as well.
+const PROVABLE: usize = 60;
+
+/// Multiplications of a lattice of m integers before the first one is decided, by `m^3`: its Schur
+/// complement, and the reduction with R computed anew.
+const DENSE: u64 = 12;
+
+/// Lets the strategy of `options` search.
+///
+/// Angle-difference systems are decided in cycle space, whatever their size. For other problems the
+/// lattice strategies need a dense matrix of the integers; beyond `dense_integers` they come to
+/// `adaptive`.
+///
+/// # Errors
+/// Those of the method.
+pub(super) fn search(
+    given: &Model,
+    model: &ReducedModel,
+    options: &Options,
+    factors: &mut Factors,
+    search: &mut Search,
+) -> Result<()> {
+    let m = model.integers().len();
+    let mut few = m <= options.dense_integers;
+    if options.strategy == Strategy::Auto {
+        let limit = auto_limit(of_relaxation(model));
+        search.work.limit_to(limit);
+        few &= DENSE * (m as u64).pow(3) <= limit;
+    }
+    match options.strategy {
+        Strategy::Relax => Ok(()),
+        Strategy::Direct => round::direct(model, factors, search),
+        Strategy::Greedy => round::greedy(model, factors, search),
+        Strategy::Adaptive => round::adaptive(model, options, factors, search),
+        Strategy::Multiple => round::multiple(model, options, factors, search),
+        Strategy::Lattice if cycle::lattice(given, model, factors, search)? => Ok(()),
+        Strategy::Auto
+            if cycle::auto(given, model, options, factors, search)? && !(few && m <= PROVABLE) =>
+        {
+            Ok(())
+        }
+        Strategy::Lattice if few => lattice::lattice(model, options, factors, search),
+        Strategy::Exact if few => {
+            // Where angles differ the cycles know better where to begin.
+            cycle::auto(given, model, options, factors, search)?;
+            lattice::exact(model, options, factors, search)
+        }
+        Strategy::Auto if few => lattice::exact(model, options, factors, search),
+        Strategy::Exact if cycle::auto(given, model, options, factors, search)? => Ok(()),
+        Strategy::Lattice | Strategy::Exact | Strategy::Auto => {
+            round::adaptive(model, options, factors, search)
+        }
+    }
+}

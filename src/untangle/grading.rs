@@ -1,0 +1,112 @@
+//! Smaller quads around what a map keeps of folds and wound vertices, and nowhere else.
+//!
+//! A few faults in one place seldom need a finer map as a whole: with smaller quads around them their
+//! integers fall otherwise, and the surface has room. Lengths grow by [`FINER`] at a fault and fall back
+//! within [`REACH`] quads.
+
+use std::collections::VecDeque;
+
+use super::Untangled;
+use crate::map::SeamlessProblem;
+use crate::mesh::TriangleMesh;
+
+/// By how much lengths grow at a fault, each time.
+const FINER: f64 = 1.5;
+
+/// How many quads away lengths do not grow any more,
+const REACH: f64 = 3.0;
+
+/// unless fewer edges of triangles span these.
+const LEAST_EDGES: f64 = 4.0;
+
+/// Multiplies the lengths of faces, one a face, around the faults of a map.
+pub(super) fn grow_around(
+    mesh: &TriangleMesh,
+    problem: &SeamlessProblem,
+    untangled: &Untangled,
+    lengths: &mut [f64],
+) {
+    let corners = untangled
+        .map
+        .flipped()
+        .iter()
+        .flat_map(|&f| mesh.corners(f));
+    let faults = untangled.wound_vertices.iter().copied().chain(corners);
+    let reach = (REACH / problem.mean_aim(mesh)).max(LEAST_EDGES);
+    let edges = edges_from(mesh, faults, reach as usize);
+    for (face, length) in lengths.iter_mut().enumerate() {
+        let nearest = mesh
+            .corners(face)
+            .into_iter()
+            .filter_map(|v| edges[v])
+            .min();
+        if let Some(edges) = nearest {
+            *length *= 1.0 + (FINER - 1.0) * (1.0 - edges as f64 / reach).max(0.0);
+        }
+    }
+}
+
+/// How many edges each vertex is from the next of some, as far as that is at most so many.
+fn edges_from(
+    mesh: &TriangleMesh,
+    from: impl Iterator<Item = usize>,
+    most: usize,
+) -> Vec<Option<usize>> {
+    let mut edges = vec![None; mesh.vertex_count()];
+    let mut queue: VecDeque<(usize, usize)> = from.map(|v| (v, 0)).collect();
+    while let Some((v, distance)) = queue.pop_front() {
+        if edges[v].is_some() || distance > most {
+            continue;
+        }
+        edges[v] = Some(distance);
+        for (face, corner) in mesh.ring(v) {
+            let corners = mesh.corners(face);
+            let ends = [1, 2].map(|k| corners[(corner + k) % 3]);
+            queue.extend(ends.map(|w| (w, distance + 1)));
+        }
+    }
+    edges
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::field::{FieldOptions, solve_field};
+    use crate::map::SeamlessOptions;
+    use crate::mesh::shape;
+    use crate::{Monitor, Options, Solver};
+
+    #[test]
+    fn lengths_that_grow_alike_everywhere_are_a_finer_map() {
+        let mesh = shape::by_name("rounded-cube", 600).unwrap();
+        let (field, options) = (FieldOptions::default(), Options::default());
+        let (field, _) = solve_field(&mesh, &field, &options, Monitor::default).unwrap();
+        let size = SeamlessOptions { quads: 100 };
+        let problem = SeamlessProblem::new(&mesh, &field, &size).unwrap();
+        let mut solver = Solver::new(problem.problem()).unwrap();
+        let alike = vec![1.3; mesh.face_count()];
+        let graded = problem.graded(&mesh, &alike, &mut solver).unwrap();
+        let found = solver.solve(&options).unwrap();
+        let refined = problem.refined(&mesh, 1.3, &mut solver).unwrap();
+        assert_eq!(graded.problem().linear(), refined.problem().linear());
+        assert_eq!(found.values(), solver.solve(&options).unwrap().values());
+    }
+
+    #[test]
+    fn edges_are_counted_from_the_nearest_as_far_as_asked() {
+        let mesh = shape::by_name("sphere", 2_000).unwrap();
+        let edges = edges_from(&mesh, [0, 100].into_iter(), 3);
+        assert_eq!((edges[0], edges[100]), (Some(0), Some(0)));
+        for (v, own) in edges.iter().enumerate() {
+            let around = mesh
+                .ring(v)
+                .map(|(f, k)| edges[mesh.corners(f)[(k + 1) % 3]]);
+            let next = around.flatten().min();
+            match own {
+                Some(0) => assert!(v == 0 || v == 100),
+                Some(n) => assert_eq!(next, Some(n - 1)),
+                None => assert!(next.is_none_or(|n| n == 3)),
+            }
+        }
+    }
+}

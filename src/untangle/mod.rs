@@ -1,0 +1,326 @@
+//! Maps without folds: the same integers, the same seams, every triangle the right way round.
+//!
+//! Garanzha, Kaporin, Kudryavtseva, Protais, Ray, Sokolov 2021, "Foldover-free maps in 50 lines of
+//! code", on the unknowns that the constraints leave free once the integers are held. Folds are few
+//! and sit at cones, so that only what is within some rings of one moves at first, and more of the
+//! surface only where that is not enough.
+//!
+//! | step | file |
+//! | --- | --- |
+//! | what may move | `freedom` |
+//! | folds made stiffer | `stiffen` |
+//! | which part of it is worked on | `region` |
+//! | the energy of a triangle, to second order | `energy` |
+//! | the Hessian of a region | `hessian` |
+//! | Newton steps of a region | `system` |
+//! | the schedule that closes the barrier | `schedule` |
+//! | what no motion can unfold | `stuck` |
+//! | a disk around a vertex | `disk` |
+//! | a disk around a cone, in polar coordinates | `polar` |
+//! | vertices gone around twice | `unwind` |
+//! | faces between isolines, turned over | `banded` |
+//! | cones at one point, held apart | `separate` |
+//! | smaller quads around what is left | `graded` |
+//! | all of it, from the problem on | `unfolded` |
+
+mod attempts;
+mod collapsed;
+mod disk;
+mod energy;
+mod freedom;
+mod grading;
+mod hessian;
+mod isoline_triangles;
+mod polar;
+mod region;
+mod schedule;
+mod stiffen;
+mod stuck;
+mod system;
+mod unwind;
+
+pub use attempts::{Unfolded, solve_unfolded};
+pub use collapsed::Collapsed;
+
+use crate::map::{SeamlessMap, SeamlessProblem};
+use crate::mesh::TriangleMesh;
+use crate::mesh::orientation;
+use crate::mesh::vector::{dot, sub};
+use crate::monitor::Phase;
+use crate::{Monitor, Result};
+use energy::Rest;
+use freedom::Freedom;
+use region::{Region, regions};
+use stuck::Stuck;
+use system::System;
+
+/// Not in the region at hand.
+const NONE: u32 = u32::MAX;
+
+/// How far around a fold is worked on, attempt after attempt.
+const RINGS: [usize; 6] = [3, 8, 20, 50, 120, usize::MAX];
+
+/// A region that the budget allows fewer steps is left as it is.
+const LEAST_STEPS: usize = 10;
+
+/// How much work to spend.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct UntangleOptions {
+    /// Newton steps a region may take.
+    pub steps: usize,
+    /// How many faces all steps together may look at, as a multiple of the mesh's faces.
+    pub passes: usize,
+    /// How often the surroundings of a fold are made stiffer where the map distorts them, before anything
+    /// else is done: the classical remedy, here with the integers kept.
+    pub stiffenings: usize,
+    /// How often the integers of collapsed cones are decided anew.
+    pub rounds: usize,
+    /// How often a map that keeps folds is made finer as a whole. Where that is allowed at all, what is
+    /// left of folds afterwards gets smaller quads around it a few times.
+    pub refinements: usize,
+}
+
+impl Default for UntangleOptions {
+    fn default() -> Self {
+        UntangleOptions {
+            steps: 100,
+            passes: 200,
+            stiffenings: 5,
+            rounds: 6,
+            refinements: 5,
+        }
+    }
+}
+
+/// A map after untangling, and what it took.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Untangled {
+    /// The map.
+    pub map: SeamlessMap,
+    /// Faces folded or collapsed before.
+    pub flipped_before: usize,
+    /// What local stiffening left of them.
+    pub flipped_stiffened: usize,
+    /// Faces folded or collapsed after: [`SeamlessMap::flipped`] names them.
+    pub flipped_after: usize,
+    /// Vertices that the map goes around another number of times than the field, afterwards.
+    pub wound_vertices: Vec<usize>,
+    /// Newton steps, over all regions.
+    pub steps: usize,
+    /// Flipped faces that nothing can unfold, as all their corners are held by integers.
+    pub stuck_faces: Vec<usize>,
+    /// Edges of flipped faces that integers collapse: their two ends, cones, are at one point.
+    pub collapsed_edges: Vec<usize>,
+}
+
+impl Untangled {
+    /// How many faces and vertices keep the map from being locally injective: none in a good one.
+    pub fn faults(&self) -> usize {
+        self.flipped_after + self.wound_vertices.len()
+    }
+
+    /// A map that nothing was done to, and whose vertices were not looked at.
+    pub fn as_it_is(map: SeamlessMap) -> Self {
+        let flipped = map.flipped().len();
+        Untangled {
+            map,
+            flipped_before: flipped,
+            flipped_stiffened: flipped,
+            flipped_after: flipped,
+            wound_vertices: Vec::new(),
+            steps: 0,
+            stuck_faces: Vec::new(),
+            collapsed_edges: Vec::new(),
+        }
+    }
+}
+
+/// Moves the vertices of a map that the integers do not hold until no triangle is folded.
+///
+/// A map without folds comes back as it is. Where not all folds can be undone, the map has as few as
+/// were found.
+///
+/// # Errors
+/// [`LengthMismatch`](crate::Error::LengthMismatch) for the map of another problem or mesh,
+/// [`OutOfMemory`](crate::Error::OutOfMemory), and [`Cancelled`](crate::Error::Cancelled) when
+/// `monitor` asks for it.
+pub fn untangle(
+    mesh: &TriangleMesh,
+    problem: &SeamlessProblem,
+    map: &SeamlessMap,
+    options: &UntangleOptions,
+    monitor: &mut Monitor,
+) -> Result<Untangled> {
+    problem.check_map(mesh, map)?;
+    let structure = Structure::new(mesh, problem, map, monitor)?;
+    untangle_in(&structure, mesh, problem, map, options, monitor)
+}
+
+/// What integers and size of a map do not change.
+struct Structure {
+    freedom: Freedom,
+    /// How many quarter turns there should be around each vertex.
+    quarters: Vec<Option<i32>>,
+}
+
+impl Structure {
+    /// Of all maps of this problem, whatever their size: of which this is one.
+    fn new(
+        mesh: &TriangleMesh,
+        problem: &SeamlessProblem,
+        map: &SeamlessMap,
+        monitor: &mut Monitor,
+    ) -> Result<Self> {
+        Ok(Structure {
+            freedom: Freedom::new(problem, map.copies(), map.values(), monitor)?,
+            quarters: problem.quarters(mesh),
+        })
+    }
+}
+
+/// [`untangle`], for a map of known structure.
+fn untangle_in(
+    structure: &Structure,
+    mesh: &TriangleMesh,
+    problem: &SeamlessProblem,
+    map: &SeamlessMap,
+    options: &UntangleOptions,
+    monitor: &mut Monitor,
+) -> Result<Untangled> {
+    let mut work = Untangling::new(structure, mesh, problem, map, options);
+    let flipped_before = work.folded().len();
+    if flipped_before == 0 && work.wound().is_empty() {
+        return Ok(Untangled::as_it_is(map.clone()));
+    }
+    work.stiffen(options.stiffenings, monitor)?;
+    let flipped_stiffened = work.folded().len();
+    for rings in RINGS {
+        let folded = work.folded();
+        if folded.is_empty() || work.budget == 0 {
+            break;
+        }
+        for region in regions(work.freedom, &folded, rings) {
+            work.unfold(&region, schedule::FIRST_EPS, monitor)?;
+        }
+    }
+    if work.folded().is_empty() {
+        work.unwind(monitor)?;
+    }
+    monitor.progress(Phase::Untangle, 1.0)?;
+    let left = work.folded();
+    let stuck = Stuck::find(mesh, work.freedom, &work.values, &left);
+    Ok(Untangled {
+        stuck_faces: stuck.faces,
+        collapsed_edges: stuck.edges,
+        flipped_before,
+        flipped_stiffened,
+        wound_vertices: work.wound(),
+        flipped_after: left.len(),
+        steps: work.steps,
+        map: SeamlessMap::new(problem, mesh, &work.values)?,
+    })
+}
+
+/// The state of the work.
+struct Untangling<'a> {
+    mesh: &'a TriangleMesh,
+    problem: &'a SeamlessProblem,
+    freedom: &'a Freedom,
+    quarters: &'a [Option<i32>],
+    values: Vec<f64>,
+    /// Where in the region at hand each free unknown is.
+    place: Vec<u32>,
+    /// Newton steps made.
+    steps: usize,
+    /// Newton steps a region may take.
+    most_steps: usize,
+    /// How many faces steps may still look at.
+    budget: usize,
+}
+
+impl<'a> Untangling<'a> {
+    fn new(
+        structure: &'a Structure,
+        mesh: &'a TriangleMesh,
+        problem: &'a SeamlessProblem,
+        map: &SeamlessMap,
+        options: &UntangleOptions,
+    ) -> Self {
+        Untangling {
+            mesh,
+            problem,
+            freedom: &structure.freedom,
+            quarters: &structure.quarters,
+            place: vec![NONE; structure.freedom.dim()],
+            values: map.values().to_vec(),
+            steps: 0,
+            most_steps: options.steps,
+            budget: options.passes.saturating_mul(mesh.face_count()),
+        }
+    }
+
+    fn folded(&self) -> Vec<usize> {
+        let faces = 0..self.freedom.copies.len();
+        faces.filter(|&f| orientation(self.uv(f)) <= 0.0).collect()
+    }
+
+    fn uv(&self, face: usize) -> [[f64; 2]; 3] {
+        let copies = self.freedom.copies[face].map(|c| 2 * c as usize);
+        copies.map(|u| [self.values[u], self.values[u + 1]])
+    }
+
+    fn system<'r>(&mut self, region: &'r Region) -> Result<System<'r>>
+    where
+        'a: 'r,
+    {
+        for (k, &y) in region.unknowns.iter().enumerate() {
+            self.place[y as usize] = k as u32;
+        }
+        let rest = |face: usize| at_rest(self.mesh, self.problem, face);
+        let system = System::new(self.freedom, region, rest, &self.place);
+        region
+            .unknowns
+            .iter()
+            .for_each(|&y| self.place[y as usize] = NONE);
+        system
+    }
+
+    /// Works on one region, and keeps what comes out if it has fewer folds.
+    fn unfold(&mut self, region: &Region, first_eps: f64, monitor: &mut Monitor) -> Result<()> {
+        let mut system = self.system(region)?;
+        let before = system.folded(&self.values);
+        if before == 0 {
+            return Ok(());
+        }
+        let most_steps = self.most_steps.min(self.budget / system.faces());
+        if most_steps < LEAST_STEPS.min(self.most_steps) {
+            return Ok(());
+        }
+        let saved = system.save(&self.values);
+        let outcome = schedule::unfold(
+            &mut system,
+            &mut self.values,
+            most_steps,
+            first_eps,
+            monitor,
+        )?;
+        if outcome.folded >= before {
+            system.restore(&mut self.values, &saved);
+        }
+        self.steps += outcome.steps;
+        let looked_at = outcome.steps.saturating_mul(system.faces());
+        self.budget = self.budget.saturating_sub(looked_at);
+        Ok(())
+    }
+}
+
+/// A face laid into the plane as the field has it, as large as it should be.
+fn at_rest(mesh: &TriangleMesh, problem: &SeamlessProblem, face: usize) -> Rest {
+    let corners = mesh.corner_positions(face);
+    let targets = problem.targets(mesh, face);
+    let from_first = |k: usize| {
+        let step = sub(corners[k], corners[0]);
+        targets.map(|target| dot(target, step))
+    };
+    Rest::new([0, 1, 2].map(from_first))
+}

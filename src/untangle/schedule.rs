@@ -1,0 +1,90 @@
+//! How fast the barrier closes: from a rounded-off energy to one that no fold can pass.
+//!
+//! Garanzha, Kaporin, Kudryavtseva, Protais, Ray, Sokolov 2021, section 3.2 (equation 7): eps falls
+//! the faster, the more the last minimisation gained and the less is folded.
+
+use super::system::System;
+use crate::monitor::Phase;
+use crate::{Monitor, Result};
+
+/// Where eps begins: the determinant at rest.
+pub(super) const FIRST_EPS: f64 = 1.0;
+
+/// Below, eps changes nothing that doubles can show.
+const LAST_EPS: f64 = 1e-9;
+
+/// The least part by which eps falls: the paper proves its 1/10.
+const LEAST_GAIN: f64 = 0.1;
+
+/// A minimisation at fixed eps is over when a step gains less than this part of the energy.
+const CONVERGED: f64 = 1e-3;
+
+/// Steps at one eps.
+const INNER_STEPS: usize = 6;
+
+/// Steps made once nothing is folded any more, to get away from the edge of it.
+const POLISHING_STEPS: usize = 3;
+
+/// How the work on a region ended.
+pub(super) struct Outcome {
+    /// Faces still folded.
+    pub folded: usize,
+    /// Newton steps made.
+    pub steps: usize,
+}
+
+/// Works on a region until nothing is folded, or for so many steps.
+pub(super) fn unfold(
+    system: &mut System,
+    x: &mut [f64],
+    most_steps: usize,
+    first_eps: f64,
+    monitor: &mut Monitor,
+) -> Result<Outcome> {
+    let mut eps = first_eps;
+    let mut steps = 0;
+    let mut folded = system.folded(x);
+    while folded > 0 && steps < most_steps && eps > LAST_EPS {
+        let start = system.energy(x, eps);
+        let mut energy = start;
+        for _ in 0..INNER_STEPS {
+            monitor.progress(Phase::Untangle, steps as f64 / most_steps as f64)?;
+            let before = energy;
+            energy = system.step(x, eps)?;
+            steps += 1;
+            folded = system.folded(x);
+            if folded == 0 || energy >= before * (1.0 - CONVERGED) {
+                break;
+            }
+        }
+        eps = narrowed(eps, 1.0 - energy / start, system.least_determinant(x));
+    }
+    if folded == 0 {
+        steps += polish(system, x, eps)?;
+    }
+    Ok(Outcome { folded, steps })
+}
+
+/// The next eps, after a minimisation that gained this part of the energy.
+fn narrowed(eps: f64, gain: f64, least: f64) -> f64 {
+    let gain = gain.max(LEAST_GAIN);
+    if least >= 0.0 {
+        return (1.0 - gain) * eps;
+    }
+    let root = eps.hypot(least);
+    (1.0 - gain * root / (root - least)) * eps
+}
+
+/// Steps that keep everything unfolded.
+fn polish(system: &mut System, x: &mut [f64], eps: f64) -> Result<usize> {
+    let eps = eps.min(system.least_determinant(x)).max(LAST_EPS);
+    for step in 0..POLISHING_STEPS {
+        let before = system.save(x);
+        system.step(x, eps)?;
+        if system.folded(x) > 0 {
+            system.restore(x, &before);
+            return Ok(step + 1);
+        }
+    }
+    Ok(POLISHING_STEPS)
+}

@@ -1,0 +1,195 @@
+//! The energy of one region and its Newton steps.
+//!
+//! Coordinates of the region are affine in its unknowns; slope and Hessian of each face go through
+//! that map, and the sum is factored by sparse Cholesky.
+
+use super::energy::{Quadratic, Rest};
+use super::freedom::Freedom;
+use super::hessian::Hessian;
+use super::region::Region;
+use crate::linalg::Sparse;
+use crate::mesh::orientation;
+use crate::{Error, Result};
+
+/// How often a step is halved before it is given up.
+const HALVINGS: usize = 24;
+
+/// The part of the decrease promised by the slope that a step must keep (Armijo).
+const DECREASE: f64 = 1e-4;
+
+/// One region, ready to be solved.
+pub(super) struct System<'a> {
+    freedom: &'a Freedom,
+    region: &'a Region,
+    rests: Vec<Rest>,
+    /// The coordinates that the region's unknowns move, increasing.
+    coordinates: Vec<u32>,
+    /// One row a corner coordinate of a face, one column an unknown of the region.
+    corners: Sparse,
+    /// One row a coordinate of the region.
+    moves: Sparse,
+    /// From the first step on.
+    hessian: Option<Hessian>,
+}
+
+impl<'a> System<'a> {
+    /// `place` gives the position of each free unknown in the region, or more than there are.
+    pub fn new(
+        freedom: &'a Freedom,
+        region: &'a Region,
+        rest: impl Fn(usize) -> Rest,
+        place: &[u32],
+    ) -> Result<Self> {
+        let moved = region
+            .unknowns
+            .iter()
+            .flat_map(|&y| freedom.moved.row(y as usize));
+        let mut coordinates: Vec<u32> = moved.map(|(i, _)| i as u32).collect();
+        coordinates.sort_unstable();
+        coordinates.dedup();
+        let dim = region.unknowns.len();
+        let row = |k: usize, coordinate: u32| {
+            let entries = freedom.moves.row(coordinate as usize);
+            let inside = entries.filter(|&(y, _)| (place[y] as usize) < dim);
+            inside.map(move |(y, v)| (k as u32, place[y], v))
+        };
+        let of_faces = region
+            .faces
+            .iter()
+            .flat_map(|&f| freedom.copies[f as usize]);
+        let of_faces: Vec<u32> = of_faces.flat_map(|c| [2 * c, 2 * c + 1]).collect();
+        let matrix = |list: &[u32]| {
+            let entries = list.iter().enumerate().flat_map(|(k, &i)| row(k, i));
+            Sparse::from_triplets(list.len(), dim, entries)
+        };
+        Ok(System {
+            corners: matrix(&of_faces)?,
+            moves: matrix(&coordinates)?,
+            rests: region.faces.iter().map(|&f| rest(f as usize)).collect(),
+            coordinates,
+            hessian: None,
+            freedom,
+            region,
+        })
+    }
+
+    /// Number of faces: what one step costs.
+    pub fn faces(&self) -> usize {
+        self.region.faces.len()
+    }
+
+    /// The energy at coordinates `x`.
+    pub fn energy(&self, x: &[f64], eps: f64) -> f64 {
+        self.shapes(x).map(|(rest, uv)| rest.energy(&uv, eps)).sum()
+    }
+
+    /// The least determinant.
+    pub fn least_determinant(&self, x: &[f64]) -> f64 {
+        let all = self.shapes(x).map(|(rest, uv)| rest.determinant(&uv));
+        all.fold(f64::INFINITY, f64::min)
+    }
+
+    /// How many faces are folded or collapsed, by the exact predicate.
+    pub fn folded(&self, x: &[f64]) -> usize {
+        let all = self.shapes(x);
+        all.filter(|(_, uv)| orientation(*uv) <= 0.0).count()
+    }
+
+    /// One step of Newton's method with line search; gives the energy after it.
+    pub fn step(&mut self, x: &mut [f64], eps: f64) -> Result<f64> {
+        let mut hessian = match self.hessian.take() {
+            Some(hessian) => hessian,
+            None => Hessian::new(&self.corners)?,
+        };
+        let (before, slope) = self.quadratic(x, eps, &mut hessian);
+        let mut step: Vec<f64> = slope.iter().map(|g| -g).collect();
+        let factor = hessian.factor();
+        self.hessian = Some(hessian);
+        match factor {
+            Ok(factor) => factor.solve(&mut step)?,
+            // Next to a triangle without area the barrier is too steep for doubles.
+            Err(Error::Overflow { .. }) => return Ok(before),
+            Err(error) => return Err(error),
+        }
+        let promised: f64 = slope.iter().zip(&step).map(|(g, s)| g * s).sum();
+        let start: Vec<f64> = self.coordinates.iter().map(|&i| x[i as usize]).collect();
+        let change = self.moves.mul(&step);
+        let mut length = 1.0;
+        for _ in 0..HALVINGS {
+            self.place(x, &start, &change, length);
+            let after = self.energy(x, eps);
+            if after <= before + DECREASE * length * promised {
+                return Ok(after);
+            }
+            length *= 0.5;
+        }
+        self.place(x, &start, &change, 0.0);
+        Ok(before)
+    }
+
+    /// Goes to the least of the sum of these forms, one a face, with their slopes at `x`.
+    pub fn minimise(&mut self, x: &mut [f64], forms: &[Quadratic]) -> Result<()> {
+        let hessian = match &mut self.hessian {
+            Some(hessian) => hessian,
+            none => none.insert(Hessian::new(&self.corners)?),
+        };
+        let mut step = vec![0.0; self.region.unknowns.len()];
+        for (k, form) in forms.iter().enumerate() {
+            for (a, slope) in form.slope.iter().enumerate() {
+                for (i, u) in self.corners.row(6 * k + a) {
+                    step[i] -= u * slope;
+                }
+            }
+        }
+        hessian.sum(&self.corners, forms.iter().map(|form| form.hessian));
+        hessian.factor()?.solve(&mut step)?;
+        let change = self.moves.mul(&step);
+        self.place(x, &self.save(x), &change, 1.0);
+        Ok(())
+    }
+
+    /// The coordinates of the region, to be put back with [`restore`](Self::restore).
+    pub fn save(&self, x: &[f64]) -> Vec<f64> {
+        self.coordinates.iter().map(|&i| x[i as usize]).collect()
+    }
+
+    /// Puts saved coordinates back.
+    pub fn restore(&self, x: &mut [f64], saved: &[f64]) {
+        for (&i, value) in self.coordinates.iter().zip(saved) {
+            x[i as usize] = *value;
+        }
+    }
+
+    fn place(&self, x: &mut [f64], start: &[f64], change: &[f64], length: f64) {
+        for ((&i, start), change) in self.coordinates.iter().zip(start).zip(change) {
+            x[i as usize] = start + length * change;
+        }
+    }
+
+    fn shapes<'b>(&'b self, x: &'b [f64]) -> impl Iterator<Item = (&'b Rest, [[f64; 2]; 3])> + 'b {
+        let faces = self.region.faces.iter().zip(&self.rests);
+        faces.map(|(&face, rest)| {
+            let copies = self.freedom.copies[face as usize];
+            let uv = copies.map(|c| [x[2 * c as usize], x[2 * c as usize + 1]]);
+            (rest, uv)
+        })
+    }
+
+    /// Energy and slope in the region's unknowns; `hessian` becomes the projected one.
+    fn quadratic(&self, x: &[f64], eps: f64, hessian: &mut Hessian) -> (f64, Vec<f64>) {
+        let mut slope = vec![0.0; self.region.unknowns.len()];
+        let mut energy = 0.0;
+        let forms = self.shapes(x).enumerate().map(|(k, (rest, uv))| {
+            energy += rest.energy(&uv, eps);
+            let local = rest.quadratic(&uv, eps);
+            for a in 0..6 {
+                for (i, u) in self.corners.row(6 * k + a) {
+                    slope[i] += u * local.slope[a];
+                }
+            }
+            local.hessian
+        });
+        hessian.sum(&self.corners, forms);
+        (energy, slope)
+    }
+}

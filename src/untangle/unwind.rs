@@ -1,0 +1,248 @@
+//! Vertices that a map without folds goes around once too often, mended.
+//!
+//! Undoing folds, a cone of -1/4 may come out a quarter turn wide, and a vertex beside it two whole
+//! turns: no motion without folds leads out of it. A disk around both is laid anew in polar
+//! coordinates, larger and larger ones, and what that folds is untangled again.
+
+use std::collections::BTreeSet;
+
+use super::Untangling;
+use super::disk::Disk;
+use super::polar::{Layout, faces_within};
+use super::region::regions;
+use crate::map::{is_wound, wound};
+use crate::mesh::orientation;
+use crate::{Monitor, Result};
+
+/// How far around a cone, in units of the map, is laid anew, attempt after attempt.
+const RADII: [f64; 12] = [0.5, 0.7, 1.0, 1.2, 1.4, 1.7, 2.0, 2.4, 2.8, 3.4, 4.0, 5.6];
+
+/// A disk of more faces than these is not worth the work that it makes.
+const MOST_FACES: usize = 4000;
+
+/// How often all such cones are looked at: mending one may wind another up.
+const ROUNDS: usize = 8;
+
+/// How many faces all steps may look at, as a multiple of the mesh's faces.
+const PASSES: usize = 20;
+
+/// How closed the barrier is at first: open, it undoes more folds; nearly closed, what the layout
+/// unwound stays so.
+const FIRST_EPS: [f64; 3] = [1.0, 0.1, 0.01];
+
+/// How far around what that folds is worked on.
+const RINGS: [usize; 3] = [2, 5, 12];
+
+impl Untangling<'_> {
+    /// The vertices that the map goes around another number of times than the field.
+    pub(super) fn wound(&self) -> Vec<usize> {
+        wound(self.mesh, self.quarters, |face| self.uv(face))
+    }
+
+    /// Mends cones that are narrower than they should be in a map without folds, as far as it can.
+    pub(super) fn unwind(&mut self, monitor: &mut Monitor) -> Result<()> {
+        self.budget = self
+            .budget
+            .min(PASSES.saturating_mul(self.mesh.face_count()));
+        let mut wound = self.wound();
+        let mut left_behind = BTreeSet::new();
+        for _ in 0..ROUNDS {
+            let before = wound.clone();
+            for cone in before.iter().copied() {
+                if self.quarters[cone] != Some(4) && wound.contains(&cone) {
+                    self.unwind_cone(cone, &mut wound, &mut left_behind, monitor)?;
+                }
+            }
+            if wound.is_empty() || wound == before {
+                break;
+            }
+        }
+        Ok(())
+    }
+
+    /// Lays larger and larger disks around a cone anew, until fewer vertices are `wound`.
+    ///
+    /// Where none helps, the first is taken that winds another cone in its stead which was not
+    /// `left_behind` so before: that one may have more room.
+    fn unwind_cone(
+        &mut self,
+        cone: usize,
+        wound: &mut Vec<usize>,
+        left_behind: &mut BTreeSet<usize>,
+        monitor: &mut Monitor,
+    ) -> Result<()> {
+        let mut instead = None;
+        let mut faces = 0;
+        for radius in RADII {
+            let Some(disk) = self.disk(cone, radius).filter(|_| self.budget > 0) else {
+                break;
+            };
+            if std::mem::replace(&mut faces, disk.faces.len()) == disk.faces.len() {
+                continue;
+            }
+            if faces > MOST_FACES {
+                break;
+            }
+            let Some(layout) = self.layout(&disk)? else {
+                continue;
+            };
+            for first_eps in FIRST_EPS {
+                let before = self.values.clone();
+                self.lay(&layout);
+                self.unfold_disk(&disk, first_eps, monitor)?;
+                let left = self.wound_since(&before, wound);
+                let now = std::mem::replace(&mut self.values, before);
+                let Some(left) = left else { continue };
+                if left.len() < wound.len() {
+                    (self.values, *wound) = (now, left);
+                    return Ok(());
+                }
+                let is_other = |v: &usize| !left_behind.contains(v);
+                let moves = left.len() == wound.len() && !left.contains(&cone);
+                if instead.is_none() && moves && left.iter().all(is_other) {
+                    instead = Some((now, left));
+                }
+            }
+        }
+        if let Some((values, left)) = instead {
+            left_behind.insert(cone);
+            (self.values, *wound) = (values, left);
+        }
+        Ok(())
+    }
+
+    /// The wound vertices, which at other values were these; none where what moved is folded.
+    fn wound_since(&self, before: &[f64], wound: &[usize]) -> Option<Vec<usize>> {
+        let first = &self.problem.sectors.first;
+        let vertex = |i: usize| first.partition_point(|&copy| copy as usize <= i / 2) - 1;
+        let both = self.values.iter().zip(before).enumerate();
+        let moved: BTreeSet<usize> = both
+            .filter(|(_, (x, y))| x != y)
+            .map(|(i, _)| vertex(i))
+            .collect();
+        let around = moved.iter().flat_map(|&v| self.mesh.ring(v));
+        let faces: BTreeSet<usize> = around.map(|(face, _)| face).collect();
+        if faces.iter().any(|&face| orientation(self.uv(face)) <= 0.0) {
+            return None;
+        }
+        let corners = faces.iter().flat_map(|&face| self.mesh.corners(face));
+        let near: BTreeSet<usize> = corners.collect();
+        let uv = |face| self.uv(face);
+        let is_wound = |v: &usize| is_wound(self.mesh, self.quarters, uv, *v);
+        let far = wound.iter().filter(|v| !near.contains(v));
+        let found = near.iter().copied().filter(is_wound);
+        let mut left: Vec<usize> = far.copied().chain(found).collect();
+        left.sort_unstable();
+        Some(left)
+    }
+
+    /// What lies within `radius` of a cone in the map, without vertices that cannot go wherever one
+    /// likes: on the boundary, cones, on features.
+    fn disk(&self, cone: usize, radius: f64) -> Option<Disk> {
+        let near = faces_within(self.mesh, cone, radius, &|face| self.uv(face));
+        let is_fixed = |v: usize| {
+            self.mesh.is_boundary_vertex(v) || self.freedom.of_copies(self.copies_of(v)).is_none()
+        };
+        Disk::around(self.mesh, cone, |face| {
+            near.contains_key(&face) && !self.mesh.corners(face).into_iter().any(is_fixed)
+        })
+    }
+
+    fn copies_of(&self, v: usize) -> std::ops::Range<u32> {
+        self.problem.sectors.first[v]..self.problem.sectors.first[v + 1]
+    }
+
+    fn layout(&self, disk: &Disk) -> Result<Option<Layout>> {
+        let quarters = self.quarters[disk.center].unwrap_or(4);
+        Layout::new(self.mesh, disk, quarters, &|face| self.uv(face))
+    }
+
+    fn lay(&mut self, layout: &Layout) {
+        for &(v, face, corner, to) in &layout.places {
+            let copy = self.freedom.copies[face][corner];
+            if let Some(unknowns) = self.freedom.of_copies(self.copies_of(v)) {
+                self.freedom.put(copy, unknowns, to, &mut self.values);
+            }
+        }
+    }
+
+    fn unfold_disk(&mut self, disk: &Disk, first_eps: f64, monitor: &mut Monitor) -> Result<()> {
+        for rings in RINGS {
+            let is_folded = |&face: &usize| orientation(self.uv(face)) <= 0.0;
+            let mut folded: Vec<usize> = disk.faces.iter().copied().filter(is_folded).collect();
+            folded.sort_unstable();
+            if folded.is_empty() {
+                break;
+            }
+            for region in regions(self.freedom, &folded, rings) {
+                self.unfold(&region, first_eps, monitor)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::field::{FieldOptions, solve_field};
+    use crate::map::{SeamlessOptions, SeamlessProblem};
+    use crate::mesh::{jitter, shape};
+    use crate::untangle::{Structure, UntangleOptions, untangle};
+    use crate::{Options, solve};
+
+    #[test]
+    fn a_disk_around_a_cone_is_laid_as_often_as_the_cone_asks_for() {
+        let mesh = jitter(&shape::by_name("genus-2", 2000).unwrap(), 1e-3, 7).unwrap();
+        let options = Options::default();
+        let field = FieldOptions::default();
+        let (field, _) = solve_field(&mesh, &field, &options, Monitor::default).unwrap();
+        let problem = SeamlessProblem::new(&mesh, &field, &SeamlessOptions { quads: 300 }).unwrap();
+        let map = problem.map(&mesh, &solve(problem.problem(), &options).unwrap());
+        let effort = UntangleOptions::default();
+        let map = untangle(
+            &mesh,
+            &problem,
+            &map.unwrap(),
+            &effort,
+            &mut Monitor::default(),
+        );
+        let map = map.unwrap().map;
+        assert!(map.flipped().is_empty());
+        let watch = &mut Monitor::default();
+        let structure = Structure::new(&mesh, &problem, &map, watch).unwrap();
+        let mut laid = 0;
+        for &cone in problem.cones() {
+            let mut work = Untangling::new(&structure, &mesh, &problem, &map, &effort);
+            let Some(disk) = work.disk(cone, 1.5).filter(|d| d.inside.len() > 5) else {
+                continue;
+            };
+            let layout = work.layout(&disk).unwrap().unwrap();
+            let (before, wound) = (work.values.clone(), work.wound());
+            // Nothing is left of what was there: all inside is put beside one point.
+            let center = faces_within(&mesh, cone, 9.0, &|face| work.uv(face));
+            let beside = |face: usize, v: usize| center[&face].map(|x| x + 1e-6 * v as f64);
+            let places = layout.places.iter();
+            let places = places.map(|&(v, face, corner, _)| (v, face, corner, beside(face, v)));
+            work.lay(&Layout {
+                places: places.collect(),
+            });
+            let crushed = work.folded().len();
+            assert_eq!(work.wound_since(&before, &wound), None, "folded");
+            work.lay(&layout);
+            let folded = work.folded().len();
+            assert!(4 * folded < crushed, "{cone}: {folded} of {crushed}");
+            work.unfold_disk(&disk, 0.1, watch).unwrap();
+            assert!(
+                work.folded().is_empty() && work.wound().is_empty(),
+                "{cone}"
+            );
+            // What moved alone tells what a look at everything tells.
+            assert_eq!(work.wound_since(&before, &wound), Some(Vec::new()));
+            assert_eq!(work.wound_since(&before, &[]), Some(Vec::new()));
+            assert_eq!(work.wound_since(&work.values, &[cone]), Some(vec![cone]));
+            laid += 1;
+        }
+        assert!(laid > 3, "{laid}");
+    }
+}
