@@ -46,8 +46,6 @@ pub mod linalg;
 pub mod map;
 pub mod mesh;
 pub mod monitor;
-#[cfg(feature = "pictures")]
-pub mod picture;
 pub mod problem;
 pub mod quad;
 pub mod round;

@@ -10,9 +10,9 @@ use std::time::Instant;
 
 use roundel::field::{FieldProblem, OrientationField, solve_field};
 use roundel::mesh::{TriangleMesh, io};
-use roundel::picture::{FieldModel, View, draw_field};
 use roundel::problem::mps::{self, MpsProblem};
 use roundel::{Error, Options, Result, Solution, Strategy};
+use roundel_pictures::{FieldModel, View, draw_field};
 
 use crate::exit::Exit;
 use crate::progress::Progress;

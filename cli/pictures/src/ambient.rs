@@ -5,8 +5,8 @@
 //! structure but the rasteriser that is there already.
 
 use super::raster::fill;
-use crate::mesh::TriangleMesh;
-use crate::mesh::vector::{Vec3, add, cross, dot, normalize, scale, sub};
+use roundel::mesh::TriangleMesh;
+use roundel::mesh::vector::{Vec3, add, cross, dot, normalize, scale, sub};
 
 /// Directions of the sky.
 const DIRECTIONS: usize = 64;

@@ -6,7 +6,7 @@
 
 use std::collections::HashMap;
 
-use crate::mesh::vector::{Vec3, dot, sub};
+use roundel::mesh::vector::{Vec3, dot, sub};
 
 /// Lines run alike if the cosine between them is larger.
 const ALIKE: f64 = 0.71;

@@ -4,7 +4,7 @@
 //! when samples have been averaged.
 
 use super::camera::Camera;
-use crate::mesh::vector::{Vec3, add, dot, normalize, scale};
+use roundel::mesh::vector::{Vec3, add, dot, normalize, scale};
 
 /// Red, green and blue, linear.
 pub(super) type Color = [f32; 3];

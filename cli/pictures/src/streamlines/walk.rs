@@ -6,9 +6,9 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use crate::field::OrientationField;
-use crate::mesh::TriangleMesh;
-use crate::mesh::vector::{Vec3, add, cross, dot, norm, scale, sub};
+use roundel::field::OrientationField;
+use roundel::mesh::TriangleMesh;
+use roundel::mesh::vector::{Vec3, add, cross, dot, norm, scale, sub};
 
 /// A place on the surface, and the arm of the cross there that is followed.
 #[derive(Debug, Clone, Copy)]

@@ -1,7 +1,7 @@
 //! Normals for shading: smooth over the surface, broken at its creases.
 
-use crate::mesh::TriangleMesh;
-use crate::mesh::vector::{Vec3, add, dot, normalize, scale};
+use roundel::mesh::TriangleMesh;
+use roundel::mesh::vector::{Vec3, add, dot, normalize, scale};
 
 /// Cosine of the angle between two faces beyond which the edge between them looks sharp: 50
 /// degrees, so that round parts of a coarse mesh stay round.

@@ -4,7 +4,7 @@ use super::camera::Camera;
 use super::scene::{Scene, Vertex};
 use super::shading::Color;
 use super::streamlines::Streamline;
-use crate::mesh::vector::{add, cross, norm, normalize, scale, sub};
+use roundel::mesh::vector::{add, cross, norm, normalize, scale, sub};
 
 /// How far ribbons are drawn in front of the surface, as a part of the distance to the eye.
 const NEARER: f64 = 0.0015;

@@ -1,8 +1,8 @@
 //! Irregular vertices as balls, coloured by index.
 
-use crate::field::OrientationField;
-use crate::mesh::TriangleMesh;
-use crate::mesh::vector::{Vec3, add, normalize, scale};
+use roundel::field::OrientationField;
+use roundel::mesh::TriangleMesh;
+use roundel::mesh::vector::{Vec3, add, normalize, scale};
 
 const POSITIVE: [u8; 3] = [214, 48, 38];
 const NEGATIVE: [u8; 3] = [30, 92, 205];

@@ -12,9 +12,9 @@ use std::collections::VecDeque;
 
 use self::spacing::{Index, Sample};
 use self::walk::{Stand, Walker};
-use crate::field::OrientationField;
-use crate::mesh::TriangleMesh;
-use crate::mesh::vector::{Vec3, dot, norm, sub};
+use roundel::field::OrientationField;
+use roundel::mesh::TriangleMesh;
+use roundel::mesh::vector::{Vec3, dot, norm, sub};
 
 /// Steps in which a line is traced, and between its samples, in distances between lines.
 const STEP: f64 = 0.25;

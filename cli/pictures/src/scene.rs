@@ -4,7 +4,7 @@ use super::camera::Camera;
 use super::png::Image;
 use super::raster::{Corner, fill};
 use super::shading::{Color, Lights, encode};
-use crate::mesh::vector::{Vec3, add, scale};
+use roundel::mesh::vector::{Vec3, add, scale};
 
 /// Samples a pixel, in each direction.
 const SUPERSAMPLING: usize = 3;

@@ -9,10 +9,10 @@ use super::ribbons::add_ribbon;
 use super::scene::{Scene, Vertex};
 use super::shading::linear;
 use super::streamlines::streamlines;
-use crate::field::OrientationField;
-use crate::mesh::TriangleMesh;
-use crate::mesh::vector::{Vec3, add, normalize};
-use crate::{Error, Result};
+use roundel::field::OrientationField;
+use roundel::mesh::TriangleMesh;
+use roundel::mesh::vector::{Vec3, add, normalize};
+use roundel::{Error, Result};
 
 const SURFACE: [u8; 3] = [246, 239, 226];
 const LINE: [u8; 3] = [66, 88, 120];
@@ -125,7 +125,7 @@ impl View {
                 ));
             }
         }
-        let sine = crate::mesh::vector::norm(crate::mesh::vector::cross(
+        let sine = roundel::mesh::vector::norm(roundel::mesh::vector::cross(
             normalize(self.from),
             normalize(self.up),
         ));

@@ -1,10 +1,10 @@
 //! A field as triangles that any mesh viewer shows.
 
 use super::balls::{balls, unit_sphere};
-use crate::field::OrientationField;
-use crate::mesh::TriangleMesh;
-use crate::mesh::io::Drawing;
-use crate::mesh::vector::{Vec3, add, cross, norm, scale, sub};
+use roundel::field::OrientationField;
+use roundel::mesh::TriangleMesh;
+use roundel::mesh::io::Drawing;
+use roundel::mesh::vector::{Vec3, add, cross, norm, scale, sub};
 
 const SURFACE: [u8; 3] = [226, 222, 214];
 const CROSS: [u8; 3] = [40, 56, 84];
@@ -58,7 +58,7 @@ impl FieldModel {
         model
     }
 
-    /// To be written by [`write`](crate::mesh::io::write).
+    /// To be written by [`write`](roundel::mesh::io::write).
     pub fn drawing(&self) -> Drawing<'_> {
         Drawing {
             vertices: &self.vertices,

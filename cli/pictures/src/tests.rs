@@ -2,10 +2,10 @@
 
 use super::streamlines::streamlines;
 use super::{FieldModel, View, draw_field};
-use crate::field::{FieldProblem, OrientationField, curvature_constraints};
-use crate::mesh::vector::{dot, norm, sub};
-use crate::mesh::{TriangleMesh, io, shape};
-use crate::{Error, Options, solve};
+use roundel::field::{FieldProblem, OrientationField, curvature_constraints};
+use roundel::mesh::vector::{dot, norm, sub};
+use roundel::mesh::{TriangleMesh, io, shape};
+use roundel::{Error, Options, solve};
 
 fn field(name: &str, triangles: usize) -> (TriangleMesh, OrientationField) {
     let mesh = shape::by_name(name, triangles).unwrap();
@@ -163,7 +163,7 @@ fn arms_lie_inside_their_face_just_above_it() {
             );
             for k in 0..3 {
                 let edge = sub(corners[(k + 1) % 3], corners[k]);
-                let inside = crate::mesh::vector::cross(normal, edge);
+                let inside = roundel::mesh::vector::cross(normal, edge);
                 assert!(dot(sub(p, corners[k]), inside) > 0.0, "face {f}");
             }
         }

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::{Error, Result};
+use roundel::{Error, Result};
 
 /// Pixels, row by row from the top: red, green, blue.
 #[derive(Debug, Clone, PartialEq, Eq)]

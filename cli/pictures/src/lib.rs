@@ -9,6 +9,9 @@
 //! Irregular vertices of index 1/4 are red, as at the corner of a cube, those of index -1/4 blue,
 //! all others amber.
 
+#![deny(unsafe_code)]
+#![deny(missing_docs)]
+
 mod ambient;
 mod balls;
 mod camera;

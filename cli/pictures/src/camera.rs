@@ -1,6 +1,6 @@
 //! A pinhole camera that fills the frame with what it is given.
 
-use crate::mesh::vector::{Vec3, add, cross, dot, norm, normalize, scale, sub};
+use roundel::mesh::vector::{Vec3, add, cross, dot, norm, normalize, scale, sub};
 
 /// Distance of the eye from the middle of the scene, in radii of its bounding sphere: the
 /// perspective of a portrait lens, which shows depth and bends nothing.
