@@ -37,11 +37,11 @@ fn every_file_names_only_its_own_layer_and_those_below() {
     let at_root = names_at_root();
     for (path, text) in sources() {
         let own = module(&path);
-        if own == "lib" {
+        if own == "lib" || is_test(&path) {
             continue;
         }
         let height = height(own).unwrap_or_else(|| panic!("{} is in no layer", path.display()));
-        for name in layers_named(&tokens(&text), depth(&path), &at_root) {
+        for name in layers_named(&without_tests(&tokens(&text)), depth(&path), &at_root) {
             let below = self::height(&name).is_some_and(|other| other <= height);
             assert!(below, "{} names {name}", path.display());
         }
@@ -54,7 +54,7 @@ fn checking_shares_no_code_with_what_makes_maps() {
     let at_root = names_at_root();
     for (path, text) in sources() {
         if module(&path) == "check" {
-            let named = layers_named(&tokens(&text), depth(&path), &at_root);
+            let named = layers_named(&without_tests(&tokens(&text)), depth(&path), &at_root);
             let shared: Vec<_> = named
                 .iter()
                 .filter(|n| makers.contains(&n.as_str()))
@@ -144,6 +144,12 @@ fn words_in_comments_strings_and_inner_paths_name_no_layer() {
         assert!(layers_named(&tokens, 2, &[]).is_empty(), "{text}");
         assert!(macros_called(&tokens, &["println"]).is_empty(), "{text}");
     }
+}
+
+#[test]
+fn tests_are_left_out_and_what_follows_is_not() {
+    let text = "use a; #[cfg(test)] mod tests { fn f() { { } } } fn g() {} #[cfg(test)] use b; c";
+    assert_eq!(without_tests(&tokens(text)), tokens("use a; fn g() {} c"));
 }
 
 #[test]
@@ -284,6 +290,41 @@ fn depth(path: &Path) -> usize {
     inner.iter().count() - usize::from(is_folder)
 }
 
+/// Whether a file holds tests alone.
+fn is_test(path: &Path) -> bool {
+    let stem = path.file_stem().unwrap().to_str().unwrap();
+    stem == "tests" || stem.ends_with("_tests")
+}
+
+/// Tests may use what stands above their layer: what follows `#[cfg(test)]` is left out, up to the
+/// brace that closes it or, where there is none, its semicolon.
+fn without_tests(tokens: &[String]) -> Vec<String> {
+    let marker = ["#", "[", "cfg", "(", "test", ")", "]"];
+    let mut kept = Vec::new();
+    let mut i = 0;
+    while i < tokens.len() {
+        if !tokens[i..].iter().take(marker.len()).eq(marker) {
+            kept.push(tokens[i].clone());
+            i += 1;
+            continue;
+        }
+        let mut open = 0;
+        while i < tokens.len() {
+            match tokens[i].as_str() {
+                "{" => open += 1,
+                "}" => open -= 1,
+                _ => {}
+            }
+            let ends = matches!(tokens[i].as_str(), "}" | ";") && open == 0;
+            i += 1;
+            if ends {
+                break;
+            }
+        }
+    }
+    kept
+}
+
 /// The names that `lib.rs` brings to the root of the crate, each with its layer.
 fn names_at_root() -> Vec<(String, String)> {
     let text = fs::read_to_string(root().join("lib.rs")).unwrap();
@@ -292,7 +333,7 @@ fn names_at_root() -> Vec<(String, String)> {
     for (i, _) in tokens.iter().enumerate().filter(|(_, t)| *t == "use") {
         let layer = &tokens[i + 1];
         let names = tokens[i + 2..].iter().take_while(|t| *t != ";");
-        let names = names.filter(|t| t.chars().all(char::is_alphanumeric));
+        let names = names.filter(|t| t.chars().all(|c| c.is_alphanumeric() || c == '_'));
         found.extend(names.map(|name| (name.clone(), layer.clone())));
     }
     assert!(found.iter().any(|(name, _)| name == "Problem"), "{found:?}");

@@ -411,12 +411,12 @@ fn the_boundary_is_followed_unless_it_is_free_or_arms_have_no_side() {
 }
 
 #[test]
-fn a_file_of_wishes_is_read_and_its_wrong_lines_are_named() {
+fn a_guidance_file_is_read_and_its_wrong_lines_are_named() {
     let mesh = shape::by_name("plane", 50).unwrap();
     let [a, b, c] = mesh.corners(0);
     let mut guidance = Guidance::default();
     let text = format!(
-        "# wishes\n\ndirection 3 1 1 0\ndirection 4 0 2 0 0.5 # soft\nedge {a} {b}\nindex {c} -1\n"
+        "# guidance\n\ndirection 3 1 1 0\ndirection 4 0 2 0 0.5 # soft\nedge {a} {b}\nindex {c} -1\n"
     );
     guidance.parse(&mesh, &text).unwrap();
     assert_eq!(

@@ -33,7 +33,7 @@ const SOURCES: &[&str] = &[
     "field_problem",
     "field_guided",
     "map",
-    "map_unfold",
+    "map_fold_free",
     "map_results",
     "quads",
     "quad_options",

@@ -16,7 +16,7 @@ use roundel::field::solve_field;
 use roundel::map::{SeamlessProblem, Sizing};
 use roundel::mesh::{MeshError, TriangleMesh, io};
 use roundel::quad::QuadOptions;
-use roundel::untangle::{Unfolded, UntangleOptions, solve_unfolded};
+use roundel::untangle::{FoldFreeMap, UntangleOptions, solve_fold_free};
 use roundel::{Monitor, Options, Strategy};
 
 const DEBIAN: &str = "/usr/share/doc/libcgal-dev/data.tar.gz";
@@ -179,7 +179,7 @@ fn sound_meshes_load_and_broken_ones_are_refused_for_the_right_reason() {
 
 /// The map of one quad for four triangles, as the program makes it when nothing else is said, and whether
 /// the check passes it.
-fn unfold(mesh: &TriangleMesh) -> (Unfolded, bool) {
+fn unfold(mesh: &TriangleMesh) -> (FoldFreeMap, bool) {
     let (solver, monitor) = (Options::default(), Monitor::default);
     let sizing = Sizing::Quads(mesh.face_count().div_ceil(4));
     let guidance = QuadOptions::default().guidance;
@@ -194,7 +194,7 @@ fn unfold(mesh: &TriangleMesh) -> (Unfolded, bool) {
     let (field, _) = solve_field(mesh, &follow, &adaptive, monitor).unwrap();
     let problem = SeamlessProblem::with_features(mesh, &field, &sizing, &features).unwrap();
     let effort = UntangleOptions::default();
-    let unfolded = solve_unfolded(mesh, &problem, &solver, &effort, monitor).unwrap();
+    let unfolded = solve_fold_free(mesh, &problem, &solver, &effort, monitor).unwrap();
     let map = &unfolded.untangled.map;
     let options = CheckOptions {
         boundary: false,

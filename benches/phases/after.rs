@@ -1,7 +1,7 @@
 //! What is done with integers once they are decided.
 
 use criterion::Criterion;
-use roundel::linalg::minimise_held;
+use roundel::linalg::minimise_fixed;
 use roundel::solve::verify;
 
 use crate::case::Case;
@@ -16,7 +16,7 @@ pub fn bench(criterion: &mut Criterion, case: &Case) {
     }
     let (hessian, gradient) = (case.reduced.hessian(), case.reduced.gradient());
     group.bench_function("offer: continuous unknowns", |b| {
-        b.iter(|| minimise_held(hessian, gradient, &held, &rounded))
+        b.iter(|| minimise_fixed(hessian, gradient, &held, &rounded))
     });
     group.bench_function("offer: energy", |b| {
         b.iter(|| case.reduced.energy(&rounded))

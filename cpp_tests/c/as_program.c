@@ -30,7 +30,7 @@ static roundel_map* made(const roundel_mesh* mesh, double edge_length, double de
     OK(roundel_field_solve_guided(mesh, guidance, options, NULL, &field));
     OK(roundel_map_new(mesh, field, NULL, &map));
     OK(roundel_map_set_edge_length(map, edge_length));
-    OK(roundel_map_solve_unfolded(map, NULL, NULL));
+    OK(roundel_map_solve_fold_free(map, NULL, NULL));
     OK(roundel_field_free(field));
     OK(roundel_options_free(options));
     OK(roundel_guidance_free(guidance));

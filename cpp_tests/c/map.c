@@ -184,7 +184,7 @@ static void stiffened(const model* m) {
  * asked for again, the plain map at the size asked for, is as if there had been none. */
 static void unfolded(const model* m) {
     roundel_map* map = NULL;
-    size_t rounded = 0, flipped = 9, wound = 9, rounds = 0, refinements = 9;
+    size_t rounded = 0, flipped = 9, winding_defects = 9, rounds = 0, refinements = 9;
     OK(roundel_map_new(m->mesh, m->field, NULL, &map));
     OK(roundel_map_set_quads(map, 210));
     OK(roundel_map_solve(map, NULL, NULL));
@@ -193,13 +193,13 @@ static void unfolded(const model* m) {
     OK(roundel_map_refinement_count(map, &refinements));
     CHECK(rounded > 0 && refinements == 0);
 
-    OK(roundel_map_solve_unfolded(map, NULL, NULL));
+    OK(roundel_map_solve_fold_free(map, NULL, NULL));
     OK(roundel_map_flipped_count(map, &flipped));
-    OK(roundel_map_wound_count(map, &wound));
+    OK(roundel_map_winding_defect_count(map, &winding_defects));
     OK(roundel_map_round_count(map, &rounds));
     OK(roundel_map_refinement_count(map, &refinements));
-    CHECK(flipped == 0 && wound == 0 && rounds + refinements > 0);
-    OK(roundel_map_wound(map, NULL, 0));
+    CHECK(flipped == 0 && winding_defects == 0 && rounds + refinements > 0);
+    OK(roundel_map_winding_defects(map, NULL, 0));
     double* uv = corners(map, m->faces);
     CHECK(isolines(m, uv) > 100);
     OK(roundel_map_untangle(map, NULL));
@@ -253,7 +253,7 @@ static void watched(const model* m) {
     int calls = 0;
     OK(roundel_map_new(m->mesh, m->field, NULL, &map));
     CHECK(roundel_map_solve(map, NULL, &monitor) == ROUNDEL_ERROR_CANCELLED);
-    CHECK(roundel_map_solve_unfolded(map, NULL, &monitor) == ROUNDEL_ERROR_CANCELLED);
+    CHECK(roundel_map_solve_fold_free(map, NULL, &monitor) == ROUNDEL_ERROR_CANCELLED);
     CHECK(roundel_map_energy(map, &energy) == ROUNDEL_ERROR_INVALID_ARGUMENT && energy == 7.0);
     monitor.callback = count_events;
     monitor.user_data = &calls;

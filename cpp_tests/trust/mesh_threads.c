@@ -31,7 +31,7 @@ static void* make(void* data) {
     int good = roundel_option_info(0, &option) == ROUNDEL_OK && strlen(option.text) > 0;
     good = good && roundel_map_new(mine->mesh, mine->field, mine->guidance, &map) == ROUNDEL_OK &&
            roundel_map_set_quads(map, 60) == ROUNDEL_OK &&
-           roundel_map_solve_unfolded(map, NULL, NULL) == ROUNDEL_OK &&
+           roundel_map_solve_fold_free(map, NULL, NULL) == ROUNDEL_OK &&
            roundel_map_corner_uvs(map, mine->uvs, mine->length) == ROUNDEL_OK &&
            roundel_quads_make(mine->mesh, 60, mine->guidance, NULL, NULL, &quads) == ROUNDEL_OK &&
            roundel_quads_count(quads, &mine->quads) == ROUNDEL_OK;
@@ -52,7 +52,7 @@ static void* cancelled(void* data) {
     roundel_map* map = NULL;
     const roundel_monitor monitor = {sizeof monitor, cancel_all, mine->token, mine->token};
     if (roundel_map_new(mine->mesh, mine->field, NULL, &map) == ROUNDEL_OK) {
-        mine->ended = roundel_map_solve_unfolded(map, NULL, &monitor);
+        mine->ended = roundel_map_solve_fold_free(map, NULL, &monitor);
     }
     roundel_map_free(map);
     return NULL;

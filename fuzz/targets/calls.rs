@@ -132,7 +132,7 @@ fn used(u: &mut Unstructured, h: &mut Handles, which: u8) -> Result<()> {
             35 => h.make(|h| &mut h.quad_options, |out| handles::modest_quad_options(out)),
             36 => roundel_quad_options_set_quads(quad, small),
             37 => roundel_quad_options_set_edge_lengths(quad, x, reals.len()),
-            42 => roundel_map_solve_unfolded(map, options, null()),
+            42 => roundel_map_solve_fold_free(map, options, null()),
             43 => roundel_map_untangle(map, null()),
             38 => h.make(|h| &mut h.quads, |out| roundel_quads_make_with(mesh, quad, null(), out)),
             _ => h.make(|h| &mut h.quads, |out| roundel_quads_extract(map, out)),

@@ -1503,7 +1503,7 @@ roundel_status roundel_guidance_set_guides(struct roundel_guidance *guidance,
 /**
  * Prescribes all irregular vertices: `count` vertices of the interior, each once, and their
  * indices in `steps` of 1/N; all others become regular. On closed meshes the indices must sum to
- * the Euler characteristic, which shows when the field is made. roundel_guidance_free_indices takes
+ * the Euler characteristic, which shows when the field is made. roundel_guidance_clear_indices takes
  * it back.
  */
 roundel_status roundel_guidance_set_indices(struct roundel_guidance *guidance,
@@ -1514,7 +1514,7 @@ roundel_status roundel_guidance_set_indices(struct roundel_guidance *guidance,
 /**
  * Leaves indices to the energy, as at first.
  */
-roundel_status roundel_guidance_free_indices(struct roundel_guidance *guidance);
+roundel_status roundel_guidance_clear_indices(struct roundel_guidance *guidance);
 
 /**
  * Sets how curvature counts. `fraction` of the faces, 0 to 1, those whose direction of least
@@ -1851,16 +1851,16 @@ roundel_status roundel_map_take_solution(struct roundel_map *map,
  * Of all maps that with the fewest folds is kept. `options` are those of every solve, `monitor`
  * watches each; both may be NULL. Every solve starts from nothing. A relaxation is not untangled.
  *
- * roundel_map_flipped_count and roundel_map_wound_count tell what is left, roundel_map_round_count and
+ * roundel_map_flipped_count and roundel_map_winding_defect_count tell what is left, roundel_map_round_count and
  * roundel_map_refinement_count what it took. A map that was made finer keeps the size asked for
  * in mind, for the next solve.
  *
  * Fails as roundel_solve does for the first solve, with ROUNDEL_ERROR_CANCELLED also later, and
  * leaves what an earlier solve found. The callback must not use the map.
  */
-roundel_status roundel_map_solve_unfolded(struct roundel_map *map,
-                                          const struct roundel_options *options,
-                                          const struct roundel_monitor *monitor);
+roundel_status roundel_map_solve_fold_free(struct roundel_map *map,
+                                           const struct roundel_options *options,
+                                           const struct roundel_monitor *monitor);
 
 /**
  * Sets how often the surroundings of faces that are turned over are made stiffer before these are
@@ -1872,7 +1872,7 @@ roundel_status roundel_map_set_stiffening_count(struct roundel_map *map, size_t 
  * Moves the vertices that integers do not hold until as few faces as can be are turned over or
  * collapsed, under the eyes of `monitor`, which may be NULL. Seams, cones and isolines stay what
  * they are. roundel_map_flipped_count tells what is left; the solution stays that of the solve. After
- * roundel_map_solve_unfolded there is nothing left to do.
+ * roundel_map_solve_fold_free there is nothing left to do.
  *
  * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT where nothing has been solved for, and after a
  * relaxation, which has no integers to hold; ROUNDEL_ERROR_CANCELLED, which leaves the map as it
@@ -1887,21 +1887,24 @@ roundel_status roundel_map_untangle(struct roundel_map *map,
  * without a fold. Recomputed from the mesh. With none of these and no flipped faces, a map is
  * one to one around every inner point.
  */
-roundel_status roundel_map_wound_count(const struct roundel_map *map, size_t *count);
+roundel_status roundel_map_winding_defect_count(const struct roundel_map *map, size_t *count);
 
 /**
- * Copies the vertices of roundel_map_wound_count, in increasing order. `length` is their number.
+ * Copies the vertices of roundel_map_winding_defect_count, in increasing order. `length` is their number.
  */
-roundel_status roundel_map_wound(const struct roundel_map *map, int32_t *vertices, size_t length);
+roundel_status roundel_map_winding_defects(const struct roundel_map *map,
+                                           int32_t *vertices,
+                                           size_t length);
 
 /**
- * Gives how often roundel_map_solve_unfolded decided integers anew, at the size that the map has; 0
+ * Gives how often roundel_map_solve_fold_free decided integers anew, at the size that the map has; 0
  * after any other solve.
  */
-roundel_status roundel_map_round_count(const struct roundel_map *map, size_t *count);
+roundel_status roundel_map_round_count(const struct roundel_map *map,
+                                       size_t *count);
 
 /**
- * Gives how often roundel_map_solve_unfolded made the map finer than asked for, each time by the
+ * Gives how often roundel_map_solve_fold_free made the map finer than asked for, each time by the
  * square root of two in length; 0 after any other solve. Smaller quads around what folds were left
  * after that are not counted.
  */

@@ -164,7 +164,7 @@ pub unsafe extern "C" fn roundel_guidance_set_guides(
 
 /// Prescribes all irregular vertices: `count` vertices of the interior, each once, and their
 /// indices in `steps` of 1/N; all others become regular. On closed meshes the indices must sum to
-/// the Euler characteristic, which shows when the field is made. roundel_guidance_free_indices takes
+/// the Euler characteristic, which shows when the field is made. roundel_guidance_clear_indices takes
 /// it back.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_guidance_set_indices(
@@ -192,7 +192,7 @@ pub unsafe extern "C" fn roundel_guidance_set_indices(
 
 /// Leaves indices to the energy, as at first.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn roundel_guidance_free_indices(
+pub unsafe extern "C" fn roundel_guidance_clear_indices(
     guidance: *mut roundel_guidance,
 ) -> roundel_status {
     let body = |guidance: &mut Guidance| {

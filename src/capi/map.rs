@@ -14,7 +14,7 @@ use super::solution::roundel_solution;
 use super::status::roundel_status;
 use crate::map::{SeamlessMap, SeamlessOptions, SeamlessProblem, Sizing};
 use crate::mesh::TriangleMesh;
-use crate::untangle::{Unfolded, UntangleOptions};
+use crate::untangle::{FoldFreeMap, UntangleOptions};
 use crate::{Error, Options, Result, Solution, SolveStatus, Solver};
 
 /// All that a solve at another size needs again, and what the last one found.
@@ -52,7 +52,7 @@ impl Mapped {
     /// Takes what became of a solve of this problem, or of a finer one.
     pub(super) fn unfold(
         &mut self,
-        how: impl FnOnce(&TriangleMesh, &SeamlessProblem) -> Result<Unfolded>,
+        how: impl FnOnce(&TriangleMesh, &SeamlessProblem) -> Result<FoldFreeMap>,
     ) -> Outcome {
         let unfolded = how(&self.mesh, &self.problem)?;
         self.found = Some(Found {

@@ -20,17 +20,17 @@ const LEAVES: f64 = f64::EPSILON;
 
 /// `x0 + K z`.
 #[derive(Debug, Clone)]
-pub struct Affine {
+pub struct AffineLattice {
     origin: Vec<i128>,
     /// Columns of K, linearly independent.
     basis: Vec<Vec<i128>>,
 }
 
-impl Affine {
+impl AffineLattice {
     /// The lattice with this origin and these basis vectors, all of whole numbers.
     pub fn new(origin: &[f64], basis: &[Vec<f64>]) -> Self {
         let whole = |v: &[f64]| v.iter().map(|&v| v as i128).collect();
-        Affine {
+        AffineLattice {
             origin: whole(origin),
             basis: basis.iter().map(|v| whole(v)).collect(),
         }
@@ -224,13 +224,13 @@ mod tests {
     use super::*;
 
     /// The solutions of `3 x0 + 5 x1 - 7 x2 = 4`, in a basis and from a point that could hardly be worse.
-    fn far_and_long() -> Affine {
+    fn far_and_long() -> AffineLattice {
         let (a, b) = ([5.0, -3.0, 0.0], [4.0, -1.0, 1.0]);
         let mix = |p: f64, q: f64| (0..3).map(|i| p * a[i] + q * b[i]).collect::<Vec<f64>>();
         // Neighbours in Fibonacci's sequence: the determinant is 1.
         let basis = [mix(832_040.0, 514_229.0), mix(514_229.0, 317_811.0)];
         let far = mix(1e12, -7e11);
-        Affine::new(&[far[0] + 3.0, far[1] - 1.0, far[2]], &basis)
+        AffineLattice::new(&[far[0] + 3.0, far[1] - 1.0, far[2]], &basis)
     }
 
     #[test]

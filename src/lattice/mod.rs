@@ -1,7 +1,7 @@
 //! Closest lattice points: reduction, nearest plane, enumeration with proof.
 //!
 //! The lattice is that of the Schur complement of the integers, whose factor is the trailing block of
-//! [`JointFactor`](crate::linalg::JointFactor).
+//! [`SchurFactor`](crate::linalg::SchurFactor).
 
 mod affine_lattice;
 mod basis;
@@ -21,7 +21,7 @@ mod target;
 mod transform;
 mod tree;
 
-pub use affine_lattice::Affine;
+pub use affine_lattice::AffineLattice;
 pub use basis::Basis;
 pub use beam::beam;
 pub use blocks::improve_blocks;

@@ -82,7 +82,7 @@ pub fn conjugate_gradient(
 
 #[cfg(test)]
 mod tests {
-    use super::super::minimise_held;
+    use super::super::minimise_fixed;
     use super::*;
 
     #[test]
@@ -99,7 +99,7 @@ mod tests {
             held[i] = true;
             point[i] = 2.0;
         }
-        let expected = minimise_held(&a, &gradient, &held, &point).unwrap();
+        let expected = minimise_fixed(&a, &gradient, &held, &point).unwrap();
         let mut found = point.clone();
         let tolerance = 1e-9;
         let few = Effort {

@@ -11,7 +11,7 @@
 use std::collections::VecDeque;
 
 use super::Sparse;
-use super::static_condensation::{Condensed, Entry};
+use super::static_condensation::{Entry, StaticCondensation};
 use crate::Result;
 
 /// Among 1.0, 1.4, 1.6 and 1.8, the factor that left the least error for the least updates.
@@ -24,7 +24,7 @@ const UNDECIDED: f64 = 1e-10;
 #[derive(Debug)]
 pub struct LocalSolve<'a> {
     gradient: &'a [f64],
-    system: Condensed,
+    system: StaticCondensation,
     integer: Vec<bool>,
     unknowns: Vec<Unknown>,
     queue: VecDeque<u32>,
@@ -59,7 +59,7 @@ impl<'a> LocalSolve<'a> {
         integers.iter().for_each(|&i| integer[i as usize] = true);
         Ok(LocalSolve {
             gradient,
-            system: Condensed::new(lower, &integer)?,
+            system: StaticCondensation::new(lower, &integer)?,
             integer,
             unknowns: point.iter().map(|&x| Unknown::at(x)).collect(),
             queue: VecDeque::new(),

@@ -10,7 +10,7 @@ use super::Sparse;
 const FEW: usize = 4;
 
 /// Which unknowns of the matrix with lower triangle `lower` are private integers.
-pub(super) fn private_integers(lower: &Sparse, integer: &[bool]) -> Vec<bool> {
+pub(super) fn local_integers(lower: &Sparse, integer: &[bool]) -> Vec<bool> {
     let n = lower.rows();
     let mut couplings = vec![0usize; n];
     let mut private = vec![false; n];

@@ -8,7 +8,7 @@ use crate::Result;
 ///
 /// # Errors
 /// For lack of memory.
-pub fn minimise_held(
+pub fn minimise_fixed(
     lower: &Sparse,
     gradient: &[f64],
     held: &[bool],

@@ -34,12 +34,12 @@ pub use minimise::{
     CANCELLED, CURVATURE_TOLERANCE, Lowest, Minimum, SLOPE_TOLERANCE, minimise, minimise_bounded,
     residual,
 };
-pub use minimise_fixed::minimise_held;
+pub use minimise_fixed::minimise_fixed;
 pub use ordering::{EliminationTree, Ordering, minimum_degree};
 pub use path::PathSolve;
-pub use queue_gauss_seidel::PlainSeidel;
+pub use queue_gauss_seidel::QueueGaussSeidel;
 pub use relaxed::RelaxedFactor;
 pub use scaling::equilibrate;
-pub use schur_factor::JointFactor;
+pub use schur_factor::SchurFactor;
 pub use sparse::Sparse;
-pub use unpreconditioned_cg::plain_conjugate_gradient;
+pub use unpreconditioned_cg::unpreconditioned_conjugate_gradient;

@@ -17,13 +17,13 @@ const LONGEST_QUEUE: usize = 1 << 24;
 
 /// The whole of a symmetric matrix by rows, and a queue over its unknowns.
 #[derive(Debug)]
-pub struct PlainSeidel<'a> {
+pub struct QueueGaussSeidel<'a> {
     rows: Sparse,
     gradient: &'a [f64],
     queue: VecDeque<u32>,
 }
 
-impl<'a> PlainSeidel<'a> {
+impl<'a> QueueGaussSeidel<'a> {
     /// For `1/2 x'Hx + g'x`, with the lower triangle of H.
     ///
     /// # Errors
@@ -32,7 +32,7 @@ impl<'a> PlainSeidel<'a> {
         let n = lower.rows();
         let mirrored = lower.entries().filter(|(i, j, _)| i != j);
         let both = lower.entries().chain(mirrored.map(|(i, j, v)| (j, i, v)));
-        Ok(PlainSeidel {
+        Ok(QueueGaussSeidel {
             rows: Sparse::from_triplets(n, n, both)?,
             gradient,
             queue: VecDeque::new(),
@@ -97,7 +97,7 @@ impl<'a> PlainSeidel<'a> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::minimise_held;
+    use super::super::minimise_fixed;
     use super::*;
 
     #[test]
@@ -109,7 +109,7 @@ mod tests {
         let gradient = vec![0.0; 30];
         let mut held = vec![false; 30];
         let mut point = vec![0.0; 30];
-        let mut local = PlainSeidel::new(&a, &gradient).unwrap();
+        let mut local = QueueGaussSeidel::new(&a, &gradient).unwrap();
         let mut moved = Vec::new();
         for i in [4usize, 17] {
             held[i] = true;
@@ -118,7 +118,7 @@ mod tests {
             local.relax(&mut point, &held, 1e-12, usize::MAX, &mut moved);
         }
         assert!(local.is_settled() && moved.iter().all(|&i| !held[i as usize] || i == 17));
-        let expected = minimise_held(&a, &gradient, &held, &point).unwrap();
+        let expected = minimise_fixed(&a, &gradient, &held, &point).unwrap();
         for (x, y) in point.iter().zip(&expected) {
             assert!((x - y).abs() < 1e-9);
         }
@@ -129,7 +129,7 @@ mod tests {
         let a = Sparse::from_triplets(3, 3, (0..3).map(|i| (i, i, 2.0))).unwrap();
         let coupled = a.entries().chain([(1, 0, -1.0), (2, 1, -1.0)]);
         let a = Sparse::from_triplets(3, 3, coupled).unwrap();
-        let mut local = PlainSeidel::new(&a, &[0.0; 3]).unwrap();
+        let mut local = QueueGaussSeidel::new(&a, &[0.0; 3]).unwrap();
         let held = [true, false, false];
         let mut point = [1.0, 0.0, 0.0];
         local.queue_neighbours(0, &held);

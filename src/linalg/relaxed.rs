@@ -4,7 +4,7 @@
 //! only their Schur complement is ordered and factored. On an orientation field that is the
 //! Laplacian of a forest, whose factor has no fill at all.
 
-use super::local_integers::private_integers;
+use super::local_integers::local_integers;
 use super::minimise::{CANCELLED, Lowest, Minimum, minimise};
 use super::{Cholesky, Ordering, Sparse};
 use crate::Result;
@@ -49,7 +49,7 @@ impl RelaxedFactor {
         let n = lower.rows();
         let mut integer = vec![false; n];
         integers.iter().for_each(|&i| integer[i as usize] = true);
-        let is_private = private_integers(lower, &integer);
+        let is_private = local_integers(lower, &integer);
         let mut place = vec![NONE; n];
         let (mut private, mut rest) = (Vec::new(), Vec::new());
         for i in 0..n {

@@ -14,14 +14,14 @@ use crate::Result;
 
 /// The factor and its trailing block.
 #[derive(Debug)]
-pub struct JointFactor {
+pub struct SchurFactor {
     factor: Cholesky,
     integers: usize,
     trailing: Vec<f64>,
     full: bool,
 }
 
-impl JointFactor {
+impl SchurFactor {
     /// Factors the matrix with lower triangle `lower`, of whose unknowns some are `continuous` and
     /// all others `integers`.
     ///
@@ -42,7 +42,7 @@ impl JointFactor {
         order.extend(integers);
         let factor = Cholesky::in_order(lower, &order)?;
         let (trailing, full) = factor.trailing_factor(integers.len());
-        Ok(JointFactor {
+        Ok(SchurFactor {
             factor,
             integers: integers.len(),
             trailing,
@@ -93,11 +93,11 @@ mod tests {
         let a = springs(60);
         let is_integer = |i: &u32| i.is_multiple_of(4);
         let (integers, continuous): (Vec<u32>, Vec<u32>) = (0..60).partition(is_integer);
-        let joint = JointFactor::new(&a, &continuous, &integers).unwrap();
-        assert!(joint.is_definite());
+        let schur_factor = SchurFactor::new(&a, &continuous, &integers).unwrap();
+        assert!(schur_factor.is_definite());
         let x: Vec<f64> = (0..60).map(|i| f64::from(i).sin()).collect();
         let mut b = a.mul_symmetric(&x);
-        joint.whole().solve(&mut b).unwrap();
+        schur_factor.whole().solve(&mut b).unwrap();
         for (b, x) in b.iter().zip(&x) {
             assert!((b - x).abs() < 1e-10, "{b} {x}");
         }
@@ -105,7 +105,7 @@ mod tests {
         integers.iter().for_each(|&i| held[i as usize] = 0.0);
         let mut b = a.mul_symmetric(&held);
         integers.iter().for_each(|&i| b[i as usize] = 77.0);
-        joint.solve_continuous(&mut b);
+        schur_factor.solve_continuous(&mut b);
         for &i in &continuous {
             let (b, x) = (b[i as usize], x[i as usize]);
             assert!((b - x).abs() < 1e-10, "{b} {x}");
@@ -117,8 +117,8 @@ mod tests {
     fn the_trailing_block_is_the_factor_of_what_the_integers_see() {
         let a = springs(40);
         let (integers, continuous): (Vec<u32>, Vec<u32>) = (0..40).partition(|&i| i % 8 == 1);
-        let joint = JointFactor::new(&a, &continuous, &integers).unwrap();
-        let (r, full) = joint.schur();
+        let schur_factor = SchurFactor::new(&a, &continuous, &integers).unwrap();
+        let (r, full) = schur_factor.schur();
         assert!(full);
         let m = integers.len();
         for (k, &i) in integers.iter().enumerate() {
@@ -126,7 +126,7 @@ mod tests {
             let mut x = vec![0.0; 40];
             x[i as usize] = 1.0;
             let mut follow: Vec<f64> = a.mul_symmetric(&x).iter().map(|f| -f).collect();
-            joint.solve_continuous(&mut follow);
+            schur_factor.solve_continuous(&mut follow);
             continuous
                 .iter()
                 .for_each(|&c| x[c as usize] = follow[c as usize]);

@@ -4,7 +4,7 @@
 //! entries. When a private integer is fixed its part is given back, at a few entries.
 
 use super::Sparse;
-use super::local_integers::private_integers;
+use super::local_integers::local_integers;
 use crate::{Error, Result};
 
 /// No entry is this small next to what it is the difference of: it cancelled.
@@ -12,7 +12,7 @@ const CANCELLED: f64 = 1e-12;
 
 /// `A` with free private integers eliminated.
 #[derive(Debug)]
-pub(super) struct Condensed {
+pub(super) struct StaticCondensation {
     /// All of A but its diagonal, both triangles.
     matrix: Sparse,
     diagonal: Vec<f64>,
@@ -41,7 +41,7 @@ pub(super) struct Entry {
     pub value: f64,
 }
 
-impl Condensed {
+impl StaticCondensation {
     /// The system of the `A` with lower triangle `lower`, all private integers free.
     pub fn new(lower: &Sparse, integer: &[bool]) -> Result<Self> {
         let n = lower.rows();
@@ -52,7 +52,7 @@ impl Condensed {
         let off = lower.entries().filter(|&(i, j, v)| i != j && v != 0.0);
         let both = off.flat_map(|(i, j, v)| [(i, j, v), (j, i, v)]);
         let matrix = Sparse::from_triplets(n, n, both)?;
-        let private = private_integers(lower, integer);
+        let private = local_integers(lower, integer);
         let pairs = (0..n).filter(|&p| private[p]).flat_map(|p| {
             let row = matrix.row(p);
             let inner = move |(i, _)| row.clone().map(move |(j, _)| (i, j));
@@ -87,7 +87,7 @@ impl Condensed {
             followers_start.push(start as u32);
             followers_left.push((followers.len() - start) as u32);
         }
-        let mut condensed = Condensed {
+        let mut condensed = StaticCondensation {
             rows: rows.collect(),
             entries: entries
                 .map(|(&column, &value)| Entry { column, value })
@@ -202,8 +202,8 @@ mod tests {
             lower.map(move |&(j, v)| (i, j, 2.0 * u * v))
         });
         let a = Sparse::from_triplets(3, 3, entries).unwrap();
-        let mut condensed = Condensed::new(&a, &[false, false, true]).unwrap();
-        let values = |c: &Condensed| {
+        let mut condensed = StaticCondensation::new(&a, &[false, false, true]).unwrap();
+        let values = |c: &StaticCondensation| {
             let row = c.row(0).iter();
             row.map(|e| (e.column, e.value)).collect::<Vec<_>>()
         };

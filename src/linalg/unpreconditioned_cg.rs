@@ -13,7 +13,7 @@ use super::{Effort, Sparse};
 ///
 /// `lower` is the lower triangle of H. The residual is that of `A x = b` with `A = H / 2`, in the
 /// Euclidean norm. Stops where it stands when `go_on`, asked before each iteration, says no.
-pub fn plain_conjugate_gradient(
+pub fn unpreconditioned_conjugate_gradient(
     lower: &Sparse,
     gradient: &[f64],
     held: &[bool],
@@ -59,7 +59,7 @@ pub fn plain_conjugate_gradient(
 
 #[cfg(test)]
 mod tests {
-    use super::super::minimise_held;
+    use super::super::minimise_fixed;
     use super::*;
 
     #[test]
@@ -71,7 +71,7 @@ mod tests {
         let gradient: Vec<f64> = (0..n).map(|i| f64::from(i).sin()).collect();
         let held: Vec<bool> = (0..n).map(|i| i % 5 == 3).collect();
         let start: Vec<f64> = (0..n).map(|i| f64::from(i % 3)).collect();
-        let expected = minimise_held(&a, &gradient, &held, &start).unwrap();
+        let expected = minimise_fixed(&a, &gradient, &held, &start).unwrap();
         let run = |iterations| {
             let tolerance = 1e-9;
             let effort = Effort {
@@ -79,7 +79,14 @@ mod tests {
                 tolerance,
             };
             let mut point = start.clone();
-            let near = plain_conjugate_gradient(&a, &gradient, &held, &mut point, effort, || true);
+            let near = unpreconditioned_conjugate_gradient(
+                &a,
+                &gradient,
+                &held,
+                &mut point,
+                effort,
+                || true,
+            );
             (near, point)
         };
         let (near, point) = run(10);

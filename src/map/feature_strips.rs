@@ -6,7 +6,7 @@
 
 use std::collections::{BTreeSet, VecDeque};
 
-use super::separation::{Wish, with_wishes};
+use super::separation::{Wish, with_separation};
 use super::{SeamlessMap, SeamlessProblem};
 use crate::mesh::TriangleMesh;
 use crate::mesh::vector::{dot, sub};
@@ -70,7 +70,7 @@ fn decide<'a>(
     options: &Options,
     monitor: &impl Fn() -> Monitor<'a>,
 ) -> Result<Option<(SeamlessProblem, Solution)>> {
-    let Some(apart) = with_wishes(problem.problem(), held, monitor)? else {
+    let Some(apart) = with_separation(problem.problem(), held, monitor)? else {
         return Ok(None);
     };
     let solution = solve_with(&apart, options, monitor())?;

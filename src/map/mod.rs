@@ -17,7 +17,7 @@ mod sectors;
 mod separation;
 mod sizing;
 mod uv_obj;
-mod winding;
+mod winding_defects;
 
 pub use combing::Combing;
 pub use cut_graph::CutGraph;
@@ -27,5 +27,5 @@ pub use sizing::Sizing;
 
 pub(crate) use feature_strips::hold_apart;
 pub(crate) use seamless_map::gradient;
-pub(crate) use separation::{Wish, constraints_of, solve_with_wishes};
-pub(crate) use winding::{is_wound, wound};
+pub(crate) use separation::{Wish, constraints_of, solve_separated};
+pub(crate) use winding_defects::{has_winding_defect, winding_defects};

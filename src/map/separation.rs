@@ -15,7 +15,7 @@ pub(crate) trait Wish {
 ///
 /// # Errors
 /// Those of [`eliminate`], but for constraints that contradict each other.
-pub(crate) fn with_wishes<'a, W: Wish>(
+pub(crate) fn with_separation<'a, W: Wish>(
     stated: &Problem,
     wishes: &mut Vec<W>,
     monitor: &impl Fn() -> Monitor<'a>,
@@ -41,7 +41,7 @@ pub(crate) fn with_wishes<'a, W: Wish>(
 ///
 /// # Errors
 /// Those of [`solve_with`], but for constraints that contradict each other.
-pub(crate) fn solve_with_wishes<'a, W: Wish>(
+pub(crate) fn solve_separated<'a, W: Wish>(
     solver: &mut Solver,
     wishes: &mut Vec<W>,
     options: &Options,
@@ -56,7 +56,7 @@ pub(crate) fn solve_with_wishes<'a, W: Wish>(
         match solver.solve_subject_to(&rows, options, monitor()) {
             Ok(Some(solution)) => return Ok(Some(solution)),
             Ok(None) => {
-                let problem = with_wishes(solver.problem(), wishes, monitor)?;
+                let problem = with_separation(solver.problem(), wishes, monitor)?;
                 let solved = problem.map(|problem| solve_with(&problem, options, monitor()));
                 return solved.transpose();
             }
@@ -127,13 +127,13 @@ mod tests {
             Differ(2, 3, 0.5),
             Differ(2, 3, 1.0),
         ];
-        let found = with_wishes(&stated, &mut wishes, &Monitor::default).unwrap();
+        let found = with_separation(&stated, &mut wishes, &Monitor::default).unwrap();
         assert_eq!(found.unwrap().constraints(), 3);
         let left: Vec<_> = wishes.iter().map(|w| (w.0, w.1, w.2)).collect();
         assert_eq!(left, [(1, 2, 1.0), (2, 3, 1.0)]);
         let mut none = vec![Differ(0, 1, 1.0)];
         assert!(
-            with_wishes(&stated, &mut none, &Monitor::default)
+            with_separation(&stated, &mut none, &Monitor::default)
                 .unwrap()
                 .is_none()
         );

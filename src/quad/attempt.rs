@@ -4,7 +4,7 @@ use super::missed::missed;
 use crate::extract::{IntegerGridMap, QuadMesh, extract};
 use crate::map::{SeamlessMap, SeamlessProblem};
 use crate::mesh::TriangleMesh;
-use crate::untangle::{UntangleOptions, Untangled, solve_unfolded, untangle};
+use crate::untangle::{UntangleOptions, Untangled, solve_fold_free, untangle};
 use crate::{Monitor, Options, Result, Solution};
 
 /// How many passes over the mesh untangling may make where quads conform and lack features alone.
@@ -61,7 +61,7 @@ impl<'a, 'm, F: Fn() -> Monitor<'m>> Trial<'a, F> {
         if best.is_whole() || integers > INTEGERS_TO_DECIDE_ANEW {
             return Ok(best);
         }
-        let unfolded = solve_unfolded(mesh, problem, self.options, &effort, self.monitor)?;
+        let unfolded = solve_fold_free(mesh, problem, self.options, &effort, self.monitor)?;
         if unfolded.rounds == 0 {
             return Ok(best);
         }

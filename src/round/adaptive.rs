@@ -11,7 +11,7 @@ use super::candidates::Candidates;
 use super::{greedy, nearest};
 use crate::Result;
 use crate::eliminate::ReducedModel;
-use crate::linalg::{Effort, LocalSolve, conjugate_gradient, minimise_held};
+use crate::linalg::{Effort, LocalSolve, conjugate_gradient, minimise_fixed};
 use crate::monitor::Phase;
 use crate::search::{Factors, Options, Search};
 
@@ -122,7 +122,7 @@ impl Passes<'_> {
         )?;
         if !converged && options.exact_steps && search.monitor.check().is_ok() {
             let (hessian, gradient) = (self.model.hessian(), self.model.gradient());
-            point = minimise_held(hessian, gradient, &self.fixed, &point)?;
+            point = minimise_fixed(hessian, gradient, &self.fixed, &point)?;
         }
         self.solve.settle_at(&point);
         Ok(())

@@ -32,7 +32,7 @@ pub(crate) fn greedy(
     let Some(mut ldl) = factors.updatable(model, go_on)? else {
         return round_all(model, factors, search);
     };
-    let (point, watched): (Vec<f64>, Vec<u32>) = if factors.is_joint(model) {
+    let (point, watched): (Vec<f64>, Vec<u32>) = if factors.has_schur_factor(model) {
         let at = |&i: &u32| search.relaxed()[i as usize];
         let places = 0..integers.len() as u32;
         (integers.iter().map(at).collect(), places.collect())

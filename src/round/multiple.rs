@@ -16,7 +16,9 @@ use super::candidates::Candidates;
 use super::nearest;
 use crate::Result;
 use crate::eliminate::ReducedModel;
-use crate::linalg::{Effort, PlainSeidel, minimise_held, plain_conjugate_gradient};
+use crate::linalg::{
+    Effort, QueueGaussSeidel, minimise_fixed, unpreconditioned_conjugate_gradient,
+};
 use crate::monitor::Phase;
 use crate::search::{Factors, Options, Search};
 
@@ -39,7 +41,7 @@ pub(crate) fn multiple(
     let mut passes = Passes {
         model,
         options,
-        local: PlainSeidel::new(model.hessian(), model.gradient())?,
+        local: QueueGaussSeidel::new(model.hessian(), model.gradient())?,
         point: search.relaxed().to_vec(),
         fixed: vec![false; model.dim()],
     };
@@ -83,7 +85,7 @@ pub(crate) fn multiple(
 struct Passes<'a> {
     model: &'a ReducedModel,
     options: &'a Options,
-    local: PlainSeidel<'a>,
+    local: QueueGaussSeidel<'a>,
     point: Vec<f64>,
     fixed: Vec<bool>,
 }
@@ -131,7 +133,7 @@ impl Passes<'_> {
             iterations: options.cg_iterations,
             tolerance: options.cg_tolerance,
         };
-        let converged = plain_conjugate_gradient(
+        let converged = unpreconditioned_conjugate_gradient(
             hessian,
             gradient,
             &self.fixed,
@@ -140,7 +142,7 @@ impl Passes<'_> {
             || search.monitor.check().is_ok(),
         );
         if !converged && options.exact_steps && search.monitor.check().is_ok() {
-            self.point = minimise_held(hessian, gradient, &self.fixed, &self.point)?;
+            self.point = minimise_fixed(hessian, gradient, &self.fixed, &self.point)?;
         }
         Ok(Changed::Anything)
     }

@@ -1,6 +1,6 @@
 //! Factorizations, each made when it is first asked for and kept.
 //!
-//! Where integers are few, one [`JointFactor`] serves all. Otherwise there is no single factor: the
+//! Where integers are few, one [`SchurFactor`] serves all. Otherwise there is no single factor: the
 //! relaxation wants a supernodal one, greedy a simplicial one that can fix unknowns, and an offer of
 //! integers one of the continuous block.
 
@@ -8,7 +8,7 @@ use std::time::Instant;
 
 use crate::Result;
 use crate::eliminate::ReducedModel;
-use crate::linalg::{Cholesky, JointFactor, Ldl, Ordering, RelaxedFactor, Sparse};
+use crate::linalg::{Cholesky, Ldl, Ordering, RelaxedFactor, SchurFactor, Sparse};
 use crate::linalg::{minimise_bounded, residual};
 
 /// The factors of one reduced model.
@@ -20,7 +20,7 @@ pub(crate) struct Factors {
     updatable: Option<Ldl>,
     ordering: Ordering,
     keep: bool,
-    joint: Option<JointFactor>,
+    schur_factor: Option<SchurFactor>,
     seconds: f64,
 }
 
@@ -53,8 +53,13 @@ impl Factors {
 
     /// Entries below the diagonal of the relaxation's factor; none before there is one.
     pub fn entries(&self) -> usize {
-        let joint = self.joint.as_ref().map_or(0, |j| j.whole().entries());
-        self.relaxed.as_ref().map_or(joint, RelaxedFactor::entries)
+        let schur_factor = self
+            .schur_factor
+            .as_ref()
+            .map_or(0, |j| j.whole().entries());
+        self.relaxed
+            .as_ref()
+            .map_or(schur_factor, RelaxedFactor::entries)
     }
 
     /// Seconds spent in factorizations so far.
@@ -74,15 +79,15 @@ impl Factors {
     }
 
     /// A factor in which unknowns can be fixed: the caller's own, since fixing uses it up. Of the
-    /// Schur complement of the integers if the factor [is joint](Self::is_joint), otherwise of the
+    /// Schur complement of the integers if the factor [exists](Self::has_schur_factor), otherwise of the
     /// whole reduced Hessian. None if `go_on` ended it.
     pub fn updatable(
         &mut self,
         model: &ReducedModel,
         go_on: impl FnMut() -> bool,
     ) -> Result<Option<Ldl>> {
-        if self.is_joint(model) {
-            let (r, _) = self.joint(model)?.schur();
+        if self.has_schur_factor(model) {
+            let (r, _) = self.schur_factor(model)?.schur();
             return Ok(Some(Ldl::dense(r, model.integers().len())));
         }
         let (keep, ordering) = (self.keep, self.ordering);
@@ -102,25 +107,25 @@ impl Factors {
 
     /// Whether one factor with the integers last is the cheapest that serves all: the block that it
     /// fills has fewer entries than the model.
-    pub fn is_joint(&self, model: &ReducedModel) -> bool {
+    pub fn has_schur_factor(&self, model: &ReducedModel) -> bool {
         let m = model.integers().len();
         self.ordering == Ordering::FillReducing && m * m <= model.hessian().len()
     }
 
     /// The factor of the whole reduced Hessian with the integers last.
-    pub fn joint(&mut self, model: &ReducedModel) -> Result<&JointFactor> {
-        let factor = match self.joint.take() {
+    pub fn schur_factor(&mut self, model: &ReducedModel) -> Result<&SchurFactor> {
+        let factor = match self.schur_factor.take() {
             Some(factor) => factor,
             None => timed(&mut self.seconds, || {
-                JointFactor::new(model.hessian(), model.continuous(), model.integers())
+                SchurFactor::new(model.hessian(), model.continuous(), model.integers())
             })?,
         };
-        Ok(self.joint.insert(factor))
+        Ok(self.schur_factor.insert(factor))
     }
 
     /// Makes what [`follow`](Self::follow) needs.
     pub fn prepare(&mut self, model: &ReducedModel) -> Result<()> {
-        if !(self.is_joint(model) && self.joint(model)?.is_definite()) {
+        if !(self.has_schur_factor(model) && self.schur_factor(model)?.is_definite()) {
             self.continuous(model)?;
         }
         Ok(())
@@ -128,10 +133,10 @@ impl Factors {
 
     /// Solves `A_cc x_c = b_c` in place; entries of integers are left as they are.
     pub fn solve_continuous(&mut self, model: &ReducedModel, b: &mut [f64]) -> Result<()> {
-        if self.is_joint(model) {
-            let joint = self.joint(model)?;
-            if joint.is_definite() {
-                joint.solve_continuous(b);
+        if self.has_schur_factor(model) {
+            let schur_factor = self.schur_factor(model)?;
+            if schur_factor.is_definite() {
+                schur_factor.solve_continuous(b);
                 return Ok(());
             }
         }
@@ -148,10 +153,10 @@ impl Factors {
     /// Minimises over the continuous unknowns, from `point` and with the integers as they are there.
     /// The relaxation is known to have a minimum.
     pub fn follow(&mut self, model: &ReducedModel, point: &[f64]) -> Result<Vec<f64>> {
-        if self.is_joint(model) {
-            let joint = self.joint(model)?;
-            if joint.is_definite() {
-                return Ok(follow_joint(model, joint, point));
+        if self.has_schur_factor(model) {
+            let schur_factor = self.schur_factor(model)?;
+            if schur_factor.is_definite() {
+                return Ok(follow_by_schur_factor(model, schur_factor, point));
             }
         }
         let block = self.continuous(model)?;
@@ -228,11 +233,15 @@ impl ContinuousBlock {
 
 /// [`Factors::follow`] by the leading part of a definite factor, with one step of refinement as in
 /// [`minimise_bounded`].
-fn follow_joint(model: &ReducedModel, joint: &JointFactor, point: &[f64]) -> Vec<f64> {
+fn follow_by_schur_factor(
+    model: &ReducedModel,
+    schur_factor: &SchurFactor,
+    point: &[f64],
+) -> Vec<f64> {
     let mut point = point.to_vec();
     for _ in 0..2 {
         let mut step = residual(model.hessian(), model.gradient(), &point);
-        joint.solve_continuous(&mut step);
+        schur_factor.solve_continuous(&mut step);
         for &i in model.continuous() {
             point[i as usize] += step[i as usize];
         }

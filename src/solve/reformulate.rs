@@ -4,14 +4,14 @@
 //! a chain of constraints with coefficients of one digit leads to some of ten, and the objective in y to
 //! terms of 1e15 and more, of which nothing is left when they cancel. A bound is then worthless, and what
 //! is found is anything. The same integers are `x0 + K z` with a short basis K and a near x0
-//! ([`Affine`], after Aardal, Hurkens and Lenstra 2000). The problem is stated anew in z and the caller's
+//! ([`AffineLattice`], after Aardal, Hurkens and Lenstra 2000). The problem is stated anew in z and the caller's
 //! continuous unknowns, from the caller's numbers, and solved as any other.
 
 use super::claim::Claim;
 use super::run::Prepared;
 use super::{Counts, Seconds, Solution};
 use crate::eliminate::{Elimination, ReducedModel};
-use crate::lattice::Affine;
+use crate::lattice::AffineLattice;
 use crate::linalg::CompensatedSum;
 use crate::monitor::Monitor;
 use crate::search::LARGEST_INTEGER;
@@ -33,7 +33,7 @@ const CANCELLED: f64 = 64.0 * f64::EPSILON;
 
 /// The problem in other unknowns: the continuous ones, then z.
 struct Reformulation {
-    affine: Affine,
+    affine: AffineLattice,
     /// Of each unknown of the caller, the number among the integers, or among the continuous.
     place: Vec<Place>,
     continuous: usize,
@@ -57,7 +57,7 @@ impl Prepared<'_> {
     ///
     /// # Errors
     /// Those of a solve, but for what may be a matter of the other unknowns.
-    pub(super) fn solve_in_short_steps(
+    pub(super) fn solve_reformulated(
         &self,
         reduced: &ReducedModel,
         options: &Options,
@@ -186,7 +186,7 @@ impl Reformulation {
             }
         }
         let of_integers = |v: &[f64]| integers.iter().map(|&i| v[i]).collect::<Vec<f64>>();
-        let mut affine = Affine::new(&of_integers(offset), &basis);
+        let mut affine = AffineLattice::new(&of_integers(offset), &basis);
         affine.shorten().ok()?;
         affine.approach(&of_integers(model.guess())).ok()?;
         let short = Reformulation {

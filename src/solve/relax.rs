@@ -34,8 +34,8 @@ pub(crate) fn relax(
     }
     let (gradient, guess) = (model.gradient(), model.guess());
     let rounding = || model.gradient_rounding(whole);
-    let minimum = if strategy != Strategy::Relax && factors.is_joint(model) {
-        let factor = factors.joint(model)?.whole();
+    let minimum = if strategy != Strategy::Relax && factors.has_schur_factor(model) {
+        let factor = factors.schur_factor(model)?.whole();
         minimise(model.hessian(), gradient, rounding, guess, factor)?
     } else {
         factors

@@ -64,7 +64,7 @@ impl Prepared<'_> {
     /// Right sides, relaxation, search, expansion, verification; in short steps where that is called for.
     pub fn solve(mut self, options: &Options, monitor: &mut Monitor) -> Result<Solution> {
         let (reduced, clock) = self.reduce(monitor)?;
-        match self.solve_in_short_steps(&reduced, options, monitor)? {
+        match self.solve_reformulated(&reduced, options, monitor)? {
             Some(solution) => Ok(solution),
             None => self.search(&reduced, &clock, options, monitor),
         }

@@ -46,7 +46,7 @@ impl Prepared<'_> {
             return Ok(None);
         }
         let (reduced, clock) = self.reduce(monitor)?;
-        if !self.factors.is_joint(&reduced) {
+        if !self.factors.has_schur_factor(&reduced) {
             return Ok(None);
         }
         let Some(rows) = between_integers(&reduced, rows) else {
@@ -115,7 +115,7 @@ fn of_integers(
     let mut small = Problem::new(m)?;
     small.set_integers(&(0..m).collect::<Vec<_>>())?;
     small.set_constant(model.energy(&relaxation.point).0)?;
-    let (r, _) = factors.joint(model)?.schur();
+    let (r, _) = factors.schur_factor(model)?.schur();
     for k in 0..m {
         let columns: Vec<usize> = (k..m).filter(|j| r[j * m + k] != 0.0).collect();
         let row: Vec<f64> = columns.iter().map(|j| r[j * m + k]).collect();

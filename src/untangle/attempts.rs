@@ -2,7 +2,7 @@
 
 use super::grading::grow_around;
 use super::{Collapsed, Structure, UntangleOptions, Untangled, untangle_in};
-use crate::map::solve_with_wishes;
+use crate::map::solve_separated;
 use crate::map::{SeamlessMap, SeamlessProblem};
 use crate::mesh::TriangleMesh;
 use crate::{Monitor, Options, Result, Solution, Solver, Strategy, solve_with};
@@ -35,7 +35,7 @@ const PASSES_BEFORE_REFINING: usize = 5;
 
 /// A map, the solution that its integers are from, and what became of it.
 #[derive(Debug)]
-pub struct Unfolded {
+pub struct FoldFreeMap {
     /// The solution: of the problem with the constraints that were added. Its bound may be that without
     /// them.
     pub solution: Solution,
@@ -51,10 +51,10 @@ pub struct Unfolded {
     pub collapsed: Collapsed,
 }
 
-impl Unfolded {
+impl FoldFreeMap {
     /// A map that nothing was done to.
     pub fn as_it_is(solution: Solution, map: SeamlessMap) -> Self {
-        Unfolded {
+        FoldFreeMap {
             untangled: Untangled::as_it_is(map),
             solution,
             rounds: 0,
@@ -78,17 +78,17 @@ impl Unfolded {
 /// # Errors
 /// Those of [`solve`](crate::solve()) for the first solve and of [`untangle`](super::untangle); a later solve that fails
 /// for constraints that contradict each other ends the rounds.
-pub fn solve_unfolded<'a>(
+pub fn solve_fold_free<'a>(
     mesh: &TriangleMesh,
     problem: &SeamlessProblem,
     solver: &Options,
     options: &UntangleOptions,
     monitor: impl Fn() -> Monitor<'a>,
-) -> Result<Unfolded> {
+) -> Result<FoldFreeMap> {
     if solver.strategy == Strategy::Relax {
         let solution = solve_with(problem.problem(), solver, monitor())?;
         let map = problem.map(mesh, &solution)?;
-        return Ok(Unfolded::as_it_is(solution, map));
+        return Ok(FoldFreeMap::as_it_is(solution, map));
     }
     let mut solver = solver.clone();
     if solver.strategy == Strategy::Auto {
@@ -109,7 +109,7 @@ pub fn solve_unfolded<'a>(
     for refinements in 1..=options.refinements {
         let untangled = &best.untangled;
         let is_done = match untangled.flipped_after {
-            0 => untangled.wound_vertices.is_empty() || refinements > REFINEMENTS_TO_UNWIND,
+            0 => untangled.winding_defects.is_empty() || refinements > REFINEMENTS_TO_UNWIND,
             _ => false,
         };
         if is_done {
@@ -119,7 +119,7 @@ pub fn solve_unfolded<'a>(
         let finer = problem.refined(mesh, by, &mut sizes.kept)?;
         let found = sizes.solve(&finer, options.refinements - refinements)?;
         if found.untangled.faults() < best.untangled.faults() {
-            best = Unfolded {
+            best = FoldFreeMap {
                 refinements,
                 ..found
             };
@@ -146,7 +146,7 @@ struct Sizes<'s, M> {
 
 impl<'m, M: Fn() -> Monitor<'m>> Sizes<'_, M> {
     /// The best map so far, or one that has smaller quads around its faults, if it has fewer.
-    fn grade(&mut self, problem: &SeamlessProblem, mut best: Unfolded) -> Result<Unfolded> {
+    fn grade(&mut self, problem: &SeamlessProblem, mut best: FoldFreeMap) -> Result<FoldFreeMap> {
         let by = REFINEMENT.powi(best.refinements as i32);
         let mut lengths = vec![by; self.mesh.face_count()];
         let mut last = None;
@@ -160,7 +160,7 @@ impl<'m, M: Fn() -> Monitor<'m>> Sizes<'_, M> {
             let found = self.solve(&graded, 1)?;
             last = Some(found.untangled.clone());
             if found.untangled.faults() < best.untangled.faults() {
-                best = Unfolded {
+                best = FoldFreeMap {
                     refinements: best.refinements,
                     gradings,
                     ..found
@@ -171,7 +171,7 @@ impl<'m, M: Fn() -> Monitor<'m>> Sizes<'_, M> {
     }
 
     /// A map of the size that the problem aims at, after which so many refinements are left.
-    fn solve(&mut self, problem: &SeamlessProblem, refinements_left: usize) -> Result<Unfolded> {
+    fn solve(&mut self, problem: &SeamlessProblem, refinements_left: usize) -> Result<FoldFreeMap> {
         let Sizes {
             mesh,
             monitor,
@@ -186,23 +186,23 @@ impl<'m, M: Fn() -> Monitor<'m>> Sizes<'_, M> {
         };
         let held = structure.freedom.held();
         let near = problem.near_cones(mesh, &held);
-        let banded = problem.banded(mesh, &held);
+        let isoline_triangles = problem.isoline_triangles(mesh, &held);
         let mut best = Decided {
-            collapsed: Collapsed::find(&held, &near, &banded, &map),
+            collapsed: Collapsed::find(&held, &near, &isoline_triangles, &map),
             solution,
             map,
         };
         let mut rounds = 0;
         let mut apart = problem.apart(mesh, &best.map, &best.collapsed);
         while !best.collapsed.is_empty() && rounds < self.options.rounds {
-            let solved = solve_with_wishes(kept, &mut apart, &self.solver, monitor)?;
+            let solved = solve_separated(kept, &mut apart, &self.solver, monitor)?;
             let Some(solution) = solved else {
                 break;
             };
             rounds += 1;
             let map = problem.map(mesh, &solution)?;
             let found = Decided {
-                collapsed: Collapsed::find(&held, &near, &banded, &map),
+                collapsed: Collapsed::find(&held, &near, &isoline_triangles, &map),
                 solution,
                 map,
             };
@@ -228,7 +228,7 @@ impl<'m, M: Fn() -> Monitor<'m>> Sizes<'_, M> {
             }
         }
         let map = &best.map;
-        Ok(Unfolded {
+        Ok(FoldFreeMap {
             untangled: untangle_in(structure, mesh, problem, map, &effort, &mut monitor())?,
             solution: best.solution,
             rounds,

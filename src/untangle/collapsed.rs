@@ -9,7 +9,7 @@
 
 use std::collections::VecDeque;
 
-use super::isoline_triangles::Banded;
+use super::isoline_triangles::IsolineTriangle;
 use crate::map::Wish;
 use crate::map::{SeamlessMap, SeamlessProblem};
 use crate::mesh::TriangleMesh;
@@ -39,7 +39,7 @@ pub struct Collapsed {
     /// Faces of three cones or corners, no two at one point, that are collinear or clockwise.
     pub(super) faces: Vec<usize>,
     /// Faces between isolines that these leave no area, or turn over.
-    pub(super) banded: Vec<Banded>,
+    pub(super) isoline_triangles: Vec<IsolineTriangle>,
 }
 
 impl Collapsed {
@@ -47,7 +47,7 @@ impl Collapsed {
     pub(super) fn find(
         held: &[[bool; 2]],
         near: &[NearCones],
-        banded: &[Banded],
+        isoline_triangles: &[IsolineTriangle],
         map: &SeamlessMap,
     ) -> Self {
         let uv = map.vertex_uvs();
@@ -67,18 +67,18 @@ impl Collapsed {
                 && !(0..3).any(is_short)
                 && orientation(at) <= 0.0
         };
-        let along = |face: &Banded| map.uv(face.face).map(|p| p[face.axis]);
-        let is_wrong = |face: &&Banded| face.wrong(along(face)).is_some();
+        let along = |face: &IsolineTriangle| map.uv(face.face).map(|p| p[face.axis]);
+        let is_wrong = |face: &&IsolineTriangle| face.wrong(along(face)).is_some();
         Collapsed {
             pairs,
             faces: faces.filter(is_lost).collect(),
-            banded: banded.iter().filter(is_wrong).copied().collect(),
+            isoline_triangles: isoline_triangles.iter().filter(is_wrong).copied().collect(),
         }
     }
 
     /// How many elements.
     pub fn count(&self) -> usize {
-        self.pairs.len() + self.faces.len() + self.banded.len()
+        self.pairs.len() + self.faces.len() + self.isoline_triangles.len()
     }
 
     /// Whether there is nothing.
@@ -253,15 +253,21 @@ impl SeamlessProblem {
                 }
             }
         }
-        for banded in &collapsed.banded {
-            let at = map.uv(banded.face).map(|p| p[banded.axis]);
-            let Some((ends, aim)) = banded.wrong(at) else {
+        for isoline_triangles in &collapsed.isoline_triangles {
+            let at = map
+                .uv(isoline_triangles.face)
+                .map(|p| p[isoline_triangles.axis]);
+            let Some((ends, aim)) = isoline_triangles.wrong(at) else {
                 continue;
             };
-            let [a, b] = ends.map(|k| mesh.corners(banded.face)[k]);
+            let [a, b] = ends.map(|k| mesh.corners(isoline_triangles.face)[k]);
             if joined.join(a, b) {
-                let copies = ends.map(|k| self.sectors.copy[banded.face][k]);
-                found.push(Apart::new(copies, banded.axis, 1f64.copysign(aim)));
+                let copies = ends.map(|k| self.sectors.copy[isoline_triangles.face][k]);
+                found.push(Apart::new(
+                    copies,
+                    isoline_triangles.axis,
+                    1f64.copysign(aim),
+                ));
             }
         }
         for pair in &collapsed.pairs {

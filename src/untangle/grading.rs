@@ -1,4 +1,4 @@
-//! Smaller quads around what a map keeps of folds and wound vertices, and nowhere else.
+//! Smaller quads around what a map keeps of folds and winding defects, and nowhere else.
 //!
 //! A few faults in one place seldom need a finer map as a whole: with smaller quads around them their
 //! integers fall otherwise, and the surface has room. Lengths grow by [`FINER`] at a fault and fall back
@@ -31,7 +31,7 @@ pub(super) fn grow_around(
         .flipped()
         .iter()
         .flat_map(|&f| mesh.corners(f));
-    let faults = untangled.wound_vertices.iter().copied().chain(corners);
+    let faults = untangled.winding_defects.iter().copied().chain(corners);
     let reach = (REACH / problem.mean_aim(mesh)).max(LEAST_EDGES);
     let edges = edges_from(mesh, faults, reach as usize);
     for (face, length) in lengths.iter_mut().enumerate() {

@@ -9,13 +9,13 @@ use crate::mesh::TriangleMesh;
 
 /// Such a face, its coordinate, and by how much that should differ from each corner to the next.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Banded {
+pub(super) struct IsolineTriangle {
     pub face: usize,
     pub axis: usize,
     aim: [f64; 3],
 }
 
-impl Banded {
+impl IsolineTriangle {
     /// The two corners, if any, between which integers must differ otherwise than at these coordinates,
     /// and by how much they should: of a face on one isoline the two that should be farthest apart, and
     /// else an end of the edge on an isoline and the corner on the wrong side of it.
@@ -37,14 +37,18 @@ impl Banded {
 impl SeamlessProblem {
     /// All such faces, once per coordinate, in increasing order; `held` says which coordinates of every
     /// copy integers hold.
-    pub(super) fn banded(&self, mesh: &TriangleMesh, held: &[[bool; 2]]) -> Vec<Banded> {
+    pub(super) fn isoline_triangles(
+        &self,
+        mesh: &TriangleMesh,
+        held: &[[bool; 2]],
+    ) -> Vec<IsolineTriangle> {
         let mut found = Vec::new();
         for face in 0..mesh.face_count() {
             let copies = self.sectors.copy[face];
             for axis in 0..2 {
                 if copies.iter().all(|&c| held[c as usize][axis]) {
                     let aim = [0, 1, 2].map(|k| self.aim(mesh, face, k, (k + 1) % 3)[axis]);
-                    found.push(Banded { face, axis, aim });
+                    found.push(IsolineTriangle { face, axis, aim });
                 }
             }
         }
@@ -57,7 +61,7 @@ mod tests {
     use super::*;
 
     /// The first edge should be an isoline nearly, the third corner 1.5 beyond it.
-    const BANDED: Banded = Banded {
+    const BANDED: IsolineTriangle = IsolineTriangle {
         face: 0,
         axis: 0,
         aim: [0.2, 1.4, -1.6],
@@ -74,7 +78,7 @@ mod tests {
     #[test]
     fn a_corner_on_the_wrong_side_of_an_isoline_is_told_how_far_it_should_be() {
         assert_eq!(BANDED.wrong([4.0, 4.0, 3.0]), Some(([0, 2], 1.5)));
-        let turned = Banded {
+        let turned = IsolineTriangle {
             aim: [-1.6, 0.2, 1.4],
             ..BANDED
         };

@@ -18,7 +18,7 @@
 //! | a disk around a vertex | `disk` |
 //! | a disk around a cone, in polar coordinates | `polar` |
 //! | vertices gone around twice | `unwind` |
-//! | faces between isolines, turned over | `banded` |
+//! | faces between isolines, turned over | `isoline_triangles` |
 //! | cones at one point, held apart | `separate` |
 //! | smaller quads around what is left | `graded` |
 //! | all of it, from the problem on | `unfolded` |
@@ -39,7 +39,7 @@ mod stuck;
 mod system;
 mod unwind;
 
-pub use attempts::{Unfolded, solve_unfolded};
+pub use attempts::{FoldFreeMap, solve_fold_free};
 pub use collapsed::Collapsed;
 
 use crate::map::{SeamlessMap, SeamlessProblem};
@@ -104,7 +104,7 @@ pub struct Untangled {
     /// Faces folded or collapsed after: [`SeamlessMap::flipped`] names them.
     pub flipped_after: usize,
     /// Vertices that the map goes around another number of times than the field, afterwards.
-    pub wound_vertices: Vec<usize>,
+    pub winding_defects: Vec<usize>,
     /// Newton steps, over all regions.
     pub steps: usize,
     /// Flipped faces that nothing can unfold, as all their corners are held by integers.
@@ -116,7 +116,7 @@ pub struct Untangled {
 impl Untangled {
     /// How many faces and vertices keep the map from being locally injective: none in a good one.
     pub fn faults(&self) -> usize {
-        self.flipped_after + self.wound_vertices.len()
+        self.flipped_after + self.winding_defects.len()
     }
 
     /// A map that nothing was done to, and whose vertices were not looked at.
@@ -127,7 +127,7 @@ impl Untangled {
             flipped_before: flipped,
             flipped_stiffened: flipped,
             flipped_after: flipped,
-            wound_vertices: Vec::new(),
+            winding_defects: Vec::new(),
             steps: 0,
             stuck_faces: Vec::new(),
             collapsed_edges: Vec::new(),
@@ -189,7 +189,7 @@ fn untangle_in(
 ) -> Result<Untangled> {
     let mut work = Untangling::new(structure, mesh, problem, map, options);
     let flipped_before = work.folded().len();
-    if flipped_before == 0 && work.wound().is_empty() {
+    if flipped_before == 0 && work.winding_defects().is_empty() {
         return Ok(Untangled::as_it_is(map.clone()));
     }
     work.stiffen(options.stiffenings, monitor)?;
@@ -214,7 +214,7 @@ fn untangle_in(
         collapsed_edges: stuck.edges,
         flipped_before,
         flipped_stiffened,
-        wound_vertices: work.wound(),
+        winding_defects: work.winding_defects(),
         flipped_after: left.len(),
         steps: work.steps,
         map: SeamlessMap::new(problem, mesh, &work.values)?,

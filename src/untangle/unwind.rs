@@ -10,7 +10,7 @@ use super::Untangling;
 use super::disk::Disk;
 use super::polar::{Layout, faces_within};
 use super::region::regions;
-use crate::map::{is_wound, wound};
+use crate::map::{has_winding_defect, winding_defects};
 use crate::mesh::orientation;
 use crate::{Monitor, Result};
 
@@ -35,8 +35,8 @@ const RINGS: [usize; 3] = [2, 5, 12];
 
 impl Untangling<'_> {
     /// The vertices that the map goes around another number of times than the field.
-    pub(super) fn wound(&self) -> Vec<usize> {
-        wound(self.mesh, self.quarters, |face| self.uv(face))
+    pub(super) fn winding_defects(&self) -> Vec<usize> {
+        winding_defects(self.mesh, self.quarters, |face| self.uv(face))
     }
 
     /// Mends cones that are narrower than they should be in a map without folds, as far as it can.
@@ -44,30 +44,30 @@ impl Untangling<'_> {
         self.budget = self
             .budget
             .min(PASSES.saturating_mul(self.mesh.face_count()));
-        let mut wound = self.wound();
+        let mut winding_defects = self.winding_defects();
         let mut left_behind = BTreeSet::new();
         for _ in 0..ROUNDS {
-            let before = wound.clone();
+            let before = winding_defects.clone();
             for cone in before.iter().copied() {
-                if self.quarters[cone] != Some(4) && wound.contains(&cone) {
-                    self.unwind_cone(cone, &mut wound, &mut left_behind, monitor)?;
+                if self.quarters[cone] != Some(4) && winding_defects.contains(&cone) {
+                    self.unwind_cone(cone, &mut winding_defects, &mut left_behind, monitor)?;
                 }
             }
-            if wound.is_empty() || wound == before {
+            if winding_defects.is_empty() || winding_defects == before {
                 break;
             }
         }
         Ok(())
     }
 
-    /// Lays larger and larger disks around a cone anew, until fewer vertices are `wound`.
+    /// Lays larger and larger disks around a cone anew, until fewer vertices are `winding_defects`.
     ///
     /// Where none helps, the first is taken that winds another cone in its stead which was not
     /// `left_behind` so before: that one may have more room.
     fn unwind_cone(
         &mut self,
         cone: usize,
-        wound: &mut Vec<usize>,
+        winding_defects: &mut Vec<usize>,
         left_behind: &mut BTreeSet<usize>,
         monitor: &mut Monitor,
     ) -> Result<()> {
@@ -90,15 +90,15 @@ impl Untangling<'_> {
                 let before = self.values.clone();
                 self.lay(&layout);
                 self.unfold_disk(&disk, first_eps, monitor)?;
-                let left = self.wound_since(&before, wound);
+                let left = self.wound_since(&before, winding_defects);
                 let now = std::mem::replace(&mut self.values, before);
                 let Some(left) = left else { continue };
-                if left.len() < wound.len() {
-                    (self.values, *wound) = (now, left);
+                if left.len() < winding_defects.len() {
+                    (self.values, *winding_defects) = (now, left);
                     return Ok(());
                 }
                 let is_other = |v: &usize| !left_behind.contains(v);
-                let moves = left.len() == wound.len() && !left.contains(&cone);
+                let moves = left.len() == winding_defects.len() && !left.contains(&cone);
                 if instead.is_none() && moves && left.iter().all(is_other) {
                     instead = Some((now, left));
                 }
@@ -106,13 +106,13 @@ impl Untangling<'_> {
         }
         if let Some((values, left)) = instead {
             left_behind.insert(cone);
-            (self.values, *wound) = (values, left);
+            (self.values, *winding_defects) = (values, left);
         }
         Ok(())
     }
 
-    /// The wound vertices, which at other values were these; none where what moved is folded.
-    fn wound_since(&self, before: &[f64], wound: &[usize]) -> Option<Vec<usize>> {
+    /// The winding defects, which at other values were these; none where what moved is folded.
+    fn wound_since(&self, before: &[f64], winding_defects: &[usize]) -> Option<Vec<usize>> {
         let first = &self.problem.sectors.first;
         let vertex = |i: usize| first.partition_point(|&copy| copy as usize <= i / 2) - 1;
         let both = self.values.iter().zip(before).enumerate();
@@ -128,9 +128,9 @@ impl Untangling<'_> {
         let corners = faces.iter().flat_map(|&face| self.mesh.corners(face));
         let near: BTreeSet<usize> = corners.collect();
         let uv = |face| self.uv(face);
-        let is_wound = |v: &usize| is_wound(self.mesh, self.quarters, uv, *v);
-        let far = wound.iter().filter(|v| !near.contains(v));
-        let found = near.iter().copied().filter(is_wound);
+        let has_winding_defect = |v: &usize| has_winding_defect(self.mesh, self.quarters, uv, *v);
+        let far = winding_defects.iter().filter(|v| !near.contains(v));
+        let found = near.iter().copied().filter(has_winding_defect);
         let mut left: Vec<usize> = far.copied().chain(found).collect();
         left.sort_unstable();
         Some(left)
@@ -218,7 +218,7 @@ mod tests {
                 continue;
             };
             let layout = work.layout(&disk).unwrap().unwrap();
-            let (before, wound) = (work.values.clone(), work.wound());
+            let (before, winding_defects) = (work.values.clone(), work.winding_defects());
             // Nothing is left of what was there: all inside is put beside one point.
             let center = faces_within(&mesh, cone, 9.0, &|face| work.uv(face));
             let beside = |face: usize, v: usize| center[&face].map(|x| x + 1e-6 * v as f64);
@@ -228,17 +228,20 @@ mod tests {
                 places: places.collect(),
             });
             let crushed = work.folded().len();
-            assert_eq!(work.wound_since(&before, &wound), None, "folded");
+            assert_eq!(work.wound_since(&before, &winding_defects), None, "folded");
             work.lay(&layout);
             let folded = work.folded().len();
             assert!(4 * folded < crushed, "{cone}: {folded} of {crushed}");
             work.unfold_disk(&disk, 0.1, watch).unwrap();
             assert!(
-                work.folded().is_empty() && work.wound().is_empty(),
+                work.folded().is_empty() && work.winding_defects().is_empty(),
                 "{cone}"
             );
             // What moved alone tells what a look at everything tells.
-            assert_eq!(work.wound_since(&before, &wound), Some(Vec::new()));
+            assert_eq!(
+                work.wound_since(&before, &winding_defects),
+                Some(Vec::new())
+            );
             assert_eq!(work.wound_since(&before, &[]), Some(Vec::new()));
             assert_eq!(work.wound_since(&work.values, &[cone]), Some(vec![cone]));
             laid += 1;

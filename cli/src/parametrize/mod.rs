@@ -11,7 +11,7 @@ use std::time::Instant;
 use roundel::map::{SeamlessProblem, Sizing};
 use roundel::mesh::TriangleMesh;
 use roundel::problem::mps::{self, MpsProblem};
-use roundel::untangle::{Unfolded, UntangleOptions, Untangled, solve_unfolded};
+use roundel::untangle::{FoldFreeMap, UntangleOptions, Untangled, solve_fold_free};
 use roundel::{Options, Result, Solution};
 
 use crate::exit::Exit;
@@ -40,7 +40,7 @@ struct Solved {
     features: usize,
     untangled: Untangled,
     /// Vertices around which the map turns another number of times than the field.
-    wound: Vec<usize>,
+    winding_defects: Vec<usize>,
     /// How often integers were decided anew.
     rounds: usize,
     /// How often the map was made finer.
@@ -78,18 +78,18 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
         true => {
             let solution = roundel::solve_with(problem.problem(), &options, monitor())?;
             let map = problem.map(&mesh, &solution)?;
-            Unfolded::as_it_is(solution, map)
+            FoldFreeMap::as_it_is(solution, map)
         }
         false => {
             let work = UntangleOptions {
                 stiffenings: arguments.stiffen,
                 ..UntangleOptions::default()
             };
-            solve_unfolded(&mesh, &problem, &options, &work, monitor)?
+            solve_fold_free(&mesh, &problem, &options, &work, monitor)?
         }
     };
     let solved = started.elapsed().as_secs_f64();
-    let Unfolded {
+    let FoldFreeMap {
         solution,
         untangled,
         rounds,
@@ -98,7 +98,7 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
         ..
     } = unfolded;
     let untangle_seconds = solved - solution.seconds().total;
-    let wound = problem.wound_vertices(&mesh, &untangled.map)?;
+    let winding_defects = problem.winding_defects(&mesh, &untangled.map)?;
     if let Some(path) = &arguments.out {
         untangled.map.write_obj(&mesh, path)?;
     }
@@ -109,7 +109,7 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
         sizing,
         features: features.edges().count(),
         untangled,
-        wound,
+        winding_defects,
         rounds,
         refinements,
         gradings,

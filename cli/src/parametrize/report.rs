@@ -26,7 +26,7 @@ pub struct MapReport<'a> {
     flipped_stiffened: usize,
     flipped: usize,
     flipped_faces: &'a [usize],
-    wound_vertices: &'a [usize],
+    winding_defects: &'a [usize],
     untangle: Untangling,
     field: Field,
 }
@@ -81,7 +81,7 @@ impl<'a> MapReport<'a> {
             flipped_stiffened: untangled.flipped_stiffened,
             flipped: map.flipped().len(),
             flipped_faces: map.flipped(),
-            wound_vertices: &solved.wound,
+            winding_defects: &solved.winding_defects,
             untangle: Untangling {
                 rounds: solved.rounds,
                 refinements: solved.refinements,

@@ -20,7 +20,7 @@ impl fmt::Display for MapSummary<'_> {
             sizing: _,
             features,
             untangled,
-            wound,
+            winding_defects,
             untangle_seconds,
             rounds,
             refinements,
@@ -65,8 +65,11 @@ impl fmt::Display for MapSummary<'_> {
         }
         line(f, "untangle", &unfolded, *untangle_seconds)?;
         let mut flipped = format!("{} flipped", counted(map.flipped().len(), "face"));
-        if !wound.is_empty() {
-            flipped += &format!(", {} covered twice", counted_vertices(wound.len(), ""));
+        if !winding_defects.is_empty() {
+            flipped += &format!(
+                ", {} covered twice",
+                counted_vertices(winding_defects.len(), "")
+            );
         }
         match &self.arguments.out {
             Some(path) => writeln!(f, "{:<10} {flipped}: {}", "map", path.display()),

@@ -28,7 +28,7 @@ fn a_rounded_cube_turns_around_its_corners() {
     // Two coordinates for each cone but what the Euler characteristic takes away.
     assert_eq!(report["reduced_integers"], json!(12));
     assert_eq!(report["flipped"], json!(0));
-    assert_eq!(report["wound_vertices"], json!([]));
+    assert_eq!(report["winding_defects"], json!([]));
     assert!(report["cut_edges"].as_u64() > Some(0));
     assert!(report["gradient_energy"].as_f64() <= report["energy"].as_f64());
     assert_eq!(report["field"]["strategy"], json!("adaptive"));
@@ -277,7 +277,7 @@ fn saddles_are_gone_around_as_often_as_the_field_says() {
         let (code, report) = parametrize(&[&shape, "--quads", quads]);
         assert_eq!(code, 0, "{report}");
         assert_eq!(report["flipped"], json!(0), "{report}");
-        assert_eq!(report["wound_vertices"], json!([]), "{report}");
+        assert_eq!(report["winding_defects"], json!([]), "{report}");
     }
 }
 

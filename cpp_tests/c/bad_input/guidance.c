@@ -24,7 +24,7 @@ static void settings(fixture* f) {
     BAD(f, roundel_guidance_set_indices(NULL, 0, NULL, NULL), null, "guidance", NONE);
     BAD(f, roundel_guidance_set_indices(g, 2, good, NULL), null, "steps", NONE);
     BAD(f, roundel_guidance_set_indices(g, 2, negative, good), range, "vertices", 1);
-    BAD(f, roundel_guidance_free_indices(NULL), null, "guidance", NONE);
+    BAD(f, roundel_guidance_clear_indices(NULL), null, "guidance", NONE);
     BAD(f, roundel_guidance_set_curvature(NULL, 0.0, 0.0), null, "guidance", NONE);
     BAD(f, roundel_guidance_set_curvature(g, 1.5, 0.0), invalid, "1.5", NONE);
     BAD(f, roundel_guidance_set_curvature(g, 0.0, -1.0), invalid, "-1", NONE);
@@ -93,7 +93,7 @@ static void on_a_mesh(fixture* f, const roundel_mesh* disk) {
     GOOD(roundel_guidance_set_guides(g, 0, NULL, NULL, NULL));
     GOOD(roundel_guidance_set_indices(g, 2, far, twice));
     BAD(f, roundel_field_make_guided_problem(disk, g, &problem), range, "index", 1);
-    GOOD(roundel_guidance_free_indices(g));
+    GOOD(roundel_guidance_clear_indices(g));
     GOOD(roundel_guidance_set_feature_lines(g, 1, apart));
     BAD(f, roundel_mesh_mark_features(disk, g, marks, edges), ROUNDEL_ERROR_INVALID_ARGUMENT,
         "no edge joins", 0);
@@ -144,8 +144,8 @@ static void maps(fixture* f, const roundel_mesh* disk) {
     BAD(f, roundel_map_set_edge_lengths(map, numbers, 2), length, "got 2", NONE);
     BAD(f, roundel_map_solve(NULL, NULL, NULL), null, "map", NONE);
     BAD(f, roundel_map_solve(map, NULL, &unsized_monitor), invalid, "monitor", NONE);
-    BAD(f, roundel_map_solve_unfolded(NULL, NULL, NULL), null, "map", NONE);
-    BAD(f, roundel_map_solve_unfolded(map, NULL, &unsized_monitor), invalid, "monitor", NONE);
+    BAD(f, roundel_map_solve_fold_free(NULL, NULL, NULL), null, "map", NONE);
+    BAD(f, roundel_map_solve_fold_free(map, NULL, &unsized_monitor), invalid, "monitor", NONE);
     BAD(f, roundel_map_untangle(NULL, NULL), null, "map", NONE);
     BAD(f, roundel_map_untangle(map, NULL), invalid, "has not been solved", NONE);
     BAD(f, roundel_map_make_problem(NULL, &problem), null, "map", NONE);
@@ -155,7 +155,7 @@ static void maps(fixture* f, const roundel_mesh* disk) {
     BAD(f, roundel_map_energy(map, numbers), invalid, "has not been solved", NONE);
     BAD(f, roundel_map_vertex_count(map, &count), invalid, "has not been solved", NONE);
     BAD(f, roundel_map_corner_uvs(map, numbers, 2), invalid, "has not been solved", NONE);
-    BAD(f, roundel_map_wound_count(map, &count), invalid, "has not been solved", NONE);
+    BAD(f, roundel_map_winding_defect_count(map, &count), invalid, "has not been solved", NONE);
     BAD(f, roundel_map_round_count(map, &count), invalid, "has not been solved", NONE);
     BAD(f, roundel_map_transitions(map, 0, NULL, NULL, NULL), invalid, "solved", NONE);
     BAD(f, roundel_map_solution(map, &solution), invalid, "has not been solved", NONE);
@@ -170,8 +170,8 @@ static void maps(fixture* f, const roundel_mesh* disk) {
     BAD(f, roundel_map_corner_uvs(map, numbers, 2), length, "corners", NONE);
     BAD(f, roundel_map_vertex_count(NULL, &count), null, "map", NONE);
     BAD(f, roundel_map_vertex_count(map, NULL), null, "vertex count", NONE);
-    BAD(f, roundel_map_wound_count(map, NULL), null, "wound count", NONE);
-    BAD(f, roundel_map_wound(map, whole, 2), length, "wound vertices", NONE);
+    BAD(f, roundel_map_winding_defect_count(map, NULL), null, "winding defect count", NONE);
+    BAD(f, roundel_map_winding_defects(map, whole, 2), length, "winding defects", NONE);
     BAD(f, roundel_map_round_count(NULL, &count), null, "map", NONE);
     BAD(f, roundel_map_refinement_count(map, NULL), null, "refinement count", NONE);
     BAD(f, roundel_map_vertex_uvs(map, numbers, 2), length, "vertices", NONE);

@@ -85,7 +85,7 @@ void maps_are_solved_again_at_another_size() {
     CHECK(rounded.solution().energy() >= rounded.energy());
     const auto untangled = roundel::parametrize(mesh, field, roundel::MapOptions().set_quads(80));
     CHECK(untangled.flipped().size() <= rounded.flipped().size());
-    CHECK(untangled.valid() && untangled.wound().empty());
+    CHECK(untangled.valid() && untangled.winding_defects().empty());
     CHECK(rounded.valid() || untangled.rounds() + untangled.refinements() > 0);
     const auto soft =
         roundel::parametrize(mesh, field, roundel::MapOptions().set_quads(80).set_stiffenings(0));

@@ -124,8 +124,8 @@ class Map {
 
     /// Vertices around which coordinates turn another number of times than the field, as in a ring
     /// of faces that goes around its vertex twice without a fold.
-    span<const std::int32_t> wound() const& noexcept { return view(wound_); }
-    span<const std::int32_t> wound() const&& = delete;
+    span<const std::int32_t> winding_defects() const& noexcept { return view(winding_defects_); }
+    span<const std::int32_t> winding_defects() const&& = delete;
 
     /// How often untangling made the map finer than asked for, each time by the square root of two
     /// in length.
@@ -192,7 +192,7 @@ class Map {
     /// Solves a map of the C interface for the size that the options name.
     static bool decide(roundel_map* map, const MapOptions& options, Status* status) {
         const auto call = [&](const roundel_options* how, const roundel_monitor* monitor) {
-            return options.untangle ? roundel_map_solve_unfolded(map, how, monitor)
+            return options.untangle ? roundel_map_solve_fold_free(map, how, monitor)
                                     : roundel_map_solve(map, how, monitor);
         };
         return resize(map, options, status) &&
@@ -240,7 +240,8 @@ class Map {
             told(roundel_map_vertex_corners(get(), vertex_corners_.data(),
                                             vertex_corners_.size())) &&
             listed(roundel_map_cone_count, roundel_map_cones, cones_, status) &&
-            listed(roundel_map_wound_count, roundel_map_wound, wound_, status)) {
+            listed(roundel_map_winding_defect_count, roundel_map_winding_defects, winding_defects_,
+                   status)) {
             listed(roundel_map_flipped_count, roundel_map_flipped, flipped_, status);
         }
     }
@@ -251,7 +252,7 @@ class Map {
     std::vector<double> vertex_uvs_;
     std::vector<std::int32_t> vertex_corners_;
     std::vector<std::int32_t> cones_;
-    std::vector<std::int32_t> wound_;
+    std::vector<std::int32_t> winding_defects_;
     std::vector<std::int32_t> flipped_;
 };
 

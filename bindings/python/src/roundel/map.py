@@ -50,7 +50,7 @@ class Map:
         self._aim(quads, edge_length)
         handle, watch = options_handle(options), Watch(progress, cancel)
         check(lib.roundel_map_set_stiffening_count(self._handle.pointer, stiffenings))
-        call = lib.roundel_map_solve_unfolded if untangle else lib.roundel_map_solve
+        call = lib.roundel_map_solve_fold_free if untangle else lib.roundel_map_solve
         watch.check(call(self._handle.pointer, handle.pointer, watch.pointer))
 
     def _aim(self, quads: Optional[int], edge_length: Any) -> None:
@@ -110,9 +110,9 @@ class Map:
         return self._list(lib.roundel_map_flipped_count, lib.roundel_map_flipped)
 
     @property
-    def wound(self) -> np.ndarray:
+    def winding_defects(self) -> np.ndarray:
         """The vertices around which the map turns another number of times than the field."""
-        return self._list(lib.roundel_map_wound_count, lib.roundel_map_wound)
+        return self._list(lib.roundel_map_winding_defect_count, lib.roundel_map_winding_defects)
 
     @property
     def refinements(self) -> int:

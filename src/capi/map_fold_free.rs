@@ -8,7 +8,7 @@ use super::map_results::give;
 use super::options::roundel_options;
 use super::output::{Out, copy_numbers};
 use super::status::roundel_status;
-use crate::untangle::{UntangleOptions, solve_unfolded, untangle};
+use crate::untangle::{UntangleOptions, solve_fold_free, untangle};
 use crate::{Error, Options, SolveStatus};
 
 /// Solves for a map without folds, as the program `roundel parametrize` does: integers that collapse
@@ -17,14 +17,14 @@ use crate::{Error, Options, SolveStatus};
 /// Of all maps that with the fewest folds is kept. `options` are those of every solve, `monitor`
 /// watches each; both may be NULL. Every solve starts from nothing. A relaxation is not untangled.
 ///
-/// roundel_map_flipped_count and roundel_map_wound_count tell what is left, roundel_map_round_count and
+/// roundel_map_flipped_count and roundel_map_winding_defect_count tell what is left, roundel_map_round_count and
 /// roundel_map_refinement_count what it took. A map that was made finer keeps the size asked for
 /// in mind, for the next solve.
 ///
 /// Fails as roundel_solve does for the first solve, with ROUNDEL_ERROR_CANCELLED also later, and
 /// leaves what an earlier solve found. The callback must not use the map.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn roundel_map_solve_unfolded(
+pub unsafe extern "C" fn roundel_map_solve_fold_free(
     map: *mut roundel_map,
     options: *const roundel_options,
     monitor: *const roundel_monitor,
@@ -35,7 +35,7 @@ pub unsafe extern "C" fn roundel_map_solve_unfolded(
         let (options, monitor) =
             unsafe { (guard::value_or(options, &default)?, watchers(monitor)?) };
         let effort = effort(map);
-        map.unfold(|mesh, problem| solve_unfolded(mesh, problem, options, &effort, monitor))
+        map.unfold(|mesh, problem| solve_fold_free(mesh, problem, options, &effort, monitor))
     };
     // SAFETY: the caller gives a live handle, or NULL.
     unsafe { guard::write(map, body) }
@@ -66,7 +66,7 @@ pub unsafe extern "C" fn roundel_map_set_stiffening_count(
 /// Moves the vertices that integers do not hold until as few faces as can be are turned over or
 /// collapsed, under the eyes of `monitor`, which may be NULL. Seams, cones and isolines stay what
 /// they are. roundel_map_flipped_count tells what is left; the solution stays that of the solve. After
-/// roundel_map_solve_unfolded there is nothing left to do.
+/// roundel_map_solve_fold_free there is nothing left to do.
 ///
 /// Fails with ROUNDEL_ERROR_INVALID_ARGUMENT where nothing has been solved for, and after a
 /// relaxation, which has no integers to hold; ROUNDEL_ERROR_CANCELLED, which leaves the map as it
@@ -104,42 +104,42 @@ pub unsafe extern "C" fn roundel_map_untangle(
 /// without a fold. Recomputed from the mesh. With none of these and no flipped faces, a map is
 /// one to one around every inner point.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn roundel_map_wound_count(
+pub unsafe extern "C" fn roundel_map_winding_defect_count(
     map: *const roundel_map,
     count: *mut usize,
 ) -> roundel_status {
     let body = |map: &Mapped| {
         // SAFETY: the caller gives a place for the number, or NULL.
-        let out = unsafe { Out::new("wound count", count) }?;
-        out.set(wound(map)?.len());
+        let out = unsafe { Out::new("winding defect count", count) }?;
+        out.set(winding_defects(map)?.len());
         Ok(())
     };
     // SAFETY: the caller gives a live handle, or NULL.
     unsafe { guard::read(map, body) }
 }
 
-/// Copies the vertices of roundel_map_wound_count, in increasing order. `length` is their number.
+/// Copies the vertices of roundel_map_winding_defect_count, in increasing order. `length` is their number.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn roundel_map_wound(
+pub unsafe extern "C" fn roundel_map_winding_defects(
     map: *const roundel_map,
     vertices: *mut i32,
     length: usize,
 ) -> roundel_status {
     let body = |map: &Mapped| {
-        let wound = wound(map)?.into_iter().map(|v| v as i32);
+        let winding_defects = winding_defects(map)?.into_iter().map(|v| v as i32);
         // SAFETY: the caller gives an array of `length` numbers, or NULL.
-        unsafe { copy_numbers("wound vertices", wound, vertices, length) }
+        unsafe { copy_numbers("winding defects", winding_defects, vertices, length) }
     };
     // SAFETY: the caller gives a live handle, or NULL.
     unsafe { guard::read(map, body) }
 }
 
-fn wound(map: &Mapped) -> Outcome<Vec<usize>> {
+fn winding_defects(map: &Mapped) -> Outcome<Vec<usize>> {
     let found = map.found()?;
-    Ok(map.problem().wound_vertices(map.mesh(), &found.map)?)
+    Ok(map.problem().winding_defects(map.mesh(), &found.map)?)
 }
 
-/// Gives how often roundel_map_solve_unfolded decided integers anew, at the size that the map has; 0
+/// Gives how often roundel_map_solve_fold_free decided integers anew, at the size that the map has; 0
 /// after any other solve.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_map_round_count(
@@ -150,7 +150,7 @@ pub unsafe extern "C" fn roundel_map_round_count(
     unsafe { give(map, "round count", count, |found| found.rounds) }
 }
 
-/// Gives how often roundel_map_solve_unfolded made the map finer than asked for, each time by the
+/// Gives how often roundel_map_solve_fold_free made the map finer than asked for, each time by the
 /// square root of two in length; 0 after any other solve. Smaller quads around what folds were left
 /// after that are not counted.
 #[unsafe(no_mangle)]

@@ -6,7 +6,7 @@ use std::sync::LazyLock;
 use libfuzzer_sys::fuzz_target;
 use roundel::Options;
 use roundel::mesh::{TriangleMesh, features::FeatureGraph, shape};
-use roundel::quad::{FieldProblem, Guidance, OrientationField};
+use roundel::field::{FieldProblem, Guidance, OrientationField};
 
 static MESH: LazyLock<TriangleMesh> =
     LazyLock::new(|| shape::by_name("disk", 16).expect("there is a disk"));
@@ -27,11 +27,11 @@ fn guided(text: &str) {
         assert!(guidance == Guidance::default(), "a file that fails adds nothing");
         return;
     }
-    let wishes = guidance
+    let stated = guidance
         .features(&MESH)
         .and_then(|features| guidance.field_options(&MESH, &features));
-    let Ok(wishes) = wishes else { return };
-    let Ok(problem) = FieldProblem::with_options(&MESH, &wishes) else {
+    let Ok(stated) = stated else { return };
+    let Ok(problem) = FieldProblem::with_options(&MESH, &stated) else {
         return;
     };
     let options = Options {

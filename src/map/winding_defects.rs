@@ -18,24 +18,28 @@ impl SeamlessProblem {
     ///
     /// # Errors
     /// [`LengthMismatch`](crate::Error::LengthMismatch) for the map of another problem or mesh.
-    pub fn wound_vertices(&self, mesh: &TriangleMesh, map: &SeamlessMap) -> Result<Vec<usize>> {
+    pub fn winding_defects(&self, mesh: &TriangleMesh, map: &SeamlessMap) -> Result<Vec<usize>> {
         self.check_map(mesh, map)?;
-        Ok(wound(mesh, &self.quarters(mesh), |face| map.uv(face)))
+        Ok(winding_defects(mesh, &self.quarters(mesh), |face| {
+            map.uv(face)
+        }))
     }
 }
 
 /// The vertices that a map turns around another number of quarters than these, where they are told.
-pub(crate) fn wound(
+pub(crate) fn winding_defects(
     mesh: &TriangleMesh,
     quarters: &[Option<i32>],
     uv: impl Fn(usize) -> [[f64; 2]; 3],
 ) -> Vec<usize> {
-    let is_wound = |&v: &usize| is_wound(mesh, quarters, &uv, v);
-    (0..mesh.vertex_count()).filter(is_wound).collect()
+    let has_winding_defect = |&v: &usize| has_winding_defect(mesh, quarters, &uv, v);
+    (0..mesh.vertex_count())
+        .filter(has_winding_defect)
+        .collect()
 }
 
 /// Whether a map turns around a vertex another number of quarters than these.
-pub(crate) fn is_wound(
+pub(crate) fn has_winding_defect(
     mesh: &TriangleMesh,
     quarters: &[Option<i32>],
     uv: impl Fn(usize) -> [[f64; 2]; 3],
@@ -87,7 +91,7 @@ mod tests {
         let solution = solve(problem.problem(), &options).unwrap();
         let good = problem.map(&mesh, &solution).unwrap();
         assert!(good.flipped().is_empty());
-        assert!(problem.wound_vertices(&mesh, &good).unwrap().is_empty());
+        assert!(problem.winding_defects(&mesh, &good).unwrap().is_empty());
 
         let mut values = good.values().to_vec();
         for face in 0..8 {
@@ -101,6 +105,6 @@ mod tests {
         }
         let twice = SeamlessMap::new(&problem, &mesh, &values).unwrap();
         assert!(twice.flipped().is_empty());
-        assert_eq!(problem.wound_vertices(&mesh, &twice).unwrap(), [0]);
+        assert_eq!(problem.winding_defects(&mesh, &twice).unwrap(), [0]);
     }
 }

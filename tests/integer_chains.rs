@@ -254,7 +254,7 @@ fn an_endless_slope_behind_a_chain_of_constraints_is_told() {
 }
 
 /// A problem, what a direction must satisfy that stays on its constraints, and where these hold.
-struct Tame {
+struct Chain {
     problem: Problem,
     homogeneous: Problem,
     at: Option<Vec<f64>>,
@@ -274,7 +274,7 @@ impl Random {
 
     /// Up to six unknowns and constraints, which in three problems of four hold at a point of halves and
     /// integers.
-    fn problem(&mut self) -> Tame {
+    fn problem(&mut self) -> Chain {
         let n = [1, 2, 3, 4, 4, 5, 5, 6, 6, 6, 6][self.below(11)];
         let density = 1 + self.below(4);
         let integers: Vec<usize> = (0..n).filter(|_| self.below(4) < density).collect();
@@ -315,7 +315,7 @@ impl Random {
             homogeneous.pin(i, 0.0).unwrap();
         }
         problem.set_integers(&integers).unwrap();
-        Tame {
+        Chain {
             problem,
             homogeneous,
             at: feasible.then_some(at),
@@ -324,20 +324,20 @@ impl Random {
 }
 
 /// What is told of a direction without a minimum is so by the problem's own numbers.
-fn a_direction_is_proved(tame: &Tame, error: &Error, name: &dyn Fn() -> String) {
+fn a_direction_is_proved(chain: &Chain, error: &Error, name: &dyn Fn() -> String) {
     let Some(direction) = error.direction() else {
         return;
     };
-    let verdict = verify(&tame.homogeneous, direction).unwrap();
+    let verdict = verify(&chain.homogeneous, direction).unwrap();
     assert!(
         verdict.constraint_violation < 1e-9,
         "{}: {verdict:?}",
         name()
     );
-    let Some(at) = &tame.at else { return };
+    let Some(at) = &chain.at else { return };
     let energy = |t: f64| {
         let point = at.iter().zip(direction).map(|(x, v)| x + t * v);
-        verify(&tame.problem, &point.collect::<Vec<_>>())
+        verify(&chain.problem, &point.collect::<Vec<_>>())
             .unwrap()
             .energy
     };
@@ -353,13 +353,13 @@ fn a_direction_is_proved(tame: &Tame, error: &Error, name: &dyn Fn() -> String) 
 
 /// Solves the problem by every strategy, and holds each against what is promised and against the others;
 /// how many solutions there were.
-fn every_promise_is_kept(tame: &Tame, name: &str) -> usize {
-    let tried = Strategy::ALL.map(|strategy| (strategy, solve_briefly(&tame.problem, strategy)));
+fn every_promise_is_kept(chain: &Chain, name: &str) -> usize {
+    let tried = Strategy::ALL.map(|strategy| (strategy, solve_briefly(&chain.problem, strategy)));
     let refused = tried
         .iter()
         .filter_map(|(s, t)| Some((s, t.as_ref().err()?)));
     for (strategy, error) in refused {
-        a_direction_is_proved(tame, error, &|| format!("{name}, {strategy:?}: {error:?}"));
+        a_direction_is_proved(chain, error, &|| format!("{name}, {strategy:?}: {error:?}"));
     }
     let solved = || {
         tried
@@ -398,9 +398,9 @@ fn every_promise_is_kept(tame: &Tame, name: &str) -> usize {
 fn promises_are_kept_of(problems: usize, seed: u64) {
     let mut solved = 0;
     for round in 0..problems as u64 {
-        let tame = Random::new(seed.wrapping_add(round + 1)).problem();
+        let chain = Random::new(seed.wrapping_add(round + 1)).problem();
         let name = format!("problem {round} of seed {seed}");
-        solved += every_promise_is_kept(&tame, &name);
+        solved += every_promise_is_kept(&chain, &name);
     }
     let tried = problems * Strategy::ALL.len();
     assert!(2 * solved > tried, "{solved} of {tried} solved");
@@ -411,10 +411,10 @@ fn what_is_promised_holds_of_twenty_thousand_problems() {
     promises_are_kept_of(20_000, 8);
 }
 
-/// `TAME_SEED=1 cargo test --release --test tame -- --ignored`: minutes of other problems.
+/// `CHAINS_SEED=1 cargo test --release --test integer_chains -- --ignored`: minutes of other problems.
 #[test]
 #[ignore = "takes minutes"]
 fn what_is_promised_holds_of_two_million_problems() {
-    let seed = std::env::var("TAME_SEED").map_or(1, |seed| seed.parse().unwrap());
+    let seed = std::env::var("CHAINS_SEED").map_or(1, |seed| seed.parse().unwrap());
     promises_are_kept_of(2_000_000, seed << 32);
 }
