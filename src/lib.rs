@@ -60,7 +60,21 @@ pub use problem::{Layout, Model, Problem, Triangle};
 pub use search::{Options, SolveStatus, Strategy, WarmStart};
 pub use solve::{Seconds, Solution, Solver, solve, solve_with};
 
-/// The README's Rust example is one of the tests.
+/// The Rust examples of the README and of the book are among the tests.
 #[cfg(doctest)]
-#[doc = include_str!("../README.md")]
-struct Readme;
+mod book {
+    #[doc = include_str!("../README.md")]
+    struct Readme;
+    #[doc = include_str!("../docs/errors.md")]
+    struct Errors;
+    #[doc = include_str!("../docs/options.md")]
+    struct Options;
+    #[doc = include_str!("../docs/problems.md")]
+    struct Problems;
+    #[doc = include_str!("../docs/rust.md")]
+    struct Rust;
+    #[doc = include_str!("../docs/strategies.md")]
+    struct Strategies;
+    #[doc = include_str!("../docs/trust.md")]
+    struct Trust;
+}

@@ -2,5 +2,7 @@
 
 #![cfg(target_os = "linux")]
 
+mod covered;
+mod names;
 mod page;
 mod programs;

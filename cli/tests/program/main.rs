@@ -1,5 +1,6 @@
 //! The program as its users meet it: run from outside, on files.
 
+mod book;
 mod evaluate;
 mod field;
 mod outcome;
@@ -7,6 +8,5 @@ mod output;
 mod parametrize;
 mod problem;
 mod quad;
-mod readme;
 mod run;
 mod shape;

@@ -2,7 +2,7 @@
 /// by entry. Nothing of GMM++ is in it.
 ///
 /// Where the real GMM++ was included before, this file is empty; where it is wanted instead, leave
-/// this directory out of the include path (see docs/migration-from-comiso.md).
+/// this directory out of the include path (see docs/comiso.md).
 
 #if !defined(GMM_KERNEL_H__) && !defined(ROUNDEL_GMM_SHIM)
 #define ROUNDEL_GMM_SHIM 1

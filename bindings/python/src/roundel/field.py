@@ -103,7 +103,7 @@ def field(
     """The smoothest field of a mesh, of crosses unless `symmetry` says otherwise.
 
     Keywords are those of the guidance (`features`, `align_boundary`, `curvature`, `constraints`,
-    `guides`, `indices`, `symmetry`, `guide_file`: see the README) and the library's options;
+    `guides`, `indices`, `symmetry`, `guide_file`: see docs/fields.md) and the library's options;
     `progress` and `cancel` as in `solve`. Without any the field follows the boundary.
 
     >>> import roundel
