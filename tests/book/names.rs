@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
-use roundel::solve::{OPTIONS, OptionKind, PRESETS};
+use roundel::search::{OPTIONS, OptionKind, PRESETS};
 
 use crate::page::{pages, root};
 

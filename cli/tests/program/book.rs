@@ -95,7 +95,7 @@ fn flags(text: &str) -> BTreeSet<String> {
 
 #[test]
 fn every_flag_is_in_the_book_and_the_book_has_no_other() {
-    let of_options: BTreeSet<String> = roundel::solve::OPTIONS
+    let of_options: BTreeSet<String> = roundel::search::OPTIONS
         .iter()
         .map(|info| format!("--{}", info.name.replace('_', "-")))
         .collect();
