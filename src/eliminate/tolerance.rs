@@ -25,7 +25,7 @@ pub(super) const PIVOT: f64 = 0.3;
 /// solved for: rounding must not tell apart what the caller gave as equal.
 pub(super) const LARGEST_PIVOT: f64 = 1.0 - 1e-9;
 
-/// Numbers this close to an integer are that integer; design.md's tie rule uses the same.
+/// Numbers this close to an integer are that integer, as for ties (docs/problems.md).
 pub(super) const INTEGRAL: f64 = 1e-9;
 
 /// Of large numbers, this share may be noise on top of [`INTEGRAL`].

@@ -34,13 +34,22 @@ fn help(command: &str) -> String {
     String::from_utf8(output.stdout).unwrap()
 }
 
-/// The words behind the program's name, of every command of a page that runs it.
-fn commands_of(all: &[Block], page: &str) -> Vec<Vec<String>> {
+/// A command of the program, and the place of its block.
+struct Shown<'a> {
+    place: String,
+    words: Vec<&'a str>,
+}
+
+/// The commands of a page that run the program.
+fn commands_of<'a>(all: &'a [Block], page: &str) -> Vec<Shown<'a>> {
     let shell = all.iter().filter(|b| b.page == page && b.language == "sh");
-    let lines = shell.flat_map(|b| b.text.lines());
-    let mine = lines.filter_map(|l| NAMES.iter().find_map(|name| l.strip_prefix(name)));
-    mine.map(|l| l.split(' ').map(String::from).collect())
-        .collect()
+    let lines = shell.flat_map(|b| b.text.lines().map(|line| (b.place(), line)));
+    let mine = lines.filter_map(|(place, line)| {
+        let rest = NAMES.iter().find_map(|name| line.strip_prefix(name))?;
+        let words = rest.split(' ').collect();
+        Some(Shown { place, words })
+    });
+    mine.collect()
 }
 
 /// Commands of a page run in order, in one folder: what one writes, the next may read.
@@ -55,14 +64,12 @@ fn every_command_that_it_shows_succeeds() {
         let example = "examples/torus_field.mps";
         fs::copy(root().join(example), scratch.path(example)).unwrap();
         // The tests of `evaluate` run it on smaller meshes.
-        for words in commands.iter().filter(|words| words[0] != "evaluate") {
-            let words: Vec<&str> = words.iter().map(String::as_str).collect();
-            let mut command: Command = program(&words);
+        for Shown { place, words } in commands.iter().filter(|c| c.words[0] != "evaluate") {
+            let mut command: Command = program(words);
             command.current_dir(scratch.path(""));
             let (code, output) = finish(command);
             let errors = String::from_utf8_lossy(&output.stderr);
-            assert_eq!(code, 0, "{name}: {words:?}\n{errors}");
-            assert_eq!(errors, "", "{name}: {words:?}");
+            assert_eq!((code, &*errors), (0, ""), "{place}: {words:?}");
             count += 1;
         }
     }
@@ -71,11 +78,11 @@ fn every_command_that_it_shows_succeeds() {
 
 #[test]
 fn the_first_command_of_the_readme_makes_the_quads_that_it_promises() {
-    let commands = commands_of(&blocks(), "README.md");
-    assert_eq!(commands[0][..2], ["quad", "shape:gear:4000"]);
+    let all = blocks();
+    let words = &commands_of(&all, "README.md")[0].words;
+    assert_eq!(words[..2], ["quad", "shape:gear:4000"]);
     let scratch = Scratch::new("book-first");
-    let words: Vec<&str> = commands[0].iter().map(String::as_str).collect();
-    let mut command = program(&words);
+    let mut command = program(words);
     command.arg("--json").current_dir(scratch.path(""));
     let (_, output) = finish(command);
     let report = crate::run::only_object(&output);
