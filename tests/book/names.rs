@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use roundel::search::{OPTIONS, OptionKind, PRESETS};
 
@@ -170,6 +170,26 @@ fn every_paper_that_is_cited_is_in_the_bibliography() {
         }
     }
     assert!(cited > 50);
+    for path in sources(&root().join("src")) {
+        let text = fs::read_to_string(&path).unwrap();
+        for word in quoted(&text).into_iter().filter(|word| is_key(word)) {
+            assert!(entries.contains(&word), "{}: {word}", path.display());
+        }
+    }
+}
+
+/// Every Rust file of a folder and those in it.
+fn sources(folder: &Path) -> Vec<PathBuf> {
+    let mut found = Vec::new();
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        match path.is_dir() {
+            true => found.extend(sources(&path)),
+            false if path.extension().is_some_and(|e| e == "rs") => found.push(path),
+            false => {}
+        }
+    }
+    found
 }
 
 #[test]
