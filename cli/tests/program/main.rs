@@ -9,4 +9,5 @@ mod problem;
 mod quad;
 mod readme;
 mod run;
+mod same_quads;
 mod shape;
