@@ -47,6 +47,9 @@ pub mod problem;
 pub mod quad;
 pub mod round;
 pub mod solve;
+#[cfg(test)]
+#[path = "../tests/common/random.rs"]
+mod test_random;
 
 pub use error::{Error, Result};
 pub use problem::{Layout, Model, Problem, Triangle};

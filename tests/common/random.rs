@@ -15,7 +15,12 @@ impl Random {
         self.bits() as f64 / (1u64 << 52) as f64 - 1.0
     }
 
-    /// A number below `limit`.
+    /// A number in [0, 1).
+    pub fn unit(&mut self) -> f64 {
+        self.bits() as f64 / (1u64 << 53) as f64
+    }
+
+    /// A whole number below `limit`.
     pub fn below(&mut self, limit: usize) -> usize {
         (self.bits() % limit as u64) as usize
     }

@@ -28,6 +28,9 @@ fn quads_of_a_mesh_are_the_same_from_the_program_and_from_rust() {
         let made = quadrangulate(&mesh, &QuadOptions::default(), Monitor::default).unwrap();
         assert!(made.quads.is_conforming(), "{shape}");
         made.quads.write_obj(&ours).unwrap();
-        assert!(fs::read(quads).unwrap() == fs::read(ours).unwrap(), "{shape}");
+        assert!(
+            fs::read(quads).unwrap() == fs::read(ours).unwrap(),
+            "{shape}"
+        );
     }
 }

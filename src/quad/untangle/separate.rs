@@ -319,6 +319,10 @@ impl Joined {
 }
 
 #[cfg(test)]
+#[path = "separate_tests.rs"]
+mod on_flat_meshes;
+
+#[cfg(test)]
 mod tests {
     use super::*;
 
