@@ -4,6 +4,8 @@
 //! left out, and the test says so.
 #![cfg(target_os = "linux")]
 
+mod common;
+
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -26,7 +28,7 @@ fn the_cpp_example_runs() {
 #[test]
 fn the_julia_example_runs() {
     if !installed("julia") {
-        return println!("julia is not installed: skipped");
+        return common::skip::skip("julia is not installed");
     }
     let place = place("julia");
     fs::write(place.join("example.jl"), example("julia")).unwrap();
@@ -38,7 +40,7 @@ fn the_julia_example_runs() {
 #[test]
 fn the_csharp_example_runs() {
     if !installed("dotnet") {
-        return println!("dotnet is not installed: skipped");
+        return common::skip::skip("dotnet is not installed");
     }
     let place = place("csharp");
     let project = "<Project Sdk=\"Microsoft.NET.Sdk\"><PropertyGroup><OutputType>Exe</OutputType>\
@@ -54,7 +56,7 @@ fn the_csharp_example_runs() {
 #[test]
 fn the_csharp_example_runs_on_mono() {
     if !(installed("mcs") && installed("mono")) {
-        return println!("mono is not installed: skipped");
+        return common::skip::skip("mono is not installed");
     }
     let place = place("mono");
     let source = format!("using nuint = System.UInt64;\n{}", example("csharp"));

@@ -3,6 +3,7 @@
 #![allow(dead_code)]
 
 mod random;
+pub mod skip;
 
 pub use random::Random;
 use roundel::{Options, Problem, Result, Solution, Strategy, solve};

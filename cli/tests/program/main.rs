@@ -11,3 +11,5 @@ mod readme;
 mod run;
 mod same_quads;
 mod shape;
+#[path = "../../../tests/common/skip.rs"]
+mod skip;
