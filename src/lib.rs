@@ -54,6 +54,10 @@ pub mod smooth;
 pub mod solve;
 pub mod untangle;
 
+#[cfg(test)]
+#[path = "../tests/common/random.rs"]
+mod test_random;
+
 pub use error::{Error, InputError, Result};
 pub use monitor::{CancelToken, Event, Flow, Monitor};
 pub use problem::{Layout, Model, Problem, Triangle};

@@ -5,6 +5,7 @@
  * Edges that turn by DEGREES or more are features; 0: there are none. */
 
 #include "check.h"
+#include "same_bytes.h"
 
 #include <roundel/roundel.h>
 
@@ -69,17 +70,6 @@ static size_t compared(const char* name, const double* uv, size_t faces) {
     CHECK(fclose(file) == 0);
     free(vt);
     return whole;
-}
-
-static void same_bytes(const char* one, const char* other) {
-    FILE* a = fopen(one, "rb");
-    FILE* b = fopen(other, "rb");
-    CHECK(a != NULL && b != NULL);
-    for (int byte = 0; byte != EOF;) {
-        byte = getc(a);
-        CHECK(byte == getc(b));
-    }
-    CHECK(fclose(a) == 0 && fclose(b) == 0);
 }
 
 int main(int count, char** argument) {

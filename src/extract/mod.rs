@@ -25,6 +25,8 @@ mod quad_mesh;
 mod quad_obj;
 mod refined;
 mod repair;
+#[cfg(test)]
+mod repair_tests;
 mod trace;
 
 pub use faults::QuadFaults;

@@ -102,8 +102,9 @@ fn log_unit_ball(d: usize) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Gram, Limits, Target, enumerate, lll};
+    use super::super::{Gram, Limits, MOST, Target, enumerate, lll};
     use super::*;
+    use crate::test_random::Random;
 
     #[test]
     fn unit_balls_have_their_volumes() {
@@ -114,48 +115,101 @@ mod tests {
         }
     }
 
-    /// Nodes of an enumeration by nodes predicted, on average over targets.
-    fn ratio(with_diagonals: bool, predicted: f64) -> f64 {
-        // Few lattice points lie in balls of many dimensions, so radii stay as they are.
-        let n = 60;
-        let entry = |i: usize, j: usize| {
-            if i == j {
-                2.0
-            } else {
-                1.0 / (1 + i + j) as f64
-            }
+    /// Scalar products of `n` vectors that are nearly orthogonal.
+    fn reduced(n: usize) -> Basis {
+        let entry = |i: usize, j: usize| match i == j {
+            true => 2.0,
+            false => 1.0 / (1 + i + j) as f64,
         };
         let values = (0..n * n).map(|k| entry(k / n, k % n)).collect();
         let mut basis = Basis::new(&Gram::new(n, values).unwrap());
         lll(&mut basis, 5, &mut |_| false).unwrap();
-        let diagonals = with_diagonals.then(|| Diagonals::new(&basis, &mut || false).unwrap());
-        let diagonals = diagonals.as_ref();
+        basis
+    }
+
+    /// Nodes of an enumeration by nodes predicted, on average over targets.
+    fn ratio(basis: &Basis, diagonals: Option<&Diagonals>, predicted: f64) -> f64 {
+        let radius = radius_for(basis, diagonals, predicted, f64::MAX);
+        // Points that are found do not make the ball smaller while they are few.
         let limits = Limits {
-            radius: radius_for(&basis, diagonals, predicted, f64::MAX),
-            margin: 0.0,
+            radius,
+            margin: radius,
             nodes: u64::MAX,
         };
-        let targets = 20;
-        let nodes = |t: usize| {
-            let spread = |i: usize| 43758.5453 * ((i + 91 * t) as f64 * 12.9898).sin();
-            let point: Vec<f64> = (0..n).map(|i| spread(i).fract()).collect();
-            let target = Target::new(&basis, &point).unwrap();
-            enumerate(&basis, &target, diagonals, limits, &mut |_| false).nodes
-        };
-        (0..targets).map(nodes).sum::<u64>() as f64 / targets as f64 / predicted
+        let mut random = Random::new(1);
+        let targets = 400;
+        let mut nodes = 0;
+        for _ in 0..targets {
+            let point: Vec<f64> = (0..basis.rank()).map(|_| random.next()).collect();
+            let target = Target::new(basis, &point).unwrap();
+            let found = enumerate(basis, &target, diagonals, limits, &mut |_| false);
+            assert!(found.complete && found.near.len() < MOST);
+            nodes += found.nodes;
+        }
+        nodes as f64 / targets as f64 / predicted
     }
 
     #[test]
-    fn predictions_come_true_within_a_factor_of_two() {
+    fn predictions_come_true() {
         // Each visited node is looked at once more when its level ends.
-        let ratio = ratio(false, 3000.0);
-        assert!((1.0..4.0).contains(&ratio), "{ratio}");
+        let basis = reduced(60);
+        let plain = ratio(&basis, None, 1000.0);
+        assert!((1.8..2.2).contains(&plain), "{plain}");
+        let basis = reduced(24);
+        let diagonals = Diagonals::new(&basis, &mut || false).unwrap();
+        let cut = ratio(&basis, Some(&diagonals), 100.0);
+        assert!((1.8..2.2).contains(&cut), "{cut}");
+    }
+
+    /// How likely it is that the diagonal over undecided coordinates, their fractional parts spread
+    /// evenly, adds so many steps of this length: by one coordinate after the other.
+    fn spread(diagonal: &[f64], step: f64, steps: usize) -> Vec<f64> {
+        let mut likely = vec![0.0; steps];
+        likely[0] = 1.0;
+        for d in diagonal {
+            // d x^2 with x even in (-1/2, 1/2) is below y with this probability.
+            let below = |y: f64| (2.0 * (y.max(0.0) / d).sqrt()).min(1.0);
+            let adds = |j: usize| {
+                let at = j as f64;
+                below((at + 0.5) * step) - below((at - 0.5) * step)
+            };
+            let adds: Vec<f64> = (0..steps).map(adds).collect();
+            let sum = |k: usize| (0..=k).map(|j| adds[j] * likely[k - j]).sum();
+            likely = (0..steps).map(sum).collect();
+        }
+        likely
     }
 
     #[test]
-    fn predictions_with_diagonals_are_not_too_low() {
-        // What is cut on one level is not there to be cut on the next, which nobody predicts.
-        let ratio = ratio(true, 300.0);
-        assert!((0.01..4.0).contains(&ratio), "{ratio}");
+    fn predictions_with_diagonals_are_the_volumes_of_what_is_left() {
+        // Edges of unlike lengths, at right angles.
+        let (n, steps) = (12, 1000);
+        let square_of = |i: usize| 1.0 + (5 * i % n) as f64 / 6.0;
+        let entry = |k: usize| match k / n == k % n {
+            true => square_of(k % n),
+            false => 0.0,
+        };
+        let gram = Gram::new(n, (0..n * n).map(entry).collect()).unwrap();
+        let basis = Basis::new(&gram);
+        let diagonals = Diagonals::new(&basis, &mut || false).unwrap();
+        let mean = diagonals.moments(n).0;
+        for part in [0.7, 1.0, 1.5] {
+            let square = part * mean;
+            let step = square / steps as f64;
+            let on_level = |undecided: usize| -> f64 {
+                let decided = n - undecided;
+                let edges: f64 = (undecided..n).map(square_of).product();
+                let ball = log_unit_ball(decided).exp() / edges.sqrt();
+                let likely = spread(diagonals.level(undecided), step, steps);
+                let left = |j: usize| (square - j as f64 * step).powf(0.5 * decided as f64);
+                (0..steps).map(|j| ball * likely[j] * left(j)).sum()
+            };
+            let expected: f64 = (0..n).map(on_level).sum();
+            let predicted = predicted_nodes(&basis, Some(&diagonals), square);
+            let ratio = predicted / expected;
+            assert!((0.98..1.07).contains(&ratio), "{part}: {ratio}");
+            let back = radius_for(&basis, Some(&diagonals), predicted, f64::MAX);
+            assert!((back / square - 1.0).abs() < 1e-9, "{back} for {square}");
+        }
     }
 }

@@ -1,22 +1,9 @@
 //! What holds of every reduction and every enumeration, on random lattices.
 
 use super::*;
-
-/// Numbers in [-1, 1) (xorshift, Marsaglia 2003).
-struct Random(u64);
+use crate::test_random::Random;
 
 impl Random {
-    fn new(seed: u64) -> Self {
-        Random(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1)
-    }
-
-    fn next(&mut self) -> f64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
-    }
-
     /// Scalar products of `n` vectors whose lengths fall to `least`, then sheared by a random
     /// unimodular matrix, so that the condition number is large.
     fn gram(&mut self, n: usize, least: f64) -> Gram {

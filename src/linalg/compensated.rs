@@ -46,15 +46,54 @@ impl CompensatedSum {
 mod tests {
     use super::CompensatedSum;
 
+    fn sum(terms: &[f64]) -> f64 {
+        let mut sum = CompensatedSum::new(0.0);
+        terms.iter().for_each(|&term| sum.add(term));
+        sum.value()
+    }
+
     #[test]
-    fn cancelling_terms_leave_the_small_one() {
-        let mut sum = CompensatedSum::new(1e100);
-        sum.add(1.0);
-        sum.add_product(-1e50, 1e50);
-        assert!((sum.value() - (1.0 + (1e100 - 1e50 * 1e50))).abs() < 1e86);
-        let mut sum = CompensatedSum::new(1e16);
-        sum.add(1.0);
-        sum.add(-1e16);
-        assert_eq!(sum.value(), 1.0);
+    fn cancelling_terms_leave_the_small_ones() {
+        // Plain summation gives 0 each time; Kahan's the same for the last two.
+        assert_eq!(sum(&[1e16, 1.0, -1e16]), 1.0);
+        assert_eq!(sum(&[1.0, 1e100, -1e100]), 1.0);
+        assert_eq!(sum(&[1.0, 1e100, 1.0, -1e100]), 2.0);
+    }
+
+    #[test]
+    fn what_a_product_is_rounded_by_is_kept() {
+        // (1 + 2^-30)^2 = 1 + 2^-29 + 2^-60, of which a number holds the first two terms.
+        let factor = 1.0 + 2f64.powi(-30);
+        let mut sum = CompensatedSum::new(-1.0);
+        sum.add_product(factor, factor);
+        sum.add(-2f64.powi(-29));
+        assert_eq!(sum.value(), 2f64.powi(-60));
+    }
+
+    /// The bound of algorithm Dot2 (Ogita, Rump, Oishi 2005, proposition 5.5), against sums of whole
+    /// numbers in 128 bits that cancel nearly.
+    #[test]
+    fn scalar_products_are_those_of_twice_the_working_precision() {
+        for round in 0..50i128 {
+            let factor = |k: i128| (k * 2_654_435_769 + round * 40_503) % (1 << 32) - (1 << 31);
+            let mut sum = CompensatedSum::new(0.0);
+            let (mut exact, mut size) = (0, 0.0);
+            let mut add = |a: i128, b: i128| {
+                sum.add_product(a as f64, b as f64);
+                exact += a * b;
+                size += (a * b).abs() as f64;
+            };
+            // Products of up to 84 bits; the same again with the other sign, one factor off by one.
+            for k in 0..100 {
+                let (a, b) = (factor(3 * k) << 20, factor(3 * k + 1) * 2 + 1);
+                add(a, b);
+                add(-a + 1, b);
+            }
+            let unit = f64::EPSILON / 2.0;
+            let bound =
+                unit * (exact as f64).abs() + (200.0 * unit / (1.0 - 200.0 * unit)).powi(2) * size;
+            let error = (sum.value() - exact as f64).abs();
+            assert!(error <= bound, "round {round}: {error:e} above {bound:e}");
+        }
     }
 }

@@ -325,6 +325,10 @@ impl Joined {
 }
 
 #[cfg(test)]
+#[path = "collapsed_tests.rs"]
+mod on_flat_meshes;
+
+#[cfg(test)]
 mod tests {
     use super::*;
 

@@ -223,23 +223,92 @@ mod tests {
 
     #[test]
     fn the_hessian_is_that_of_the_energy_where_it_is_convex() {
+        // Larger than at rest in all directions: turning costs too, and nothing is cut off.
         let rest = Rest::new(REST);
-        let uv = [[0.1, 0.0], [1.31, 0.2], [0.4, 0.93]];
-        let hessian = rest.quadratic(&uv, 1e-3).hessian;
-        for j in 0..6 {
-            let slope = |step: f64| {
-                let mut moved = uv;
-                moved[j / 2][j % 2] += step;
-                rest.quadratic(&moved, 1e-3).slope
-            };
-            let (up, down) = (slope(1e-6), slope(-1e-6));
-            for i in 0..6 {
-                let difference = (up[i] - down[i]) / 2e-6;
-                let error = (difference - hessian[i][j]).abs();
-                // Rotations are nearly free here: their small negative curvature is cut off.
-                assert!(error < 0.05, "{i} {j}: {error:e}");
+        for (uv, eps) in [(1.2, 1e-3), (1.3, 0.1), (1.5, 1.0)].map(|(scale, eps)| {
+            let bent = |i: usize, x: f64| scale * x + 0.01 * i as f64;
+            let uv = [0, 1, 2].map(|i| REST[i].map(|x| bent(i, x)));
+            (uv, eps)
+        }) {
+            let hessian = rest.quadratic(&uv, eps).hessian;
+            for j in 0..6 {
+                let slope = |step: f64| {
+                    let mut moved = uv;
+                    moved[j / 2][j % 2] += step;
+                    rest.quadratic(&moved, eps).slope
+                };
+                let (up, down) = (slope(1e-5), slope(-1e-5));
+                for i in 0..6 {
+                    let difference = (up[i] - down[i]) / 2e-5;
+                    let error = (difference - hessian[i][j]).abs();
+                    assert!(error < 1e-7, "{i} {j}: {error:e}");
+                }
             }
         }
+    }
+
+    /// The Hessian by differences of the slope, its eigenvalues by rotations (Jacobi 1846) made no
+    /// smaller than the least that is kept; and how many of them were.
+    fn projected_differences(parts: &Parts, eps: f64) -> ([[f64; 4]; 4], usize) {
+        let slope = |k: usize, step: f64| {
+            let mut moved = *parts;
+            moved[k] += step;
+            in_parts(&moved, eps).0
+        };
+        let step = 1e-4 * eps.min(1.0);
+        let columns = [0, 1, 2, 3].map(|k| {
+            let at = [-2.0, -1.0, 1.0, 2.0].map(|n| slope(k, n * step));
+            [0, 1, 2, 3]
+                .map(|i| (at[0][i] - 8.0 * at[1][i] + 8.0 * at[2][i] - at[3][i]) / (12.0 * step))
+        });
+        let mut a =
+            [0, 1, 2, 3].map(|i| [0, 1, 2, 3].map(|j| 0.5 * (columns[i][j] + columns[j][i])));
+        let mut vectors = [0, 1, 2, 3].map(|i| [0, 1, 2, 3].map(|j| f64::from(u8::from(i == j))));
+        for _ in 0..20 {
+            for (p, q) in [(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)] {
+                let angle = 0.5 * (2.0 * a[p][q]).atan2(a[q][q] - a[p][p]);
+                let (s, c) = angle.sin_cos();
+                for row in a.iter_mut().chain(vectors.iter_mut()) {
+                    (row[p], row[q]) = (c * row[p] - s * row[q], s * row[p] + c * row[q]);
+                }
+                for j in 0..4 {
+                    (a[p][j], a[q][j]) = (c * a[p][j] - s * a[q][j], s * a[p][j] + c * a[q][j]);
+                }
+            }
+        }
+        let value = |k: usize| a[k][k].max(LEAST_CURVATURE);
+        let entry = |i: usize, j: usize| {
+            let term = |k: usize| value(k) * vectors[i][k] * vectors[j][k];
+            (0..4).map(term).sum()
+        };
+        let is_raised = |&k: &usize| a[k][k] < LEAST_CURVATURE;
+        let raised = (0..4).filter(is_raised).count();
+        let projected = [0, 1, 2, 3].map(|i| [0, 1, 2, 3].map(|j| entry(i, j)));
+        (projected, raised)
+    }
+
+    #[test]
+    fn the_hessian_is_that_of_the_energy_without_what_curves_downwards() {
+        let mut raised_of = Vec::new();
+        for uv in SHAPES {
+            for eps in [1.0, 0.1, 1e-2] {
+                let parts = Rest::new(REST).parts(&uv);
+                let found = in_parts(&parts, eps).1;
+                let (expected, raised) = projected_differences(&parts, eps);
+                let size = (0..4).map(|i| expected[i][i]).fold(0.0, f64::max);
+                for i in 0..4 {
+                    for j in 0..4 {
+                        let error = (found[i][j] - expected[i][j]).abs();
+                        assert!(error < 1e-7 * size, "{uv:?} {eps} {i} {j}: {error:e}");
+                    }
+                }
+                raised_of.push(raised);
+            }
+        }
+        assert!(
+            raised_of.contains(&0) && raised_of.contains(&2),
+            "{raised_of:?}"
+        );
     }
 
     #[test]

@@ -43,7 +43,7 @@ fn cpp_programs_run() {
 #[test]
 fn julia_programs_run() {
     if !installed("julia") {
-        return println!("julia is not installed: skipped");
+        return crate::common::skip::skip("julia is not installed");
     }
     let run = |block: &Block, place: &Path| {
         fs::write(place.join("example.jl"), &block.text).unwrap();
@@ -58,7 +58,7 @@ fn julia_programs_run() {
 #[test]
 fn csharp_programs_run() {
     if !installed("dotnet") {
-        return println!("dotnet is not installed: skipped");
+        return crate::common::skip::skip("dotnet is not installed");
     }
     let run = |block: &Block, place: &Path| {
         let project = "<Project Sdk=\"Microsoft.NET.Sdk\"><PropertyGroup>\
@@ -77,7 +77,7 @@ fn csharp_programs_run() {
 #[test]
 fn csharp_programs_run_on_mono() {
     if !(installed("mcs") && installed("mono")) {
-        return println!("mono is not installed: skipped");
+        return crate::common::skip::skip("mono is not installed");
     }
     let run = |block: &Block, place: &Path| {
         let source = format!("using nuint = System.UInt64;\n{}", block.text);
@@ -98,7 +98,7 @@ fn run_all(language: &str, prepare: impl Fn(&Block, &Path) -> Option<Command>) -
         let place = place(&format!("{language}-{count}"));
         count += 1;
         let Some(mut command) = prepare(block, &place) else {
-            println!("{}: a library is missing: skipped", block.place());
+            crate::common::skip::skip(&format!("{}: a library is missing", block.place()));
             continue;
         };
         let printed = output(command.current_dir(&place).env("LD_LIBRARY_PATH", &place));

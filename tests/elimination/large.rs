@@ -5,6 +5,7 @@ use std::time::{Duration, Instant};
 use roundel::eliminate::ReducedModel;
 use roundel::{Model, Options, Problem, Strategy, solve};
 
+use super::common::Random;
 use super::{reduce, violation};
 
 /// Generous: a slow machine without optimisation takes a tenth of it. What grows with the square
@@ -256,25 +257,14 @@ fn uneven_weights_of_a_mean_do_not_cost_accuracy() {
     assert!((a - b).abs() <= 1e-10 * a, "{a} against {b}");
 }
 
-/// Numbers in [-1, 1), the same every time (xorshift, Marsaglia 2003).
-fn random() -> impl FnMut() -> f64 {
-    let mut state = 0x9E37_79B9_7F4A_7C15u64;
-    move || {
-        state ^= state << 13;
-        state ^= state >> 7;
-        state ^= state << 17;
-        (state >> 11) as f64 / (1u64 << 52) as f64 - 1.0
-    }
-}
-
 /// `rows` rows of `width` real coefficients, each `step` further, that a known point solves.
 fn band(n: usize, rows: usize, width: usize, step: usize) -> Problem {
-    let mut random = random();
+    let mut random = Random::new(1);
     let mut problem = Problem::new(n).unwrap();
-    let point: Vec<f64> = (0..n).map(|_| random()).collect();
+    let point: Vec<f64> = (0..n).map(|_| random.next()).collect();
     for r in 0..rows {
         let indices: Vec<usize> = (r * step..r * step + width).map(|j| j % n).collect();
-        let row: Vec<f64> = indices.iter().map(|_| random()).collect();
+        let row: Vec<f64> = indices.iter().map(|_| random.next()).collect();
         let rhs = indices.iter().zip(&row).map(|(&j, a)| a * point[j]).sum();
         problem.add_constraint(&indices, &row, rhs).unwrap();
     }

@@ -1,5 +1,8 @@
 //! Elimination of the equality constraints: what it keeps, what it reports, how it scales.
 
+#[path = "../common/mod.rs"]
+mod common;
+
 mod brute_force;
 #[cfg(feature = "gzip")]
 mod corpus;

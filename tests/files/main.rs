@@ -1,5 +1,8 @@
 //! Files: what is written reads back as itself, what is broken is told with its line.
 
+#[path = "../common/mod.rs"]
+mod common;
+
 mod broken;
 #[cfg(feature = "gzip")]
 mod corpus;

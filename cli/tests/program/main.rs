@@ -9,4 +9,7 @@ mod parametrize;
 mod problem;
 mod quad;
 mod run;
+mod same_quads;
 mod shape;
+#[path = "../../../tests/common/skip.rs"]
+mod skip;
