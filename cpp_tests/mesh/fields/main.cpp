@@ -6,8 +6,7 @@
 //
 // (a) OpenMesh and CGAL assemble the same problem, with equal energies and equal integers.
 // (b) With --reference: greedy rounding makes the same decisions as a reference that factorizes
-// anew
-//     after each.
+//     anew after each.
 // (c) The energy on the mesh is the reported energy.
 // (d) Indices are multiples of 1/4, all ways to compute them agree, and their sum is the Euler
 //     characteristic.
