@@ -1,14 +1,14 @@
-//! The examples of docs/languages.md compile, run and print the solution.
+//! The examples of docs/languages.md compile, run, and print the solution.
 //!
-//! The tests of the Python package run its example. A language that is not installed is skipped, and the
-//! test says so.
+//! That in Python is run by the tests of the Python package. Languages that are not installed are
+//! left out, and the test says so.
 #![cfg(target_os = "linux")]
 
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// The output of every example.
+/// What every example prints.
 const SOLUTION: &str = "0.2 0\n";
 
 #[test]
@@ -65,7 +65,7 @@ fn the_csharp_example_runs_on_mono() {
     assert_eq!(output(mono.current_dir(&place)), SOLUTION);
 }
 
-/// The only block of the page in this language.
+/// The one block of the page in this language.
 fn example(language: &str) -> &'static str {
     let page = include_str!("../docs/languages.md");
     let fence = format!("```{language}\n");
@@ -79,7 +79,7 @@ fn installed(program: &str) -> bool {
     Command::new(program).arg("--version").output().is_ok()
 }
 
-/// An empty folder that holds the shared library under both of its names.
+/// An empty folder with the shared library in it, under both of its names.
 fn place(name: &str) -> PathBuf {
     let place = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("languages-{name}"));
     let _ = fs::remove_dir_all(&place);

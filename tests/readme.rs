@@ -1,6 +1,6 @@
-//! The README's C and C++ programs compile unchanged, with all warnings as errors.
+//! The README's C and C++ programs are accepted as they stand, with all warnings as errors.
 //!
-//! The tests of the installed package link and run the functions that they call.
+//! That what they call also links and runs is held by the tests of the installed package.
 
 use std::fs;
 use std::path::Path;
@@ -32,7 +32,7 @@ fn compiles(language: &str, compiler: &[&str]) {
     assert!(output.status.success(), "{text}");
 }
 
-/// The only block of the README in this language.
+/// The one block of the README in this language.
 fn example(language: &str) -> &'static str {
     let readme = include_str!("../README.md");
     let fence = format!("```{language}\n");
