@@ -1,4 +1,4 @@
-"""Every example that a reader sees is run."""
+"""Runs every example in the documentation."""
 
 import doctest
 import importlib
@@ -45,5 +45,5 @@ def test_the_examples_of_the_pages(page, says, tmp_path, monkeypatch, capsys):
     assert says in capsys.readouterr().out
 
 
-def test_the_package_says_that_it_is_typed():
+def test_the_package_is_marked_as_typed():
     assert (Path(roundel.__file__).parent / "py.typed").exists()
