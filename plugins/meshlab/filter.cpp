@@ -1,3 +1,5 @@
+// The filter's action: it quadrangulates the current layer and reports faults.
+
 #include "filter.hpp"
 
 #include "layer.hpp"

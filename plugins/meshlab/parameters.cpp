@@ -1,3 +1,5 @@
+// Declares the parameters of the dialog and translates them to Roundel's options.
+
 #include "parameters.hpp"
 
 #include <array>

@@ -1,3 +1,5 @@
+// Runs the groups of checks on CoMISo's interface.
+
 #include "zoo.hpp"
 
 int main() {

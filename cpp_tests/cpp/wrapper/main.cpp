@@ -1,3 +1,5 @@
+// Runs the groups of checks of the C++ layer.
+
 #include "wrapper.hpp"
 
 roundel::Problem chain(std::int32_t n) {

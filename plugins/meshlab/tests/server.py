@@ -1,10 +1,10 @@
-"""The plugin inside of Debian's MeshLab: meshlabserver runs filter scripts with it on real meshes, and
-the quads are those of `roundel quad` with the same options, corner for corner.
+"""Runs the plugin in Debian's MeshLab: meshlabserver applies filter scripts to real meshes, and the quads
+must equal those of `roundel quad` with the same options, corner for corner.
 
-meshlabserver looks for plugins beside its own file, so a copy of the program stands in a folder of
-the test, with links to MeshLab's library, its reader of meshes and our plugin. MeshLab holds
-coordinates in single precision: `roundel quad` gets the mesh as MeshLab wrote it, and its results are
-compared after they are rounded to that.
+meshlabserver looks for plugins beside its own file. So the test copies the program into a folder, with
+links to MeshLab's library, its mesh reader and our plugin. MeshLab stores coordinates in single
+precision. So `roundel quad` gets the mesh that MeshLab wrote, and its results are rounded to single
+precision before they are compared.
 """
 
 import argparse
