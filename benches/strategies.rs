@@ -1,4 +1,4 @@
-//! Time of each strategy on orientation fields and parametrizations of growing size.
+//! The time of each strategy on orientation fields and parametrizations of growing size.
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use roundel::field::{FieldProblem, curvature_constraints};

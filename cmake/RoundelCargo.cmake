@@ -1,5 +1,5 @@
-# Builds the library with cargo, which alone knows what has changed: the target always runs, and
-# copies what cargo made only when it differs.
+# Builds the library with cargo. Only cargo knows what has changed, so the target always runs. It copies
+# cargo's outputs only if they differ.
 
 find_program(CARGO cargo HINTS "$ENV{HOME}/.cargo/bin" REQUIRED)
 

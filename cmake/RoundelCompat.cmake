@@ -1,7 +1,8 @@
-# CoMISo::CoMISo: CoMISo's interface over this library, for programs written for it. Where such a
-# target is there already, it stays.
+# Defines the target CoMISo::CoMISo: CoMISo's interface over this library, for programs written for
+# CoMISo. An existing target of that name is kept.
 #
-# ROUNDEL_COMISO_REAL_GMM leaves out the gmm.h that stands in for GMM++, so that the real one is found.
+# With ROUNDEL_COMISO_REAL_GMM, the gmm.h that stands in for GMM++ is left out, so that the real one is
+# found.
 
 option(ROUNDEL_COMISO_REAL_GMM "CoMISo::CoMISo uses an installed GMM++" OFF)
 
@@ -17,7 +18,7 @@ if(NOT TARGET CoMISo::CoMISo)
                                      INTERFACE_LINK_LIBRARIES Roundel::roundel)
 endif()
 
-# The version of the interface, not of Roundel.
+# The version of CoMISo's interface, not of Roundel.
 set(COMISO_INTERFACE_VERSION 1.1.0)
 
 set(comiso_include "${CMAKE_INSTALL_INCLUDEDIR}/roundel-comiso")
@@ -38,7 +39,7 @@ write_basic_package_version_file("${PROJECT_BINARY_DIR}/CoMISoConfigVersion.cmak
 install(FILES "${PROJECT_BINARY_DIR}/CoMISoConfig.cmake"
               "${PROJECT_BINARY_DIR}/CoMISoConfigVersion.cmake"
         DESTINATION "${comiso_config_dir}")
-# Under find_package's other spelling of a config file, which ignores the case of the name.
+# find_package ignores the case of the name when it looks for config files of this other spelling.
 install(FILES "${PROJECT_BINARY_DIR}/CoMISoConfig.cmake" DESTINATION "${comiso_config_dir}"
         RENAME comiso-config.cmake)
 install(FILES "${PROJECT_BINARY_DIR}/CoMISoConfigVersion.cmake"

@@ -1,5 +1,5 @@
-# Installs libraries, headers, the CMake package and the pkg-config module. Nothing in them names
-# the place they were installed to: the tree can be moved.
+# Installs libraries, headers, the CMake package and the pkg-config module. No installed file names the
+# place of installation, so the tree can be moved.
 
 include(CMakePackageConfigHelpers)
 
@@ -19,7 +19,7 @@ configure_package_config_file(
     INSTALL_DESTINATION "${config_dir}"
     PATH_VARS CMAKE_INSTALL_INCLUDEDIR CMAKE_INSTALL_LIBDIR
     NO_CHECK_REQUIRED_COMPONENTS_MACRO)
-# While the major version is 0, a minor version may break what a patch may not.
+# While the major version is 0, a new minor version may be incompatible, a new patch may not.
 if(PROJECT_VERSION_MAJOR EQUAL 0)
     set(compatibility SameMinorVersion)
 else()
@@ -31,7 +31,7 @@ install(FILES "${PROJECT_BINARY_DIR}/RoundelConfig.cmake"
               "${PROJECT_BINARY_DIR}/RoundelConfigVersion.cmake"
         DESTINATION "${config_dir}")
 
-# From lib/pkgconfig back to the prefix, whatever the depth of lib.
+# The path from lib/pkgconfig back to the prefix, whatever the depth of lib.
 file(RELATIVE_PATH pc_up "${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig" "${CMAKE_INSTALL_PREFIX}")
 string(REGEX REPLACE "/$" "" pc_up "${pc_up}")
 set(pc_private "")

@@ -1,6 +1,6 @@
-# Roundel::roundel and Roundel::roundel_static inside of this build, for add_subdirectory.
+# Defines Roundel::roundel and Roundel::roundel_static inside this build, for add_subdirectory.
 
-# What Rust's standard library needs from the system when it is linked in.
+# System libraries that Rust's standard library needs when it is linked statically.
 if(APPLE)
     set(ROUNDEL_STATIC_LIBS System iconv m)
 else()

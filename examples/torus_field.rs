@@ -1,14 +1,15 @@
 //! The smallest orientation field: a smooth cross field on a coarse torus.
 //!
-//! One angle a face and one period jump a dual edge, E = sum (theta_i + kappa_ij + pi/2 p_ij -
-//! theta_j)^2 (Bommes, Zimmer, Kobbelt 2009, section 3). Jumps on a spanning forest of the dual
-//! graph are zero without loss, and one angle is constrained, since only differences count.
+//! The unknowns are one angle for each face and one period jump for each dual edge. The energy is
+//! E = sum (theta_i + kappa_ij + pi/2 p_ij - theta_j)^2 (Bommes, Zimmer, Kobbelt 2009, section 3).
+//! Jumps on a spanning forest of the dual graph are zero without loss of generality. One angle is
+//! constrained, since only differences count.
 //!
 //! ```text
 //! cargo run --release --example torus_field [OUT.mps]
 //! ```
 //!
-//! With a file name, the problem is written there: `examples/torus_field.mps` was made this way.
+//! With a file name, the problem is also written to that file. `examples/torus_field.mps` was made so.
 
 use std::collections::BTreeMap;
 use std::error::Error;
@@ -18,9 +19,9 @@ use std::path::Path;
 use roundel::problem::mps::{self, MpsProblem};
 use roundel::{Options, Problem, Strategy};
 
-/// Vertices around the hole and around the tube: 24 triangles.
+/// The numbers of vertices around the hole and around the tube. They give 24 triangles.
 const AROUND: [usize; 2] = [4, 3];
-/// Radius of the circle that the tube's centre runs along, and of the tube.
+/// The radius of the circle along which the centre of the tube runs, and the radius of the tube.
 const RADII: [f64; 2] = [2.0, 1.0];
 
 type Point = [f64; 3];
@@ -29,7 +30,7 @@ type Point = [f64; 3];
 struct DualEdge {
     i: usize,
     j: usize,
-    /// Angle of frame i's axis seen in frame j, in (-pi, pi].
+    /// The angle of frame i's axis in frame j, in (-pi, pi].
     kappa: f64,
 }
 
@@ -69,7 +70,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// A grid of quads, each split in two, all counter-clockwise from outside.
+/// A grid of quads, each split into two triangles, all counter-clockwise seen from outside.
 fn torus() -> (Vec<Point>, Vec<[usize; 3]>) {
     let [m, n] = AROUND;
     let mut points = Vec::new();
@@ -88,13 +89,13 @@ fn torus() -> (Vec<Point>, Vec<[usize; 3]>) {
     (points, faces)
 }
 
-/// The dual edges in order of their vertices, and what unfolding over each does to the frames.
+/// The dual edges in the order of their vertices, each with the angle between its two frames.
 fn dual_edges(points: &[Point], faces: &[[usize; 3]]) -> Vec<DualEdge> {
     let mut sides: BTreeMap<[usize; 2], Vec<(usize, f64)>> = BTreeMap::new();
     for (f, face) in faces.iter().enumerate() {
         for (k, angle) in edge_angles(face.map(|v| points[v])).into_iter().enumerate() {
             let (from, to) = (face[k], face[(k + 1) % 3]);
-            // Both faces have to measure the same direction of the edge.
+            // Both faces must measure the angle to the same direction of the edge.
             let turn = if from < to { 0.0 } else { PI };
             let side = sides.entry([from.min(to), from.max(to)]).or_default();
             side.push((f, angle + turn));
@@ -110,7 +111,7 @@ fn dual_edges(points: &[Point], faces: &[[usize; 3]]) -> Vec<DualEdge> {
     dual.collect()
 }
 
-/// Angles of a triangle's edges, counter-clockwise from the first.
+/// The angles of a triangle's edges, counter-clockwise from the first.
 fn edge_angles([a, b, c]: [Point; 3]) -> [f64; 3] {
     [0.0, PI - corner(b, c, a), PI + corner(a, b, c)]
 }

@@ -1,4 +1,5 @@
-//! Adaptive greedy rounding: what holds for all of its parameters, and that each part is used.
+//! Adaptive greedy rounding: properties that hold for all its parameters, and tests that each part of
+//! it is used.
 
 mod common;
 
@@ -83,7 +84,7 @@ fn conjugate_gradients_and_factorizations_alone_are_exact_greedy_too() {
 }
 
 #[test]
-fn few_integers_are_decided_as_greedy_decides_them() {
+fn few_integers_get_the_values_of_exact_greedy() {
     let problem = field("torus", 600);
     let options = Options {
         exact_integers: 1000,
@@ -123,7 +124,7 @@ fn direct(problem: &Problem) -> Solution {
 }
 
 #[test]
-fn the_parameter_sets_of_the_thesis_solve_what_they_are_for() {
+fn the_parameter_sets_of_the_thesis_solve_their_problems() {
     let field = field("rounded-cube", 2000);
     let solution = solve(&field, &Options::orientation_field()).unwrap();
     assert!(solution.energy() <= direct(&field).energy());

@@ -1,12 +1,12 @@
-//! What the layout promises, read off the sources.
+//! The layout of the sources: the rules that it promises, checked in the text of every file.
 //!
-//! Each layer names only those below it, `unsafe` has one home, the library never prints, and files
-//! stay short enough to be one idea.
+//! Each layer names only lower ones, `unsafe` occurs only in the C interface, the library never prints,
+//! and every file is short enough to hold one idea.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// The layers, from the ground up. A file names its own layer and those before it, nothing else.
+/// The layers from the lowest to the highest. A file names its own layer and lower ones, nothing else.
 const LAYERS: [&str; 19] = [
     "error",
     "monitor",
@@ -29,7 +29,7 @@ const LAYERS: [&str; 19] = [
     "capi",
 ];
 
-/// No file is longer, in lines.
+/// The largest number of lines in a file.
 const LONGEST: usize = 600;
 
 #[test]
@@ -112,7 +112,7 @@ fn every_file_says_first_what_it_is() {
 }
 
 #[test]
-fn a_layer_is_found_in_every_way_to_name_it() {
+fn every_way_to_name_a_layer_is_recognised() {
     let at_root = [("Solver".to_string(), "solve".to_string())];
     for text in [
         "use crate::solve::Thing;",
@@ -147,13 +147,13 @@ fn words_in_comments_strings_and_inner_paths_name_no_layer() {
 }
 
 #[test]
-fn tests_are_left_out_and_what_follows_is_not() {
+fn code_for_tests_is_left_out_and_the_code_after_it_is_kept() {
     let text = "use a; #[cfg(test)] mod tests { fn f() { { } } } fn g() {} #[cfg(test)] use b; c";
     assert_eq!(without_tests(&tokens(text)), tokens("use a; fn g() {} c"));
 }
 
 #[test]
-fn a_macro_is_found_where_it_is_called_and_nowhere_else() {
+fn a_macro_is_found_only_where_it_is_called() {
     let tokens = tokens("fn print() { if print != 0 { eprintln! (\"x\"); std::println!() } }");
     let found = macros_called(&tokens, &["print", "println", "eprintln"]);
     assert_eq!(found, ["eprintln", "println"]);
@@ -189,7 +189,7 @@ fn module(path: &Path) -> &str {
     first.file_stem().unwrap().to_str().unwrap()
 }
 
-/// Words and signs of Rust source, `::` as one, without comments, strings and characters.
+/// The words and signs of Rust source, without comments, strings and characters; `::` is one sign.
 fn tokens(text: &str) -> Vec<String> {
     let chars: Vec<char> = text.chars().collect();
     let mut tokens = Vec::new();
@@ -278,7 +278,7 @@ fn skip_character_or_lifetime(chars: &[char], from: usize) -> usize {
     }
 }
 
-/// Where a layer stands, from the ground up.
+/// The place of a layer in the list, counted from the lowest.
 fn height(layer: &str) -> Option<usize> {
     LAYERS.iter().position(|&l| l == layer)
 }
@@ -290,14 +290,14 @@ fn depth(path: &Path) -> usize {
     inner.iter().count() - usize::from(is_folder)
 }
 
-/// Whether a file holds tests alone.
+/// Whether the file contains only tests.
 fn is_test(path: &Path) -> bool {
     let stem = path.file_stem().unwrap().to_str().unwrap();
     stem == "tests" || stem.ends_with("_tests")
 }
 
-/// Tests may use what stands above their layer: what follows `#[cfg(test)]` is left out, up to the
-/// brace that closes it or, where there is none, its semicolon.
+/// Leaves out the code marked `#[cfg(test)]`, because tests may use higher layers. Such code ends at
+/// its closing brace, or at its semicolon if it has no braces.
 fn without_tests(tokens: &[String]) -> Vec<String> {
     let marker = ["#", "[", "cfg", "(", "test", ")", "]"];
     let mut kept = Vec::new();
@@ -325,7 +325,7 @@ fn without_tests(tokens: &[String]) -> Vec<String> {
     kept
 }
 
-/// The names that `lib.rs` brings to the root of the crate, each with its layer.
+/// The names that `lib.rs` re-exports at the root of the crate, each with its layer.
 fn names_at_root() -> Vec<(String, String)> {
     let text = fs::read_to_string(root().join("lib.rs")).unwrap();
     let tokens = tokens(&text);
@@ -340,8 +340,8 @@ fn names_at_root() -> Vec<(String, String)> {
     found
 }
 
-/// The layers that paths from the root of the crate lead to, once a path, in a file so many modules
-/// below it. A name of the root that is no module stands for its layer.
+/// The layers that a file names by paths from the root of the crate, one entry a path. `depth` is the
+/// number of modules between the file and the root. A re-exported name counts as its layer.
 fn layers_named(tokens: &[String], depth: usize, at_root: &[(String, String)]) -> Vec<String> {
     let mut found = Vec::new();
     let mut i = 0;
@@ -388,7 +388,7 @@ fn first_segments(tokens: &[String]) -> Vec<String> {
     found
 }
 
-/// Those of `names` that are called as macros.
+/// The names in `names` that are called as macros.
 fn macros_called(tokens: &[String], names: &[&str]) -> Vec<String> {
     let called = |w: &&[String]| {
         names.contains(&w[0].as_str()) && w[1] == "!" && matches!(w[2].as_str(), "(" | "[" | "{")

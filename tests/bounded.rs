@@ -1,11 +1,11 @@
-//! What is left of large terms that cancel is no slope: objectives that have a minimum are never
-//! called unbounded, and those that fall without end always are.
+//! Unbounded objectives are recognised, and bounded ones are never called unbounded: rounding errors of
+//! large terms that cancel do not count as a slope.
 
 use proptest::prelude::*;
 use roundel::{Error, Options, Problem, Strategy as Rounding, solve};
 
-/// Squares of differences along a cycle of `rhs.len()` unknowns, each with an integer of its own:
-/// nothing decides the sum of the unknowns.
+/// Squares of the differences along a cycle of `rhs.len()` unknowns, each with its own integer. The
+/// energy does not depend on the sum of the unknowns.
 fn cycle(rhs: &[f64], turn: f64) -> Problem {
     let n = rhs.len();
     let mut problem = Problem::new(2 * n).unwrap();
@@ -37,7 +37,7 @@ fn rounding() -> impl Iterator<Item = Options> {
 
 proptest! {
     #[test]
-    fn right_sides_of_any_size_leave_a_minimum(
+    fn an_objective_with_right_sides_of_any_size_has_a_minimum(
         rhs in prop::collection::vec((-1.0..1.0, -3..10), 3..12),
         turn in 0.1..2.0,
     ) {
@@ -50,7 +50,7 @@ proptest! {
     }
 
     #[test]
-    fn constraints_with_large_right_sides_leave_a_minimum(
+    fn an_objective_with_large_constraint_right_sides_has_a_minimum(
         rhs in prop::collection::vec(-1.0..1.0, 3..8),
         apart in (-1.0..1.0, 0..9),
     ) {
@@ -64,7 +64,7 @@ proptest! {
     }
 
     #[test]
-    fn a_slope_beside_them_is_found(
+    fn a_small_slope_beside_large_right_sides_is_found(
         rhs in prop::collection::vec((-1.0..1.0, -3..4), 3..12),
         slope in prop_oneof![-1.0..-1e-3, 1e-3..1.0],
     ) {
@@ -83,9 +83,9 @@ proptest! {
     }
 }
 
-/// As it was found: the second and third row cannot be told from each other beside the first.
+/// A regression: beside the first right side, those of the second and third row are below rounding.
 #[test]
-fn one_right_side_of_1e10_leaves_a_minimum() {
+fn an_objective_with_one_right_side_of_1e10_has_a_minimum() {
     let problem = cycle(&[1e10, 0.3, 0.1], 0.5);
     for options in rounding() {
         assert!(solve(&problem, &options).is_ok(), "{:?}", options.strategy);

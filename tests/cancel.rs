@@ -1,4 +1,4 @@
-//! Cancelling from another thread, at any moment of any phase.
+//! Cancelling a solve from another thread, at any moment of any phase.
 
 use std::time::{Duration, Instant};
 
@@ -18,14 +18,14 @@ fn field(triangles: usize) -> Problem {
     field.problem().clone()
 }
 
-/// How one cancelled solve ended, and how long after the request.
+/// How a cancelled solve ended, and how long after the request.
 struct Ended {
     requested: Duration,
     latency: Duration,
     solved: bool,
 }
 
-/// Solves, cancelled after `delay`; whatever it returns is held to what a cancelled solve owes.
+/// Solves, cancels after `delay`, and checks the properties of a cancelled result.
 fn cancelled_after(problem: &Problem, options: &Options, delay: Duration) -> Ended {
     let token = CancelToken::new();
     let from_outside = token.clone();
@@ -75,13 +75,16 @@ fn a_cancelled_solve_is_a_valid_solution_or_a_typed_error() {
             let ended = cancelled_after(&problem, &options, whole.mul_f64(f64::from(step) / 12.0));
             early += usize::from(!ended.solved);
         }
-        assert!(early > 0, "cancelled at once, there is nothing to return");
+        assert!(
+            early > 0,
+            "no solve was cancelled before its first solution"
+        );
     }
 }
 
-/// The first improvement is the earlier solution, offered before the search begins.
+/// The first improvement that a warm start reports is the earlier solution, before the search begins.
 #[test]
-fn what_a_warm_start_offers_outlives_a_cancel() {
+fn a_cancelled_warm_start_returns_the_earlier_solution() {
     let problem = field(1_000);
     for options in strategies() {
         let options = Options {
@@ -105,8 +108,8 @@ fn what_a_warm_start_offers_outlives_a_cancel() {
     }
 }
 
-/// The figure that the library promises, at a size where it costs something. Run it alone, on a
-/// quiet machine: `cargo test --release --test cancel -- --ignored --nocapture`.
+/// The promised latency, at a size where cancelling is not trivial. Run it alone on a quiet machine:
+/// `cargo test --release --test cancel -- --ignored --nocapture`.
 #[test]
 #[ignore = "takes a minute and a quiet machine"]
 fn at_200_000_triangles_cancelling_takes_at_most_100_milliseconds() {
@@ -114,7 +117,7 @@ fn at_200_000_triangles_cancelling_takes_at_most_100_milliseconds() {
     let mut late = Vec::new();
     for options in strategies() {
         let started = Instant::now();
-        // Exact greedy decides 100,000 integers for minutes: look at its first seconds.
+        // Exact greedy takes minutes to decide 100,000 integers. Only its first seconds are tested.
         let horizon = Options {
             time_limit: 8.0,
             ..options.clone()
@@ -125,7 +128,7 @@ fn at_200_000_triangles_cancelling_takes_at_most_100_milliseconds() {
         for step in 0..16 {
             let delay = whole.mul_f64((f64::from(step) + 0.5) / 16.0);
             let ended = cancelled_after(&problem, &options, delay);
-            // Before the first solution stand factorizations, which cannot be interrupted.
+            // Factorizations come before the first solution and cannot be interrupted.
             let factoring = if ended.solved { 0.0 } else { factoring };
             if ended.latency.as_secs_f64() > 0.1 + factoring {
                 late.push((options.strategy.name(), ended.requested, ended.latency));

@@ -1,4 +1,4 @@
-//! The same input gives the same bits: from run to run, and whatever the number of threads.
+//! The same input gives the same bits in every run and with any number of threads.
 
 mod common;
 
@@ -30,7 +30,7 @@ fn problems() -> Vec<Problem> {
     problems
 }
 
-/// FNV-1a over the bits of all values.
+/// The FNV-1a hash of the bits of all values.
 fn digest(values: &[f64]) -> u64 {
     let bytes = values.iter().flat_map(|x| x.to_bits().to_le_bytes());
     bytes.fold(0xcbf2_9ce4_8422_2325, |hash, byte| {

@@ -1,4 +1,4 @@
-//! Quad extraction: what must hold for any map, sound or not.
+//! Quad extraction: properties that hold for any map, with or without defects.
 
 use roundel::extract::{IntegerGridMap, Origin, QuadMesh, extract};
 use roundel::field::{FieldProblem, curvature_constraints};
@@ -9,7 +9,7 @@ use roundel::{CancelToken, Error, Monitor, Options, solve};
 
 type Corners = Vec<[[f64; 2]; 3]>;
 
-/// A flat square of `n` by `n` units in two triangles a unit square, and its coordinates.
+/// A flat square of `n` by `n` units, with two triangles for each unit square, and its coordinates.
 fn plane(n: usize) -> (TriangleMesh, Corners) {
     let at = |i: usize, j: usize| (i * (n + 1) + j) as u32;
     let mut vertices = Vec::new();
@@ -36,7 +36,7 @@ fn flat(mesh: &TriangleMesh, vertex: u32) -> [f64; 2] {
     [x, y]
 }
 
-/// The unit cube's surface, `n` by `n` squares a side, each side a chart of `scale` units.
+/// The surface of the unit cube, `n` by `n` squares a side. Each side is a chart of `scale` units.
 fn cube(n: usize, scale: f64) -> (TriangleMesh, Corners) {
     let mut vertices: Vec<[f64; 3]> = Vec::new();
     let mut triangles = Vec::new();
@@ -87,7 +87,7 @@ fn map_of(mesh: &TriangleMesh, quads: usize) -> SeamlessMap {
     problem.map(mesh, &solution).unwrap()
 }
 
-/// Number of edges at every vertex of a closed mesh, sorted.
+/// The number of edges at every vertex of a closed mesh, sorted.
 fn valences(quads: &QuadMesh) -> Vec<usize> {
     let mut valence = vec![0; quads.vertices.len()];
     for &v in quads.faces().flatten() {
@@ -98,7 +98,7 @@ fn valences(quads: &QuadMesh) -> Vec<usize> {
 }
 
 #[test]
-fn a_square_of_units_gives_each_unit_square_with_its_corners() {
+fn a_square_of_units_gives_each_unit_square_as_a_quad() {
     for n in [1, 2, 5] {
         let (mesh, uvs) = plane(n);
         let quads = quads_of(&mesh, &uvs);
@@ -121,7 +121,7 @@ fn a_square_of_units_gives_each_unit_square_with_its_corners() {
 }
 
 #[test]
-fn lines_off_the_boundary_leave_partial_cells_that_are_told() {
+fn partial_cells_at_a_boundary_off_the_isolines_are_reported() {
     let (mesh, uvs) = plane(4);
     let shifted = uvs
         .iter()
@@ -134,7 +134,7 @@ fn lines_off_the_boundary_leave_partial_cells_that_are_told() {
 }
 
 #[test]
-fn charts_of_a_cube_give_its_sides_in_squares() {
+fn a_chart_for_each_side_of_a_cube_gives_its_squares() {
     for (n, scale) in [(1, 1.0), (1, 3.0), (2, 3.0), (4, 2.0), (3, 3.0)] {
         let (mesh, uvs) = cube(n, scale);
         let quads = quads_of(&mesh, &uvs);
@@ -158,7 +158,7 @@ fn charts_of_a_cube_give_its_sides_in_squares() {
 }
 
 #[test]
-fn turning_and_shifting_charts_leaves_the_quads() {
+fn turning_and_shifting_charts_does_not_change_the_quads() {
     let (mesh, uvs) = cube(3, 4.0);
     let before = quads_of(&mesh, &uvs);
     let charts: Corners = (uvs.iter().enumerate())
@@ -190,12 +190,12 @@ fn turning_and_shifting_charts_leaves_the_quads() {
 }
 
 #[test]
-fn planted_folds_away_from_irregular_vertices_leave_no_trace() {
+fn folds_away_from_irregular_vertices_do_not_change_the_quads() {
     let (mesh, uvs) = plane(6);
     let mut at: Vec<[f64; 2]> = (0..mesh.vertex_count() as u32)
         .map(|v| flat(&mesh, v))
         .collect();
-    // Pulled over its neighbours, and over integer points.
+    // Move two vertices over their neighbours and over integer points.
     at[3 * 7 + 3] = [4.6, 4.3];
     at[2 * 7 + 2] = [2.4, 3.7];
     let folded = mesh
@@ -214,7 +214,7 @@ fn planted_folds_away_from_irregular_vertices_leave_no_trace() {
 }
 
 #[test]
-fn shapes_become_quads_of_their_topology() {
+fn quads_have_the_topology_of_their_shape() {
     for name in [
         "rounded-cube",
         "sphere",
@@ -230,7 +230,10 @@ fn shapes_become_quads_of_their_topology() {
         assert!(quads.is_conforming(), "{name}: {:?}", quads.figures());
         assert_eq!(quads.figures().boundary_edges, 0, "{name}");
         let same = quads_of(&mesh, &map.corner_uvs());
-        assert_eq!(quads, same, "{name}: transitions given and found");
+        assert_eq!(
+            quads, same,
+            "{name}: with given and with computed transitions"
+        );
         if quads.unfolded + quads.repaired == 0 {
             assert_eq!(quads.figures().irregular, map.cones().len(), "{name}");
         }
@@ -249,7 +252,7 @@ fn shapes_become_quads_of_their_topology() {
 }
 
 #[test]
-fn valences_are_those_of_the_fields_indices() {
+fn valences_follow_from_the_indices_of_the_field() {
     let mesh = shape::by_name("rounded-cube", 3000).unwrap();
     let quads = quads_of(&mesh, &map_of(&mesh, 500).corner_uvs());
     let valences = valences(&quads);
@@ -257,7 +260,7 @@ fn valences_are_those_of_the_fields_indices() {
 }
 
 #[test]
-fn garbage_is_refused_by_the_element_at_fault() {
+fn bad_input_is_refused_with_the_element_at_fault() {
     let (mesh, uvs) = cube(2, 2.0);
     let refused = |face: usize, value: f64| {
         let mut uvs = uvs.clone();
@@ -286,7 +289,7 @@ fn garbage_is_refused_by_the_element_at_fault() {
 #[test]
 fn irregular_vertices_off_the_integers_are_refused() {
     let (mesh, uvs) = cube(1, 1.0);
-    // Half a unit off: transitions still are integers, the points where they close are not.
+    // Transitions are still integers after a shift by half a unit, but irregular vertices are not.
     let halved: Corners = uvs
         .iter()
         .map(|uv| uv.map(|p| p.map(|x| x + 0.5)))
@@ -297,7 +300,7 @@ fn irregular_vertices_off_the_integers_are_refused() {
 }
 
 #[test]
-fn any_vertices_moved_anywhere_end_in_faces_of_an_even_number_of_sides() {
+fn maps_with_moved_vertices_give_faces_with_an_even_number_of_sides() {
     let (mesh, _) = plane(7);
     let mut state = 0.123;
     let mut random = || {
@@ -322,7 +325,7 @@ fn any_vertices_moved_anywhere_end_in_faces_of_an_even_number_of_sides() {
 }
 
 #[test]
-fn a_cancelled_extraction_ends_in_that_error() {
+fn a_cancelled_extraction_returns_that_error() {
     let (mesh, uvs) = plane(3);
     let token = CancelToken::new();
     token.cancel();

@@ -1,5 +1,5 @@
-//! Problems whose numbers are at the ends of what doubles hold: the solve ends, with a solution or an
-//! error.
+//! Problems with the largest and the smallest numbers that doubles can represent: every solve ends, with
+//! a solution or an error.
 
 use std::sync::mpsc;
 use std::thread;
@@ -22,8 +22,8 @@ fn ends_with(problem: Problem, options: Options) -> bool {
     said.is_ok_and(|found| found.unwrap_or(true))
 }
 
-/// Found by the fuzzer: the squares of these numbers are zero, an energy becomes 0/0, and the
-/// improvement of charges waited for it to fall.
+/// Found by the fuzzer. The squares of these numbers are zero, so an energy is 0/0, and the improvement
+/// of charges waited for it to decrease.
 #[test]
 fn a_solve_ends_where_squares_underflow() {
     let q = [
@@ -42,8 +42,8 @@ fn a_solve_ends_where_squares_underflow() {
     assert!(ends(problem));
 }
 
-/// Found by the fuzzer: the lattice that is left is singular but for rounding errors, its points are
-/// huge, and the improvement of blocks went to and fro between two of them.
+/// Found by the fuzzer. The reduced lattice is singular up to rounding errors and its points are huge. The
+/// improvement of blocks alternated between two of them.
 #[test]
 fn a_solve_ends_where_the_lattice_is_nearly_singular() {
     let rows: [&[f64]; 6] = [
@@ -83,7 +83,7 @@ fn a_solve_ends_at_every_scale() {
         let mut rows = edges.iter().map(|(at, rhs)| {
             problem.add_least_squares(at, &[scale, -scale, 0.5 * scale], rhs * scale, 1.0)
         });
-        // A scale whose square overflows is refused when it is given, or when it is solved for.
+        // A scale whose square overflows is refused when the row is added or when the problem is solved.
         let given = rows.all(|row| row.is_ok());
         if given {
             problem.set_integers(&[3]).unwrap();
@@ -92,10 +92,10 @@ fn a_solve_ends_at_every_scale() {
     }
 }
 
-/// All that is asked for is that `x + sqrt2 y + sqrt3 z - 0.3` be small: the larger the integers may be,
-/// the smaller it is, and nothing is least.
+/// The only term is the square of `x + sqrt2 y + sqrt3 z + sqrt5 w - 0.3`. Larger integers make it
+/// smaller without end, so no point attains the least value.
 #[test]
-fn a_dense_lattice_is_rounded_and_no_error() {
+fn a_dense_lattice_is_rounded_without_an_error() {
     let mut problem = Problem::new(4).unwrap();
     problem.set_integers(&[0, 1, 2, 3]).unwrap();
     let flat = [1.0, 2f64.sqrt(), 3f64.sqrt(), 5f64.sqrt()];
@@ -118,10 +118,10 @@ fn a_dense_lattice_is_rounded_and_no_error() {
     }
 }
 
-/// Found by the fuzzer: the integers of these constraints are multiples of one parameter around 6e8, plus
-/// offsets of 1e14, of which the continuous unknowns beside them kept six digits.
+/// Found by the fuzzer. The integers of these constraints are multiples of one parameter around 6e8 plus
+/// offsets of 1e14. The continuous unknowns that depend on them kept only six digits.
 #[test]
-fn a_chain_of_integer_constraints_costs_continuous_unknowns_no_digits() {
+fn continuous_unknowns_keep_their_digits_behind_a_chain_of_integer_constraints() {
     let rows: [(&[usize], &[f64], f64); 7] = [
         (&[5, 2, 1, 3], &[0.5, 4.5, -8.0, 2.5], 2.5),
         (&[4, 0, 2, 5], &[4.0, 4.0, 0.5, -7.0], 4.5),

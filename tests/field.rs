@@ -1,4 +1,4 @@
-//! Orientation fields on procedural shapes: what must hold on any mesh.
+//! Orientation fields on procedural shapes: properties that hold on any mesh.
 
 use roundel::field::{Constraint, FieldProblem, OrientationField, curvature_constraints};
 use roundel::mesh::{TriangleMesh, shape};
@@ -68,7 +68,7 @@ fn indices_are_quarters_that_sum_to_the_euler_characteristic() {
 }
 
 #[test]
-fn a_rounded_cube_has_its_eight_corners_irregular() {
+fn the_eight_corners_of_a_rounded_cube_are_irregular() {
     let mesh = shape::by_name("rounded-cube", 10_000).unwrap();
     let constraints = curvature_constraints(&mesh, 0.1).unwrap();
     let (field, _) = field(&mesh, &constraints);
@@ -93,7 +93,7 @@ fn constrained_faces_keep_their_direction() {
 }
 
 #[test]
-fn constraints_that_make_no_sense_are_refused_by_position() {
+fn invalid_constraints_are_refused_with_their_position() {
     let mesh = shape("torus", 800);
     let refused = |constraints: &[(usize, f64)]| {
         let constraints = constraints.iter();
@@ -115,7 +115,7 @@ fn constraints_that_make_no_sense_are_refused_by_position() {
 }
 
 #[test]
-fn the_rings_hold_as_a_cycle_hint() {
+fn rings_around_vertices_form_a_valid_cycle_hint() {
     for name in SHAPES {
         let mesh = shape(name, 600);
         let problem = FieldProblem::new(&mesh, &curvature_constraints(&mesh, 0.05).unwrap());

@@ -1,4 +1,4 @@
-//! Direct and exact greedy rounding against dense textbook versions on the same reduced model.
+//! Direct and exact greedy rounding, compared with dense textbook versions on the same reduced model.
 
 mod common;
 
@@ -8,7 +8,7 @@ use roundel::{Model, Monitor, Options, Problem, Strategy, solve};
 
 const TIE: f64 = 1e-9;
 
-/// Minimises the reduced objective with some unknowns held, from scratch.
+/// Minimises the reduced objective with some unknowns held at given values, from scratch.
 fn minimise(model: &ReducedModel, held: &[Option<f64>]) -> Vec<f64> {
     let n = model.dim();
     let mut hessian = vec![vec![0.0; n]; n];
@@ -113,7 +113,7 @@ fn direct_rounds_the_relaxation_once() {
 
 #[test]
 fn a_field_without_a_fixed_angle_is_decided_like_one_with() {
-    // Turning all angles together changes nothing, so the free angle must cost and decide nothing.
+    // The energy does not change when all angles turn together, so the free angle decides nothing.
     for seed in 1..10 {
         let fixed = common::orientation_field(4, seed).unwrap();
         let mut free = fixed.clone();
@@ -127,10 +127,7 @@ fn a_field_without_a_fixed_angle_is_decided_like_one_with() {
                 solve(&fixed, &options).unwrap(),
                 solve(&free, &options).unwrap(),
             );
-            assert!(
-                free.energy() > 0.1,
-                "a field that is not smooth for nothing"
-            );
+            assert!(free.energy() > 0.1, "the field must not be smooth");
             assert!((fixed.energy() - free.energy()).abs() < 1e-9 * fixed.energy());
         }
     }

@@ -1,18 +1,18 @@
-//! The integer-grid-map check: perfect maps pass, and of a planted defect exactly what it spoils is
-//! named.
+//! The check of integer-grid maps: perfect maps pass, and a planted defect is reported at exactly the
+//! elements that it spoils.
 
 use roundel::check::{CheckOptions, MapCheck, Singularity, check_map, feature_edges};
 use roundel::mesh::{TriangleMesh, shape};
 
 type Corners = Vec<[[f64; 2]; 3]>;
 
-/// A mesh and coordinates for its corners.
+/// A mesh and the coordinates of its corners.
 struct Case {
     mesh: TriangleMesh,
     uv: Corners,
 }
 
-/// `side` by `side` unit squares in the plane, two triangles each.
+/// `side` by `side` unit squares in the plane, with two triangles each.
 fn plane(side: u32) -> Case {
     let at = |x: u32, y: u32| y * (side + 1) + x;
     let points = (0..=side).flat_map(|y| (0..=side).map(move |x| [x.into(), y.into(), 0.0]));
@@ -30,7 +30,8 @@ fn plane(side: u32) -> Case {
     }
 }
 
-/// A cube of `side` by `side` squares a side, each side its own chart, turned by another quarter.
+/// A cube of `side` by `side` squares a side. Each side is its own chart, turned by another number of
+/// quarters.
 fn cube(side: u32) -> Case {
     let n = i64::from(side);
     let mut points: Vec<[i64; 3]> = Vec::new();
@@ -47,7 +48,7 @@ fn cube(side: u32) -> Case {
         let place = |u: i64, v: i64| {
             let mut p = [0; 3];
             p[axis] = n * (chart % 2);
-            // The two other axes in the order that looks outwards.
+            // The other two axes, in the order that makes the normal point outwards.
             let (a, b) = if chart % 2 == 1 { (1, 2) } else { (2, 1) };
             (p[(axis + a) % 3], p[(axis + b) % 3]) = (u, v);
             p
@@ -76,7 +77,7 @@ fn cube(side: u32) -> Case {
     Case { mesh, uv }
 }
 
-/// A torus of squares, every triangle its own chart: turned by quarters and shifted by integers.
+/// A torus of squares. Each triangle is its own chart, turned by quarters and shifted by integers.
 fn torus(side: u32) -> Case {
     let at = |x: u32, y: u32| (y % side) * side + x % side;
     let angle = |i: u32| std::f64::consts::TAU * f64::from(i) / f64::from(side);
@@ -109,7 +110,7 @@ fn elements(defects: &[roundel::check::Defect]) -> Vec<usize> {
     defects.iter().map(|d| d.element).collect()
 }
 
-/// The edges of a face, increasing.
+/// The edges of a face in increasing order.
 fn edges_of(mesh: &TriangleMesh, face: usize) -> Vec<usize> {
     let mut edges = [0, 1, 2].map(|k| mesh.edge_of(face, k));
     edges.sort_unstable();
@@ -153,7 +154,7 @@ fn the_corners_of_a_cube_are_its_singularities() {
 }
 
 #[test]
-fn features_of_a_cube_are_its_edges_and_on_isolines() {
+fn the_edges_of_a_cube_are_its_features_and_lie_on_isolines() {
     let mut case = cube(3);
     let features = feature_edges(&case.mesh, 1.0);
     assert_eq!(features.len(), 36);
@@ -163,7 +164,7 @@ fn features_of_a_cube_are_its_edges_and_on_isolines() {
     };
     let found = check_map(&case.mesh, &case.uv, &options).unwrap();
     assert!(found.is_valid());
-    // A chart that is shifted as a whole takes its twelve outer edges off the lines, and no other.
+    // Shifting one chart as a whole moves its twelve outer edges off the isolines, and no others.
     for uv in case.uv[..18].iter_mut().flatten() {
         *uv = [uv[0] + 0.25, uv[1] + 0.125];
     }
@@ -182,8 +183,8 @@ fn features_of_a_cube_are_its_edges_and_on_isolines() {
 }
 
 #[test]
-fn a_flipped_triangle_is_found_alone() {
-    // A vertex inside a triangle of the grid, pulled out over one side of it.
+fn a_flipped_triangle_is_the_only_defect_found() {
+    // A vertex inside a triangle of the grid, moved out across one side of it.
     let mesh = TriangleMesh::new(
         vec![
             [0.0, 0.0, 0.0],
@@ -215,14 +216,14 @@ fn a_flipped_triangle_is_found_alone() {
         ..found
     };
     assert!(mended.is_valid(), "{mended:?}");
-    // On the side itself it has no area, which is another defect.
+    // With the vertex on the side itself, the triangle has no area, which is another defect.
     move_vertex(&mut case, 3, [0.0, 0.25]);
     let found = check_map(&case.mesh, &case.uv, &options).unwrap();
     assert_eq!((found.flipped.len(), found.degenerate), (0, vec![0]));
 }
 
 #[test]
-fn a_translation_off_by_a_thousandth_is_found_alone() {
+fn a_translation_off_by_a_thousandth_is_the_only_defect_found() {
     let mut case = torus(6);
     for corner in &mut case.uv[17] {
         corner[1] += 1e-3;
@@ -241,7 +242,7 @@ fn a_translation_off_by_a_thousandth_is_found_alone() {
 }
 
 #[test]
-fn a_turn_that_is_no_quarter_is_found_alone() {
+fn a_rotation_that_is_no_quarter_turn_is_the_only_defect_found() {
     let mut case = torus(6);
     let (sin, cos) = 0.01f64.sin_cos();
     for corner in &mut case.uv[17] {
@@ -257,14 +258,14 @@ fn a_turn_that_is_no_quarter_is_found_alone() {
 }
 
 #[test]
-fn a_cone_off_the_grid_is_found_alone() {
-    // The corner of an octant, around which three quadrants meet, and its three axes.
+fn a_cone_off_the_grid_is_the_only_defect_found() {
+    // The corner of an octant, where three quadrants meet, and its three axes.
     let ring = [[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
     let points = [vec![[0.0; 3]], ring.to_vec()].concat();
     let mesh = TriangleMesh::new(points, vec![[0, 1, 2], [0, 2, 3], [0, 3, 1]]).unwrap();
     let quadrant = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
-    // Each chart goes on from the last, turned; the last closes by a quarter turn about (1, 0),
-    // which moves the centre, or about the centre, which does not.
+    // Each chart continues the one before it, turned. The last one is closed by a quarter turn, either
+    // about (1, 0), which moves the centre, or about the centre, which does not.
     let shifted = |by: [f64; 2]| Case {
         mesh: mesh.clone(),
         uv: vec![quadrant.map(|[u, v]| [u + by[0], v + by[1]]); 3],
@@ -275,7 +276,8 @@ fn a_cone_off_the_grid_is_found_alone() {
     };
     let check = |case: &Case| check_map(&case.mesh, &case.uv, &options).unwrap();
     assert!(check(&shifted([2.0, -3.0])).is_valid());
-    // Shifted by a half in both, the quarter turns still shift by integers: only the cone is off.
+    // After a shift by (1/2, 1/2) the quarter turns still have integer translations. Only the cone is
+    // off the grid.
     let found = check(&shifted([0.5, 0.5]));
     assert_eq!(
         found.singularities,
@@ -290,7 +292,7 @@ fn a_cone_off_the_grid_is_found_alone() {
 }
 
 #[test]
-fn a_boundary_edge_off_the_isoline_is_found_alone() {
+fn a_boundary_edge_off_the_isoline_is_the_only_defect_found() {
     let mut case = plane(4);
     // The vertex at (2, 0) lies between two boundary edges.
     move_vertex(&mut case, 2, [0.0, 1e-3]);
@@ -311,7 +313,7 @@ fn a_boundary_edge_off_the_isoline_is_found_alone() {
 }
 
 #[test]
-fn what_is_no_map_is_refused_with_its_place() {
+fn bad_coordinates_are_refused_with_their_position() {
     let case = plane(2);
     let refused = |uv: &Corners, options: &CheckOptions| {
         let error = check_map(&case.mesh, uv, options).unwrap_err();
@@ -338,7 +340,7 @@ fn what_is_no_map_is_refused_with_its_place() {
 }
 
 #[test]
-fn shapes_have_features_where_they_are_sharp() {
+fn sharp_edges_of_shapes_are_features() {
     let gear = shape::by_name("gear", 1000).unwrap();
     assert!(!feature_edges(&gear, 0.7).is_empty());
     let sphere = shape::by_name("sphere", 1000).unwrap();

@@ -1,4 +1,4 @@
-//! Fields that follow features, curvature and prescribed indices, of every symmetry.
+//! Fields of every symmetry that follow features, curvature and prescribed indices.
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
 
@@ -26,7 +26,7 @@ fn features(mesh: &TriangleMesh) -> FeatureGraph {
     sharp.with(mesh, &FeatureGraph::boundary(mesh)).unwrap()
 }
 
-/// How far the nearest arm of a face is from its local edge `k`, in space.
+/// The angle between local edge `k` of a face and the nearest arm of its field.
 fn off_edge(mesh: &TriangleMesh, field: &OrientationField, face: usize, k: usize) -> f64 {
     let arm = field.direction(mesh, face);
     let p = mesh.corner_positions(face);
@@ -65,7 +65,7 @@ fn crosses_beside_a_feature_or_the_boundary_lie_along_it() {
     }
 }
 
-/// A fan of thin triangles around the origin within `angle`, closed by its rim.
+/// A fan of thin triangles that fill `angle` around the origin; its rim closes it.
 fn wedge(angle: f64, faces: usize) -> TriangleMesh {
     let mut vertices = vec![[0.0; 3]];
     for i in 0..=faces {
@@ -77,10 +77,10 @@ fn wedge(angle: f64, faces: usize) -> TriangleMesh {
 }
 
 #[test]
-fn a_narrow_wedge_becomes_one_quad_and_others_the_nearest_number() {
+fn a_wedge_gets_the_nearest_number_of_quads_and_at_least_one() {
     for (degrees, faces, quads) in [(10, 1, 1), (10, 2, 1), (40, 3, 1), (60, 2, 1), (100, 1, 1)] {
         let mesh = wedge(f64::from(degrees).to_radians(), faces);
-        // The two straight sides alone.
+        // Only the two straight sides are features.
         let lines = [[0, 1], [0, faces + 1]];
         let features = FeatureGraph::from_lines(&mesh, &lines).unwrap();
         let options = FieldOptions {
@@ -88,7 +88,7 @@ fn a_narrow_wedge_becomes_one_quad_and_others_the_nearest_number() {
             ..FieldOptions::default()
         };
         let (field, _) = field(&mesh, &options);
-        // The arm nearest to the first side, followed to the last, counts the quarter turns.
+        // Follow the arm nearest to the first side through the fan and count its quarter turns.
         let spin = |face: usize| {
             let d = field.direction(&mesh, face);
             d[1].atan2(d[0])
@@ -116,7 +116,7 @@ fn a_narrow_wedge_becomes_one_quad_and_others_the_nearest_number() {
 }
 
 #[test]
-fn a_triangle_all_of_features_is_refused_by_its_face() {
+fn a_triangle_with_three_feature_edges_is_refused_with_its_index() {
     let mesh = wedge(1.0, 1);
     let features = FeatureGraph::boundary(&mesh);
     let error = feature_constraints(&mesh, &features).unwrap_err();
@@ -124,7 +124,7 @@ fn a_triangle_all_of_features_is_refused_by_its_face() {
 }
 
 #[test]
-fn indices_of_every_symmetry_are_its_parts_and_sum_to_the_euler_characteristic() {
+fn indices_are_multiples_of_one_over_n_and_sum_to_the_euler_characteristic() {
     for symmetry in [1, 2, 4, 6] {
         for name in [
             "sphere",
@@ -170,7 +170,7 @@ fn prescribed_indices_are_reached_exactly() {
         let mesh = noisy(name, 2_000);
         let last = mesh.vertex_count() - 1;
         let steps = i32::from(symmetry) * mesh.euler_characteristic() as i32;
-        // All in two vertices, with a pair besides that cancels.
+        // The whole sum at two vertices, and a pair elsewhere that cancels.
         let given = [(0, steps - 3), (last, 3), (last / 2, 1), (last / 3, -1)];
         let given = given.map(|(vertex, steps)| PrescribedIndex { vertex, steps });
         let options = FieldOptions {
@@ -198,7 +198,7 @@ fn prescribed_indices_are_reached_exactly() {
 }
 
 #[test]
-fn a_boundary_takes_what_prescribed_indices_leave() {
+fn the_boundary_index_completes_the_prescribed_indices() {
     let mesh = noisy("disk", 800);
     let inner = (0..mesh.vertex_count()).find(|&v| !mesh.is_boundary_vertex(v));
     let vertex = inner.unwrap();
@@ -221,7 +221,7 @@ fn a_boundary_takes_what_prescribed_indices_leave() {
 }
 
 #[test]
-fn prescribed_indices_that_cannot_be_are_refused() {
+fn impossible_prescribed_indices_are_refused() {
     let mesh = noisy("sphere", 500);
     let refused = |given: &[(usize, i32)]| {
         let given = given
@@ -259,7 +259,7 @@ fn prescribed_indices_that_cannot_be_are_refused() {
 }
 
 #[test]
-fn guides_pull_with_their_weight_and_their_share_of_the_energy_is_told() {
+fn guides_act_by_their_weight_and_their_part_of_the_energy_is_reported() {
     let mesh = noisy("torus", 1_200);
     let mut last = f64::INFINITY;
     for weight in [0.01, 1.0, 100.0] {
@@ -282,7 +282,7 @@ fn guides_pull_with_their_weight_and_their_share_of_the_energy_is_told() {
 }
 
 #[test]
-fn curvature_counts_the_same_whatever_the_size_of_the_mesh() {
+fn the_influence_of_curvature_does_not_depend_on_the_scale_of_the_mesh() {
     let mesh = noisy("gear", 1_000);
     let large = mesh
         .vertices()
@@ -299,7 +299,7 @@ fn curvature_counts_the_same_whatever_the_size_of_the_mesh() {
 }
 
 #[test]
-fn bad_options_of_a_field_are_refused_by_position() {
+fn bad_field_options_are_refused_with_their_position() {
     use roundel::field::Guide;
     let mesh = noisy("torus", 300);
     let refused = |change: &dyn Fn(&mut FieldOptions)| {
@@ -339,7 +339,7 @@ fn bad_options_of_a_field_are_refused_by_position() {
 }
 
 #[test]
-fn what_is_given_comes_before_features_and_those_before_curvature() {
+fn given_directions_override_features_and_features_override_curvature() {
     let mesh = noisy("gear", 1_500);
     let sharp = FeatureGraph::by_angle(&mesh, FRAC_PI_4).unwrap();
     let beside = feature_constraints(&mesh, &sharp).unwrap();
@@ -379,7 +379,7 @@ fn what_is_given_comes_before_features_and_those_before_curvature() {
 }
 
 #[test]
-fn the_boundary_is_followed_unless_it_is_free_or_arms_have_no_side() {
+fn the_boundary_is_followed_unless_it_is_free_or_the_symmetry_is_one() {
     let mesh = noisy("disk", 400);
     let edges = |guidance: &Guidance| guidance.features(&mesh).unwrap().edges().count();
     let rim = FeatureGraph::boundary(&mesh).edges().count();
@@ -411,7 +411,7 @@ fn the_boundary_is_followed_unless_it_is_free_or_arms_have_no_side() {
 }
 
 #[test]
-fn a_guidance_file_is_read_and_its_wrong_lines_are_named() {
+fn a_guidance_file_is_read_and_its_bad_lines_are_named() {
     let mesh = shape::by_name("plane", 50).unwrap();
     let [a, b, c] = mesh.corners(0);
     let mut guidance = Guidance::default();

@@ -1,11 +1,12 @@
-//! The committed C header and the C interface's Rust code hold together.
+//! The committed C header agrees with the Rust code of the C interface, and every C and C++ compiler
+//! accepts it.
 
 use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// The files of the C interface in the order in which the header shows them.
+/// The files of the C interface, in the order in which the header shows them.
 const SOURCES: &[&str] = &[
     "abi",
     "version",
@@ -40,7 +41,7 @@ const SOURCES: &[&str] = &[
     "quads_results",
 ];
 
-/// Files without anything that C sees.
+/// Files that declare nothing for C.
 const INTERNAL: &[&str] = &[
     "mod",
     "guard",
@@ -60,7 +61,7 @@ fn header() -> PathBuf {
     root().join("include/roundel/roundel.h")
 }
 
-/// The compiler that the environment names, or the usual one.
+/// The compiler that the environment variable names, or the usual one.
 fn compiler(variable: &str, usual: &str) -> OsString {
     std::env::var_os(variable).unwrap_or_else(|| usual.into())
 }
@@ -80,7 +81,7 @@ fn generated() -> String {
 fn the_committed_header_is_the_generated_one() {
     let text = generated();
     if std::env::var_os("ROUNDEL_BLESS").is_some_and(|v| v == "1") {
-        // Whole at every moment: the other tests read it at the same time.
+        // Replace the header in one step, because other tests read it at the same time.
         let fresh = header().with_extension("h.new");
         fs::write(&fresh, &text).unwrap();
         fs::rename(fresh, header()).unwrap();
@@ -110,9 +111,8 @@ fn every_file_of_the_c_interface_is_known_to_the_generator() {
     }
 }
 
-/// The header must be readable by tools that know C and nothing of a preprocessor's output but
-/// declarations. gcc's own preprocessor and Python's pycparser stand for them; without either the
-/// test says so and passes.
+/// Tools that know only C declarations must be able to read the preprocessed header. gcc's preprocessor
+/// and Python's pycparser stand for such tools. Where one is missing, the test says so and passes.
 #[test]
 fn a_plain_ffi_parser_reads_the_preprocessed_header() {
     let script = r"
@@ -123,7 +123,7 @@ except ImportError:
     sys.exit(77)
 pycparser.CParser().parse(sys.stdin.read(), 'roundel.h')
 ";
-    // Empty system headers: the parser needs the names of three types, not a C library.
+    // Empty system headers: the parser needs three type names, not a C library.
     let shims = std::env::temp_dir().join(format!("roundel-shims-{}", std::process::id()));
     fs::create_dir_all(&shims).unwrap();
     fs::write(shims.join("stddef.h"), "typedef unsigned long size_t;\n").unwrap();
@@ -157,12 +157,12 @@ pycparser.CParser().parse(sys.stdin.read(), 'roundel.h')
     }
 }
 
-/// Compiled twice and linked, so that a definition that slipped into the header would clash.
+/// Compiles the header in two units and links them, so that a definition in the header would clash.
 fn compiles_from_two_units(compiler: &OsString, standard: &str, extension: &str) {
     let dir = std::env::temp_dir().join(format!("roundel-{standard}-{}", std::process::id()));
     fs::create_dir_all(&dir).unwrap();
     let (one, two) = (format!("one.{extension}"), format!("two.{extension}"));
-    // First in one unit, twice in the other.
+    // One unit includes the header once, the other twice.
     let include = "#include <roundel/roundel.h>\n";
     let other = "int other(const roundel_event *event);\n";
     let main = "int main(void) { return other((const roundel_event *)0); }\n";

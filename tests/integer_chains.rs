@@ -1,5 +1,5 @@
-//! Problems of few unknowns and small halves, whose eliminated constraints may nevertheless lead to numbers
-//! of ten digits: what is promised holds of all of them.
+//! Small problems with chains of integer constraints. Their numbers are halves up to 8, but elimination
+//! may lead to numbers of ten digits. The guarantees of a solution hold all the same.
 
 mod common;
 
@@ -25,7 +25,7 @@ fn problem(variables: usize, constraints: &[Row], squares: &[(Row, f64)]) -> Pro
     problem
 }
 
-/// The largest number by which integers follow those that the elimination leaves.
+/// The largest coefficient by which an eliminated integer depends on a reduced one.
 fn largest_step(problem: &Problem) -> f64 {
     let model = Model::new(problem).unwrap();
     let reduced = eliminate(&model, &mut Monitor::default()).unwrap();
@@ -34,10 +34,10 @@ fn largest_step(problem: &Problem) -> f64 {
     steps.map(|(_, _, t)| t.abs()).fold(0.0, f64::max)
 }
 
-/// Found by the fuzzer: four constraints, two of which are between integers but for one unknown that they
-/// share. The relaxation was that of the reduced integers, at fractions of which few digits are left.
+/// Found by the fuzzer: four constraints, of which two become constraints between integers once a shared
+/// unknown is eliminated. The relaxation lost most digits, because it was computed in reduced integers.
 #[test]
-fn the_relaxation_holds_the_constraints_as_well_as_a_solution() {
+fn the_relaxation_satisfies_the_constraints_as_well_as_a_solution() {
     let constraints: [Row; 4] = [
         (&[5, 2, 1, 3], &[0.5, 4.5, -8.0, 2.5], 2.5),
         (&[4, 0, 2, 5], &[4.0, 4.0, 0.5, -7.0], 4.5),
@@ -64,7 +64,7 @@ fn the_relaxation_holds_the_constraints_as_well_as_a_solution() {
     assert!(solution.energy() >= relaxed.energy());
 }
 
-/// Between six integers.
+/// Constraints between six integers.
 const CHAIN: [Row; 5] = [
     (&[4, 0, 1], &[6.5, -4.0, -4.0], 68.5),
     (&[2, 3, 1], &[-3.0, 7.5, 6.5], 22.0),
@@ -73,10 +73,10 @@ const CHAIN: [Row; 5] = [
     (&[2, 0, 4], &[7.0, 8.0, 4.5], 10.5),
 ];
 
-/// Five constraints leave one integer, by steps of 1e5 from a point at 1e10: of the energy in it no digit was
-/// left, and 4.8e13 passed for the least.
+/// Five constraints leave one integer, whose steps are 1e5 from a point at 1e10. Its energy had no correct
+/// digit left, and 4.8e13 was reported as the least one.
 #[test]
-fn what_is_optimal_is_so_behind_a_chain_of_constraints() {
+fn a_solution_called_optimal_is_optimal_behind_a_chain_of_constraints() {
     let squares: [(Row, f64); 3] = [
         ((&[5, 1], &[-1.0, 8.0], 7.0), 4.0),
         ((&[1], &[6.5], 3.0), 3.5),
@@ -99,9 +99,9 @@ fn what_is_optimal_is_so_behind_a_chain_of_constraints() {
     assert_eq!(proved.status(), SolveStatus::Optimal);
 }
 
-/// The constraints of the problem before, and a continuous unknown.
+/// The same constraints, with a continuous unknown.
 #[test]
-fn solving_again_behind_a_chain_of_constraints_is_solving_from_the_start() {
+fn solving_again_behind_a_chain_of_constraints_equals_a_first_solve() {
     let squares: [(Row, f64); 4] = [
         ((&[5, 1], &[-1.0, 8.0], 7.0), 4.0),
         ((&[1], &[6.5], 3.0), 3.5),
@@ -140,10 +140,10 @@ fn solving_again_behind_a_chain_of_constraints_is_solving_from_the_start() {
     }
 }
 
-/// Six constraints leave nothing to decide; the continuous unknown had few digits at first, and so had the
+/// Six constraints determine every unknown. The continuous unknown used to have few digits, and so did the
 /// bound.
 #[test]
-fn the_one_solution_of_the_constraints_is_its_own_bound() {
+fn the_bound_of_a_single_feasible_point_is_its_energy() {
     let constraints: [Row; 6] = [
         (&[4, 2, 1], &[-8.0, -8.0, 0.5], -69.5),
         (&[1, 3, 0, 2], &[-4.0, 0.5, -2.0, -6.5], -33.5),
@@ -169,7 +169,7 @@ fn the_one_solution_of_the_constraints_is_its_own_bound() {
     }
 }
 
-/// An unknown without a square, but in a product with another: its pivot was zero and not negative.
+/// An unknown without a square that occurs in a product with another. Its pivot is zero, not negative.
 #[test]
 fn a_product_with_an_unknown_without_curvature_is_not_convex() {
     let squares: [(Row, f64); 2] = [
@@ -187,7 +187,7 @@ fn a_product_with_an_unknown_without_curvature_is_not_convex() {
     }
 }
 
-/// The product of two unknowns whose squares other unknowns, which follow them, cancel.
+/// A product of two unknowns whose squares cancel once other unknowns are eliminated.
 #[test]
 fn a_product_of_unknowns_whose_squares_cancel_is_not_convex() {
     let constraints: [Row; 1] = [(&[5, 1, 0, 4], &[6.5, 7.5, -0.5, -4.5], -121.0)];
@@ -207,9 +207,9 @@ fn a_product_of_unknowns_whose_squares_cancel_is_not_convex() {
     }
 }
 
-/// The constraints leave x0 at zero, of which rounding errors remained: a slope of x2 in `x0 x2`.
+/// The constraints determine `x0 = 0`. Rounding errors of that zero looked like a slope of `x2` in `x0 x2`.
 #[test]
-fn rounding_errors_of_a_right_side_are_no_slope() {
+fn rounding_errors_of_a_right_side_do_not_count_as_a_slope() {
     let constraints: [Row; 6] = [
         (&[3, 4], &[-0.5, -1.0], -2.0),
         (&[4, 3, 1], &[-4.0, 6.5, 5.5], -41.75),
@@ -229,9 +229,9 @@ fn rounding_errors_of_a_right_side_are_no_slope() {
     }
 }
 
-/// Four unknowns fall along `x4 = 7.5 x0 + 6.5`, in numbers that the elimination makes large.
+/// The energy decreases without end along `x4 = 7.5 x0 + 6.5`. The elimination makes its numbers large.
 #[test]
-fn an_endless_slope_behind_a_chain_of_constraints_is_told() {
+fn an_unbounded_objective_behind_a_chain_of_constraints_is_reported() {
     let constraints: [Row; 4] = [
         (&[3, 4], &[3.0, -7.5], 43.5),
         (&[5, 2], &[6.5, -6.0], 36.25),
@@ -253,7 +253,7 @@ fn an_endless_slope_behind_a_chain_of_constraints_is_told() {
     }
 }
 
-/// A problem, what a direction must satisfy that stays on its constraints, and where these hold.
+/// A problem, the same with right sides of zero for testing directions, and a feasible point if known.
 struct Chain {
     problem: Problem,
     homogeneous: Problem,
@@ -261,7 +261,7 @@ struct Chain {
 }
 
 impl Random {
-    /// A half from -8 to 8.
+    /// A random multiple of 1/2 from -8 to 8.
     fn number(&mut self) -> f64 {
         self.below(33) as f64 / 2.0 - 8.0
     }
@@ -272,8 +272,8 @@ impl Random {
         (indices, (0..count).map(|_| self.number()).collect())
     }
 
-    /// Up to six unknowns and constraints, which in three problems of four hold at a point of halves and
-    /// integers.
+    /// A random problem of up to six unknowns and as many constraints. Three of four problems are feasible
+    /// at a known point of halves and integers.
     fn problem(&mut self) -> Chain {
         let n = [1, 2, 3, 4, 4, 5, 5, 6, 6, 6, 6][self.below(11)];
         let density = 1 + self.below(4);
@@ -323,8 +323,9 @@ impl Random {
     }
 }
 
-/// What is told of a direction without a minimum is so by the problem's own numbers.
-fn a_direction_is_proved(chain: &Chain, error: &Error, name: &dyn Fn() -> String) {
+/// Checks with the problem's own numbers that the objective decreases without end along the direction that
+/// an error reports.
+fn check_direction(chain: &Chain, error: &Error, name: &dyn Fn() -> String) {
     let Some(direction) = error.direction() else {
         return;
     };
@@ -351,15 +352,15 @@ fn a_direction_is_proved(chain: &Chain, error: &Error, name: &dyn Fn() -> String
     assert!(falls_in_the_end, "{}: {slope}, {curvature}", name());
 }
 
-/// Solves the problem by every strategy, and holds each against what is promised and against the others;
-/// how many solutions there were.
-fn every_promise_is_kept(chain: &Chain, name: &str) -> usize {
+/// Solves the problem by every strategy and checks the guarantees of each solution, alone and against the
+/// others. Returns the number of solutions.
+fn check_guarantees(chain: &Chain, name: &str) -> usize {
     let tried = Strategy::ALL.map(|strategy| (strategy, solve_briefly(&chain.problem, strategy)));
     let refused = tried
         .iter()
         .filter_map(|(s, t)| Some((s, t.as_ref().err()?)));
     for (strategy, error) in refused {
-        a_direction_is_proved(chain, error, &|| format!("{name}, {strategy:?}: {error:?}"));
+        check_direction(chain, error, &|| format!("{name}, {strategy:?}: {error:?}"));
     }
     let solved = || {
         tried
@@ -395,26 +396,27 @@ fn every_promise_is_kept(chain: &Chain, name: &str) -> usize {
     solved().count()
 }
 
-fn promises_are_kept_of(problems: usize, seed: u64) {
+fn check_random_problems(problems: usize, seed: u64) {
     let mut solved = 0;
     for round in 0..problems as u64 {
         let chain = Random::new(seed.wrapping_add(round + 1)).problem();
         let name = format!("problem {round} of seed {seed}");
-        solved += every_promise_is_kept(&chain, &name);
+        solved += check_guarantees(&chain, &name);
     }
     let tried = problems * Strategy::ALL.len();
     assert!(2 * solved > tried, "{solved} of {tried} solved");
 }
 
 #[test]
-fn what_is_promised_holds_of_twenty_thousand_problems() {
-    promises_are_kept_of(20_000, 8);
+fn the_guarantees_hold_for_twenty_thousand_problems() {
+    check_random_problems(20_000, 8);
 }
 
-/// `CHAINS_SEED=1 cargo test --release --test integer_chains -- --ignored`: minutes of other problems.
+/// Takes minutes: `CHAINS_SEED=1 cargo test --release --test integer_chains -- --ignored` tries other
+/// problems for every seed.
 #[test]
 #[ignore = "takes minutes"]
-fn what_is_promised_holds_of_two_million_problems() {
+fn the_guarantees_hold_for_two_million_problems() {
     let seed = std::env::var("CHAINS_SEED").map_or(1, |seed| seed.parse().unwrap());
-    promises_are_kept_of(2_000_000, seed << 32);
+    check_random_problems(2_000_000, seed << 32);
 }

@@ -1,16 +1,16 @@
-//! The least energy does not depend on how a problem is written down: on the order of variables and
-//! rows, on the units of rows, on rows that say nothing new.
+//! The least energy does not depend on how a problem is written down: not on the order of variables and
+//! rows, nor on the units of rows, nor on redundant rows.
 
 use proptest::collection::vec;
 use proptest::prelude::*;
 use roundel::{Options, Problem, SolveStatus, Strategy as Decide, solve};
 
-/// Integers and halves, so that a change of units by powers of two is exact.
+/// Integers and halves, so that changing units by powers of two is exact.
 #[derive(Debug, Clone)]
 struct Given {
     /// Coefficients and right side of each least-squares row.
     squares: Vec<(Vec<i8>, i8)>,
-    /// The same of each constraint, which the point below satisfies.
+    /// Coefficients of each constraint. The right sides are those that `point` satisfies.
     constraints: Vec<Vec<i8>>,
     point: Vec<i8>,
     integers: Vec<bool>,
@@ -34,15 +34,15 @@ fn given() -> impl Strategy<Value = Given> {
         })
 }
 
-/// How the same problem is written down.
+/// One way to write down the problem.
 struct Writing {
-    /// Variable k is written in the place of `order[k]`.
+    /// The place at which variable k is written.
     order: Vec<usize>,
-    /// Constraint k is multiplied by this.
+    /// The factor by which constraint k is multiplied.
     units: Vec<f64>,
-    /// The sum of all constraints is written as one more.
+    /// Whether the sum of all constraints is added as one more.
     sum: bool,
-    /// Rows come in the opposite order.
+    /// Whether the rows come in the opposite order.
     reversed: bool,
 }
 
@@ -78,7 +78,7 @@ impl Writing {
                 .add_least_squares(&self.order, &row, rhs, 1.0)
                 .unwrap();
         }
-        // Every variable is held a little, so that the optimum is attained.
+        // A small square of every variable makes sure that a minimiser exists.
         for k in 0..SIZE {
             problem.add_least_squares(&[k], &[0.25], 0.0, 1.0).unwrap();
         }

@@ -1,4 +1,4 @@
-//! Maps whose features are isolines, and the size of their quads.
+//! Maps whose features lie on isolines, and the sizes of their quads.
 
 use std::f64::consts::{FRAC_PI_4, PI};
 
@@ -30,7 +30,7 @@ fn map(mesh: &TriangleMesh, problem: &SeamlessProblem) -> SeamlessMap {
     problem.map(mesh, &solution).unwrap()
 }
 
-/// Feature edges that do not lie on an integer isoline, to the last digit, in each of their faces.
+/// Feature edges of which some face has an end off the integer isoline, by however little.
 fn off_isolines(mesh: &TriangleMesh, map: &SeamlessMap, features: &FeatureGraph) -> Vec<usize> {
     let lies = |(face, k): (usize, usize)| {
         let uv = map.uv(face);
@@ -57,7 +57,7 @@ fn every_feature_edge_lies_exactly_on_an_integer_isoline() {
         let map = map(&mesh, &problem);
         let off = off_isolines(&mesh, &map, &features);
         assert!(off.is_empty(), "{name}: {off:?}");
-        // Without being told, hardly any does.
+        // Without the constraint, hardly any edge lies on an isoline.
         let plain = SeamlessOptions {
             quads: triangles / 4,
         };
@@ -108,7 +108,7 @@ fn an_edge_length_is_the_reciprocal_of_the_gradients() {
     let none = FeatureGraph::none(&mesh);
     let field = field(&mesh, &FeatureGraph::boundary(&mesh));
     for sizes in [[0.125, 0.125], [0.1, 0.3]] {
-        // The same directions of space in every face, whichever arm its field stores.
+        // Turn the pairs so that u and v mean the same directions of space in every face.
         let turned = (0..mesh.face_count()).map(|face| {
             let d = field.direction(&mesh, face);
             if d[0].abs() > d[1].abs() {
@@ -139,7 +139,7 @@ fn an_edge_length_is_the_reciprocal_of_the_gradients() {
 }
 
 #[test]
-fn a_graded_size_is_followed_from_end_to_end() {
+fn quads_follow_a_graded_size_from_end_to_end() {
     let mesh = shape::by_name("plane", 3_000).unwrap();
     let [low, high] = mesh.bounding_box();
     let graph = FeatureGraph::boundary(&mesh);
@@ -147,7 +147,7 @@ fn a_graded_size_is_followed_from_end_to_end() {
     let size = |x: f64| 0.05 * (1.0 + 2.0 * (x - low[0]) / (high[0] - low[0]));
     let lengths = (0..mesh.face_count()).map(|f| {
         let along = size(mesh.face_centroid(f)[0]);
-        // Graded along x alone, so that no cone is called for.
+        // Graded along x alone, which needs no cone.
         let d = field.direction(&mesh, f);
         if d[0].abs() > d[1].abs() {
             [along, 0.1]
@@ -165,12 +165,12 @@ fn a_graded_size_is_followed_from_end_to_end() {
         let nearest = gradients(&mesh, &map, face).map(|g| (g / along).max(along / g));
         worst = worst.max(nearest[0].min(nearest[1]));
     }
-    // The outline is rounded to whole quads, by half of one in about twelve at most.
+    // The outline has about twelve quads or more, and is rounded to whole quads by at most half of one.
     assert!(worst < 1.15, "{worst}");
 }
 
 #[test]
-fn another_density_is_solved_from_what_was_kept_with_the_same_result() {
+fn solving_again_for_another_density_gives_the_result_of_a_first_solve() {
     let mesh = shape::by_name("gear", 2_000).unwrap();
     let features = features(&mesh);
     let field = field(&mesh, &features);
@@ -195,7 +195,7 @@ fn another_density_is_solved_from_what_was_kept_with_the_same_result() {
 }
 
 #[test]
-fn sizes_and_features_that_make_no_sense_are_refused() {
+fn invalid_sizes_and_features_are_refused() {
     let [mesh, other] = [300, 500].map(|n| shape::by_name("torus", n).unwrap());
     let none = FeatureGraph::none(&mesh);
     let field = field(&mesh, &none);
@@ -239,7 +239,7 @@ fn sizes_and_features_that_make_no_sense_are_refused() {
     assert!(FeatureGraph::by_angle(&mesh, PI).is_ok());
 }
 
-/// The surface of a cube of `n` by `n` squares a side, each cut into two triangles.
+/// The surface of a cube of `n` by `n` squares a side, with two triangles each.
 fn cube(n: i32) -> TriangleMesh {
     let mut number = std::collections::BTreeMap::new();
     let (mut vertices, mut triangles) = (Vec::new(), Vec::new());
@@ -293,7 +293,7 @@ fn a_layout_of_given_cones_and_separatrices_is_followed() {
     let field = problem.field(&mesh, &solution).unwrap();
     let given: Vec<usize> = indices.iter().map(|i| i.vertex).collect();
     assert_eq!(field.irregular_vertices(&mesh), given);
-    // 3.2 quads an edge become 3: six times nine.
+    // An edge of 3.2 quads gets 3: six sides times nine.
     let sizing = Sizing::EdgeLength(f64::from(N) / 3.2);
     let problem = SeamlessProblem::with_features(&mesh, &field, &sizing, &features).unwrap();
     let map = map(&mesh, &problem);

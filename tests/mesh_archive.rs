@@ -1,11 +1,10 @@
-//! The meshes that Debian ships with CGAL's demos: the sound ones load with their face count and
-//! genus, the broken ones are refused for the right reason.
+//! The meshes that Debian ships with CGAL's demos. The sound ones load with the right face count and
+//! genus, and the broken ones are refused for the right reason. Sound meshes get valid maps at one quad
+//! for four triangles.
 //!
-//! `ROUNDEL_CGAL_DATA` names the archive or the folder it was unpacked to; without it the place
-//! where Debian's `libcgal-demo` puts the archive is tried. Where there is none, the tests are skipped and
-//! say so; they fail where `CI` is set, and where `ROUNDEL_CGAL_DATA` names nothing, which `scripts/test`
-//! sets on Debian.
-//! Maps of the sound ones, of a quad for four triangles, are valid by the check.
+//! `ROUNDEL_CGAL_DATA` names the archive or the folder that it was unpacked to; `scripts/test` sets it on
+//! Debian. Without it, the tests look where Debian's `libcgal-demo` puts the archive. Where there is none,
+//! they say that they are skipped, and fail if `CI` is set.
 
 #![cfg(feature = "mesh-io")]
 
@@ -27,7 +26,7 @@ const DEBIAN: &str = "/usr/share/doc/libcgal-dev/data.tar.gz";
 
 const MISSING: &str = "libcgal-demo is not installed, and ROUNDEL_CGAL_DATA is not set";
 
-/// Closed and connected: file, faces, genus.
+/// Closed connected meshes: file, faces, genus.
 const CLOSED: &[(&str, usize, usize)] = &[
     ("bunny00", 75408, 0),
     ("armadillo", 52000, 0),
@@ -75,7 +74,7 @@ const CLOSED: &[(&str, usize, usize)] = &[
     ("cheese", 17786, 133),
 ];
 
-/// With boundary: file, faces, boundary loops.
+/// Meshes with boundary: file, faces, boundary loops.
 const BOUNDED: &[(&str, usize, usize)] = &[
     ("mannequin-devil", 25888, 1),
     ("ChineseDragon-10kv", 19994, 2),
@@ -96,7 +95,7 @@ const BOUNDED: &[(&str, usize, usize)] = &[
     ("nefertiti", 562, 1),
 ];
 
-/// Several components: file, faces, components.
+/// Meshes of several components: file, faces, components.
 const SCATTERED: &[(&str, usize, usize)] = &[
     ("bones", 4204, 26),
     ("knot2", 11520, 2),
@@ -106,7 +105,7 @@ const SCATTERED: &[(&str, usize, usize)] = &[
     ("boeing", 2564, 122),
 ];
 
-/// Broken: file, code, element named. Two of them are not of triangles to begin with.
+/// Broken meshes: file, error code, element named. Two of the files hold other faces than triangles.
 const BROKEN: &[(&str, &str, usize)] = &[
     ("blobby-shuffled", "inconsistent_orientation", 0),
     ("cube-shuffled", "inconsistent_orientation", 0),
@@ -119,7 +118,7 @@ const BROKEN: &[(&str, &str, usize)] = &[
     ("cube-ouvert", "isolated_vertex", 8),
 ];
 
-/// The folder of the meshes. Tests run side by side; the first that asks unpacks it.
+/// The folder of the meshes. Tests run in parallel, so the first that asks unpacks the archive.
 fn archive() -> Option<PathBuf> {
     static FOLDER: OnceLock<Option<PathBuf>> = OnceLock::new();
     FOLDER.get_or_init(unpacked).clone()
@@ -182,9 +181,9 @@ fn sound_meshes_load_and_broken_ones_are_refused_for_the_right_reason() {
     assert_eq!((ply.face_count(), ply.genus()), (320, 0));
 }
 
-/// The map of one quad for four triangles, as the program makes it when nothing else is said, and whether
-/// the check passes it.
-fn unfold(mesh: &TriangleMesh) -> (FoldFreeMap, bool) {
+/// The map of one quad for four triangles, made with the program's defaults, and whether the check finds it
+/// valid.
+fn fold_free_map(mesh: &TriangleMesh) -> (FoldFreeMap, bool) {
     let (solver, monitor) = (Options::default(), Monitor::default);
     let sizing = Sizing::Quads(mesh.face_count().div_ceil(4));
     let guidance = QuadOptions::default().guidance;
@@ -220,7 +219,7 @@ fn small_meshes_get_valid_maps() {
     for name in [
         "part", "eight", "spool", "cactus", "knot", "plane", "cylinder",
     ] {
-        let (unfolded, is_valid) = unfold(&load(&folder, name).unwrap());
+        let (unfolded, is_valid) = fold_free_map(&load(&folder, name).unwrap());
         assert!(is_valid, "{name}");
         assert!(
             unfolded.refinements <= 1,
@@ -230,7 +229,7 @@ fn small_meshes_get_valid_maps() {
     }
 }
 
-/// Prints the table of all sound meshes: minutes of work, and so on demand.
+/// Prints the table of all sound meshes. It takes minutes and runs on demand only.
 #[test]
 #[ignore = "minutes of work"]
 fn nearly_all_sound_meshes_get_maps_without_folds() {
@@ -243,7 +242,7 @@ fn nearly_all_sound_meshes_get_maps_without_folds() {
         let (mut unfolded_maps, mut valid) = (0, 0);
         for &&(name, faces, _) in &meshes {
             let started = std::time::Instant::now();
-            let (unfolded, is_valid) = unfold(&load(&folder, name).unwrap());
+            let (unfolded, is_valid) = fold_free_map(&load(&folder, name).unwrap());
             let seconds = started.elapsed().as_secs_f64();
             let untangled = &unfolded.untangled;
             unfolded_maps += usize::from(untangled.flipped_after == 0);
@@ -260,7 +259,7 @@ fn nearly_all_sound_meshes_get_maps_without_folds() {
         let count = meshes.len();
         println!("{unfolded_maps} of {count} without folds, {valid} valid");
         assert!(100 * unfolded_maps >= percent * count);
-        // The others go around a vertex twice.
+        // In the other maps, some vertex has a winding defect.
         assert!(100 * valid >= (percent - 5) * count);
     }
 }

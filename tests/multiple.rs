@@ -1,4 +1,4 @@
-//! Multiple rounding as published: what its parameters come to, and the elimination it goes with.
+//! Multiple rounding as published: the limits of its parameters, and the elimination that it uses.
 
 mod common;
 
@@ -33,7 +33,7 @@ fn assert_same(a: f64, b: f64) {
 }
 
 #[test]
-fn one_integer_at_a_time_with_exact_steps_of_any_kind_is_exact_greedy() {
+fn one_integer_at_a_time_with_exact_steps_is_exact_greedy() {
     let local = Options {
         rounding_threshold: 0.0,
         gauss_seidel_tolerance: 1e-13,
@@ -62,7 +62,7 @@ fn one_integer_at_a_time_with_exact_steps_of_any_kind_is_exact_greedy() {
 }
 
 #[test]
-fn without_any_steps_in_between_it_is_direct_rounding() {
+fn without_steps_in_between_it_is_direct_rounding() {
     let deaf = Options {
         gauss_seidel_updates: 0,
         cg_iterations: 0,
@@ -79,7 +79,7 @@ fn without_any_steps_in_between_it_is_direct_rounding() {
 }
 
 #[test]
-fn every_parameter_set_gives_a_solution_between_the_bound_and_nothing() {
+fn every_parameter_set_gives_an_energy_above_the_relaxation() {
     for seed in 1..6 {
         let problem = common::orientation_field(8, seed).unwrap();
         let optimum = solve(&problem, &with(Strategy::Relax)).unwrap().energy();

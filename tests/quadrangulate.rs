@@ -1,4 +1,4 @@
-//! From a mesh to quads in one call: what holds of the quads whatever the solver decides.
+//! From a mesh to quads in one call: properties of the quads that hold whatever the solver decides.
 
 use roundel::extract::{Origin, QuadMesh};
 use roundel::field::Guidance;
@@ -8,7 +8,7 @@ use roundel::quad::{QuadOptions, Quadrangulation, quadrangulate};
 use roundel::smooth::{QuadQuality, SmoothOptions, smooth};
 use roundel::{Monitor, Strategy};
 
-/// A flat square of `n` by `n` units, two triangles a unit square.
+/// A flat square of `n` by `n` units, with two triangles for each unit square.
 fn plane(n: usize) -> TriangleMesh {
     let at = |i: usize, j: usize| (i * (n + 1) + j) as u32;
     let points = (0..=n).flat_map(|i| (0..=n).map(move |j| [i as f64, j as f64, 0.0]));
@@ -20,7 +20,7 @@ fn plane(n: usize) -> TriangleMesh {
     TriangleMesh::new(points.collect(), triangles.collect()).unwrap()
 }
 
-/// Quads of edge length 4 with lines across the square at these heights.
+/// Quads of edge length 4, with feature lines across the square at the given heights.
 fn with_lines(mesh: &TriangleMesh, n: usize, heights: &[usize]) -> Quadrangulation {
     let lines = heights
         .iter()
@@ -50,7 +50,7 @@ fn lines_closer_than_a_quad_is_wide_are_both_kept() {
     for height in [11.0, 12.0] {
         assert!(heights(&made).iter().any(|h| (h - height).abs() < 1e-9));
     }
-    // One line alone gets no strip.
+    // A single line needs no extra strip.
     let one = with_lines(&mesh, 20, &[12]);
     assert_eq!(heights(&made).len(), heights(&one).len() + 1);
 }
@@ -67,17 +67,17 @@ fn strategies_are_compared_in_the_order_asked_for() {
     assert_eq!(order, options.compare);
 }
 
-fn of(shape: &TriangleMesh, quads: usize, wish: impl Fn(&mut QuadOptions)) -> Quadrangulation {
+fn of(shape: &TriangleMesh, quads: usize, change: impl Fn(&mut QuadOptions)) -> Quadrangulation {
     let mut options = QuadOptions {
         sizing: Sizing::Quads(quads),
         ..QuadOptions::default()
     };
-    wish(&mut options);
+    change(&mut options);
     quadrangulate(shape, &options, Monitor::default).unwrap()
 }
 
 #[test]
-fn where_curvature_may_count_for_less_quads_are_more_even() {
+fn trying_smaller_curvature_weights_makes_quads_more_even() {
     let mesh = shape::by_name("genus-2", 2000).unwrap();
     let spread = |vary: bool| {
         let made = of(&mesh, 1500, |options| options.vary_curvature = vary);
@@ -89,7 +89,7 @@ fn where_curvature_may_count_for_less_quads_are_more_even() {
 }
 
 #[test]
-fn where_curvature_counts_for_nothing_it_is_not_tried() {
+fn curvature_weights_are_not_varied_where_curvature_has_none() {
     let mesh = shape::by_name("genus-2", 1000).unwrap();
     let field = |vary: bool| {
         let made = of(&mesh, 300, |options| {
@@ -101,7 +101,7 @@ fn where_curvature_counts_for_nothing_it_is_not_tried() {
 }
 
 #[test]
-fn where_quads_do_not_conform_larger_details_are_tried_unless_they_are_given() {
+fn larger_details_are_tried_for_conforming_quads_unless_the_detail_is_given() {
     let mesh = shape::by_name("genus-5", 2000).unwrap();
     let edge = (mesh.surface_area() / 40.0).sqrt();
     let given = of(&mesh, 40, |options| {
@@ -111,7 +111,7 @@ fn where_quads_do_not_conform_larger_details_are_tried_unless_they_are_given() {
     assert!(of(&mesh, 40, |_| {}).quads.is_conforming());
 }
 
-/// How far the nearest vertex of quads is from a point.
+/// The distance from a point to the nearest vertex of the quads.
 fn off(quads: &QuadMesh, [x, y]: [f64; 2]) -> f64 {
     let off = quads
         .vertices
@@ -134,7 +134,7 @@ fn a_line_that_ends_on_the_surface_has_a_vertex_at_its_end() {
 }
 
 #[test]
-fn a_vertex_that_the_map_left_beside_a_line_is_smoothed_onto_it() {
+fn smoothing_moves_a_vertex_beside_a_line_onto_it() {
     let mesh = plane(20);
     let mut made = with_lines(&mesh, 20, &[12]);
     let is_inside = |p: &[f64; 3]| p[1] == 12.0 && p[0] > 6.0 && p[0] < 14.0;
@@ -150,7 +150,7 @@ fn a_vertex_that_the_map_left_beside_a_line_is_smoothed_onto_it() {
 }
 
 #[test]
-fn sharp_edges_all_around_a_face_are_no_error() {
+fn sharp_edges_all_around_a_face_are_accepted() {
     let sphere = shape::by_name("sphere", 1000).unwrap();
     let mut points = sphere.vertices().to_vec();
     for v in sphere.corners(0) {

@@ -1,4 +1,4 @@
-//! A re-solve gives what a solve from the start gives, whatever was changed in between.
+//! A re-solve gives the same result as a first solve, whatever was changed in between.
 
 mod common;
 
@@ -8,7 +8,7 @@ use proptest::strategy::Strategy as Generated;
 use roundel::linalg::Ordering;
 use roundel::{Error, Options, Problem, Result, Solution, Solver, Strategy, WarmStart, solve};
 
-/// What a random problem is made of: rows hold for the integer point they were made with.
+/// The parts of a random problem. The constraints hold at the integer point that they were made from.
 #[derive(Debug, Clone)]
 struct Recipe {
     integers: usize,
@@ -17,7 +17,7 @@ struct Recipe {
     seed: u64,
 }
 
-/// Constraints reach two thirds of the unknowns, so that some are in none.
+/// The constraints use two thirds of the unknowns, so that some unknowns are in none.
 fn recipe() -> impl Generated<Value = Recipe> {
     (2usize..=8, 2usize..=8, 0usize..=5, any::<u64>()).prop_flat_map(
         |(integers, continuous, rows, seed)| {
@@ -41,7 +41,7 @@ fn recipe() -> impl Generated<Value = Recipe> {
 enum Change {
     Linear(u64),
     LeastSquares(u64),
-    /// Right sides that an integer point solves.
+    /// Right sides that some integer point satisfies.
     Feasible(u64),
     /// Any whole numbers as right sides.
     Any(u64),
@@ -67,7 +67,7 @@ impl Recipe {
         self.integers + self.continuous
     }
 
-    /// Right sides of the constraints that a random integer point gives.
+    /// The right sides of the constraints at a random integer point.
     fn right_sides(&self, seed: u64) -> Vec<f64> {
         let mut random = Random::new(seed);
         let point: Vec<f64> = (0..self.unknowns())
@@ -81,7 +81,7 @@ impl Recipe {
         let mut random = Random::new(self.seed);
         let n = self.unknowns();
         let mut problem = Problem::new(n)?;
-        // Integers and continuous unknowns alternate as long as there are both.
+        // Integers and continuous unknowns alternate while there are both.
         problem.set_integers(&self.integer_unknowns())?;
         for i in 0..n {
             let (j, k) = ((i + 1) % n, (i * i + 3) % n);
@@ -127,7 +127,7 @@ impl Recipe {
     }
 }
 
-/// Bits of the values, energy and bound; the message, where there is none.
+/// The bits of the values, the energy and the bound, or the message of the error.
 fn told(solution: Result<Solution>) -> std::result::Result<Vec<u64>, String> {
     let solution = solution.map_err(|error| format!("{} {error}", error.code()))?;
     let numbers = [solution.energy(), solution.lower_bound().unwrap_or(0.0)];
@@ -139,7 +139,7 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 300, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
-    fn after_every_change_the_solution_is_that_of_a_solve_from_the_start(
+    fn after_every_change_the_solution_equals_that_of_a_first_solve(
         recipe in recipe(),
         changes in prop::collection::vec((change(), 0usize..4, any::<bool>()), 1..8),
     ) {
@@ -162,7 +162,7 @@ proptest! {
     }
 
     #[test]
-    fn a_warm_start_is_never_worse_than_the_search_or_the_earlier_integers(
+    fn a_warm_start_is_no_worse_than_the_search_and_the_earlier_integers(
         recipe in recipe(),
         first in any::<u64>(),
         second in any::<u64>(),
@@ -196,7 +196,7 @@ proptest! {
     }
 }
 
-/// x0 + x1 = d0, 2 x1 + 4 x2 = d1, x0 + x1 = d2, all but x0 integer.
+/// x0 + x1 = d0, 2 x1 + 4 x2 = d1 and x0 + x1 = d2, where all unknowns but x0 are integer.
 fn contradictable() -> Solver {
     let mut problem = Problem::new(3).unwrap();
     problem.set_integers(&[1, 2]).unwrap();
@@ -210,7 +210,7 @@ fn contradictable() -> Solver {
 }
 
 #[test]
-fn right_sides_that_cannot_hold_name_their_row_and_leave_the_solver_usable() {
+fn contradictory_right_sides_name_their_row_and_leave_the_solver_usable() {
     let mut solver = contradictable();
     let options = Options::default();
     let before = solver.solve(&options).unwrap();
@@ -244,10 +244,10 @@ fn an_integer_pinned_to_a_fraction_is_refused_until_it_is_released() {
 }
 
 #[test]
-fn later_solves_of_both_families_factor_nothing_and_are_those_from_the_start() {
+fn later_solves_of_both_families_factor_nothing_and_equal_first_solves() {
     for problem in [orientation_field(12, 3), parametrization(9, 4)] {
         let mut problem = problem.unwrap();
-        // A constraint that can be moved.
+        // A constraint whose right side can change.
         let n = problem.variables();
         problem.add_constraint(&[n - 1], &[1.0], 1.0).unwrap();
         let rows = problem.least_squares_rows();

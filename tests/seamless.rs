@@ -1,4 +1,4 @@
-//! Seamless parametrizations of procedural shapes: what must hold on any mesh.
+//! Seamless parametrizations of procedural shapes: properties that hold on any mesh.
 
 use std::collections::HashSet;
 
@@ -59,8 +59,8 @@ fn map(case: &Case, strategy: Strategy) -> (SeamlessMap, Solution) {
     (case.problem.map(&case.mesh, &solution).unwrap(), solution)
 }
 
-/// Whether the cut surface is one disk a component: connected over what is not cut, and of Euler
-/// characteristic 1.
+/// Whether the cut turns each component into one disk, which is connected across the edges that are not
+/// cut and has Euler characteristic 1.
 fn is_cut_to_disks(mesh: &TriangleMesh, cut: &CutGraph) -> bool {
     let components = mesh.components();
     let mut charts = 0;
@@ -79,7 +79,7 @@ fn is_cut_to_disks(mesh: &TriangleMesh, cut: &CutGraph) -> bool {
     charts == components.count && euler_characteristic(mesh, cut) == components.count as i64
 }
 
-/// Of the cut surface, its vertices counted as fans of corners between cut edges.
+/// The Euler characteristic of the cut surface. Its vertices are the fans of corners between cut edges.
 fn euler_characteristic(mesh: &TriangleMesh, cut: &CutGraph) -> i64 {
     let degrees = cut.degrees(mesh);
     let fans = (0..mesh.vertex_count()).map(|v| match mesh.is_boundary_vertex(v) {
@@ -179,7 +179,7 @@ fn transitions_around_a_vertex_compose_to_its_index() {
 }
 
 #[test]
-fn coordinates_turn_by_quarters_and_shift_by_integers_over_the_cut() {
+fn coordinates_change_by_quarter_turns_and_integer_shifts_over_the_cut() {
     for case in cases(600) {
         let (map, _) = map(&case, Strategy::Greedy);
         let mesh = &case.mesh;
@@ -206,7 +206,7 @@ fn coordinates_turn_by_quarters_and_shift_by_integers_over_the_cut() {
     }
 }
 
-/// Coordinates of both ends of an interior edge, in its first and in its second face.
+/// The coordinates of both ends of an interior edge, in its first and in its second face.
 fn sides(mesh: &TriangleMesh, map: &SeamlessMap, edge: usize) -> [[[f64; 2]; 2]; 2] {
     let edge = mesh.edge(edge);
     let (i, k) = edge.first;
@@ -279,7 +279,7 @@ fn a_flat_square_is_mapped_by_a_scaled_isometry() {
 }
 
 #[test]
-fn a_map_covers_as_many_squares_as_asked_for() {
+fn a_map_covers_the_requested_number_of_squares() {
     for case in cases(600) {
         let (map, _) = map(&case, Strategy::Relax);
         let area = |[a, b, c]: [[f64; 2]; 3]| {
@@ -299,7 +299,7 @@ fn a_map_covers_as_many_squares_as_asked_for() {
 }
 
 #[test]
-fn reduced_integers_are_as_many_as_topology_says() {
+fn the_number_of_reduced_integers_follows_from_the_topology() {
     for case in cases(600).filter(|case| case.mesh.is_closed()) {
         let (_, solution) = map(&case, Strategy::Relax);
         let cones = case.problem.cones().len() as i64;
@@ -312,7 +312,7 @@ fn reduced_integers_are_as_many_as_topology_says() {
 }
 
 #[test]
-fn what_does_not_belong_together_is_refused() {
+fn arguments_that_do_not_belong_together_are_refused() {
     let [mesh, other] = [200, 400].map(|n| shape::by_name("torus", n).unwrap());
     let field = field(&mesh, &[]);
     let options = SeamlessOptions::default();

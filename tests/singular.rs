@@ -1,18 +1,18 @@
-//! Lattices that are singular but for rounding errors, or in no basis that double precision can tell: a
-//! solve takes little work, is no worse than rounding, and proves nothing that is not so.
+//! Lattices that are singular up to rounding errors, or whose rank double precision cannot decide. A solve
+//! takes little work, is no worse than rounding, and never calls optimal a solution that is not.
 
 mod common;
 
 use common::{Random, solve_briefly};
 use roundel::{Problem, Solution, SolveStatus, Strategy, Triangle};
 
-/// Multiplications that no problem of eight unknowns needs: forty times the most of a hundred thousand
-/// random ones.
+/// A number of multiplications that no problem of eight unknowns needs: forty times the most that any of
+/// 100,000 random problems took.
 const PLENTY: u64 = 1_000_000;
 
 const OF_LATTICES: [Strategy; 3] = [Strategy::Lattice, Strategy::Exact, Strategy::Auto];
 
-/// Indices, coefficients, right side and weight of a square.
+/// Indices, coefficients, right side and weight of a least-squares row.
 type Row<'a> = (&'a [usize], &'a [f64], f64, f64);
 
 fn problem(variables: usize, integers: &[usize], rows: &[Row]) -> Problem {
@@ -30,10 +30,10 @@ fn solved(problem: &Problem, strategy: Strategy) -> Solution {
     solve_briefly(problem, strategy).unwrap()
 }
 
-/// Found by the fuzzer: the improvement of blocks went on along a vector of no length but rounding errors,
-/// four hundred thousand times, and its answer was called optimal.
+/// Found by the fuzzer. The improvement of blocks moved 400,000 times along a vector whose length was only
+/// rounding error, and its answer was called optimal.
 #[test]
-fn what_is_no_lattice_is_left_at_rounding() {
+fn a_degenerate_lattice_keeps_the_rounded_solution() {
     let rows: [Row; 5] = [
         (&[5, 1, 0, 4], &[4.0, -8.0, -5.0, -2.5], -2.5, 0.5),
         (&[5, 3, 0], &[-8.0, 2.5, 5.0], 2.5, 5.0),
@@ -51,10 +51,10 @@ fn what_is_no_lattice_is_left_at_rounding() {
     }
 }
 
-/// Found by the fuzzer: variable 2 gives way to integer 5 whatever it is, which left rounding errors of
-/// it, integers of 1e16 because of them, and an energy of -6e17, which is below the proved bound.
+/// Found by the fuzzer. Variable 2 compensates for every value of integer 5. The rounding errors that this
+/// left led to integers of 1e16 and to an energy of -6e17, below the proved bound.
 #[test]
-fn an_integer_that_nobody_sees_takes_no_part() {
+fn an_integer_without_influence_on_the_energy_stays_small() {
     let rows: [Row; 3] = [
         (&[0, 1, 3], &[7.0, -1.0, 8.0], 3.5, 1.5),
         (&[5, 2, 3], &[5.0, -5.5, 8.0], 8.0, 8.0),
@@ -64,7 +64,7 @@ fn an_integer_that_nobody_sees_takes_no_part() {
     problem
         .add_quadratic_triplets(Triangle::Lower, &[1, 0, 3], &[0, 0, 3], &[8.0, 4.5, 1.5])
         .unwrap();
-    // With x0 = x where it is least for given integers 1 and 3.
+    // The minimum over x0, for given integers 1 and 3.
     let energy = |y: f64, z: f64| {
         let a = 0.5 * 4.5 + 1.5 * 49.0 + 8.0 * 576.0;
         let b = 8.0 * y + 2.0 * 1.5 * 7.0 * (8.0 * z - y - 3.5) - 2.0 * 8.0 * 24.0 * 8.0;
@@ -87,8 +87,8 @@ fn an_integer_that_nobody_sees_takes_no_part() {
 }
 
 impl Random {
-    /// A half from -8 to 8; where it is to be `wild` now and then beside it by what makes relations between
-    /// integers impossible, or next to nothing.
+    /// A random multiple of 1/2 from -8 to 8. If `wild`, now and then a number is added that makes relations
+    /// between integers impossible or almost so.
     fn number(&mut self, wild: bool) -> f64 {
         let half = self.below(33) as f64 / 2.0 - 8.0;
         match self.below(9) {
@@ -99,7 +99,7 @@ impl Random {
         }
     }
 
-    /// Few squares of few unknowns each: with luck less than there are integers.
+    /// A random problem of few least-squares rows with few unknowns each, often fewer rows than integers.
     fn problem(&mut self) -> Problem {
         let n = 1 + self.below(8);
         let wild = self.below(2) == 0;
@@ -120,12 +120,12 @@ impl Random {
 }
 
 #[test]
-fn lattices_of_few_unknowns_take_little_work_are_no_worse_than_rounding_and_never_lie() {
+fn small_lattices_take_little_work_and_are_no_worse_than_rounding() {
     let mut random = Random::new(1);
     let mut bounded = 0;
     for round in 0..3000 {
         let problem = random.problem();
-        // Next to nothing in the right place, and there is no telling whether there is a minimum.
+        // A tiny coefficient in the wrong place can make it undecidable whether there is a minimum.
         let Ok(rounded) = solve_briefly(&problem, Strategy::Adaptive) else {
             continue;
         };

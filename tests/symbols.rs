@@ -1,4 +1,4 @@
-//! The shared library exports what the header declares, and nothing else.
+//! The shared library exports exactly the functions that the header declares.
 #![cfg(target_os = "linux")]
 
 use std::collections::BTreeSet;
@@ -10,7 +10,7 @@ fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// The library that cargo made beside this test.
+/// The library that cargo built beside this test.
 fn library() -> PathBuf {
     let test = std::env::current_exe().unwrap();
     let deps = test.parent().unwrap();
@@ -56,7 +56,7 @@ fn declared() -> BTreeSet<String> {
 fn the_header_declares_the_golden_list() {
     if std::env::var_os("ROUNDEL_BLESS").is_some_and(|v| v == "1") {
         let list: String = declared().iter().map(|name| format!("{name}\n")).collect();
-        // Whole at every moment: the other test reads it at the same time.
+        // Replace the list in one step, because the other test reads it at the same time.
         let fresh = root().join("tests/symbols.txt.new");
         fs::write(&fresh, list).unwrap();
         fs::rename(fresh, root().join("tests/symbols.txt")).unwrap();

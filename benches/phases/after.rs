@@ -1,4 +1,4 @@
-//! What is done with integers once they are decided.
+//! The phases after the integers are decided: continuous unknowns, expansion, verification.
 
 use criterion::Criterion;
 use roundel::linalg::minimise_fixed;

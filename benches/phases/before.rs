@@ -1,4 +1,4 @@
-//! From the problem to the relaxation.
+//! The phases from the problem to its relaxation.
 
 use criterion::Criterion;
 use roundel::eliminate::eliminate;

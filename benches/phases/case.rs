@@ -1,4 +1,4 @@
-//! The two families of problems, each taken as far as its relaxation.
+//! A problem of each family (field and map), reduced and relaxed.
 
 use roundel::eliminate::{ReducedModel, eliminate};
 use roundel::field::{FieldProblem, curvature_constraints};
@@ -7,10 +7,10 @@ use roundel::map::{SeamlessOptions, SeamlessProblem};
 use roundel::mesh::shape;
 use roundel::{Error, Model, Monitor, Options, Problem, Result, solve};
 
-/// Faces of the mesh.
+/// The number of faces of the mesh.
 pub const TRIANGLES: usize = 10_000;
 
-/// A problem, what is left of it after elimination, and the minimiser of that.
+/// A problem, its reduced model after elimination, and the minimiser of that model.
 pub struct Case {
     pub family: &'static str,
     pub problem: Problem,
@@ -19,7 +19,8 @@ pub struct Case {
     pub factor: RelaxedFactor,
 }
 
-/// An orientation field (many integers of local influence) and a map (few of global influence).
+/// An orientation field (many integers, each of local influence) and a map (few integers, each of
+/// global influence).
 pub fn cases() -> Result<[Case; 2]> {
     let mesh = shape::by_name("genus-2", TRIANGLES)?;
     let field = FieldProblem::new(&mesh, &curvature_constraints(&mesh, 0.1)?)?;
@@ -41,7 +42,7 @@ impl Case {
         let minimum = factor.minimise(reduced.gradient(), rounding, reduced.guess())?;
         let Minimum::At(Lowest { point, .. }) = minimum else {
             return Err(Error::NotSupported {
-                what: "a bench without a minimum".into(),
+                what: "a benchmark without a minimum".into(),
                 index: None,
                 line: None,
             });
@@ -55,7 +56,7 @@ impl Case {
         })
     }
 
-    /// The integer unknown that a rounding moves most, and its value then.
+    /// The integer unknown whose rounding moves it most, and its rounded value.
     pub fn rounded(&self) -> (u32, f64) {
         let deviation = |&i: &u32| {
             let x = self.relaxed[i as usize];

@@ -1,4 +1,4 @@
-//! Orderings, factors of either kind, and solves with them.
+//! Orderings, factors of both kinds (supernodal and simplicial), and solves with them.
 
 use criterion::{BatchSize, Criterion};
 use roundel::linalg::{Cholesky, EliminationTree, Ldl, equilibrate, minimum_degree};

@@ -1,4 +1,4 @@
-//! From a mesh to the two problems.
+//! The phases from a mesh to the two problems.
 
 use criterion::Criterion;
 use roundel::field::{FieldProblem, OrientationField, curvature_constraints};
@@ -20,7 +20,7 @@ pub fn bench(criterion: &mut Criterion) {
         group.bench_function(format!("read {format}"), |b| {
             b.iter(|| roundel::mesh::io::read(&file))
         });
-        // What cannot be taken away is a file too many in a folder for such.
+        // A file that cannot be removed stays in the folder for temporary files.
         let _ = std::fs::remove_file(&file);
     }
     group.bench_function("connectivity", |b| {
@@ -40,7 +40,7 @@ pub fn bench(criterion: &mut Criterion) {
     group.bench_function("map: comb", |b| {
         b.iter(|| Combing::new(&mesh, &field, &cut))
     });
-    // With seams, sectors and the energy, which have no interface of their own.
+    // This includes seams, sectors and the energy, which cannot be measured separately.
     group.bench_function("map: assemble, all of it", |b| {
         b.iter(|| SeamlessProblem::new(&mesh, &field, &SeamlessOptions { quads: 1000 }))
     });

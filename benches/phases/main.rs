@@ -1,12 +1,12 @@
-//! Time of every phase alone, on procedural shapes: `cargo bench --bench phases -- PHASE`.
+//! The time of every phase by itself, on procedural shapes: `cargo bench --bench phases -- PHASE`.
 //!
 //! | file | phases |
 //! | --- | --- |
 //! | `geometry` | reading, curvature, assembly of the field, cut, comb, assembly of the map |
 //! | `before` | validation and elimination, relaxation |
 //! | `factors` | orderings, supernodal and simplicial factors, solves |
-//! | `rounding` | what happens after one rounding: fixing, Gauss-Seidel, conjugate gradients |
-//! | `after` | the continuous unknowns of an offer, expansion, verification |
+//! | `rounding` | updates after one rounding: fixing, Gauss-Seidel, conjugate gradients |
+//! | `after` | the continuous unknowns of an incumbent, expansion, verification |
 
 mod after;
 mod before;

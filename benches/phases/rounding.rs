@@ -1,4 +1,4 @@
-//! What follows the rounding of one integer, by each of the ways there are.
+//! The update of the other unknowns after one integer is rounded, by each method.
 
 use criterion::{BatchSize, Criterion};
 use roundel::Options;

@@ -1,7 +1,7 @@
-"""roundel.h as cffi takes it: plain C declarations, without a preprocessor's directives.
+"""Converts roundel.h for cffi: plain C declarations without preprocessor directives.
 
-The header's only conditions ask for C++, for C23 and whether it has been read before, so that a C
-preprocessor, and with it a compiler, is not needed.
+The conditions in the header only ask for C++, for C23 and whether it was included before. So neither a
+preprocessor nor a compiler is needed.
 """
 
 import re
@@ -9,7 +9,7 @@ from pathlib import Path
 
 HEADER = Path(__file__).resolve().parents[2] / "include" / "roundel" / "roundel.h"
 
-#: Every condition of the header, and what it is for a C99 reader.
+#: Every condition in the header, with its value for a C99 compiler.
 CONDITIONS = {
     "#ifndef ROUNDEL_H": True,
     "#ifdef __cplusplus": False,
@@ -22,7 +22,7 @@ CONDITIONS = {
 def declarations() -> str:
     """The header's declarations and numeric constants.
 
-    Raises KeyError for a condition that is not known here.
+    Raises KeyError for a condition that is not in CONDITIONS.
     """
     text = re.sub(r"/\*.*?\*/", "", HEADER.read_text(encoding="utf-8"), flags=re.DOTALL)
     kept, stack = [], []

@@ -1,8 +1,8 @@
 """Puts the shared library and its declarations into the wheel.
 
-cargo builds the library, unless ROUNDEL_LIBRARY names one that is built already. cffi in ABI mode
-reads the declarations from roundel.h and writes them as a Python module: neither a compiler nor the
-header is needed where the wheel is installed, and any Python 3 takes it.
+cargo builds the library, unless ROUNDEL_LIBRARY names one that is already built. cffi in ABI mode reads
+the declarations from roundel.h and writes them as a Python module. So the wheel is installed without a
+compiler and without the header, for any Python 3.
 """
 
 import os
@@ -55,7 +55,7 @@ class LibraryHook(BuildHookInterface):
 
     @staticmethod
     def _strip(library):
-        # Line tables are five times the library, and of no use without its sources.
+        # Line tables are five times as large as the library, and useless without its sources.
         strip = shutil.which("strip")
         if strip and sys.platform.startswith("linux"):
             subprocess.run([strip, "--strip-debug", str(library)], check=True)

@@ -1,4 +1,4 @@
-"""The package's version is that of the workspace it stands in."""
+"""The version of the package, which is that of the Cargo workspace."""
 
 import re
 from pathlib import Path

@@ -1,6 +1,6 @@
-# Finds CoMISo's interface over Roundel for projects that look for CoMISo by a module.
+# A find module for projects that look for CoMISo: it gives them CoMISo's interface, solved by Roundel.
 #
-# Gives the target CoMISo::CoMISo, and for old projects the variables COMISO_FOUND,
+# Defines the target CoMISo::CoMISo, and for old projects the variables COMISO_FOUND,
 # COMISO_INCLUDE_DIR, COMISO_INCLUDE_DIRS, COMISO_LIBRARY and COMISO_LIBRARIES.
 
 find_package(CoMISo CONFIG QUIET HINTS "${CMAKE_CURRENT_LIST_DIR}/..")

@@ -1,8 +1,8 @@
 /* usage: as_program MESH UV.obj OTHER.obj EDGE_LENGTH DEGREES
  *
- * The map that the C interface makes of a mesh is that which the program wrote to UV.obj: the same
- * coordinates at every corner, to the last digit, and the same file when written to OTHER.obj.
- * Edges that turn by DEGREES or more are features; 0: there are none. */
+ * The C interface makes the same map of a mesh as the program, which wrote it to UV.obj: the same
+ * coordinates at every corner to the last digit, and the same file when written to OTHER.obj. Edges
+ * that turn by DEGREES or more are features; 0 means none. */
 
 #include "check.h"
 #include "same_bytes.h"
@@ -24,7 +24,7 @@ static roundel_map* made(const roundel_mesh* mesh, double edge_length, double de
     if (degrees > 0.0) {
         OK(roundel_guidance_set_feature_angle(guidance, degrees * turn));
     }
-    /* A map's field does not see what is smaller than a quad. */
+    /* A map's field ignores details that are smaller than a quad. */
     OK(roundel_guidance_set_detail(guidance, edge_length));
     OK(roundel_options_new(&options));
     OK(roundel_options_set_text(options, "strategy", "adaptive"));
@@ -38,8 +38,8 @@ static roundel_map* made(const roundel_mesh* mesh, double edge_length, double de
     return map;
 }
 
-/* Holds the coordinates against those of the file, corner by corner; returns how many are whole
- * numbers, of which isolines have many. */
+/* Compares the coordinates with those of the file, corner by corner. Returns how many are integers,
+ * as they are on isolines. */
 static size_t compared(const char* name, const double* uv, size_t faces) {
     char line[512];
     double(*vt)[2] = malloc(3 * faces * sizeof *vt);
@@ -89,7 +89,7 @@ int main(int count, char** argument) {
     CHECK(degrees == 0.0 || whole > faces / 10);
     OK(roundel_map_write(map, argument[3]));
     same_bytes(argument[2], argument[3]);
-    printf("%zu faces, %zu whole coordinates\n", faces, whole);
+    printf("%zu faces, %zu integer coordinates\n", faces, whole);
     free(uv);
     OK(roundel_map_free(map));
     OK(roundel_mesh_free(mesh));

@@ -1,4 +1,4 @@
-/* Ends the program at the first condition that does not hold, with what the library says of it. */
+/* Ends the program at the first condition that fails, and prints the library's error message. */
 
 #ifndef ROUNDEL_TESTS_CHECK_H
 #define ROUNDEL_TESTS_CHECK_H

@@ -1,4 +1,4 @@
-/* The layout of every struct that crosses, as the Rust side asserts it too. */
+/* The layout of every struct of the C interface, which the Rust side asserts too. */
 
 #include <roundel/roundel.h>
 
@@ -6,7 +6,7 @@
 
 #define WORD sizeof(void*)
 
-/* Every member that is not reserved, where it is. */
+/* The offset of every member that is not reserved. */
 #define AT(type, member, offset)                                                                   \
     _Static_assert(offsetof(type, member) == (offset), #type "." #member)
 

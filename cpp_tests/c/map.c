@@ -1,5 +1,5 @@
-/* A gear with its sharp edges and the rim of a plate as isolines, from the C interface: exactly,
- * the same when it is solved again, and cancelled when the callback says so. */
+/* Maps through the C interface: the sharp edges of a gear and the rim of a plate lie exactly on
+ * isolines, a second solve gives the same map, and a callback cancels. */
 
 #include "check.h"
 
@@ -44,7 +44,7 @@ static double* corners(const roundel_map* map, size_t faces) {
     return uv;
 }
 
-/* Counts features, each of whose sides must be an isoline of integer value to the last digit. */
+/* Counts the sides of faces on features. Each must lie on an integer isoline to the last digit. */
 static size_t isolines(const model* m, const double* uv) {
     int32_t* mark = malloc(m->edges * sizeof *mark);
     int32_t* edge = malloc(3 * m->faces * sizeof *edge);
@@ -67,7 +67,7 @@ static size_t isolines(const model* m, const double* uv) {
     return count;
 }
 
-/* The corners of faces among the vertices of the cut surface. */
+/* The corners of the faces have the coordinates of their vertices on the cut surface. */
 static void indexed(const roundel_map* map, const double* uv, size_t faces) {
     size_t vertices = 0;
     OK(roundel_map_vertex_count(map, &vertices));
@@ -103,7 +103,7 @@ static void transitions(const roundel_map* map) {
     free(translation);
 }
 
-/* A solve at another size is that of a map which never had another. */
+/* Solving again at another size gives the same map as a new map at that size. */
 static void again(const model* m, roundel_map* map) {
     roundel_map* fresh = NULL;
     double energies[2] = {0.0, 1.0};
@@ -118,7 +118,7 @@ static void again(const model* m, roundel_map* map) {
     OK(roundel_map_energy(fresh, energies + 1));
     CHECK(energies[0] == energies[1] && isolines(m, a) > 0);
 
-    /* Twice the length along and across everywhere, as a list. */
+    /* The same length along and across in every face, given as a list. */
     double* lengths = malloc(2 * m->faces * sizeof *lengths);
     CHECK(lengths != NULL);
     for (size_t i = 0; i < 2 * m->faces; ++i) {
@@ -134,8 +134,8 @@ static void again(const model* m, roundel_map* map) {
     OK(roundel_map_free(fresh));
 }
 
-/* A map of few quads is folded at the holes of the plate; untangled it is less so, its features
- * where they were. */
+/* A map of few quads has folds at the holes of the plate. Untangling removes some of them and keeps
+ * its features on isolines. */
 static void untangled(const model* m) {
     roundel_map* map = NULL;
     size_t before = 0, after = 0;
@@ -152,7 +152,8 @@ static void untangled(const model* m) {
     OK(roundel_map_free(map));
 }
 
-/* Folds of hasty rounding get fewer with stiffer surroundings and without, in two maps. */
+/* Stiffening changes the map. Untangling removes folds of direct rounding with it and without it.
+ */
 static void stiffened(const model* m) {
     roundel_map* map = NULL;
     roundel_options* direct = NULL;
@@ -180,9 +181,9 @@ static void stiffened(const model* m) {
     OK(roundel_options_free(direct));
 }
 
-/* Integers decided anew where they collapse cones, and a finer map where folds are left: what is
- * asked for again, the plain map at the size asked for, is as if there had been none. */
-static void unfolded(const model* m) {
+/* The fold-free solve decides collapsed cones anew and refines the mesh where folds remain. A plain
+ * solve of the same map afterwards gives the same result as before. */
+static void fold_free(const model* m) {
     roundel_map* map = NULL;
     size_t rounded = 0, flipped = 9, winding_defects = 9, rounds = 0, refinements = 9;
     OK(roundel_map_new(m->mesh, m->field, NULL, &map));
@@ -217,7 +218,7 @@ static void unfolded(const model* m) {
     OK(roundel_map_free(map));
 }
 
-/* A solution of the plain problem is as good as a solve. */
+/* Taking the solution of the map's problem gives the same map as solving the map. */
 static void elsewhere(const model* m, roundel_map* map) {
     roundel_problem* problem = NULL;
     roundel_solution* solution = NULL;
@@ -281,7 +282,7 @@ int main(void) {
         elsewhere(&m, map);
         if (i == 1) {
             untangled(&m);
-            unfolded(&m);
+            fold_free(&m);
         }
         watched(&m);
         free(uv);

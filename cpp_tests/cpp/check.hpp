@@ -1,4 +1,4 @@
-// Checks that count and tell, for programs that must not depend on a framework.
+// Checks that print and count failures, for programs that must not depend on a test framework.
 
 #ifndef CHECK_HPP
 #define CHECK_HPP

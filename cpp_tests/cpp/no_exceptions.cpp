@@ -1,4 +1,4 @@
-// Compiled with -fno-exceptions: every failure is told to a Status.
+// Compiled with -fno-exceptions: every failure is reported in a Status.
 
 #include "check.hpp"
 

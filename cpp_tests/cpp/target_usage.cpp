@@ -1,4 +1,4 @@
-// The example that the interface was designed for, in C++20, with its Eigen matrix spelled out.
+// The example for which the interface was designed, in C++20, with its Eigen matrix written out.
 
 #include "check.hpp"
 

@@ -1,5 +1,5 @@
-/* The broken meshes of the archive are refused through the C interface, each with its own status
- * and the element at fault; a sound one is not. */
+/* The C interface refuses each broken mesh of the archive with its status and the element at fault,
+ * and accepts a sound one. */
 
 #include <roundel/roundel.h>
 

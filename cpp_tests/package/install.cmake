@@ -1,4 +1,4 @@
-# Installs to FIRST and moves the tree to PREFIX: nothing in it may know where it was.
+# Installs to FIRST and moves the tree to PREFIX. No file in it may name the first place.
 
 file(REMOVE_RECURSE "${FIRST}" "${PREFIX}")
 execute_process(COMMAND "${CMAKE_COMMAND}" --install "${BUILD}" --prefix "${FIRST}"

@@ -1,4 +1,4 @@
-# Runs the consumers in the directory that is the last argument and reads what they print.
+# Runs the consumers in the directory that the last argument names, and checks their output.
 
 math(EXPR last "${CMAKE_ARGC} - 1")
 foreach(program IN ITEMS c_consumer cpp_consumer)

@@ -1,7 +1,6 @@
 /*
- * One mesh and one field used by several threads at once, each of which makes a map without folds
- * and quads of its own; option texts first asked for by all of them; one token that cancels them
- * all.
+ * Several threads use one mesh and one field at once: each makes a fold-free map and quads of its
+ * own, all ask for the option texts for the first time, and one token cancels them all.
  */
 
 #include <roundel/roundel.h>
@@ -46,7 +45,7 @@ static int32_t cancel_all(const roundel_event* event, void* token) {
     return roundel_cancel_token_cancel(token) == ROUNDEL_OK ? 0 : 1;
 }
 
-/* Whoever comes first cancels by its own callback; the others see it in the token. */
+/* The first thread cancels by its own callback. The others are cancelled by the token. */
 static void* cancelled(void* data) {
     job* mine = data;
     roundel_map* map = NULL;

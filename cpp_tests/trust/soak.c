@@ -1,6 +1,7 @@
 /*
- * Ten thousand small solves in one process, errors and cancelled ones among them, and no more
- * memory at the end than after the first thousand. The argument is another number of solves.
+ * Makes ten thousand small solves in one process, some of them with errors and some cancelled.
+ * Memory use at the end is no larger than after the first thousand. The argument is another number
+ * of solves.
  */
 
 #define _POSIX_C_SOURCE 200809L
@@ -19,7 +20,7 @@ static int32_t stop_at_once(const roundel_event* event, void* user_data) {
     return 1;
 }
 
-/* A chain of differences, one constraint, and integers: every part that a problem can have. */
+/* A chain of differences, one constraint and integers: every part that a problem can have. */
 static int solve_once(int round) {
     const char* const strategies[] = {"auto", "greedy", "exact", "adaptive", "lattice", "direct"};
     const int32_t index[SIZE] = {0, 1, 2, 3, 4, 5};
@@ -75,6 +76,6 @@ int main(int argc, char** argv) {
     }
     const size_t late = mallinfo2().uordblks;
     printf("%d solves: %zu bytes in use, %zu after a tenth of them\n", solves, late, early);
-    /* The allocator keeps some freed pieces for itself; 30 bytes lost a solve would show. */
+    /* The allocator keeps some freed memory. A leak of 30 bytes a solve would exceed this limit. */
     return late <= early + (1 << 18) ? 0 : 1;
 }

@@ -1,6 +1,6 @@
 /*
- * One problem solved by several threads at once, one solve cancelled from another thread, and
- * messages that belong to their threads.
+ * Several threads solve one problem at once, another thread cancels one solve, and each thread gets
+ * its own error messages.
  */
 
 #define _POSIX_C_SOURCE 200809L
@@ -96,7 +96,7 @@ static int cancelled(const roundel_problem* problem) {
     const roundel_monitor monitor = {sizeof monitor, NULL, NULL, token};
     good = good && pthread_create(&other, NULL, cancel_soon, token) == 0;
     if (good) {
-        /* Slow machines are still before a first solution, quick ones may have proved it. */
+        /* A slow machine may have no solution yet, and a fast one may have proved the optimum. */
         const roundel_status ended = roundel_solve_with(problem, options, &monitor, &solution);
         pthread_join(other, NULL);
         good = ended == ROUNDEL_ERROR_CANCELLED ||

@@ -1,9 +1,9 @@
-/// Reads a triangle mesh with OpenMesh, turns it into quads, and writes a mesh of polygons.
+/// Reads a triangle mesh with OpenMesh, quadrangulates it, and writes a polygonal mesh.
 ///
 ///     quads IN OUT [QUADS] [FEATURE_ANGLE]        files of any format that OpenMesh knows
 ///
-/// Exit status 1 for a file that cannot be read or written and for a mesh that is refused, with the
-/// element at fault; 2 for a wrong command line.
+/// The exit status is 1 if a file cannot be read or written or if the mesh is refused, with the
+/// element at fault, and 2 for a wrong command line.
 
 #include <cstdlib>
 #include <iostream>

@@ -1,5 +1,5 @@
-//! Any sequence of C calls that keeps to the contract (live handles, arrays as long as they say):
-//! every call gives a known status, and none is a panic.
+//! Random sequences of C calls that satisfy the contract: handles are live and arrays have the stated
+//! lengths. Every call returns a known status, and none panics.
 #![no_main]
 
 mod handles;
@@ -18,15 +18,15 @@ fuzz_target!(|bytes: &[u8]| {
     while !u.is_empty() && call(&mut u, &mut handles).is_ok() {}
 });
 
-/// What a call may have made of its arguments.
+/// Checks the status of a call: it is known, it comes with a message, and it is not a panic.
 fn known(status: roundel_status) {
     let number = status as i32;
-    // SAFETY: the function gives a static text.
+    // SAFETY: the function returns a static text.
     let name = unsafe { std::ffi::CStr::from_ptr(roundel_status_name(number)) };
     assert_ne!(name.to_bytes(), b"unknown");
     if status != roundel_status::ROUNDEL_OK {
         let mut text: [c_char; 400] = [0; 400];
-        // SAFETY: the buffer has the length given, and ends with a zero after the call.
+        // SAFETY: the buffer has the given length, and the call ends the text with a zero.
         assert!(unsafe { roundel_last_error_message(text.as_mut_ptr(), text.len()) } > 0);
         // SAFETY: see above.
         let text = unsafe { std::ffi::CStr::from_ptr(text.as_ptr()) };
@@ -47,7 +47,7 @@ fn built(u: &mut Unstructured, h: &mut Handles, which: u8) -> Result<()> {
     let problem = pick(u, &h.problems)?;
     let (a, b): (f64, i64) = (number(u)?, i64::from(u.arbitrary::<i8>()?));
     let triangle = u.int_in_range(-1..=3)?;
-    // SAFETY: handles are live or NULL, and arrays as long as the numbers that are told.
+    // SAFETY: handles are live or NULL, and arrays have the stated lengths.
     known(unsafe {
         match which {
             0 => h.make(|h| &mut h.problems, |out| roundel_problem_new(b.unsigned_abs() as usize % 8, out)),
@@ -86,7 +86,7 @@ fn built(u: &mut Unstructured, h: &mut Handles, which: u8) -> Result<()> {
     Ok(())
 }
 
-/// Calls that solve, and those on meshes.
+/// Calls that solve, and calls on meshes.
 fn used(u: &mut Unstructured, h: &mut Handles, which: u8) -> Result<()> {
     let (reals, ints) = (reals(u)?, ints(u)?);
     let count = reals.len().min(ints.len());
@@ -101,7 +101,7 @@ fn used(u: &mut Unstructured, h: &mut Handles, which: u8) -> Result<()> {
     let mut place = reals.clone();
     let (out, room) = (place.as_mut_ptr(), place.len());
     let small = b.unsigned_abs() as usize % 60;
-    // SAFETY: handles are live or NULL, and arrays as long as the numbers that are told.
+    // SAFETY: handles are live or NULL, and arrays have the stated lengths.
     known(unsafe {
         match which {
             14 => h.make(|h| &mut h.options, |out| handles::modest_options(out)),
@@ -141,7 +141,7 @@ fn used(u: &mut Unstructured, h: &mut Handles, which: u8) -> Result<()> {
     Ok(())
 }
 
-/// Halves from -8 to 8, or any 64 bits.
+/// A multiple of 1/2 from -8 to 8, or any 64 bits.
 fn number(u: &mut Unstructured) -> Result<f64> {
     match u.ratio(7u8, 8u8)? {
         true => Ok(f64::from(u.int_in_range(-16i8..=16)?) / 2.0),
@@ -159,8 +159,8 @@ fn ints(u: &mut Unstructured) -> Result<Vec<i32>> {
     (0..count).map(|_| u.int_in_range(-1..=9)).collect()
 }
 
-/// The name of an option, a word that one takes, or neither. That of the budget of `exact` is left
-/// out: without one it may take a minute, as it says.
+/// The name of an option, a value of one, or neither. The limit on nodes of `exact` is left out, because
+/// without it a solve may take a minute by design.
 fn name(u: &mut Unstructured) -> Result<CString> {
     let words = [
         "strategy", "ordering", "warm_start", "threads", "gap", "beam_width", "relax", "direct", "greedy",

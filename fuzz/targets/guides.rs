@@ -1,4 +1,4 @@
-//! Text files that speak of a mesh: guides, feature lines and fields.
+//! Text files that belong to a mesh: guides, feature lines and fields.
 #![no_main]
 
 use std::sync::LazyLock;
@@ -20,7 +20,7 @@ fuzz_target!(|input: (u8, &str)| {
     }
 });
 
-/// What a file asks for is fulfilled or refused.
+/// A guidance file is either refused or followed by the field.
 fn guided(text: &str) {
     let mut guidance = Guidance::default();
     if guidance.parse(&MESH, text).is_err() {
@@ -44,7 +44,7 @@ fn guided(text: &str) {
     }
 }
 
-/// A field that is read has an index sum of Euler's characteristic.
+/// The indices of a field that was read sum to the Euler characteristic.
 fn field(text: &str) {
     if let Ok(field) = OrientationField::parse(&MESH, text) {
         assert!(field.angles().iter().all(|angle| angle.is_finite()));

@@ -1,4 +1,4 @@
-//! Mesh files: whatever the bytes, a mesh that holds what it promises, or an error.
+//! Mesh files: any bytes give a valid mesh or an error.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
@@ -15,7 +15,7 @@ fuzz_target!(|input: (u8, &[u8])| {
     }
 });
 
-/// That sizes agree, and that the mesh can be made again from what it gives.
+/// Checks that the sizes agree, and that the mesh can be built again from its own arrays.
 fn check(mesh: &TriangleMesh) {
     assert!(mesh.face_count() > 0 && mesh.vertex_count() >= 3);
     assert!(2 * mesh.edge_count() >= 3 * mesh.face_count());

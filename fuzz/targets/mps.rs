@@ -1,4 +1,4 @@
-//! MPS files: whatever the bytes, a problem or an error, and a problem survives being written.
+//! MPS files: any bytes give a problem or an error, and a problem is written and read back unchanged.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;

@@ -1,5 +1,5 @@
-//! Small problems of any make, solved by every strategy: never a panic, and what is called a
-//! solution is one.
+//! Random small problems, solved by every strategy: no solve panics, and every solution satisfies its
+//! guarantees.
 #![no_main]
 
 use libfuzzer_sys::arbitrary::{Result, Unstructured};
@@ -19,12 +19,12 @@ fn run(u: &mut Unstructured) -> Result<()> {
         dense_integers: u.int_in_range(0..=4)?,
         ..Options::default()
     };
-    // Of numbers that are tame, everything is promised; of all others, only that nothing breaks.
-    let tame = u.ratio(3u8, 4u8)?;
+    // All guarantees are checked if every number is a multiple of 1/2, otherwise only the basic ones.
+    let halves = u.ratio(3u8, 4u8)?;
     let n = u.int_in_range(1..=6)?;
     let mut problem = Problem::new(n).expect("a few variables");
     while !u.is_empty() {
-        let _ = part(u, &mut problem, n, tame)?;
+        let _ = part(u, &mut problem, n, halves)?;
     }
     let mut solver = match Solver::new(&problem) {
         Ok(solver) => solver,
@@ -39,7 +39,7 @@ fn run(u: &mut Unstructured) -> Result<()> {
     if solution.status() != SolveStatus::Relaxed {
         assert_eq!(solution.max_integrality_violation(), 0.0);
     }
-    if tame {
+    if halves {
         assert!(solution.max_constraint_violation() < 1e-6);
         let scale = solution.energy().abs().max(1e3);
         let bound = solution.lower_bound().unwrap_or(f64::NEG_INFINITY);
@@ -50,42 +50,42 @@ fn run(u: &mut Unstructured) -> Result<()> {
     Ok(())
 }
 
-/// Adds a part; one that is refused changes nothing.
-fn part(u: &mut Unstructured, p: &mut Problem, n: usize, tame: bool) -> Result<roundel::Result<()>> {
+/// Adds a part to the problem. A part that is refused changes nothing.
+fn part(u: &mut Unstructured, p: &mut Problem, n: usize, halves: bool) -> Result<roundel::Result<()>> {
     Ok(match u.int_in_range(0..=6)? {
         0 => {
             let (i, j) = (u.int_in_range(0..=n)?, u.int_in_range(0..=n)?);
-            p.add_quadratic_triplets(Triangle::Lower, &[i.max(j)], &[i.min(j)], &[number(u, tame)?])
+            p.add_quadratic_triplets(Triangle::Lower, &[i.max(j)], &[i.min(j)], &[number(u, halves)?])
         }
-        1 => p.add_linear_term(u.int_in_range(0..=n)?, number(u, tame)?),
+        1 => p.add_linear_term(u.int_in_range(0..=n)?, number(u, halves)?),
         2 | 3 => {
-            let (indices, values) = row(u, n, tame)?;
-            let rhs = number(u, tame)?;
-            p.add_least_squares(&indices, &values, rhs, number(u, tame)?.abs())
+            let (indices, values) = row(u, n, halves)?;
+            let rhs = number(u, halves)?;
+            p.add_least_squares(&indices, &values, rhs, number(u, halves)?.abs())
                 .map(drop)
         }
         4 => {
-            let (indices, values) = row(u, n, tame)?;
-            p.add_constraint(&indices, &values, number(u, tame)?).map(drop)
+            let (indices, values) = row(u, n, halves)?;
+            p.add_constraint(&indices, &values, number(u, halves)?).map(drop)
         }
         5 => p.set_integers(&[u.int_in_range(0..=n)?]),
-        _ => p.pin(u.int_in_range(0..=n)?, number(u, tame)?),
+        _ => p.pin(u.int_in_range(0..=n)?, number(u, halves)?),
     })
 }
 
-fn row(u: &mut Unstructured, n: usize, tame: bool) -> Result<(Vec<usize>, Vec<f64>)> {
+fn row(u: &mut Unstructured, n: usize, halves: bool) -> Result<(Vec<usize>, Vec<f64>)> {
     let count = u.int_in_range(0..=4)?;
     let mut entries = (Vec::new(), Vec::new());
     for _ in 0..count {
         entries.0.push(u.int_in_range(0..=n)?);
-        entries.1.push(number(u, tame)?);
+        entries.1.push(number(u, halves)?);
     }
     Ok(entries)
 }
 
-/// Halves from -8 to 8, or any 64 bits.
-fn number(u: &mut Unstructured, tame: bool) -> Result<f64> {
-    if tame || u.arbitrary()? {
+/// A multiple of 1/2 from -8 to 8, or any 64 bits.
+fn number(u: &mut Unstructured, halves: bool) -> Result<f64> {
+    if halves || u.arbitrary()? {
         Ok(f64::from(u.int_in_range(-16i8..=16)?) / 2.0)
     } else {
         u.arbitrary()

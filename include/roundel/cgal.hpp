@@ -1,4 +1,4 @@
-/// Roundel for CGAL: fields and maps of every model of its FaceGraph, written back to property
+/// Roundel for CGAL: fields, maps and quads for every model of FaceGraph, with results in property
 /// maps.
 ///
 ///     CGAL::Surface_mesh<Kernel::Point_3> mesh = ...;
@@ -8,8 +8,8 @@
 ///     auto map = roundel::parametrize(mesh, field, {.quads = 2000});
 ///     auto uv = roundel::store(map, mesh);
 ///
-/// Faces must be triangles. Elements that are marked as removed are left out. A face's first edge
-/// is its halfedge(face, mesh).
+/// Faces must be triangles. Elements marked as removed are skipped. The first edge of a face is its
+/// halfedge(face, mesh).
 
 #ifndef ROUNDEL_CGAL_HPP
 #define ROUNDEL_CGAL_HPP
@@ -48,8 +48,8 @@ template <class G> using Elements = Adapted<Vertex<G>, Face<G>, Halfedge<G>>;
 template <class G> using Field = AdaptedField<Vertex<G>, Face<G>, Halfedge<G>>;
 template <class G> using Map = AdaptedMap<Vertex<G>, Face<G>, Halfedge<G>>;
 
-// A FaceGraph has faces(graph); boost::graph_traits cannot be asked of a type that is no graph.
-// CGAL makes FaceGraphs of OpenMesh's types too; those belong to openmesh.hpp.
+// A FaceGraph has faces(graph). boost::graph_traits does not compile for a type that is no graph.
+// CGAL also makes FaceGraphs of OpenMesh's types, but those belong to openmesh.hpp.
 template <class G>
 using enable = std::enable_if_t<!std::is_base_of_v<OpenMesh::PolyConnectivity, G> &&
                                     sizeof(faces(std::declval<const G&>())) != 0,
@@ -58,12 +58,12 @@ using enable = std::enable_if_t<!std::is_base_of_v<OpenMesh::PolyConnectivity, G
 /// The property maps of a field on a CGAL::Surface_mesh, under the names "f:roundel_angle",
 /// "h:roundel_period_jump", "h:roundel_kappa" and "v:roundel_index".
 template <class M> struct Properties {
-    /// One arm of the face's cross, counted from its halfedge.
+    /// The angle of one arm of the face's cross, from its halfedge.
     typename M::template Property_map<Face<M>, double> angle;
-    /// From the half-edge's face to the opposite one: angle + kappa + pi/2 jump is the matching arm
-    /// there. Zero at the boundary.
+    /// For a half-edge of face f opposite to face g, the arm of g with angle + kappa + pi/2 jump
+    /// matches the arm of f. Zero at the boundary.
     typename M::template Property_map<Halfedge<M>, std::int32_t> period_jump;
-    /// The frame of the half-edge's face seen in that of the opposite one.
+    /// The angle of the frame of the half-edge's face in that of the opposite face.
     typename M::template Property_map<Halfedge<M>, double> kappa;
     /// The index in full turns; zero at the boundary.
     typename M::template Property_map<Vertex<M>, double> index;
@@ -71,7 +71,7 @@ template <class M> struct Properties {
 
 } // namespace cgal
 
-/// The triangles of a FaceGraph, with the points of `points`.
+/// The triangles of a FaceGraph, with positions from `points`.
 template <class G, class Points, cgal::enable<G> = 0>
 cgal::Elements<G> adapt(const G& graph, const Points& points, Status* status) {
     cgal::Elements<G> elements;
@@ -102,21 +102,21 @@ cgal::Elements<G> adapt(const G& graph, const Points& points, Status* status) {
     return elements;
 }
 
-/// The triangles of a FaceGraph that has points of its own.
+/// The triangles of a FaceGraph that stores its own positions.
 template <class G, cgal::enable<G> = 0>
 cgal::Elements<G> adapt(const G& graph, Status* status = nullptr) {
     return adapt(graph, get(CGAL::vertex_point, graph), status);
 }
 
-/// The smoothest field of a FaceGraph that follows the constraints, whose faces are numbered in the
-/// order of faces(graph).
+/// The smoothest field of a FaceGraph that satisfies the constraints. Their faces are numbered in
+/// the order of faces(graph).
 template <class G, cgal::enable<G> = 0>
 cgal::Field<G> orientation_field(const G& graph, const FieldOptions& options = {},
                                  Status* status = nullptr) {
     return detail::field_of(adapt(graph, status), options, status);
 }
 
-/// Writes a field to writable property maps: of faces, half-edges twice, and vertices.
+/// Writes a field to writable property maps: one of faces, two of half-edges, one of vertices.
 template <class G, class Angle, class Jump, class Kappa, class Index, cgal::enable<G> = 0>
 void store(const cgal::Field<G>& field, const G& graph, Angle angle, Jump period_jump, Kappa kappa,
            Index index) {
@@ -130,8 +130,8 @@ void store(const cgal::Field<G>& field, const G& graph, Angle angle, Jump period
         });
 }
 
-/// Writes a field to property maps of the CGAL::Surface_mesh that it was found on, which are added
-/// unless they are there.
+/// Writes a field to property maps of the CGAL::Surface_mesh that it was computed on. Property maps
+/// that do not exist are added.
 template <class P>
 cgal::Properties<CGAL::Surface_mesh<P>> store(const cgal::Field<CGAL::Surface_mesh<P>>& field,
                                               CGAL::Surface_mesh<P>& mesh) {
@@ -147,15 +147,15 @@ cgal::Properties<CGAL::Surface_mesh<P>> store(const cgal::Field<CGAL::Surface_me
     return to;
 }
 
-/// The seamless map of a FaceGraph that follows a field found on it.
+/// The seamless map of a FaceGraph that follows a field computed on it.
 template <class G, cgal::enable<G> = 0>
 cgal::Map<G> parametrize(const G& graph, const cgal::Field<G>& field,
                          const MapOptions& options = {}, Status* status = nullptr) {
     return detail::map_of(adapt(graph, status), field, options, status);
 }
 
-/// Writes a map to a writable property map of half-edges, whose values are arrays of u and v: in
-/// the half-edge's face, of its target.
+/// Writes a map to a writable property map of half-edges. Its values are arrays of u and v: the
+/// coordinates of the half-edge's target in the half-edge's face.
 template <class G, class Uv, cgal::enable<G> = 0>
 void store(const cgal::Map<G>& map, const G&, Uv uv) {
     detail::hand_out(map, [&](const cgal::Halfedge<G>& side, double u, double v) {
@@ -163,8 +163,8 @@ void store(const cgal::Map<G>& map, const G&, Uv uv) {
     });
 }
 
-/// Writes a map to the property map "h:roundel_uv" of the CGAL::Surface_mesh that it was made for,
-/// which is added unless it is there.
+/// Writes a map to the property map "h:roundel_uv" of the CGAL::Surface_mesh that it was computed
+/// on. The property map is added if it does not exist.
 template <class P>
 typename CGAL::Surface_mesh<P>::template Property_map<cgal::Halfedge<CGAL::Surface_mesh<P>>,
                                                       std::array<double, 2>>
@@ -177,8 +177,8 @@ store(const cgal::Map<CGAL::Surface_mesh<P>>& map, CGAL::Surface_mesh<P>& mesh) 
     return uv;
 }
 
-/// A FaceGraph turned into quads; `roundel::mesh_of<CGAL::Surface_mesh<Point>>` makes a mesh of
-/// them.
+/// Quadrangulates a FaceGraph. `roundel::mesh_of<CGAL::Surface_mesh<Point>>` converts the result to
+/// a mesh.
 template <class G, cgal::enable<G> = 0>
 Quads quadrangulate(const G& graph, const QuadOptions& options = {}, Status* status = nullptr) {
     const auto elements = adapt(graph, status);

@@ -1,4 +1,4 @@
-/// Roundel for Eigen: problems from its sparse matrices, fields and maps of meshes in its matrices.
+/// Roundel for Eigen: problems from sparse matrices; fields, maps and quads of meshes in matrices.
 ///
 ///     problem.quadratic(Q, roundel::Triangle::full);            // Eigen::SparseMatrix<double>
 ///     problem.constrain(C, d);                                  // and a vector
@@ -25,17 +25,17 @@ ROUNDEL_NAMESPACE_BEGIN
 
 namespace detail {
 
-/// Eigen's sparse matrices as Problem takes matrices of other libraries.
+/// Gives Problem access to Eigen's sparse matrices.
 template <int options, class Stored>
 class CompressedView<Eigen::SparseMatrix<double, options, Stored>> {
   public:
     using Matrix = Eigen::SparseMatrix<double, options, Stored>;
     using Index = std::conditional_t<sizeof(Stored) == 8, std::int64_t, std::int32_t>;
     static_assert(std::is_same_v<Stored, std::int32_t> || sizeof(Stored) == 8,
-                  "the storage index is int or a 64-bit integer");
+                  "the storage index must be int or a 64-bit integer");
 
     explicit CompressedView(const Matrix& matrix) : matrix_(&matrix) {
-        // A matrix with room between its columns is packed first.
+        // An uncompressed matrix is compressed first.
         if (!matrix.isCompressed()) {
             packed_ = matrix;
             packed_.makeCompressed();
@@ -48,7 +48,7 @@ class CompressedView<Eigen::SparseMatrix<double, options, Stored>> {
     Compressed<Index> get() const {
         const auto outer = static_cast<std::size_t>(matrix_->outerSize());
         const auto count = static_cast<std::size_t>(matrix_->nonZeros());
-        // long and long long are two types of the same 64 bits.
+        // long and long long are different types with the same 64 bits.
         const auto indices = [](const Stored* from) {
             return reinterpret_cast<const Index*>(from);
         };
@@ -65,11 +65,11 @@ class CompressedView<Eigen::SparseMatrix<double, options, Stored>> {
 
 } // namespace detail
 
-/// The mesh of vertices, a row of x, y, z each, and faces, a row of three corners each.
+/// The mesh with vertices in the rows of V (x, y, z) and faces in the rows of F (three corners).
 template <class V, class F>
 Mesh adapt(const Eigen::MatrixBase<V>& vertices, const Eigen::MatrixBase<F>& faces,
            Status* status = nullptr) {
-    static_assert(std::is_integral_v<typename F::Scalar>, "corners are integers");
+    static_assert(std::is_integral_v<typename F::Scalar>, "corners must be integers");
     if (faces.cols() != 3) {
         if (faces.rows() > 0) {
             Status failure;
@@ -104,7 +104,7 @@ Mesh adapt(const Eigen::MatrixBase<V>& vertices, const Eigen::MatrixBase<F>& fac
                 span<const std::int64_t>(corners.data(), corners.size()), status);
 }
 
-/// A field and the mesh that it was found on.
+/// A field together with the mesh on which it was computed.
 struct EigenField : Field {
     EigenField() = default;
     EigenField(Field field, Mesh on) : Field(std::move(field)), mesh(std::move(on)) {}
@@ -112,7 +112,7 @@ struct EigenField : Field {
     Mesh mesh{};
 };
 
-/// The smoothest field of a mesh in matrices that follows the constraints.
+/// The smoothest field of a mesh in matrices that satisfies the constraints.
 template <class V, class F>
 EigenField orientation_field(const Eigen::MatrixBase<V>& vertices,
                              const Eigen::MatrixBase<F>& faces, const FieldOptions& options = {},
@@ -127,14 +127,14 @@ EigenField orientation_field(const Eigen::MatrixBase<V>& vertices,
 
 /// A field as Eigen's matrices.
 struct FieldMatrices {
-    /// One arm of every face's cross, counted from its first edge.
+    /// The angle of one arm of every face's cross, from its first edge.
     Eigen::VectorXd angles;
-    /// The two faces of every edge, the second -1 at the boundary.
+    /// The two faces of every edge; the second is -1 at the boundary.
     Eigen::Matrix<std::int32_t, Eigen::Dynamic, 2, Eigen::RowMajor> edge_faces;
-    /// Of every edge, from its first to its second face.
+    /// The period jump of every edge, from its first to its second face.
     Eigen::Matrix<std::int32_t, Eigen::Dynamic, 1> period_jumps;
     Eigen::VectorXd kappa;
-    /// Of every vertex, in full turns; zero at the boundary.
+    /// The index of every vertex in full turns; zero at the boundary.
     Eigen::VectorXd indices;
 };
 
@@ -156,18 +156,17 @@ inline FieldMatrices matrices(const EigenField& field, Status* status = nullptr)
     return to;
 }
 
-/// The seamless map of the mesh of a field in matrices.
+/// The seamless map of an EigenField's mesh that follows the field.
 inline Map parametrize(const EigenField& field, const MapOptions& options = {},
                        Status* status = nullptr) {
     return parametrize(field.mesh, field, options, status);
 }
 
-/// A map as Eigen's matrices, beside those of the mesh: corner k of face f has the coordinates
-/// UV.row(FUV(f, k)).
+/// A map as Eigen's matrices. Corner k of face f has the coordinates UV.row(FUV(f, k)).
 struct MapMatrices {
     /// u and v of every vertex of the cut surface.
     Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor> UV;
-    /// The three corners of every face among them.
+    /// The three corners of every face as rows of UV.
     Eigen::Matrix<std::int32_t, Eigen::Dynamic, 3, Eigen::RowMajor> FUV;
 };
 
@@ -183,7 +182,7 @@ inline MapMatrices matrices(const Map& map) {
     return to;
 }
 
-/// A mesh in matrices turned into quads.
+/// Quadrangulates a mesh in matrices.
 template <class V, class F>
 Quads quadrangulate(const Eigen::MatrixBase<V>& vertices, const Eigen::MatrixBase<F>& faces,
                     const QuadOptions& options = {}, Status* status = nullptr) {
@@ -191,7 +190,7 @@ Quads quadrangulate(const Eigen::MatrixBase<V>& vertices, const Eigen::MatrixBas
     return mesh ? quadrangulate(mesh, options, status) : Quads();
 }
 
-/// Quads as Eigen's matrices; faces that are no quads are left out.
+/// Quads as Eigen's matrices. Other faces are left out.
 struct QuadMatrices {
     Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> V;
     Eigen::Matrix<std::int32_t, Eigen::Dynamic, 4, Eigen::RowMajor> Q;

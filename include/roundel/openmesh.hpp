@@ -1,4 +1,4 @@
-/// Roundel for OpenMesh: fields and maps of its meshes, written back as its properties.
+/// Roundel for OpenMesh: fields, maps and quads of its meshes, with results in properties.
 ///
 ///     auto field = roundel::orientation_field(mesh, {.constrain_curvature = 0.1});
 ///     auto p = roundel::store(field, mesh);
@@ -7,8 +7,8 @@
 ///     auto uv = roundel::store(map, mesh);
 ///     if (!map.valid()) for (auto face : map.flipped()) mark(face);
 ///
-/// For every mesh type of OpenMesh whose faces are triangles. Elements that are marked as deleted
-/// are left out; no garbage collection is needed. A face's first edge is its halfedge_handle.
+/// For every mesh type of OpenMesh whose faces are triangles. Elements marked as deleted are
+/// skipped, so no garbage collection is needed. The first edge of a face is its halfedge_handle.
 
 #ifndef ROUNDEL_OPENMESH_HPP
 #define ROUNDEL_OPENMESH_HPP
@@ -36,15 +36,15 @@ using Map = AdaptedMap<OpenMesh::VertexHandle, OpenMesh::FaceHandle, OpenMesh::H
 template <class M>
 using enable = std::enable_if_t<std::is_base_of_v<OpenMesh::PolyConnectivity, M>, int>;
 
-/// Where a field is kept on a mesh, under the names "roundel:angle", "roundel:period_jump",
+/// The properties of a field on a mesh, under the names "roundel:angle", "roundel:period_jump",
 /// "roundel:kappa" and "roundel:index".
 struct Properties {
-    /// One arm of the face's cross, counted from its halfedge_handle.
+    /// The angle of one arm of the face's cross, from its halfedge_handle.
     OpenMesh::FPropHandleT<double> angle;
-    /// From the half-edge's face to the opposite one: angle + kappa + pi/2 jump is the matching arm
-    /// there. Zero at the boundary.
+    /// For a half-edge of face f opposite to face g, the arm of g with angle + kappa + pi/2 jump
+    /// matches the arm of f. Zero at the boundary.
     OpenMesh::HPropHandleT<std::int32_t> period_jump;
-    /// The frame of the half-edge's face seen in that of the opposite one.
+    /// The angle of the frame of the half-edge's face in that of the opposite face.
     OpenMesh::HPropHandleT<double> kappa;
     /// The index in full turns; zero at the boundary.
     OpenMesh::VPropHandleT<double> index;
@@ -58,7 +58,7 @@ openmesh::Elements adapt(const M& mesh, Status* status = nullptr) {
     openmesh::Elements elements;
     detail::Soup soup;
     std::vector<std::int64_t> number(mesh.n_vertices(), -1);
-    // The skipping iterators leave out what is deleted.
+    // The skipping iterators leave out deleted elements.
     for (auto it = mesh.vertices_sbegin(); it != mesh.vertices_end(); ++it) {
         const OpenMesh::VertexHandle vertex = *it;
         number[static_cast<std::size_t>(vertex.idx())] =
@@ -88,7 +88,7 @@ openmesh::Elements adapt(const M& mesh, Status* status = nullptr) {
     return elements;
 }
 
-/// The smoothest field of an OpenMesh mesh that follows the constraints, whose faces are numbered
+/// The smoothest field of an OpenMesh mesh that satisfies the constraints. Their faces are numbered
 /// without the deleted ones.
 template <class M, openmesh::enable<M> = 0>
 openmesh::Field orientation_field(const M& mesh, const FieldOptions& options = {},
@@ -96,8 +96,8 @@ openmesh::Field orientation_field(const M& mesh, const FieldOptions& options = {
     return detail::field_of(adapt(mesh, status), options, status);
 }
 
-/// Writes a field to properties of the mesh that it was found on, which are added unless they are
-/// there.
+/// Writes a field to properties of the mesh that it was computed on. Properties that do not exist
+/// are added.
 template <class M, openmesh::enable<M> = 0>
 openmesh::Properties store(const openmesh::Field& field, M& mesh) {
     openmesh::Properties to;
@@ -121,16 +121,16 @@ openmesh::Properties store(const openmesh::Field& field, M& mesh) {
     return to;
 }
 
-/// The seamless map of an OpenMesh mesh that follows a field found on it.
+/// The seamless map of an OpenMesh mesh that follows a field computed on it.
 template <class M, openmesh::enable<M> = 0>
 openmesh::Map parametrize(const M& mesh, const openmesh::Field& field,
                           const MapOptions& options = {}, Status* status = nullptr) {
     return detail::map_of(adapt(mesh, status), field, options, status);
 }
 
-/// Writes a map to the half-edge property "roundel:uv" of the mesh that it was made for, which is
-/// added unless it is there: u and v in the half-edge's face, of the vertex that it points to, as
-/// OpenMesh has texture coordinates.
+/// Writes a map to the half-edge property "roundel:uv" of the mesh that it was computed on, which
+/// is added if it does not exist. As with OpenMesh's texture coordinates, a half-edge has the
+/// coordinates of the vertex that it points to, in its own face.
 template <class M, openmesh::enable<M> = 0>
 OpenMesh::HPropHandleT<OpenMesh::Vec2d> store(const openmesh::Map& map, M& mesh) {
     OpenMesh::HPropHandleT<OpenMesh::Vec2d> uv;
@@ -143,7 +143,7 @@ OpenMesh::HPropHandleT<OpenMesh::Vec2d> store(const openmesh::Map& map, M& mesh)
     return uv;
 }
 
-/// An OpenMesh mesh turned into quads; `roundel::mesh_of<PolyMesh>` makes a mesh of them.
+/// Quadrangulates an OpenMesh mesh. `roundel::mesh_of<PolyMesh>` converts the result to a mesh.
 template <class M, openmesh::enable<M> = 0>
 Quads quadrangulate(const M& mesh, const QuadOptions& options = {}, Status* status = nullptr) {
     const auto elements = adapt(mesh, status);
@@ -157,7 +157,7 @@ struct FromPolygons<M, std::enable_if_t<std::is_base_of_v<OpenMesh::PolyConnecti
     template <class Point>
     static M make(std::size_t count, Point point,
                   const std::vector<std::vector<std::int32_t>>& faces) {
-        static_assert(!M::is_trimesh(), "quads need a mesh of polygons");
+        static_assert(!M::is_trimesh(), "quads need a polygonal mesh type");
         using Scalar = typename M::Point::value_type;
         M mesh;
         std::vector<OpenMesh::VertexHandle> vertices;

@@ -15,14 +15,15 @@
 /// In C++17: `roundel::Options options; options.set_strategy("greedy");`.
 ///
 /// Errors. A call that fails throws roundel::Error, which names the element at fault. Every call
-/// also takes a `Status*` as its last argument; given one, it throws nothing and reports there
-/// instead. Built with exceptions turned off, a failure without a Status ends the program.
+/// also takes a `Status*` as its last argument. With a Status it throws nothing and reports the
+/// failure there. Built without exceptions, a failure without a Status ends the program.
 ///
-/// Problem, Solution, Solver, Mesh, Field, Map, Quads and CancelToken own their C objects, move and
-/// do not copy. A const object may be used from several threads at once, any other from one.
+/// Problem, Solution, Solver, Mesh, Field, Map, Quads and CancelToken own their C objects. They can
+/// be moved and not copied. A const object may be used by several threads at once, any other by
+/// one.
 ///
-/// Meshes of other libraries: <roundel/openmesh.hpp>, <roundel/cgal.hpp>, <roundel/eigen.hpp>,
-/// <roundel/vcg.hpp>.
+/// Adapters for meshes of other libraries: <roundel/openmesh.hpp>, <roundel/cgal.hpp>,
+/// <roundel/eigen.hpp>, <roundel/vcg.hpp>.
 
 #ifndef ROUNDEL_HPP
 #define ROUNDEL_HPP

@@ -1,4 +1,4 @@
-/// Roundel for VCGlib: fields, maps and quads of its meshes, written back as its components.
+/// Roundel for VCGlib: fields, maps and quads of its meshes, with results in its components.
 ///
 ///     auto field = roundel::orientation_field(mesh, {.constrain_curvature = 0.1});
 ///     auto p = roundel::store(field, mesh);
@@ -8,9 +8,9 @@
 ///     PolyMesh quads;
 ///     roundel::store(roundel::quadrangulate(mesh), quads);
 ///
-/// For every mesh type that is a vcg::tri::TriMesh, of triangles. Elements that are marked as
-/// deleted are left out; no compacting is needed. A face's first edge is its edge 0. Nothing of
-/// VCGlib is included here: what a mesh type is made of, its user has included.
+/// For every type of triangle mesh that is a vcg::tri::TriMesh. Elements marked as deleted are
+/// skipped, so no compacting is needed. The first edge of a face is its edge 0. This header
+/// includes nothing of VCGlib: include the headers of your mesh type before it.
 
 #ifndef ROUNDEL_VCG_HPP
 #define ROUNDEL_VCG_HPP
@@ -36,14 +36,15 @@ ROUNDEL_NAMESPACE_BEGIN
 
 namespace vcglib {
 
-/// An edge of a face, as vcg::face::Pos has it: the number of the face in `mesh.face`, and 0 to 2.
+/// A side of a face, as in vcg::face::Pos: the number of the face in `mesh.face`, and its edge 0
+/// to 2.
 struct Side {
     std::size_t face;
     int edge;
 };
 
-/// Vertices and faces are their numbers in `mesh.vert` and `mesh.face`, which stay true when the
-/// mesh's arrays move.
+/// Vertices and faces are given by their numbers in `mesh.vert` and `mesh.face`, which stay valid
+/// when the mesh's arrays move.
 using Elements = Adapted<std::size_t, std::size_t, Side>;
 using Field = AdaptedField<std::size_t, std::size_t, Side>;
 using Map = AdaptedMap<std::size_t, std::size_t, Side>;
@@ -55,12 +56,12 @@ using enable = std::enable_if_t<
 /// The attributes of a field on a mesh, under the names "roundel:angle", "roundel:period_jump",
 /// "roundel:kappa" and "roundel:index".
 template <class M> struct Properties {
-    /// One arm of the face's cross, counted from its edge 0.
+    /// The angle of one arm of the face's cross, from its edge 0.
     typename M::template PerFaceAttributeHandle<double> angle;
-    /// Over each of the face's edges: angle + kappa + pi/2 jump is the matching arm of the face
-    /// beyond. Zero at the boundary.
+    /// For face f and the face g over each of its edges, the arm of g with angle + kappa + pi/2
+    /// jump matches the arm of f. Zero at the boundary.
     typename M::template PerFaceAttributeHandle<std::array<std::int32_t, 3>> period_jump;
-    /// The frame of the face seen in that of the face beyond each of its edges.
+    /// The angle of the frame of the face in that of the face over each of its edges.
     typename M::template PerFaceAttributeHandle<std::array<double, 3>> kappa;
     /// The index in full turns; zero at the boundary.
     typename M::template PerVertexAttributeHandle<double> index;
@@ -105,8 +106,8 @@ vcglib::Elements adapt(const M& mesh, Status* status = nullptr) {
     return elements;
 }
 
-/// The smoothest field of a VCG mesh that follows the constraints, whose faces are numbered without
-/// the deleted ones.
+/// The smoothest field of a VCG mesh that satisfies the constraints. Their faces are numbered
+/// without the deleted ones.
 template <class M, vcglib::enable<M> = 0>
 vcglib::Field orientation_field(const M& mesh, const FieldOptions& options = {},
                                 Status* status = nullptr) {
@@ -115,8 +116,8 @@ vcglib::Field orientation_field(const M& mesh, const FieldOptions& options = {},
 
 namespace detail {
 
-/// The same edge in the face beyond, or in its own at the boundary, for every side of
-/// `mesh.face`.
+/// For every side of `mesh.face` the opposite side: the same edge in the neighbouring face, or the
+/// side itself at the boundary.
 inline std::vector<std::array<vcglib::Side, 3>> opposites(const vcglib::Elements& elements) {
     const auto& sides = elements.halfedges;
     const auto edges = elements.mesh.face_edges();
@@ -126,7 +127,7 @@ inline std::vector<std::array<vcglib::Side, 3>> opposites(const vcglib::Elements
     for (std::size_t i = 0; i < sides.size(); ++i) {
         const vcglib::Side here = sides[i];
         const auto edge = static_cast<std::size_t>(edges[i]);
-        // Edges are numbered by the side that comes first.
+        // Edges are numbered in the order of their first sides.
         if (edge == first.size()) {
             first.push_back(here);
         }
@@ -137,7 +138,8 @@ inline std::vector<std::array<vcglib::Side, 3>> opposites(const vcglib::Elements
     return over;
 }
 
-/// Turns a face's PD1 by an angle from its edge 0, and PD2 a quarter further.
+/// Sets a face's PD1 to the direction at `angle` from its edge 0, and PD2 to the one a quarter
+/// further.
 template <class F> void set_directions(F& face, double angle) {
     using Scalar = typename std::decay_t<decltype(face.PD1())>::ScalarType;
     const auto arrow = [&](int end) {
@@ -151,7 +153,7 @@ template <class F> void set_directions(F& face, double angle) {
     const auto dot = [](const auto& a, const auto& b) {
         return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
     };
-    // Along the edge, and across it to where the face is.
+    // One axis along the edge, the other across it towards the face.
     auto x = arrow(1), y = arrow(2);
     const double along = dot(x, y) / dot(x, x);
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -170,8 +172,8 @@ template <class F> void set_directions(F& face, double angle) {
 
 } // namespace detail
 
-/// Writes a field to attributes of the mesh that it was found on, which are added unless they are
-/// there; and to the directions PD1 and PD2 of faces that have them, where VCG keeps crosses.
+/// Writes a field to attributes of the mesh that it was computed on. Attributes that do not exist
+/// are added. If the faces have directions PD1 and PD2, where VCG keeps crosses, these are set too.
 template <class M, vcglib::enable<M> = 0>
 vcglib::Properties<M> store(const vcglib::Field& field, M& mesh) {
     using Allocator = ::vcg::tri::Allocator<M>;
@@ -182,7 +184,7 @@ vcglib::Properties<M> store(const vcglib::Field& field, M& mesh) {
     to.period_jump = Allocator::template GetPerFaceAttribute<Jumps>(mesh, "roundel:period_jump");
     to.kappa = Allocator::template GetPerFaceAttribute<Turns>(mesh, "roundel:kappa");
     to.index = Allocator::template GetPerVertexAttribute<double>(mesh, "roundel:index");
-    // Found through the mesh's own namespace; false of types that could not hold them.
+    // Found by argument-dependent lookup; false for types that cannot hold directions.
     const bool has_directions = HasPerFaceCurvatureDir(mesh);
     const auto over = detail::opposites(field.elements());
     const auto opposite = [&](vcglib::Side side) {
@@ -204,16 +206,16 @@ vcglib::Properties<M> store(const vcglib::Field& field, M& mesh) {
     return to;
 }
 
-/// The seamless map of a VCG mesh that follows a field found on it.
+/// The seamless map of a VCG mesh that follows a field computed on it.
 template <class M, vcglib::enable<M> = 0>
 vcglib::Map parametrize(const M& mesh, const vcglib::Field& field, const MapOptions& options = {},
                         Status* status = nullptr) {
     return detail::map_of(adapt(mesh, status), field, options, status);
 }
 
-/// Writes a map to the wedge texture coordinates of the mesh that it was made for: u and v of each
-/// corner of each face, texture 0. Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for a mesh whose faces
-/// have none, or have them disabled.
+/// Writes a map to the wedge texture coordinates of the mesh that it was computed on: u and v of
+/// each corner of each face, in texture 0. Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for a mesh
+/// whose faces have no wedge texture coordinates or have them disabled.
 template <class M, vcglib::enable<M> = 0>
 void store(const vcglib::Map& map, M& mesh, Status* status = nullptr) {
     if (!HasPerWedgeTexCoord(mesh)) {
@@ -236,16 +238,16 @@ void store(const vcglib::Map& map, M& mesh, Status* status = nullptr) {
     }
 }
 
-/// A VCG mesh turned into quads; `roundel::store` writes them to a mesh.
+/// Quadrangulates a VCG mesh. `roundel::store` writes the result to a mesh.
 template <class M, vcglib::enable<M> = 0>
 Quads quadrangulate(const M& mesh, const QuadOptions& options = {}, Status* status = nullptr) {
     const auto elements = adapt(mesh, status);
     return elements ? quadrangulate(elements.mesh, options, status) : Quads();
 }
 
-/// Adds quads, with the faces that are no quads, to a mesh: VCG's meshes cannot be returned. A mesh
-/// type whose faces have PolyInfo gets polygons. Others get triangles whose inner edges are marked
-/// as faux, as VCG's own polygons over triangles are.
+/// Adds the quads, and the faces that are not quads, to a mesh, because VCG's meshes cannot be
+/// returned. A mesh type whose faces have PolyInfo gets polygons. Other mesh types get triangles
+/// whose inner edges are marked as faux, which is how VCG represents polygons by triangles.
 template <class M, vcglib::enable<M> = 0> void store(const Quads& quads, M& mesh) {
     using Allocator = ::vcg::tri::Allocator<M>;
     using Scalar = typename M::ScalarType;

@@ -1,3 +1,5 @@
+// The filter's action: it quadrangulates the current layer and reports faults.
+
 #include "filter.hpp"
 
 #include "layer.hpp"
@@ -15,7 +17,7 @@
 
 namespace {
 
-/// What came out, and what is at fault with it.
+/// A line about the quads and their faults.
 std::string summary(const roundel::Quads& quads) {
     const auto count = [](std::size_t number, const char* what) {
         return std::to_string(number) + what;
@@ -23,7 +25,7 @@ std::string summary(const roundel::Quads& quads) {
     std::string text =
         count(quads.size(), " quads, ") + count(quads.irregular_count(), " irregular vertices");
     if (!quads.others().empty()) {
-        text += count(quads.others().size(), " faces that are none").insert(0, ", ");
+        text += count(quads.others().size(), " faces that are not quads").insert(0, ", ");
     }
     if (!quads.conforming()) {
         const auto faults = quads.faults();

@@ -1,4 +1,4 @@
-// The filter as MeshLab 2020.09 knows it: a plugin with one action.
+// The filter as a plugin of MeshLab 2020.09 with one action.
 
 #ifndef ROUNDEL_MESHLAB_FILTER_HPP
 #define ROUNDEL_MESHLAB_FILTER_HPP
@@ -7,7 +7,7 @@
 
 #include <QString>
 
-/// Turns the current layer's triangles into quads, in a layer of their own.
+/// Quadrangulates the current layer into a new layer.
 class RoundelFilter : public QObject, public MeshFilterInterface {
     Q_OBJECT
     MESHLAB_PLUGIN_IID_EXPORTER(MESH_FILTER_INTERFACE_IID)
@@ -30,8 +30,8 @@ class RoundelFilter : public QObject, public MeshFilterInterface {
                      vcg::CallBackPos* callback) override;
 
   private:
-    /// Tells the user why there are no quads: in the dialog, and in the log, which is all that
-    /// meshlabserver prints.
+    /// Tells the user why there are no quads, in the dialog and in the log. meshlabserver prints
+    /// only the log.
     bool failed(const QString& why);
 };
 

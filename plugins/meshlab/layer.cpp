@@ -1,3 +1,5 @@
+// Adds quads to a MeshLab document as a new layer.
+
 #include "layer.hpp"
 
 #include <roundel/vcg.hpp>

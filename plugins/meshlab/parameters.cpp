@@ -1,3 +1,5 @@
+// Declares the parameters of the dialog and translates them to Roundel's options.
+
 #include "parameters.hpp"
 
 #include <array>
@@ -11,7 +13,7 @@ namespace {
 
 enum Size { by_count, by_gradient, by_length };
 
-/// Edges of quads along the diagonal of the bounding box.
+/// The default number of quad edges along the diagonal of the bounding box.
 constexpr float gradient_size = 30.0F;
 
 const QStringList& sizes() {
@@ -19,15 +21,15 @@ const QStringList& sizes() {
     return all;
 }
 
-/// How integers may be decided where quads are wanted, the map's default first.
+/// The strategies for integers, with the map's default first.
 const QStringList& strategies() {
     static const QStringList all{"lattice", "adaptive", "greedy", "multiple",
                                  "direct",  "exact",    "auto"};
     return all;
 }
 
-/// The number whose shortest decimals the float has: what the user wrote, which a float keeps in
-/// part. So an edge length of 0.05 is that of `roundel quad --edge-length 0.05`.
+/// The number with the shortest decimals that round to this float, which is what the user wrote. So
+/// an edge length of 0.05 equals that of `roundel quad --edge-length 0.05`.
 double as_written(float value) {
     std::array<char, 64> text{};
     const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
@@ -45,7 +47,7 @@ std::string chosen(const RichParameterList& list, const char* name, const QStrin
     return from[choice].toStdString();
 }
 
-/// The solver's option of this name, for its type.
+/// The description of a solver option, which includes its type.
 roundel_option described(const std::string& name) {
     roundel_option option{};
     for (std::size_t i = 0; i < roundel_option_count(); ++i) {
@@ -56,7 +58,7 @@ roundel_option described(const std::string& name) {
     throw std::invalid_argument("no option is called " + name);
 }
 
-/// Sets one option from its name and its value as text.
+/// Sets one option, given its name and its value as text.
 void set(roundel::Options& options, const std::string& name, const QString& value) {
     bool is_number = true;
     switch (described(name).value_type) {
@@ -96,32 +98,33 @@ roundel::Options solver_options(const RichParameterList& list) {
 void declare_parameters(const MeshModel& mesh, RichParameterList& list) {
     const float diagonal = mesh.cm.bbox.Diag();
     list.addParam(RichEnum("Size", by_count, sizes(), "Size of quads by",
-                           "Which of the next three fields says how large quads shall be."));
-    list.addParam(
-        RichInt("Quads", 1000, "Number of quads", "About how many quads there shall be."));
+                           "Which of the next three fields gives the size of the quads."));
+    list.addParam(RichInt("Quads", 1000, "Number of quads", "The approximate number of quads."));
     list.addParam(RichFloat("GradientSize", gradient_size, "Gradient size",
-                            "Edges of quads along the diagonal of the bounding box."));
+                            "The number of quad edges along the diagonal of the bounding box."));
     list.addParam(RichAbsPerc("EdgeLength", diagonal / gradient_size, 0.0F, diagonal, "Edge length",
-                              "The length of quads' edges."));
+                              "The length of the edges of the quads."));
     list.addParam(RichFloat("FeatureAngle", 0.0F, "Feature angle (degrees)",
-                            "Edges at which the surface turns by this much or more become chains "
-                            "of quads' edges; 0 for none."));
+                            "Edges at which the surface turns by this angle or more become chains "
+                            "of quad edges; 0 for none."));
     list.addParam(RichBool("Boundary", true, "Follow the boundary",
-                           "Edges of the boundary become chains of quads' edges."));
+                           "Boundary edges become chains of quad edges."));
     list.addParam(RichFloat("Detail", -1.0F, "Detail",
-                            "Details smaller than this length attract no irregular vertices; below "
-                            "zero, a quarter of an edge."));
+                            "Details smaller than this length attract no irregular vertices. A "
+                            "negative number stands for a quarter of an edge."));
     list.addParam(RichEnum("Strategy", strategies().indexOf("lattice"), strategies(),
                            "Integers of the map", "How the integers of the map are decided."));
     list.addParam(RichEnum("FieldStrategy", strategies().indexOf("adaptive"), strategies(),
                            "Integers of the field", "How the integers of the field are decided."));
     list.addParam(RichBool("Untangle", true, "Untangle",
-                           "Turn faces back that the map turns over, where quads need it."));
+                           "Turn back flipped faces of the map, where quads need it."));
     list.addParam(RichBool("Smooth", true, "Smooth",
-                           "Move vertices over the surface towards squares of one size."));
-    list.addParam(RichString("SolverOptions", "", "Solver options",
-                             "Further options of the solver, NAME=VALUE parted by spaces, such as "
-                             "time_limit=10 threads=2."));
+                           "Move vertices on the surface to make the quads more like squares of "
+                           "one size."));
+    list.addParam(
+        RichString("SolverOptions", "", "Solver options",
+                   "Further options of the solver as NAME=VALUE, separated by spaces, such as "
+                   "time_limit=10 threads=2."));
 }
 
 roundel::QuadOptions quad_options(const MeshModel& mesh, const RichParameterList& list) {

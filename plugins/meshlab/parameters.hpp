@@ -1,4 +1,4 @@
-// The filter's parameters, in MeshLab's words and in Roundel's.
+// The parameters of the filter, and their translation to Roundel's options.
 
 #ifndef ROUNDEL_MESHLAB_PARAMETERS_HPP
 #define ROUNDEL_MESHLAB_PARAMETERS_HPP
@@ -7,11 +7,12 @@
 
 #include <roundel/roundel.hpp>
 
-/// Adds what the dialog asks for, with the defaults of `roundel quad`.
+/// Adds the parameters of the dialog, with the defaults of `roundel quad`.
 void declare_parameters(const MeshModel& mesh, RichParameterList& list);
 
-/// What the dialog, or a script, says; `solve` is set. Throws std::invalid_argument for a choice
-/// that there is not and for text that is no option; all else the library checks.
+/// The options that the dialog or a script sets; `solve` is always set. Throws
+/// std::invalid_argument for a choice that does not exist and for text that is not an option. The
+/// library checks the rest.
 roundel::QuadOptions quad_options(const MeshModel& mesh, const RichParameterList& list);
 
 #endif // ROUNDEL_MESHLAB_PARAMETERS_HPP

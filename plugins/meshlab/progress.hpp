@@ -1,4 +1,4 @@
-// Roundel's events as MeshLab's progress bar, and its cancel as ours.
+// Shows Roundel's events in MeshLab's progress bar, and passes its cancel button to Roundel.
 
 #ifndef ROUNDEL_MESHLAB_PROGRESS_HPP
 #define ROUNDEL_MESHLAB_PROGRESS_HPP
@@ -9,13 +9,13 @@
 
 #include <algorithm>
 
-/// A bar that never goes back, though field and map are solved one after the other and some
-/// problems several times.
+/// A progress bar that never goes back, although field and map are solved one after the other and
+/// some problems are solved several times.
 class Progress {
   public:
     explicit Progress(vcg::CallBackPos* callback) : callback_(callback) {}
 
-    /// Whether the callback has asked for an end by answering false.
+    /// Whether the callback has asked to stop by returning false.
     bool is_cancelled() const { return cancelled_; }
 
     roundel::Flow tell(const roundel::Event& event) {

@@ -1,4 +1,4 @@
-//! Small problems of both families, and a dense textbook oracle.
+//! Small problems of both families (fields and maps), and a dense textbook solver as an oracle.
 
 #![allow(dead_code)]
 
@@ -8,7 +8,37 @@ pub mod skip;
 pub use random::Random;
 use roundel::{Options, Problem, Result, Solution, Strategy, solve};
 
+<<<<<<< HEAD
 /// A solve that looks for a proof in so few nodes that it takes no time.
+=======
+/// A deterministic sequence of numbers in [-1, 1) (xorshift, Marsaglia 2003).
+pub struct Random(u64);
+
+impl Random {
+    pub fn new(seed: u64) -> Self {
+        Random(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1)
+    }
+
+    pub fn next(&mut self) -> f64 {
+        self.bits() as f64 / (1u64 << 52) as f64 - 1.0
+    }
+
+    /// A number below `limit`.
+    pub fn below(&mut self, limit: usize) -> usize {
+        (self.bits() % limit as u64) as usize
+    }
+
+    /// The upper 53 bits of the next number.
+    fn bits(&mut self) -> u64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        self.0 >> 11
+    }
+}
+
+/// A solve with so small a limit on nodes that the search for a proof takes no time.
+>>>>>>> refs/heads/english
 pub fn solve_briefly(problem: &Problem, strategy: Strategy) -> Result<Solution> {
     let options = Options {
         strategy,
@@ -18,8 +48,8 @@ pub fn solve_briefly(problem: &Problem, strategy: Strategy) -> Result<Solution> 
     solve(problem, &options)
 }
 
-/// An orientation field on the faces of a `side` by `side` torus of quadrilaterals: one angle a
-/// face, one period jump a dual edge off a spanning tree, the first angle pinned.
+/// An orientation field on the faces of a `side` by `side` torus of quadrilaterals. There is one angle a
+/// face and one period jump for each dual edge off a spanning tree. The first angle is pinned.
 pub fn orientation_field(side: usize, seed: u64) -> Result<Problem> {
     let mut random = Random::new(seed);
     let faces = side * side;
@@ -49,9 +79,9 @@ pub fn orientation_field(side: usize, seed: u64) -> Result<Problem> {
     Ok(problem)
 }
 
-/// A seamless parametrization of a `side` by `side` patch of vertices: (u, v) follow a random
-/// gradient; its left and right sides are glued by a quarter turn and an integer translation, and
-/// so are top and bottom; two vertices are cones on integers.
+/// A seamless parametrization of a `side` by `side` patch of vertices, whose (u, v) follow a random
+/// gradient. A quarter turn and an integer translation glue its left side to its right and its top to its
+/// bottom. Two vertices are cones on integers.
 pub fn parametrization(side: usize, seed: u64) -> Result<Problem> {
     let mut random = Random::new(seed);
     let at = |r: usize, c: usize| 2 * (r * side + c);

@@ -1,4 +1,4 @@
-//! The integer solutions before and after, counted out.
+//! The integer solutions before and after elimination, compared by enumeration.
 
 use proptest::prelude::*;
 use roundel::Error;
@@ -8,13 +8,13 @@ use super::exact::{Verdict, rank, verdict};
 use super::{System, box_points, violation};
 use roundel::Model;
 
-/// Integer solutions are looked for up to this size.
+/// The largest absolute value of the integers that are enumerated.
 const RADIUS: i64 = 4;
 
 fn systems() -> impl Strategy<Value = System> {
     (1usize..=4, 0usize..=2, 1usize..=3).prop_flat_map(|(integers, continuous, rows)| {
         let n = integers + continuous;
-        // Zeros are frequent, so that rows of integers only are too.
+        // Zeros are frequent, so that some rows have integers only.
         let coefficient = prop_oneof![2 => Just(0i64), 3 => -6i64..=6];
         let row = prop::collection::vec(coefficient, n);
         (
@@ -30,7 +30,7 @@ fn systems() -> impl Strategy<Value = System> {
     })
 }
 
-/// The integer `y` for which `T y + t` has the integers `z`.
+/// The integer point `y` of the reduced unknowns that expands to the integers `z`.
 fn coordinates(reduced: &ReducedModel, z: &[i64]) -> Option<Vec<f64>> {
     let m = reduced.integers().len();
     let t = reduced.expansion();
@@ -42,7 +42,7 @@ fn coordinates(reduced: &ReducedModel, z: &[i64]) -> Option<Vec<f64>> {
         }
         row[m] = z[i] - t.offset()[i] as i64;
     }
-    // The columns are independent, so each coordinate has one candidate: Cramer by elimination.
+    // The columns are independent, so each coordinate has one candidate, found by elimination.
     let solve = |k: usize| {
         let mut order: Vec<usize> = (0..m).filter(|&j| j != k).collect();
         order.extend([k, m]);
@@ -63,7 +63,7 @@ fn coordinates(reduced: &ReducedModel, z: &[i64]) -> Option<Vec<f64>> {
     (0..z.len()).all(|i| x[i] == z[i] as f64).then_some(y)
 }
 
-/// Whether continuous unknowns exist that complete `z`.
+/// Whether some continuous unknowns complete `z` to a solution.
 fn completes(system: &System, z: &[i64]) -> bool {
     let side =
         |row: &[i64], d: i64| -> i64 { d - row.iter().zip(z).map(|(a, z)| a * z).sum::<i64>() };
@@ -117,11 +117,11 @@ proptest! {
     }
 
     #[test]
-    fn a_system_is_refused_exactly_when_theory_says_so(system in systems()) {
+    fn a_system_is_refused_exactly_when_it_has_no_solution(system in systems()) {
         let outcome = system.reduce();
         match verdict(&system) {
             Verdict::Solvable => prop_assert!(outcome.is_ok(), "{outcome:?}"),
-            // Which of the two shows first depends on the order of the rows.
+            // Which of the two is found first depends on the order of the rows.
             Verdict::Contradictory => prop_assert!(matches!(
                 outcome,
                 Err(Error::Infeasible { .. } | Error::NoIntegerSolution { .. })

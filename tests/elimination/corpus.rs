@@ -1,4 +1,4 @@
-//! The counts of the shared corpus, when it is there.
+//! The shared corpus reduces to the sizes of its reference, where the corpus is present.
 
 use std::path::Path;
 

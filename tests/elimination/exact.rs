@@ -1,14 +1,14 @@
-//! Exact linear algebra on a few integers: the oracle of the other tests.
+//! Exact linear algebra on small integer systems: the oracle of the other tests.
 
 use super::System;
 
-/// What theory says of a system.
+/// Whether a system has a solution.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Verdict {
     Solvable,
-    /// Not even with the integers real.
+    /// No solution, even with real values for the integers.
     Contradictory,
-    /// Only with the integers real.
+    /// Solutions only with real values for the integers.
     NotInIntegers,
 }
 
@@ -17,7 +17,7 @@ pub fn rank(rows: &[Vec<i64>]) -> usize {
     eliminate_columns(rows, cols).1
 }
 
-/// Rows without the first `cols` unknowns that the rows imply, and how many pivots that took.
+/// Consequences of the rows that do not contain the first `cols` unknowns, and the number of pivots used.
 pub fn eliminate_columns(rows: &[Vec<i64>], cols: usize) -> (Vec<Vec<i64>>, usize) {
     let mut rest: Vec<Vec<i128>> = rows
         .iter()
@@ -44,8 +44,8 @@ pub fn eliminate_columns(rows: &[Vec<i64>], cols: usize) -> (Vec<Vec<i64>>, usiz
     (rest.collect(), pivots)
 }
 
-/// Solvable in integers exactly if coefficients and coefficients with right side agree in rank and
-/// in the greatest common divisor of their largest minors (Heger 1856).
+/// A system is solvable in integers exactly if the matrix and the matrix with its right side have the same
+/// rank and the same greatest common divisor of their largest minors (Heger 1856).
 pub fn verdict(system: &System) -> Verdict {
     let augmented: Vec<Vec<i64>> = system
         .rows

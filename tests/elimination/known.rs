@@ -1,4 +1,4 @@
-//! Systems whose answer is known by hand.
+//! Elimination of systems whose answer is known by hand.
 
 use roundel::{Error, Problem};
 
@@ -13,7 +13,7 @@ fn integers_only(rows: &[&[i64]], rhs: &[i64]) -> System {
     }
 }
 
-/// All unknowns integer, coefficients not.
+/// One constraint with real coefficients, in which all unknowns are integer.
 fn fractional(row: &[f64], rhs: f64) -> Problem {
     let mut problem = Problem::new(row.len()).unwrap();
     let all: Vec<usize> = (0..row.len()).collect();
@@ -32,7 +32,7 @@ fn coprime_coefficients_leave_one_free_integer_less_than_unknowns() {
 }
 
 #[test]
-fn a_common_factor_that_the_right_side_lacks_is_reported_with_the_row() {
+fn a_common_factor_that_does_not_divide_the_right_side_is_reported_with_the_row() {
     let error = integers_only(&[&[1, 1], &[2, 4]], &[0, 3])
         .reduce()
         .unwrap_err();
@@ -44,7 +44,7 @@ fn a_common_factor_that_the_right_side_lacks_is_reported_with_the_row() {
 }
 
 #[test]
-fn fractional_coefficients_are_taken_in_proportion() {
+fn fractional_coefficients_are_scaled_to_integers() {
     for (row, rhs) in [
         (&[0.5, 0.5][..], 1.0),
         (&[1.0 / 3.0, 2.0 / 3.0], 1.0),
@@ -74,7 +74,7 @@ fn incommensurable_integer_coefficients_are_not_supported() {
 
 #[test]
 fn integers_that_meet_through_continuous_unknowns_are_still_solved_exactly() {
-    // 0.3 c + z0 = 0.1 and 0.9 c + 2 z1 + z2 = 0.3 leave 3 z0 = 2 z1 + z2, in whatever units.
+    // 0.3 c + z0 = 0.1 and 0.9 c + 2 z1 + z2 = 0.3 leave 3 z0 = 2 z1 + z2, in any unit.
     for unit in [1.0, 1e-7, 1e6, 1e15, 1e20] {
         let mut problem = Problem::new(4).unwrap();
         problem.set_integers(&[1, 2, 3]).unwrap();
@@ -147,8 +147,8 @@ fn an_empty_row_holds_only_with_a_zero_right_side() {
 }
 
 #[test]
-fn the_guess_follows_the_unknowns_that_are_left() {
-    // t = x0 + x1 or the like: wherever the guess solves the constraint, it is reproduced.
+fn the_guess_is_carried_over_to_the_reduced_unknowns() {
+    // The elimination may choose any free unknowns. A guess that satisfies the constraint is reproduced.
     let mut problem = fractional(&[2.0, 3.0, 7.0], 1.0);
     problem.set_guess(&[4.0, 0.0, -1.0]).unwrap();
     let reduced = reduce(&problem).unwrap();

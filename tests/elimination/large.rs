@@ -1,4 +1,4 @@
-//! Thousands of rows stay cheap, and what comes out stays sparse.
+//! Elimination of thousands of rows stays cheap, and the reduced model stays sparse.
 
 use std::time::{Duration, Instant};
 
@@ -8,8 +8,8 @@ use roundel::{Model, Options, Problem, Strategy, solve};
 use super::common::Random;
 use super::{reduce, violation};
 
-/// Generous: a slow machine without optimisation takes a tenth of it. What grows with the square
-/// of the number of rows takes minutes.
+/// A generous limit: a slow machine without optimisation takes a tenth of it. An algorithm quadratic in the
+/// number of rows takes minutes.
 const BOUND: Duration = Duration::from_secs(20);
 
 fn reduce_in_time(problem: &Problem) -> ReducedModel {
@@ -20,7 +20,7 @@ fn reduce_in_time(problem: &Problem) -> ReducedModel {
     reduced
 }
 
-/// A grid of `side` by `side` unknowns that neighbours hold together, after `extra` others.
+/// A grid of `side` by `side` unknowns with squared differences of neighbours, after `extra` others.
 fn grid(side: usize, extra: usize) -> Problem {
     let mut problem = Problem::new(side * side + extra).unwrap();
     let at = |r: usize, c: usize| extra + r * side + c;
@@ -64,7 +64,7 @@ fn a_chain_in_random_order_leaves_one() {
     let n = 20_000;
     let mut problem = Problem::new(n).unwrap();
     for k in 0..n - 1 {
-        // 7919 is coprime to n - 1: every link once, far from its neighbours.
+        // 7919 is coprime to n - 1, so each link comes once, far from its neighbours.
         let i = k * 7919 % (n - 1);
         problem
             .add_constraint(&[i, i + 1], &[1.0, -1.0], 0.0)
@@ -76,7 +76,7 @@ fn a_chain_in_random_order_leaves_one() {
 }
 
 #[test]
-fn features_on_integer_isolines_leave_their_integers() {
+fn features_on_integer_isolines_leave_one_integer_each() {
     let (features, side) = (400, 150);
     let mut problem = grid(side, features);
     problem
@@ -100,7 +100,7 @@ fn closed_loops_leave_one_unknown_each_and_their_last_row_is_redundant() {
     for l in 0..loops {
         for k in 0..length {
             let (i, j) = (l * length + k, l * length + (k + 1) % length);
-            // Once around, the jumps 1/3 and -1/3 cancel only up to rounding.
+            // Around the loop, the jumps 1/3 and -1/3 cancel only up to rounding.
             let jump = match k % 3 {
                 0 => 1.0 / 3.0,
                 1 => -0.1,
@@ -160,7 +160,7 @@ fn a_mean_over_all_unknowns_keeps_the_hessian_sparse() {
     let side = 142;
     let n = side * side;
     let mut problem = grid(side, 0);
-    // Areas that differ a thousandfold, as on real meshes.
+    // Areas differ by a factor of a thousand, as on real meshes.
     let area: Vec<f64> = (0..n)
         .map(|i| 10f64.powi((i * 31 % 7) as i32 - 3))
         .collect();
@@ -252,12 +252,28 @@ fn uneven_weights_of_a_mean_do_not_cost_accuracy() {
     with_mean
         .add_constraint(&(0..n).collect::<Vec<_>>(), &area, 2.5)
         .unwrap();
-    // Both only decide where on a line of minimisers the solution lies.
+    // The pin and the mean only select a point on the line of minimisers.
     let (a, b) = (relaxed(&pinned), relaxed(&with_mean));
     assert!((a - b).abs() <= 1e-10 * a, "{a} against {b}");
 }
 
+<<<<<<< HEAD
 /// `rows` rows of `width` real coefficients, each `step` further, that a known point solves.
+=======
+/// A fixed sequence of numbers in [-1, 1) (xorshift, Marsaglia 2003).
+fn random() -> impl FnMut() -> f64 {
+    let mut state = 0x9E37_79B9_7F4A_7C15u64;
+    move || {
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        (state >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    }
+}
+
+/// `rows` rows of `width` real coefficients that a known point satisfies. Each row starts `step` unknowns
+/// after the one before.
+>>>>>>> refs/heads/english
 fn band(n: usize, rows: usize, width: usize, step: usize) -> Problem {
     let mut random = Random::new(1);
     let mut problem = Problem::new(n).unwrap();
@@ -276,7 +292,7 @@ fn the_rank_of_a_dense_system_is_seen_through_hundreds_of_pivots() {
     let (n, rows) = (200, 150);
     let mut problem = band(n, rows, n, 0);
     let model = Model::new(&problem).unwrap();
-    // Each of these follows from ten others.
+    // Each of these rows depends on ten others.
     for k in 0..20 {
         let mut sum = vec![0.0; n];
         let mut rhs = 0.0;

@@ -1,10 +1,10 @@
-//! The elimination of Bommes' thesis: which unknowns it keeps.
+//! The elimination of Bommes' thesis keeps the unknowns that the thesis says.
 
 use roundel::eliminate::Elimination;
 use roundel::linalg::Ordering;
 use roundel::{Model, Monitor, Problem};
 
-/// The unknowns that are reduced unknowns themselves.
+/// The original unknowns that are also reduced unknowns.
 fn kept(problem: &Problem, ordering: Ordering) -> Vec<usize> {
     let model = Model::new(problem).unwrap();
     let mut monitor = Monitor::default();
@@ -18,7 +18,7 @@ fn kept(problem: &Problem, ordering: Ordering) -> Vec<usize> {
 }
 
 #[test]
-fn the_first_largest_continuous_unknown_is_solved_for_however_many_rows_have_it() {
+fn the_first_largest_continuous_unknown_is_eliminated_however_many_rows_contain_it() {
     let mut problem = Problem::new(6).unwrap();
     problem
         .add_constraint(&[0, 1, 2], &[1.0, -3.0, 3.0], 0.5)
@@ -34,7 +34,7 @@ fn the_first_largest_continuous_unknown_is_solved_for_however_many_rows_have_it(
 }
 
 #[test]
-fn the_first_unit_integer_is_solved_for_and_a_continuous_unknown_before_it() {
+fn a_continuous_unknown_and_then_the_first_unit_integer_are_eliminated() {
     let mut problem = Problem::new(7).unwrap();
     problem.set_integers(&[0, 1, 2, 3]).unwrap();
     problem
@@ -51,7 +51,7 @@ fn the_first_unit_integer_is_solved_for_and_a_continuous_unknown_before_it() {
 }
 
 #[test]
-fn long_rows_do_not_wait() {
+fn the_largest_coefficient_of_a_long_row_is_eliminated() {
     let n = 100;
     let mut problem = Problem::new(n).unwrap();
     let all: Vec<usize> = (0..n).collect();

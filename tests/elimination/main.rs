@@ -1,4 +1,4 @@
-//! Elimination of the equality constraints: what it keeps, what it reports, how it scales.
+//! Elimination of the equality constraints: the unknowns it keeps, the errors it reports and how it scales.
 
 #[path = "../common/mod.rs"]
 mod common;
@@ -15,7 +15,7 @@ mod properties;
 use roundel::eliminate::{ReducedModel, eliminate};
 use roundel::{Model, Monitor, Problem, Result};
 
-/// A system of equations with integer coefficients; the first unknowns are integer.
+/// A system of equations with integer coefficients. The integer unknowns come first.
 #[derive(Debug, Clone)]
 struct System {
     integers: usize,

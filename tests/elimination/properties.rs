@@ -1,4 +1,4 @@
-//! What holds for every feasible system of continuous and integer unknowns.
+//! Properties of elimination that hold for every feasible system of continuous and integer unknowns.
 
 use proptest::prelude::*;
 use roundel::eliminate::ReducedModel;
@@ -7,7 +7,7 @@ use roundel::{Error, Model, Problem, Triangle};
 use super::exact::rank;
 use super::{System, add_row, reduce, violation};
 
-/// Sparse systems that a known point solves.
+/// Sparse systems that a known point satisfies.
 fn feasible() -> impl Strategy<Value = System> {
     (1usize..=12, 1usize..=12, 1usize..=14).prop_flat_map(|(integers, continuous, rows)| {
         let n = integers + continuous;
@@ -38,7 +38,7 @@ fn dot(a: &[i64], b: &[i64]) -> i64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-/// A point of the reduced unknowns, integers included.
+/// A point of the reduced unknowns, with integers where they are required.
 fn some_point(reduced: &ReducedModel) -> Vec<f64> {
     let mut y: Vec<f64> = (0..reduced.dim())
         .map(|i| ((i * 7) % 5) as f64 - 2.0)
@@ -68,7 +68,7 @@ fn agree(a: &ReducedModel, b: &ReducedModel) -> bool {
 
 proptest! {
     #[test]
-    fn constraints_hold_and_rank_many_unknowns_go(system in feasible()) {
+    fn constraints_hold_and_as_many_unknowns_go_as_the_rank(system in feasible()) {
         let reduced = system.reduce().unwrap();
         prop_assert_eq!(reduced.dim(), system.unknowns() - rank(&system.rows));
         let x = reduced.expansion().expand(&some_point(&reduced));
@@ -98,17 +98,17 @@ proptest! {
         mut system in feasible(),
         off in prop_oneof![-5i64..=-1, 1i64..=5],
     ) {
-        // Without integers, so that no row can fail for another reason.
+        // Without integers, no row can fail for another reason.
         system.continuous += std::mem::take(&mut system.integers);
         let sum = (0..system.unknowns()).map(|j| system.rows.iter().map(|row| row[j]).sum());
         system.rows.push(sum.collect());
         system.rhs.push(system.rhs.iter().sum::<i64>() + off);
         let Err(Error::Infeasible { constraint, .. }) = system.reduce() else {
-            return Err(TestCaseError::fail("the contradiction was not seen"));
+            return Err(TestCaseError::fail("the contradiction was not found"));
         };
         let mut without = system.rows.clone();
         without.remove(constraint);
-        // Rows that take part depend on others.
+        // A row is part of the contradiction if its coefficients depend on those of other rows.
         prop_assert_eq!(rank(&without), rank(&system.rows));
     }
 

@@ -1,4 +1,4 @@
-//! Broken files: each is told with its line and the word at fault.
+//! Broken files: each is refused with its line and the word at fault.
 
 use roundel::Error;
 use roundel::problem::mps;
@@ -54,13 +54,13 @@ fn check(error: &Error, kind: &Kind, line: usize, word: &str) {
 }
 
 #[test]
-fn the_file_that_the_others_are_broken_from_is_good() {
+fn the_file_from_which_the_broken_ones_are_made_is_good() {
     assert!(mps::parse(GOOD.as_bytes()).is_ok());
 }
 
 #[test]
-fn each_fault_is_told_with_its_line_and_word() {
-    // What is replaced, by what; the kind of error, its line, a word of its message.
+fn each_fault_is_reported_with_its_line_and_word() {
+    // The text to replace, its replacement, the kind of error, its line, a word of its message.
     let cases = [
         // Sections.
         ("NAME p\n", "NAME p\nNAME q\n", Parse, 2, "NAME"),
@@ -219,18 +219,18 @@ fn each_fault_is_told_with_its_line_and_word() {
 }
 
 #[test]
-fn a_file_of_nothing_is_told() {
+fn an_empty_file_is_refused() {
     check(&error(""), &Parse, 1, "empty");
     check(&error("\n\n* nothing\n"), &Parse, 3, "empty");
 }
 
 #[test]
-fn the_column_without_a_bound_is_told_by_its_number_too() {
+fn a_column_without_a_bound_is_also_reported_by_its_number() {
     assert_eq!(error(&GOOD.replace(" FR B y\n", "")).index(), Some(1));
 }
 
 #[test]
-fn bytes_that_are_no_text_are_told() {
+fn bytes_that_are_not_text_are_refused() {
     let mut bytes = GOOD.as_bytes().to_vec();
     bytes[GOOD.find(" y c 1").unwrap() + 1] = 0xe9;
     let error = mps::parse(bytes.as_slice()).unwrap_err();
@@ -289,7 +289,7 @@ mod gzip {
     }
 
     #[test]
-    fn an_archive_cut_short_anywhere_is_told() {
+    fn an_archive_cut_short_anywhere_is_refused() {
         let scratch = Scratch::new("cut");
         let bytes = packed(GOOD.as_bytes());
         let path = scratch.file("p.mps.gz");
@@ -302,7 +302,7 @@ mod gzip {
     }
 
     #[test]
-    fn an_archive_with_a_flipped_bit_in_its_checksum_is_told() {
+    fn an_archive_with_a_flipped_bit_in_its_checksum_is_refused() {
         let mut bytes = packed(GOOD.as_bytes());
         let at = bytes.len() - 8;
         bytes[at] ^= 1;

@@ -1,4 +1,4 @@
-//! The test problems that lie beside the repository, where they do.
+//! The problems of the shared corpus read with the sizes of their reference, where it is present.
 
 use std::path::Path;
 
@@ -38,5 +38,5 @@ fn every_problem_of_the_corpus_has_the_sizes_of_its_reference() {
         );
         read += 1;
     }
-    assert!(read > 0, "the reference is there, but none of its problems");
+    assert!(read > 0, "the reference lists no problem that is present");
 }

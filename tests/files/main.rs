@@ -1,4 +1,4 @@
-//! Files: what is written reads back as itself, what is broken is told with its line.
+//! Problem files: a written file reads back unchanged, and a broken one is refused with its line.
 
 #[path = "../common/mod.rs"]
 mod common;
@@ -13,7 +13,7 @@ mod round_trip;
 
 use std::path::PathBuf;
 
-/// A directory of its own for the files of one test, removed at the end.
+/// A directory for the files of one test, removed at its end.
 struct Scratch(PathBuf);
 
 impl Scratch {

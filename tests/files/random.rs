@@ -1,10 +1,10 @@
-//! Random problems that use every part of a problem, with numbers of all magnitudes.
+//! Random problems that use every kind of term, with numbers of all magnitudes.
 
 use proptest::collection::vec;
 use proptest::prelude::*;
 use roundel::{Model, Problem, Triangle};
 
-/// Finite numbers: round ones, any bits, the extremes, and both zeros.
+/// Finite numbers: simple ones, random bits, the extremes and both zeros.
 pub fn number() -> impl Strategy<Value = f64> {
     let any_bits = any::<u64>().prop_map(f64::from_bits);
     prop_oneof![
@@ -33,7 +33,7 @@ fn split(row: &Row) -> (Vec<usize>, Vec<f64>, f64) {
     (indices, values, row.1)
 }
 
-/// A problem without pins and guess, which MPS can state.
+/// A problem that MPS can express: without pins and guess.
 pub fn problem() -> impl Strategy<Value = Problem> {
     let sized = (1usize..9).prop_flat_map(|n| {
         (
@@ -67,11 +67,11 @@ pub fn problem() -> impl Strategy<Value = Problem> {
         p.set_integers(&integers).unwrap();
         p
     });
-    // Sums of duplicates may overflow, which is an error of the model and not of a file.
+    // A sum of duplicates may overflow, which is an error of the model and not of the file.
     built.prop_filter("a model", |p| Model::new(p).is_ok())
 }
 
-/// Everything that a model holds but its least-squares rows, as bits.
+/// Everything that a model holds except its least-squares rows, as bits.
 pub fn fingerprint(problem: &Problem) -> Vec<u64> {
     let model = Model::new(problem).unwrap();
     let mut all = vec![model.variables() as u64, model.constant().to_bits()];

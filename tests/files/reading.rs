@@ -1,4 +1,4 @@
-//! What each section means.
+//! The meaning of each section of an MPS file.
 
 use roundel::Model;
 use roundel::problem::mps::{self, MpsProblem};
@@ -55,7 +55,7 @@ fn every_section_is_read() {
     let entries = |a: &roundel::linalg::Sparse| a.entries().collect::<Vec<_>>();
     let rows = [(0, 0, 1.0), (0, 1, 2.0), (1, 1, 3.5), (1, 2, -0.5)];
     assert_eq!(entries(m.constraints()), rows);
-    // 1/2 x'Qx with the off-diagonal entries standing for two.
+    // In 1/2 x'Qx, an off-diagonal entry stands for two.
     assert_eq!(
         m.hessian().mul_symmetric(&[1.0, 1.0, 1.0]),
         [1.0, -0.5, 4.5]
@@ -65,7 +65,7 @@ fn every_section_is_read() {
 }
 
 #[test]
-fn both_triangles_say_the_same_as_one() {
+fn both_triangles_mean_the_same_as_one() {
     let full = "QMATRIX\n x x 2\n x y -1\n y x -1\n z y 0.5 z 4\n y z 0.5\nENDATA\n";
     let (head, _) = COMPLETE.split_once("QUADOBJ").unwrap();
     let (full, half) = (read(&format!("{head}{full}")), read(COMPLETE));
@@ -88,7 +88,7 @@ fn vector_names_carriage_returns_and_a_missing_title_change_nothing() {
 }
 
 #[test]
-fn a_reader_that_gives_one_byte_at_a_time_is_enough() {
+fn a_reader_may_give_one_byte_at_a_time() {
     let slow = std::io::BufReader::with_capacity(1, COMPLETE.as_bytes());
     assert_eq!(mps::parse(slow).unwrap().variables().len(), 3);
 }
@@ -102,7 +102,7 @@ fn a_file_without_constraints_and_quadratic_terms_is_a_problem() {
 
 #[test]
 #[cfg(feature = "gzip")]
-fn several_archives_one_after_the_other_are_one_file() {
+fn several_archives_in_a_row_are_one_file() {
     use std::io::Write;
     let mut bytes = Vec::new();
     for half in COMPLETE.as_bytes().chunks(COMPLETE.len() / 2) {

@@ -1,4 +1,4 @@
-//! A solve saved and loaded is the same solve.
+//! A solve that was saved and loaded is the same solve.
 
 use std::path::Path;
 
@@ -29,7 +29,7 @@ const SAVED: &str = r#"{
 }
 "#;
 
-/// Loads a problem of two unknowns beside which `text` lies.
+/// Loads a problem of two unknowns with `text` as its replay file.
 fn load(test: &str, text: impl AsRef<[u8]>) -> roundel::Result<(Problem, Options)> {
     let scratch = Scratch::new(test);
     let path = scratch.file("p.mps");
@@ -50,7 +50,7 @@ proptest! {
         let n = problem.variables();
         problem.set_guess(&values[..n]).unwrap();
         for i in (0..n).filter(|&i| pinned[i]) {
-            // Integers must be pinned to integers; which they are, does not matter here.
+            // An integer can be pinned only to an integer. The value does not matter here.
             problem.pin(i, values[i].round()).unwrap();
         }
         let options = Options {
@@ -95,7 +95,7 @@ fn a_loaded_solve_has_the_same_values_bit_for_bit() {
 }
 
 #[test]
-fn what_the_file_says_is_taken() {
+fn the_options_in_the_file_are_used() {
     let (problem, options) = load("taken", SAVED).unwrap();
     let mut expected = Problem::new(2).unwrap();
     expected.pin(1, 0.5).unwrap();
@@ -106,7 +106,7 @@ fn what_the_file_says_is_taken() {
 }
 
 #[test]
-fn a_broken_replay_file_is_told_with_its_line() {
+fn a_broken_replay_file_is_refused_with_its_line() {
     let cases = [
         ("", "", 1),
         ("\"format\": 1", "\"format\": true", 2),
@@ -142,7 +142,7 @@ fn a_broken_replay_file_is_told_with_its_line() {
 }
 
 #[test]
-fn bytes_that_are_no_text_are_told_with_their_line() {
+fn bytes_that_are_not_text_are_refused_with_their_line() {
     let mut bytes = SAVED.as_bytes().to_vec();
     let at = SAVED.find("direct").unwrap();
     bytes[at] = 0xff;
@@ -150,7 +150,7 @@ fn bytes_that_are_no_text_are_told_with_their_line() {
 }
 
 #[test]
-fn another_format_is_not_supported_whatever_else_it_holds() {
+fn another_format_version_is_not_supported_whatever_the_file_holds() {
     let text = SAVED.replace("\"format\": 1", "\"novelty\": [1],\n  \"format\": 2");
     let error = load("format", text).unwrap_err();
     assert!(
@@ -160,7 +160,7 @@ fn another_format_is_not_supported_whatever_else_it_holds() {
 }
 
 #[test]
-fn variables_that_the_problem_does_not_have_are_told() {
+fn variables_that_the_problem_does_not_have_are_refused() {
     for (old, new) in [("\"1\"", "\"2\""), ("\"0\"", "\"2\"")] {
         let error = load("range", SAVED.replace(old, new)).unwrap_err();
         let expected = matches!(
@@ -183,7 +183,7 @@ fn a_file_of_another_problem_is_refused() {
 }
 
 #[test]
-fn the_replay_file_stands_beside_its_problem() {
+fn the_replay_file_is_beside_its_problem() {
     let beside = |path: &str| replay::replay_path(Path::new(path));
     for path in ["a/b.c.mps", "a/b.c.mps.gz"] {
         assert_eq!(beside(path).unwrap(), Path::new("a/b.c.replay.json"));

@@ -1,4 +1,4 @@
-//! Writing and reading again changes nothing.
+//! Writing a problem and reading it again changes nothing.
 
 use proptest::prelude::*;
 use roundel::problem::mps::{self, MpsProblem};
@@ -60,7 +60,7 @@ fn named() -> MpsProblem {
 }
 
 #[test]
-fn names_that_look_like_something_else_survive() {
+fn names_that_look_like_keywords_or_numbers_survive() {
     let problem = named();
     let read = mps::parse(text(&problem).as_bytes()).unwrap();
     assert_eq!(read.title(), "two words");
@@ -102,7 +102,7 @@ fn compressed_and_plain_files_hold_the_same() {
     written.unwrap();
     assert_eq!(std::fs::read(&packed).unwrap()[..2], [0x1f, 0x8b]);
     assert_eq!(fingerprint(mps::read(&packed).unwrap().problem()), expected);
-    // By content, not by name.
+    // Compression is recognised by content, not by name.
     let renamed = scratch.file("renamed.mps");
     std::fs::rename(&packed, &renamed).unwrap();
     assert_eq!(
@@ -112,7 +112,7 @@ fn compressed_and_plain_files_hold_the_same() {
 }
 
 #[test]
-fn a_file_that_cannot_be_written_is_named() {
+fn an_error_names_the_file_that_cannot_be_written() {
     let scratch = Scratch::new("unwritable");
     let path = scratch.file("none/p.mps");
     let error = mps::write(&path, &named()).unwrap_err();

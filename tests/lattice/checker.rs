@@ -1,4 +1,4 @@
-//! Energies as exact fractions, and the least one by counting out every candidate.
+//! An exact oracle: energies as fractions, and the least energy by enumeration of all candidates.
 
 use super::instance::{Instance, PARTS};
 
@@ -9,14 +9,14 @@ pub struct Exact {
     denominator: i128,
 }
 
-/// Fractions of a number in floating point are taken to this denominator.
+/// Floating-point numbers are rounded to fractions with this denominator.
 const GRID: f64 = (1u64 << 40) as f64;
 
-/// More candidates are not counted out.
+/// Boxes with more candidates are not enumerated.
 const LARGEST_BOX: f64 = 20_000.0;
 
 impl Exact {
-    /// `value` on a grid of 2^-40.
+    /// `value`, rounded to a multiple of 2^-40.
     pub fn whole(value: f64) -> Self {
         Exact {
             numerator: (value * GRID).round() as i128,
@@ -24,8 +24,8 @@ impl Exact {
         }
     }
 
-    /// The least energy over the continuous unknowns with core integers `y`: with residuals r of
-    /// the integers and columns C of the continuous, `r'r - r'C (C'C)^-1 C'r`, by Cramer's rule.
+    /// The least energy over the continuous unknowns for the core integers `y`. With residuals r at the
+    /// integers and columns C of the continuous unknowns it is `r'r - r'C (C'C)^-1 C'r`, by Cramer's rule.
     pub fn least(instance: &Instance, y: &[i64]) -> Self {
         let core = instance.core;
         let residual = |(row, rhs): (&Vec<i64>, &i64)| -> i128 {
@@ -67,35 +67,35 @@ impl Exact {
         self.numerator as f64 / self.denominator as f64
     }
 
-    /// For energies of one instance, which have the same denominator: products would overflow.
+    /// Compares two energies of one instance. They have the same denominator; products would overflow.
     fn is_less(self, other: Self) -> bool {
         assert_eq!(self.denominator, other.denominator);
         self.numerator < other.numerator
     }
 
-    /// Whether they differ by at most `tolerance`, relative where they are larger than one.
+    /// Whether two energies differ by at most `tolerance`, relative to energies larger than one.
     pub fn close_to(self, other: Self, tolerance: f64) -> bool {
         (self.value() - other.value()).abs() <= tolerance * self.value().abs().max(1.0)
     }
 }
 
-/// Whether `bound` is at or below `least`, but for the rounding of both to numbers.
+/// Whether `bound` is at most `least`, up to the rounding of both to doubles.
 pub fn holds(bound: f64, least: Exact) -> bool {
     bound <= least.value() + 1e-12 * least.value().abs().max(1.0)
 }
 
-/// The least energy of all integer points, or nothing where they are too many to count out.
+/// The least energy of all integer points, or nothing where there are too many to enumerate.
 ///
-/// The energy is a quadratic in the core integers, known from its values at whole points:
-/// gradient and curvature are exact differences. What can be as good as the rounded minimiser
-/// lies in an ellipsoid, and that in a box.
+/// The energy is a quadratic function of the core integers. Differences of its values at integer points
+/// give its gradient and curvature exactly. All points as good as the rounded minimiser lie in an
+/// ellipsoid, and that lies in a box.
 pub fn least_energy(instance: &Instance) -> Option<Exact> {
     let n = instance.core;
     let denominator = Exact::least(instance, &vec![0; n]).denominator;
     if denominator == 0 {
         return None;
     }
-    // Differences are taken exactly, then rounded once.
+    // Compute the differences exactly, then round once.
     let at = |base: &[i64], steps: &[(usize, i64)]| -> i128 {
         let mut y = base.to_vec();
         steps.iter().for_each(|&(i, s)| y[i] += s);
@@ -115,8 +115,8 @@ pub fn least_energy(instance: &Instance) -> Option<Exact> {
         let fall = |i: usize| at(base, &[(i, -1)]) - at(base, &[(i, 1)]);
         (0..n).map(|i| 0.5 * number(fall(i))).collect()
     };
-    // Until no step is left: the first ones are long and round much. Where the condition is too
-    // bad for that, no box can be trusted.
+    // Newton's method until the step rounds to zero: the first steps are long and round much. Where the
+    // condition is too bad for convergence, no box can be trusted.
     let mut rounded = zero.clone();
     let mut settled = false;
     for _ in 0..20 {

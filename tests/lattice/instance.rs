@@ -1,15 +1,15 @@
-//! Random small problems whose optimum can be counted out.
+//! Random small problems whose optimum can be found by enumeration.
 //!
-//! Least-squares rows with whole coefficients in few *core* integers `y` and continuous unknowns.
-//! The solver sees `y = P z` with a random unimodular P, which hides the core: core coordinates
-//! without a row make the problem semi-definite, pinned ones a constraint, and shears make it
-//! ill-conditioned.
+//! An instance has least-squares rows with integer coefficients in a few *core* integers `y` and
+//! continuous unknowns. The solver sees `y = P z` with a random unimodular P, which hides the core. Core
+//! coordinates without a row make the problem semi-definite, pinned ones give constraints, and shears make
+//! it ill-conditioned.
 
 use super::checker::Exact;
 use super::common::Random;
 use roundel::{Problem, Result};
 
-/// Right sides are whole multiples of an eighth.
+/// Right sides are integer multiples of 1/8.
 pub const PARTS: i64 = 8;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -23,16 +23,16 @@ pub enum Kind {
 
 #[derive(Debug)]
 pub struct Instance {
-    /// Core integers that have rows; the first ones.
+    /// The number of core integers that have rows; they come first.
     pub core: usize,
     pub continuous: usize,
-    /// Values of the core integers after those with rows; `None` where nothing asks for one.
+    /// The values of the core integers without rows; `None` where the value is free.
     pub pinned: Vec<Option<i64>>,
     /// Coefficients of the core integers with rows, then of the continuous unknowns.
     pub rows: Vec<Vec<i64>>,
-    /// In parts.
+    /// Right sides in units of `1 / PARTS`.
     pub rhs: Vec<i64>,
-    /// P by rows.
+    /// The rows of P.
     shear: Vec<Vec<i64>>,
 }
 
@@ -50,7 +50,7 @@ impl Instance {
         let mut rows = Vec::new();
         let mut rhs = Vec::new();
         if kind == Kind::EqualOptima {
-            // Every core integer is drawn to a half, alone.
+            // Each core integer has a row of its own, with a half as right side.
             for i in 0..core {
                 let mut row = vec![0; core + continuous];
                 row[i] = 2 + below(3);
@@ -102,7 +102,7 @@ impl Instance {
         }
     }
 
-    /// The problem as the solver sees it: integers z, then the continuous unknowns.
+    /// The problem as the solver sees it: the integers z, then the continuous unknowns.
     pub fn problem(&self) -> Result<Problem> {
         let integers = self.shear.len();
         let mut problem = Problem::new(integers + self.continuous)?;
@@ -125,7 +125,7 @@ impl Instance {
         Ok(problem)
     }
 
-    /// The exact least energy with the integers of `values`, which must be whole and satisfy the
+    /// The exact least energy for the integers of `values`, which must be integral and satisfy the
     /// constraints.
     pub fn energy_at(&self, values: &[f64]) -> Exact {
         let integers = self.shear.len();

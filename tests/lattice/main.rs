@@ -1,4 +1,4 @@
-//! Lattice strategies: their optima and bounds against brute force in exact arithmetic.
+//! The lattice strategies: their optima and bounds, compared with enumeration in exact arithmetic.
 
 #[path = "../common/mod.rs"]
 mod common;
@@ -11,7 +11,7 @@ use checker::{Exact, holds};
 use instance::{Instance, Kind};
 use roundel::{Options, SolveStatus, Strategy, solve};
 
-/// Solves instances of `kind`, and returns how many were proved optimal.
+/// Solves instances of `kind` and returns how many were proved optimal.
 fn check(kind: Kind, count: usize) -> usize {
     let options = Options {
         strategy: Strategy::Exact,
@@ -55,7 +55,7 @@ fn definite_instances_are_solved_and_proved() {
 
 #[test]
 fn ill_conditioned_instances_are_solved_and_most_are_proved() {
-    // Where the model's own rounding exceeds a proof's tolerance, the gap says so.
+    // Where the model's own rounding exceeds the tolerance of a proof, a gap remains.
     let proved = check(Kind::IllConditioned, 400);
     assert!(proved >= 200, "{proved}");
 }

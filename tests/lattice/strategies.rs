@@ -1,4 +1,4 @@
-//! What holds of the lattice strategies on problems of both families.
+//! Properties of the lattice strategies on problems of both families (fields and maps).
 
 use std::cell::{Cell, RefCell};
 use std::time::Instant;
@@ -44,7 +44,7 @@ fn a_proved_optimum_is_below_every_other_strategy() {
 }
 
 #[test]
-fn a_budget_that_ends_leaves_a_true_bound() {
+fn the_bound_is_valid_when_the_budget_ends() {
     let problem = common::orientation_field(7, 3).unwrap();
     let best = solve(&problem, &with(Strategy::Exact)).unwrap();
     assert_eq!(best.status(), SolveStatus::Optimal);
@@ -63,7 +63,7 @@ fn a_budget_that_ends_leaves_a_true_bound() {
 }
 
 #[test]
-fn a_wanted_gap_ends_the_proof_early() {
+fn a_requested_gap_ends_the_proof_early() {
     let problem = common::orientation_field(7, 3).unwrap();
     let options = Options {
         gap: 0.1,
@@ -75,7 +75,7 @@ fn a_wanted_gap_ends_the_proof_early() {
 }
 
 #[test]
-fn events_never_lose_ground_and_cancelling_keeps_the_best() {
+fn events_never_get_worse_and_cancelling_keeps_the_best() {
     let problem = common::orientation_field(9, 2).unwrap();
     let seen = RefCell::new((f64::INFINITY, f64::NEG_INFINITY));
     let raised = Cell::new(0);
@@ -115,8 +115,8 @@ fn more_integers_than_a_dense_lattice_holds_are_rounded_adaptively() {
     }
 }
 
-/// A seamless map of a jittered body of genus 5, 1,088 triangles: 100 integers or a few less, as
-/// the field's cones fall.
+/// A seamless map of a jittered body of genus 5 with 1,088 triangles. It has 100 integers or a few less,
+/// depending on the cones of the field.
 fn map_of_a_hundred_integers() -> Problem {
     let mesh = shape::by_name("genus-5", 1_000).unwrap();
     let mesh = jitter(&mesh, 0.2, 4).unwrap();
@@ -128,7 +128,7 @@ fn map_of_a_hundred_integers() -> Problem {
     map.problem().clone()
 }
 
-/// Measured on one core of 2026: 22 s.
+/// Measured on one core of a machine of 2026: 22 s.
 #[test]
 #[ignore = "minutes"]
 fn a_hundred_integers_are_proved_within_twenty_minutes() {
@@ -140,7 +140,7 @@ fn a_hundred_integers_are_proved_within_twenty_minutes() {
 }
 
 #[test]
-fn the_work_of_auto_is_a_multiple_of_the_relaxations() {
+fn the_work_of_auto_is_a_bounded_multiple_of_that_of_the_relaxation() {
     let mesh = shape::by_name("genus-3", 600).unwrap();
     let mesh = jitter(&mesh, 0.2, 1).unwrap();
     let field = FieldProblem::new(&mesh, &curvature_constraints(&mesh, 0.05).unwrap()).unwrap();
@@ -156,7 +156,7 @@ fn the_work_of_auto_is_a_multiple_of_the_relaxations() {
     ] {
         let relaxation = solve(problem, &with(Strategy::Relax)).unwrap().work();
         let auto = solve(problem, &with(Strategy::Auto)).unwrap().work();
-        // As the documentation of `Strategy::Auto` says, and one step of the search more.
+        // The factor that the documentation of `Strategy::Auto` gives, and one more step of the search.
         let limit = 1_000 * relaxation + 200_000_000;
         assert!(relaxation > 0 && auto > relaxation, "{relaxation} {auto}");
         assert!(auto <= relaxation + limit + limit / 20, "{auto} {limit}");

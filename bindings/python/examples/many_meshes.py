@@ -1,9 +1,9 @@
-"""Quads of many meshes side by side, with Dask.
+"""Quadrangulates many meshes in parallel, with Dask.
 
     python many_meshes.py --quads 1000 --out quads *.obj
 
-One thread a mesh: Python's lock is free while the library works, so that threads are enough, and
-nothing is copied between processes. Without files it takes a few procedural shapes.
+Each mesh has a thread. The library releases Python's lock while it works, so threads suffice and
+nothing is copied between processes. Without files the program uses a few procedural shapes.
 """
 
 import argparse
@@ -16,7 +16,7 @@ SHAPES = ("rounded-cube", "sphere", "torus", "genus-2", "gear", "plane")
 
 
 def quadrangulate(name, quads, out):
-    """One mesh: its name, and how many quads came of it or what was wrong."""
+    """Quadrangulates one mesh. Returns its name, and the number of quads or the error."""
     try:
         mesh = roundel.Mesh.shape(name, 2000) if name in SHAPES else roundel.Mesh.read(name)
         found = roundel.quad(mesh, quads=quads)

@@ -1,4 +1,4 @@
-"""Problems that last, and shapes."""
+"""Fixtures: a problem whose proof takes long, and a mesh."""
 
 import numpy as np
 import pytest
@@ -8,7 +8,7 @@ import roundel
 
 @pytest.fixture(scope="session")
 def endless():
-    """A closest-vector problem that no machine proves in a minute."""
+    """A closest-vector problem whose optimum no machine proves in a minute."""
     draw = np.random.default_rng(1)
     count = 90
     basis = draw.integers(-9, 10, (count, count)) + 40.0 * np.eye(count)

@@ -1,4 +1,4 @@
-"""Every example that a reader sees is run."""
+"""Runs every example in the documentation."""
 
 import doctest
 import importlib
@@ -58,5 +58,5 @@ def test_the_book_has_examples():
     assert len(BLOCKS) > 8
 
 
-def test_the_package_says_that_it_is_typed():
+def test_the_package_is_marked_as_typed():
     assert (Path(roundel.__file__).parent / "py.typed").exists()

@@ -1,4 +1,4 @@
-"""What is refused, and what the exceptions say."""
+"""Bad arguments raise exceptions that name the element at fault."""
 
 import builtins
 
@@ -33,13 +33,13 @@ def test_contradicting_constraints_name_the_row():
     assert caught.value.code == "infeasible" and caught.value.position is None
 
 
-def test_an_index_too_large_names_its_position_and_is_an_index_error():
+def test_too_large_an_index_names_its_position_and_is_an_index_error():
     with pytest.raises(IndexError) as caught:
         roundel.solve(A=EYE, b=np.zeros(3), integers=[0, 7])
     assert isinstance(caught.value, roundel.IndexOutOfRangeError) and caught.value.position == 1
 
 
-def test_a_row_that_is_refused_leaves_none_behind():
+def test_a_refused_row_is_not_added():
     problem = roundel.Problem(3)
     with pytest.raises(roundel.NotFiniteError, match="row 1") as caught:
         problem.least_squares_rows([[1.0, 2.0, 0.0], [3.0, 0.0, np.inf]], np.zeros(2))
@@ -55,7 +55,7 @@ def test_not_a_number_names_its_position():
 
 
 @pytest.mark.parametrize("curved, kind", [(0.0, "UnboundedError"), (-1.0, "NotConvexError")])
-def test_a_direction_comes_with_what_has_no_minimum(curved, kind):
+def test_a_problem_without_a_minimum_reports_a_direction(curved, kind):
     with pytest.raises(getattr(roundel, kind)) as caught:
         roundel.solve(np.diag([1.0, curved, 1.0]), [0.0, 1.0, 0.0])
     assert caught.value.variable == 1
@@ -110,6 +110,6 @@ def test_meshes_name_the_face_or_the_vertex():
         ({}, TypeError),
     ],
 )
-def test_what_does_not_fit_is_refused_before_it_reaches_c(keywords, kind):
+def test_mismatched_arguments_are_refused_before_they_reach_c(keywords, kind):
     with pytest.raises(kind):
         roundel.solve(**keywords)

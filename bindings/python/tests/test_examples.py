@@ -1,4 +1,4 @@
-"""The examples run, and say what they should."""
+"""The examples run and print the expected output."""
 
 import importlib.util
 from pathlib import Path
@@ -17,7 +17,7 @@ def load(name):
     return module
 
 
-def test_many_meshes_side_by_side_are_what_they_are_alone(tmp_path):
+def test_meshes_in_parallel_give_the_same_quads_as_alone(tmp_path):
     pytest.importorskip("dask.bag")
     shapes = ["rounded-cube", "torus", str(tmp_path / "none.obj")]
     made = load("many_meshes").main([*shapes, "--quads", "200", "--out", str(tmp_path / "out")])
@@ -29,7 +29,7 @@ def test_many_meshes_side_by_side_are_what_they_are_alone(tmp_path):
     assert made[2][2].startswith("io: ")
 
 
-def test_a_cluster_of_processes_takes_solutions_home():
+def test_a_cluster_of_processes_returns_solutions():
     distributed = pytest.importorskip("distributed")
     given = {"A": [[1.0, 0.0], [1.0, -1.0]], "integers": [1]}
     with distributed.Client(processes=True, n_workers=1, threads_per_worker=2, dashboard_address=None) as client:

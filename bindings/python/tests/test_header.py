@@ -1,4 +1,4 @@
-"""The C header is readable by a plain FFI parser, whole."""
+"""A plain FFI parser reads the whole C header."""
 
 import sys
 from pathlib import Path

@@ -71,7 +71,7 @@ def test_quads_of_a_map_are_those_of_its_coordinates(cube):
     assert len(quads) == len(again) and np.allclose(vertices, again.vertices)
 
 
-def test_quads_are_as_many_as_asked_for_and_closed(cube):
+def test_quads_have_the_requested_number_and_are_closed(cube):
     found = roundel.quad(cube.vertices, cube.faces, quads=150)
     vertices, quads = found
     assert found.conforming and found.others == []
@@ -88,7 +88,7 @@ def test_edges_of_half_the_length_make_four_times_the_quads(cube):
         roundel.quad(cube, edge_length=0.0)
 
 
-def test_what_is_asked_for_by_default_is_the_library_s_own(cube):
+def test_defaults_are_those_of_the_library(cube):
     silent = roundel.quad(cube, quads=100)
     spoken = roundel.quad(cube, quads=100, align_boundary=True)
     other = roundel.quad(cube, quads=100, curvature=(0.5, 0.0))
@@ -160,6 +160,6 @@ def test_openmesh(cube):
     assert back.n_faces() == len(found) and all(back.valence(face) == 4 for face in back.faces())
 
 
-def test_a_thing_that_is_no_mesh_is_refused():
+def test_an_object_that_is_not_a_mesh_is_refused():
     with pytest.raises(TypeError, match="object"):
         roundel.field(object())

@@ -1,4 +1,4 @@
-"""Problems in matrices, in parts, and again."""
+"""Solves of problems given in matrices and part by part, and repeated solves."""
 
 import itertools
 import pickle
@@ -22,7 +22,7 @@ def random_problem(seed=3):
     return {"A": A, "b": 3.0 * draw.standard_normal(9), "C": C, "d": [2.0], "integers": [0, 1, 4]}
 
 
-def test_the_optimum_of_a_small_problem_is_that_of_all_integers_tried():
+def test_the_optimum_of_a_small_problem_agrees_with_enumeration():
     given = random_problem()
     found = roundel.solve(**given)
     tried = []
@@ -47,7 +47,7 @@ def test_rows_and_their_normal_equations_are_one_problem():
 
 @pytest.mark.parametrize("form", ["csr", "csc", "coo", "bsr"])
 @pytest.mark.parametrize("width", [np.int32, np.int64])
-def test_every_form_of_a_sparse_matrix_is_the_same_problem(form, width):
+def test_every_form_of_a_sparse_matrix_gives_the_same_problem(form, width):
     given = random_problem()
     dense = roundel.solve(**given)
     for name in ("A", "C"):
@@ -77,7 +77,7 @@ def test_one_triangle_of_a_matrix_stands_for_both():
     assert np.array_equal(roundel.solve(np.tril(Q), q, integers=[1], triangle="lower").values, whole)
 
 
-def test_a_built_problem_is_the_one_given_at_once():
+def test_a_problem_built_in_parts_equals_one_given_at_once():
     given = random_problem()
     problem = roundel.Problem(6)
     for row, rhs in zip(given["A"], given["b"]):
@@ -89,12 +89,12 @@ def test_a_built_problem_is_the_one_given_at_once():
     assert np.allclose(roundel.solve(problem.copy()).values, roundel.solve(**given).values)
 
 
-def test_pins_hold_and_guesses_decide_what_the_objective_leaves_open():
+def test_pins_hold_and_guesses_determine_free_variables():
     found = roundel.solve(A=[[1.0, 1.0, 0.0]], b=[3.0], pins={0: 0.5}, guess=[9.0, 9.0, 9.0])
     assert np.allclose(found.values, [0.5, 2.5, 9.0])
 
 
-def test_a_solver_gives_what_a_new_solve_gives():
+def test_a_solver_gives_the_same_as_a_new_solve():
     given = random_problem()
     problem = roundel.Problem(6)
     problem.least_squares_rows(given["A"], given["b"])
@@ -143,7 +143,7 @@ def test_the_strategy_is_obeyed():
     assert roundel.solve(Q, q, integers=[1], strategy="greedy").status == "feasible"
 
 
-def test_rows_are_one_matrix_in_every_form_and_one_by_one():
+def test_rows_of_a_matrix_equal_rows_added_one_by_one():
     A = np.array([[1.0, -1.0, 0.0], [0.0, 1.0, -1.0], [0.0, 0.0, 2.0]])
     b, weights = [0.3, 0.25, 0.7], [0.5, 2.0, 3.0]
     single = roundel.Problem(3)

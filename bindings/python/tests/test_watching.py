@@ -1,4 +1,4 @@
-"""Progress, cancel, Ctrl-C, and Python's lock."""
+"""Progress, cancelling, Ctrl-C and Python's lock during a solve."""
 
 import os
 import signal
@@ -11,7 +11,7 @@ import pytest
 import roundel
 
 
-def test_events_tell_of_progress_and_of_better_solutions(cube):
+def test_events_report_progress_and_better_solutions(cube):
     heard = []
     roundel.quad(cube, quads=100, progress=heard.append)
     assert {"progress", "improved"} <= {event.kind for event in heard}
@@ -30,7 +30,7 @@ def test_a_callback_ends_the_solve_and_the_best_solution_is_kept(endless):
     assert found.status == "cancelled" and found.integrality_violation == 0.0
 
 
-def test_what_a_callback_raises_leaves_the_solve(endless):
+def test_an_exception_of_a_callback_leaves_the_solve(endless):
     def fails(event):
         raise LookupError("mine")
 
@@ -47,7 +47,7 @@ def test_a_token_cancels_from_another_thread(endless):
     timer.join()
 
 
-def test_a_token_that_is_set_before_leaves_no_solution():
+def test_a_token_set_before_the_solve_leaves_no_solution():
     token = roundel.CancelToken()
     token.cancel()
     with pytest.raises(roundel.CancelledError):
@@ -58,7 +58,7 @@ def test_a_token_that_is_set_before_leaves_no_solution():
 
 @pytest.fixture
 def interruptible():
-    """Python's own handler: a shell that runs the tests in the background has SIGINT ignored."""
+    """Restores Python's own SIGINT handler, because shells ignore SIGINT for background jobs."""
     before = signal.signal(signal.SIGINT, signal.default_int_handler)
     yield
     signal.signal(signal.SIGINT, before)
@@ -77,7 +77,7 @@ def test_ctrl_c_ends_the_solve_soon(endless, interruptible, silent):
 
 
 def test_other_threads_run_while_one_solves(endless):
-    """A thread that holds Python's lock, as one does inside a C call, leaves no count to others."""
+    """The solve releases Python's lock. If it held the lock, the other thread could not count."""
     counted, done = [0], threading.Event()
 
     def count():

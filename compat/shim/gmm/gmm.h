@@ -1,8 +1,13 @@
-/// The part of GMM++'s interface that programs written for CoMISo use: sparse matrices filled entry
-/// by entry. Nothing of GMM++ is in it.
+/// A stand-in for the part of GMM++'s interface that programs for CoMISo use: sparse matrices that
+/// are filled entry by entry. It contains no code of GMM++.
 ///
+<<<<<<< HEAD
 /// Where the real GMM++ was included before, this file is empty; where it is wanted instead, leave
 /// this directory out of the include path (see docs/comiso.md).
+=======
+/// If the real GMM++ was included before, this file is empty. To use the real one instead, leave
+/// this directory out of the include path (see docs/migration-from-comiso.md).
+>>>>>>> refs/heads/english
 
 #if !defined(GMM_KERNEL_H__) && !defined(ROUNDEL_GMM_SHIM)
 #define ROUNDEL_GMM_SHIM 1
@@ -16,7 +21,7 @@ namespace gmm {
 
 using size_type = std::size_t;
 
-/// An entry of a sparse vector that reads as a number and takes assignments.
+/// An entry of a sparse vector, which converts to a number and accepts assignments.
 template <class Vector> class element {
   public:
     using value_type = typename Vector::value_type;
@@ -30,7 +35,7 @@ template <class Vector> class element {
         vector_->w(index_, value);
         return *this;
     }
-    /// The value, as of a number, and not the place.
+    /// Assigns the value of the other entry, not its place.
     element& operator=(const element& other) { return *this = value_type(other); }
     element& operator+=(value_type value) { return *this = value_type(*this) + value; }
     element& operator-=(value_type value) { return *this = value_type(*this) - value; }
@@ -42,7 +47,7 @@ template <class Vector> class element {
     size_type index_;
 };
 
-/// A sparse vector that is made to be written to. Zeros are not stored.
+/// A sparse vector for writing. Zeros are not stored.
 template <class T> class wsvector {
   public:
     using value_type = T;
@@ -80,7 +85,7 @@ template <class T> class wsvector {
         }
     }
 
-    /// Stored entries: pairs of index and value, by index.
+    /// The stored entries: pairs of index and value in the order of their indices.
     const_iterator begin() const { return entries_.begin(); }
     const_iterator end() const { return entries_.end(); }
 
@@ -95,10 +100,10 @@ template <class T> class wsvector {
     size_type size_ = 0;
 };
 
-/// A sparse vector that is made to be read; here the same as the other.
+/// A sparse vector for reading; here the same type.
 template <class T> using rsvector = wsvector<T>;
 
-/// A matrix of sparse rows.
+/// A matrix whose rows are sparse vectors.
 template <class Vector> class row_matrix {
   public:
     using value_type = typename Vector::value_type;
@@ -136,7 +141,7 @@ template <class Vector> class row_matrix {
     size_type cols_ = 0;
 };
 
-/// A matrix of sparse columns.
+/// A matrix whose columns are sparse vectors.
 template <class Vector> class col_matrix {
   public:
     using value_type = typename Vector::value_type;
@@ -174,7 +179,7 @@ template <class Vector> class col_matrix {
     size_type rows_ = 0;
 };
 
-/// What the functions below take.
+/// The matrices that the functions below accept.
 template <class Matrix> struct is_shim_matrix { static constexpr bool value = false; };
 template <class Vector> struct is_shim_matrix<row_matrix<Vector>> {
     static constexpr bool value = true;
@@ -193,7 +198,7 @@ template <class Vector> size_type vect_size(const Vector& vector) {
     return vector.size();
 }
 
-/// Stored entries.
+/// The number of stored entries.
 template <class T> size_type nnz(const wsvector<T>& vector) {
     return vector.nb_stored();
 }

@@ -1,7 +1,7 @@
-/* Bad input through the C interface: what every group of cases needs.
+/* Bad input through the C interface: the declarations that all groups of cases share.
  *
- * A case is one call that must fail. It is held to its status, a part of its message and its index,
- * and after each the same handle must serve a valid call as if nothing had happened. */
+ * A case is one call that must fail. Its status, its index and a part of its message are checked.
+ * After each case the same handle must serve a valid call as if nothing had happened. */
 
 #ifndef BAD_INPUT_H
 #define BAD_INPUT_H
@@ -15,7 +15,7 @@
 /* No index, or no line. */
 #define NONE (-1)
 
-/* A small valid problem in three variables, the last an integer, solved once. */
+/* A small valid problem with three variables, of which the last is an integer, solved once. */
 typedef struct {
     roundel_problem* problem;
     roundel_options* options;
@@ -25,7 +25,7 @@ typedef struct {
     double values[3];
 } fixture;
 
-/* What a failed call is held to. */
+/* The expected outcome of a call that fails. */
 typedef struct {
     roundel_status status;
     const char* part;

@@ -1,4 +1,4 @@
-/* Constraints, one by one and as a matrix. */
+/* Bad constraints, one by one and as a matrix. */
 
 #include "bad_input.h"
 

@@ -1,4 +1,4 @@
-/* Broken files: each is told with its line. */
+/* Broken files: each is refused with its line. */
 
 #include "bad_input.h"
 
@@ -93,7 +93,7 @@ static void names(fixture* f) {
     HOLDS(p == NULL && o == NULL);
 }
 
-/* What is saved loads again and solves to the same values. */
+/* A saved solve loads again and gives the same values. */
 static void replay(fixture* f) {
     roundel_problem* p = NULL;
     roundel_options* o = NULL;

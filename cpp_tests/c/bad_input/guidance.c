@@ -1,4 +1,4 @@
-/* Guidance that asks for what there is not, and maps of nothing. */
+/* Guidance that refers to elements that do not exist, and results of maps that were not solved. */
 
 #include "bad_input.h"
 

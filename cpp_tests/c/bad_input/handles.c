@@ -1,4 +1,4 @@
-/* NULL for every handle and every place of a result; places stay untouched. */
+/* NULL for every handle and every output argument; outputs stay untouched on failure. */
 
 #include "bad_input.h"
 
@@ -109,10 +109,10 @@ void bad_handles(fixture* f) {
     wrong_lengths(f);
     BAD(f, roundel_cancel_token_cancel(NULL), null, "cancel token", NONE);
     BAD(f, roundel_cancel_token_reset(NULL), null, "cancel token", NONE);
-    /* A pointer that no handle can have. */
+    /* An address that no handle can have. */
     BAD(f, roundel_problem_add_constant((roundel_problem*)((char*)f->problem + 1), 1.0),
         ROUNDEL_ERROR_INVALID_ARGUMENT, "aligned", NONE);
-    /* Nothing to free is no error. */
+    /* Freeing NULL is allowed. */
     GOOD(roundel_problem_free(NULL));
     GOOD(roundel_options_free(NULL));
     GOOD(roundel_solution_free(NULL));

@@ -1,8 +1,8 @@
-/* Least-squares rows as a matrix: each refusal names position and row, and adds nothing. */
+/* Bad least-squares rows as a matrix: each error names position and row, and nothing is added. */
 
 #include "bad_input.h"
 
-/* Where the number of the first row would go. */
+/* The output for the number of the first row. */
 static size_t first = 7;
 
 /* Three rows of three entries. */
@@ -61,7 +61,7 @@ static void columns(fixture* f) {
         ROUNDEL_ERROR_LENGTH_MISMATCH, "expected 4 entries, got 3", NONE);
 }
 
-/* The next row's number tells that none of the refused ones was kept. */
+/* The number of the next row shows that no refused row was kept. */
 static void nothing_was_added(fixture* f) {
     roundel_problem* copy = NULL;
     size_t row = 0;

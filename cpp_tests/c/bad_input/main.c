@@ -1,4 +1,4 @@
-/* Runs every group of cases with the process' outputs going to a file, which must stay empty. */
+/* Runs every group of cases with stdout and stderr redirected to a file, which must stay empty. */
 
 #define _POSIX_C_SOURCE 200809L
 
@@ -28,7 +28,7 @@ void fine(const char* call, int holds) {
     }
 }
 
-/* The same handles serve a valid call, with the result that they gave at first. */
+/* The same handles serve a valid call and give the same result as at first. */
 static void still_works(fixture* f, const char* call) {
     roundel_solution* again = NULL;
     double energy = 0.0;
@@ -40,7 +40,7 @@ static void still_works(fixture* f, const char* call) {
                 roundel_solution_values(again, values, 3) == ROUNDEL_OK && energy == f->energy &&
                 memcmp(values, f->values, sizeof values) == 0;
     if (!holds) {
-        failed(call, "a valid call after it fails, or gives another result");
+        failed(call, "a valid call after it fails or gives another result");
     }
     roundel_solution_free(again);
 }

@@ -1,8 +1,8 @@
-/* Meshes that are none, fields of faces that there are not, and every NULL of both. */
+/* Invalid meshes, fields constrained at faces that do not exist, and NULL for every argument. */
 
 #include "bad_input.h"
 
-/* A tetrahedron, closed, faces outwards. */
+/* A closed tetrahedron with outward faces. */
 static const double xyz[12] = {0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
 static const int32_t tetrahedron[12] = {0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3};
 
@@ -194,7 +194,7 @@ static void fields(fixture* f, const roundel_mesh* tetra) {
     BAD(f, roundel_field_solution(NULL, &solution), null, "field", NONE);
     BAD(f, roundel_field_solution(field, NULL), null, "solution", NONE);
     HOLDS(numbers[0] == 7.0 && jumps[0] == 7 && energy == 7.0 && count == 7 && solution == NULL);
-    /* After all that it is whole. */
+    /* After all these calls the field is intact. */
     GOOD(roundel_field_angles(field, numbers, 4));
     HOLDS(numbers[0] == 0.5);
     GOOD(roundel_field_free(field));

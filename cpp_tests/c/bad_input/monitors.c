@@ -1,4 +1,4 @@
-/* Monitors whose size lies, cancel before the start, and no time at all. */
+/* Monitors with a wrong size, a cancel before the start, and a time limit of zero. */
 
 #include "bad_input.h"
 
@@ -29,7 +29,7 @@ void bad_monitors(fixture* f) {
     BAD(f, roundel_solve_with(p, NULL, &monitor, &found), ROUNDEL_ERROR_INVALID_ARGUMENT,
         "size is 1048576", NONE);
 
-    /* From a later version: fine while its new members are zero. */
+    /* A struct of a later version is accepted while its new members are zero. */
     memset(&longer, 0, sizeof longer);
     longer.monitor.size = sizeof longer;
     longer.later = &longer;
@@ -62,7 +62,8 @@ void bad_monitors(fixture* f) {
     found = NULL;
     HOLDS(found == NULL);
 
-    /* A callback that stops at its first event: told so, or the best so far. */
+    /* A callback stops the solve at its first event: the result is an error or the best solution so
+     * far. */
     int events = 0;
     monitor.cancel_token = NULL;
     monitor.callback = stop_at_once;

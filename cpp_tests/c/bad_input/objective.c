@@ -1,4 +1,4 @@
-/* Quadratic, linear and least-squares terms. */
+/* Bad quadratic, linear and least-squares terms. */
 
 #include "bad_input.h"
 

@@ -64,7 +64,7 @@ static void list(fixture* f) {
     HOLDS(option.name == NULL && roundel_option_count() > 0);
 }
 
-/* Every default that the list states is the value of fresh options. */
+/* Every default in the list is the value that new options have. */
 static void defaults(void) {
     roundel_options* o = NULL;
     GOOD(roundel_options_new(&o));

@@ -1,4 +1,4 @@
-/* Problems that are well-formed and have no solution. */
+/* Well-formed problems that have no solution. */
 
 #include "bad_input.h"
 
@@ -19,7 +19,7 @@ static void solves(const roundel_problem* p) {
     GOOD(roundel_solution_free(s));
 }
 
-/* The handle still takes and answers calls, though no change can mend its constraints. */
+/* The handle still accepts and answers calls, although no change can repair its constraints. */
 static void answers(roundel_problem* p) {
     size_t count = 0;
     GOOD(roundel_problem_add_constant(p, 1.0));
@@ -117,7 +117,7 @@ static void unbounded(fixture* f) {
     answers(p);
 }
 
-/* Sums that leave the range of a double, noticed when the model is assembled. */
+/* Sums that overflow a double, which is noticed when the model is assembled. */
 static void overflowing(fixture* f) {
     const double large[1] = {1.5e308};
     roundel_solution* s = NULL;

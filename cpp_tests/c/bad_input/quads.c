@@ -1,4 +1,4 @@
-/* Quads of no size, of a mesh that is not there, and settings of quad options. */
+/* Bad quad options: sizes that are not positive, a missing mesh and bad settings. */
 
 #include "bad_input.h"
 

@@ -1,5 +1,5 @@
-/* Memory that cannot be had is a status, wherever in a call it runs out: the address space is
- * limited to a little more each time, until the call succeeds. */
+/* Running out of memory gives a status, wherever in a call it happens: the limit on the address
+ * space grows in small steps until the call succeeds. */
 
 #define _POSIX_C_SOURCE 200809L
 
@@ -58,7 +58,7 @@ static roundel_status many(roundel_problem* p) {
     return status;
 }
 
-/* Bytes of address space in use; 0 where the system does not say. */
+/* Bytes of address space in use, or 0 where the system does not tell. */
 static size_t in_use(void) {
     size_t pages = 0;
     FILE* file = fopen("/proc/self/statm", "r");

@@ -1,5 +1,5 @@
-/* Solvers and presets: NULL, lengths, NaN, right sides that cannot hold; the solver stays usable.
- */
+/* Solvers and presets given NULL, wrong lengths, NaN or contradictory right sides. The solver stays
+ * usable. */
 
 #include "bad_input.h"
 
@@ -64,7 +64,7 @@ static void arguments(fixture* f, roundel_solver* s) {
     GOOD(roundel_solver_free(NULL));
 }
 
-/* Values of a solve that must go well. */
+/* The values of a solve that must succeed. */
 static void solved(roundel_solver* s, double values[3]) {
     roundel_solution* x = NULL;
     GOOD(roundel_solver_solve(s, NULL, &x));

@@ -1,4 +1,4 @@
-/* Integers, pins and the guess; problems of no and of too many variables. */
+/* Bad integers, pins and guesses; problems with no variables and with too many. */
 
 #include "bad_input.h"
 

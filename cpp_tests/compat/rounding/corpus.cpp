@@ -1,9 +1,11 @@
-// The original's own decisions on a corpus of seamless parametrizations, held against ours.
+// The decisions of the original CoMISo on a corpus of seamless parametrizations, compared with
+// ours.
 //
-// usage: corpus DIRECTORY SCRATCH.mps, where DIRECTORY has original_integers.json ({"problem":
-// {"X7": 3,
-// ...}, ...}: the decisions with the thesis' settings) and each problem as problem.mps.gz.
-// Ends with 77 where there is no such directory.
+// usage: corpus DIRECTORY SCRATCH.mps
+//
+// DIRECTORY holds each problem as problem.mps.gz, and original_integers.json with the decisions
+// under the settings of the thesis: {"problem": {"X7": 3, ...}, ...}. Without the directory the
+// program ends with 77.
 
 #include "solve.hpp"
 
@@ -68,7 +70,7 @@ int main(int, char** arguments) {
         CHECK(problem.violation(ours.x) < 1e-6 && problem.violation(best.x) < 1e-6);
         CHECK(std::abs(ours.energy - original) <= 0.05 * original);
         CHECK(standard.energy <= 1.05 * original);
-        // A cube leaves nothing to win.
+        // On a cube the decisions of the original are optimal.
         const bool cube = name.find("cube") != std::string::npos;
         CHECK(cube ? std::abs(best.energy - original) <= 1e-6 * original
                    : best.energy < original - 1e-3);

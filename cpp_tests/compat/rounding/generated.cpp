@@ -1,4 +1,4 @@
-// Rounding by CoMISo's interface on seamless parametrizations of procedural shapes.
+// Rounding through CoMISo's interface on seamless parametrizations of procedural shapes.
 //
 // usage: generated SCRATCH.mps
 
@@ -39,7 +39,7 @@ int main(int, char** arguments) {
         }
         CHECK(multiple.energy <= by(problem, "direct").energy + 1e-6);
 
-        // The environment changes a program that does not.
+        // The environment variable changes the strategy of a program that sets none.
         setenv("ROUNDEL_COMISO_STRATEGY", "auto", 1);
         CHECK(by_thesis(problem).x == best.x);
         unsetenv("ROUNDEL_COMISO_STRATEGY");

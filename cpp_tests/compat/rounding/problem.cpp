@@ -1,4 +1,5 @@
-// From free-format MPS, as the library writes it, to GMM's matrices; energies from these.
+// Reads free-format MPS, as the library writes it, into GMM's matrices and evaluates their
+// energies.
 
 #include "problem.hpp"
 
@@ -18,7 +19,7 @@ struct Entry {
     double value;
 };
 
-// The sections of a file: unknowns, rows and entries by number.
+// The sections of a file, with unknowns, rows and entries by number.
 struct Sections {
     std::map<std::string, std::size_t> rows;
     std::map<std::string, std::size_t> columns;
@@ -108,7 +109,8 @@ GmmProblem in_gmm(const roundel::Problem& problem, const std::string& scratch) {
     gmm::resize(to.A, n, n);
     gmm::resize(to.C, sections.rows.size(), n + 1);
     to.b.assign(n, 0.0);
-    // 1/2 x'Qx + q'x is x'Ax - 2 x'b with A = Q / 2 and b = -q / 2; Q comes as one triangle.
+    // 1/2 x'Qx + q'x equals x'Ax - 2 x'b with A = Q / 2 and b = -q / 2. The file has one triangle
+    // of Q.
     for (const Entry& entry : sections.hessian) {
         to.A(entry.row, entry.column) += 0.5 * entry.value;
         if (entry.row != entry.column) {

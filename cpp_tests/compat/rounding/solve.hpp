@@ -1,4 +1,4 @@
-// Solves by the original's interface, checked on the caller's matrices.
+// Solves through CoMISo's interface and checks the result with the caller's matrices.
 
 #ifndef ROUNDING_SOLVE_HPP
 #define ROUNDING_SOLVE_HPP

@@ -1,4 +1,4 @@
-// Eigen's matrices in the place of GMM's.
+// Eigen's matrices in place of GMM's.
 
 #include "zoo.hpp"
 

@@ -1,3 +1,5 @@
+// Runs the groups of checks on CoMISo's interface.
+
 #include "zoo.hpp"
 
 int main() {
@@ -5,12 +7,12 @@ int main() {
     a_smooth_field_solves_without_constraints();
     entries_read_and_take_assignments();
     settings_come_back_as_set();
-    rounding_follows_its_precedence();
+    rounding_types_follow_their_precedence();
     least_squares_and_a_second_solve();
     errors_name_what_is_wrong();
     eigen_matrices_give_the_same();
     a_strategy_is_chosen_by_a_call_or_the_environment();
-    functions_give_what_matrices_give();
+    functions_give_the_same_as_matrices();
     elements_sum_up();
     return failures != 0;
 }

@@ -1,4 +1,4 @@
-// The way to better energies for programs that are not changed.
+// Programs choose another strategy by a call or by the environment, without being rewritten.
 
 #include "zoo.hpp"
 
@@ -9,8 +9,8 @@
 
 namespace {
 
-// Two integers near one half whose sum is strongly tied to 1: both rounded at once go up, which
-// costs much.
+// Two integers near one half, whose sum is strongly tied to 1. Direct rounding rounds both up,
+// which costs much.
 double energy(const char* of_solver) {
     ColMatrix A(2, 2);
     RowMatrix C(0, 3);

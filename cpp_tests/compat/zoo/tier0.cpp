@@ -1,4 +1,4 @@
-// What libigl 2.5 and its ports need.
+// The functions that libigl 2.5 and its ports call.
 
 #include "zoo.hpp"
 
@@ -28,7 +28,7 @@ void a_parametrizer_solves_as_libigl_does() {
         CHECK(small.x[1] == 2.0);
         CHECK(near(small.x[0] + 2.0 * small.x[2], 1.5));
     }
-    // With five, six and seven arguments.
+    // The calls with five, six and seven arguments.
     Small small;
     COMISO::ConstrainedSolver solver(false);
     solver.solve(small.C, small.A, small.x, small.b, small.integers);
@@ -36,7 +36,7 @@ void a_parametrizer_solves_as_libigl_does() {
     solver.solve(small.C, small.A, small.x, small.b, small.integers, 0.0);
     solver.solve(small.C, small.A, small.x, small.b, small.integers, 0.0, true);
     CHECK(near(small.x, small.best(2.0)));
-    // The diagonal's mean is 5/3 and comes in as often as reg says.
+    // The mean of the diagonal, 5/3, times reg is added to the diagonal.
     solver.solve(small.C, small.A, small.x, small.b, small.integers, 0.3);
     Small heavier;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -47,7 +47,7 @@ void a_parametrizer_solves_as_libigl_does() {
     CHECK(!near(small.x, small.best(2.0)));
 }
 
-// No rows, and one column less than rows would need.
+// No constraint rows, and a constraint matrix that lacks the column of right sides.
 void a_smooth_field_solves_without_constraints() {
     const std::size_t n = 6;
     ColMatrix A(n, n);
@@ -66,7 +66,7 @@ void a_smooth_field_solves_without_constraints() {
     COMISO::ConstrainedSolver solver;
     solver.solve(C, A, x, b, integers, 0.0, false, true);
     CHECK(x.size() == n && x[5] == 3.0);
-    // Between the pull to 2.6 and the integer, steps are even.
+    // The chain goes from the target 2.6 to the integer in equal steps.
     for (std::size_t i = 0; i < n; ++i) {
         CHECK(near(x[i], 2.6 + 0.4 * static_cast<double>(i + 1) / 6.0));
     }

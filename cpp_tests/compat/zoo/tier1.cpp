@@ -1,4 +1,5 @@
-// What other direct users call: every setting, the second forms of solve, the stop watch.
+// The functions that other direct users call: every setting, the second forms of solve, the stop
+// watch.
 
 #include "zoo.hpp"
 
@@ -12,10 +13,10 @@
 #include <string>
 
 #if !COMISO_GMM_AVAILABLE || !COMISO_EIGEN3_AVAILABLE
-#error "GMM and Eigen are there"
+#error "GMM and Eigen are present, so both macros must be defined"
 #endif
 #if COMISO_GUROBI_AVAILABLE || COMISO_CPLEX_AVAILABLE || COMISO_SUITESPARSE_AVAILABLE
-#error "Gurobi, CPLEX and SuiteSparse are not"
+#error "Gurobi, CPLEX and SuiteSparse are absent, so their macros must not be defined"
 #endif
 
 namespace {
@@ -25,8 +26,8 @@ class COMISODLLEXPORT Exported {};
 using Type = COMISO::MISolver::RoundingType;
 static_assert(Type::DEFAULT == Type::MULTIPLE);
 
-// Two integers near one half, x0 + x1 strongly at 1: rounded at once both go up, one after the
-// other the second makes up for the first.
+// Two integers near one half, with x0 + x1 strongly tied to 1. Rounded at once, both go up. Rounded
+// one after the other, the second compensates for the first.
 struct Pair {
     ColMatrix A{2, 2};
     RowMatrix C{0, 3};
@@ -108,8 +109,8 @@ void settings_come_back_as_set() {
     CHECK(stopped >= 0.0 && stopped < 60e3 && watch.elapsed() == stopped);
 }
 
-// Gurobi, CPLEX, none, direct, multiple, one at a time.
-void rounding_follows_its_precedence() {
+// The order of precedence is Gurobi, CPLEX, none, direct, multiple, one at a time.
+void rounding_types_follow_their_precedence() {
     std::vector<std::string> lines;
     COMISO::set_roundel_log([&](const std::string& line) { lines.push_back(line); });
     const auto told = [&](const std::string& word) {
@@ -144,7 +145,7 @@ void rounding_follows_its_precedence() {
         solver.solve(pair.C, pair.A, pair.x, pair.b, pair.integers);
         CHECK(lines.size() == 1 && told("ms"));
     }
-    // With no iterations at all the second integer does not hear of the first.
+    // Without iterations the second integer is not updated after the first is rounded.
     COMISO::ConstrainedSolver deaf;
     deaf.misolver().set_multiple_rounding(false);
     deaf.misolver().set_local_iters(0);
@@ -153,7 +154,7 @@ void rounding_follows_its_precedence() {
     CHECK(pair.sum(deaf) == 2.0);
     deaf.misolver().set_iter_full(true);
     CHECK(pair.sum(deaf) == 1.0);
-    // Halves go away from zero.
+    // Halves are rounded away from zero.
     ColMatrix A(2, 2);
     A(0, 0) = 1.0;
     A(1, 1) = 1.0;
@@ -168,7 +169,7 @@ void rounding_follows_its_precedence() {
 
 void least_squares_and_a_second_solve() {
     const Small small;
-    // The rows of Small, each with minus its right side.
+    // The rows of Small, each with its negated right side.
     RowMatrix B(3, 4);
     B(0, 0) = 1.0;
     B(0, 3) = -0.4;
@@ -197,7 +198,7 @@ void least_squares_and_a_second_solve() {
     solver.solve_const(C, B, x, integers, 0.0, false, false);
     CHECK(near(x, small.best(2.0)));
 
-    // Other right sides, the constraint's with its own sign, by values and by pointers.
+    // Another right side of the constraint, with its own sign, by values and by pointers.
     const std::vector<double> constraint{0.5};
     solver.resolve(x, constraint, small.b);
     CHECK(near(x, small.best(2.0, 0.5)) && near(x[0] + 2.0 * x[2], 0.5));
@@ -237,7 +238,7 @@ void errors_name_what_is_wrong() {
     std::vector<double> before{1.0, 2.0};
     CHECK(failure([&] { solver.resolve(before); }) == ROUNDEL_ERROR_INVALID_ARGUMENT);
 
-    // The same row twice is redundant; with another right side it contradicts.
+    // A repeated row is redundant. With another right side it contradicts.
     for (const bool contradicts : {false, true}) {
         Small small;
         gmm::resize(small.C, 2, 4);
@@ -250,7 +251,7 @@ void errors_name_what_is_wrong() {
         CHECK(!contradicts || index == 1 || index == 0);
         CHECK(near(before, small.best(2.0)));
     }
-    // 2 x0 + 4 x1 = 3 has no integer solution; 2 x0 + 3 x1 = 1 has.
+    // 2 x0 + 4 x1 = 3 has no integer solution, while 2 x0 + 3 x1 = 1 has one.
     for (const double last : {4.0, 3.0}) {
         Pair pair;
         gmm::resize(pair.C, 1, 3);

@@ -43,7 +43,7 @@ class SmallProblem : public COMISO::NProblemInterface {
     bool constant_hessian() const override { return true; }
 };
 
-// (s x - t)^2 of one unknown.
+// (s x - t)^2 in one unknown.
 class Pull {
   public:
     static constexpr int NV = 1;
@@ -97,7 +97,7 @@ row(COMISO::NConstraintInterface::ConstraintType type = COMISO::NConstraintInter
 
 } // namespace
 
-void functions_give_what_matrices_give() {
+void functions_give_the_same_as_matrices() {
     const Small small;
     SmallProblem problem;
     COMISO::LinearConstraint constraint = row();

@@ -1,5 +1,6 @@
-// Clients of CoMISo in small: each file calls what one tier of its interface holds. Built with the
-// gmm.h beside this library, with the real GMM++, and with the real one included first.
+// Small clients of CoMISo: each file calls the functions of one tier of its interface. The program
+// is built with the gmm.h beside this library, with the real GMM++, and with the real one included
+// first.
 
 #ifndef ZOO_HPP
 #define ZOO_HPP
@@ -16,12 +17,12 @@ void a_parametrizer_solves_as_libigl_does();
 void a_smooth_field_solves_without_constraints();
 void entries_read_and_take_assignments();
 void settings_come_back_as_set();
-void rounding_follows_its_precedence();
+void rounding_types_follow_their_precedence();
 void least_squares_and_a_second_solve();
 void errors_name_what_is_wrong();
 void eigen_matrices_give_the_same();
 void a_strategy_is_chosen_by_a_call_or_the_environment();
-void functions_give_what_matrices_give();
+void functions_give_the_same_as_matrices();
 void elements_sum_up();
 
 using RowMatrix = gmm::row_matrix<gmm::wsvector<double>>;
@@ -43,8 +44,8 @@ inline bool near(const std::vector<double>& a, const std::vector<double>& b) {
     return true;
 }
 
-// (x0 - 0.4)^2 + (x1 - 2.7)^2 + (x0 - x1 + x2)^2 subject to x0 + 2 x2 = 1.5, x1 integer: A, b and a
-// row of four numbers. x1 is 2 in every kind of rounding.
+// (x0 - 0.4)^2 + (x1 - 2.7)^2 + (x0 - x1 + x2)^2 subject to x0 + 2 x2 = 1.5, with x1 integer: A, b
+// and a row of four numbers. Every kind of rounding gives x1 = 2.
 struct Small {
     ColMatrix A{3, 3};
     RowMatrix C{1, 4};
@@ -66,12 +67,12 @@ struct Small {
         C(0, 3) = -1.5;
     }
 
-    // Where x0 is best for a given x1, with x2 = (rhs - x0) / 2.
+    // The optimal point for a given x1, with x2 = (rhs - x0) / 2.
     std::vector<double> best(double x1, double rhs = 1.5) const {
         const double x0 = (b[0] + 0.5 * (x1 - 0.5 * rhs)) / 1.25;
         return {x0, x1, 0.5 * (rhs - x0)};
     }
-    // Without rounding: x0 by the above is put into x1 - 2.7 = x0 - x1 + x2.
+    // The relaxed solution: the x0 of `best` is inserted into x1 - 2.7 = x0 - x1 + x2.
     std::vector<double> relaxed() const {
         double x1 = 0.0;
         for (int k = 0; k < 200; ++k) {

@@ -1,4 +1,4 @@
-// Two units of different standards in one program: see other.cpp.
+// The C++17 unit of a program whose other unit, other.cpp, is C++20.
 
 #include "../check.hpp"
 

@@ -1,4 +1,4 @@
-// C++20, where roundel::span is std::span, beside a C++17 unit where it is not.
+// A C++20 unit, where roundel::span is std::span, beside a C++17 unit, where it is not.
 
 #include <roundel/roundel.hpp>
 

@@ -1,3 +1,5 @@
+// Runs the groups of checks of the C++ layer.
+
 #include "wrapper.hpp"
 
 roundel::Problem chain(std::int32_t n) {
@@ -16,16 +18,16 @@ int main() {
     ownership_moves_and_does_not_copy();
     every_part_of_a_problem_counts();
     rows_given_together_are_rows_given_one_by_one();
-    failures_throw_or_are_told();
+    failures_throw_or_are_reported();
     options_follow_the_librarys_list();
     callbacks_stop_and_throw();
     tokens_cancel_from_other_threads();
     threads_share_a_problem_and_keep_their_errors();
     files_keep_the_problem();
-    a_solver_gives_what_solve_gives();
-    fields_follow_what_is_asked_for();
+    a_solver_gives_the_same_as_a_solve();
+    fields_follow_their_options();
     maps_are_solved_again_at_another_size();
-    what_is_not_said_of_quads_is_as_the_library_has_it();
+    unset_quad_options_have_the_librarys_defaults();
     meshes_become_quads_of_their_topology();
     return failures != 0;
 }

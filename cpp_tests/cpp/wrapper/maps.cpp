@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-void fields_follow_what_is_asked_for() {
+void fields_follow_their_options() {
     const auto mesh = roundel::Mesh::shape("disk", 600);
     const auto free = roundel::FieldOptions().set_features(roundel::no_features());
     for (const std::int32_t arms : {1, 2, 4, 6}) {
@@ -24,7 +24,7 @@ void fields_follow_what_is_asked_for() {
         }
         CHECK(std::abs(sum - 1.0) < 1e-6);
     }
-    // Beside the boundary a cross lies along it.
+    // Crosses beside the boundary follow it, which costs energy.
     CHECK(roundel::orientation_field(mesh).energy() >
           roundel::orientation_field(mesh, free).energy());
     const auto marks = roundel::mark_features(mesh, {});
@@ -42,7 +42,7 @@ void fields_follow_what_is_asked_for() {
                                       &status));
     CHECK(status.code == ROUNDEL_ERROR_INVALID_ARGUMENT);
 
-    // A heavy guide is followed, a constraint kept.
+    // The field follows a guide of large weight and keeps the constraint.
     auto guided = roundel::FieldOptions().set_constraints({{0, 0.5}});
     guided.set_guides({{100, 0.25, 1e6}}).set_curvature_weight(0.1).set_features({});
     const auto pulled = roundel::orientation_field(sphere, guided);
@@ -70,7 +70,7 @@ void maps_are_solved_again_at_another_size() {
     const auto fresh = roundel::parametrize(mesh, field, finer);
     CHECK(!same(map, fresh));
     CHECK(same(map.solve(finer), fresh) && map.energy() == fresh.energy());
-    // The features of the field are those that were given there.
+    // Without features of its own, a map takes those of its field.
     const auto given = roundel::MapOptions().set_edge_length(0.08).set_features(features);
     CHECK(same(roundel::parametrize(mesh, field, given), fresh));
     const std::vector<double> lengths(2 * mesh.faces(), 0.08);

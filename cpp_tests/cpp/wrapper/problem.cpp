@@ -1,4 +1,4 @@
-// Problems: ownership, every part counts, failures, files.
+// Problems: ownership, the effect of every part, failures, files.
 
 #include "wrapper.hpp"
 
@@ -45,7 +45,7 @@ void ownership_moves_and_does_not_copy() {
     CHECK(taken && values.size() == 4 && taken.values()[3] == values[3]);
 }
 
-// E(x) = 1/2 x'Qx + q'x + c with every way to give Q, at a minimiser known by hand.
+// E(x) = 1/2 x'Qx + q'x + c, with Q given in every possible way, at a minimiser known by hand.
 void every_part_of_a_problem_counts() {
     const std::vector<std::int32_t> offsets = {0, 2, 4}, indices = {0, 1, 0, 1};
     const std::vector<std::int64_t> offsets64 = {0, 2, 4}, indices64 = {0, 1, 0, 1};
@@ -84,7 +84,7 @@ void every_part_of_a_problem_counts() {
         CHECK(solution.violations().integrality == 0.0);
     }
 
-    // x0 - x1 = 1 and x1 - x2 = 1 as a matrix, x0 pinned to 5; the guess decides nothing.
+    // x0 - x1 = 1 and x1 - x2 = 1 as a matrix, with x0 pinned to 5. The guess has no effect.
     roundel::Problem problem(3);
     const std::vector<std::int32_t> row_offsets = {0, 2, 4}, column_of = {0, 1, 1, 2};
     const std::vector<double> signs = {1.0, -1.0, 1.0, -1.0}, ones = {1.0, 1.0};
@@ -125,7 +125,7 @@ void rows_given_together_are_rows_given_one_by_one() {
         found.back().push_back(solution.energy());
     }
     CHECK(found[0] == found[1] && found[0] == found[2]);
-    // Without weights all are 1, and numbers go on.
+    // Without weights all weights are 1, and the row numbers continue.
     CHECK(given[1].least_squares(A, rhs) == 3);
     roundel::Status status;
     const std::vector<double> two = {1.0, 1.0};
@@ -137,7 +137,7 @@ void rows_given_together_are_rows_given_one_by_one() {
     CHECK(given[1].least_squares({0}, {1.0}) == 6);
 }
 
-void failures_throw_or_are_told() {
+void failures_throw_or_are_reported() {
     roundel::Problem problem(3);
     try {
         problem.constrain({0, 7}, {1.0, 1.0}, 0.0);

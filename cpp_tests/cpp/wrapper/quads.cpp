@@ -1,4 +1,4 @@
-// Quads: extracted from maps and from plain coordinates, made in one call.
+// Quads: extracted from maps and from plain coordinates, and made in one call.
 
 #include "wrapper.hpp"
 
@@ -25,7 +25,7 @@ std::vector<std::int32_t> corners(const roundel::Mesh& mesh) {
 
 namespace {
 
-/// Whether two meshes of quads are the same to the last bit.
+/// Whether two quad meshes are equal to the last bit.
 bool same(const roundel::Quads& one, const roundel::Quads& other) {
     const auto a = one.vertices(), b = other.vertices();
     const auto c = one.corners(), d = other.corners();
@@ -35,7 +35,7 @@ bool same(const roundel::Quads& one, const roundel::Quads& other) {
 
 } // namespace
 
-void what_is_not_said_of_quads_is_as_the_library_has_it() {
+void unset_quad_options_have_the_librarys_defaults() {
     using roundel::QuadOptions;
     const auto mesh = roundel::Mesh::shape("rounded-cube", 800);
     const auto silent = roundel::quadrangulate(mesh, QuadOptions().set_quads(150));
@@ -44,7 +44,7 @@ void what_is_not_said_of_quads_is_as_the_library_has_it() {
         QuadOptions().set_quads(150).set_features({}).set_solve(lattice).set_field_strategy(
             "adaptive");
     CHECK(same(silent, roundel::quadrangulate(mesh, spoken)));
-    // Watching changes nothing.
+    // A callback changes nothing.
     int events = 0;
     const auto watched = roundel::Options().set_on_event([&](const roundel::Event&) {
         ++events;
@@ -53,7 +53,7 @@ void what_is_not_said_of_quads_is_as_the_library_has_it() {
     const auto seen = QuadOptions().set_quads(150).set_solve(watched);
     CHECK(same(silent, roundel::quadrangulate(mesh, seen)) && events > 10);
 
-    // Everything that can be said has an effect.
+    // Every option has an effect.
     const std::vector<QuadOptions> others = {
         QuadOptions().set_quads(150).set_constrain_curvature(0.5),
         QuadOptions().set_quads(150).set_detail(0.7),
@@ -75,10 +75,10 @@ void meshes_become_quads_of_their_topology() {
     const auto made = roundel::quadrangulate(mesh, roundel::QuadOptions().set_quads(300));
     CHECK(made && made.conforming() && made.others().empty());
     CHECK(made.euler_characteristic() == 0 && made.size() > 200 && made.size() < 400);
-    // Closed: as many vertices as quads.
+    // On a closed torus there are as many vertices as quads.
     CHECK(made.vertices().size() == 3 * made.size());
 
-    // The C call on plain arrays gives the same.
+    // The C function for plain arrays gives the same quads.
     const auto V = coordinates(mesh);
     const auto F = corners(mesh);
     roundel_quads* plain = nullptr;
@@ -103,7 +103,7 @@ void meshes_become_quads_of_their_topology() {
     quads.smooth(mesh);
     CHECK(quads.vertices().size() == before.size() && quads.vertices()[0] != before[0]);
 
-    // A collapsed map has no quads: triangles are at fault, by number.
+    // A collapsed map has no quads. The error names a triangle by its number.
     const std::vector<double> collapsed(6 * mesh.faces(), 0.5);
     const auto nothing = roundel::quads(mesh, {collapsed.data(), collapsed.size()});
     CHECK(nothing && !nothing.conforming() && nothing.size() == 0);

@@ -1,4 +1,4 @@
-// The solver: other data, the same answers as a solve from the start.
+// The solver gives the same answers for changed data as a first solve.
 
 #include "wrapper.hpp"
 
@@ -11,7 +11,7 @@ bool same(const roundel::Solution& a, const roundel::Solution& b) {
     return a && b && std::equal(a.values().begin(), a.values().end(), b.values().begin());
 }
 
-/// x0 + x1 + x2 = rhs, (x0 - target)^2 + (x1 + 1)^2 + (x2 - 2)^2, x1 and x2 integers.
+/// x0 + x1 + x2 = rhs and (x0 - target)^2 + (x1 + 1)^2 + (x2 - 2)^2, with x1 and x2 integer.
 roundel::Problem small(double rhs, double target) {
     roundel::Problem problem(3);
     problem.least_squares({0}, {1.0}, target);
@@ -24,7 +24,7 @@ roundel::Problem small(double rhs, double target) {
 
 } // namespace
 
-void a_solver_gives_what_solve_gives() {
+void a_solver_gives_the_same_as_a_solve() {
     roundel::Solver solver(small(1.5, 0.25));
     CHECK(same(solver.solve(), roundel::solve(small(1.5, 0.25))));
 

@@ -14,7 +14,7 @@
 using namespace std::string_literals;
 
 void options_follow_the_librarys_list() {
-    // Every option has a member of its name; one that is added here must be added there.
+    // Every option has a member of the same name. A new option must be added to this list.
     const std::set<std::string> members = {"strategy",
                                            "time_limit",
                                            "threads",
@@ -89,14 +89,14 @@ void callbacks_stop_and_throw() {
     const roundel::Solution stopped = roundel::solve(problem, options);
     CHECK(stopped && stopped.violations().integrality == 0.0);
 
-    // Stopped at its first event, a solve may have nothing to give.
+    // A solve that is stopped at its first event may have no solution.
     roundel::Status status;
     options.set_on_event([](const roundel::Event&) { return roundel::stop; });
     const roundel::Solution early = roundel::solve(problem, options, &status);
     CHECK(early ? early.status() == roundel::SolveStatus::cancelled
                 : status.code == ROUNDEL_ERROR_CANCELLED);
 
-    // What a callback throws is the caller's own, and comes out with or without a Status.
+    // An exception of a callback reaches the caller unchanged, with or without a Status.
     int events = 0;
     options.set_on_event([&](const roundel::Event&) -> roundel::Flow {
         ++events;
@@ -139,7 +139,7 @@ void tokens_cancel_from_other_threads() {
     CHECK(solution ? solution.status() == roundel::SolveStatus::cancelled
                    : status.code == ROUNDEL_ERROR_CANCELLED);
 
-    // Set before the start, and usable again after a reset.
+    // A token that is set before the start cancels, and is usable again after a reset.
     const roundel::Problem small = chain(4);
     options.set_on_event(nullptr);
     CHECK(!roundel::solve(small, options, &status));
@@ -160,7 +160,7 @@ void threads_share_a_problem_and_keep_their_errors() {
             const auto solution = roundel::solve(problem);
             same[t] = std::equal(solution.values().begin(), solution.values().end(),
                                  alone.values().begin(), alone.values().end());
-            // Each thread fails at another entry, and is told of its own.
+            // Each thread fails at another entry and gets its own error.
             roundel::Problem mine(1);
             std::vector<std::int32_t> bad(t + 1, 0);
             bad.back() = 9;

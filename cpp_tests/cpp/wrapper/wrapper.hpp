@@ -10,19 +10,20 @@
 void ownership_moves_and_does_not_copy();
 void every_part_of_a_problem_counts();
 void rows_given_together_are_rows_given_one_by_one();
-void failures_throw_or_are_told();
+void failures_throw_or_are_reported();
 void options_follow_the_librarys_list();
 void callbacks_stop_and_throw();
 void tokens_cancel_from_other_threads();
 void threads_share_a_problem_and_keep_their_errors();
 void files_keep_the_problem();
-void a_solver_gives_what_solve_gives();
-void fields_follow_what_is_asked_for();
+void a_solver_gives_the_same_as_a_solve();
+void fields_follow_their_options();
 void maps_are_solved_again_at_another_size();
 void meshes_become_quads_of_their_topology();
-void what_is_not_said_of_quads_is_as_the_library_has_it();
+void unset_quad_options_have_the_librarys_defaults();
 
-/// A chain of `n` variables at distances of 0.3, every second one an integer.
+/// A chain of `n` variables with target differences of 0.3, in which every second one is an
+/// integer.
 roundel::Problem chain(std::int32_t n);
 
 #endif

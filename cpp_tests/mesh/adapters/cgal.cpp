@@ -1,4 +1,4 @@
-// <roundel/cgal.hpp>: fields of CGAL's FaceGraphs, removed elements, property maps written back.
+// <roundel/cgal.hpp>: fields of CGAL's FaceGraphs, removed elements, results in property maps.
 
 #include "../../cpp/check.hpp"
 
@@ -40,7 +40,7 @@ Mesh build(const roundel::Mesh& from) {
     return mesh;
 }
 
-/// The energy, from whatever maps hold the field.
+/// The energy, computed from the property maps that hold the field.
 template <class G, class Angle, class Jump, class Kappa>
 double energy_in(const G& graph, Angle angle, Jump jump, Kappa kappa) {
     double energy = 0.0;
@@ -73,7 +73,7 @@ void property_maps_hold_the_field() {
     CHECK(roundel::store(field, mesh).angle[Mesh::Face_index(3)] == p.angle[Mesh::Face_index(3)]);
 }
 
-/// With garbage inside, numbers skip what is removed and the maps are of what is left.
+/// While a graph has removed elements, numbers skip them and the maps cover the remaining ones.
 void removed_elements_are_skipped() {
     auto mesh = build(roundel::Mesh::shape("sphere", 500).jittered(1e-3, 1));
     CGAL::Euler::remove_center_vertex(mesh.halfedge(Mesh::Vertex_index(17)), mesh);
@@ -106,7 +106,7 @@ void removed_elements_are_skipped() {
     CHECK(std::abs(energy - field.energy()) <= 1e-9 * energy);
 }
 
-/// A FaceGraph that is no Surface_mesh, with maps of the caller's own.
+/// A FaceGraph that is not a Surface_mesh, with property maps of the caller.
 void other_face_graphs_have_fields() {
     Polyhedron polyhedron;
     CGAL::copy_face_graph(build(roundel::Mesh::shape("genus-2", 700).jittered(1e-3, 1)),
@@ -131,8 +131,8 @@ void other_face_graphs_have_fields() {
     CHECK(index.size() == num_vertices(polyhedron) && std::abs(sum + 2.0) < 1e-6);
 }
 
-/// Over every edge that is not cut both sides have the same coordinates; over the cut they turn and
-/// shift, so that lengths stay.
+/// Both sides of an edge that is not cut have the same coordinates. Over the cut they turn and
+/// shift, so that lengths stay the same.
 template <class G, class Uv> void holds_a_map(const G& graph, Uv uv, std::size_t cut) {
     std::size_t torn = 0;
     for (const auto e : edges(graph)) {

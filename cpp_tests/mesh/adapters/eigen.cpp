@@ -1,4 +1,4 @@
-// <roundel/eigen.hpp>: problems from sparse matrices, fields of meshes in matrices.
+// <roundel/eigen.hpp>: problems from sparse matrices, fields of meshes given as matrices.
 
 #include "../../cpp/check.hpp"
 
@@ -13,7 +13,7 @@ namespace {
 
 constexpr double half_pi = 1.57079632679489661923;
 
-/// A chain: 1/2 x'Qx + q'x with a last variable that is an integer.
+/// A chain: 1/2 x'Qx + q'x, in which the last variable is an integer.
 template <class Matrix> Matrix chain(Eigen::Index n) {
     Matrix q(n, n);
     for (Eigen::Index i = 0; i < n; ++i) {
@@ -26,7 +26,7 @@ template <class Matrix> Matrix chain(Eigen::Index n) {
     return q;
 }
 
-/// Against Eigen's own solution of the same equations.
+/// Compares the result with Eigen's own solution of the same equations.
 template <class Matrix> void matrices_are_taken_as_they_are(bool compressed) {
     Matrix q = chain<Matrix>(4);
     if (compressed) {
@@ -44,7 +44,7 @@ template <class Matrix> void matrices_are_taken_as_they_are(bool compressed) {
     problem.quadratic(q, roundel::Triangle::full);
     problem.linear(roundel::span<const double>(linear.data(), 4));
     CHECK(problem.constrain(c, d) == 0 && problem.constraints() == 1);
-    // What the constraint makes zero changes no minimiser.
+    // A term that is zero on the constraint does not change the minimiser.
     CHECK(problem.least_squares(c, d) == 0);
     const auto solution = roundel::solve(problem);
 

@@ -1,4 +1,4 @@
-// <roundel/openmesh.hpp>: fields of OpenMesh meshes, deleted elements, properties written back.
+// <roundel/openmesh.hpp>: fields of OpenMesh meshes, deleted elements, results in properties.
 
 #include "../../cpp/check.hpp"
 
@@ -18,7 +18,7 @@ struct Traits : OpenMesh::DefaultTraits {
     using Normal = OpenMesh::Vec3d;
 };
 using TriMesh = OpenMesh::TriMesh_ArrayKernelT<Traits>;
-// Points of floats, and faces that could be polygons.
+// A mesh with float coordinates whose faces may be polygons.
 using PolyMesh = OpenMesh::PolyMesh_ArrayKernelT<>;
 
 constexpr double half_pi = 1.57079632679489661923;
@@ -41,7 +41,7 @@ template <class M> M build(const roundel::Mesh& from) {
     return mesh;
 }
 
-/// The properties are the field: crosses match over every edge as the energy says.
+/// The properties hold the field: the energy computed from them is that of the field.
 template <class M> void properties_hold_the_field(M& mesh, const roundel::openmesh::Field& field) {
     const auto p = roundel::store(field, mesh);
     double energy = 0.0, sum = 0.0;
@@ -68,7 +68,7 @@ template <class M> void properties_hold_the_field(M& mesh, const roundel::openme
         sum += index;
     }
     CHECK(std::abs(sum - static_cast<double>(field.elements().mesh.euler_characteristic())) < 1e-6);
-    // A second time the properties are found again.
+    // A second call finds and uses the same properties.
     const auto again = roundel::store(field, mesh);
     CHECK(again.angle.idx() == p.angle.idx() && again.kappa.idx() == p.kappa.idx());
 }
@@ -93,7 +93,7 @@ void curvature_is_followed_as_on_the_librarys_own_mesh() {
     }
 }
 
-/// With garbage inside, the field is that of the mesh without it.
+/// With deleted elements, the field is that of the mesh without them.
 void deleted_elements_are_skipped() {
     auto mesh = build<TriMesh>(roundel::Mesh::shape("sphere", 500).jittered(1e-3, 1));
     mesh.request_vertex_status();
@@ -117,7 +117,7 @@ void deleted_elements_are_skipped() {
     CHECK(fixed.idx() > 40 && mesh.property(p.angle, fixed) == 0.5);
 
     mesh.garbage_collection();
-    // The properties went with the elements through the collection.
+    // The garbage collection keeps the properties at their elements.
     double energy = 0.0;
     for (const auto e : mesh.edges()) {
         if (mesh.is_boundary(e)) {
@@ -133,7 +133,7 @@ void deleted_elements_are_skipped() {
     CHECK(std::abs(energy - field.energy()) <= 1e-9 * energy);
 }
 
-/// Every half-edge has the coordinates of its end; they are a map, and those of the library's own.
+/// Every half-edge has the coordinates of its end. They form a map, the same as the library's own.
 void maps_are_kept_on_half_edges() {
     auto mesh = build<TriMesh>(roundel::Mesh::shape("gear", 1500));
     const auto options = roundel::FieldOptions().set_features(roundel::feature_angle(40));
@@ -148,7 +148,7 @@ void maps_are_kept_on_half_edges() {
     for (std::size_t f = 0; f < map.elements().faces.size(); ++f) {
         std::vector<OpenMesh::Vec2d> ends;
         for (std::size_t k = 0; k < 3; ++k) {
-            // The half-edge before the side ends where the side begins.
+            // A side begins where the half-edge before it ends.
             const auto side = map.elements().halfedges[3 * f + k];
             const auto a = mesh.property(uv, mesh.prev_halfedge_handle(side));
             const auto b = mesh.property(uv, side);

@@ -1,5 +1,5 @@
-// All adapters in one unit, with CGAL's graphs of OpenMesh types: every call finds its own, written
-// as the interface was designed to be used.
+// All adapters in one unit, with CGAL's graphs of OpenMesh types: every call finds its own
+// overload. The calls are written as the interface was designed to be used.
 
 #include "../../cpp/check.hpp"
 
@@ -74,7 +74,7 @@ int main() {
     CHECK(roundel::store(one, open).angle.is_valid());
     CHECK(roundel::store(two, surface).angle[SurfaceMesh::Face_index(0)] == two.angles()[0]);
 
-    // And their maps.
+    // The same for maps.
     const auto map =
         roundel::parametrize(open, one, {.quads = 500, .features = roundel::feature_angle(40)});
     CHECK(map.valid() && map.flipped().empty() && map.cones().size() == one.irregular_count());
@@ -82,7 +82,7 @@ int main() {
     CHECK(roundel::matrices(roundel::parametrize(three, {.quads = 500})).FUV.rows() == F.rows());
     CHECK(roundel::store(map, open).is_valid());
 
-    // Stated as a problem, kept, solved and read back, it is the same field.
+    // Making the problem, solving it and reading the field back gives the same field.
     const roundel::FieldOptions options{.constraints = {{7, 0.5}}, .constrain_curvature = 0.1};
     const auto solution = roundel::solve(roundel::orientation_problem(mesh, options));
     const auto again = roundel::orientation_field(mesh, solution, options);

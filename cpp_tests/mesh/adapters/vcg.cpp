@@ -1,4 +1,4 @@
-// <roundel/vcg.hpp>: fields, maps and quads of VCG meshes, deleted elements, components written.
+// <roundel/vcg.hpp>: fields, maps and quads of VCG meshes, deleted elements, results in components.
 
 #include "../../cpp/check.hpp"
 
@@ -22,7 +22,7 @@ class TriFace : public vcg::Face<TriTypes, vcg::face::VertexRef, vcg::face::Wedg
                                  vcg::face::CurvatureDird, vcg::face::BitFlags> {};
 class TriMesh : public vcg::tri::TriMesh<std::vector<TriVertex>, std::vector<TriFace>> {};
 
-// Points of floats, and nothing that is not needed.
+// A mesh with float coordinates and no optional components.
 class BareVertex;
 class BareFace;
 struct BareTypes
@@ -58,7 +58,7 @@ template <class M> void build(const roundel::Mesh& from, M& mesh) {
     }
 }
 
-/// The attributes are the field: crosses match over every edge as the energy says.
+/// The attributes hold the field: the energy computed from them is that of the field.
 template <class M> void attributes_hold_the_field(M& mesh, const roundel::vcglib::Field& field) {
     auto p = roundel::store(field, mesh);
     const auto over = roundel::detail::opposites(field.elements());
@@ -80,7 +80,7 @@ template <class M> void attributes_hold_the_field(M& mesh, const roundel::vcglib
         sum += index;
     }
     CHECK(std::abs(sum - static_cast<double>(field.elements().mesh.euler_characteristic())) < 1e-6);
-    // A second time the attributes are found again.
+    // A second call finds and uses the same attributes.
     auto again = roundel::store(field, mesh);
     CHECK(&again.angle[0] == &p.angle[0] && &again.index[0] == &p.index[0]);
 }
@@ -99,7 +99,8 @@ void every_mesh_type_has_fields() {
     CHECK(std::equal(own.angles().begin(), own.angles().end(), field.angles().begin()));
 }
 
-/// PD1 and PD2 are unit vectors in the face, a quarter apart, and PD1 has the angle from edge 0.
+/// PD1 and PD2 are unit vectors in the face at a right angle, and PD1 has the field's angle from
+/// edge 0.
 void crosses_are_kept_as_directions() {
     TriMesh mesh;
     build(roundel::Mesh::shape("torus", 600).jittered(1e-3, 1), mesh);
@@ -116,7 +117,7 @@ void crosses_are_kept_as_directions() {
     }
 }
 
-/// With deleted elements inside, the field is that of the mesh without them.
+/// With deleted elements, the field is that of the mesh without them.
 void deleted_elements_are_skipped() {
     TriMesh mesh;
     build(roundel::Mesh::shape("sphere", 500).jittered(1e-3, 1), mesh);
@@ -166,7 +167,8 @@ void maps_are_kept_as_wedge_texture_coordinates() {
     CHECK(status.code == ROUNDEL_ERROR_INVALID_ARGUMENT);
 }
 
-/// The corners of the polygons that edges which are not faux bound, in a mesh of fans.
+/// The corners of the polygons of a triangulated mesh, which are bounded by the edges that are not
+/// faux.
 std::vector<std::vector<std::size_t>> polygons(const TriMesh& mesh) {
     std::vector<std::vector<std::size_t>> found;
     for (const auto& face : mesh.face) {
@@ -183,7 +185,7 @@ std::vector<std::vector<std::size_t>> polygons(const TriMesh& mesh) {
     return found;
 }
 
-/// Either kind of mesh has the quads that the library's own mesh gives.
+/// Both kinds of mesh receive the quads that the library makes of its own mesh.
 void quads_come_back(const roundel::Mesh& from) {
     const auto options = roundel::QuadOptions().set_quads(200);
     TriMesh mesh, faux;
@@ -237,7 +239,7 @@ void polygons_are_refused_by_number() {
 
 } // namespace
 
-/// The arguments are files of meshes beside the shapes.
+/// The arguments are mesh files to test besides the shapes.
 int main(int count, char** files) {
     every_mesh_type_has_fields();
     crosses_are_kept_as_directions();

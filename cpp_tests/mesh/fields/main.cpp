@@ -1,13 +1,15 @@
-// What must hold of a field, however it was assembled, on the meshes named by the arguments: OFF
-// files, jittered:FILE for those whose symmetry makes integers tie, or shape:NAME:TRIANGLES, which
+// Compares orientation fields that were assembled in different ways. The arguments name meshes: OFF
+// files, jittered:FILE for meshes whose symmetry makes integers tie, or shape:NAME:TRIANGLES, which
 // are always jittered.
 //
 //     fields [--reference] DIRECTORY MESH...
 //
-// (a) OpenMesh and CGAL state the same problem: equal energies, equal integers.
-// (b) With --reference: greedy rounding decides as the reference does that factorizes anew.
-// (c) The energy on the mesh is the energy reported.
-// (d) Indices are quarters, the ways to find them agree, and they sum to the Euler characteristic.
+// (a) OpenMesh and CGAL assemble the same problem, with equal energies and equal integers.
+// (b) With --reference: greedy rounding makes the same decisions as a reference that factorizes
+//     anew after each.
+// (c) The energy on the mesh is the reported energy.
+// (d) Indices are multiples of 1/4, all ways to compute them agree, and their sum is the Euler
+//     characteristic.
 // (e) The library's own field is the same field.
 
 #include "../../cpp/check.hpp"
@@ -21,7 +23,7 @@
 
 namespace {
 
-/// The largest differences seen, which the last line tells.
+/// The largest differences found, for the last line of the output.
 struct Worst {
     double libraries = 0.0, on_mesh = 0.0, field = 0.0, quarter = 0.0, ways = 0.0, sum = 0.0;
     std::size_t problems = 0, integers = 0, decided = 0;
@@ -32,7 +34,7 @@ double relative(double a, double b) {
 }
 
 void raise(double& largest, double value) {
-    // A NaN is the worst of all.
+    // A NaN counts as the largest.
     if (!(value <= largest)) {
         largest = value;
     }
@@ -51,7 +53,7 @@ roundel::Mesh load(const std::string& directory, const std::string& name) {
     return shape.jittered(1e-3, 7);
 }
 
-/// Counts differences and tells the first.
+/// Counts differences and prints the first.
 struct Differences {
     const char* what;
     std::size_t count = 0;
@@ -64,7 +66,7 @@ struct Differences {
     }
 };
 
-/// Every 32nd face or so, along one direction of space; or one face alone.
+/// Fixes about every 32nd face along one direction of space, or a single face.
 Fixed fixed_faces(const Soup& soup, bool single) {
     Fixed fixed(soup.faces.size());
     fixed[soup.faces.size() / 2] = 0.3;
@@ -80,7 +82,7 @@ Fixed fixed_faces(const Soup& soup, bool single) {
             return soup
                 .points[static_cast<std::size_t>(soup.faces[f][static_cast<std::size_t>(k)])];
         };
-        // Only the choice of an angle: any number does, and this one varies slowly over the mesh.
+        // Any angle is valid here. This one varies slowly over the mesh.
         const auto a = at(0), b = at(1), c = at(2);
         double along = 0.0, across = 0.0, length = 0.0, overlap = 0.0, side = 0.0;
         for (std::size_t x = 0; x < 3; ++x) {
@@ -98,7 +100,7 @@ Fixed fixed_faces(const Soup& soup, bool single) {
     return fixed;
 }
 
-/// (e): energy and integers of the library's own field, its two kinds of indices against ours.
+/// (e): compares energy, integers and both kinds of indices of the library's own field with ours.
 void holds_of_the_librarys_field(const roundel::Mesh& mesh, const Assembly& assembly,
                                  const Solved& solved, const Indices& indices) {
     roundel::FieldOptions options;
@@ -186,7 +188,7 @@ void holds_of(const std::string& name, const roundel::Mesh& mesh, bool single, b
     }
     CHECK(different.count == 0);
     raise(worst.libraries, relative(solved.energy, again.energy));
-    // Each library's numbers with the other's solution.
+    // The energy of each library's assembly at the other's solution.
     raise(worst.on_mesh, relative(energy_of(one, again), again.energy));
     raise(worst.on_mesh, relative(energy_of(other, solved), solved.energy));
     const Indices indices = indices_with_openmesh(soup, one, solved);

@@ -1,4 +1,4 @@
-// An assembly through the plain C problem interface, and its energy from the formula.
+// Solves an assembly through the plain C problem interface and evaluates its energy by the formula.
 
 #include "assembly.hpp"
 

@@ -1,5 +1,5 @@
-// Greedy rounding, dumb and obviously right: after every rounding the normal equations of what is
-// still free are assembled, factorized and solved from nothing.
+// Greedy rounding as a simple reference: after every rounding it assembles, factorizes and solves
+// the normal equations of the remaining unknowns from scratch.
 
 #include "assembly.hpp"
 
@@ -14,7 +14,7 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 
-/// The values of all variables that minimise the energy with the decided ones held.
+/// The values of all variables that minimise the energy while the decided ones are held.
 std::vector<double> minimised(const Assembly& assembly,
                               const std::vector<std::optional<double>>& decided) {
     std::vector<Eigen::Index> place(assembly.variables, -1);

@@ -17,7 +17,7 @@ struct Soup {
     std::vector<std::array<std::int32_t, 3>> faces;
 };
 
-/// The angles given to some faces, none to the others.
+/// The angles of the constrained faces; the others have none.
 using Fixed = std::vector<std::optional<double>>;
 
 inline Soup soup_of(const roundel::Mesh& mesh) {

@@ -1,4 +1,5 @@
-// The field problem by CGAL's Surface_mesh: triangles laid out flat, corner by corner.
+// The field problem assembled with CGAL's Surface_mesh: triangles are laid out flat, corner by
+// corner.
 
 #include "assembly.hpp"
 
@@ -58,7 +59,7 @@ Vector normal_of(const SurfaceMesh& mesh, Face face) {
     return unit(CGAL::cross_product(along(mesh, h), along(mesh, mesh.next(h))));
 }
 
-/// Where the third corner of a half-edge's face lies when the half-edge runs from 0 to its length.
+/// The third corner of a half-edge's face, when the half-edge runs from 0 to its length.
 Flat third_corner(const SurfaceMesh& mesh, Halfedge h) {
     const Vector base = along(mesh, h);
     const Vector side = -along(mesh, mesh.prev(h));
@@ -67,8 +68,8 @@ Flat third_corner(const SurfaceMesh& mesh, Halfedge h) {
     return {base * side / length, height};
 }
 
-/// The first edge of the half-edge's face as a direction in the plane in which the half-edge runs
-/// along the real axis.
+/// The direction of the first edge of the half-edge's face, in the plane in which the half-edge
+/// runs along the real axis.
 Flat axis_of(const SurfaceMesh& mesh, const Soup& soup, Halfedge h) {
     const Halfedge first = first_of(mesh, soup, mesh.face(h));
     const Flat tip(std::sqrt(along(mesh, h).squared_length()), 0.0);
@@ -81,7 +82,7 @@ Flat axis_of(const SurfaceMesh& mesh, const Soup& soup, Halfedge h) {
 
 double kappa_over(const SurfaceMesh& mesh, const Soup& soup, Halfedge h) {
     const Flat here = axis_of(mesh, soup, h);
-    // The other triangle lies below the edge: turned by half a turn.
+    // The other triangle lies below the edge, so it is turned by half a turn.
     const Flat there = -axis_of(mesh, soup, mesh.opposite(h));
     const double turn = std::arg(here * std::conj(there));
     return turn <= -pi ? pi : turn;
@@ -97,7 +98,7 @@ std::vector<bool> forest_of(const SurfaceMesh& mesh, const Fixed& fixed) {
         }
     }
     while (!queue.empty()) {
-        // Ordered by the neighbour's number.
+        // In the order of the neighbours' numbers.
         std::multimap<Face, Halfedge> next;
         for (const Halfedge h : mesh.halfedges_around_face(mesh.halfedge(queue.front()))) {
             const Face across = mesh.face(mesh.opposite(h));
@@ -174,7 +175,7 @@ std::vector<double> traced_with_cgal(const Soup& soup, const Assembly& assembly,
         }
         double total = 2.0 * pi;
         std::int32_t quarters = 0;
-        // Half-edges into the vertex, counter-clockwise: CGAL itself goes round clockwise.
+        // Half-edges into the vertex in counter-clockwise order. CGAL's own order is clockwise.
         const Halfedge start = mesh.halfedge(v);
         Halfedge in = start;
         do {
@@ -185,7 +186,8 @@ std::vector<double> traced_with_cgal(const Soup& soup, const Assembly& assembly,
             const Vector leaving = arm(from, quarters);
             quarters -= jump[in];
             const Vector matched = arm(to, quarters);
-            // Over the edge: what lies along it stays, what lies across it turns with the plane.
+            // Across the edge, the component along it stays and the component normal to it turns
+            // with the plane.
             const Vector edge = unit(along(mesh, in)), up = normal_of(mesh, to);
             const Vector across_here = CGAL::cross_product(normal_of(mesh, from), edge);
             const Vector carried =

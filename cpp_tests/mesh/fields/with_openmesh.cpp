@@ -1,4 +1,5 @@
-// The field problem by OpenMesh's half-edges: angles within faces by arctangent in space.
+// The field problem assembled with OpenMesh's half-edges: angles within faces by arctangent in
+// space.
 
 #include "assembly.hpp"
 
@@ -35,7 +36,7 @@ TriMesh build(const Soup& soup) {
     return mesh;
 }
 
-/// The half-edge along which the file starts a face.
+/// The half-edge with which the file starts a face.
 HalfedgeHandle first_of(const TriMesh& mesh, const Soup& soup, FaceHandle face) {
     const auto& corners = soup.faces[static_cast<std::size_t>(face.idx())];
     return mesh.find_halfedge(VertexHandle(corners[0]), VertexHandle(corners[1]));
@@ -95,7 +96,7 @@ std::vector<bool> forest_of(const TriMesh& mesh, const Fixed& fixed) {
     return tree;
 }
 
-/// The place of every interior edge in an assembly.
+/// The position of every interior edge in an assembly.
 std::vector<std::size_t> places_of(const TriMesh& mesh, const Assembly& assembly) {
     std::vector<std::size_t> places(mesh.n_edges(), assembly.edges.size());
     for (std::size_t e = 0; e < assembly.edges.size(); ++e) {
@@ -151,7 +152,8 @@ Indices indices_with_openmesh(const Soup& soup, const Assembly& assembly, const 
         const double turn = dual.kappa + 0.5 * pi * solved.jumps[e];
         return dual.first == mesh.face_handle(h).idx() ? turn : -turn;
     };
-    // What a vertex lacks of `full`, less what the cross turns from face to face around it.
+    // The angle defect of a vertex with respect to `full`, minus the turning of the cross around
+    // it.
     const auto turned = [&](VertexHandle vertex, double full) {
         double sum = full;
         for (const HalfedgeHandle out : mesh.voh_range(vertex)) {
@@ -162,7 +164,7 @@ Indices indices_with_openmesh(const Soup& soup, const Assembly& assembly, const 
             const auto a = mesh.calc_edge_vector(out);
             const auto b = -mesh.calc_edge_vector(in);
             sum -= std::atan2(OpenMesh::cross(a, b).norm(), OpenMesh::dot(a, b));
-            // Counter-clockwise, the face after this one lies across the half-edge that comes in.
+            // The next face in counter-clockwise order lies across the incoming half-edge.
             if (!mesh.is_boundary(mesh.edge_handle(in))) {
                 sum -= step(in);
             }

@@ -1,4 +1,4 @@
-// The README's problem as a program of CoMISo states it.
+// The README's problem, written as a program for CoMISo.
 
 #include <gmm/gmm.h>
 

@@ -1,4 +1,4 @@
-/* Planted: reads behind an array on the heap. AddressSanitizer must say so. */
+/* A planted defect: reads past the end of an array on the heap. AddressSanitizer must report it. */
 
 #include <stdlib.h>
 

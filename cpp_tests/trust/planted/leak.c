@@ -1,4 +1,4 @@
-/* Planted: a problem that is never freed. LeakSanitizer and valgrind must say so. */
+/* A planted defect: a problem that is never freed. LeakSanitizer and valgrind must report it. */
 
 #include <roundel/roundel.h>
 

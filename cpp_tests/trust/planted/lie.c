@@ -1,4 +1,5 @@
-/* Planted: an array that is shorter than it says. AddressSanitizer must see the library read on. */
+/* A planted defect: an array that is shorter than the length passed. AddressSanitizer must report
+ * that the library reads past its end. */
 
 #include <roundel/roundel.h>
 

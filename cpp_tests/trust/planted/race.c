@@ -1,4 +1,4 @@
-/* Planted: two threads write to one int. ThreadSanitizer must say so. */
+/* A planted defect: two threads write to one int. ThreadSanitizer must report it. */
 
 #include <pthread.h>
 #include <stddef.h>

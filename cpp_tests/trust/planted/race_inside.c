@@ -1,5 +1,5 @@
-/* Planted: one thread writes to an array while the library reads it in another. ThreadSanitizer
- * must say so, and see the library's side of it. */
+/* A planted defect: one thread writes to an array while the library reads it in another.
+ * ThreadSanitizer must report it with the library's side of the race. */
 
 #include <roundel/roundel.h>
 

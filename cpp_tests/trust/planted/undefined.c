@@ -1,4 +1,4 @@
-/* Planted: a sum of ints that overflows. UndefinedBehaviorSanitizer must say so. */
+/* A planted defect: a sum of ints that overflows. UndefinedBehaviorSanitizer must report it. */
 
 #include <limits.h>
 

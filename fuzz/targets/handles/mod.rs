@@ -1,11 +1,11 @@
-//! The live objects of a sequence of calls. All are freed at its end, in the order of their kinds.
+//! The live objects of a sequence of calls. At its end all are freed, kind by kind.
 
 use std::ptr::null_mut;
 
 use libfuzzer_sys::arbitrary::{Result, Unstructured};
 use roundel::capi::*;
 
-/// No more of a kind are kept, so that a sequence stays small.
+/// The number of objects of each kind that are kept, so that a sequence stays small.
 const KEPT: usize = 3;
 
 macro_rules! handles {
@@ -18,7 +18,7 @@ macro_rules! handles {
         impl Drop for Handles {
             fn drop(&mut self) {
                 $(for handle in self.$kind.drain(..) {
-                    // SAFETY: the handle is live, and given up here.
+                    // SAFETY: the handle is live, and is not used again.
                     assert!(unsafe { $free(handle) } == roundel_status::ROUNDEL_OK);
                 })*
             }
@@ -26,7 +26,7 @@ macro_rules! handles {
 
         $(impl Freed for $type {
             unsafe fn free(handle: *mut Self) {
-                // SAFETY: handed on.
+                // SAFETY: the caller's promise is passed on.
                 unsafe { $free(handle) };
             }
         })*
@@ -51,7 +51,7 @@ handles! {
 }
 
 impl Handles {
-    /// Keeps what a call made, in the place of the oldest of its kind. A call that fails makes
+    /// Keeps the object that a call made, instead of the oldest of its kind. A call that fails makes
     /// nothing.
     pub unsafe fn make<T: Freed>(
         &mut self,
@@ -72,13 +72,13 @@ impl Handles {
     }
 }
 
-/// One of them, or NULL.
+/// A random one of the objects, or NULL.
 pub fn pick<T>(u: &mut Unstructured, from: &[*mut T]) -> Result<*mut T> {
     let at = u.int_in_range(0..=KEPT)?;
     Ok(from.get(at.min(from.len().saturating_sub(1))).copied().unwrap_or(null_mut()))
 }
 
-/// Options with a budget that a fuzzer can wait for.
+/// Options with limits so small that a fuzzer can wait for the solve.
 pub unsafe fn modest_options(out: *mut *mut roundel_options) -> roundel_status {
     unsafe {
         let status = roundel_options_new(out);
@@ -88,7 +88,7 @@ pub unsafe fn modest_options(out: *mut *mut roundel_options) -> roundel_status {
     }
 }
 
-/// The same for quads.
+/// Quad options with limits as small.
 pub unsafe fn modest_quad_options(out: *mut *mut roundel_quad_options) -> roundel_status {
     unsafe {
         let status = roundel_quad_options_new(out);

@@ -1,4 +1,5 @@
-/// What adapters share: a mesh library's elements beside the mesh that was read off them.
+/// Code that the adapters share: elements of another mesh library and the mesh that was made of
+/// them.
 
 #ifndef ROUNDEL_DETAIL_ADAPTED_HPP
 #define ROUNDEL_DETAIL_ADAPTED_HPP
@@ -14,13 +15,13 @@
 
 ROUNDEL_NAMESPACE_BEGIN
 
-/// A mesh and the elements of another library that it was read from. Deleted elements are left out,
-/// so that number i here may be another than the library's own: `faces[i]` is its handle.
+/// A mesh and the elements of another library that it was made of. Deleted elements are skipped, so
+/// face i here may have another number in the library: `faces[i]` is its handle.
 template <class Vertex, class Face, class Halfedge> struct Adapted {
     Mesh mesh{};
     std::vector<Vertex> vertices{};
     std::vector<Face> faces{};
-    /// Three half-edges a face, the first edge's first. Angles of the face count from it.
+    /// Three half-edges a face, starting with its first edge, from which its angles are measured.
     std::vector<Halfedge> halfedges{};
 
     explicit operator bool() const noexcept { return static_cast<bool>(mesh); }
@@ -35,17 +36,17 @@ template <class Vertex, class Face, class Halfedge> class AdaptedField : public 
     AdaptedField(Field field, Elements elements)
         : Field(std::move(field)), elements_(std::move(elements)) {}
 
-    /// The elements that the field's numbers stand for.
+    /// The elements to which the field's numbers refer.
     const Elements& elements() const noexcept { return elements_; }
 
-    /// The half-edge of every edge in its first face. Period jumps and kappa go over it, from its
-    /// own face to the opposite one.
+    /// For every edge the half-edge in its first face. Period jumps and kappa go from the face of
+    /// that half-edge to the opposite face.
     std::vector<Halfedge> edge_halfedges(Status* status = nullptr) const {
         const auto face_edges = elements_.mesh.face_edges(status);
         std::vector<Halfedge> first;
         first.reserve(period_jumps().size());
         for (std::size_t side = 0; side < face_edges.size(); ++side) {
-            // Edges are numbered by the side that comes first.
+            // Edges are numbered in the order of their first sides.
             if (static_cast<std::size_t>(face_edges[side]) == first.size()) {
                 first.push_back(elements_.halfedges[side]);
             }
@@ -65,13 +66,13 @@ template <class Vertex, class Face, class Halfedge> class AdaptedMap : public Ma
     AdaptedMap() = default;
     AdaptedMap(Map map, Elements elements) : Map(std::move(map)), elements_(std::move(elements)) {}
 
-    /// The elements that the map's numbers stand for.
+    /// The elements to which the map's numbers refer.
     const Elements& elements() const noexcept { return elements_; }
 
-    /// Faces that are turned over or collapsed.
+    /// Faces that are flipped or collapsed.
     std::vector<Face> flipped() const { return named(Map::flipped(), elements_.faces); }
 
-    /// Irregular vertices, around which coordinates turn.
+    /// The cones of the map, which are the irregular vertices of the field.
     std::vector<Vertex> cones() const { return named(Map::cones(), elements_.vertices); }
 
   private:
@@ -90,7 +91,7 @@ template <class Vertex, class Face, class Halfedge> class AdaptedMap : public Ma
 
 namespace detail {
 
-/// The arrays that a mesh is made of.
+/// The arrays from which a mesh is made.
 struct Soup {
     std::vector<double> coordinates{};
     std::vector<std::int64_t> corners{};
@@ -130,7 +131,7 @@ AdaptedMap<Vertex, Face, Halfedge> map_of(Adapted<Vertex, Face, Halfedge> elemen
     return {std::move(map), std::move(elements)};
 }
 
-/// Hands u and v of every corner to the half-edge of its face that ends there.
+/// Passes u and v of every corner to the half-edge of its face that ends there.
 template <class Vertex, class Face, class Halfedge, class At>
 void hand_out(const AdaptedMap<Vertex, Face, Halfedge>& map, At at) {
     const auto& sides = map.elements().halfedges;
@@ -141,8 +142,8 @@ void hand_out(const AdaptedMap<Vertex, Face, Halfedge>& map, At at) {
     }
 }
 
-/// Hands every number of a field to the library's own properties. `over` takes a half-edge with
-/// its jump and kappa and is called for both of an edge; going back undoes going there.
+/// Passes every number of a field to the library's own properties. `over` receives a half-edge with
+/// its jump and kappa, and is called for both half-edges of an edge, with opposite signs.
 template <class Vertex, class Face, class Halfedge, class Opposite, class AtFace, class AtVertex,
           class Over>
 void hand_out(const AdaptedField<Vertex, Face, Halfedge>& field, Opposite opposite, AtFace at_face,

@@ -1,4 +1,4 @@
-/// Failures: thrown, or told to a Status.
+/// Failures: they are thrown, or reported in a Status.
 
 #ifndef ROUNDEL_DETAIL_ERROR_HPP
 #define ROUNDEL_DETAIL_ERROR_HPP
@@ -23,10 +23,10 @@
 
 ROUNDEL_NAMESPACE_BEGIN
 
-/// How a call went, for callers that do not want exceptions.
+/// The outcome of a call, for callers that do not want exceptions.
 struct Status {
     roundel_status code = ROUNDEL_OK;
-    /// Names the element at fault.
+    /// A message that names the element at fault.
     std::string message{};
     /// The element at fault, from 0; -1 if there is none.
     std::int64_t index = -1;
@@ -38,7 +38,7 @@ struct Status {
     explicit operator bool() const noexcept { return code == ROUNDEL_OK; }
 };
 
-/// What calls throw that were not given a Status.
+/// The exception of calls without a Status.
 class Error : public std::runtime_error {
   public:
     explicit Error(Status status)
@@ -57,7 +57,7 @@ class Error : public std::runtime_error {
 
 namespace detail {
 
-/// Reports a failure to the caller's Status, or throws.
+/// Stores a failure in the caller's Status, or throws it.
 inline void fail(Status&& failure, Status* status) {
     if (status) {
         *status = std::move(failure);
@@ -70,8 +70,8 @@ inline void fail(Status&& failure, Status* status) {
 #endif
 }
 
-/// Whether a call went well; if not, its failure is reported. `variables` is the length of the
-/// direction that the failure may come with.
+/// Whether a call succeeded. A failure is reported. `variables` is the length of the direction that
+/// the failure may contain.
 inline bool check(roundel_status code, Status* status, std::size_t variables = 0) {
     if (code == ROUNDEL_OK) {
         if (status) {
@@ -95,7 +95,7 @@ inline bool check(roundel_status code, Status* status, std::size_t variables = 0
     return false;
 }
 
-/// Whether two arrays that belong together have the same length, which C takes only once.
+/// Whether two arrays that belong together have the same length, because C takes only one length.
 inline bool same_length(std::size_t one, std::size_t other, Status* status) {
     if (one == other) {
         return true;

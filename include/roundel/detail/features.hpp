@@ -1,4 +1,4 @@
-/// Edges that fields follow and maps turn into isolines.
+/// Feature edges, which fields follow and maps place on isolines.
 
 #ifndef ROUNDEL_DETAIL_FEATURES_HPP
 #define ROUNDEL_DETAIL_FEATURES_HPP
@@ -13,16 +13,16 @@
 
 ROUNDEL_NAMESPACE_BEGIN
 
-/// Edges to follow: fields lie along them, and in a map they are isolines of integer value, chains
-/// of quads' edges. By default the boundary and nothing else.
+/// Feature edges: fields follow them, and in a map they lie on integer isolines, so they become
+/// chains of edges of the quads. By default, only the boundary.
 struct Features {
     /// Edges at which the normals of the two faces differ by this many radians or more; 0 for none.
     double angle = 0.0;
-    /// Edges by number.
+    /// Edges given by their numbers.
     std::vector<std::int32_t> edges = {};
-    /// Edges by their two vertices.
+    /// Edges given by their two vertices.
     std::vector<std::array<std::int32_t, 2>> lines = {};
-    /// Whether edges of the boundary are followed too.
+    /// Whether boundary edges are features too.
     bool boundary = true;
 
     Features& set_angle(double radians) {
@@ -43,12 +43,12 @@ struct Features {
     }
 };
 
-/// The boundary, and the edges at which the surface turns by this many degrees or more.
+/// The boundary, and the edges at which the normals differ by this many degrees or more.
 inline Features feature_angle(double degrees) {
     return Features().set_angle(degrees * (3.14159265358979323846 / 180.0));
 }
 
-/// No edges, the boundary neither.
+/// No edges, not even the boundary.
 inline Features no_features() {
     return Features().set_boundary(false);
 }
@@ -57,7 +57,7 @@ namespace detail {
 
 using GuidanceHandle = Handle<roundel_guidance, roundel_guidance_free>;
 
-/// Tells a guidance of the C interface these features.
+/// Sets these features in a guidance of the C interface.
 inline bool set(roundel_guidance* guidance, const Features& features, Status* status) {
     std::vector<std::int32_t> ends;
     ends.reserve(2 * features.lines.size());
@@ -73,7 +73,7 @@ inline bool set(roundel_guidance* guidance, const Features& features, Status* st
            check(roundel_guidance_set_align_boundary(guidance, features.boundary ? 1 : 0), status);
 }
 
-/// A guidance of the C interface with these features and nothing else; none after a failure.
+/// A guidance of the C interface with these features and nothing else; empty after a failure.
 inline GuidanceHandle guidance_with(const Features& features, Status* status) {
     roundel_guidance* made = nullptr;
     if (!check(roundel_guidance_new(&made), status)) {
@@ -85,7 +85,7 @@ inline GuidanceHandle guidance_with(const Features& features, Status* status) {
 
 } // namespace detail
 
-/// For every edge of a mesh whether it is a feature: 1 or 0.
+/// For every edge of a mesh 1 if it is a feature, otherwise 0.
 inline std::vector<std::int32_t> mark_features(const Mesh& mesh, const Features& features,
                                                Status* status = nullptr) {
     std::vector<std::int32_t> marks;

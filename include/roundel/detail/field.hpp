@@ -1,4 +1,4 @@
-/// Orientation fields.
+/// Orientation fields: options, solve and results.
 
 #ifndef ROUNDEL_DETAIL_FIELD_HPP
 #define ROUNDEL_DETAIL_FIELD_HPP
@@ -15,37 +15,38 @@
 
 ROUNDEL_NAMESPACE_BEGIN
 
-/// A direction that a face should have: that of FieldConstraint, where a deviation costs its square
-/// times `weight`, and one between neighbours its square.
+/// A direction that a face should have, given as in FieldConstraint. The square of the deviation
+/// costs `weight`, where the squared difference of neighbours costs 1.
 struct FieldGuide {
     std::int32_t face;
     double angle;
     double weight;
 };
 
-/// The index of an irregular vertex in steps of 1/N of a turn: quarters for crosses.
+/// The index of an irregular vertex in steps of 1/N of a turn, which are quarters for crosses.
 struct VertexIndex {
     std::int32_t vertex;
     std::int32_t steps;
 };
 
-/// What an orientation field should follow, and how it is solved.
+/// Options of an orientation field: its guidance, and how it is solved.
 struct FieldOptions {
     /// Faces whose direction is given, each at most once.
     std::vector<FieldConstraint> constraints = {};
-    /// The part of the faces, from 0 to 1, that follow the curvature of the surface: those where it
-    /// is most reliable. Faces of `constraints` and those beside features keep what is given there.
+    /// The fraction of the faces, from 0 to 1, that follow the curvature of the surface: those
+    /// where it is most reliable. Faces in `constraints` or beside features keep the direction
+    /// given there.
     double constrain_curvature = 0.0;
-    /// Edges that the field lies along: by default the boundary.
+    /// Edges that the field follows: by default the boundary.
     Features features = {};
     /// Directions that faces should have, each face at most once.
     std::vector<FieldGuide> guides = {};
-    /// How much all others should follow the curvature; 0 not to.
+    /// The weight with which all other faces follow the curvature; 0 for none.
     double curvature_weight = 0.0;
-    /// Details smaller than this length attract no irregular vertices: for a map, the length of its
-    /// quads' edges. 0 lets all of them.
+    /// Details smaller than this length attract no irregular vertices. For a map, use the length of
+    /// its quads' edges. 0 keeps all details.
     double detail = 0.0;
-    /// All irregular vertices; where nothing is said the energy decides.
+    /// The index of every irregular vertex. If not set, the energy decides.
     std::optional<std::vector<VertexIndex>> indices = std::nullopt;
     /// N, the number of arms in a face: 1, 2, 4 (crosses) or 6.
     std::int32_t symmetry = 4;
@@ -90,14 +91,14 @@ struct FieldOptions {
     }
 };
 
-/// An N-symmetric direction field: N arms in every face, a cross for N = 4, and how they match over
-/// edges. It does not need its mesh any more.
+/// An N-symmetric direction field: N arms in every face (a cross for N = 4), and period jumps that
+/// match them over edges. It does not need its mesh after construction.
 class Field {
   public:
-    /// None: what a call returns that reports a failure to a Status.
+    /// An empty field, which a call returns when it reports a failure in a Status.
     Field() noexcept = default;
 
-    /// Takes over a field of the C interface, found on `mesh`.
+    /// Takes ownership of a field of the C interface that was computed on `mesh`.
     Field(roundel_field* owned, const Mesh& mesh, Status* status = nullptr) : handle_(owned) {
         if (copy(roundel_field_angles, angles_, mesh.faces(status), status) &&
             copy(roundel_field_period_jumps, jumps_, mesh.edges(status), status) &&
@@ -107,20 +108,20 @@ class Field {
         }
     }
 
-    /// Whether there is one.
+    /// Whether the field is not empty.
     explicit operator bool() const noexcept { return handle_ != nullptr; }
 
-    /// One arm of each face: radians, counter-clockwise about the normal from the face's
-    /// first edge.
+    /// The angle of one arm of each face in radians, counter-clockwise about the normal from the
+    /// face's first edge.
     span<const double> angles() const& noexcept { return view(angles_); }
     span<const double> angles() const&& = delete;
 
-    /// One number an edge, from its first to its second face: angle + kappa + 2 pi/N jump is
-    /// the matching arm of the second.
+    /// One number for each edge, from its first to its second face: the arm of the second face at
+    /// angle + kappa + 2 pi/N jump matches the arm of the first.
     span<const std::int32_t> period_jumps() const& noexcept { return view(jumps_); }
     span<const std::int32_t> period_jumps() const&& = delete;
 
-    /// One angle an edge: the frame of its first face seen in that of its second.
+    /// One angle for each edge: that of the frame of its first face in the frame of its second.
     span<const double> kappa() const& noexcept { return view(kappa_); }
     span<const double> kappa() const&& = delete;
 
@@ -132,7 +133,7 @@ class Field {
     span<const double> boundary_indices() const& noexcept { return view(boundary_); }
     span<const double> boundary_indices() const&& = delete;
 
-    /// The index of every vertex, found by following an arm of the cross around it in space.
+    /// The index of every vertex, computed by following an arm of the cross around it in space.
     std::vector<double> traced_indices(Status* status = nullptr) const {
         std::vector<double> values;
         copy(roundel_field_traced_indices, values, vertex_.size(), status);
@@ -146,14 +147,14 @@ class Field {
         return value;
     }
 
-    /// How many vertices have an index other than zero.
+    /// The number of vertices with an index other than zero.
     std::size_t irregular_count(Status* status = nullptr) const {
         std::size_t value = 0;
         detail::check(roundel_field_irregular_count(get(), &value), status);
         return value;
     }
 
-    /// The solution behind the field: how the solve ended, its lower bound and its times.
+    /// The solution of the field's problem: how the solve ended, its lower bound and its times.
     Solution solution(Status* status = nullptr) const {
         roundel_solution* copy = nullptr;
         if (!detail::check(roundel_field_solution(get(), &copy), status)) {
@@ -162,7 +163,7 @@ class Field {
         return Solution(copy, status);
     }
 
-    /// The handle, for calls of the C interface.
+    /// The handle for calls of the C interface.
     const roundel_field* get() const noexcept { return handle_.get(); }
 
   private:
@@ -186,7 +187,7 @@ class Field {
 
 namespace detail {
 
-/// The guidance of the C interface for `options`; none after a failure.
+/// The guidance of the C interface for `options`; empty after a failure.
 inline GuidanceHandle guidance_of(const FieldOptions& options, Status* status) {
     GuidanceHandle handle = guidance_with(options.features, status);
     if (!handle) {
@@ -226,7 +227,7 @@ inline GuidanceHandle guidance_of(const FieldOptions& options, Status* status) {
 
 } // namespace detail
 
-/// The smoothest field of a mesh that follows what the options say.
+/// The smoothest field of a mesh that satisfies the options.
 inline Field orientation_field(const Mesh& mesh, const FieldOptions& options = {},
                                Status* status = nullptr) {
     const auto guidance = detail::guidance_of(options, status);
@@ -247,7 +248,7 @@ inline Field orientation_field(const Mesh& mesh, const FieldOptions& options = {
     return Field(found.release(), mesh, status);
 }
 
-/// The problem of a field as a plain problem, to be kept or solved in another way. Variable f is
+/// The problem of a field as a plain problem, to store or to solve in another way. Variable f is
 /// the angle of face f; see roundel_field_make_problem.
 inline Problem orientation_problem(const Mesh& mesh, const FieldOptions& options = {},
                                    Status* status = nullptr) {
@@ -258,7 +259,7 @@ inline Problem orientation_problem(const Mesh& mesh, const FieldOptions& options
     return Problem(made);
 }
 
-/// The field that a solution of orientation_problem stands for, with the mesh and the options of
+/// The field that a solution of orientation_problem represents. Mesh and options must be those of
 /// the problem.
 inline Field orientation_field(const Mesh& mesh, const Solution& solution,
                                const FieldOptions& options, Status* status = nullptr) {

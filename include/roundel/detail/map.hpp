@@ -1,4 +1,4 @@
-/// Seamless maps.
+/// Seamless maps: options, solve and results.
 
 #ifndef ROUNDEL_DETAIL_MAP_HPP
 #define ROUNDEL_DETAIL_MAP_HPP
@@ -18,22 +18,22 @@
 
 ROUNDEL_NAMESPACE_BEGIN
 
-/// What a map should be like, and how it is solved.
+/// Options of a seamless map: the size of its quads, its features, and how it is solved.
 struct MapOptions {
-    /// About how many quads. 1000 where no length is given either.
+    /// The approximate number of quads. The default is 1000 if no length is given either.
     std::optional<std::size_t> quads = std::nullopt;
-    /// Edges of quads of this length, in units of the mesh, instead.
+    /// Instead, the edge length of the quads, in units of the mesh.
     std::optional<double> edge_length = std::nullopt;
-    /// Edges of quads of two lengths a face instead: along the arm that the field stores there (its
+    /// Instead, two edge lengths for each face: along the arm that the field stores there (its
     /// angle), and across it.
     std::vector<double> edge_lengths = {};
-    /// Edges that are isolines; those that the field follows where nothing is said.
+    /// Edges that become isolines. By default, those that the field follows.
     std::optional<Features> features = std::nullopt;
-    /// Whether the map is freed of folds, as `roundel parametrize` does: integers that collapse
-    /// cones are decided anew, faces that are turned over are turned back, and where some are left
-    /// the map is made finer. Each solve starts from nothing then.
+    /// Whether to make the map fold-free, as `roundel parametrize` does: integers that collapse
+    /// cones are decided anew, flipped faces are turned back, and the map is refined if some
+    /// remain. Every solve then starts from scratch.
     bool untangle = true;
-    /// How often the surroundings of folded triangles are made stiffer before these are untangled.
+    /// How often the surroundings of folded triangles are stiffened before these are untangled.
     std::size_t stiffenings = 5;
     /// How the problem is solved.
     Options solve = {};
@@ -68,33 +68,33 @@ struct MapOptions {
     }
 };
 
-/// How coordinates change over a cut edge, from its first to its second face: by quarter turns
-/// counter-clockwise, 0 to 3, then by integers.
+/// How coordinates change over a cut edge, from its first to its second face: by 0 to 3 quarter
+/// turns counter-clockwise, then by an integer translation.
 struct Transition {
     std::int32_t edge;
     std::int32_t quarters;
     std::array<double, 2> translation;
 };
 
-/// A seamless map of a mesh: coordinates (u, v) on the surface cut open, whose gradients follow a
-/// field of crosses. It does not need its mesh and field any more.
+/// A seamless map of a mesh: coordinates (u, v) on the cut surface whose gradients follow a cross
+/// field. It does not need its mesh and field after construction.
 class Map {
   public:
-    /// None: what a call returns that reports a failure to a Status.
+    /// An empty map, which a call returns when it reports a failure in a Status.
     Map() noexcept = default;
 
-    /// Takes over a map of the C interface that has been solved.
+    /// Takes ownership of a map of the C interface that has been solved.
     explicit Map(roundel_map* owned, std::size_t faces, Status* status = nullptr)
         : handle_(owned), faces_(faces) {
         read(status);
     }
 
-    /// Whether there is one.
+    /// Whether the map is not empty.
     explicit operator bool() const noexcept { return handle_ != nullptr; }
 
-    /// Solves for another size, without untangling from what was kept of the first solve. Features
-    /// stay those of the first. After a failure the map is what it was, but for the size that the
-    /// next solve has.
+    /// Solves again for another size. Without untangling, this reuses the work of the first solve.
+    /// Features stay those of the first solve. A failure leaves the map unchanged, except for the
+    /// size that the next solve uses.
     Map& solve(const MapOptions& options, Status* status = nullptr) {
         if (decide(get(), options, status)) {
             read(status);
@@ -102,11 +102,11 @@ class Map {
         return *this;
     }
 
-    /// u, v of the three corners of every face.
+    /// u and v of the three corners of every face.
     span<const double> corner_uvs() const& noexcept { return view(corner_uvs_); }
     span<const double> corner_uvs() const&& = delete;
 
-    /// u, v of every vertex of the cut surface.
+    /// u and v of every vertex of the cut surface.
     span<const double> vertex_uvs() const& noexcept { return view(vertex_uvs_); }
     span<const double> vertex_uvs() const&& = delete;
 
@@ -114,38 +114,39 @@ class Map {
     span<const std::int32_t> vertex_corners() const& noexcept { return view(vertex_corners_); }
     span<const std::int32_t> vertex_corners() const&& = delete;
 
-    /// Irregular vertices, around which coordinates turn.
+    /// The cones of the map, which are the irregular vertices of the field.
     span<const std::int32_t> cones() const& noexcept { return view(cones_); }
     span<const std::int32_t> cones() const&& = delete;
 
-    /// Faces that are turned over or collapsed.
+    /// Faces that are flipped or collapsed.
     span<const std::int32_t> flipped() const& noexcept { return view(flipped_); }
     span<const std::int32_t> flipped() const&& = delete;
 
-    /// Vertices around which coordinates turn another number of times than the field, as in a ring
-    /// of faces that goes around its vertex twice without a fold.
+    /// Vertices with a winding defect: the coordinates turn around them another number of times
+    /// than the field does. An example is a ring of faces that goes around its vertex twice without
+    /// a fold.
     span<const std::int32_t> winding_defects() const& noexcept { return view(winding_defects_); }
     span<const std::int32_t> winding_defects() const&& = delete;
 
-    /// How often untangling made the map finer than asked for, each time by the square root of two
-    /// in length.
+    /// How often untangling made the quads smaller than requested, each time by a factor of the
+    /// square root of two in length.
     std::size_t refinements(Status* status = nullptr) const {
         std::size_t count = 0;
         detail::check(roundel_map_refinement_count(get(), &count), status);
         return count;
     }
 
-    /// How often untangling decided integers anew, at the size that the map has.
+    /// How often untangling decided integers anew at the final size.
     std::size_t rounds(Status* status = nullptr) const {
         std::size_t count = 0;
         detail::check(roundel_map_round_count(get(), &count), status);
         return count;
     }
 
-    /// Whether no face is turned over or collapsed.
+    /// Whether no face is flipped or collapsed.
     bool valid() const noexcept { return handle_ != nullptr && flipped_.empty(); }
 
-    /// The cut edges in increasing order, and how coordinates change there.
+    /// The cut edges in increasing order, with their transitions.
     std::vector<Transition> transitions(Status* status = nullptr) const {
         std::size_t count = 0;
         if (!detail::check(roundel_map_cut_count(get(), &count), status)) {
@@ -165,14 +166,15 @@ class Map {
         return all;
     }
 
-    /// How far the gradients are from what they should be, recomputed on the mesh.
+    /// The energy, recomputed on the mesh: area times the squared distance of the gradients from
+    /// the scaled arms of the field, summed over all triangles.
     double energy(Status* status = nullptr) const {
         double value = 0.0;
         detail::check(roundel_map_energy(get(), &value), status);
         return value;
     }
 
-    /// The solution behind the map: how the solve ended, its lower bound and its times.
+    /// The solution of the map's problem: how the solve ended, its lower bound and its times.
     Solution solution(Status* status = nullptr) const {
         roundel_solution* copy = nullptr;
         if (!detail::check(roundel_map_solution(get(), &copy), status)) {
@@ -181,15 +183,15 @@ class Map {
         return Solution(copy, status);
     }
 
-    /// Writes the mesh with the coordinates of its corners as OBJ.
+    /// Writes the mesh with the coordinates of its corners to an OBJ file.
     void write(const std::string& file, Status* status = nullptr) const {
         detail::check(roundel_map_write(get(), file.c_str()), status);
     }
 
-    /// The handle, for calls of the C interface.
+    /// The handle for calls of the C interface.
     roundel_map* get() const noexcept { return handle_.get(); }
 
-    /// Solves a map of the C interface for the size that the options name.
+    /// Solves a map of the C interface for the size in the options.
     static bool decide(roundel_map* map, const MapOptions& options, Status* status) {
         const auto call = [&](const roundel_options* how, const roundel_monitor* monitor) {
             return options.untangle ? roundel_map_solve_fold_free(map, how, monitor)
@@ -201,7 +203,7 @@ class Map {
     }
 
   private:
-    /// Tells a map of the C interface the size of quads.
+    /// Sets the size of quads of a map of the C interface.
     static bool resize(roundel_map* map, const MapOptions& options, Status* status) {
         const auto told = [&](roundel_status code) { return detail::check(code, status); };
         return (!options.quads || told(roundel_map_set_quads(map, *options.quads))) &&

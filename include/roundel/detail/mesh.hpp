@@ -1,4 +1,4 @@
-/// Triangle meshes.
+/// Triangle meshes: construction, files, connectivity.
 
 #ifndef ROUNDEL_DETAIL_MESH_HPP
 #define ROUNDEL_DETAIL_MESH_HPP
@@ -13,37 +13,37 @@
 
 ROUNDEL_NAMESPACE_BEGIN
 
-/// A face whose direction is given: the angle of one arm of its cross, in radians,
+/// The prescribed direction of a face: the angle of one arm of its cross, in radians,
 /// counter-clockwise about the normal from the face's first edge.
 struct FieldConstraint {
     std::int32_t face;
     double angle;
 };
 
-/// An oriented triangle mesh, with or without boundary, which does not change once made.
+/// An oriented triangle mesh, with or without boundary, which does not change after construction.
 ///
 /// Vertices and faces keep their numbers. Local edge k of a face runs from its corner k to its
-/// corner k + 1. Edges are numbered in increasing order of (lower face, local edge there); the side
-/// in the lower face is their first.
+/// corner k + 1. Edges are numbered in increasing order of (lower face, local edge there). Their
+/// first side is the one in the lower face.
 class Mesh {
   public:
-    /// None: what a call returns that reports a failure to a Status.
+    /// An empty mesh, which a call returns when it reports a failure in a Status.
     Mesh() noexcept = default;
 
-    /// A mesh of vertices, x, y, z in turn, and faces, three corners each, counter-clockwise seen
-    /// from outside.
+    /// A mesh of vertices (x, y, z in turn) and faces (three corners each, counter-clockwise seen
+    /// from outside).
     Mesh(span<const double> coordinates, span<const std::int32_t> corners,
          Status* status = nullptr) {
         make(roundel_mesh_new, coordinates, corners, status);
     }
 
-    /// As above with 64-bit corners.
+    /// The same with 64-bit corners.
     Mesh(span<const double> coordinates, span<const std::int64_t> corners,
          Status* status = nullptr) {
         make(roundel_mesh_new_i64, coordinates, corners, status);
     }
 
-    /// Takes over a mesh of the C interface.
+    /// Takes ownership of a mesh of the C interface.
     explicit Mesh(roundel_mesh* owned) noexcept : handle_(owned) {}
 
     /// A mesh from a file in OBJ, OFF or PLY.
@@ -60,7 +60,7 @@ class Mesh {
         return Mesh(made);
     }
 
-    /// A copy whose vertices are moved by a reproducible noise of `amplitude` times their shortest
+    /// A copy whose vertices are moved by reproducible noise, of `amplitude` times their shortest
     /// edge.
     Mesh jittered(double amplitude, std::int64_t seed, Status* status = nullptr) const {
         roundel_mesh* made = nullptr;
@@ -68,12 +68,12 @@ class Mesh {
         return Mesh(made);
     }
 
-    /// Writes OBJ, OFF or PLY.
+    /// Writes an OBJ, OFF or PLY file.
     void write(const std::string& file, Status* status = nullptr) const {
         detail::check(roundel_mesh_write(get(), file.c_str()), status);
     }
 
-    /// Whether there is one.
+    /// Whether the mesh is not empty.
     explicit operator bool() const noexcept { return handle_ != nullptr; }
 
     std::size_t vertices(Status* status = nullptr) const {
@@ -100,7 +100,7 @@ class Mesh {
     std::vector<std::int32_t> corners(Status* status = nullptr) const {
         return copied<std::int32_t>(roundel_mesh_corners, 3 * faces(status), status);
     }
-    /// The two faces of every edge, the second -1 at the boundary.
+    /// The two faces of every edge; the second is -1 at the boundary.
     std::vector<std::int32_t> edge_faces(Status* status = nullptr) const {
         return copied<std::int32_t>(roundel_mesh_edge_faces, 2 * edges(status), status);
     }
@@ -109,7 +109,7 @@ class Mesh {
         return copied<std::int32_t>(roundel_mesh_face_edges, 3 * faces(status), status);
     }
 
-    /// The directions that the surface itself suggests for `fraction` of the faces: those whose
+    /// Directions from the curvature of the surface for a `fraction` of the faces: those where the
     /// direction of least absolute curvature is most reliable, in increasing order.
     std::vector<FieldConstraint> curvature_constraints(double fraction,
                                                        Status* status = nullptr) const {
@@ -126,7 +126,7 @@ class Mesh {
         return found;
     }
 
-    /// The handle, for calls of the C interface.
+    /// The handle for calls of the C interface.
     const roundel_mesh* get() const noexcept { return handle_.get(); }
 
   private:

@@ -1,4 +1,4 @@
-/// How to solve, and who watches: options, events, the cancel token.
+/// Options of a solve, events of its callback, and the token that cancels it.
 
 #ifndef ROUNDEL_DETAIL_OPTIONS_HPP
 #define ROUNDEL_DETAIL_OPTIONS_HPP
@@ -25,12 +25,12 @@ class CancelToken {
         handle_.reset(made);
     }
 
-    /// Asks every solve that holds this token to end, those yet to begin included.
+    /// Asks every solve with this token to end, including solves that have not begun.
     void cancel(Status* status = nullptr) const {
         detail::check(roundel_cancel_token_cancel(get()), status);
     }
 
-    /// Takes the request back, so that the token can be used again.
+    /// Withdraws the request, so that the token can be used again.
     void reset(Status* status = nullptr) const {
         detail::check(roundel_cancel_token_reset(get()), status);
     }
@@ -47,14 +47,14 @@ class CancelToken {
     detail::Handle<roundel_cancel_token, roundel_cancel_token_free> handle_;
 };
 
-/// What a callback answers.
+/// The return value of a callback.
 enum class Flow : std::int32_t { go_on = 0, stop = 1 };
-/// Go on.
+/// Continue the solve.
 inline constexpr Flow go_on = Flow::go_on;
 /// End the solve; the best solution so far is kept.
 inline constexpr Flow stop = Flow::stop;
 
-/// What an event tells.
+/// The kinds of events.
 enum class EventKind : std::int32_t {
     progress = ROUNDEL_EVENT_PROGRESS,
     log = ROUNDEL_EVENT_LOG,
@@ -62,7 +62,7 @@ enum class EventKind : std::int32_t {
     raised = ROUNDEL_EVENT_RAISED,
 };
 
-/// A part of the solve.
+/// The phases of a solve.
 enum class Phase : std::int32_t {
     none = ROUNDEL_PHASE_NONE,
     eliminate = ROUNDEL_PHASE_ELIMINATE,
@@ -72,13 +72,13 @@ enum class Phase : std::int32_t {
     quads = ROUNDEL_PHASE_QUADS,
 };
 
-/// One message to the callback, with where the solve stands.
+/// An event that the callback receives: the state of the solve.
 struct Event {
     EventKind kind;
-    /// For progress, the part of the solve and how much of it is done, from 0 to 1.
+    /// For progress, the phase of the solve and how much of it is done, from 0 to 1.
     Phase phase;
     double fraction;
-    /// For a log line, its text, which lives as long as the callback runs.
+    /// For a log line, its text, which is valid during the callback.
     std::string_view text;
     /// Seconds since the solve began.
     double seconds;
@@ -86,58 +86,60 @@ struct Event {
     double energy;
     /// The best lower bound so far; minus infinity before the first.
     double lower_bound;
-    /// (energy - lower_bound) / max(1, |energy|), infinite while either is.
+    /// (energy - lower_bound) / max(1, |energy|); infinite while either is infinite.
     double gap;
 };
 
-/// How to solve. What is not set has the library's default.
+/// Options of a solve. Options that are not set have the library's defaults.
 struct Options {
-    /// A set of options by name, "orientation_field" or "parametrization", set before all others.
+    /// The name of a set of options, "orientation_field" or "parametrization". It is applied first.
     std::optional<std::string> preset = std::nullopt;
     /// How integers are decided: "relax", "direct", "greedy", "adaptive",
     /// "multiple", "lattice", "exact", "auto".
     std::optional<std::string> strategy = std::nullopt;
     /// Seconds after which the best solution so far is returned.
     std::optional<double> time_limit = std::nullopt;
-    /// Threads that may be used at most; 0 means as many as there are cores.
+    /// The largest number of threads; 0 for as many as there are cores.
     std::optional<std::int64_t> threads = std::nullopt;
-    /// adaptive, multiple: integers are rounded together while their deviations sum up to at most
-    /// this.
+    /// adaptive, multiple: integers are rounded together while the sum of their deviations is at
+    /// most this.
     std::optional<double> rounding_threshold = std::nullopt;
     /// adaptive: up to this many integers are decided exactly, one at a time.
     std::optional<std::int64_t> exact_integers = std::nullopt;
-    /// adaptive, multiple: Gauss-Seidel updates a pass, after which conjugate gradients take over.
+    /// adaptive, multiple: Gauss-Seidel updates in a pass before conjugate gradients take over.
     std::optional<std::int64_t> gauss_seidel_updates = std::nullopt;
-    /// adaptive, multiple: Gauss-Seidel does not push on where an unknown would move by less.
+    /// adaptive, multiple: Gauss-Seidel does not update an unknown that would change by less.
     std::optional<double> gauss_seidel_tolerance = std::nullopt;
-    /// adaptive, multiple: conjugate-gradient iterations a pass, before a factorization takes over.
+    /// adaptive, multiple: conjugate-gradient iterations in a pass before a factorization takes
+    /// over.
     std::optional<std::int64_t> cg_iterations = std::nullopt;
-    /// adaptive: how close to the minimum conjugate gradients bring every unknown; multiple: the
-    /// length of the residual.
+    /// The tolerance of conjugate gradients. adaptive: the distance of every unknown from the
+    /// minimum; multiple: the length of the residual.
     std::optional<double> cg_tolerance = std::nullopt;
-    /// adaptive, multiple: 1 if a pass may factor when conjugate gradients fail.
+    /// adaptive, multiple: 1 if a pass may factorize when conjugate gradients fail.
     std::optional<std::int64_t> exact_steps = std::nullopt;
-    /// Earlier integers: "off", "offer" (before the search begins) or "keep" (no search).
+    /// The use of earlier integers: "off", "offer" (before the search begins) or "keep" (no
+    /// search).
     std::optional<std::string> warm_start = std::nullopt;
-    /// "fill_reducing", "largest_pivot" (constraints as in Bommes' thesis), or "natural", which
-    /// only shows what an order is worth.
+    /// The elimination order: "fill_reducing", "largest_pivot" (as in Bommes' thesis), or
+    /// "natural", for comparison only.
     std::optional<std::string> ordering = std::nullopt;
     /// lattice, exact, auto: up to this many integers are decided in a dense lattice.
     std::optional<std::int64_t> dense_integers = std::nullopt;
-    /// lattice, exact, auto: beginnings that nearest plane keeps at a time.
+    /// lattice, exact, auto: the number of partial solutions that nearest plane keeps.
     std::optional<std::int64_t> beam_width = std::nullopt;
     /// lattice, exact, auto: perturbation rounds after the blocks.
     std::optional<std::int64_t> lattice_rounds = std::nullopt;
-    /// exact, auto: nodes that the proof may visit.
+    /// exact, auto: the number of nodes that the proof may visit.
     std::optional<std::int64_t> nodes = std::nullopt;
-    /// exact, auto: relative gap that ends the proof.
+    /// exact, auto: the relative gap at which the proof stops.
     std::optional<double> gap = std::nullopt;
-    /// Called for every event, on the thread that called solve. What it throws ends the solve and
-    /// is thrown again by solve.
+    /// Called for every event, on the thread that called solve. An exception from it ends the
+    /// solve, and solve throws it again.
     std::function<Flow(const Event&)> on_event = nullptr;
-    /// Ends the solve when it is set.
+    /// A token that ends the solve when it is set.
     const CancelToken* cancel = nullptr;
-    /// Any option by its name, after those above.
+    /// Further options by name, applied after those above.
     std::vector<std::pair<std::string, std::variant<std::int64_t, double, std::string>>> more = {};
 
     Options& set_preset(std::string value) {
@@ -220,7 +222,7 @@ struct Options {
         cancel = &token;
         return *this;
     }
-    /// Sets any option by its name, as roundel_option_info lists them.
+    /// Sets any option by its name. roundel_option_info lists the names.
     Options& set(std::string name, std::variant<std::int64_t, double, std::string> value) {
         more.emplace_back(std::move(name), std::move(value));
         return *this;

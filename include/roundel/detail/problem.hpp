@@ -1,4 +1,4 @@
-/// The problem under construction.
+/// The mixed-integer quadratic problem and how it is built.
 
 #ifndef ROUNDEL_DETAIL_PROBLEM_HPP
 #define ROUNDEL_DETAIL_PROBLEM_HPP
@@ -31,7 +31,7 @@ enum class Layout { columns, rows };
 /// offsets[k] to before offsets[k + 1]. Index is std::int32_t or std::int64_t.
 template <class Index> struct Compressed {
     static_assert(std::is_same_v<Index, std::int32_t> || std::is_same_v<Index, std::int64_t>,
-                  "indices are std::int32_t or std::int64_t");
+                  "indices must be std::int32_t or std::int64_t");
     Layout layout;
     span<const Index> offsets;
     span<const Index> indices;
@@ -40,7 +40,7 @@ template <class Index> struct Compressed {
 
 namespace detail {
 
-/// What another library's sparse matrix looks like to Problem: its adapter specialises this with a
+/// Access of Problem to another library's sparse matrix. An adapter specialises it with a
 /// constructor from the matrix and `Compressed<Index> get() const`.
 template <class Matrix> class CompressedView;
 
@@ -52,24 +52,24 @@ using if_compressed = decltype(CompressedView<Matrix>(std::declval<const Matrix&
 /// A mixed-integer quadratic problem under construction: minimise
 /// 1/2 x'Qx + q'x + c + sum_k w_k (a_k . x - r_k)^2 subject to C x = d, x_i integer for i in I.
 ///
-/// Parts may be given in any order and any number of times: terms add up. A call that fails
+/// Parts may be added in any order and any number of times; terms are summed. A call that fails
 /// changes nothing.
 class Problem {
   public:
     using Indices = span<const std::int32_t>;
     using Numbers = span<const double>;
 
-    /// A problem of `variables` unknowns with objective zero.
+    /// A problem of `variables` unknowns whose objective is zero.
     explicit Problem(std::size_t variables, Status* status = nullptr) {
         roundel_problem* made = nullptr;
         detail::check(roundel_problem_new(variables, &made), status);
         handle_.reset(made);
     }
 
-    /// Takes over a problem of the C interface.
+    /// Takes ownership of a problem of the C interface.
     explicit Problem(roundel_problem* owned) noexcept : handle_(owned) {}
 
-    /// A copy that lives on its own.
+    /// An independent copy.
     Problem clone(Status* status = nullptr) const {
         roundel_problem* copy = nullptr;
         detail::check(roundel_problem_clone(get(), &copy), status);
@@ -82,21 +82,21 @@ class Problem {
         return count;
     }
 
-    /// Number of constraints so far, which is the number of the next one.
+    /// The number of constraints so far, which is also the index of the next one.
     std::size_t constraints(Status* status = nullptr) const {
         std::size_t count = 0;
         detail::check(roundel_problem_constraints(get(), &count), status);
         return count;
     }
 
-    /// Adds entries to Q, duplicates summed.
+    /// Adds entries to Q. Duplicates are summed.
     void quadratic(Triangle triangle, Indices rows, Indices columns, Numbers values,
                    Status* status = nullptr) {
         add_triplets(roundel_problem_add_quadratic_triplets, triangle, rows, columns, values,
                      status);
     }
 
-    /// As above with 64-bit indices.
+    /// The same with 64-bit indices.
     void quadratic(Triangle triangle, span<const std::int64_t> rows,
                    span<const std::int64_t> columns, Numbers values, Status* status = nullptr) {
         add_triplets(roundel_problem_add_quadratic_triplets_i64, triangle, rows, columns, values,
@@ -127,14 +127,14 @@ class Problem {
         detail::check(code, status);
     }
 
-    /// Adds another library's matrix to Q: Eigen's with <roundel/eigen.hpp>.
+    /// Adds another library's matrix to Q, such as Eigen's with <roundel/eigen.hpp>.
     template <class Matrix, class = detail::if_compressed<Matrix>>
     void quadratic(const Matrix& matrix, Triangle triangle, Status* status = nullptr) {
         const detail::CompressedView<Matrix> view(matrix);
         quadratic(view.get(), triangle, status);
     }
 
-    /// Adds to the linear term, one number a variable.
+    /// Adds to the linear term, one number for each variable.
     void linear(Numbers values, Status* status = nullptr) {
         detail::check(roundel_problem_add_linear(get(), values.data(), values.size()), status);
     }
@@ -150,7 +150,7 @@ class Problem {
     }
 
     /// Adds weight (sum_k coefficients[k] x[indices[k]] - rhs)^2 to the objective, without a factor
-    /// of 1/2, and returns the row's number.
+    /// of 1/2, and returns the index of the row.
     std::size_t least_squares(Indices indices, Numbers coefficients, double rhs = 0.0,
                               double weight = 1.0, Status* status = nullptr) {
         std::size_t row = 0;
@@ -170,8 +170,8 @@ class Problem {
                              status);
     }
 
-    /// Adds sum_i weights[i] ((A x)_i - rhs[i])^2, one term a row of the matrix, and returns the
-    /// first row's number. Without weights all are 1. After a failure nothing has been added.
+    /// Adds sum_i weights[i] ((A x)_i - rhs[i])^2, one term for each row of the matrix, and returns
+    /// the index of the first row. Without `weights` all are 1. A failure adds nothing.
     template <class Index>
     std::size_t least_squares(const Compressed<Index>& matrix, Numbers rhs, Numbers weights = {},
                               Status* status = nullptr) {
@@ -224,7 +224,8 @@ class Problem {
                   Numbers(coefficients.begin(), coefficients.size()), rhs, status);
     }
 
-    /// Adds the constraints C x = rhs, one a row of the matrix, and returns the first one's number.
+    /// Adds the constraints C x = rhs, one for each row of the matrix, and returns the index of the
+    /// first.
     template <class Index>
     std::size_t constrain(const Compressed<Index>& matrix, Numbers rhs, Status* status = nullptr) {
         std::size_t first = 0;
@@ -273,19 +274,19 @@ class Problem {
         detail::check(roundel_problem_pin(get(), variable, value), status);
     }
 
-    /// Frees a pinned variable again.
+    /// Releases a pinned variable.
     void unpin(std::int64_t variable, Status* status = nullptr) {
         detail::check(roundel_problem_unpin(get(), variable), status);
     }
 
-    /// Sets the point that variables keep to where the objective does not decide them.
+    /// Sets the point whose values variables keep where the objective does not determine them.
     void guess(Numbers values, Status* status = nullptr) {
         detail::check(roundel_problem_set_guess(get(), values.data(), values.size()), status);
     }
 
-    /// Hands over short cycles that the caller knows: sums of least-squares rows with sign 1 or -1
-    /// in which all continuous variables cancel. Cycle k has the entries from offsets[k] to before
-    /// offsets[k + 1]. A hint never changes what is solved.
+    /// Adds short cycles that the caller knows: sums of least-squares rows with sign 1 or -1 in
+    /// which all continuous variables cancel. Cycle k has the entries from offsets[k] to before
+    /// offsets[k + 1]. A hint never changes the problem.
     void hint_cycles(Indices offsets, Indices rows, span<const std::int8_t> signs,
                      Status* status = nullptr) {
         if (detail::same_length(rows.size(), signs.size(), status)) {
@@ -295,15 +296,15 @@ class Problem {
         }
     }
 
-    /// A problem from a file in free-format MPS, gzipped or not.
+    /// Reads a problem from a file in free-format MPS, gzipped or not.
     static Problem read_mps(const std::string& file, Status* status = nullptr) {
         roundel_problem* made = nullptr;
         detail::check(roundel_problem_read_mps(file.c_str(), &made), status);
         return Problem(made);
     }
 
-    /// Writes free-format MPS, gzipped if the name ends in ".gz". Pins become constraints, and the
-    /// guess is lost.
+    /// Writes free-format MPS, gzipped if the name ends in ".gz". Pins are written as constraints.
+    /// The guess is not written.
     void write_mps(const std::string& file, Status* status = nullptr) const {
         detail::check(roundel_problem_write_mps(get(), file.c_str()), status);
     }

@@ -1,4 +1,4 @@
-/// Quad meshes.
+/// Quad meshes: options, quadrangulation and results.
 
 #ifndef ROUNDEL_DETAIL_QUADS_HPP
 #define ROUNDEL_DETAIL_QUADS_HPP
@@ -18,33 +18,35 @@
 
 ROUNDEL_NAMESPACE_BEGIN
 
-/// What quads should be like, and how they are solved for. What is not said is as the program
-/// `roundel quad` has it.
+/// Options of quads: their size, the guidance of the field, and how field and map are solved.
+/// Options that are not set have the defaults of the program `roundel quad`.
 struct QuadOptions {
-    /// About how many. 1000 where no length is given either.
+    /// The approximate number of quads. The default is 1000 if no length is given either.
     std::optional<std::size_t> quads = std::nullopt;
-    /// Edges of this length, in units of the mesh, instead.
+    /// Instead, the edge length, in units of the mesh.
     std::optional<double> edge_length = std::nullopt;
-    /// Edges of two lengths a face instead: along the arm that the field stores there, and across.
+    /// Instead, two edge lengths for each face: along the arm that the field stores there, and
+    /// across it.
     std::vector<double> edge_lengths = {};
-    /// Edges that become chains of quads' edges, in the place of the boundary.
+    /// Edges that become chains of edges of the quads, instead of the boundary alone.
     std::optional<Features> features = std::nullopt;
-    /// The part of the faces that follow the curvature, as FieldOptions has it. Where neither this
-    /// nor the weight is given, both are what quads need in general, or less where that is better.
+    /// The fraction of the faces that follow the curvature, as in FieldOptions. If neither this nor
+    /// the weight is given, both have values that suit quads, or smaller ones where these give
+    /// better quads.
     std::optional<double> constrain_curvature = std::nullopt;
-    /// How much all others should follow the curvature.
+    /// The weight with which all other faces follow the curvature.
     std::optional<double> curvature_weight = std::nullopt;
-    /// Details smaller than this length attract no irregular vertices; a quarter of an edge where
-    /// nothing is said.
+    /// Details smaller than this length attract no irregular vertices. The default is a quarter of
+    /// an edge.
     std::optional<double> detail = std::nullopt;
-    /// How the map is solved, by lattice decoding where no strategy or preset is given; and, but
-    /// for the strategy, the field.
+    /// How the map and, except for the strategy, the field are solved. If no strategy or preset is
+    /// given, the map is solved by lattice decoding.
     std::optional<Options> solve = std::nullopt;
-    /// How the field's integers are decided, in the place of adaptive rounding.
+    /// The strategy for the integers of the field, instead of adaptive rounding.
     std::optional<std::string> field_strategy = std::nullopt;
-    /// Whether a map is untangled whose folds extraction cannot cope with.
+    /// Whether to untangle a map whose folds keep extraction from making quads.
     bool untangle = true;
-    /// Whether vertices move over the surface towards squares of one size.
+    /// Whether vertices are moved on the surface to make the quads more like squares of one size.
     bool smooth = true;
 
     QuadOptions& set_quads(std::size_t value) {
@@ -95,29 +97,30 @@ struct QuadOptions {
 
 /// The elements that keep quads from conforming.
 struct QuadFaults {
-    /// Faces that are no quads or have a vertex twice; the quads are numbered first, then the
-    /// others.
+    /// Faces that are not quads or have a vertex twice. The quads are numbered first, then the
+    /// other faces.
     std::vector<std::int32_t> faces{};
-    /// Edges, by their vertices, with more than two faces or two that run the same way.
+    /// Edges, by their vertices, with more than two faces, or with two that run in the same
+    /// direction.
     std::vector<std::array<std::int32_t, 2>> edges{};
-    /// Vertices whose faces are more than one fan.
+    /// Vertices whose faces form more than one fan.
     std::vector<std::int32_t> vertices{};
-    /// Triangles of the mesh that the map folds, which is where faults come from.
+    /// Triangles of the mesh that the map folds, which cause such faults.
     std::vector<std::int32_t> triangles{};
 };
 
-/// Quads with shared vertices, and other polygons where a map left no quads to be made.
+/// Quads with shared vertices, and other polygons where the map gives no quads.
 class Quads {
   public:
-    /// None: what a call returns that reports a failure to a Status.
+    /// No quads: a call returns this when it reports a failure in a Status.
     Quads() noexcept = default;
 
-    /// Takes over quads of the C interface.
+    /// Takes ownership of quads of the C interface.
     explicit Quads(roundel_quads* owned, Status* status = nullptr) : handle_(owned) {
         read(status);
     }
 
-    /// Whether there are any.
+    /// Whether there are quads.
     explicit operator bool() const noexcept { return handle_ != nullptr; }
 
     /// x, y, z of every vertex.
@@ -130,21 +133,21 @@ class Quads {
     }
     span<const std::int32_t> corners() const&& = delete;
 
-    /// How many quads.
+    /// The number of quads.
     std::size_t size() const noexcept { return corners_.size() / 4; }
 
-    /// The corners of every face that is no quad.
+    /// The corners of every face that is not a quad.
     const std::vector<std::vector<std::int32_t>>& others() const& noexcept { return others_; }
     const std::vector<std::vector<std::int32_t>>& others() const&& = delete;
 
-    /// Whether there is nothing but quads, of the topology of the triangles.
+    /// Whether all faces are quads and the topology is that of the triangle mesh.
     bool conforming(Status* status = nullptr) const {
         std::int32_t value = 0;
         detail::check(roundel_quads_is_conforming(get(), &value), status);
         return value != 0;
     }
 
-    /// What is at fault where they do not conform.
+    /// The elements at fault if the quads do not conform.
     QuadFaults faults(Status* status = nullptr) const {
         QuadFaults found;
         std::size_t faces = 0, edges = 0, vertices = 0, triangles = 0;
@@ -165,7 +168,7 @@ class Quads {
         return found;
     }
 
-    /// How many vertices have other than four edges, or three on the boundary.
+    /// The number of vertices with other than four edges, or other than three on the boundary.
     std::size_t irregular_count(Status* status = nullptr) const {
         std::size_t value = 0;
         detail::check(roundel_quads_irregular_count(get(), &value), status);
@@ -179,8 +182,8 @@ class Quads {
         return value;
     }
 
-    /// Moves vertices over the mesh that the quads are from, towards squares of one size; they stay
-    /// on these features.
+    /// Moves vertices on the mesh of which the quads were made, to make them more like squares of
+    /// one size. Vertices on these features stay on them.
     Quads& smooth(const Mesh& mesh, const Features& features = {}, Status* status = nullptr) {
         const auto guidance = detail::guidance_with(features, status);
         if (guidance &&
@@ -191,7 +194,7 @@ class Quads {
         return *this;
     }
 
-    /// Writes the faces as OBJ.
+    /// Writes the faces to an OBJ file.
     void write(const std::string& file, Status* status = nullptr) const {
         detail::check(roundel_quads_write(get(), file.c_str()), status);
     }
@@ -238,7 +241,7 @@ inline Quads quads(const Map& map, Status* status = nullptr) {
     return Quads(made, status);
 }
 
-/// The quads of an integer-grid map from anywhere: u, v of the three corners of every face.
+/// The quads of any integer-grid map, given by u and v of the three corners of every face.
 inline Quads quads(const Mesh& mesh, span<const double> corner_uvs, Status* status = nullptr) {
     roundel_quads* made = nullptr;
     const auto code =
@@ -250,7 +253,7 @@ namespace detail {
 
 using QuadOptionsHandle = Handle<roundel_quad_options, roundel_quad_options_free>;
 
-/// What the options say of features, curvature and details; none after a failure.
+/// The features, the curvature and the detail of the options; empty after a failure.
 inline GuidanceHandle guidance_of(const QuadOptions& options, Status* status) {
     roundel_guidance* made = nullptr;
     if (!check(roundel_guidance_new_for_quads(&made), status)) {
@@ -268,7 +271,7 @@ inline GuidanceHandle guidance_of(const QuadOptions& options, Status* status) {
     return told ? std::move(guidance) : nullptr;
 }
 
-/// The size that the options ask for.
+/// Sets the size in the options.
 inline roundel_status resize(roundel_quad_options* made, const QuadOptions& options) {
     if (!options.edge_lengths.empty()) {
         return roundel_quad_options_set_edge_lengths(made, options.edge_lengths.data(),
@@ -280,7 +283,7 @@ inline roundel_status resize(roundel_quad_options* made, const QuadOptions& opti
     return options.quads ? roundel_quad_options_set_quads(made, *options.quads) : ROUNDEL_OK;
 }
 
-/// The C interface's options for `options`; none after a failure.
+/// The C interface's options for `options`; empty after a failure.
 inline QuadOptionsHandle handle_for(const QuadOptions& options, Status* status) {
     Options map = options.solve.value_or(Options());
     Options field = map;
@@ -310,8 +313,8 @@ inline QuadOptionsHandle handle_for(const QuadOptions& options, Status* status) 
 
 } // namespace detail
 
-/// A mesh turned into quads: field, map, extraction and smoothing in one call. The options'
-/// callback sees all of it, and its token cancels it.
+/// Quadrangulates a mesh: field, map, extraction and smoothing in one call. The callback in the
+/// options receives the events of all steps, and the token cancels any of them.
 inline Quads quadrangulate(const Mesh& mesh, const QuadOptions& options = {},
                            Status* status = nullptr) {
     const auto how = detail::handle_for(options, status);
@@ -331,12 +334,12 @@ inline Quads quadrangulate(const Mesh& mesh, const QuadOptions& options = {},
 
 namespace detail {
 
-/// How polygons become a mesh of another library. Each adapter says so for its types:
+/// Makes a mesh of another library from polygons. Each adapter specialises it for its types with
 /// `static M make(std::size_t vertices, Point point, const std::vector<Face>& faces)`, where
-/// `point(i)` is the array x, y, z and a face the numbers of its corners.
+/// `point(i)` is the array x, y, z, and a face lists the numbers of its corners.
 template <class M, class = void> struct FromPolygons;
 
-/// The corners of every quad, and of every face that is no quad.
+/// The corners of every quad, then of every face that is not a quad.
 inline std::vector<std::vector<std::int32_t>> polygons(const Quads& quads) {
     std::vector<std::vector<std::int32_t>> faces;
     faces.reserve(quads.size() + quads.others().size());
@@ -350,7 +353,7 @@ inline std::vector<std::vector<std::int32_t>> polygons(const Quads& quads) {
 
 } // namespace detail
 
-/// Quads as a mesh of another library, with the faces that are no quads.
+/// Converts quads, with the faces that are not quads, to a mesh of another library.
 template <class M> M mesh_of(const Quads& quads) {
     const auto at = quads.vertices();
     const auto point = [&](std::size_t i) {

@@ -1,4 +1,4 @@
-/// What a solve gives back.
+/// The result of a solve.
 
 #ifndef ROUNDEL_DETAIL_SOLUTION_HPP
 #define ROUNDEL_DETAIL_SOLUTION_HPP
@@ -21,24 +21,24 @@ enum class SolveStatus : std::int32_t {
     relaxed = ROUNDEL_SOLVE_RELAXED,
 };
 
-/// The word for how a solve ended.
+/// The name of a status.
 inline const char* name(SolveStatus status) noexcept {
     return roundel_solve_status_name(static_cast<std::int32_t>(status));
 }
 
-/// The largest violations of a solution.
+/// The largest violations of constraints and integrality.
 struct Violations {
     double constraint = 0.0;
     double integrality = 0.0;
 };
 
-/// A solution: values, what they cost, and how far from the best they can be.
+/// A solution: its values, their energy, and a bound on how far it is from the optimum.
 class Solution {
   public:
-    /// None: what solve returns when it reports a failure to a Status.
+    /// An empty solution, which solve returns when it reports a failure in a Status.
     Solution() noexcept = default;
 
-    /// Takes over a solution of the C interface.
+    /// Takes ownership of a solution of the C interface.
     explicit Solution(roundel_solution* owned, Status* status = nullptr) : handle_(owned) {
         std::size_t variables = 0;
         if (detail::check(roundel_solution_variables(get(), &variables), status)) {
@@ -47,10 +47,10 @@ class Solution {
         }
     }
 
-    /// Whether there is one.
+    /// Whether the solution is not empty.
     explicit operator bool() const noexcept { return handle_ != nullptr; }
 
-    /// One value a variable, as long as the solution lives.
+    /// One value for each variable. The view is valid as long as the solution.
     span<const double> values() const& noexcept { return {values_.data(), values_.size()}; }
     span<const double> values() const&& = delete;
 
@@ -61,12 +61,12 @@ class Solution {
         return value;
     }
 
-    /// No integer solution has less energy than this.
+    /// A lower bound on the energy of all integer solutions.
     std::optional<double> lower_bound(Status* status = nullptr) const {
         return maybe(roundel_solution_lower_bound, status);
     }
 
-    /// (energy - lower_bound) / max(1, |energy|), where there is a bound.
+    /// (energy - lower_bound) / max(1, |energy|), if there is a bound.
     std::optional<double> gap(Status* status = nullptr) const {
         return maybe(roundel_solution_gap, status);
     }

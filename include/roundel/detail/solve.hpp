@@ -1,4 +1,4 @@
-/// The solve.
+/// Solves a problem in one call.
 
 #ifndef ROUNDEL_DETAIL_SOLVE_HPP
 #define ROUNDEL_DETAIL_SOLVE_HPP
@@ -18,7 +18,7 @@ ROUNDEL_NAMESPACE_BEGIN
 
 namespace detail {
 
-/// Carries events to a std::function, and what it throws around the C frames in between.
+/// Passes events to a std::function, and carries its exceptions past the C frames in between.
 struct Watcher {
     const std::function<Flow(const Event&)>& on_event;
     std::exception_ptr thrown = nullptr;
@@ -37,7 +37,7 @@ struct Watcher {
         try {
             return static_cast<std::int32_t>(self.on_event(view));
         } catch (...) {
-            // A solve that has been told to stop may still send an event: keep the first.
+            // A solve that was told to stop may still send events. Keep the first exception.
             if (!self.thrown) {
                 self.thrown = std::current_exception();
             }
@@ -61,7 +61,7 @@ inline roundel_status set(roundel_options* options, const char* name, std::int64
 
 using OptionsHandle = Handle<roundel_options, roundel_options_free>;
 
-/// The C interface's options for `options`; none after a failure.
+/// The C interface's options for `options`; empty after a failure.
 inline OptionsHandle handle_for(const Options& options, Status* status) {
     roundel_options* made = nullptr;
     if (!check(roundel_options_new(&made), status)) {
@@ -99,8 +99,8 @@ inline OptionsHandle handle_for(const Options& options, Status* status) {
     return handle;
 }
 
-/// Calls `call` with the C interface's options and monitor for `options`, and tells whether it went
-/// well. What a callback threw is thrown again.
+/// Calls `call` with the C interface's options and monitor for `options`. Returns whether it
+/// succeeded. An exception of the callback is thrown again.
 template <class Call>
 bool watched(const Options& options, const Call& call, std::size_t variables, Status* status) {
     const auto handle = handle_for(options, status);
@@ -128,7 +128,7 @@ bool watched(const Options& options, const Call& call, std::size_t variables, St
 
 namespace detail {
 
-/// The solution that `call` gives through its last parameter, or none.
+/// The solution that `call` returns through its last parameter; empty after a failure.
 template <class Call>
 Solution solution_of(const Options& options, const Call& call, std::size_t variables,
                      Status* status) {
@@ -147,10 +147,10 @@ Solution solution_of(const Options& options, const Call& call, std::size_t varia
 
 } // namespace detail
 
-/// Solves a problem. It may be solved again, as it is or after changes.
+/// Solves a problem. It may be solved again, unchanged or after changes.
 inline Solution solve(const Problem& problem, const Options& options = {},
                       Status* status = nullptr) {
-    // The length of the direction that comes with some failures; 0 for a problem moved away.
+    // The length of the direction that some failures contain; 0 for a problem that was moved away.
     std::size_t variables = 0;
     if (problem.get()) {
         roundel_problem_variables(problem.get(), &variables);
@@ -162,7 +162,7 @@ inline Solution solve(const Problem& problem, const Options& options = {},
     return detail::solution_of(options, call, variables, status);
 }
 
-/// Writes a problem and how to solve it, so that the solve can be repeated elsewhere: `file`, which
+/// Writes a problem and its options, so that the solve can be repeated elsewhere: `file`, which
 /// ends in ".mps" or ".mps.gz", and beside it a file that ends in ".replay.json".
 inline void save_replay(const Problem& problem, const Options& options, const std::string& file,
                         Status* status = nullptr) {

@@ -1,4 +1,4 @@
-/// A problem solved again and again.
+/// A solver for many solves of one problem with changing right sides.
 
 #ifndef ROUNDEL_DETAIL_SOLVER_HPP
 #define ROUNDEL_DETAIL_SOLVER_HPP
@@ -10,11 +10,11 @@
 
 ROUNDEL_NAMESPACE_BEGIN
 
-/// A problem whose matrices and integers are fixed, for many solves: elimination, orderings and
-/// factors are kept, and a solve with other right sides costs a fraction of the first.
+/// A problem with fixed matrices and integers that is solved many times. Elimination, orderings and
+/// factors are kept, so a solve with other right sides costs a fraction of the first.
 ///
-/// The solution is that of solve for the same data, except that a warm start may improve it. A
-/// solve that fails changes nothing.
+/// The solution equals that of `solve` for the same data, except that a warm start may improve it.
+/// A solve that fails changes nothing.
 class Solver {
   public:
     /// A solver for a copy of `problem`.
@@ -26,29 +26,29 @@ class Solver {
         }
     }
 
-    /// Whether there is one.
+    /// Whether there is a solver.
     explicit operator bool() const noexcept { return handle_ != nullptr; }
 
-    /// Replaces the linear term, one value a variable.
+    /// Replaces the linear term, one value for each variable.
     Solver& linear(span<const double> values, Status* status = nullptr) {
         return told(roundel_solver_set_linear(get(), values.data(), values.size()), status);
     }
 
-    /// Replaces the right sides of the constraints, one a constraint.
+    /// Replaces the right sides of the constraints, one for each constraint.
     Solver& constraint_right_sides(span<const double> values, Status* status = nullptr) {
         return told(roundel_solver_set_constraint_right_sides(get(), values.data(), values.size()),
                     status);
     }
 
-    /// Replaces the right sides of the least-squares rows, one a row.
+    /// Replaces the right sides of the least-squares rows, one for each row.
     Solver& least_squares_right_sides(span<const double> values, Status* status = nullptr) {
         return told(
             roundel_solver_set_least_squares_right_sides(get(), values.data(), values.size()),
             status);
     }
 
-    /// Sets the point that variables keep to where the objective does not decide them, and at which
-    /// a warm start begins.
+    /// Sets the point whose values variables keep where the objective does not determine them. A
+    /// warm start begins there.
     Solver& guess(span<const double> values, Status* status = nullptr) {
         return told(roundel_solver_set_guess(get(), values.data(), values.size()), status);
     }
@@ -63,7 +63,7 @@ class Solver {
         return told(roundel_solver_unpin(get(), variable), status);
     }
 
-    /// Solves the problem as it stands.
+    /// Solves the problem with its current data.
     Solution solve(const Options& options = {}, Status* status = nullptr) {
         const auto call = [this](const roundel_options* how, const roundel_monitor* monitor,
                                  roundel_solution** made) {

@@ -1,5 +1,5 @@
-/// Views of the caller's arrays: std::span where there is one, the part of it that is needed where
-/// not.
+/// Views of the caller's arrays: std::span where it exists, otherwise the part of it that is
+/// needed.
 
 #ifndef ROUNDEL_DETAIL_SPAN_HPP
 #define ROUNDEL_DETAIL_SPAN_HPP
@@ -14,8 +14,8 @@
 #endif
 #endif
 
-// The span in the signatures depends on the standard, and units of both kinds may meet in one
-// program: their names are kept apart.
+// The span in the signatures depends on the standard, and units of both standards may be linked
+// into one program. The inline namespace gives their functions different names.
 #if defined(__cpp_lib_span)
 #include <span>
 // clang-format off
@@ -41,7 +41,7 @@ template <class T> class span {
     constexpr span() noexcept = default;
     constexpr span(T* data, std::size_t size) noexcept : data_(data), size_(size) {}
     template <std::size_t N> constexpr span(T (&array)[N]) noexcept : data_(array), size_(N) {}
-    /// Any contiguous container of T.
+    /// A view of any contiguous container of T.
     template <class C,
               class = std::enable_if_t<std::is_convertible_v<
                   std::remove_pointer_t<decltype(std::declval<C&>().data())> (*)[], T (*)[]>>>

@@ -1,5 +1,5 @@
-// A host for the plugin: what MeshLab's program does with it, and what meshlabserver cannot do,
-// which is to cancel.
+// A host for the plugin: it calls the plugin as MeshLab does, and tests cancelling, which
+// meshlabserver cannot do.
 
 #include <common/interfaces.h>
 
@@ -32,7 +32,7 @@ bool callback(const int percent, const char*) {
     return calls_until_cancel < 0 || static_cast<int>(percents.size()) <= calls_until_cancel;
 }
 
-/// A document with a torus.
+/// A document that contains a torus.
 struct Torus {
     MeshDocument document;
 
@@ -79,7 +79,7 @@ void makes_a_layer_of_pairs_of_triangles(const Host& host) {
         CHECK(one.cV(0) == other.cV(0) && one.cV(2) == other.cV(1));
         CHECK(one.cN() == other.cN());
     }
-    // A bar that moves and does not go back.
+    // The bar moves and does not go back.
     CHECK(percents.size() > 10 && percents.front() >= 0 && percents.back() <= 100);
     CHECK(std::is_sorted(percents.begin(), percents.end()) && percents.front() < percents.back());
 }
@@ -128,7 +128,7 @@ void errors_are_messages(const Host& host) {
     CHECK(refused("SolverOptions", StringValue("threads=few")).contains("not a number"));
     CHECK(refused("SolverOptions", StringValue("threads=-1")).contains("threads"));
 
-    // A mesh that is none: three triangles at an edge.
+    // An invalid mesh: three triangles share an edge.
     Torus torus;
     auto& mesh = torus.document.mm()->cm;
     mesh.face[0].V(2) = mesh.face[200].V(2);

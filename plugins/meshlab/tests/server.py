@@ -1,10 +1,10 @@
-"""The plugin inside of Debian's MeshLab: meshlabserver runs filter scripts with it on real meshes, and
-the quads are those of `roundel quad` with the same options, corner for corner.
+"""Runs the plugin in Debian's MeshLab: meshlabserver applies filter scripts to real meshes, and the quads
+must equal those of `roundel quad` with the same options, corner for corner.
 
-meshlabserver looks for plugins beside its own file, so a copy of the program stands in a folder of
-the test, with links to MeshLab's library, its reader of meshes and our plugin. MeshLab holds
-coordinates in single precision: `roundel quad` gets the mesh as MeshLab wrote it, and its results are
-compared after they are rounded to that.
+meshlabserver looks for plugins beside its own file. So the test copies the program into a folder, with
+links to MeshLab's library, its mesh reader and our plugin. MeshLab stores coordinates in single
+precision. So `roundel quad` gets the mesh that MeshLab wrote, and its results are rounded to single
+precision before they are compared.
 """
 
 import argparse
@@ -18,8 +18,8 @@ from pathlib import Path
 
 FILTER = "Remeshing: Mixed-Integer Quadrangulation (Roundel)"
 
-# meshlabserver ends by an assertion for a script that leaves parameters to their defaults: MeshLab
-# writes all of them, and so does this.
+# meshlabserver aborts if a script leaves a parameter to its default. MeshLab writes all parameters, and
+# so does this test.
 DEFAULTS = {
     "Size": ("RichEnum", 0),
     "Quads": ("RichInt", 1000),
@@ -35,7 +35,7 @@ DEFAULTS = {
     "SolverOptions": ("RichString", ""),
 }
 
-# A mesh, parameters of the filter, and the flags that say the same.
+# A mesh, parameters of the filter, and the equivalent flags of the program.
 CASES = [
     ("rotor.off", {}, []),
     (
@@ -97,7 +97,7 @@ def a_bad_option_is_a_message(server, mesh):
 
 
 class Server:
-    """meshlabserver with our plugin among its own."""
+    """meshlabserver with our plugin among its own plugins."""
 
     def __init__(self, folder, plugin):
         self.folder = folder
@@ -114,7 +114,7 @@ class Server:
 
     def run(self, *words):
         environment = {**os.environ, "HOME": str(self.folder), "XDG_RUNTIME_DIR": str(self.folder)}
-        # Ends the display as well, where the time is up.
+        # When the time is up, this ends the display as well.
         command = ["timeout", "120", "xvfb-run", "-a", self.binary, *words]
         return subprocess.run(
             [str(word) for word in command],
@@ -149,12 +149,12 @@ def read_obj(file):
     return vertices, faces
 
 
-# Bits of VCGlib's flags of a face: its edges that are inside of a polygon.
+# The bits of VCGlib's face flags for edges that lie inside a polygon.
 FAUX = [1 << 18, 1 << 19, 1 << 20]
 
 
 def read_ply(file):
-    """The vertices, and the polygons that fans of triangles make whose inner edges are faux."""
+    """The vertices, and the polygons that the triangles form when faux edges are left out."""
     head, body = file.read_bytes().split(b"end_header\n", 1)
     lines = head.decode().splitlines()
     counts = {line.split()[1]: int(line.split()[2]) for line in lines if line.startswith("element")}

@@ -3,18 +3,18 @@
     minimise   1/2 x'Qx + q'x + c + sum_k w_k (a_k . x - r_k)^2
     subject to C x = d, x_i integer for i in I
 
-`solve` for a problem in matrices, `Problem` to build one, `Solver` to solve it again; `field`, `map`
-and `quad` for triangle meshes. Elements are counted from 0, angles are in radians and
-counter-clockwise, but for that of features, which is in degrees.
+`solve` solves a problem in matrices, `Problem` builds one part by part, and `Solver` solves one many
+times. `field`, `map` and `quad` work on triangle meshes. Elements are counted from 0. Angles are in
+radians and counter-clockwise, except for the angle of features, which is in degrees.
 """
 
 from . import errors as _errors
 from ._library import lib as _lib, text as _text
-from .errors import *  # noqa: F403: one class a status
+from .errors import *  # noqa: F403: one class for each status
 from .field import Field, field
 from .map import Map
 
-# By its full name alone: a star import must not hide Python's own.
+# Not in __all__, because a star import must not hide Python's own name.
 from .map import map as map
 from .mesh import Mesh
 from .options import Option, options, presets

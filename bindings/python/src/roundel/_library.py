@@ -1,4 +1,4 @@
-"""The shared library beside this file, and what its calls have in common."""
+"""Loads the shared library beside this file, and helps to call its functions."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def text(pointer: Any) -> str:
 
 
 def path(file: Any) -> bytes:
-    """The name of a file as C takes it."""
+    """The name of a file in the encoding that C expects."""
     return os.fsencode(file)
 
 
@@ -38,14 +38,14 @@ def last_message() -> str:
 
 
 class Handle:
-    """An object of the library, freed with this one."""
+    """Owns an object of the library and frees it."""
 
     def __init__(self, kind: str, pointer: Any) -> None:
         self.pointer = ffi.gc(pointer, getattr(lib, f"{kind}_free"))
 
     @classmethod
     def made(cls, kind: str, call: Any, *arguments: Any) -> "Handle":
-        """The object that `call(*arguments, &object)` makes."""
+        """Owns the object that `call(*arguments, &object)` makes."""
         from .errors import check  # the two need each other
 
         place = ffi.new(f"{kind} **")
@@ -54,7 +54,7 @@ class Handle:
 
 
 def number(call: Any, *arguments: Any, kind: str = "size_t") -> Any:
-    """The number that `call(*arguments, &number)` gives."""
+    """The number that `call(*arguments, &number)` returns."""
     from .errors import check  # the two need each other
 
     place = ffi.new(f"{kind} *")

@@ -1,4 +1,4 @@
-"""Arrays and matrices on their way into C, without a copy where their types are right."""
+"""Converts arrays and matrices for C, without a copy if their types are right."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def reals(values: Any, what: str, shape: tuple[int, ...] = (-1,)) -> np.ndarray:
 
 
 def indices(values: Any, what: str, shape: tuple[int, ...] = (-1,)) -> np.ndarray:
-    """Indices of 32 or 64 bits in C's order. Fractions and booleans are no indices."""
+    """Indices of 32 or 64 bits in C's order. Fractions and booleans are refused."""
     found = np.asarray(values)
     if found.size == 0:
         found = found.astype(np.int32)
@@ -36,7 +36,7 @@ def indices(values: Any, what: str, shape: tuple[int, ...] = (-1,)) -> np.ndarra
 
 
 def indices32(values: Any, what: str, shape: tuple[int, ...] = (-1,)) -> np.ndarray:
-    """Indices for a call that has no twin of 64 bits."""
+    """Indices for a function that has no 64-bit version."""
     found = indices(values, what, shape)
     if found.dtype == np.int64:
         if found.size and (found.max() > 2**31 - 1 or found.min() < -(2**31)):
@@ -58,7 +58,7 @@ _C_TYPES = {"float64": "double", "int32": "int32_t", "int64": "int64_t", "int8":
 
 
 def pointer(array: np.ndarray) -> Any:
-    """Where the numbers are; the array must outlive it."""
+    """The address of the numbers, which is valid as long as the array exists."""
     kind = _C_TYPES[array.dtype.name]
     return ffi.cast(f"{kind} *", array.ctypes.data) if array.size else ffi.NULL
 
@@ -76,11 +76,11 @@ class Compressed:
 
     @property
     def twin(self) -> str:
-        """The end of the name of the call that takes these indices."""
+        """The end of the name of the C function that takes these indices."""
         return "_i64" if self.indices.dtype == np.int64 else ""
 
     def arguments(self) -> tuple[Any, ...]:
-        """Offsets, and entries with their indices, as the calls of the C interface take them."""
+        """Offsets, indices and values, as the functions of the C interface take them."""
         return (
             len(self.offsets),
             pointer(self.offsets),
@@ -91,7 +91,7 @@ class Compressed:
 
 
 def compressed(matrix: Any, what: str) -> Compressed:
-    """A SciPy matrix in compressed form as it is, any other or a dense one converted."""
+    """The matrix in compressed form. A compressed SciPy matrix is not copied, any other is converted."""
     if isinstance(matrix, Compressed):
         return matrix
     form = getattr(matrix, "format", "")

@@ -1,4 +1,4 @@
-"""Exceptions: one class a status of the C interface, with the element at fault."""
+"""Exceptions: one class for each status of the C interface, with the element at fault."""
 
 from __future__ import annotations
 
@@ -41,11 +41,11 @@ __all__ = [
 
 
 class Error(Exception):
-    """A call of the library that failed; the base of all its exceptions.
+    """A call of the library failed. This is the base class of all exceptions of the package.
 
-    The elements of a problem or a mesh are counted from 0, lines of a file from 1. One of `row`,
-    `position`, `variable`, `face`, `vertex` is set where the element at fault is known: see the
-    subclass.
+    The elements of a problem or a mesh are counted from 0, lines of a file from 1. If the element at
+    fault is known, one of `row`, `position`, `variable`, `face` and `vertex` is set. The subclass says
+    which.
 
     >>> import roundel
     >>> try:
@@ -55,8 +55,8 @@ class Error(Exception):
     0 constraint 0: 2 x0 + 4 x1 = 3 has no integer solution
     """
 
-    #: What `index` counts: "row", "position", "variable", "face", "vertex", or "" for what it is
-    #: by the message alone.
+    #: The kind of element that `index` counts: "row", "position", "variable", "face", "vertex", or
+    #: "" if only the message tells.
     element: str = ""
 
     def __init__(
@@ -73,11 +73,11 @@ class Error(Exception):
         self.code = code
         #: The number of the status, a `roundel_status` of the C interface.
         self.status = status
-        #: The element at fault, whatever it is, or None.
+        #: The number of the element at fault, of any kind, or None.
         self.index = index
         #: The line of the file at fault, from 1, or None.
         self.line = line
-        #: The direction in which the objective falls or curves downwards, or None.
+        #: The direction in which the objective decreases without limit or curves downwards, or None.
         self.direction = direction
 
     def _if(self, element: str) -> Optional[int]:
@@ -90,7 +90,7 @@ class Error(Exception):
 
     @property
     def position(self) -> Optional[int]:
-        """The position at fault in the array that was given."""
+        """The position at fault in the given array."""
         return self._if("position")
 
     @property
@@ -110,11 +110,11 @@ class Error(Exception):
 
 
 class NullPointerError(Error, ValueError):
-    """A pointer was NULL: a defect of this package."""
+    """A pointer was NULL, which is a defect of this package."""
 
 
 class InvalidArgumentError(Error, ValueError):
-    """A value that is not allowed in itself."""
+    """A value is not allowed."""
 
     element = "position"
 
@@ -140,15 +140,15 @@ class EmptyError(Error, ValueError):
 
 
 class CountOverflowError(Error, OverflowError):
-    """A count or a sum is beyond what can be represented."""
+    """A count or a sum is too large to be represented."""
 
 
 class OutOfMemoryError(Error, MemoryError):
-    """Memory for a large array could not be had."""
+    """There is not enough memory for a large array."""
 
 
 class UnknownOptionError(Error, TypeError):
-    """There is no option, and no keyword, of this name."""
+    """No option and no keyword has this name."""
 
 
 class OptionTypeError(Error, TypeError):
@@ -160,15 +160,15 @@ class OptionRangeError(Error, ValueError):
 
 
 class NotSupportedError(Error):
-    """Something that the library does not solve; `line` names it in a file."""
+    """The library does not support this; in a file, `line` names the place."""
 
 
 class ParseError(Error, ValueError):
-    """A file that does not follow its format, at `line`."""
+    """A file violates its format at `line`."""
 
 
 class IoError(Error):
-    """A file that cannot be read or written."""
+    """A file cannot be read or written."""
 
 
 class InfeasibleError(Error):
@@ -184,7 +184,7 @@ class NoIntegerSolutionError(Error):
 
 
 class UnboundedError(Error):
-    """The objective falls without limit along `direction`, which moves `variable`."""
+    """The objective decreases without limit along `direction`, which moves `variable`."""
 
     element = "variable"
 
@@ -208,7 +208,7 @@ class NonManifoldVertexError(Error, ValueError):
 
 
 class InconsistentOrientationError(Error, ValueError):
-    """`face` and another run along their common edge the same way."""
+    """`face` and another face run along their common edge in the same direction."""
 
     element = "face"
 
@@ -226,7 +226,7 @@ class IsolatedVertexError(Error, ValueError):
 
 
 class NotATriangleError(Error, ValueError):
-    """`face` has another number of corners than three."""
+    """`face` does not have three corners."""
 
     element = "face"
 
@@ -246,11 +246,11 @@ class TimeLimitError(Error):
 
 
 class PanicError(Error):
-    """A defect of the library, kept inside; the object at fault is of no more use."""
+    """A defect of the library was caught. The object that was used is no longer usable."""
 
 
 class UnusableError(Error):
-    """The object was given up in an earlier PanicError."""
+    """The object became unusable in an earlier PanicError."""
 
 
 #: The exception of each status, by its number.
@@ -288,7 +288,7 @@ classes: dict[int, type[Error]] = {
 
 
 def check(status: int, variables: int = 0) -> None:
-    """Raises what a call's status says; `variables` is the length of a direction."""
+    """Raises the exception of a failed call. `variables` is the length of its direction, if any."""
     if status == lib.ROUNDEL_OK:
         return
     index, line = lib.roundel_last_error_index(), lib.roundel_last_error_line()

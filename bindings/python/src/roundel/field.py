@@ -1,4 +1,4 @@
-"""Orientation fields."""
+"""Orientation fields on triangle meshes."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from .watch import CancelToken, Progress, Watch
 
 
 class Field:
-    """N arms in every face, a cross for N = 4, and how they match over edges. Made by `field`."""
+    """An N-symmetric field: N arms in every face (a cross for N = 4), matched over edges. Made by `field`."""
 
     def __init__(self, mesh: Mesh, handle: Handle, guidance: Optional[Handle]) -> None:
         self.mesh = mesh
@@ -34,12 +34,12 @@ class Field:
 
     @property
     def angles(self) -> np.ndarray:
-        """One arm of every face: radians, counter-clockwise from the face's first edge."""
+        """The angle of one arm of every face: radians, counter-clockwise from the face's first edge."""
         return self._array(lib.roundel_field_angles, self._count(lib.roundel_mesh_face_count))
 
     @property
     def directions(self) -> np.ndarray:
-        """The same arm as a unit vector in space."""
+        """The arm of `angles` of every face, as a unit vector in space."""
         corners = self.mesh.vertices[self.mesh.faces]
         first = corners[:, 1] - corners[:, 0]
         first /= np.linalg.norm(first, axis=1)[:, None]
@@ -50,13 +50,13 @@ class Field:
 
     @property
     def period_jumps(self) -> np.ndarray:
-        """angle + kappa + 2 pi/N jump of an edge's first face is the matching arm of its second."""
+        """One number for each edge: angle + kappa + 2 pi/N jump is the matching arm of the second face."""
         call, count = lib.roundel_field_period_jumps, lib.roundel_mesh_edge_count
         return self._array(call, self._count(count), np.int32)
 
     @property
     def kappa(self) -> np.ndarray:
-        """The angle between the frames of an edge's two faces, in (-pi, pi]."""
+        """For every edge, the angle between the frames of its two faces, in (-pi, pi]."""
         return self._array(lib.roundel_field_kappa, self._count(lib.roundel_mesh_edge_count))
 
     @property
@@ -87,7 +87,7 @@ class Field:
 
     @property
     def solution(self) -> Solution:
-        """The solution behind the field."""
+        """The solution of the field's problem."""
         call = lib.roundel_field_solution
         return taken(Handle.made("roundel_solution", call, self._handle.pointer).pointer)
 
@@ -100,7 +100,7 @@ def field(
     cancel: Optional[CancelToken] = None,
     **keywords: Any,
 ) -> Field:
-    """The smoothest field of a mesh, of crosses unless `symmetry` says otherwise.
+    """The smoothest field of a mesh: a cross field, unless `symmetry` is given.
 
     Keywords are those of the guidance (`features`, `align_boundary`, `curvature`, `constraints`,
     `guides`, `indices`, `symmetry`, `guide_file`: see docs/fields.md) and the library's options;

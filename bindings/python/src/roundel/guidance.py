@@ -1,4 +1,4 @@
-"""What fields and maps shall follow."""
+"""The guidance of fields and maps: features, curvature, directions and indices."""
 
 from __future__ import annotations
 
@@ -11,15 +11,19 @@ from ._library import Handle, lib, path
 from .arrays import indices32, pointer, reals
 from .errors import check
 
-#: The keywords that `field`, `map` and `quad` take beside the library's options:
+#: The keywords that `field`, `map` and `quad` take besides the library's options:
 #:
-#: `features`: an angle in degrees, from which on an edge is sharp, or pairs of vertices whose edges
-#: are; `align_boundary`: whether the boundary is a feature (True); `curvature`: (fraction, weight),
-#: the part of the faces that have the direction of least curvature, and how strongly all others are
-#: drawn to it; `constraints`: (faces, angles) that a field must have; `guides`: (faces, angles,
-#: weights) that it should have; `indices`: (vertices, steps), all irregular vertices with their index
-#: in steps of 1/4; `symmetry`: arms of the field, 1, 2, 4 or 6; `detail`: the length of details that
-#: attract no irregular vertices; `guide_file`: a file with such wishes.
+#: - `features`: an angle in degrees, at which and above which edges are features, or pairs of
+#:   vertices whose edges are features;
+#: - `align_boundary`: whether the boundary is a feature (True);
+#: - `curvature`: (fraction, weight), the fraction of the faces that have the direction of least
+#:   curvature, and the weight with which all others follow it;
+#: - `constraints`: (faces, angles), directions that a field must have;
+#: - `guides`: (faces, angles, weights), directions that it should have;
+#: - `indices`: (vertices, steps), all irregular vertices, with their index in steps of 1/4;
+#: - `symmetry`: the number of arms of the field, 1, 2, 4 or 6;
+#: - `detail`: the length below which details attract no irregular vertices;
+#: - `guide_file`: a file with such guidance.
 KEYWORDS = (
     "features",
     "align_boundary",
@@ -34,13 +38,13 @@ KEYWORDS = (
 
 
 def split(keywords: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]:
-    """The keywords of the guidance, and the others, which are options."""
+    """Splits keywords into those of the guidance and the others, which are options."""
     mine = {k: v for k, v in keywords.items() if k in KEYWORDS and v is not None}
     return mine, {k: v for k, v in keywords.items() if k not in KEYWORDS}
 
 
 def guidance_handle(mesh: Any, given: Mapping[str, Any]) -> Optional[Handle]:
-    """The keywords as the library's guidance; None where there are none."""
+    """The library's guidance for the keywords; None without keywords."""
     if not given:
         return None
     handle = Handle.made("roundel_guidance", lib.roundel_guidance_new)

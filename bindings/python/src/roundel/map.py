@@ -1,4 +1,4 @@
-"""Seamless maps."""
+"""Seamless maps of triangle meshes."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ from .watch import CancelToken, Progress, Watch
 
 
 class Map:
-    """Coordinates (u, v) on a surface cut open, seamless by quarter turns and integer shifts.
+    """Coordinates (u, v) on a cut surface that match over cuts by quarter turns and integer shifts.
 
-    Made by `map`; solved again for another size by `solve`, from what was kept.
+    Made by `map`. `solve` solves it again for another size and reuses earlier work.
     """
 
     def __init__(self, of: Field) -> None:
@@ -41,11 +41,11 @@ class Map:
         cancel: Optional[CancelToken] = None,
         **options: Any,
     ) -> None:
-        """Solves at a size: a number of quads, or the length of their edges, one or two a face.
+        """Solves for a size: a number of quads, or an edge length, or one or two lengths for each face.
 
-        `untangle` frees the map of folds: integers that collapse cones are decided anew, triangles
-        that are turned over are turned back, and where some are left the map is made finer.
-        `stiffenings` is how often the surroundings of turned triangles are first made stiffer.
+        `untangle` makes the map fold-free: integers that collapse cones are decided anew, flipped
+        triangles are turned back, and the map is refined if some remain. Before that, the
+        surroundings of flipped triangles are stiffened `stiffenings` times.
         """
         self._aim(quads, edge_length)
         handle, watch = options_handle(options), Watch(progress, cancel)
@@ -70,14 +70,14 @@ class Map:
 
     @property
     def uvs(self) -> np.ndarray:
-        """u, v of the three corners of every face: an array of shape (faces, 3, 2)."""
+        """u and v of the three corners of every face: an array of shape (faces, 3, 2)."""
         found = np.empty((len(self.field.mesh.faces), 3, 2))
         check(lib.roundel_map_corner_uvs(self._handle.pointer, pointer(found), found.size))
         return found
 
     @property
     def vertex_uvs(self) -> np.ndarray:
-        """u, v of every vertex of the cut surface."""
+        """u and v of every vertex of the cut surface."""
         found = np.empty((number(lib.roundel_map_vertex_count, self._handle.pointer), 2))
         check(lib.roundel_map_vertex_uvs(self._handle.pointer, pointer(found), found.size))
         return found
@@ -91,7 +91,7 @@ class Map:
 
     @property
     def transitions(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Cut edges, and over each the quarter turns (0 to 3) and the translation (s, t)."""
+        """The cut edges, and for each its quarter turns (0 to 3) and its translation (s, t)."""
         count = number(lib.roundel_map_cut_count, self._handle.pointer)
         edges, quarters = np.empty((2, count), dtype=np.int32)
         shifts = np.empty((count, 2))
@@ -106,41 +106,41 @@ class Map:
 
     @property
     def flipped(self) -> np.ndarray:
-        """The faces that the map turns over or collapses."""
+        """The faces that the map flips or collapses."""
         return self._list(lib.roundel_map_flipped_count, lib.roundel_map_flipped)
 
     @property
     def winding_defects(self) -> np.ndarray:
-        """The vertices around which the map turns another number of times than the field."""
+        """The vertices around which the map turns a different number of times than the field."""
         return self._list(lib.roundel_map_winding_defect_count, lib.roundel_map_winding_defects)
 
     @property
     def refinements(self) -> int:
-        """How often untangling made the map finer, each time by the square root of two in length."""
+        """How often untangling refined the map, each time by the square root of two in length."""
         return number(lib.roundel_map_refinement_count, self._handle.pointer)
 
     @property
     def valid(self) -> bool:
-        """Whether no face is turned over or collapsed."""
+        """Whether no face is flipped or collapsed."""
         return number(lib.roundel_map_flipped_count, self._handle.pointer) == 0
 
     @property
     def energy(self) -> float:
-        """How far the gradients of u and v are from the field: area times squares."""
+        """The sum over faces of area times the squared deviation of the gradients from the field."""
         return number(lib.roundel_map_energy, self._handle.pointer, kind="double")
 
     @property
     def solution(self) -> Solution:
-        """The solution behind the map."""
+        """The solution of the map's problem."""
         call = lib.roundel_map_solution
         return taken(Handle.made("roundel_solution", call, self._handle.pointer).pointer)
 
     def quads(self) -> Quads:
-        """The quads of the map, as they are: vertices where integer lines cross."""
+        """The quads of the map, not smoothed. Their vertices are the crossings of integer isolines."""
         return extracted(self._handle)
 
     def write(self, file: Any) -> None:
-        """Writes the mesh with its coordinates as OBJ."""
+        """Writes the mesh with its coordinates to an OBJ file."""
         check(lib.roundel_map_write(self._handle.pointer, path(file)))
 
     def _list(self, count: Any, call: Any) -> np.ndarray:
@@ -161,7 +161,7 @@ def map(
     cancel: Optional[CancelToken] = None,
     **keywords: Any,
 ) -> Map:
-    """A seamless map of a mesh, or of a `Field`, at a size of quads (1000 of them by default).
+    """A seamless map of a mesh or a `Field`, for a size of quads (by default, about 1000 quads).
 
     Keywords are those of `field` and of `Map.solve`; the options are those of both solves.
 

@@ -1,4 +1,4 @@
-"""Triangle meshes: arrays, files, and what other packages call a mesh."""
+"""Triangle meshes from arrays, from files and from other packages."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ from .errors import check
 
 
 class Mesh:
-    """An oriented triangle mesh, with or without boundary, checked and connected once.
+    """An oriented triangle mesh, with or without boundary, which is checked on construction.
 
-    Every function of this package that takes vertices and faces takes a `Mesh` instead, or a mesh
-    of `trimesh`, `pymeshlab` or `openmesh`, or anything with `vertices` and `faces`.
+    Every function of this package that takes vertices and faces also takes a `Mesh`, a mesh of
+    `trimesh`, `pymeshlab` or `openmesh`, or any object with `vertices` and `faces`.
 
     >>> import roundel
     >>> mesh = roundel.Mesh.shape("torus", 200)
@@ -42,16 +42,16 @@ class Mesh:
 
     @classmethod
     def read(cls, file: Any) -> "Mesh":
-        """A mesh from a file in OBJ, OFF or PLY."""
+        """Reads an OBJ, OFF or PLY file."""
         return cls._of(Handle.made("roundel_mesh", lib.roundel_mesh_read, path(file)))
 
     @classmethod
     def shape(cls, name: str, faces: int) -> "Mesh":
-        """A procedural shape of about so many triangles: "rounded-cube", "sphere", "gear", ..."""
+        """A procedural shape of about `faces` triangles: "rounded-cube", "sphere", "gear", ..."""
         return cls._of(Handle.made("roundel_mesh", lib.roundel_mesh_make_shape, name.encode(), faces))
 
     def write(self, file: Any) -> None:
-        """Writes OBJ, OFF or binary PLY."""
+        """Writes an OBJ, OFF or binary PLY file."""
         check(lib.roundel_mesh_write(self._handle.pointer, path(file)))
 
     @property
@@ -68,7 +68,7 @@ class Mesh:
 
     @property
     def edge_faces(self) -> np.ndarray:
-        """The two faces of every edge, the second -1 at the boundary."""
+        """The two faces of every edge; the second is -1 at the boundary."""
         return self._int32(lib.roundel_mesh_edge_faces, lib.roundel_mesh_edge_count, 2)
 
     @property
@@ -94,14 +94,14 @@ class Mesh:
 
 
 def as_mesh(V: Any, F: Any = None) -> Mesh:
-    """The mesh itself, or one made of what is given."""
+    """The argument itself if it is a Mesh, otherwise a Mesh made of it."""
     return V if isinstance(V, Mesh) and F is None else Mesh(V, F)
 
 
 def _arrays(V: Any, F: Any) -> tuple[Any, Any]:
     if F is not None:
         return V, F
-    # A set of pymeshlab stands for its current mesh.
+    # A MeshSet of pymeshlab stands for its current mesh.
     mesh = V.current_mesh() if hasattr(V, "current_mesh") else V
     for vertices, faces in (
         ("vertex_matrix", "face_matrix"),
@@ -116,5 +116,5 @@ def _arrays(V: Any, F: Any) -> tuple[Any, Any]:
 
 
 def pointer_of(handle: Any) -> Any:
-    """Where an object of the library is; NULL for None."""
+    """The address of an object of the library; NULL for None."""
     return ffi.NULL if handle is None else handle.pointer

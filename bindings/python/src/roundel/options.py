@@ -17,9 +17,9 @@ class Option:
     #: int, float or str.
     type: type
     default: Union[int, float, str]
-    #: The values allowed: an interval, or words with a bar between them.
+    #: The allowed values: an interval, or words separated by bars.
     range: str
-    #: What it does.
+    #: Its description.
     text: str
 
 
@@ -27,7 +27,7 @@ _TYPES = {lib.ROUNDEL_OPTION_INT: int, lib.ROUNDEL_OPTION_REAL: float, lib.ROUND
 
 
 def options() -> dict[str, Option]:
-    """Every option that `solve` and the others take as a keyword, by name.
+    """Every option that `solve` and the other functions take as a keyword, by name.
 
     >>> import roundel
     >>> roundel.options()["strategy"].default
@@ -44,7 +44,7 @@ def options() -> dict[str, Option]:
 
 
 def presets() -> dict[str, str]:
-    """Every value that the keyword `preset` takes, with what it is for.
+    """Every value of the keyword `preset`, with its purpose.
 
     >>> import roundel
     >>> "parametrization" in roundel.presets()
@@ -59,7 +59,7 @@ def presets() -> dict[str, str]:
 
 
 def options_handle(given: Mapping[str, Any]) -> Handle:
-    """The keywords as the library's options; a preset comes before all others."""
+    """The library's options for the keywords. A preset is applied before all others."""
     handle = Handle.made("roundel_options", lib.roundel_options_new)
     if "preset" in given:
         check(lib.roundel_options_set_preset(handle.pointer, str(given["preset"]).encode()))

@@ -1,4 +1,4 @@
-"""A problem, built part by part."""
+"""Builds a problem part by part."""
 
 from __future__ import annotations
 
@@ -21,9 +21,9 @@ _TRIANGLES = {
 class Problem:
     """Minimise 1/2 x'Qx + q'x + c + sum_k w_k (a_k . x - r_k)^2 subject to C x = d, some x integer.
 
-    Parts may be given in any order and any number of times: terms add up. A call that fails
-    changes nothing. Matrices are SciPy's, of any form, or dense; CSR and CSC of 32 or 64 bits and
-    double precision go to the library without a copy in Python.
+    Parts may be added in any order and any number of times; terms are summed. A call that fails
+    changes nothing. Matrices are dense or SciPy matrices of any form. Those in CSR or CSC with indices
+    of 32 or 64 bits and double precision are passed to the library without a copy in Python.
 
     >>> import roundel
     >>> problem = roundel.Problem(2)
@@ -45,7 +45,7 @@ class Problem:
 
     @classmethod
     def read_mps(cls, file: Any) -> "Problem":
-        """A problem from a file in free-format MPS, gzipped or not."""
+        """Reads a problem from a file in free-format MPS, gzipped or not."""
         return cls(0, Handle.made("roundel_problem", lib.roundel_problem_read_mps, path(file)))
 
     def write_mps(self, file: Any) -> None:
@@ -53,12 +53,12 @@ class Problem:
         check(lib.roundel_problem_write_mps(self._handle.pointer, path(file)))
 
     def save_replay(self, file: Any, options: Mapping[str, Any] = {}) -> None:
-        """Writes the problem and how to solve it, for a solve that is repeated elsewhere."""
+        """Writes the problem and its options, so that the solve can be repeated elsewhere."""
         handle = options_handle(options)
         check(lib.roundel_problem_save_replay(self._handle.pointer, handle.pointer, path(file)))
 
     def copy(self) -> "Problem":
-        """A problem of its own with the same parts."""
+        """An independent copy of the problem."""
         pointer_ = self._handle.pointer
         return Problem(0, Handle.made("roundel_problem", lib.roundel_problem_clone, pointer_))
 
@@ -69,7 +69,7 @@ class Problem:
 
     @property
     def constraints(self) -> int:
-        """The number of constraints, which is the number of the next one."""
+        """The number of constraints so far, which is also the index of the next one."""
         return number(lib.roundel_problem_constraints, self._handle.pointer)
 
     def quadratic(self, Q: Any, triangle: str = "full") -> None:
@@ -92,7 +92,7 @@ class Problem:
         check(lib.roundel_problem_add_constant(self._handle.pointer, c))
 
     def least_squares(self, indices: Any, coefficients: Any, rhs: float, weight: float = 1.0) -> int:
-        """Adds weight * (coefficients . x[indices] - rhs)^2, and gives the number of the row."""
+        """Adds weight * (coefficients . x[indices] - rhs)^2 and returns the index of the row."""
         at = indices32(indices, "indices")
         values = reals(coefficients, "coefficients", (len(at),))
         row = ffi.new("size_t *")
@@ -104,7 +104,7 @@ class Problem:
         return row[0]
 
     def least_squares_rows(self, A: Any, b: Any, weights: Any = None) -> int:
-        """Adds sum_k weights_k (A_k . x - b_k)^2, and gives the number of the first row.
+        """Adds sum_k weights_k (A_k . x - b_k)^2 and returns the index of the first row.
 
         Weights are 1 by default.
         """
@@ -118,7 +118,7 @@ class Problem:
         return number(call, self._handle.pointer, *matrix.arguments(), len(rhs), pointer(rhs), given)
 
     def constrain(self, indices: Any, coefficients: Any, rhs: float) -> int:
-        """Adds the constraint coefficients . x[indices] = rhs, and gives its number."""
+        """Adds the constraint coefficients . x[indices] = rhs and returns its index."""
         at = indices32(indices, "indices")
         values = reals(coefficients, "coefficients", (len(at),))
         number_ = self.constraints
@@ -130,7 +130,7 @@ class Problem:
         return number_
 
     def constrain_rows(self, C: Any, d: Any) -> int:
-        """Adds the constraints C x = d, one a row, and gives the number of the first."""
+        """Adds the constraints C x = d, one for each row, and returns the index of the first."""
         matrix = compressed(C, "C")
         if matrix.shape[1] != self.variables:
             raise ValueError(f"C: {matrix.shape[1]} columns for {self.variables} variables")
@@ -140,7 +140,7 @@ class Problem:
         return number(call, self._handle.pointer, *arguments)
 
     def integer(self, variables: Any) -> None:
-        """Makes variables integer: their numbers, or a boolean for each."""
+        """Makes variables integer, given by their indices or by a boolean for each variable."""
         given = np.asarray(variables)
         if given.dtype == bool:
             if given.shape != (self.variables,):
@@ -154,16 +154,16 @@ class Problem:
         check(lib.roundel_problem_pin(self._handle.pointer, variable, value))
 
     def unpin(self, variable: int) -> None:
-        """Frees a pinned variable again; one that is free stays so."""
+        """Releases a pinned variable. A free variable stays free."""
         check(lib.roundel_problem_unpin(self._handle.pointer, variable))
 
     def guess(self, values: Any) -> None:
-        """Sets the point that variables keep to where the objective does not decide them."""
+        """Sets the point whose values variables keep where the objective does not determine them."""
         given = reals(values, "guess")
         check(lib.roundel_problem_set_guess(self._handle.pointer, pointer(given), len(given)))
 
     def hint_cycles(self, offsets: Any, rows: Any, signs: Any) -> None:
-        """Hands over short cycles of least-squares rows: see roundel_problem_hint_cycles."""
+        """Adds a hint about short cycles of least-squares rows: see roundel_problem_hint_cycles."""
         starts, at = indices(offsets, "offsets"), indices(rows, "rows")
         if starts.dtype != at.dtype:
             starts, at = starts.astype(np.int64), at.astype(np.int64)

@@ -1,4 +1,4 @@
-"""Quad meshes."""
+"""Quad meshes from triangle meshes and from maps."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ from .mesh import Mesh, as_mesh, pointer_of
 from .options import options_handle
 from .watch import CancelToken, Progress, Watch
 
-#: The guidance of a quadrangulation that is asked for nothing: (fraction, weight).
+#: The guidance by curvature of a quadrangulation without keywords: (fraction, weight).
 CURVATURE = (0.005, 0.07)
 
 
 class Quads:
-    """A mesh of quads, and of the few other polygons that a map may leave. Made by `quad`.
+    """A mesh of quads and of the few other polygons that a map may give. Made by `quad`.
 
     It unpacks into vertices and quads: `vertices, quads = roundel.quad(V, F)`.
     """
@@ -49,7 +49,7 @@ class Quads:
 
     @property
     def others(self) -> list[np.ndarray]:
-        """The corners of every face that is no quad."""
+        """The corners of every face that is not a quad."""
         counts = ffi.new("size_t[2]")
         check(lib.roundel_quads_other_count(self._handle.pointer, counts, counts + 1))
         sizes, corners = np.empty(counts[0], np.int32), np.empty(counts[1], np.int32)
@@ -59,7 +59,7 @@ class Quads:
 
     @property
     def irregular_count(self) -> int:
-        """How many vertices have other than four edges, or three on the boundary."""
+        """The number of vertices with other than four edges, or other than three on the boundary."""
         return number(lib.roundel_quads_irregular_count, self._handle.pointer)
 
     @property
@@ -70,18 +70,18 @@ class Quads:
 
     @property
     def conforming(self) -> bool:
-        """Whether there is nothing but quads, closed where the triangles were."""
+        """Whether all faces are quads and the topology is that of the triangle mesh."""
         call = lib.roundel_quads_is_conforming
         return bool(number(call, self._handle.pointer, kind="int32_t"))
 
     def smooth(self, mesh: Mesh, **wishes: Any) -> None:
-        """Moves the vertices over the mesh that they are from, towards squares of one size."""
+        """Moves the vertices on `mesh` to make the quads more like squares of one size."""
         guidance = guidance_handle(mesh, wishes)
         arguments = (mesh._handle.pointer, pointer_of(guidance), ffi.NULL)
         check(lib.roundel_quads_smooth(self._handle.pointer, *arguments))
 
     def write(self, file: Any) -> None:
-        """Writes the faces as OBJ."""
+        """Writes the faces to an OBJ file."""
         check(lib.roundel_quads_write(self._handle.pointer, path(file)))
 
 
@@ -91,7 +91,7 @@ def extracted(map_: Handle) -> Quads:
 
 
 def extract(V: Any, F: Any, uvs: Any) -> Quads:
-    """The quads of an integer-grid map from anywhere: u, v of the corners, of shape (faces, 3, 2).
+    """The quads of any integer-grid map, given by u and v of the corners, of shape (faces, 3, 2).
 
     >>> import roundel
     >>> mesh = roundel.Mesh.shape("plane", 200)
@@ -119,13 +119,14 @@ def quad(
     cancel: Optional[CancelToken] = None,
     **keywords: Any,
 ) -> Quads:
-    """About so many quads (1000 by default), or quads with edges of about a length, of a mesh.
+    """Quadrangulates a mesh with about `quads` quads (1000 by default) or edges of about `edge_length`.
 
-    Field, map, extraction and smoothing in one call, as the program `roundel quad` does it. Keywords
-    are those of `field`; quads follow the boundary and the curvature unless these say otherwise.
-    Options are those of the map's solve, `lattice` without a strategy; and but for the strategy of the
-    field's, which is `adaptive` or `field_strategy`. `untangle` turns faces back that the map turns
-    over where quads need it, `smooth` moves vertices over the surface towards squares of one size.
+    This computes field, map, extraction and smoothing in one call, as the program `roundel quad` does.
+    Keywords are those of `field`. By default, quads follow the boundary and the curvature. The options
+    apply to the solves of the map and of the field, except for the strategy: `strategy` is that of the
+    map (by default `lattice`), `field_strategy` that of the field (by default `adaptive`). `untangle`
+    turns back faces that the map flips, where quads need it. `smooth` moves vertices on the surface to
+    make the quads more like squares of one size.
 
     >>> import roundel
     >>> cube = roundel.Mesh.shape("rounded-cube", 600)

@@ -1,4 +1,4 @@
-"""Solutions, copied out of the library: they can be pickled and kept."""
+"""Solutions, copied out of the library, so that they can be pickled."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from .errors import check
 
 @dataclass(frozen=True)
 class Solution:
-    """What a solve found.
+    """The result of a solve.
 
     >>> import roundel
     >>> s = roundel.solve(A=[[1.0, 0.0], [1.0, -1.0]], b=[0.4, 0.0], integers=[1])
@@ -22,13 +22,13 @@ class Solution:
     ('optimal', True, 0.08)
     """
 
-    #: One value a variable; integers are exact, except after a relaxation.
+    #: One value for each variable. Integers are exact, except after a relaxation.
     values: np.ndarray = field(repr=False)
-    #: The objective at the values, recomputed from the problem as it was given.
+    #: The objective at the values, recomputed from the original problem.
     energy: float
-    #: No integer solution has less energy; None where nothing is known.
+    #: A lower bound on the energy of all integer solutions, or None if there is no bound.
     lower_bound: Optional[float]
-    #: (energy - lower_bound) / max(1, abs(energy)); None where nothing is known.
+    #: (energy - lower_bound) / max(1, abs(energy)), or None if there is no bound.
     gap: Optional[float]
     #: "optimal", "feasible", "limit", "cancelled" or "relaxed".
     status: str
@@ -43,12 +43,12 @@ class Solution:
 
     @property
     def proved(self) -> bool:
-        """Whether no solution has less energy, and that is proved."""
+        """Whether the solution is proved to be optimal."""
         return self.status == "optimal"
 
 
 def taken(pointer_: Any) -> Solution:
-    """All of a solution of the library, which stays the caller's to free."""
+    """Copies a solution of the library. The caller still has to free it."""
     values = np.empty(number(lib.roundel_solution_variables, pointer_))
     check(lib.roundel_solution_values(pointer_, pointer(values), len(values)))
     violations = ffi.new("double[2]")

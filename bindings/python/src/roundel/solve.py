@@ -32,16 +32,16 @@ def solve(
 ) -> Solution:
     """Minimises 1/2 x'Qx + q'x + c + sum_k weights_k (A_k x - b_k)^2 subject to C x = d.
 
-    The first argument may be a `Problem` instead, and stands for all of them. Matrices are SciPy's
-    or dense, with one column a variable; what is not given is zero. `integers` are numbers of
-    variables, or a boolean for each; `pins` fixes variables to values; `guess` is kept to where
-    the objective does not decide. `triangle` says which entries of Q are given.
+    Instead of all these, the first argument may be a `Problem`. Matrices are dense or SciPy matrices
+    with one column for each variable; those not given are zero. `integers` are indices of variables,
+    or a boolean for each variable. `pins` fixes variables to values. Where the objective does not
+    determine variables, they keep the values of `guess`. `triangle` says which entries of Q are given.
 
-    `progress` is True for a line on stderr, or a function that is called with an `Event` and
-    returns something true to end the solve with the best solution so far; what it raises ends the
-    solve and is raised again. Ctrl-C ends the solve and raises KeyboardInterrupt. `cancel` may be
-    set from another thread: Python's lock is free during the solve. `options` are the library's:
-    see `roundel.options()`, and `preset`.
+    `progress` is True for a progress line on stderr, or a function that is called with an `Event`. If
+    it returns a true value, the solve ends with the best solution so far. An exception from it ends
+    the solve and is raised again. Ctrl-C ends the solve and raises KeyboardInterrupt. `cancel` may be
+    set from another thread, because the solve releases Python's lock. `options` are those of the
+    library (see `roundel.options()`), and `preset`.
 
     >>> import numpy as np, roundel
     >>> Q = np.array([[4.0, -2.0], [-2.0, 2.0]])
@@ -53,7 +53,7 @@ def solve(
     >>> s.values
     array([1., 2., 1.])
 
-    Whatever cannot be solved is an `Error` that names the element:
+    A problem that cannot be solved raises an `Error` that names the element at fault:
 
     >>> roundel.solve(Q, integers=[0, 2])
     Traceback (most recent call last):

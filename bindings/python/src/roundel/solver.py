@@ -1,4 +1,4 @@
-"""Solving one problem again and again."""
+"""Solves one problem many times with changing data."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ from .watch import CancelToken, Progress, Watch
 
 
 class Solver:
-    """A problem whose matrices and integers are fixed, for many solves.
+    """A problem with fixed matrices and integers that is solved many times.
 
-    Elimination, orderings and factors are kept from one solve to the next. The solution is that of
-    `solve` for the same data, except that the option `warm_start` may improve it. One thread at a
-    time may use it.
+    Elimination, orderings and factors are kept from one solve to the next. The solution equals that of
+    `solve` for the same data, except that the option `warm_start` may improve it. Only one thread at a
+    time may use a solver.
 
     >>> import roundel
     >>> problem = roundel.Problem(2)
@@ -42,7 +42,7 @@ class Solver:
         check(call(self._handle.pointer, pointer(given), len(given)))
 
     def set_linear(self, q: Any) -> None:
-        """Replaces the linear term; what least-squares rows add to it is not touched."""
+        """Replaces the linear term, but not the contribution of least-squares rows to it."""
         self._replace(lib.roundel_solver_set_linear, q, "q")
 
     def set_constraint_right_sides(self, d: Any) -> None:
@@ -50,25 +50,25 @@ class Solver:
         self._replace(lib.roundel_solver_set_constraint_right_sides, d, "d")
 
     def set_least_squares_right_sides(self, b: Any) -> None:
-        """Replaces the right sides of the least-squares rows, in the order they were added."""
+        """Replaces the right sides of the least-squares rows, in the order in which they were added."""
         self._replace(lib.roundel_solver_set_least_squares_right_sides, b, "b")
 
     def set_guess(self, values: Any) -> None:
-        """Sets the point that variables keep to where the objective does not decide them."""
+        """Sets the point whose values variables keep where the objective does not determine them."""
         self._replace(lib.roundel_solver_set_guess, values, "guess")
 
     def pin(self, variable: int, value: float) -> None:
-        """Fixes a variable; one that is pinned already gets another value."""
+        """Fixes a variable to a value, or changes the value of a pinned variable."""
         check(lib.roundel_solver_pin(self._handle.pointer, variable, value))
 
     def unpin(self, variable: int) -> None:
-        """Releases a pinned variable; one that is free stays so."""
+        """Releases a pinned variable. A free variable stays free."""
         check(lib.roundel_solver_unpin(self._handle.pointer, variable))
 
     def solve(
         self, *, progress: Progress = None, cancel: Optional[CancelToken] = None, **options: Any
     ) -> Solution:
-        """Solves the problem as it stands; keywords as in `roundel.solve`."""
+        """Solves the problem with its current data. Keywords are those of `roundel.solve`."""
         handle, watch = options_handle(options), Watch(progress, cancel)
         place = ffi.new("roundel_solution **")
         call = lib.roundel_solver_solve_with

@@ -1,4 +1,4 @@
-"""Who watches a solve: the caller's function, a line on the terminal, and Ctrl-C."""
+"""Watches a solve: the caller's function, the progress line on the terminal, and Ctrl-C."""
 
 from __future__ import annotations
 
@@ -12,15 +12,15 @@ from .errors import check
 
 @dataclass(frozen=True)
 class Event:
-    """One message of a solve, with where it stands."""
+    """An event of a solve, with the state of the solve."""
 
-    #: "progress", "log", "improved" or "raised"; others may come with later versions.
+    #: "progress", "log", "improved" or "raised"; later versions may add others.
     kind: str
-    #: "eliminate", "factor", "round", "untangle", "quads", or "" where it is no progress.
+    #: "eliminate", "factor", "round", "untangle", "quads", or "" if the event is not progress.
     phase: str
-    #: How much of the phase is done, from 0 to 1.
+    #: The fraction of the phase that is done, from 0 to 1.
     fraction: float
-    #: A line of text; empty where there is none.
+    #: A line of text, or an empty string.
     text: str
     #: Seconds since the solve began.
     seconds: float
@@ -32,8 +32,8 @@ class Event:
     gap: float
 
 
-#: A function of an event that returns something true to end the solve, or True for a line of
-#: progress on stderr.
+#: A function of an event that returns a true value to end the solve, or True for a progress line on
+#: stderr.
 Progress = Union[bool, Callable[[Event], Any], None]
 
 
@@ -59,11 +59,11 @@ class CancelToken:
         self._handle = Handle.made("roundel_cancel_token", lib.roundel_cancel_token_new)
 
     def cancel(self) -> None:
-        """Asks every solve that holds this token to end."""
+        """Asks every solve with this token to end."""
         check(lib.roundel_cancel_token_cancel(self._handle.pointer))
 
     def reset(self) -> None:
-        """Takes the request back, so that the token can be used again."""
+        """Withdraws the request, so that the token can be used again."""
         check(lib.roundel_cancel_token_reset(self._handle.pointer))
 
     @property
@@ -75,10 +75,10 @@ class CancelToken:
 
 
 class Watch:
-    """The monitor of one call. The library lets go of Python's lock and takes it for an event.
+    """The monitor of one call. The call releases Python's lock and takes it again for each event.
 
-    Python runs the handler of a signal when it next runs code of the main thread, which is here:
-    a KeyboardInterrupt then leaves the callback, ends the solve, and goes on from `raise_caught`.
+    Python runs a signal handler when the main thread next runs Python code, which is this callback.
+    So a KeyboardInterrupt is raised in the callback, ends the solve, and is raised again by `check`.
     """
 
     def __init__(self, progress: Progress, cancel: Optional[CancelToken]) -> None:
@@ -102,7 +102,7 @@ class Watch:
         self._caught = error
 
     def check(self, status: int, variables: int = 0) -> None:
-        """Raises what the callback raised, or else what the status says."""
+        """Raises the exception of the callback, or else that of the status."""
         if self._line is not None:
             self._line.end()
         if self._caught is not None:
@@ -124,7 +124,7 @@ def _event(event: Any) -> Event:
 
 
 class Line:
-    """One line on stderr that is written over and over."""
+    """A progress line on stderr that is overwritten by each event."""
 
     def __init__(self) -> None:
         self._width = 0

@@ -1,4 +1,4 @@
-/// What the original's classes are exported with. Everything here is in headers: nothing.
+/// The export macro of CoMISo's classes. It is empty, because everything here is in headers.
 
 #ifndef COMISO_CONFIG_COMISODEFINES_HH
 #define COMISO_CONFIG_COMISODEFINES_HH

@@ -1,5 +1,5 @@
-/// What the library was built with, in the macros by which programs ask. Roundel needs none of
-/// these; matrices of GMM++ and Eigen are taken where they are.
+/// The macros by which programs ask which libraries CoMISo was built with. Roundel needs none of
+/// them. It accepts matrices of GMM++ and Eigen where these are installed.
 
 #ifndef COMISO_CONFIG_CONFIG_HH
 #define COMISO_CONFIG_CONFIG_HH

@@ -1,4 +1,4 @@
-/// Quadratic objectives with linear equality constraints, given by their functions.
+/// Solves quadratic objectives with linear equality constraints that are given as functions.
 
 #ifndef COMISO_NSOLVER_COMISOSOLVER_HH
 #define COMISO_NSOLVER_COMISOSOLVER_HH
@@ -20,16 +20,16 @@
 
 namespace COMISO {
 
-/// Solves what its gradient and Hessian at zero say: exact for a quadratic objective and linear
-/// constraints. Inequalities and binary variables are refused.
+/// Solves the quadratic problem that the gradients and Hessians at zero define, which is exact for
+/// a quadratic objective and linear constraints. Inequalities and binary variables are refused.
 class COMISODLLEXPORT COMISOSolver {
   public:
     using PairUiV = COMISO::PairUiV;
 
-    /// The solver behind, for its settings.
+    /// The solver that is used, for its settings.
     ConstrainedSolver& solver() { return solver_; }
 
-    /// Minimises the problem and hands it the result; a roundel::Error is thrown for what cannot be
+    /// Minimises the problem and stores the result in it. Throws a roundel::Error if it cannot be
     /// solved.
     void solve(NProblemInterface* problem, std::vector<NConstraintInterface*>& constraints,
                std::vector<PairUiV>& discrete, double reg = 0.0, bool show_miso_settings = true,
@@ -51,7 +51,7 @@ class COMISODLLEXPORT COMISOSolver {
         problem->store_result(x.data());
     }
 
-    /// Without integers.
+    /// The same without integers.
     void solve(NProblemInterface* problem, std::vector<NConstraintInterface*>& constraints,
                double reg = 0.0, bool show_miso_settings = true, bool show_timings = true) {
         std::vector<PairUiV> none;

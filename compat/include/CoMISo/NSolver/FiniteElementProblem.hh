@@ -1,4 +1,4 @@
-/// An objective that is a sum of elements, each of few unknowns.
+/// An objective that is a sum of elements with few unknowns each.
 
 #ifndef COMISO_NSOLVER_FINITEELEMENTPROBLEM_HH
 #define COMISO_NSOLVER_FINITEELEMENTPROBLEM_HH
@@ -14,7 +14,7 @@
 
 namespace COMISO {
 
-/// What a problem needs of a set of elements.
+/// The functions that a problem calls on a set of elements.
 class COMISODLLEXPORT FiniteElementSetBase {
   public:
     using Triplet = Eigen::Triplet<double>;
@@ -31,16 +31,16 @@ class COMISODLLEXPORT FiniteElementSetBase {
     virtual void accumulate_hessian(const double* x, std::vector<Triplet>& triplets) = 0;
 };
 
-/// Elements of one type, which has the constants NV and NC, the types VecI (NV indices), VecV (NV
-/// numbers), VecC (NC numbers) and Triplet, and `eval_f(x, c)`, `eval_gradient(x, c, gradient)` and
-/// `eval_hessian(x, c, triplets)` in its own NV unknowns.
+/// Elements of one type. The type has the constants NV and NC, the types VecI (NV indices), VecV
+/// (NV numbers), VecC (NC numbers) and Triplet, and the functions `eval_f(x, c)`, `eval_gradient(x,
+/// c, gradient)` and `eval_hessian(x, c, triplets)` in its own NV unknowns.
 template <class FiniteElementType> class FiniteElementSet : public FiniteElementSetBase {
   public:
     using VecI = typename FiniteElementType::VecI;
     using VecV = typename FiniteElementType::VecV;
     using VecC = typename FiniteElementType::VecC;
 
-    /// The elements: which unknowns of the problem, and with which constants.
+    /// The elements: the unknowns of the problem that each uses, and its constants.
     class Instances {
       public:
         void add_element(const VecI& indices, const VecC& constants) {
@@ -119,7 +119,7 @@ template <class FiniteElementType> class FiniteElementSet : public FiniteElement
     Instances instances_;
 };
 
-/// The sum of sets of elements, which are not owned.
+/// The sum of several sets of elements. The problem does not own the sets.
 class COMISODLLEXPORT FiniteElementProblem : public NProblemInterface {
   public:
     explicit FiniteElementProblem(unsigned int n) : x_(n, 0.0) {}
@@ -127,7 +127,7 @@ class COMISODLLEXPORT FiniteElementProblem : public NProblemInterface {
     void add_set(FiniteElementSetBase* set) { sets_.push_back(set); }
     void clear_sets() { sets_.clear(); }
 
-    /// Where a solution is stored.
+    /// The stored solution.
     std::vector<double>& x() { return x_; }
 
     int n_unknowns() override { return static_cast<int>(x_.size()); }

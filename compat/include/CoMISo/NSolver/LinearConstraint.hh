@@ -1,4 +1,4 @@
-/// A linear constraint.
+/// A linear constraint, given by its coefficients.
 
 #ifndef COMISO_NSOLVER_LINEARCONSTRAINT_HH
 #define COMISO_NSOLVER_LINEARCONSTRAINT_HH
@@ -9,7 +9,7 @@
 
 namespace COMISO {
 
-/// coeffs . x + b equals, is at most, or is at least zero: b is minus the right side.
+/// coeffs . x + b is equal to, at most or at least zero, so b is the negated right side.
 class COMISODLLEXPORT LinearConstraint : public NConstraintInterface {
   public:
     using SVectorNC = NConstraintInterface::SVectorNC;

@@ -1,4 +1,4 @@
-/// A constraint that tells its value, gradient and Hessian.
+/// A constraint that computes its value, gradient and Hessian.
 
 #ifndef COMISO_NSOLVER_NCONSTRAINTINTERFACE_HH
 #define COMISO_NSOLVER_NCONSTRAINTINTERFACE_HH
@@ -10,7 +10,7 @@
 
 namespace COMISO {
 
-/// Implemented by programs: eval_constraint(x) equals, is at most, or is at least zero.
+/// Programs implement this. eval_constraint(x) is equal to, at most or at least zero.
 class COMISODLLEXPORT NConstraintInterface {
   public:
     using SVectorNC = Eigen::SparseVector<double>;

@@ -1,4 +1,4 @@
-/// An objective that tells its value, gradient and Hessian.
+/// An objective that computes its value, gradient and Hessian.
 
 #ifndef COMISO_NSOLVER_NPROBLEMINTERFACE_HH
 #define COMISO_NSOLVER_NPROBLEMINTERFACE_HH
@@ -10,7 +10,7 @@
 
 namespace COMISO {
 
-/// Implemented by programs. Arrays have n_unknowns() numbers.
+/// Programs implement this. All arrays have n_unknowns() numbers.
 class COMISODLLEXPORT NProblemInterface {
   public:
     using SMatrixNP = Eigen::SparseMatrix<double, Eigen::ColMajor>;
@@ -25,7 +25,7 @@ class COMISODLLEXPORT NProblemInterface {
     virtual double eval_f(const double* x) = 0;
     virtual void eval_gradient(const double* x, double* gradient) = 0;
     virtual void eval_hessian(const double* x, SMatrixNP& hessian) = 0;
-    /// Takes the solution.
+    /// Receives the solution.
     virtual void store_result(const double* x) = 0;
 
     virtual bool constant_gradient() const { return false; }

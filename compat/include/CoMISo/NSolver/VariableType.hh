@@ -1,4 +1,4 @@
-/// What a variable may be.
+/// The types of variables.
 
 #ifndef COMISO_NSOLVER_VARIABLETYPE_HH
 #define COMISO_NSOLVER_VARIABLETYPE_HH
@@ -9,7 +9,7 @@ namespace COMISO {
 
 enum VariableType { Real, Integer, Binary };
 
-/// A variable and what it is; variables that are not named are real.
+/// A variable and its type. Variables without such a pair are real.
 using PairUiV = std::pair<unsigned int, VariableType>;
 
 } // namespace COMISO

@@ -1,4 +1,4 @@
-/// From the original's settings to Roundel's options.
+/// Translates CoMISo's settings to Roundel's options.
 
 #ifndef COMISO_ROUNDEL_CHOICE_HH
 #define COMISO_ROUNDEL_CHOICE_HH
@@ -16,13 +16,13 @@
 namespace COMISO {
 namespace roundel_detail {
 
-/// As a count that options take.
+/// The number as an option takes it.
 inline std::int64_t count_of(unsigned int value) {
     const std::int64_t largest = std::numeric_limits<std::int32_t>::max();
     return std::min<std::int64_t>(value, largest);
 }
 
-/// The options that stand for `settings`.
+/// The options that correspond to `settings`.
 inline ::roundel::Options options_for(const MISolver& settings) {
     using Type = MISolver::RoundingType;
     ::roundel::Options options;
@@ -46,8 +46,8 @@ inline ::roundel::Options options_for(const MISolver& settings) {
     default:
         break;
     }
-    // The elimination that keeps the integers which the original keeps, and its iterations. A sum
-    // of deviations that stays at zero is one integer at a time.
+    // This ordering makes the elimination keep the same integers as CoMISo, and the iterations are
+    // the same. With a threshold of zero, integers are rounded one at a time.
     const double threshold =
         settings.get_multiple_rounding() ? settings.get_multiple_rounding_threshold() : 0.0;
     return options.set_strategy("multiple")

@@ -1,5 +1,5 @@
-/// Matrices and vectors of the caller's library, read as entries: those of the gmm.h beside this
-/// library, of the real GMM++ and of Eigen.
+/// Reads the entries of the caller's matrices and vectors: those of the gmm.h beside this library,
+/// of the real GMM++ and of Eigen.
 
 #ifndef COMISO_ROUNDEL_MATRICES_HH
 #define COMISO_ROUNDEL_MATRICES_HH
@@ -14,7 +14,7 @@
 namespace COMISO {
 namespace roundel_detail {
 
-/// A sparse matrix as its entries; several of one place add up.
+/// A sparse matrix as its entries. Entries at the same place are summed.
 struct Entries {
     std::size_t rows = 0;
     std::size_t cols = 0;
@@ -113,11 +113,11 @@ template <class Matrix> Entries entries_of(const Matrix& matrix) {
     }
 }
 
-/// Whatever has a size and numbers.
+/// The numbers of any vector that has a size and an index operator.
 template <class Vector> std::vector<double> numbers_of(const Vector& vector) {
     std::vector<double> numbers(static_cast<std::size_t>(vector.size()));
     for (std::size_t i = 0; i < numbers.size(); ++i) {
-        // Eigen's vectors count in signed numbers, others in unsigned ones.
+        // Eigen's vectors have signed indices, others unsigned ones.
         numbers[i] = static_cast<double>(vector[static_cast<decltype(vector.size())>(i)]);
     }
     return numbers;

@@ -1,8 +1,8 @@
-/// A problem in the original's terms, and what it is in Roundel's.
+/// Translates problems from CoMISo's conventions to Roundel's.
 ///
-/// The energy is x'Ax - 2 x'b, stationary where A x = b, so Q = 2A and q = -2b. A constraint is a
-/// row of n + 1 numbers, c . x + c_{n+1} = 0; the last column of a least-squares matrix is minus
-/// the right side as well.
+/// The energy is x'Ax - 2 x'b. It is stationary where A x = b, so Q = 2A and q = -2b. A constraint
+/// is a row of n + 1 numbers, c . x + c_{n+1} = 0. The last column of a least-squares matrix is
+/// also the negated right side.
 
 #ifndef COMISO_ROUNDEL_PROBLEM_HH
 #define COMISO_ROUNDEL_PROBLEM_HH
@@ -28,16 +28,16 @@ namespace roundel_detail {
     throw ::roundel::Error(std::move(failure));
 }
 
-/// Rows of a matrix whose last column stands apart.
+/// The rows of a matrix, with the last column separate.
 struct Rows {
     std::vector<std::int64_t> offsets;
     std::vector<std::int64_t> indices;
     std::vector<double> values;
-    /// Minus the last column.
+    /// The negated last column.
     std::vector<double> right;
 };
 
-/// The rows of a matrix with one column more than there are unknowns.
+/// The rows of a matrix that has one column more than there are unknowns.
 inline Rows rows_of(const Entries& entries, std::size_t unknowns) {
     Rows rows;
     const auto last = static_cast<std::int64_t>(unknowns);
@@ -86,8 +86,8 @@ inline void constrain(::roundel::Problem& problem, const Entries& constraints,
     problem.constrain(matrix, rows.right);
 }
 
-/// Adds A. Of its two triangles, which should agree, the mean counts. `reg` times the mean of its
-/// diagonal is added to the diagonal.
+/// Adds the mean of A's two triangles, which should agree. `reg` times the mean of the diagonal is
+/// added to the diagonal.
 inline void add_quadratic(::roundel::Problem& problem, Entries&& matrix, std::size_t unknowns,
                           double reg) {
     if (matrix.rows != unknowns || matrix.cols != unknowns) {
@@ -125,8 +125,8 @@ inline ::roundel::Problem quadratic_problem(Entries&& matrix, const std::vector<
     return problem;
 }
 
-/// The problem of rows whose squares are summed, and the right side b of the A x = b that it stands
-/// for.
+/// The problem that minimises the sum of squared rows, and the right side b of its normal equations
+/// A x = b.
 inline ::roundel::Problem least_squares_problem(const Entries& matrix, double reg,
                                                 std::vector<double>& b) {
     if (matrix.cols < 2) {

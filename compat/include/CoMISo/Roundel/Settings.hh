@@ -1,5 +1,5 @@
-/// What the original does not have: a choice of strategy for programs that are not changed, and a
-/// place for what would otherwise be printed.
+/// Settings that CoMISo does not have: a strategy for programs that are not rewritten, and a log
+/// for messages that would otherwise be printed.
 
 #ifndef COMISO_ROUNDEL_SETTINGS_HH
 #define COMISO_ROUNDEL_SETTINGS_HH
@@ -13,7 +13,7 @@ namespace COMISO {
 
 namespace roundel_detail {
 
-/// Settings of the whole program, to be made before solves run in several threads.
+/// Settings of the whole program. Set them before several threads solve.
 struct Program {
     std::string strategy;
     std::function<void(const std::string&)> log;
@@ -30,8 +30,8 @@ inline void log(const std::string& line) {
     }
 }
 
-/// The strategy that stands for the rounding that was asked for: that of the solver, else that of
-/// the program, else that of the environment, else none.
+/// The strategy that replaces the kind of rounding: that of the solver, or else of the program, or
+/// else of the environment. Empty if none of them is set.
 inline std::string strategy_for(const std::string& of_solver) {
     if (!of_solver.empty()) {
         return of_solver;
@@ -45,15 +45,15 @@ inline std::string strategy_for(const std::string& of_solver) {
 
 } // namespace roundel_detail
 
-/// Chooses how all solvers of the program round, in place of what they are told by their own
-/// setters: "auto" for better energies, or any other of Roundel's strategies. Empty takes it back.
-/// Comes before the environment variable ROUNDEL_COMISO_STRATEGY.
+/// Chooses how all solvers of the program round, whatever their own setters say: "auto" for better
+/// energies, or any other of Roundel's strategies. An empty name undoes the choice. This setting
+/// overrides the environment variable ROUNDEL_COMISO_STRATEGY.
 inline void set_roundel_strategy(std::string strategy) {
     roundel_detail::program().strategy = std::move(strategy);
 }
 
-/// Where lines go about timings, and about what was asked for and is done otherwise. Nothing is
-/// printed without.
+/// Sets the function that receives log lines: timings, and settings that Roundel replaces by
+/// others. Without it nothing is printed.
 inline void set_roundel_log(std::function<void(const std::string&)> log) {
     roundel_detail::program().log = std::move(log);
 }

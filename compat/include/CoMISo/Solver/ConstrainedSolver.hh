@@ -1,5 +1,4 @@
-/// The mixed-integer solver with linear constraints, by the original's interface, solved by
-/// Roundel.
+/// CoMISo's mixed-integer solver with linear constraints: the same interface, solved by Roundel.
 
 #ifndef COMISO_SOLVER_CONSTRAINEDSOLVER_HH
 #define COMISO_SOLVER_CONSTRAINEDSOLVER_HH
@@ -24,25 +23,25 @@
 
 namespace COMISO {
 
-/// Minimises x'Ax - 2 x'b, whose stationary points are A x = b, subject to rows c . x + c_{n+1} = 0
+/// Minimises x'Ax - 2 x'b, which is stationary where A x = b, subject to rows c . x + c_{n+1} = 0
 /// and with some unknowns integer.
 ///
-/// A is symmetric and stored in full. The arguments of solve are left as they are, but for x.
-/// Redundant constraints are dropped; contradictory ones, and whatever else cannot be solved, throw
-/// a roundel::Error that names the row, and leave x as it was.
+/// A is symmetric and stored in full. The functions change no argument but x. Redundant constraints
+/// are dropped. A contradictory constraint, or anything else that cannot be solved, throws a
+/// roundel::Error that names the row, and leaves x unchanged.
 class COMISODLLEXPORT ConstrainedSolver {
   public:
-    /// Coefficients of integers are always reduced by their common divisors, whatever is said here.
+    /// Coefficients of integers are always divided by their common divisors, whatever the argument.
     explicit ConstrainedSolver(bool /*do_gcd*/ = true) {}
     ConstrainedSolver(const ConstrainedSolver&) = delete;
     ConstrainedSolver& operator=(const ConstrainedSolver&) = delete;
 
-    /// How integers are decided.
+    /// The settings for rounding.
     MISolver& misolver() { return settings_; }
     const MISolver& misolver() const { return settings_; }
 
-    /// Solves for x, which is resized. `reg` times the mean of the diagonal of A is added to it.
-    /// Timings go to the log (set_roundel_log), and there is no dialog.
+    /// Solves for x, which is resized. `reg` times the mean of the diagonal of A is added to the
+    /// diagonal. Timings go to the log (set_roundel_log). No dialog is shown.
     template <class Constraints, class Matrix, class Vector, class Right, class Indices,
               class = std::enable_if_t<!std::is_arithmetic_v<Indices>>>
     void solve(Constraints& constraints, Matrix& A, Vector& x, Right& b, Indices& idx_to_round,
@@ -50,7 +49,7 @@ class COMISODLLEXPORT ConstrainedSolver {
         solve_const(constraints, A, x, b, idx_to_round, reg, show_miso_settings, show_timings);
     }
 
-    /// As solve.
+    /// The same as solve.
     template <class Constraints, class Matrix, class Vector, class Right, class Indices,
               class = std::enable_if_t<!std::is_arithmetic_v<Indices>>>
     void solve_const(const Constraints& constraints, const Matrix& A, Vector& x, const Right& b,
@@ -63,14 +62,15 @@ class COMISODLLEXPORT ConstrainedSolver {
             show_timings);
     }
 
-    /// Least squares: minimises |B (x, 1)|^2, where the last column of B is minus the right side.
+    /// Solves least squares: minimises |B (x, 1)|^2, where the last column of B is the negated
+    /// right side.
     template <class Constraints, class Matrix, class Vector, class Indices>
     void solve(Constraints& constraints, Matrix& B, Vector& x, Indices& idx_to_round,
                double reg = 0.0, bool show_miso_settings = true, bool show_timings = true) {
         solve_const(constraints, B, x, idx_to_round, reg, show_miso_settings, show_timings);
     }
 
-    /// As the least-squares solve.
+    /// The same as the least-squares solve.
     template <class Constraints, class Matrix, class Vector, class Indices>
     void solve_const(const Constraints& constraints, const Matrix& B, Vector& x,
                      const Indices& idx_to_round, double reg = 0.0,
@@ -81,10 +81,10 @@ class COMISODLLEXPORT ConstrainedSolver {
             show_timings);
     }
 
-    /// Solves the last problem again with other right sides: of the constraints, c . x = right
-    /// side, one a row (the opposite sign of the last column), and of A x = b. Either may be left
-    /// out, or be a null pointer, and stays as it is. Integers are decided anew; eliminations and
-    /// factorizations are kept.
+    /// Solves the last problem again with other right sides: those of the constraints, c . x =
+    /// right side, one a row (the opposite sign of the last column), and that of A x = b. A right
+    /// side that is left out or a null pointer stays unchanged. Integers are decided anew, while
+    /// eliminations and factorizations are reused.
     template <class Vector, class Constraints = std::nullptr_t, class Right = std::nullptr_t>
     void resolve(Vector& x, const Constraints& constraint_rhs = nullptr,
                  const Right& rhs = nullptr) {
@@ -106,15 +106,16 @@ class COMISODLLEXPORT ConstrainedSolver {
         answer(x, false);
     }
 
-    /// The smallest coefficient that counts, as programs set it. Roundel's tolerances are its own.
+    /// Stores the smallest coefficient that counts. It has no effect: Roundel uses its own
+    /// tolerances.
     void set_epsilon(double epsilon) { epsilon_ = epsilon; }
     double epsilon() const { return epsilon_; }
 
-    /// How much to tell; nothing is printed.
+    /// Stores the level of messages. It has no effect: nothing is printed.
     void set_noisy(int level) { noisy_ = level; }
     int noisy() const { return noisy_; }
 
-    /// As the settings' own.
+    /// The same flag as in the settings.
     bool& use_constraint_reordering() { return settings_.use_constraint_reordering(); }
     void set_use_constraint_reordering(bool on) { settings_.set_use_constraint_reordering(on); }
 
@@ -130,7 +131,7 @@ class COMISODLLEXPORT ConstrainedSolver {
         ::roundel::detail::check(code, nullptr, unknowns);
     }
 
-    /// The numbers behind a vector, or behind a pointer to one; false if there are none.
+    /// The numbers of a vector, or of a vector behind a pointer. Returns false for a null pointer.
     template <class Vector> static bool read(const Vector& vector, std::vector<double>& numbers) {
         if constexpr (std::is_same_v<Vector, std::nullptr_t> || std::is_arithmetic_v<Vector>) {
             return false;
@@ -174,9 +175,9 @@ class COMISODLLEXPORT ConstrainedSolver {
     }
 
     MISolver settings_;
-    // A handle of the C interface, the same type in every C++ standard.
+    // A handle of the C interface, which has the same type in every C++ standard.
     std::unique_ptr<roundel_solver, Free> solver_;
-    /// The right side of A x = b that the least-squares rows bring; zero without such rows.
+    /// The right side of A x = b that comes from the least-squares rows, or zero without such rows.
     std::vector<double> shift_;
     double energy_ = 0.0;
     double epsilon_ = 1e-8;

@@ -1,4 +1,4 @@
-/// GMM++, or its stand-in: programs include this file for the matrices.
+/// Includes GMM++ or its stand-in. Programs include this file for the matrices.
 
 #ifndef COMISO_SOLVER_GMM_TOOLS_HH
 #define COMISO_SOLVER_GMM_TOOLS_HH

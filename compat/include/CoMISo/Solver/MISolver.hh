@@ -1,4 +1,4 @@
-/// How integers are decided: the original's settings, and the options of Roundel that they come to.
+/// The settings of CoMISo's mixed-integer solver: how integers are rounded.
 
 #ifndef COMISO_SOLVER_MISOLVER_HH
 #define COMISO_SOLVER_MISOLVER_HH
@@ -14,10 +14,10 @@
 
 namespace COMISO {
 
-/// Settings of the mixed-integer solver. `inital_full` is spelt as programs spell it.
+/// Settings of the mixed-integer solver. `inital_full` is spelt as in CoMISo.
 ///
-/// Of several kinds of rounding that are set, one counts: Gurobi, CPLEX, none, direct, multiple,
-/// else one integer at a time. Multiple rounding is on unless it is turned off.
+/// If several kinds of rounding are set, the first of these counts: Gurobi, CPLEX, none, direct,
+/// multiple. Without any, integers are rounded one at a time. Multiple rounding is on by default.
 class COMISODLLEXPORT MISolver {
   public:
     enum class RoundingType { NONE, DIRECT, MULTIPLE, GUROBI, CPLEX, DEFAULT = MULTIPLE };
@@ -26,15 +26,15 @@ class COMISODLLEXPORT MISolver {
     MISolver(const MISolver&) = delete;
     MISolver& operator=(const MISolver&) = delete;
 
-    /// Whether to solve exactly before the first rounding. Always done.
+    /// Whether to solve exactly before the first rounding. Roundel always does.
     void set_inital_full(bool on = true) { inital_full_ = on; }
     bool get_inital_full() const { return inital_full_; }
 
-    /// Whether to solve exactly between roundings where the iterations fail.
+    /// Whether to solve exactly between roundings when the iterations fail.
     void set_iter_full(bool on = true) { iter_full_ = on; }
     bool get_iter_full() const { return iter_full_; }
 
-    /// Whether to solve exactly after the last rounding. Always done.
+    /// Whether to solve exactly after the last rounding. Roundel always does.
     void set_final_full(bool on = true) { final_full_ = on; }
     bool get_final_full() const { return final_full_; }
 
@@ -42,7 +42,7 @@ class COMISODLLEXPORT MISolver {
     void set_direct_rounding(bool on = true) { direct_rounding_ = on; }
     bool get_direct_rounding() const { return direct_rounding_; }
 
-    /// Leaves integers as they are in the relaxation.
+    /// Leaves integers at their relaxed values.
     void set_no_rounding(bool on = true) { no_rounding_ = on; }
     bool get_no_rounding() const { return no_rounding_; }
 
@@ -50,11 +50,11 @@ class COMISODLLEXPORT MISolver {
     void set_multiple_rounding(bool on = true) { multiple_rounding_ = on; }
     bool get_multiple_rounding() const { return multiple_rounding_; }
 
-    /// Asks for Gurobi: the strategy "exact" is used, and the log told.
+    /// Asks for Gurobi. Roundel uses its strategy "exact" instead and logs that.
     void set_gurobi_rounding(bool on = true) { gurobi_rounding_ = on; }
     bool get_gurobi_rounding() const { return gurobi_rounding_; }
 
-    /// Asks for CPLEX: the strategy "exact" is used, and the log told.
+    /// Asks for CPLEX. Roundel uses its strategy "exact" instead and logs that.
     void set_cplex_rounding(bool on = true) { cplex_rounding_ = on; }
     bool get_cplex_rounding() const { return cplex_rounding_; }
 
@@ -67,49 +67,49 @@ class COMISODLLEXPORT MISolver {
         cplex_rounding_ = type == RoundingType::CPLEX;
     }
 
-    /// Gauss-Seidel updates after a rounding.
+    /// The number of Gauss-Seidel updates after a rounding.
     void set_local_iters(unsigned int count) { local_iters_ = count; }
     unsigned int get_local_iters() const { return local_iters_; }
 
-    /// What a Gauss-Seidel update must exceed to be passed on.
+    /// The change of an unknown above which Gauss-Seidel updates its neighbours.
     void set_local_error(double tolerance) { local_error_ = tolerance; }
     double get_local_error() const { return local_error_; }
 
-    /// Iterations of conjugate gradients after a rounding.
+    /// The number of conjugate-gradient iterations after a rounding.
     void set_cg_iters(unsigned int count) { cg_iters_ = count; }
     unsigned int get_cg_iters() const { return cg_iters_; }
 
-    /// The residual at which conjugate gradients end.
+    /// The residual at which conjugate gradients stop.
     void set_cg_error(double tolerance) { cg_error_ = tolerance; }
     double get_cg_error() const { return cg_error_; }
 
-    /// What the deviations of the integers that are rounded together may sum up to.
+    /// The largest sum of deviations of integers that are rounded together.
     void set_multiple_rounding_threshold(double sum) { multiple_rounding_threshold_ = sum; }
     double get_multiple_rounding_threshold() const { return multiple_rounding_threshold_; }
 
-    /// How much to tell; nothing is printed.
+    /// Stores the level of messages. It has no effect: nothing is printed.
     void set_noise(unsigned int level) { noise_ = level; }
     unsigned int get_noise() const { return noise_; }
 
-    /// Seconds that a solve takes at most where Gurobi is asked for.
+    /// The time limit in seconds of a solve that asks for Gurobi.
     void set_gurobi_max_time(double seconds) { gurobi_max_time_ = seconds; }
     double get_gurobi_max_time() const { return gurobi_max_time_; }
 
-    /// Whether to tell the log how a solve went.
+    /// Whether to log how a solve went.
     void set_stats(bool on = true) { stats_ = on; }
     bool get_stats() const { return stats_; }
 
-    /// Whether constraints may be taken in another order than given. They always are: what depends
-    /// on it is the time.
+    /// Whether constraints may be reordered. Roundel always may, which affects only the time.
     bool& use_constraint_reordering() { return constraint_reordering_; }
     void set_use_constraint_reordering(bool on) { constraint_reordering_ = on; }
 
-    /// Chooses one of Roundel's strategies in place of the kind of rounding set above, unless that
-    /// is none; empty takes it back. Comes before set_roundel_strategy and the environment.
+    /// Chooses one of Roundel's strategies instead of the kind of rounding above, unless that is
+    /// none. An empty name undoes the choice. Overrides the function set_roundel_strategy and the
+    /// environment.
     void set_roundel_strategy(std::string strategy) { strategy_ = std::move(strategy); }
     const std::string& get_roundel_strategy() const { return strategy_; }
 
-    /// The kind of rounding that counts.
+    /// The kind of rounding that is used.
     RoundingType get_rounding_type() const {
         return gurobi_rounding_   ? RoundingType::GUROBI
                : cplex_rounding_  ? RoundingType::CPLEX

@@ -11,13 +11,13 @@ namespace COMISO {
 
 class COMISODLLEXPORT StopWatch {
   public:
-    /// Starts to measure.
+    /// Starts the measurement.
     void start() {
         start_ = Clock::now();
         running_ = true;
     }
 
-    /// Milliseconds since the start, which goes on being measured from.
+    /// Returns the milliseconds since the start and starts again.
     double restart() {
         const double milliseconds = elapsed();
         start();
