@@ -49,7 +49,7 @@ fn every_file_names_only_its_own_layer_and_those_below() {
 }
 
 #[test]
-fn checking_shares_no_code_with_what_makes_maps() {
+fn the_check_shares_no_code_with_the_construction_of_maps() {
     let makers = ["solve", "field", "map", "untangle"];
     let at_root = names_at_root();
     for (path, text) in sources() {
@@ -101,7 +101,7 @@ fn no_file_is_longer_than_a_reader_can_hold() {
 }
 
 #[test]
-fn every_file_says_first_what_it_is() {
+fn every_file_starts_with_a_heading() {
     for (path, text) in sources() {
         assert!(
             text.starts_with("//! "),

@@ -83,7 +83,7 @@ proptest! {
     }
 }
 
-/// A regression: beside the first right side, those of the second and third row are below rounding.
+/// A regression test: compared with the first right side, the other two are below rounding errors.
 #[test]
 fn an_objective_with_one_right_side_of_1e10_has_a_minimum() {
     let problem = cycle(&[1e10, 0.3, 0.1], 0.5);

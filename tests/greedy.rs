@@ -112,7 +112,7 @@ fn direct_rounds_the_relaxation_once() {
 }
 
 #[test]
-fn a_field_without_a_fixed_angle_is_decided_like_one_with() {
+fn a_field_without_a_fixed_angle_is_decided_like_one_with_a_fixed_angle() {
     // The energy does not change when all angles turn together, so the free angle decides nothing.
     for seed in 1..10 {
         let fixed = common::orientation_field(4, seed).unwrap();

@@ -56,7 +56,7 @@ fn lines_closer_than_a_quad_is_wide_are_both_kept() {
 }
 
 #[test]
-fn strategies_are_compared_in_the_order_asked_for() {
+fn strategies_are_compared_in_the_requested_order() {
     let options = QuadOptions {
         sizing: Sizing::Quads(25),
         compare: vec![Strategy::Direct, Strategy::Relax],
@@ -89,7 +89,7 @@ fn trying_smaller_curvature_weights_makes_quads_more_even() {
 }
 
 #[test]
-fn curvature_weights_are_not_varied_where_curvature_has_none() {
+fn curvature_weights_are_not_varied_without_curvature_guidance() {
     let mesh = shape::by_name("genus-2", 1000).unwrap();
     let field = |vary: bool| {
         let made = of(&mesh, 300, |options| {

@@ -237,7 +237,7 @@ fn cones_lie_on_integers_in_every_face_around_them() {
 }
 
 #[test]
-fn the_energy_on_the_mesh_is_that_of_the_solution_but_for_the_translations() {
+fn the_energy_of_the_solution_is_that_on_the_mesh_plus_that_of_the_translations() {
     for case in cases(600) {
         for strategy in [Strategy::Relax, Strategy::Greedy] {
             let (map, solution) = map(&case, strategy);

@@ -48,8 +48,8 @@ pub fn solve_briefly(problem: &Problem, strategy: Strategy) -> Result<Solution> 
     solve(problem, &options)
 }
 
-/// An orientation field on the faces of a `side` by `side` torus of quadrilaterals. There is one angle a
-/// face and one period jump for each dual edge off a spanning tree. The first angle is pinned.
+/// An orientation field on the faces of a `side` by `side` torus of quadrilaterals. There is one angle for
+/// each face and one period jump for each dual edge off a spanning tree. The first angle is pinned.
 pub fn orientation_field(side: usize, seed: u64) -> Result<Problem> {
     let mut random = Random::new(seed);
     let faces = side * side;

@@ -23,7 +23,7 @@ fn fractional(row: &[f64], rhs: f64) -> Problem {
 }
 
 #[test]
-fn coprime_coefficients_leave_one_free_integer_less_than_unknowns() {
+fn a_constraint_with_coprime_coefficients_removes_one_integer() {
     for (row, free) in [(&[2, 3][..], 1), (&[6, 10, 15], 2), (&[4, 6, 9, 25], 3)] {
         let reduced = integers_only(&[row], &[1]).reduce().unwrap();
         assert_eq!(reduced.integers().len(), free);
@@ -73,7 +73,7 @@ fn incommensurable_integer_coefficients_are_not_supported() {
 }
 
 #[test]
-fn integers_that_meet_through_continuous_unknowns_are_still_solved_exactly() {
+fn integers_coupled_by_continuous_unknowns_are_solved_exactly() {
     // 0.3 c + z0 = 0.1 and 0.9 c + 2 z1 + z2 = 0.3 leave 3 z0 = 2 z1 + z2, in any unit.
     for unit in [1.0, 1e-7, 1e6, 1e15, 1e20] {
         let mut problem = Problem::new(4).unwrap();

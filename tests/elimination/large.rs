@@ -42,7 +42,7 @@ fn grid(side: usize, extra: usize) -> Problem {
 }
 
 #[test]
-fn a_chain_of_equal_unknowns_leaves_one() {
+fn a_chain_of_equal_unknowns_leaves_one_unknown() {
     let side = 150;
     for reversed in [false, true] {
         let mut problem = grid(side, 0);
@@ -60,7 +60,7 @@ fn a_chain_of_equal_unknowns_leaves_one() {
 }
 
 #[test]
-fn a_chain_in_random_order_leaves_one() {
+fn a_chain_in_random_order_leaves_one_unknown() {
     let n = 20_000;
     let mut problem = Problem::new(n).unwrap();
     for k in 0..n - 1 {
@@ -288,7 +288,7 @@ fn band(n: usize, rows: usize, width: usize, step: usize) -> Problem {
 }
 
 #[test]
-fn the_rank_of_a_dense_system_is_seen_through_hundreds_of_pivots() {
+fn the_rank_of_a_dense_system_is_found_after_hundreds_of_pivots() {
     let (n, rows) = (200, 150);
     let mut problem = band(n, rows, n, 0);
     let model = Model::new(&problem).unwrap();

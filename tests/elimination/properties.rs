@@ -68,7 +68,7 @@ fn agree(a: &ReducedModel, b: &ReducedModel) -> bool {
 
 proptest! {
     #[test]
-    fn constraints_hold_and_as_many_unknowns_go_as_the_rank(system in feasible()) {
+    fn constraints_hold_and_the_rank_is_the_number_of_eliminated_unknowns(system in feasible()) {
         let reduced = system.reduce().unwrap();
         prop_assert_eq!(reduced.dim(), system.unknowns() - rank(&system.rows));
         let x = reduced.expansion().expand(&some_point(&reduced));
@@ -94,7 +94,7 @@ proptest! {
     }
 
     #[test]
-    fn a_contradiction_is_reported_with_a_row_that_takes_part(
+    fn a_contradiction_is_reported_with_one_of_its_rows(
         mut system in feasible(),
         off in prop_oneof![-5i64..=-1, 1i64..=5],
     ) {

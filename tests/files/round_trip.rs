@@ -71,7 +71,7 @@ fn names_that_look_like_keywords_or_numbers_survive() {
 }
 
 #[test]
-fn a_pin_is_written_as_a_constraint_that_takes_no_name_in_use() {
+fn a_pin_is_written_as_a_constraint_with_an_unused_name() {
     let mut p = Problem::new(2).unwrap();
     p.add_constraint(&[0, 1], &[1.0, 1.0], 3.0).unwrap();
     p.pin(1, 0.25).unwrap();

@@ -24,7 +24,7 @@ void fields_follow_their_options() {
         }
         CHECK(std::abs(sum - 1.0) < 1e-6);
     }
-    // Crosses beside the boundary follow it, which costs energy.
+    // Crosses at the boundary follow it, which costs energy.
     CHECK(roundel::orientation_field(mesh).energy() >
           roundel::orientation_field(mesh, free).energy());
     const auto marks = roundel::mark_features(mesh, {});

@@ -30,7 +30,7 @@ struct Assembly {
     Fixed fixed;
 };
 
-/// A solution of an assembly: one angle a face, one jump an interior edge.
+/// A solution of an assembly: one angle for each face and one jump for each interior edge.
 struct Solved {
     double energy;
     std::vector<double> angles;

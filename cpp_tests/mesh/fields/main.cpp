@@ -10,7 +10,7 @@
 // (c) The energy on the mesh is the reported energy.
 // (d) Indices are multiples of 1/4, all ways to compute them agree, and their sum is the Euler
 //     characteristic.
-// (e) The library's own field is the same field.
+// (e) The library's own field equals the fields of both assemblies.
 
 #include "../../cpp/check.hpp"
 #include "assembly.hpp"

@@ -21,7 +21,8 @@ template <class Vertex, class Face, class Halfedge> struct Adapted {
     Mesh mesh{};
     std::vector<Vertex> vertices{};
     std::vector<Face> faces{};
-    /// Three half-edges a face, starting with its first edge, from which its angles are measured.
+    /// Three half-edges for each face, starting with its first edge, from which its angles are
+    /// measured.
     std::vector<Halfedge> halfedges{};
 
     explicit operator bool() const noexcept { return static_cast<bool>(mesh); }
