@@ -9,10 +9,8 @@
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-use super::integral::make_integral;
 use super::row::{TooLarge, add_product};
 use super::steps::Step;
-
 use super::tableau::Tableau;
 use super::tolerance::NOISE;
 use super::unknowns::Unknowns;
@@ -61,7 +59,7 @@ pub(super) fn sweep(tableau: &mut Tableau, r: usize, monitor: &mut Monitor) -> R
     let becomes_integral = row.continuous == 0 && !integral && !row.entries.is_empty();
     swept.map_err(|TooLarge| tableau.overflow(r))?;
     if becomes_integral {
-        make_integral(tableau, r)?;
+        tableau.make_integral(r)?;
     }
     Ok(())
 }
