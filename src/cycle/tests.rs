@@ -9,24 +9,17 @@ use super::hint::hinted_cycles;
 use super::improve::{Effort, Improvement};
 use super::space::CycleSpace;
 use crate::eliminate::{ReducedModel, eliminate};
+use crate::linalg::Random;
 use crate::solve::solve;
 use crate::{Model, Monitor, Options, Problem, Strategy};
 
-/// Numbers in `[0, 1)` that are the same every time (Weyl).
-struct Random(u64);
+/// Uniform in [0, 1).
+fn uniform(random: &mut Random) -> f64 {
+    0.5 * (random.symmetric() + 1.0)
+}
 
-impl Random {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    fn below(&mut self, n: usize) -> usize {
-        (self.next() * n as f64) as usize
-    }
+fn below(random: &mut Random, n: usize) -> usize {
+    (uniform(random) * n as f64) as usize
 }
 
 /// Rows `(i, j, has an integer)`; unknown `n` stands for a pinned one.
@@ -52,12 +45,12 @@ impl Sketch {
 
     /// Links between random nodes, parallel ones too, in several components.
     fn random(random: &mut Random, fixed_forest: bool) -> Self {
-        let nodes = 3 + random.below(10);
-        let links = (0..nodes + random.below(8))
-            .map(|_| (random.below(nodes), random.below(nodes)))
+        let nodes = 3 + below(random, 10);
+        let links = (0..nodes + below(random, 8))
+            .map(|_| (below(random, nodes), below(random, nodes)))
             .filter(|(i, j)| i != j)
             .collect();
-        let pinned: Vec<usize> = (0..nodes).filter(|_| random.next() < 0.2).collect();
+        let pinned: Vec<usize> = (0..nodes).filter(|_| uniform(random) < 0.2).collect();
         Sketch::of(nodes, links, &pinned, fixed_forest)
     }
 
@@ -91,12 +84,12 @@ impl Sketch {
     fn problem(&self, random: &mut Random) -> Problem {
         let integers = self.rows.iter().filter(|r| r.2).count();
         let mut problem = Problem::new(self.nodes + integers).unwrap();
-        let step = 0.5 + random.next();
+        let step = 0.5 + uniform(random);
         let mut p = self.nodes;
         for &(i, j, integer) in &self.rows {
-            let (rhs, weight) = (20.0 * random.next(), 0.5 + random.next());
+            let (rhs, weight) = (20.0 * uniform(random), 0.5 + uniform(random));
             if integer {
-                let turn = if random.next() < 0.5 { step } else { -step };
+                let turn = if uniform(random) < 0.5 { step } else { -step };
                 problem.set_integers(&[p]).unwrap();
                 problem
                     .add_least_squares(&[i, j, p], &[1.0, -1.0, turn], rhs, weight)
@@ -109,7 +102,7 @@ impl Sketch {
             }
         }
         for &i in &self.pinned {
-            problem.pin(i, random.next()).unwrap();
+            problem.pin(i, uniform(random)).unwrap();
         }
         problem
     }
@@ -177,7 +170,7 @@ fn determinant(mut a: Vec<Vec<i128>>) -> i128 {
 
 #[test]
 fn the_basis_is_unimodular_in_the_integers() {
-    let mut random = Random(1);
+    let mut random = Random::new(1);
     for round in 0..200 {
         let sketch = match round % 4 {
             0 => Sketch::torus(3 + round % 3, &[0, 4][..round / 4 % 3]),
@@ -207,7 +200,7 @@ fn the_basis_is_unimodular_in_the_integers() {
 
 #[test]
 fn cycles_close() {
-    let mut random = Random(2);
+    let mut random = Random::new(2);
     for _ in 0..100 {
         let sketch = Sketch::random(&mut random, false);
         let Some((_, space)) = space(&sketch.problem(&mut random)) else {
@@ -227,7 +220,7 @@ fn cycles_close() {
 
 #[test]
 fn energies_of_charges_are_those_of_their_integers() {
-    let mut random = Random(3);
+    let mut random = Random::new(3);
     let mut checked = 0;
     for round in 0..200 {
         let sketch = Sketch::random(&mut random, round % 2 == 0);
@@ -235,7 +228,7 @@ fn energies_of_charges_are_those_of_their_integers() {
         let Some((_, space)) = space(&problem) else {
             continue;
         };
-        let random = |_| random.below(9) as f64 - 4.0;
+        let random = |_| below(&mut random, 9) as f64 - 4.0;
         let some: Vec<f64> = (0..space.basis.len()).map(random).collect();
         let [plane, some] = [space.nearest_plane(), some].map(|charges| {
             let (_, expected) = space.potentials(&charges);
@@ -256,7 +249,7 @@ fn energies_of_charges_are_those_of_their_integers() {
 
 #[test]
 fn improvement_is_never_worse_and_finds_the_optimum_of_what_fits_into_a_block() {
-    let mut random = Random(4);
+    let mut random = Random::new(4);
     for _ in 0..60 {
         let sketch = Sketch::random(&mut random, true);
         let problem = sketch.problem(&mut random);
@@ -264,7 +257,7 @@ fn improvement_is_never_worse_and_finds_the_optimum_of_what_fits_into_a_block() 
             continue;
         };
         let m = space.basis.len();
-        let start: Vec<f64> = (0..m).map(|_| random.below(5) as f64 - 2.0).collect();
+        let start: Vec<f64> = (0..m).map(|_| below(&mut random, 5) as f64 - 2.0).collect();
         let (_, before) = space.potentials(&start);
         let mut improvement = Improvement::new(&space, start).unwrap();
         let effort = Effort {
@@ -289,7 +282,7 @@ fn improvement_is_never_worse_and_finds_the_optimum_of_what_fits_into_a_block() 
 
 #[test]
 fn strategies_in_cycle_space_beat_direct_rounding_on_a_torus() {
-    let mut random = Random(5);
+    let mut random = Random::new(5);
     for pinned in [&[][..], &[0], &[0, 1, 20, 33]] {
         let problem = Sketch::torus(8, pinned).problem(&mut random);
         let of = |strategy| solve(&problem, &options(strategy)).unwrap().energy();
@@ -368,7 +361,7 @@ fn what_is_not_quite_an_angle_difference_system_is_refused() {
 
 #[test]
 fn a_hinted_cycle_is_taken_and_a_wrong_one_is_not() {
-    let mut random = Random(6);
+    let mut random = Random::new(6);
     let side = 5;
     let sketch = Sketch::torus(side, &[]);
     let mut problem = sketch.problem(&mut random);

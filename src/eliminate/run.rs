@@ -8,7 +8,7 @@ use super::tableau::Tableau;
 use super::{
     Expansion, ReducedModel, back, continuous, hold, integral, project, right_sides, subtree, sweep,
 };
-use crate::linalg::{Ordering, Sparse};
+use crate::linalg::{Ordering, Sparse, principal_submatrix};
 use crate::monitor::{Monitor, Phase};
 use crate::{Model, Result};
 
@@ -74,7 +74,7 @@ impl Elimination {
         let hessian = if tableau.stack.len() == 0 {
             project::with_diagonal(model.hessian())?
         } else if tableau.stack.len() == pins {
-            project::with_diagonal(&hold::hessian(model.hessian(), &free)?)?
+            project::with_diagonal(&principal_submatrix(model.hessian(), &free)?)?
         } else {
             project::hessian(model.hessian(), &matrix, monitor)?
         };
@@ -121,7 +121,7 @@ impl Elimination {
             return self.linear_part(model, &self.hessian, &self.matrix, offset, &self.free);
         }
         let kept = hold::kept(self.free.len(), &held);
-        let hessian = Arc::new(hold::hessian(&self.hessian, &kept)?);
+        let hessian = Arc::new(principal_submatrix(&self.hessian, &kept)?);
         let (matrix, offset) = hold::expansion(&self.matrix, offset, &kept, &held)?;
         let free: Vec<u32> = kept.iter().map(|&y| self.free[y as usize]).collect();
         self.linear_part(model, &hessian, &Arc::new(matrix), offset, &free)

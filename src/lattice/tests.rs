@@ -1,46 +1,31 @@
 //! What holds of every reduction and every enumeration, on random lattices.
 
 use super::*;
+use crate::linalg::Random;
 
-/// Numbers in [-1, 1) (xorshift, Marsaglia 2003).
-struct Random(u64);
-
-impl Random {
-    fn new(seed: u64) -> Self {
-        Random(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1)
-    }
-
-    fn next(&mut self) -> f64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
-    }
-
-    /// Scalar products of `n` vectors whose lengths fall to `least`, then sheared by a random
-    /// unimodular matrix, so that the condition number is large.
-    fn gram(&mut self, n: usize, least: f64) -> Gram {
-        let mut b: Vec<Vec<f64>> = (0..n)
-            .map(|i| {
-                let length = least.powf(i as f64 / n as f64);
-                (0..n).map(|_| length * self.next()).collect()
-            })
-            .collect();
-        for _ in 0..2 * n {
-            let i = (self.next().abs() * n as f64) as usize;
-            let j = (self.next().abs() * n as f64) as usize;
-            if i != j {
-                let q = (3.0 * self.next()).round();
-                let from = b[j].clone();
-                b[i].iter_mut().zip(from).for_each(|(a, f)| *a += q * f);
-            }
+/// Scalar products of `n` vectors whose lengths fall to `least`, then sheared by a random
+/// unimodular matrix, so that the condition number is large.
+fn gram(random: &mut Random, n: usize, least: f64) -> Gram {
+    let mut b: Vec<Vec<f64>> = (0..n)
+        .map(|i| {
+            let length = least.powf(i as f64 / n as f64);
+            (0..n).map(|_| length * random.symmetric()).collect()
+        })
+        .collect();
+    for _ in 0..2 * n {
+        let i = (random.symmetric().abs() * n as f64) as usize;
+        let j = (random.symmetric().abs() * n as f64) as usize;
+        if i != j {
+            let q = (3.0 * random.symmetric()).round();
+            let from = b[j].clone();
+            b[i].iter_mut().zip(from).for_each(|(a, f)| *a += q * f);
         }
-        gram_of(&b)
     }
+    gram_of(&b)
+}
 
-    fn target(&mut self, n: usize) -> Vec<f64> {
-        (0..n).map(|_| 5.0 * self.next()).collect()
-    }
+fn random_target(random: &mut Random, n: usize) -> Vec<f64> {
+    (0..n).map(|_| 5.0 * random.symmetric()).collect()
 }
 
 fn gram_of(b: &[Vec<f64>]) -> Gram {
@@ -100,7 +85,7 @@ fn power(mut base: i128, mut exponent: i128, p: i128) -> i128 {
 fn reduction_is_unimodular_and_keeps_every_distance() {
     let mut random = Random::new(1);
     for (n, least) in [(2, 1.0), (5, 1e-4), (20, 1e-4), (60, 1e-3), (100, 1e-4)] {
-        let gram = random.gram(n, least);
+        let gram = gram(&mut random, n, least);
         let basis = reduced(&gram);
         assert!(is_reduced(&basis, LOVASZ - 1e-3), "{n}");
         assert_eq!(determinant(basis.transform()).abs(), 1, "{n}");
@@ -113,7 +98,7 @@ fn reduction_is_unimodular_and_keeps_every_distance() {
             let error = 1e-6 * square + 1e-13 * combined * combined;
             assert!((length - square).abs() < error, "{n}: {length} {square}");
         }
-        let p = random.target(n);
+        let p = random_target(&mut random, n);
         let back = |y: &[f64]| -> Vec<f64> {
             let column = |j: usize| basis.transform().column(j);
             let mut x = vec![0.0; n];
@@ -183,8 +168,8 @@ fn enumeration_finds_what_brute_force_finds() {
     let mut random = Random::new(2);
     for round in 0..300 {
         let n = 1 + round % 4;
-        let gram = random.gram(n, 0.3);
-        let target = random.target(n);
+        let gram = gram(&mut random, n, 0.3);
+        let target = random_target(&mut random, n);
         let found = closest(&gram, &target, None, u64::MAX).unwrap();
         assert!(found.complete);
         let best = brute_force(&gram, &target, found.value);
@@ -206,8 +191,8 @@ fn enumeration_finds_what_brute_force_finds() {
 fn a_stopped_enumeration_bounds_what_it_did_not_see() {
     let mut random = Random::new(3);
     for n in [8, 15, 25] {
-        let basis = reduced(&random.gram(n, 1e-2));
-        let target = Target::new(&basis, &random.target(n)).unwrap();
+        let basis = reduced(&gram(&mut random, n, 1e-2));
+        let target = Target::new(&basis, &random_target(&mut random, n)).unwrap();
         let run = |nodes| {
             let limits = Limits {
                 radius: f64::INFINITY,
@@ -269,14 +254,14 @@ fn the_start_is_kept_where_nothing_is_better() {
 fn diagonals_are_below_the_scalar_products() {
     let mut random = Random::new(5);
     for (n, least) in [(1, 1.0), (6, 1e-2), (30, 1.0), (60, 1e-3)] {
-        let basis = reduced(&random.gram(n, least));
+        let basis = reduced(&gram(&mut random, n, least));
         let diagonals = Diagonals::new(&basis, &mut || false).unwrap();
         let mut best: f64 = 0.0;
         for k in 1..=n {
             let d = diagonals.level(k);
             assert_eq!(d.len(), k);
             for _ in 0..50 {
-                let v: Vec<f64> = (0..k).map(|_| random.next()).collect();
+                let v: Vec<f64> = (0..k).map(|_| random.symmetric()).collect();
                 let row = |i: usize| (i..k).map(|j| basis.r(i, j) * v[j]).sum::<f64>();
                 let square: f64 = (0..k).map(|i| row(i).powi(2)).sum();
                 let least: f64 = d.iter().zip(&v).map(|(d, v)| d * v * v).sum();
@@ -299,7 +284,7 @@ fn an_enumeration_with_diagonals_finds_the_same_with_fewer_nodes() {
     for round in 0..64 {
         let n = 2 + round % 32;
         let basis = reduced(&conditioned(n, 10.0, &mut random));
-        let target = Target::new(&basis, &random.target(n)).unwrap();
+        let target = Target::new(&basis, &random_target(&mut random, n)).unwrap();
         let start = nearest_plane(&basis, &target);
         let value = target.distance(&basis, &start);
         let diagonals = Diagonals::new(&basis, &mut || false).unwrap();
@@ -327,7 +312,7 @@ fn conditioned(n: usize, condition: f64, random: &mut Random) -> Gram {
         a[i * n + i] = condition.powf(-(i as f64) / (n as f64 - 1.0));
     }
     for _ in 0..4 {
-        let v: Vec<f64> = (0..n).map(|_| random.next()).collect();
+        let v: Vec<f64> = (0..n).map(|_| random.symmetric()).collect();
         let scale = 2.0 / v.iter().map(|v| v * v).sum::<f64>();
         let row = |i: usize| {
             a[i * n..(i + 1) * n]

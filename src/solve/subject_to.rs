@@ -112,7 +112,7 @@ fn of_integers(
     let mut small = Problem::new(m)?;
     small.set_integers(&(0..m).collect::<Vec<_>>())?;
     small.set_constant(model.energy(&relaxation.point).0)?;
-    let (r, _) = factors.schur_factor(model)?.schur();
+    let (r, _) = factors.schur_block(model)?;
     for k in 0..m {
         let columns: Vec<usize> = (k..m).filter(|j| r[j * m + k] != 0.0).collect();
         let row: Vec<f64> = columns.iter().map(|j| r[j * m + k]).collect();
