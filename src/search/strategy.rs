@@ -19,7 +19,7 @@ pub enum Strategy {
     /// As lattice, then enumeration until the optimum is proved or the budget ends.
     Exact,
     /// As exact where integers are few; where they are many, adaptive, improved in cycle space if
-    /// angles differ. Beyond roundings it spends at most the work of 300 relaxations and 2e8
+    /// angles differ. Beyond roundings it spends at most the work of 1,000 relaxations and 2e8
     /// multiplications, by count ([`Solution::work`](crate::solve::Solution::work)).
     Auto,
 }
