@@ -13,6 +13,7 @@ use super::forest::Forest;
 use super::fundamental::fundamental_cycle;
 use super::graph::{Graph, NONE};
 use super::short::{LONGEST, short_cycles};
+use crate::linalg::Accumulator;
 
 /// A candidate whose reduction takes more additions is refused; there are enough others.
 const PATIENCE: usize = 20_000;
@@ -59,8 +60,8 @@ struct Reduction {
     solved: Vec<u32>,
     /// What the chord of each row is, in others.
     rows: Vec<Vec<(u32, i64)>>,
-    value: Vec<i64>,
-    touched: Vec<u32>,
+    /// The cycle being reduced.
+    coefficients: Accumulator<i64>,
     open: Vec<(u32, i64)>,
 }
 
@@ -71,8 +72,7 @@ impl Reduction {
             is_chord: (0..edges as u32).map(|e| !forest.holds(graph, e)).collect(),
             solved: vec![NONE; edges],
             rows: Vec::new(),
-            value: vec![0; edges],
-            touched: Vec::new(),
+            coefficients: Accumulator::new(edges),
             open: Vec::new(),
         }
     }
@@ -88,13 +88,12 @@ impl Reduction {
         self.open
             .extend(chords.map(|&(e, sign)| (e, i64::from(sign))));
         let patient = self.reduce();
-        let mut row = Vec::with_capacity(self.touched.len());
-        for e in self.touched.drain(..) {
-            match std::mem::take(&mut self.value[e as usize]) {
-                0 => {}
-                v => row.push((e, v)),
+        let mut row = Vec::with_capacity(self.coefficients.len());
+        self.coefficients.drain(|e, v| {
+            if v != 0 {
+                row.push((e, v));
             }
-        }
+        });
         let unit = row.iter().position(|&(_, v): &(u32, i64)| v.abs() == 1);
         let Some(at) = unit.filter(|_| patient) else {
             return false;
@@ -116,10 +115,7 @@ impl Reduction {
                 break;
             }
             match self.solved[e as usize] {
-                NONE => {
-                    self.touched.push(e);
-                    self.value[e as usize] += v;
-                }
+                NONE => *self.coefficients.slot(e) += v,
                 row => {
                     let row = self.rows[row as usize].iter();
                     self.open.extend(row.map(|&(f, u)| (f, u * v)));

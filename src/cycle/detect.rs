@@ -1,6 +1,6 @@
 //! Recognising an angle-difference system in a reduced Hessian.
 //!
-//! A private integer p with the rank-one part `w (a (x_i - x_j) + b p + r)^2` shows in its row of
+//! A local integer p with the rank-one part `w (a (x_i - x_j) + b p + r)^2` shows in its row of
 //! the Hessian alone: `H_pp = 2 w b^2`, `H_pi = -H_pj = 2 w a b`. So the edge has the weight
 //! `w a^2 = H_pi^2 / (2 H_pp)` and the step `b / a = H_pp / H_pi`. What is left of the continuous
 //! block when all these parts are taken off must be the Laplacian of a weighted graph, ties to the
@@ -82,7 +82,7 @@ struct IntegerRow {
     count: usize,
 }
 
-/// The continuous block and the rows of the integers; none where an integer is not private.
+/// The continuous block and the rows of the integers; none where an integer is not local.
 fn split(model: &ReducedModel) -> Option<(Rest, Vec<IntegerRow>)> {
     let n = model.continuous().len();
     let place = places(model);

@@ -1,6 +1,6 @@
 //! The caller's cycles of least-squares rows as cycles of edges.
 //!
-//! A row with a private integer is that integer's edge, and any other row the edge without an
+//! A row with a local integer is that integer's edge, and any other row the edge without an
 //! integer between the same two nodes. Rows between known angles have no edge. A cycle with a row
 //! that is no edge, or that comes by the ground more than once, is passed over.
 

@@ -5,8 +5,8 @@ use super::row::{TooLarge, add_product};
 use super::tableau::Tableau;
 use super::tolerance::NOISE;
 use super::unknowns::Unknowns;
-use crate::linalg::Sparse;
 use crate::linalg::sparse::reserve;
+use crate::linalg::{Accumulator, Sparse};
 use crate::monitor::Monitor;
 use crate::{Error, Result};
 
@@ -81,7 +81,7 @@ impl Known {
             }
         }
         let start = self.entries.len();
-        self.entries.try_reserve(sum.present.len()).map_err(|_| {
+        self.entries.try_reserve(sum.entries.len()).map_err(|_| {
             Trouble::Memory(Error::OutOfMemory {
                 what: "the expansion",
             })
@@ -119,45 +119,44 @@ impl Known {
 
 /// A sparse row being summed.
 struct Sum {
-    value: Vec<f64>,
-    /// The largest term of each entry; 0 where there is none.
-    largest: Vec<f64>,
-    present: Vec<u32>,
+    entries: Accumulator<Entry>,
     exact: bool,
+}
+
+#[derive(Clone, Copy, Default)]
+struct Entry {
+    value: f64,
+    largest_term: f64,
 }
 
 impl Sum {
     fn new(len: usize) -> Self {
         Sum {
-            value: vec![0.0; len],
-            largest: vec![0.0; len],
-            present: Vec::new(),
+            entries: Accumulator::new(len),
             exact: false,
         }
     }
 
     fn add(&mut self, y: u32, v: f64) -> std::result::Result<(), TooLarge> {
-        let i = y as usize;
-        if v != 0.0 && self.largest[i] == 0.0 {
-            self.present.push(y);
-        }
-        self.largest[i] = self.largest[i].max(v.abs());
-        self.value[i] = add_product(self.value[i], v, 1.0, self.exact)?;
+        let entry = self.entries.slot(y);
+        entry.largest_term = entry.largest_term.max(v.abs());
+        entry.value = add_product(entry.value, v, 1.0, self.exact)?;
         Ok(())
     }
 
     /// Appends the row, sorted and without what cancelled, and empties the sum.
-    fn drain_into(&mut self, entries: &mut Vec<(u32, f64)>) {
-        self.present.sort_unstable();
-        for &y in &self.present {
-            let i = y as usize;
-            let value = std::mem::take(&mut self.value[i]);
-            let largest = std::mem::take(&mut self.largest[i]);
-            let noise = if self.exact { 0.0 } else { NOISE * largest };
-            if value.abs() > noise {
-                entries.push((y, value));
+    fn drain_into(&mut self, row: &mut Vec<(u32, f64)>) {
+        let exact = self.exact;
+        self.entries.sort();
+        self.entries.drain(|y, entry| {
+            let noise = if exact {
+                0.0
+            } else {
+                NOISE * entry.largest_term
+            };
+            if entry.value.abs() > noise {
+                row.push((y, entry.value));
             }
-        }
-        self.present.clear();
+        });
     }
 }

@@ -12,36 +12,13 @@
 //! least halved but for one. Since `x_k` and `t` give each other with integer coefficients, no
 //! integer solution is lost and none is made up.
 
-use super::ratio::{gcd, integer_multiples};
+use super::ratio::gcd;
 use super::row::{Row, representable};
-use super::stack::Substitution;
 use super::steps::Step;
+use super::substitution::Substitution;
 use super::tableau::Tableau;
-use super::tolerance::LARGEST;
 use super::unknowns::Unknowns;
-use crate::{Error, Result};
-
-/// Turns the coefficients of row `r`, which has integer unknowns only, into integers.
-pub(super) fn make_integral(tableau: &mut Tableau, r: usize) -> Result<()> {
-    let row = &mut tableau.rows[r];
-    let Some(unit) = integer_multiples(row) else {
-        return Err(Error::NotSupported {
-            what: format!(
-                "constraint {r}: {} leaves a relation of integers whose coefficients have no common measure",
-                tableau.text(r)
-            ),
-            index: Some(r),
-            line: None,
-        });
-    };
-    if row.entries.iter().any(|e| e.1.abs() >= LARGEST) {
-        return Err(tableau.overflow(r));
-    }
-    row.integral = true;
-    let row = r as u32;
-    tableau.steps.push(Step::MakeIntegral { row, unit });
-    Ok(())
-}
+use crate::Result;
 
 /// Solves the integral row `r`.
 pub(super) fn eliminate(tableau: &mut Tableau, r: usize) -> Result<()> {

@@ -8,7 +8,7 @@
 
 use super::Expansion;
 use crate::linalg::sparse::reserve;
-use crate::linalg::{CompensatedSum, Sparse};
+use crate::linalg::{Accumulator, CompensatedSum, Sparse};
 use crate::monitor::Monitor;
 use crate::{Error, Model, Result};
 
@@ -18,14 +18,14 @@ pub(super) fn hessian(lower: &Sparse, expansion: &Sparse, monitor: &mut Monitor)
     let upper = lower.transpose();
     let by_unknown = expansion.transpose();
     let dim = expansion.cols();
-    let mut row = RowSum::new(dim);
+    let mut row = Accumulator::new(dim);
     let mut w = Rows::new(expansion.rows(), lower.len())?;
     for i in 0..expansion.rows() {
         monitor.check()?;
         let mirrored = upper.row(i).filter(|&(j, _)| j > i);
         for (j, q) in lower.row(i).chain(mirrored) {
             for (b, t) in expansion.row(j) {
-                row.add(b, q * t);
+                *row.slot(b as u32) += q * t;
             }
         }
         w.push(&mut row)?;
@@ -33,18 +33,18 @@ pub(super) fn hessian(lower: &Sparse, expansion: &Sparse, monitor: &mut Monitor)
     let mut h = Rows::new(dim, lower.len())?;
     for a in 0..dim {
         monitor.check()?;
-        row.add(a, 0.0);
+        row.slot(a as u32);
         for (i, t) in by_unknown.row(a) {
             for (&b, v) in w.indices[w.offsets[i]..w.offsets[i + 1]]
                 .iter()
                 .zip(&w.values[w.offsets[i]..w.offsets[i + 1]])
             {
                 if b as usize <= a {
-                    row.add(b as usize, t * v);
+                    *row.slot(b) += t * v;
                 }
             }
         }
-        row.present.sort_unstable();
+        row.sort();
         h.push(&mut row)?;
     }
     if h.values.iter().any(|v| !v.is_finite()) {
@@ -122,31 +122,6 @@ fn overflow() -> Error {
     }
 }
 
-/// A sparse row being summed.
-struct RowSum {
-    value: Vec<f64>,
-    marked: Vec<bool>,
-    present: Vec<u32>,
-}
-
-impl RowSum {
-    fn new(len: usize) -> Self {
-        RowSum {
-            value: vec![0.0; len],
-            marked: vec![false; len],
-            present: Vec::new(),
-        }
-    }
-
-    fn add(&mut self, j: usize, v: f64) {
-        if !self.marked[j] {
-            self.marked[j] = true;
-            self.present.push(j as u32);
-        }
-        self.value[j] += v;
-    }
-}
-
 /// Sparse rows, one after the other.
 struct Rows {
     offsets: Vec<usize>,
@@ -166,19 +141,17 @@ impl Rows {
     }
 
     /// Appends `row` in the order of its list, and empties it.
-    fn push(&mut self, row: &mut RowSum) -> Result<()> {
+    fn push(&mut self, row: &mut Accumulator<f64>) -> Result<()> {
         let out_of_memory = |_| Error::OutOfMemory {
             what: "the reduced Hessian",
         };
-        let more = row.present.len();
+        let more = row.len();
         self.indices.try_reserve(more).map_err(out_of_memory)?;
         self.values.try_reserve(more).map_err(out_of_memory)?;
-        for &j in &row.present {
-            row.marked[j as usize] = false;
+        row.drain(|j, v| {
             self.indices.push(j);
-            self.values.push(std::mem::take(&mut row.value[j as usize]));
-        }
-        row.present.clear();
+            self.values.push(v);
+        });
         self.offsets.push(self.indices.len());
         Ok(())
     }

@@ -1,18 +1,18 @@
-//! Right sides and pinned values, put through the steps of an elimination.
+//! Right sides and pinned values, put through the steps of an record.
 //!
 //! The result is the offset `t` of the expansion `x = T y + t`, or the row at which the right sides
 //! contradict each other. Plain solves and re-solves come through here alike, so that the same
 //! right sides give the same bits.
 
+use super::errors::{infeasible, no_integer_solution, overflow};
+use super::record::Record;
 use super::row::{TooLarge, add_product};
-use super::run::Elimination;
 use super::steps::Step;
 use super::tolerance::{CONSISTENT, LARGEST, NOISE, near_integer};
 use super::unknowns::Unknowns;
 use crate::linalg::CompensatedSum;
 use crate::monitor::Monitor;
-use crate::problem::row_text;
-use crate::{Error, Model, Result};
+use crate::{Model, Result};
 
 /// A number and the largest number that took part in making it: what noise is measured against.
 #[derive(Debug, Clone, Copy, Default)]
@@ -22,31 +22,27 @@ struct Side {
 }
 
 /// `t`, one number a caller's unknown, for the right sides and pinned values of `model`.
-pub(super) fn offset(
-    elimination: &Elimination,
-    model: &Model,
-    monitor: &mut Monitor,
-) -> Result<Vec<f64>> {
-    let constants = constants(elimination, model, monitor)?;
-    substitute_back(elimination, model, &constants, monitor)
+pub(super) fn offset(record: &Record, model: &Model, monitor: &mut Monitor) -> Result<Vec<f64>> {
+    let constants = constants(record, model, monitor)?;
+    substitute_back(record, model, &constants, monitor)
 }
 
 /// The constant of every substitution.
-fn constants(elimination: &Elimination, model: &Model, monitor: &mut Monitor) -> Result<Vec<f64>> {
+fn constants(record: &Record, model: &Model, monitor: &mut Monitor) -> Result<Vec<f64>> {
     // Unknowns pinned since are in no row, and no substitution of theirs is on the stack.
     let pins = model.pinned().iter().enumerate();
     let mut constants: Vec<Side> = pins
-        .filter(|&(i, _)| elimination.was_pinned(i))
+        .filter(|&(i, _)| record.pinned[i])
         .filter_map(|(_, &pin)| pin)
         .map(|value| Side {
             value,
             magnitude: value.abs(),
         })
         .collect();
-    let rows = elimination.scales.len();
-    let sides: Result<Vec<Side>> = (0..rows).map(|r| given(elimination, model, r)).collect();
+    let rows = record.scales.len();
+    let sides: Result<Vec<Side>> = (0..rows).map(|r| given(record, model, r)).collect();
     let mut sides = sides?;
-    for step in &elimination.steps {
+    for step in &record.steps {
         monitor.check()?;
         match *step {
             Step::Substitute {
@@ -97,10 +93,7 @@ fn constants(elimination: &Elimination, model: &Model, monitor: &mut Monitor) ->
                 let tolerance = CONSISTENT * magnitude.max(side.magnitude);
                 let noise = !integral && side.value.abs() <= tolerance;
                 if side.value != 0.0 && !noise {
-                    return Err(Error::Infeasible {
-                        constraint: row as usize,
-                        row: text(model, row as usize),
-                    });
+                    return Err(infeasible(model, row as usize));
                 }
             }
         }
@@ -109,8 +102,8 @@ fn constants(elimination: &Elimination, model: &Model, monitor: &mut Monitor) ->
 }
 
 /// The right side of row `r` as the elimination starts from it: scaled, pinned unknowns moved over.
-fn given(elimination: &Elimination, model: &Model, r: usize) -> Result<Side> {
-    let scale = elimination.scales[r];
+fn given(record: &Record, model: &Model, r: usize) -> Result<Side> {
+    let scale = record.scales[r];
     let rhs = model.constraint_rhs()[r] * scale;
     let mut magnitude = rhs.abs();
     let mut rest = CompensatedSum::new(rhs);
@@ -130,14 +123,14 @@ fn given(elimination: &Elimination, model: &Model, r: usize) -> Result<Side> {
 
 /// Puts the constants of later substitutions into the earlier ones.
 fn substitute_back(
-    elimination: &Elimination,
+    record: &Record,
     model: &Model,
     constants: &[f64],
     monitor: &mut Monitor,
 ) -> Result<Vec<f64>> {
-    let Elimination {
+    let Record {
         stack, unknowns, ..
-    } = elimination;
+    } = record;
     let mut known = constants.to_vec();
     for k in (0..stack.len()).rev() {
         monitor.check()?;
@@ -171,26 +164,4 @@ fn substitute_back(
         k => known[k as usize],
     };
     Ok(replaced.iter().map(offset).collect())
-}
-
-/// Constraint `r` as the caller gave it.
-pub(super) fn text(model: &Model, r: usize) -> String {
-    row_text(model.constraints().row(r), model.constraint_rhs()[r])
-}
-
-pub(super) fn overflow(model: &Model, r: usize) -> Error {
-    Error::Overflow {
-        what: format!(
-            "constraint {r}: {} leads to numbers too large to be exact",
-            text(model, r)
-        ),
-        index: Some(r),
-    }
-}
-
-fn no_integer_solution(model: &Model, r: usize) -> Error {
-    Error::NoIntegerSolution {
-        constraint: r,
-        row: text(model, r),
-    }
 }

@@ -1,6 +1,6 @@
 //! The coefficients of one equation while it is being worked on.
 
-use super::stack::Substitution;
+use super::substitution::Substitution;
 use super::tolerance::{LARGEST, NOISE, RANK};
 
 /// The left side of an equation; the right sides follow later, see `right_sides`.

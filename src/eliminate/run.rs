@@ -2,14 +2,13 @@
 
 use std::sync::Arc;
 
-use super::stack::Stack;
+use super::record::Record;
 use super::steps::{Definitions, Step};
 use super::tableau::Tableau;
-use super::unknowns::Unknowns;
 use super::{
     Expansion, ReducedModel, back, continuous, hold, integral, project, right_sides, subtree, sweep,
 };
-use crate::linalg::{Ordering, Sparse};
+use crate::linalg::{Ordering, Sparse, principal_submatrix};
 use crate::monitor::{Monitor, Phase};
 use crate::{Model, Result};
 
@@ -30,12 +29,8 @@ pub fn eliminate(model: &Model, monitor: &mut Monitor) -> Result<ReducedModel> {
 /// all of the reduced model but its linear part.
 #[derive(Debug)]
 pub struct Elimination {
-    pub(super) scales: Vec<f64>,
-    pub(super) unknowns: Unknowns,
-    pub(super) stack: Stack,
-    pub(super) steps: Vec<Step>,
+    record: Record,
     definitions: Definitions,
-    pinned: Vec<bool>,
     in_constraints: Vec<bool>,
     /// The reduced unknowns.
     free: Vec<u32>,
@@ -79,7 +74,7 @@ impl Elimination {
         let hessian = if tableau.stack.len() == 0 {
             project::with_diagonal(model.hessian())?
         } else if tableau.stack.len() == pins {
-            project::with_diagonal(&hold::hessian(model.hessian(), &free)?)?
+            project::with_diagonal(&principal_submatrix(model.hessian(), &free)?)?
         } else {
             project::hessian(model.hessian(), &matrix, monitor)?
         };
@@ -89,12 +84,14 @@ impl Elimination {
         }
         monitor.progress(Phase::Eliminate, 1.0)?;
         Ok(Elimination {
-            scales: tableau.rows.iter().map(|row| row.scale).collect(),
-            unknowns: tableau.unknowns,
-            stack: tableau.stack,
-            steps: tableau.steps,
+            record: Record {
+                scales: tableau.rows.iter().map(|row| row.scale).collect(),
+                pinned: model.pinned().iter().map(Option::is_some).collect(),
+                unknowns: tableau.unknowns,
+                stack: tableau.stack,
+                steps: tableau.steps,
+            },
             definitions: tableau.definitions,
-            pinned: model.pinned().iter().map(Option::is_some).collect(),
             in_constraints,
             free,
             matrix: Arc::new(matrix),
@@ -113,7 +110,7 @@ impl Elimination {
     /// [`NoIntegerSolution`](crate::Error::NoIntegerSolution) with the row at which it shows,
     /// [`Overflow`](crate::Error::Overflow), and what `monitor` asks for.
     pub fn reduce(&self, model: &Model, monitor: &mut Monitor) -> Result<ReducedModel> {
-        let offset = right_sides::offset(self, model, monitor)?;
+        let offset = right_sides::offset(&self.record, model, monitor)?;
         let held: Vec<(u32, f64)> = (self.free.iter().enumerate())
             .filter_map(|(y, &u)| {
                 let pin = model.pinned().get(u as usize)?;
@@ -124,7 +121,7 @@ impl Elimination {
             return self.linear_part(model, &self.hessian, &self.matrix, offset, &self.free);
         }
         let kept = hold::kept(self.free.len(), &held);
-        let hessian = Arc::new(hold::hessian(&self.hessian, &kept)?);
+        let hessian = Arc::new(principal_submatrix(&self.hessian, &kept)?);
         let (matrix, offset) = hold::expansion(&self.matrix, offset, &kept, &held)?;
         let free: Vec<u32> = kept.iter().map(|&y| self.free[y as usize]).collect();
         self.linear_part(model, &hessian, &Arc::new(matrix), offset, &free)
@@ -140,7 +137,7 @@ impl Elimination {
     ) -> Result<ReducedModel> {
         let expansion = Expansion::new(Arc::clone(matrix), offset);
         let (gradient, constant) = project::linear(model, &expansion)?;
-        let is_integer = |&y: &u32| self.unknowns.integer[free[y as usize] as usize];
+        let is_integer = |&y: &u32| self.record.unknowns.integer[free[y as usize] as usize];
         let (integers, continuous) = (0..free.len() as u32).partition(is_integer);
         let guess = self.definitions.evaluate(model.guess());
         Ok(ReducedModel {
@@ -157,7 +154,7 @@ impl Elimination {
 
     /// Whether `unknown` was pinned when the constraints were eliminated.
     pub fn was_pinned(&self, unknown: usize) -> bool {
-        self.pinned[unknown]
+        self.record.pinned[unknown]
     }
 
     /// Whether `unknown` can be pinned without another elimination: it is in no constraint.

@@ -1,25 +1,8 @@
 //! The substitutions made so far, in the order made.
 
 use super::row::Row;
+use super::substitution::Substitution;
 use crate::Error;
-
-/// An unknown expressed by others: `x_pivot = constant + terms`, the terms being unknowns that were
-/// free when it was made. The constant depends on right sides, see `right_sides`.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Substitution {
-    pub pivot: u32,
-    /// The constraint it comes from; [`NO_CONSTRAINT`](Self::NO_CONSTRAINT) for a pin.
-    pub constraint: u32,
-    /// The largest coefficient among the terms.
-    pub largest: f64,
-    /// The magnitude of the row that it comes from; see [`Row`].
-    pub magnitude: f64,
-}
-
-impl Substitution {
-    /// Where a pinned unknown says that it comes from.
-    pub const NO_CONSTRAINT: u32 = u32::MAX;
-}
 
 /// A list of substitutions; later ones never mention an unknown that an earlier one replaced.
 #[derive(Debug, Default)]

@@ -21,8 +21,8 @@
 //! them grows eightfold with each level.
 
 use super::cluster::Tree;
-use super::stack::Substitution;
 use super::steps::Step;
+use super::substitution::Substitution;
 use super::tableau::Tableau;
 use super::tolerance::LONG;
 use super::unknowns::Unknowns;

@@ -9,14 +9,13 @@
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-use super::integral::make_integral;
 use super::row::{TooLarge, add_product};
 use super::steps::Step;
-
 use super::tableau::Tableau;
 use super::tolerance::NOISE;
 use super::unknowns::Unknowns;
 use crate::Result;
+use crate::linalg::Accumulator;
 use crate::monitor::Monitor;
 
 /// Frees row `r` of all unknowns that have been replaced.
@@ -61,7 +60,7 @@ pub(super) fn sweep(tableau: &mut Tableau, r: usize, monitor: &mut Monitor) -> R
     let becomes_integral = row.continuous == 0 && !integral && !row.entries.is_empty();
     swept.map_err(|TooLarge| tableau.overflow(r))?;
     if becomes_integral {
-        make_integral(tableau, r)?;
+        tableau.make_integral(r)?;
     }
     Ok(())
 }
@@ -69,31 +68,40 @@ pub(super) fn sweep(tableau: &mut Tableau, r: usize, monitor: &mut Monitor) -> R
 /// A row spread over all unknowns, with the substitutions it calls for in order.
 struct Scatter<'a> {
     replaced: &'a [u32],
-    value: Vec<f64>,
-    /// 0: absent; 1: one term; 2: several terms, which may have cancelled.
-    terms: Vec<u8>,
-    present: Vec<u32>,
+    entries: Accumulator<Entry>,
     order: BinaryHeap<Reverse<(u32, u32)>>,
+}
+
+#[derive(Clone, Copy, Default)]
+struct Entry {
+    value: f64,
+    terms: Terms,
+}
+
+/// How many terms an entry is the sum of. Several may have cancelled.
+#[derive(Clone, Copy, Default, PartialEq, Eq)]
+enum Terms {
+    #[default]
+    None,
+    One,
+    Several,
 }
 
 impl<'a> Scatter<'a> {
     fn new(unknowns: &'a Unknowns) -> Self {
         Scatter {
             replaced: &unknowns.replaced,
-            value: vec![0.0; unknowns.len()],
-            terms: vec![0; unknowns.len()],
-            present: Vec::new(),
+            entries: Accumulator::new(unknowns.len()),
             order: BinaryHeap::new(),
         }
     }
 
     fn insert(&mut self, unknown: u32, value: f64) {
-        let u = unknown as usize;
-        self.value[u] = value;
-        self.terms[u] = 1;
-        match self.replaced[u] {
-            Unknowns::FREE => self.present.push(unknown),
-            k => self.order.push(Reverse((k, unknown))),
+        let terms = Terms::One;
+        *self.entries.slot(unknown) = Entry { value, terms };
+        let substitution = self.replaced[unknown as usize];
+        if substitution != Unknowns::FREE {
+            self.order.push(Reverse((substitution, unknown)));
         }
     }
 
@@ -104,39 +112,45 @@ impl<'a> Scatter<'a> {
         exact: bool,
     ) -> std::result::Result<(), TooLarge> {
         for &(unknown, term) in terms {
-            let u = unknown as usize;
-            let sum = add_product(self.value[u], factor, term, exact)?;
-            if self.terms[u] == 0 {
-                self.insert(unknown, sum);
+            let entry = *self.entries.get(unknown);
+            let value = add_product(entry.value, factor, term, exact)?;
+            if entry.terms == Terms::None {
+                self.insert(unknown, value);
             } else {
-                self.value[u] = sum;
-                self.terms[u] = 2;
+                let terms = Terms::Several;
+                *self.entries.slot(unknown) = Entry { value, terms };
             }
         }
         Ok(())
     }
 
-    fn is_noise(&self, unknown: u32, noise: f64, exact: bool) -> bool {
-        let u = unknown as usize;
-        let size = self.value[u].abs();
-        size == 0.0 || (!exact && self.terms[u] > 1 && size <= noise)
-    }
-
     /// The earliest substitution still to be made, and the coefficient of what it replaces.
     fn next_replaced(&mut self, noise: f64, exact: bool) -> Option<(usize, f64)> {
         while let Some(Reverse((k, unknown))) = self.order.pop() {
-            if !self.is_noise(unknown, noise, exact) {
-                return Some((k as usize, self.value[unknown as usize]));
+            let entry = self.entries.get(unknown);
+            if !entry.is_noise(noise, exact) {
+                return Some((k as usize, entry.value));
             }
         }
         None
     }
 
     fn gather(mut self, noise: f64, exact: bool) -> Vec<(u32, f64)> {
-        let mut present = std::mem::take(&mut self.present);
-        present.sort_unstable();
-        present.retain(|&unknown| !self.is_noise(unknown, noise, exact));
-        let value = |unknown: u32| (unknown, self.value[unknown as usize]);
-        present.into_iter().map(value).collect()
+        let mut row = Vec::new();
+        self.entries.sort();
+        self.entries.drain(|unknown, entry| {
+            let free = self.replaced[unknown as usize] == Unknowns::FREE;
+            if free && !entry.is_noise(noise, exact) {
+                row.push((unknown, entry.value));
+            }
+        });
+        row
+    }
+}
+
+impl Entry {
+    fn is_noise(&self, noise: f64, exact: bool) -> bool {
+        let size = self.value.abs();
+        size == 0.0 || (!exact && self.terms == Terms::Several && size <= noise)
     }
 }

@@ -5,13 +5,14 @@
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-use super::integral::make_integral;
+use super::errors;
 use super::occurrences::Occurrences;
-use super::right_sides;
+use super::ratio::integer_multiples;
 use super::row::{Change, Row, State, TooLarge};
-use super::stack::{Stack, Substitution};
+use super::stack::Stack;
 use super::steps::{Definitions, Step};
-use super::tolerance::{LARGEST_PIVOT, LONG, PIVOT};
+use super::substitution::Substitution;
+use super::tolerance::{LARGEST, LARGEST_PIVOT, LONG, PIVOT};
 use super::unknowns::Unknowns;
 use crate::linalg::Ordering;
 use crate::{Error, Model, Result};
@@ -106,7 +107,7 @@ impl<'a> Tableau<'a> {
             .count() as u32;
         let len = row.entries.len();
         if len > 0 && row.continuous == 0 && !row.integral {
-            make_integral(self, r)?;
+            self.make_integral(r)?;
         }
         let row = &mut self.rows[r];
         if len > LONG && self.ordering != Ordering::LargestPivot {
@@ -223,13 +224,23 @@ impl<'a> Tableau<'a> {
         )
     }
 
-    /// Constraint `r` as the caller gave it.
-    pub fn text(&self, r: usize) -> String {
-        right_sides::text(self.model, r)
+    /// Turns the coefficients of row `r`, which has integer unknowns only, into integers.
+    pub fn make_integral(&mut self, r: usize) -> Result<()> {
+        let row = &mut self.rows[r];
+        let Some(unit) = integer_multiples(row) else {
+            return Err(errors::incommensurable(self.model, r));
+        };
+        if row.entries.iter().any(|e| e.1.abs() >= LARGEST) {
+            return Err(self.overflow(r));
+        }
+        row.integral = true;
+        let row = r as u32;
+        self.steps.push(Step::MakeIntegral { row, unit });
+        Ok(())
     }
 
     pub fn overflow(&self, r: usize) -> Error {
-        right_sides::overflow(self.model, r)
+        errors::overflow(self.model, r)
     }
 }
 

@@ -8,16 +8,9 @@
 //! must take it outside is left out alone (see [`super::Diagonals`]). Distances are sums of squares
 //! and cannot cancel; the offsets are computed near the target, where everything is small.
 
+use super::near_points::NearPoints;
 use super::tree::Tree;
 use super::{Basis, Diagonals, Target};
-
-/// Points are looked for that are closer than the best one by at least this part of its squared
-/// distance: far above the rounding errors of a sum of squares, far below
-/// what a proof is allowed to lack.
-pub const NEARER: f64 = 2e-12;
-
-/// Points that are kept at most.
-pub const MOST: usize = 64;
 
 /// Nodes between two looks at who may stop the enumeration.
 const WATCH: u64 = 1 << 14;
@@ -38,13 +31,13 @@ pub struct Limits {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Enumerated {
     /// Steps to the points within the radius that are the closest or within the margin of it,
-    /// with their squared distances, nearest first. Were they more than [`MOST`], only the closest.
+    /// with their squared distances, nearest first. Were they more than [`MOST`](super::MOST), only the closest.
     pub near: Vec<(Vec<i64>, f64)>,
     /// Nodes visited.
     pub nodes: u64,
     /// Whether the whole ball was searched.
     pub complete: bool,
-    /// No lattice point but those in `near` has a smaller squared distance (up to [`NEARER`]).
+    /// No lattice point but those in `near` has a smaller squared distance (up to [`NEARER`](super::NEARER)).
     pub bound: f64,
 }
 
@@ -70,11 +63,7 @@ pub fn enumerate(
         };
     }
     let mut tree = Tree::new(basis, target, diagonals, limits.radius);
-    let mut found = Found {
-        radius: limits.radius,
-        margin: limits.margin,
-        near: Vec::new(),
-    };
+    let mut found = NearPoints::new(limits.radius, limits.margin);
     let mut nodes = 0;
     let mut complete = false;
     while !complete && nodes < limits.nodes && !stop(nodes) {
@@ -88,11 +77,10 @@ pub fn enumerate(
     } else {
         tree.unexplored().min(found.radius)
     };
-    let mut near = found.near;
-    near.retain(|(_, d)| *d <= found.radius || found.margin == 0.0);
-    near.sort_by(|a, b| a.1.total_cmp(&b.1));
     Enumerated {
-        near: near.into_iter().map(|(z, d)| (whole(&z), d)).collect(),
+        near: (found.nearest_first().into_iter())
+            .map(|(z, d)| (whole(&z), d))
+            .collect(),
         nodes,
         complete,
         bound,
@@ -101,35 +89,4 @@ pub fn enumerate(
 
 fn whole(z: &[f64]) -> Vec<i64> {
     z.iter().map(|&v| v as i64).collect()
-}
-
-/// The best points so far.
-pub(super) struct Found {
-    pub radius: f64,
-    margin: f64,
-    near: Vec<(Vec<f64>, f64)>,
-}
-
-impl Found {
-    /// Takes a point within the radius, which shrinks with it.
-    #[cold]
-    pub fn take(&mut self, z: &[f64], distance: f64) {
-        if self.margin > 0.0 {
-            self.radius = self.radius.min(distance + self.margin);
-            let radius = self.radius;
-            self.near.retain(|(_, d)| *d <= radius);
-            self.near.push((z.to_vec(), distance));
-            if self.near.len() <= MOST {
-                return;
-            }
-            self.margin = 0.0;
-        } else {
-            self.near.push((z.to_vec(), distance));
-        }
-        // Only the closest, the first of equals.
-        let closest = self.near.iter().map(|n| n.1).fold(f64::INFINITY, f64::min);
-        self.near.retain(|n| n.1 == closest);
-        self.near.truncate(1);
-        self.radius = closest * (1.0 - NEARER);
-    }
 }

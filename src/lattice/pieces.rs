@@ -5,6 +5,7 @@
 
 use super::{Basis, DEPTH, Diagonals, Target, lll, nearest_plane, predicted_nodes};
 use crate::Result;
+use crate::linalg::DisjointSets;
 
 /// One part: the best point so far, and what is proved about all points.
 #[derive(Debug, Clone)]
@@ -91,27 +92,13 @@ pub fn pieces(
 
 /// The columns that share rows, directly or through others; both orders increase.
 fn components(m: usize, r: &[f64]) -> Vec<Vec<usize>> {
-    let mut parent: Vec<usize> = (0..m).collect();
-    fn root(parent: &mut [usize], mut i: usize) -> usize {
-        while parent[i] != i {
-            parent[i] = parent[parent[i]];
-            i = parent[i];
-        }
-        i
-    }
+    let mut sets = DisjointSets::new(m);
     for j in 0..m {
         for i in (0..j).filter(|i| r[j * m + i] != 0.0) {
-            let (a, b) = (root(&mut parent, i), root(&mut parent, j));
-            parent[a.max(b)] = a.min(b);
+            sets.join(i, j);
         }
     }
-    let mut parts: Vec<Vec<usize>> = vec![Vec::new(); m];
-    for i in 0..m {
-        let at = root(&mut parent, i);
-        parts[at].push(i);
-    }
-    parts.retain(|p| !p.is_empty());
-    parts
+    sets.sets()
 }
 
 /// The integers of all pieces in their best points.

@@ -258,7 +258,7 @@ fn decode(
         let at = |&i: &u32| search.relaxed()[i as usize];
         model.integers().iter().map(at).collect()
     };
-    let (r, full) = factors.schur_factor(model)?.schur();
+    let (r, full) = factors.schur_block(model)?;
     search.work.spend(4 * (m as u64).pow(3));
     let mut stop = |work| search.ends(work);
     let mut pieces = pieces(m, r, full, &relaxed, &mut stop)?;

@@ -5,7 +5,7 @@
 //! of them; what they must at least add to the distance is read off in the same sweep
 //! (see [`super::Diagonals`]).
 
-use super::enumerate::Found;
+use super::near_points::NearPoints;
 use super::{Basis, Diagonals, Target};
 
 /// Rows are padded to whole vectors of this many numbers.
@@ -120,7 +120,7 @@ impl Tree {
     }
 
     /// Visits up to `nodes` nodes; returns how many, and whether the tree ended.
-    pub fn walk(&mut self, found: &mut Found, nodes: u64) -> (u64, bool) {
+    pub fn walk(&mut self, found: &mut NearPoints, nodes: u64) -> (u64, bool) {
         let mut k = self.k;
         for node in 0..nodes {
             let off = self.minimiser[k * self.stride + k] - self.z[k];

@@ -4,7 +4,7 @@
 //! Bommes, Zimmer, Kobbelt 2009, section 3 ("adaptive" greedy rounding), with two changes that were
 //! measured on orientation fields of 20,000 faces:
 //!
-//! - *Private* integers, which couple to a few unknowns that are not integer, are not relaxed but
+//! - *Local* integers, which couple to a few unknowns that are not integer, are not relaxed but
 //!   follow exactly: see [`super::static_condensation`].
 //! - Over-relaxation (Young 1954) by [`OVERRELAXATION`].
 
@@ -34,9 +34,9 @@ pub struct LocalSolve<'a> {
 /// All that an update of one unknown reads of it, side by side.
 #[derive(Debug, Clone, Copy)]
 struct Unknown {
-    /// Current, but of a free private integer, which follows on demand.
+    /// Current, but of a free local integer, which follows on demand.
     value: f64,
-    /// Slope of the condensed objective, unless it is a private integer.
+    /// Slope of the condensed objective, unless it is a local integer.
     residual: f64,
     fixed: bool,
     queued: bool,
@@ -71,7 +71,7 @@ impl<'a> LocalSolve<'a> {
     pub fn value(&self, unknown: u32) -> f64 {
         let i = unknown as usize;
         let Unknown { value, fixed, .. } = self.unknowns[i];
-        if fixed || !self.system.is_private(i) {
+        if fixed || !self.system.is_local(i) {
             return value;
         }
         let couplings = self.system.couplings(i);
@@ -92,7 +92,7 @@ impl<'a> LocalSolve<'a> {
         let step = value - self.value(unknown);
         self.unknowns[k].value = value;
         self.unknowns[k].fixed = true;
-        if self.system.is_private(k) {
+        if self.system.is_local(k) {
             for at in self.system.coupling_range(k) {
                 let (j, value) = self.system.coupling(at);
                 let column = j as u32;
@@ -216,7 +216,7 @@ mod tests {
     use super::super::{Cholesky, minimise_bounded};
     use super::*;
 
-    /// Angles on a ring with one private unknown a step, all tied weakly to the ground.
+    /// Angles on a ring with one local unknown a step, all tied weakly to the ground.
     fn ring(steps: u32) -> Sparse {
         let rows = (0..steps).map(move |k| [(k, 1.0), ((k + 1) % steps, -1.0), (steps + k, 1.5)]);
         let squares = rows.flat_map(|row| {

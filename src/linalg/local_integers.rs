@@ -1,23 +1,23 @@
-//! *Private* integers: those that couple to few unknowns, none of them integer, such as a period
-//! jump of an orientation field, which couples to two angles.
+//! *Local* integers: those that couple to few unknowns, none of them integer. The period jumps of an
+//! orientation field are local: each couples to two angles.
 //!
-//! While it is free, a private integer follows its unknowns exactly, and the Schur complement that
-//! remains has not even an entry left of a row that it absorbs.
+//! While a local integer is free, it follows its unknowns exactly. In the Schur complement that remains,
+//! a least-squares row with a free local integer leaves no entry.
 
 use super::Sparse;
 
 /// More couplings than this would fill the Schur complement.
 const FEW: usize = 4;
 
-/// Which unknowns of the matrix with lower triangle `lower` are private integers.
+/// Which unknowns of the matrix with lower triangle `lower` are local integers.
 pub(super) fn local_integers(lower: &Sparse, integer: &[bool]) -> Vec<bool> {
     let n = lower.rows();
     let mut couplings = vec![0usize; n];
-    let mut private = vec![false; n];
+    let mut local = vec![false; n];
     for (i, j, v) in lower.entries() {
         let (i, j) = (i as usize, j as usize);
         if i == j {
-            private[i] = integer[i] && v > 0.0;
+            local[i] = integer[i] && v > 0.0;
         }
     }
     for (i, j, _) in lower.entries().filter(|&(i, j, v)| i != j && v != 0.0) {
@@ -25,12 +25,12 @@ pub(super) fn local_integers(lower: &Sparse, integer: &[bool]) -> Vec<bool> {
         couplings[i] += 1;
         couplings[j] += 1;
         if integer[i] && integer[j] {
-            private[i] = false;
-            private[j] = false;
+            local[i] = false;
+            local[j] = false;
         }
     }
-    for (p, count) in private.iter_mut().zip(couplings) {
+    for (p, count) in local.iter_mut().zip(couplings) {
         *p &= count <= FEW;
     }
-    private
+    local
 }

@@ -1,6 +1,6 @@
 //! Exact minimisation with some unknowns held, by a factorization of what is left.
 
-use super::{Cholesky, Sparse, minimise_bounded};
+use super::{Cholesky, Sparse, minimise_bounded, principal_submatrix};
 use crate::Result;
 
 /// Minimises `1/2 x'Ax + g'x` over the unknowns that are not `held`, from `point`; the held ones
@@ -14,11 +14,9 @@ pub fn minimise_fixed(
     held: &[bool],
     point: &[f64],
 ) -> Result<Vec<f64>> {
-    let free: Vec<usize> = (0..held.len()).filter(|&i| !held[i]).collect();
-    let mut place = vec![u32::MAX; held.len()];
-    for (k, &i) in free.iter().enumerate() {
-        place[i] = k as u32;
-    }
+    let free: Vec<u32> = (0..held.len() as u32)
+        .filter(|&i| !held[i as usize])
+        .collect();
     let mut pull = gradient.to_vec();
     for (i, j, v) in lower.entries() {
         let (i, j) = (i as usize, j as usize);
@@ -28,16 +26,12 @@ pub fn minimise_fixed(
             _ => {}
         }
     }
-    let inner = lower
-        .entries()
-        .filter(|&(i, j, _)| !held[i as usize] && !held[j as usize])
-        .map(|(i, j, v)| (place[i as usize], place[j as usize], v));
-    let block = Sparse::from_triplets(free.len(), free.len(), inner)?;
-    let pick = |v: &[f64]| -> Vec<f64> { free.iter().map(|&i| v[i]).collect() };
+    let block = principal_submatrix(lower, &free)?;
+    let pick = |v: &[f64]| -> Vec<f64> { free.iter().map(|&i| v[i as usize]).collect() };
     let inner = minimise_bounded(&block, &pick(&pull), &pick(point), &Cholesky::new(&block)?)?;
     let mut all = point.to_vec();
     for (&i, &v) in free.iter().zip(&inner) {
-        all[i] = v;
+        all[i as usize] = v;
     }
     Ok(all)
 }

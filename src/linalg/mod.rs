@@ -1,10 +1,12 @@
 //! What faer lacks: fixing unknowns in a sparse factor, semi-definite systems with a documented
 //! choice of minimiser, sums whose terms cancel.
 
+mod accumulator;
 mod analysis;
 mod cholesky;
 mod compensated;
 mod conjugate_gradient;
+mod disjoint_sets;
 mod fix;
 mod gauss_seidel;
 mod ldl;
@@ -15,18 +17,22 @@ mod minimise_fixed;
 mod ordering;
 mod path;
 mod queue_gauss_seidel;
+mod random;
 mod relaxed;
 mod scaling;
 mod schur_factor;
 pub mod sparse;
 mod static_condensation;
+mod submatrix;
 mod substitute;
 mod unpreconditioned_cg;
 
+pub(crate) use accumulator::Accumulator;
 pub use analysis::Analysis;
 pub use cholesky::{Cholesky, NULL_PIVOT, PIVOT_TOLERANCE};
 pub use compensated::CompensatedSum;
 pub use conjugate_gradient::{Effort, conjugate_gradient};
+pub(crate) use disjoint_sets::DisjointSets;
 pub use fix::FixedSolve;
 pub use gauss_seidel::LocalSolve;
 pub use ldl::Ldl;
@@ -38,8 +44,10 @@ pub use minimise_fixed::minimise_fixed;
 pub use ordering::{EliminationTree, Ordering, minimum_degree};
 pub use path::PathSolve;
 pub use queue_gauss_seidel::QueueGaussSeidel;
+pub(crate) use random::Random;
 pub use relaxed::RelaxedFactor;
 pub use scaling::equilibrate;
 pub use schur_factor::SchurFactor;
 pub use sparse::Sparse;
+pub use submatrix::{NO_PLACE, coupling, places, principal_submatrix};
 pub use unpreconditioned_cg::unpreconditioned_conjugate_gradient;

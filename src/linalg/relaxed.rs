@@ -1,27 +1,24 @@
 //! The factor of a whole reduced Hessian, all integers real.
 //!
-//! [Private](super::local_integers) integers are eliminated by hand first, which is one division each, and
+//! [Local](super::local_integers) integers are eliminated by hand first, which is one division each, and
 //! only their Schur complement is ordered and factored. On an orientation field that is the
 //! Laplacian of a forest, whose factor has no fill at all.
 
 use super::local_integers::local_integers;
 use super::minimise::{CANCELLED, Lowest, Minimum, minimise};
-use super::{Cholesky, Ordering, Sparse};
+use super::{Cholesky, NO_PLACE, Ordering, Sparse, coupling, places};
 use crate::Result;
 
-/// No place.
-const NONE: u32 = u32::MAX;
-
-/// A factor of `A` in two steps: private integers, then the rest.
+/// A factor of `A` in two steps: local integers, then the rest.
 #[derive(Debug)]
 pub struct RelaxedFactor {
-    /// Place of every unknown among the rest; none for the private.
+    /// Place of every unknown among the rest; [`NO_PLACE`] for local integers.
     place: Vec<u32>,
     rest: Vec<u32>,
-    private: Vec<u32>,
-    /// `A_pp` of each private integer.
+    local: Vec<u32>,
+    /// `A_pp` of each local integer.
     curvature: Vec<f64>,
-    /// One row a private integer: its couplings to the rest.
+    /// One row a local integer: its couplings to the rest.
     coupling: Sparse,
     /// Lower triangle of the Schur complement of the rest.
     schur: Sparse,
@@ -49,37 +46,17 @@ impl RelaxedFactor {
         let n = lower.rows();
         let mut integer = vec![false; n];
         integers.iter().for_each(|&i| integer[i as usize] = true);
-        let is_private = local_integers(lower, &integer);
-        let mut place = vec![NONE; n];
-        let (mut private, mut rest) = (Vec::new(), Vec::new());
-        for i in 0..n {
-            if is_private[i] {
-                private.push(i as u32);
-            } else {
-                place[i] = rest.len() as u32;
-                rest.push(i as u32);
-            }
-        }
-        let mut row_of = vec![NONE; n];
-        for (k, &p) in private.iter().enumerate() {
-            row_of[p as usize] = k as u32;
-        }
-        let mut curvature = vec![0.0; private.len()];
+        let is_local = local_integers(lower, &integer);
+        let all = 0..n as u32;
+        let (local, rest): (Vec<u32>, Vec<u32>) = all.partition(|&i| is_local[i as usize]);
+        let mut diagonal = vec![0.0; n];
         for (i, _, v) in lower.entries().filter(|&(i, j, _)| i == j) {
-            if is_private[i as usize] {
-                curvature[row_of[i as usize] as usize] = v;
-            }
+            diagonal[i as usize] = v;
         }
-        let mixed = lower.entries().filter_map(|(i, j, v)| {
-            let (a, b) = (row_of[i as usize], row_of[j as usize]);
-            match (a != NONE, b != NONE) {
-                (true, false) => Some((a, place[j as usize], v)),
-                (false, true) => Some((b, place[i as usize], v)),
-                _ => None,
-            }
-        });
-        let coupling = Sparse::from_triplets(private.len(), rest.len(), mixed)?;
-        let schur = if private.is_empty() {
+        let curvature: Vec<f64> = local.iter().map(|&p| diagonal[p as usize]).collect();
+        let coupling = coupling(lower, &local, &rest)?;
+        let place = places(n, &rest);
+        let schur = if local.is_empty() {
             lower.clone()
         } else {
             schur(lower, &place, rest.len(), &coupling, &curvature)?
@@ -88,14 +65,14 @@ impl RelaxedFactor {
             factor: Cholesky::ordered(&schur, ordering)?,
             place,
             rest,
-            private,
+            local,
             curvature,
             coupling,
             schur,
         })
     }
 
-    /// Number of entries of the factor below the diagonal, the private integers' included.
+    /// Number of entries of the factor below the diagonal, the local integers' included.
     pub fn entries(&self) -> usize {
         self.coupling.len() + self.factor.entries()
     }
@@ -144,7 +121,7 @@ impl RelaxedFactor {
     /// The right side that the rest sees: `b_r - A_rp A_pp^-1 b_p`.
     fn condense(&self, b: &[f64]) -> Vec<f64> {
         let mut inner: Vec<f64> = self.rest.iter().map(|&i| b[i as usize]).collect();
-        for (k, &p) in self.private.iter().enumerate() {
+        for (k, &p) in self.local.iter().enumerate() {
             let pull = b[p as usize] / self.curvature[k];
             for (i, v) in self.coupling.row(k) {
                 inner[i] -= v * pull;
@@ -158,7 +135,7 @@ impl RelaxedFactor {
     fn condensed_rounding(&self, gradient: &[f64], rounding: &[f64]) -> Vec<f64> {
         let noise = |i: u32| CANCELLED * gradient[i as usize].abs() + rounding[i as usize];
         let mut inner: Vec<f64> = self.rest.iter().map(|&i| noise(i)).collect();
-        for (k, &p) in self.private.iter().enumerate() {
+        for (k, &p) in self.local.iter().enumerate() {
             let pull = noise(p) / self.curvature[k];
             for (i, v) in self.coupling.row(k) {
                 inner[i] += (v * pull).abs();
@@ -167,14 +144,14 @@ impl RelaxedFactor {
         inner
     }
 
-    /// Puts the rest in place and lets the private integers follow, whose right sides are in `b`.
+    /// Puts the rest in place and lets the local integers follow, whose right sides are in `b`.
     fn embed(&self, inner: &[f64], b: &mut [f64]) {
-        for (k, &p) in self.private.iter().enumerate() {
+        for (k, &p) in self.local.iter().enumerate() {
             let pull: f64 = self.coupling.row(k).map(|(i, v)| v * inner[i]).sum();
             b[p as usize] = (b[p as usize] - pull) / self.curvature[k];
         }
         for (b, &place) in b.iter_mut().zip(&self.place) {
-            if place != NONE {
+            if place != NO_PLACE {
                 *b = inner[place as usize];
             }
         }
@@ -191,8 +168,8 @@ fn schur(
 ) -> Result<Sparse> {
     let mut terms = super::sparse::reserve(lower.len() + 6 * coupling.rows())?;
     let mut size = vec![0.0; dim];
-    for i in (0..lower.rows()).filter(|&i| place[i] != NONE) {
-        for (j, v) in lower.row(i).filter(|&(j, _)| place[j] != NONE) {
+    for i in (0..lower.rows()).filter(|&i| place[i] != NO_PLACE) {
+        for (j, v) in lower.row(i).filter(|&(j, _)| place[j] != NO_PLACE) {
             terms.push((place[i], place[j], v));
             if i == j {
                 size[place[i] as usize] = v.abs();
@@ -250,7 +227,7 @@ mod tests {
 
     #[test]
     fn an_angle_that_integers_follow_without_end_is_no_endless_slope() {
-        // w (x0 - x1 + 0.7 p + r)^2 for three rows with a private integer each.
+        // w (x0 - x1 + 0.7 p + r)^2 for three rows with a local integer each.
         let rows = [(0.37, 11.3, 1.03), (0.91, -7.7, 0.61), (0.13, 3.1, 1.47)];
         let (mut entries, mut gradient) = (Vec::new(), vec![0.0; 5]);
         for (p, (w, r, turn)) in (2u32..).zip(rows) {
@@ -273,7 +250,7 @@ mod tests {
     fn it_solves_as_the_factor_of_the_whole_does() {
         let (a, integers) = path(30);
         let two_steps = RelaxedFactor::new(&a, &integers).unwrap();
-        assert_eq!(two_steps.private.len(), integers.len());
+        assert_eq!(two_steps.local.len(), integers.len());
         let gradient: Vec<f64> = (0..60)
             .map(|i| match i {
                 // An unknown without curvature must not have a slope either.

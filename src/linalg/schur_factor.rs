@@ -9,7 +9,7 @@
 //! faer's supernodes want; the integers fill up to a dense block whatever their order. That makes it
 //! the right factor where integers are few.
 
-use super::{Cholesky, EliminationTree, Sparse, minimum_degree};
+use super::{Cholesky, EliminationTree, Sparse, minimum_degree, principal_submatrix};
 use crate::Result;
 
 /// The factor and its trailing block.
@@ -28,15 +28,7 @@ impl SchurFactor {
     /// # Errors
     /// As [`Cholesky::new`].
     pub fn new(lower: &Sparse, continuous: &[u32], integers: &[u32]) -> Result<Self> {
-        let mut place = vec![u32::MAX; lower.rows()];
-        for (k, &i) in continuous.iter().enumerate() {
-            place[i as usize] = k as u32;
-        }
-        let own = lower.entries().filter_map(|(i, j, v)| {
-            let (a, b) = (place[i as usize], place[j as usize]);
-            (a != u32::MAX && b != u32::MAX).then_some((a, b, v))
-        });
-        let block = Sparse::from_triplets(continuous.len(), continuous.len(), own)?;
+        let block = principal_submatrix(lower, continuous)?;
         let tree = EliminationTree::new(&block, &minimum_degree(&block)?);
         let mut order: Vec<u32> = tree.order.iter().map(|&k| continuous[k as usize]).collect();
         order.extend(integers);

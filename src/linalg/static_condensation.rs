@@ -1,25 +1,27 @@
-//! A quadratic from which [private](super::local_integers) integers are eliminated while they are free.
+//! Static condensation: a quadratic from which [local](super::local_integers) integers are eliminated
+//! while they are free.
 //!
-//! In what is left Gauss-Seidel converges several times faster, and an update reads a third of the
-//! entries. When a private integer is fixed its part is given back, at a few entries.
+//! Gauss-Seidel converges several times faster on the condensed system, and an update reads a third of
+//! the entries. Once a local integer is fixed, its part of the Schur complement is added back, which
+//! changes a few entries.
 
 use super::Sparse;
 use super::local_integers::local_integers;
 use crate::{Error, Result};
 
-/// No entry is this small next to what it is the difference of: it cancelled.
+/// A difference this small, relative to its terms, has cancelled and counts as zero.
 const CANCELLED: f64 = 1e-12;
 
-/// `A` with free private integers eliminated.
+/// `A` with free local integers eliminated.
 #[derive(Debug)]
 pub(super) struct StaticCondensation {
     /// All of A but its diagonal, both triangles.
     matrix: Sparse,
     diagonal: Vec<f64>,
-    private: Vec<bool>,
+    local: Vec<bool>,
     rows: Vec<Row>,
     entries: Vec<Entry>,
-    /// For each unknown the free private integers that couple to it: those of unknown `i` are the
+    /// For each unknown the free local integers that couple to it: those of unknown `i` are the
     /// first `followers_left[i]` from `followers_start[i]` on.
     followers: Vec<u32>,
     followers_start: Vec<u32>,
@@ -42,7 +44,7 @@ pub(super) struct Entry {
 }
 
 impl StaticCondensation {
-    /// The system of the `A` with lower triangle `lower`, all private integers free.
+    /// The system of the `A` with lower triangle `lower`, all local integers free.
     pub fn new(lower: &Sparse, integer: &[bool]) -> Result<Self> {
         let n = lower.rows();
         let mut diagonal = vec![0.0; n];
@@ -52,8 +54,8 @@ impl StaticCondensation {
         let off = lower.entries().filter(|&(i, j, v)| i != j && v != 0.0);
         let both = off.flat_map(|(i, j, v)| [(i, j, v), (j, i, v)]);
         let matrix = Sparse::from_triplets(n, n, both)?;
-        let private = local_integers(lower, integer);
-        let pairs = (0..n).filter(|&p| private[p]).flat_map(|p| {
+        let local = local_integers(lower, integer);
+        let pairs = (0..n).filter(|&p| local[p]).flat_map(|p| {
             let row = matrix.row(p);
             let inner = move |(i, _)| row.clone().map(move |(j, _)| (i, j));
             let couples = matrix.row(p).flat_map(inner);
@@ -63,7 +65,7 @@ impl StaticCondensation {
         });
         let kept = matrix
             .entries()
-            .filter(|&(i, j, _)| !private[i as usize] && !private[j as usize]);
+            .filter(|&(i, j, _)| !local[i as usize] && !local[j as usize]);
         let pattern = Sparse::from_triplets(n, n, kept.chain(pairs))?;
         if pattern.len() > u32::MAX as usize {
             return Err(Error::OutOfMemory {
@@ -83,7 +85,7 @@ impl StaticCondensation {
         for i in 0..n {
             let start = followers.len();
             let couplings = matrix.row(i).map(|(j, _)| j as u32);
-            followers.extend(couplings.filter(|&j| private[j as usize]));
+            followers.extend(couplings.filter(|&j| local[j as usize]));
             followers_start.push(start as u32);
             followers_left.push((followers.len() - start) as u32);
         }
@@ -94,21 +96,21 @@ impl StaticCondensation {
                 .collect(),
             matrix,
             diagonal,
-            private,
+            local,
             followers,
             followers_start,
             followers_left,
         };
         for p in 0..n {
-            if condensed.private[p] {
+            if condensed.local[p] {
                 condensed.change(p, -1.0);
             }
         }
         Ok(condensed)
     }
 
-    pub fn is_private(&self, i: usize) -> bool {
-        self.private[i]
+    pub fn is_local(&self, i: usize) -> bool {
+        self.local[i]
     }
 
     /// `A_ii`.
@@ -116,7 +118,7 @@ impl StaticCondensation {
         self.diagonal[i]
     }
 
-    /// Curvature along unknown `i` when the free private integers follow.
+    /// Curvature along unknown `i` when the free local integers follow.
     pub fn curvature(&self, i: usize) -> f64 {
         self.rows[i].curvature
     }
@@ -142,13 +144,13 @@ impl StaticCondensation {
         &self.entries[row.start as usize..row.end as usize]
     }
 
-    /// The free private integers that couple to unknown `i`.
+    /// The free local integers that couple to unknown `i`.
     pub fn followers(&self, i: usize) -> &[u32] {
         let start = self.followers_start[i] as usize;
         &self.followers[start..start + self.followers_left[i] as usize]
     }
 
-    /// Gives back the part of a private integer that is fixed from now on.
+    /// Adds back the part of a local integer that is fixed from now on.
     pub fn release(&mut self, p: usize) {
         self.change(p, 1.0);
         for a in self.coupling_range(p) {
@@ -163,7 +165,7 @@ impl StaticCondensation {
         }
     }
 
-    /// Adds `sign` times the part that private integer `p` has in the Schur complement.
+    /// Adds `sign` times the part that local integer `p` has in the Schur complement.
     fn change(&mut self, p: usize, sign: f64) {
         let d = self.diagonal[p];
         for a in self.coupling_range(p) {

@@ -2,6 +2,7 @@
 
 use super::vector::{add, norm, scale, sub};
 use super::{MeshError, TriangleMesh};
+use crate::linalg::Random;
 
 /// Moves every vertex by a vector whose coordinates are uniform in
 /// ±`amplitude` times its shortest edge; the same for the same seed everywhere.
@@ -23,7 +24,7 @@ pub fn jitter(mesh: &TriangleMesh, amplitude: f64, seed: u64) -> Result<Triangle
         shortest[a] = shortest[a].min(length);
         shortest[b] = shortest[b].min(length);
     }
-    let mut random = SplitMix::new(seed);
+    let mut random = Random::new(seed);
     let vertices = mesh
         .vertices()
         .iter()
@@ -34,27 +35,4 @@ pub fn jitter(mesh: &TriangleMesh, amplitude: f64, seed: u64) -> Result<Triangle
         })
         .collect();
     TriangleMesh::new(vertices, mesh.triangles().to_vec())
-}
-
-/// SplitMix64 (Steele, Lea, Flood 2014): eight lines, no state but a counter, and the same
-/// numbers on every machine and in every version, which no general generator promises.
-struct SplitMix(u64);
-
-impl SplitMix {
-    fn new(seed: u64) -> Self {
-        SplitMix(seed)
-    }
-
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    /// Uniform in [-1, 1).
-    fn symmetric(&mut self) -> f64 {
-        (self.next() >> 11) as f64 / (1u64 << 52) as f64 - 1.0
-    }
 }

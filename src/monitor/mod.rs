@@ -1,111 +1,13 @@
 //! Progress, log lines, better solutions, cancel and time limit: one object for all loops.
 
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+mod cancel;
+mod event;
+
 use std::time::{Duration, Instant};
 
-use crate::Error;
-
-/// What the callback answers.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Flow {
-    /// Go on.
-    Continue,
-    /// End the solve; the best solution so far is kept.
-    Cancel,
-}
-
-/// A part of the solve.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum Phase {
-    /// Elimination of the constraints.
-    Eliminate,
-    /// Ordering and factorization.
-    Factor,
-    /// The search for integers.
-    Round,
-    /// Motion of what is continuous around integers that are held.
-    Untangle,
-    /// Extraction of quads from a map, and their smoothing.
-    Quads,
-}
-
-/// What an event tells.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[non_exhaustive]
-pub enum EventKind<'a> {
-    /// A part of the solve has got so far: `fraction` from 0 to 1.
-    Progress {
-        /// The part.
-        phase: Phase,
-        /// How much of it is done.
-        fraction: f64,
-    },
-    /// Something worth a line in a log.
-    Log(&'a str),
-    /// A better solution than any before.
-    Improved,
-    /// A better lower bound than any before.
-    Raised,
-}
-
-/// One message to the callback, with where the solve stands.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Event<'a> {
-    /// What happened.
-    pub kind: EventKind<'a>,
-    /// Seconds since the solve began.
-    pub seconds: f64,
-    /// Energy of the best solution so far; infinite before the first.
-    pub energy: f64,
-    /// The best lower bound so far; minus infinity before the first.
-    pub lower_bound: f64,
-    /// `(energy - lower_bound) / max(1, |energy|)`, infinite while either is.
-    pub gap: f64,
-}
-
-/// A flag by which any thread may cancel a solve.
-#[derive(Debug, Clone, Default)]
-pub struct CancelToken(Arc<AtomicBool>);
-
-impl CancelToken {
-    /// A token that is not set.
-    pub fn new() -> Self {
-        Self::default()
-    }
-
-    /// Asks every solve that holds this token to end.
-    pub fn cancel(&self) {
-        self.0.store(true, Ordering::Relaxed);
-    }
-
-    /// Takes the request back, so that the token can be used again.
-    pub fn reset(&self) {
-        self.0.store(false, Ordering::Relaxed);
-    }
-
-    /// Whether the token is set.
-    pub fn is_cancelled(&self) -> bool {
-        self.0.load(Ordering::Relaxed)
-    }
-}
-
-/// Why a loop has to stop.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Stop {
-    Cancelled,
-    TimeLimit,
-}
-
-impl From<Stop> for Error {
-    fn from(stop: Stop) -> Self {
-        match stop {
-            Stop::Cancelled => Error::Cancelled,
-            Stop::TimeLimit => Error::TimeLimit,
-        }
-    }
-}
+pub use cancel::CancelToken;
+pub(crate) use cancel::Stop;
+pub use event::{Event, EventKind, Flow, Phase};
 
 type Callback<'a> = Box<dyn FnMut(&Event) -> Flow + 'a>;
 

@@ -29,17 +29,13 @@ pub(crate) fn greedy(
     let integers = model.integers();
     search.prepare(factors)?;
     let go_on = || search.monitor.check().is_ok();
-    let Some(mut ldl) = factors.updatable(model, go_on)? else {
+    let Some(mut factor) = factors.updatable(model, go_on)? else {
         return round_all(model, factors, search);
     };
-    let (point, watched): (Vec<f64>, Vec<u32>) = if factors.has_schur_factor(model) {
-        let at = |&i: &u32| search.relaxed()[i as usize];
-        let places = 0..integers.len() as u32;
-        (integers.iter().map(at).collect(), places.collect())
-    } else {
-        (search.relaxed().to_vec(), integers.to_vec())
-    };
-    let mut solve = FixedSolve::new(&mut ldl, &point, &watched)?;
+    let relaxed = |&i: &u32| search.relaxed()[i as usize];
+    let point: Vec<f64> = factor.unknowns.iter().map(relaxed).collect();
+    let watched = factor.integers;
+    let mut solve = FixedSolve::new(&mut factor.ldl, &point, &watched)?;
     let mut rounded = vec![0.0; integers.len()];
     // Places in `integers`, increasing.
     let mut free: Vec<u32> = (0..integers.len() as u32).collect();

@@ -6,10 +6,13 @@
 
 use std::time::Instant;
 
+use super::Strategy;
 use crate::Result;
 use crate::eliminate::ReducedModel;
-use crate::linalg::{Cholesky, Ldl, Ordering, RelaxedFactor, SchurFactor, Sparse};
-use crate::linalg::{minimise_bounded, residual};
+use crate::linalg::{
+    Cholesky, Ldl, Minimum, Ordering, RelaxedFactor, SchurFactor, Sparse, coupling, minimise,
+    minimise_bounded, principal_submatrix, residual,
+};
 
 /// The factors of one reduced model.
 #[derive(Debug, Default)]
@@ -22,6 +25,17 @@ pub(crate) struct Factors {
     keep: bool,
     schur_factor: Option<SchurFactor>,
     seconds: f64,
+}
+
+/// A factor in which unknowns can be fixed: of the Schur complement of the integers where that is the
+/// cheapest, otherwise of the whole reduced Hessian.
+#[derive(Debug)]
+pub(crate) struct UpdatableFactor {
+    pub ldl: Ldl,
+    /// The reduced unknowns that it is a factor of.
+    pub unknowns: Vec<u32>,
+    /// The places of the integers among these.
+    pub integers: Vec<u32>,
 }
 
 /// The Hessian seen by the continuous unknowns when the integers are given.
@@ -78,21 +92,39 @@ impl Factors {
         Ok(self.relaxed.insert(factor))
     }
 
-    /// A factor in which unknowns can be fixed: the caller's own, since fixing uses it up. Of the
-    /// Schur complement of the integers if the factor [exists](Self::has_schur_factor), otherwise of the
-    /// whole reduced Hessian. None if `go_on` ended it.
+    /// Minimises the objective with all integers real, by the factor that `strategy` needs as well.
+    pub fn minimise(
+        &mut self,
+        model: &ReducedModel,
+        strategy: Strategy,
+        rounding: impl FnOnce() -> Vec<f64>,
+    ) -> Result<Minimum> {
+        let (gradient, guess) = (model.gradient(), model.guess());
+        if strategy != Strategy::Relax && self.has_schur_factor(model) {
+            let factor = self.schur_factor(model)?.whole();
+            return minimise(model.hessian(), gradient, rounding, guess, factor);
+        }
+        self.relaxed(model)?.minimise(gradient, rounding, guess)
+    }
+
+    /// A factor in which unknowns can be fixed. It is the caller's own, since fixing uses it up. None if
+    /// `go_on` ended it.
     pub fn updatable(
         &mut self,
         model: &ReducedModel,
         go_on: impl FnMut() -> bool,
-    ) -> Result<Option<Ldl>> {
+    ) -> Result<Option<UpdatableFactor>> {
         if self.has_schur_factor(model) {
-            let (r, _) = self.schur_factor(model)?.schur();
-            return Ok(Some(Ldl::dense(r, model.integers().len())));
+            let (r, _) = self.schur_block(model)?;
+            return Ok(Some(UpdatableFactor {
+                ldl: Ldl::dense(r, model.integers().len()),
+                unknowns: model.integers().to_vec(),
+                integers: (0..model.integers().len() as u32).collect(),
+            }));
         }
         let (keep, ordering) = (self.keep, self.ordering);
         let kept = &mut self.updatable;
-        timed(&mut self.seconds, || {
+        let ldl = timed(&mut self.seconds, || {
             if let Some(ldl) = kept {
                 return Ok(Some(ldl.clone()));
             }
@@ -102,7 +134,18 @@ impl Factors {
                 kept.clone_from(&made);
             }
             Ok(made)
-        })
+        })?;
+        Ok(ldl.map(|ldl| UpdatableFactor {
+            ldl,
+            unknowns: (0..model.dim() as u32).collect(),
+            integers: model.integers().to_vec(),
+        }))
+    }
+
+    /// The Schur complement of the integers as `R'R`: the upper triangular `R` by columns, and whether
+    /// no pivot vanished. A vanished pivot leaves a zero row.
+    pub fn schur_block(&mut self, model: &ReducedModel) -> Result<(&[f64], bool)> {
+        Ok(self.schur_factor(model)?.schur())
     }
 
     /// Whether one factor with the integers last is the cheapest that serves all: the block that it
@@ -113,7 +156,7 @@ impl Factors {
     }
 
     /// The factor of the whole reduced Hessian with the integers last.
-    pub fn schur_factor(&mut self, model: &ReducedModel) -> Result<&SchurFactor> {
+    fn schur_factor(&mut self, model: &ReducedModel) -> Result<&SchurFactor> {
         let factor = match self.schur_factor.take() {
             Some(factor) => factor,
             None => timed(&mut self.seconds, || {
@@ -123,9 +166,19 @@ impl Factors {
         Ok(self.schur_factor.insert(factor))
     }
 
+    /// The Schur factor, if it is the cheapest and no pivot vanished: then it solves for the continuous
+    /// unknowns as well.
+    fn definite_schur_factor(&mut self, model: &ReducedModel) -> Result<Option<&SchurFactor>> {
+        if !self.has_schur_factor(model) {
+            return Ok(None);
+        }
+        let factor = self.schur_factor(model)?;
+        Ok(factor.is_definite().then_some(factor))
+    }
+
     /// Makes what [`follow`](Self::follow) needs.
     pub fn prepare(&mut self, model: &ReducedModel) -> Result<()> {
-        if !(self.has_schur_factor(model) && self.schur_factor(model)?.is_definite()) {
+        if self.definite_schur_factor(model)?.is_none() {
             self.continuous(model)?;
         }
         Ok(())
@@ -133,12 +186,9 @@ impl Factors {
 
     /// Solves `A_cc x_c = b_c` in place; entries of integers are left as they are.
     pub fn solve_continuous(&mut self, model: &ReducedModel, b: &mut [f64]) -> Result<()> {
-        if self.has_schur_factor(model) {
-            let schur_factor = self.schur_factor(model)?;
-            if schur_factor.is_definite() {
-                schur_factor.solve_continuous(b);
-                return Ok(());
-            }
+        if let Some(schur_factor) = self.definite_schur_factor(model)? {
+            schur_factor.solve_continuous(b);
+            return Ok(());
         }
         let block = self.continuous(model)?;
         let of_continuous = model.continuous().iter().map(|&i| b[i as usize]);
@@ -153,14 +203,10 @@ impl Factors {
     /// Minimises over the continuous unknowns, from `point` and with the integers as they are there.
     /// The relaxation is known to have a minimum.
     pub fn follow(&mut self, model: &ReducedModel, point: &[f64]) -> Result<Vec<f64>> {
-        if self.has_schur_factor(model) {
-            let schur_factor = self.schur_factor(model)?;
-            if schur_factor.is_definite() {
-                return Ok(follow_by_schur_factor(model, schur_factor, point));
-            }
+        if let Some(schur_factor) = self.definite_schur_factor(model)? {
+            return Ok(follow_by_schur_factor(model, schur_factor, point));
         }
-        let block = self.continuous(model)?;
-        block.follow(model, point)
+        self.continuous(model)?.follow(model, point)
     }
 
     /// The continuous block and its factor.
@@ -177,33 +223,8 @@ impl Factors {
 
 impl ContinuousBlock {
     fn new(model: &ReducedModel, ordering: Ordering) -> Result<Self> {
-        /// Place of an unknown among the integers or the continuous.
-        #[derive(Clone, Copy)]
-        enum Place {
-            Integer(u32),
-            Continuous(u32),
-        }
-        let mut place = vec![Place::Continuous(0); model.dim()];
-        for (k, &i) in model.integers().iter().enumerate() {
-            place[i as usize] = Place::Integer(k as u32);
-        }
-        for (k, &i) in model.continuous().iter().enumerate() {
-            place[i as usize] = Place::Continuous(k as u32);
-        }
-        let entries = model.hessian().entries();
-        let pair = |i: u32, j: u32| (place[i as usize], place[j as usize]);
-        let own = entries.clone().filter_map(|(i, j, v)| match pair(i, j) {
-            (Place::Continuous(a), Place::Continuous(b)) => Some((a, b, v)),
-            _ => None,
-        });
-        let mixed = entries.filter_map(|(i, j, v)| match pair(i, j) {
-            (Place::Continuous(a), Place::Integer(b)) => Some((a, b, v)),
-            (Place::Integer(b), Place::Continuous(a)) => Some((a, b, v)),
-            _ => None,
-        });
-        let (n, m) = (model.continuous().len(), model.integers().len());
-        let hessian = Sparse::from_triplets(n, n, own)?;
-        let coupling = Sparse::from_triplets(n, m, mixed)?;
+        let hessian = principal_submatrix(model.hessian(), model.continuous())?;
+        let coupling = coupling(model.hessian(), model.continuous(), model.integers())?;
         let factor = Cholesky::ordered(&hessian, ordering)?;
         Ok(ContinuousBlock {
             hessian,

@@ -1,10 +1,10 @@
-//! What a strategy talks to: it offers integers, and the search does the rest.
+//! The interface of the strategies: a strategy offers integers, and the search does the rest.
 //!
-//! The search re-optimises the continuous unknowns exactly for every offer and evaluates it
-//! itself, so that energies never come from a strategy and every strategy can be stopped at any
-//! time.
+//! The search re-optimises the continuous unknowns exactly for every offer and evaluates the energy
+//! itself. So energies never come from a strategy, and every strategy can be stopped at any time.
 
 mod factors;
+mod incumbent;
 mod options;
 mod presets;
 mod status;
@@ -19,26 +19,17 @@ pub use strategy::Strategy;
 pub use warm_start::WarmStart;
 
 pub(crate) use factors::Factors;
+pub(crate) use incumbent::Incumbent;
 pub(crate) use work::{Work, auto_limit, of_relaxation};
 
 use crate::eliminate::ReducedModel;
-use crate::monitor::Phase;
-use crate::monitor::{Monitor, Stop, relative_gap};
+use crate::monitor::{Monitor, Phase, Stop, relative_gap};
 use crate::{Error, Result};
 
 /// Integers are kept as floats; beyond this they would no longer be exact.
 pub(crate) const LARGEST_INTEGER: f64 = 9_007_199_254_740_992.0;
 
-/// The best solution so far, in reduced unknowns.
-#[derive(Debug, Clone)]
-pub(crate) struct Incumbent {
-    pub point: Vec<f64>,
-    pub energy: f64,
-    /// The energy, and what it may be off by where that matters.
-    at_most: f64,
-}
-
-/// Incumbent, bound, and who watches.
+/// The incumbent, the lower bound, the work spent and the monitor.
 pub(crate) struct Search<'s, 'm> {
     model: &'s ReducedModel,
     relaxed: Vec<f64>,
@@ -69,7 +60,7 @@ impl<'s, 'm> Search<'s, 'm> {
         }
     }
 
-    /// Takes note of so many multiplications; whether to end.
+    /// Counts so many multiplications; returns whether to end.
     pub fn ends(&mut self, multiplications: u64) -> bool {
         self.work.ends(multiplications, self.monitor)
     }
@@ -103,8 +94,8 @@ impl<'s, 'm> Search<'s, 'm> {
             .ok_or_else(|| stopped.map_or(Error::Cancelled, Error::from))
     }
 
-    /// Makes the factor that offers need, so that an offer costs two solves and no more whenever a
-    /// strategy has to stop.
+    /// Makes the factor that offers need. After that an offer costs two solves, also when a strategy has
+    /// to stop.
     ///
     /// # Errors
     /// For lack of memory, and why the search was stopped: there is no solution yet.
@@ -150,9 +141,10 @@ impl<'s, 'm> Search<'s, 'm> {
         Ok(better)
     }
 
-    /// What `energy`, that of `point` with terms of this `size`, may be at most: more where rounding errors
-    /// matter, which are all that is left of huge integers. An energy below the bound is off at least by that
-    /// much, and as well in the other direction.
+    /// An upper bound on the exact energy of `point`, for which `energy` was computed from terms of this
+    /// `size`. It is `energy` itself unless rounding errors matter, as they do where integers are huge. A
+    /// computed energy below the lower bound is wrong by at least the difference; the same error is
+    /// assumed upwards.
     fn at_most(&self, energy: f64, size: f64, point: &[f64]) -> f64 {
         let enough = GAP_TOLERANCE * energy.abs().max(1.0);
         let below = 2.0 * (self.lower_bound - energy);
@@ -168,11 +160,11 @@ impl<'s, 'm> Search<'s, 'm> {
         }
     }
 
-    /// What the difference between the energies of two evaluated solutions may be off by.
+    /// A bound on the error of the difference between the energies of two evaluated solutions.
     ///
-    /// Energies are summed with compensation. What is left is the rounding of the model's entries,
-    /// which counts as far as solutions differ: in the terms of the quadratic form of the step from
-    /// the relaxation to `point`, a few units in the last place of each.
+    /// Energies are summed with compensation. The error that remains is the rounding of the model's
+    /// entries. It counts only as far as solutions differ: a few units in the last place of each term of
+    /// the quadratic form of the step from the relaxation to `point`.
     pub fn evaluation_error(&self, point: &[f64]) -> f64 {
         let steps = point.iter().zip(&self.relaxed);
         let step: Vec<f64> = steps.map(|(p, r)| p - r).collect();
@@ -188,7 +180,7 @@ impl<'s, 'm> Search<'s, 'm> {
         self.incumbent.as_ref()
     }
 
-    /// Takes note that no solution has less energy than `bound`.
+    /// Raises the lower bound to `bound`, if that is higher.
     pub fn raise_bound(&mut self, bound: f64) {
         if bound > self.lower_bound {
             self.lower_bound = bound;
@@ -202,14 +194,14 @@ impl<'s, 'm> Search<'s, 'm> {
         best.map_or(f64::INFINITY, |b| b.energy - gap * b.energy.abs().max(1.0))
     }
 
-    /// Whether the incumbent's relative gap is at most `gap`, or it counts as proved.
+    /// Whether the incumbent's relative gap is at most `gap` or [`GAP_TOLERANCE`].
     pub fn is_within(&self, gap: f64) -> bool {
         let most = gap.max(GAP_TOLERANCE);
         let best = self.incumbent.as_ref();
         best.is_some_and(|b| relative_gap(b.energy, self.lower_bound) <= most)
     }
 
-    /// How the search stands, were it to end now.
+    /// The status of the search if it ended now.
     pub fn status(&self) -> SolveStatus {
         let Some(best) = &self.incumbent else {
             return SolveStatus::Relaxed;

@@ -1,12 +1,14 @@
 //! Orchestration: validate, eliminate, relax, search, expand, verify.
 
-mod choose;
-mod claim;
-mod polish;
+mod candidate;
+mod dispatch;
+mod eliminated;
+mod expand;
 mod reformulate;
 mod relax;
 pub mod replay;
 mod run;
+mod second_solve;
 mod solution;
 mod solver;
 mod subject_to;

@@ -7,8 +7,8 @@
 //! ([`AffineLattice`], after Aardal, Hurkens and Lenstra 2000). The problem is stated anew in z and the caller's
 //! continuous unknowns, from the caller's numbers, and solved as any other.
 
-use super::claim::Claim;
-use super::run::Prepared;
+use super::candidate::Candidate;
+use super::eliminated::EliminatedProblem;
 use super::{Counts, Seconds, Solution};
 use crate::eliminate::{Elimination, ReducedModel};
 use crate::lattice::AffineLattice;
@@ -51,85 +51,81 @@ struct Form {
     terms: Vec<(usize, f64)>,
 }
 
-impl Prepared<'_> {
-    /// Solves the problem in short steps, where the expansion of `reduced` has numbers so large that it is
-    /// worth it, and where there is such a reformulation.
-    ///
-    /// # Errors
-    /// Those of a solve, but for what may be a matter of the other unknowns.
-    pub(super) fn solve_reformulated(
-        &self,
-        reduced: &ReducedModel,
-        options: &Options,
-        monitor: &mut Monitor,
-    ) -> Result<Option<Solution>> {
-        let Some(short) = Reformulation::new(self.model, reduced) else {
-            return Ok(None);
-        };
-        let problem = short.problem(self.problem, self.model.guess())?;
-        let earlier = short.restrict(self.earlier);
-        match solve(&problem, &earlier, options, monitor) {
-            Ok(solution) => self.in_callers_unknowns(&short, solution, monitor),
-            Err(Error::Unbounded { direction, .. }) => {
-                let (variable, direction) = short.direction(&direction);
-                Err(Error::Unbounded {
-                    variable,
-                    direction,
-                })
-            }
-            Err(Error::NotConvex { direction, .. }) => {
-                let (variable, direction) = short.direction(&direction);
-                Err(Error::NotConvex {
-                    variable,
-                    direction,
-                })
-            }
-            Err(error @ (Error::Cancelled | Error::TimeLimit | Error::OutOfMemory { .. })) => {
-                Err(error)
-            }
-            Err(_) => Ok(None),
+/// Solves the problem in short steps, where the expansion of `reduced` has numbers so large that it is
+/// worth it, and where there is such a reformulation.
+///
+/// # Errors
+/// Those of a solve, but for what may be a matter of the other unknowns.
+pub(super) fn solve_reformulated(
+    of: &EliminatedProblem,
+    reduced: &ReducedModel,
+    options: &Options,
+    monitor: &mut Monitor,
+) -> Result<Option<Solution>> {
+    let Some(short) = Reformulation::new(of.model, reduced) else {
+        return Ok(None);
+    };
+    let problem = short.problem(of.problem, of.model.guess())?;
+    let earlier = short.restrict(of.earlier);
+    match solve(&problem, &earlier, options, monitor) {
+        Ok(solution) => in_callers_unknowns(of, &short, solution, monitor),
+        Err(Error::Unbounded { direction, .. }) => {
+            let (variable, direction) = short.direction(&direction);
+            Err(Error::Unbounded {
+                variable,
+                direction,
+            })
         }
+        Err(Error::NotConvex { direction, .. }) => {
+            let (variable, direction) = short.direction(&direction);
+            Err(Error::NotConvex {
+                variable,
+                direction,
+            })
+        }
+        Err(error @ (Error::Cancelled | Error::TimeLimit | Error::OutOfMemory { .. })) => {
+            Err(error)
+        }
+        Err(_) => Ok(None),
     }
 }
 
-impl Prepared<'_> {
-    /// None where integers of the caller's are too large to be exact.
-    fn in_callers_unknowns(
-        &self,
-        short: &Reformulation,
-        found: Solution,
-        monitor: &Monitor,
-    ) -> Result<Option<Solution>> {
-        let claim = Claim {
-            values: short.expand(&found.values),
-            lower_bound: found.lower_bound.unwrap_or(f64::NEG_INFINITY),
-            status: found.status,
-            decided: found.counts.reduced_integers > 0,
-        };
-        if claim.values.iter().any(|x| x.abs() > LARGEST_INTEGER) {
-            return Ok(None);
-        }
-        let (claim, verdict) = claim.verified(self.problem)?;
-        Ok(Some(Solution {
-            values: claim.values,
-            energy: verdict.energy,
-            lower_bound: Some(claim.lower_bound),
-            status: claim.status,
-            work: found.work,
-            counts: Counts {
-                variables: self.model.variables(),
-                integers: self.model.integer().iter().filter(|&&i| i).count(),
-                constraints: self.model.constraints().rows(),
-                ..found.counts
-            },
-            seconds: Seconds {
-                total: monitor.seconds(),
-                ..found.seconds
-            },
-            max_constraint_violation: verdict.constraint_violation,
-            max_integrality_violation: verdict.integrality_violation,
-        }))
+/// None where integers of the caller's are too large to be exact.
+fn in_callers_unknowns(
+    of: &EliminatedProblem,
+    short: &Reformulation,
+    found: Solution,
+    monitor: &Monitor,
+) -> Result<Option<Solution>> {
+    let candidate = Candidate {
+        values: short.expand(&found.values),
+        lower_bound: found.lower_bound.unwrap_or(f64::NEG_INFINITY),
+        status: found.status,
+        has_integers: found.counts.reduced_integers > 0,
+    };
+    if candidate.values.iter().any(|x| x.abs() > LARGEST_INTEGER) {
+        return Ok(None);
     }
+    let (candidate, verdict) = candidate.verified(of.problem)?;
+    Ok(Some(Solution {
+        values: candidate.values,
+        energy: verdict.energy,
+        lower_bound: Some(candidate.lower_bound),
+        status: candidate.status,
+        work: found.work,
+        counts: Counts {
+            variables: of.model.variables(),
+            integers: of.model.integer().iter().filter(|&&i| i).count(),
+            constraints: of.model.constraints().rows(),
+            ..found.counts
+        },
+        seconds: Seconds {
+            total: monitor.seconds(),
+            ..found.seconds
+        },
+        max_constraint_violation: verdict.constraint_violation,
+        max_integrality_violation: verdict.integrality_violation,
+    }))
 }
 
 fn solve(
@@ -139,14 +135,15 @@ fn solve(
     monitor: &mut Monitor,
 ) -> Result<Solution> {
     let model = Model::new(problem)?;
-    Prepared {
+    let mut eliminated = EliminatedProblem {
         problem,
         model: &model,
         elimination: &Elimination::new(&model, options.ordering, monitor)?,
         factors: &mut Factors::new(options.ordering),
         earlier,
-    }
-    .solve_as_it_is(options, monitor)
+    };
+    let (reduced, clock) = eliminated.reduce(monitor)?;
+    eliminated.search(&reduced, &clock, options, monitor)
 }
 
 impl Reformulation {

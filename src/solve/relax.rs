@@ -1,7 +1,7 @@
 //! The relaxation: all integers real. Its minimum is a lower bound for every solution.
 
 use crate::eliminate::ReducedModel;
-use crate::linalg::{Lowest, Minimum, minimise};
+use crate::linalg::{Lowest, Minimum};
 use crate::search::{Factors, Strategy};
 use crate::{Error, Model, Result};
 
@@ -32,17 +32,8 @@ pub(crate) fn relax(
         direction[i] = 1.0;
         return Err(not_convex(model, &direction));
     }
-    let (gradient, guess) = (model.gradient(), model.guess());
     let rounding = || model.gradient_rounding(whole);
-    let minimum = if strategy != Strategy::Relax && factors.has_schur_factor(model) {
-        let factor = factors.schur_factor(model)?.whole();
-        minimise(model.hessian(), gradient, rounding, guess, factor)?
-    } else {
-        factors
-            .relaxed(model)?
-            .minimise(gradient, rounding, guess)?
-    };
-    match minimum {
+    match factors.minimise(model, strategy, rounding)? {
         Minimum::At(Lowest { point, excess }) => {
             let (energy, terms) = model.energy(&point);
             Ok(Relaxation {

@@ -5,13 +5,14 @@
 //! does as well: the same data give the same bits as a solve from the start.
 
 use super::Solution;
-use super::run::{Prepared, tell_of_ignored_hint};
+use super::eliminated::EliminatedProblem;
+use super::run::{solve_eliminated, tell_of_ignored_hint};
+use super::subject_to::solve_subject_to;
 use crate::eliminate::Elimination;
 use crate::linalg::Ordering;
 use crate::monitor::Monitor;
 use crate::problem::RowList;
-use crate::search::Factors;
-use crate::search::{Options, SolveStatus};
+use crate::search::{Factors, Options, SolveStatus};
 use crate::{Model, Problem, Result};
 
 /// A problem whose structure is fixed, and what was learned of it.
@@ -30,14 +31,14 @@ pub struct Solver {
     model: Model,
     /// Whether the problem has changed since the model was made of it.
     stale: bool,
-    kept: Option<Kept>,
+    cache: Option<Cache>,
     /// The last integer solution, unless a guess was given since.
     earlier: Option<Vec<f64>>,
 }
 
-/// What right sides do not change.
+/// The elimination and the factors, which right sides do not change.
 #[derive(Debug)]
-struct Kept {
+struct Cache {
     ordering: Ordering,
     elimination: Elimination,
     /// The pinned unknowns that the factors leave out.
@@ -55,7 +56,7 @@ impl Solver {
             model: Model::new(problem)?,
             problem: problem.clone(),
             stale: false,
-            kept: None,
+            cache: None,
             earlier: None,
         })
     }
@@ -142,8 +143,8 @@ impl Solver {
     /// # Errors
     /// As [`solve_with`](crate::solve_with).
     pub fn solve_with(&mut self, options: &Options, mut monitor: Monitor) -> Result<Solution> {
-        let prepared = self.prepare(options, &mut monitor)?;
-        let solution = prepared.solve(options, &mut monitor)?;
+        let eliminated = self.prepare(options, &mut monitor)?;
+        let solution = solve_eliminated(eliminated, options, &mut monitor)?;
         if solution.status() != SolveStatus::Relaxed {
             self.earlier = Some(solution.values().to_vec());
         }
@@ -162,12 +163,16 @@ impl Solver {
         options: &Options,
         mut monitor: Monitor,
     ) -> Result<Option<Solution>> {
-        self.prepare(options, &mut monitor)?
-            .solve_subject_to(rows, options, &mut monitor)
+        let eliminated = self.prepare(options, &mut monitor)?;
+        solve_subject_to(eliminated, rows, options, &mut monitor)
     }
 
-    /// The problem as it stands with all that is kept of it, made where it is not.
-    fn prepare(&mut self, options: &Options, monitor: &mut Monitor) -> Result<Prepared<'_>> {
+    /// The problem as it stands with its elimination and factors, from the cache where they are still right.
+    fn prepare(
+        &mut self,
+        options: &Options,
+        monitor: &mut Monitor,
+    ) -> Result<EliminatedProblem<'_>> {
         monitor.start(options.time_limit);
         monitor.check()?;
         if self.stale {
@@ -175,25 +180,25 @@ impl Solver {
             self.stale = false;
         }
         tell_of_ignored_hint(&self.model, monitor);
-        let mut kept = match self.kept.take() {
-            Some(kept) if kept.serves(&self.model, options.ordering) => kept,
-            _ => Kept::new(&self.model, options.ordering, monitor)?,
+        let mut cache = match self.cache.take() {
+            Some(cache) if cache.serves(&self.model, options.ordering) => cache,
+            _ => Cache::new(&self.model, options.ordering, monitor)?,
         };
-        kept.leave_out_pinned(&self.model);
-        let kept = self.kept.insert(kept);
-        Ok(Prepared {
+        cache.leave_out_pinned(&self.model);
+        let cache = self.cache.insert(cache);
+        Ok(EliminatedProblem {
             problem: &self.problem,
             model: &self.model,
-            elimination: &kept.elimination,
-            factors: &mut kept.factors,
+            elimination: &cache.elimination,
+            factors: &mut cache.factors,
             earlier: self.earlier.as_deref().unwrap_or(self.model.guess()),
         })
     }
 }
 
-impl Kept {
+impl Cache {
     fn new(model: &Model, ordering: Ordering, monitor: &mut Monitor) -> Result<Self> {
-        Ok(Kept {
+        Ok(Cache {
             ordering,
             elimination: Elimination::new(model, ordering, monitor)?,
             pinned: pinned(model).collect(),

@@ -6,75 +6,72 @@
 //! any other, and what it decides is handed to the problem itself.
 
 use super::Solution;
+use super::eliminated::{EliminatedProblem, SearchResult};
 use super::relax::{Relaxation, relax};
-use super::run::{Decided, Prepared};
+use super::run::solve_eliminated;
 use crate::eliminate::{Elimination, ReducedModel};
 use crate::monitor::Monitor;
 use crate::problem::RowList;
-use crate::search::Search;
-use crate::search::of_relaxation;
-use crate::search::{Factors, Options, SolveStatus, Strategy, WarmStart};
+use crate::search::{Factors, Options, Search, SolveStatus, Strategy, WarmStart, of_relaxation};
 use crate::{Model, Problem, Result};
 
-impl Prepared<'_> {
-    /// Solves under further constraints. None where that takes a solve from the start: where unknowns in
-    /// them are not integer, integers are many or begin warm, or a proof is asked for, which takes into
-    /// account how all data were rounded.
-    ///
-    /// The bound is that of the relaxation without these constraints.
-    ///
-    /// # Errors
-    /// As [`solve`](Self::solve); [`Infeasible`](crate::Error::Infeasible) and
-    /// [`NoIntegerSolution`](crate::Error::NoIntegerSolution) name the row that contradicts the problem
-    /// or the rows before it.
-    pub(super) fn solve_subject_to(
-        mut self,
-        rows: &RowList,
-        options: &Options,
-        monitor: &mut Monitor,
-    ) -> Result<Option<Solution>> {
-        let is_plain = options.warm_start == WarmStart::Off
-            && matches!(
-                options.strategy,
-                Strategy::Direct
-                    | Strategy::Greedy
-                    | Strategy::Adaptive
-                    | Strategy::Multiple
-                    | Strategy::Lattice
-            );
-        if !is_plain {
-            return Ok(None);
-        }
-        let (reduced, clock) = self.reduce(monitor)?;
-        if !self.factors.has_schur_factor(&reduced) {
-            return Ok(None);
-        }
-        let Some(rows) = between_integers(&reduced, rows) else {
-            return Ok(None);
-        };
-        let relaxation = relax(self.model, &reduced, options.strategy, self.factors)?;
-        let small = of_integers(&reduced, &relaxation, &rows, self.factors)?;
-        let model = Model::new(&small)?;
-        let decided = Prepared {
-            problem: &small,
-            model: &model,
-            elimination: &Elimination::new(&model, options.ordering, monitor)?,
-            factors: &mut Factors::new(options.ordering),
-            earlier: model.guess(),
-        }
-        .solve(options, monitor)?;
-        let Relaxation { point, lower_bound } = relaxation;
-        let mut search = Search::new(&reduced, point, lower_bound, monitor);
-        search.offer(self.factors, decided.values())?;
-        let decided = Decided {
-            lower_bound,
-            status: SolveStatus::Feasible,
-            work: of_relaxation(&reduced) + decided.work(),
-            point: search.into_best()?.point,
-        };
-        let concluded = self.conclude(&reduced, decided, options.strategy, &clock, monitor);
-        concluded.map(Some)
+/// Solves under further constraints. None where that takes a solve from the start: where unknowns in
+/// them are not integer, integers are many or begin warm, or a proof is asked for, which takes into
+/// account how all data were rounded.
+///
+/// The bound is that of the relaxation without these constraints.
+///
+/// # Errors
+/// As [`solve`](crate::solve()); [`Infeasible`](crate::Error::Infeasible) and
+/// [`NoIntegerSolution`](crate::Error::NoIntegerSolution) name the row that contradicts the problem
+/// or the rows before it.
+pub(super) fn solve_subject_to(
+    mut of: EliminatedProblem,
+    rows: &RowList,
+    options: &Options,
+    monitor: &mut Monitor,
+) -> Result<Option<Solution>> {
+    let is_plain = options.warm_start == WarmStart::Off
+        && matches!(
+            options.strategy,
+            Strategy::Direct
+                | Strategy::Greedy
+                | Strategy::Adaptive
+                | Strategy::Multiple
+                | Strategy::Lattice
+        );
+    if !is_plain {
+        return Ok(None);
     }
+    let (reduced, clock) = of.reduce(monitor)?;
+    if !of.factors.has_schur_factor(&reduced) {
+        return Ok(None);
+    }
+    let Some(rows) = between_integers(&reduced, rows) else {
+        return Ok(None);
+    };
+    let relaxation = relax(of.model, &reduced, options.strategy, of.factors)?;
+    let small = of_integers(&reduced, &relaxation, &rows, of.factors)?;
+    let model = Model::new(&small)?;
+    let eliminated = EliminatedProblem {
+        problem: &small,
+        model: &model,
+        elimination: &Elimination::new(&model, options.ordering, monitor)?,
+        factors: &mut Factors::new(options.ordering),
+        earlier: model.guess(),
+    };
+    let decided = solve_eliminated(eliminated, options, monitor)?;
+    let Relaxation { point, lower_bound } = relaxation;
+    let mut search = Search::new(&reduced, point, lower_bound, monitor);
+    search.offer(of.factors, decided.values())?;
+    let decided = SearchResult {
+        lower_bound,
+        status: SolveStatus::Feasible,
+        work: of_relaxation(&reduced) + decided.work(),
+        point: search.into_best()?.point,
+    };
+    let concluded = of.conclude(&reduced, decided, options.strategy, &clock, monitor);
+    concluded.map(Some)
 }
 
 /// A constraint in the reduced integers: their places among them, coefficients, right side.
@@ -115,7 +112,7 @@ fn of_integers(
     let mut small = Problem::new(m)?;
     small.set_integers(&(0..m).collect::<Vec<_>>())?;
     small.set_constant(model.energy(&relaxation.point).0)?;
-    let (r, _) = factors.schur_factor(model)?.schur();
+    let (r, _) = factors.schur_block(model)?;
     for k in 0..m {
         let columns: Vec<usize> = (k..m).filter(|j| r[j * m + k] != 0.0).collect();
         let row: Vec<f64> = columns.iter().map(|j| r[j * m + k]).collect();

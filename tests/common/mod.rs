@@ -8,37 +8,7 @@ pub mod skip;
 pub use random::Random;
 use roundel::{Options, Problem, Result, Solution, Strategy, solve};
 
-<<<<<<< HEAD
-/// A solve that looks for a proof in so few nodes that it takes no time.
-=======
-/// A deterministic sequence of numbers in [-1, 1) (xorshift, Marsaglia 2003).
-pub struct Random(u64);
-
-impl Random {
-    pub fn new(seed: u64) -> Self {
-        Random(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1)
-    }
-
-    pub fn next(&mut self) -> f64 {
-        self.bits() as f64 / (1u64 << 52) as f64 - 1.0
-    }
-
-    /// A number below `limit`.
-    pub fn below(&mut self, limit: usize) -> usize {
-        (self.bits() % limit as u64) as usize
-    }
-
-    /// The upper 53 bits of the next number.
-    fn bits(&mut self) -> u64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        self.0 >> 11
-    }
-}
-
 /// A solve with so small a limit on nodes that the search for a proof takes no time.
->>>>>>> refs/heads/english
 pub fn solve_briefly(problem: &Problem, strategy: Strategy) -> Result<Solution> {
     let options = Options {
         strategy,

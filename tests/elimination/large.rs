@@ -257,23 +257,8 @@ fn uneven_weights_of_a_mean_do_not_cost_accuracy() {
     assert!((a - b).abs() <= 1e-10 * a, "{a} against {b}");
 }
 
-<<<<<<< HEAD
-/// `rows` rows of `width` real coefficients, each `step` further, that a known point solves.
-=======
-/// A fixed sequence of numbers in [-1, 1) (xorshift, Marsaglia 2003).
-fn random() -> impl FnMut() -> f64 {
-    let mut state = 0x9E37_79B9_7F4A_7C15u64;
-    move || {
-        state ^= state << 13;
-        state ^= state >> 7;
-        state ^= state << 17;
-        (state >> 11) as f64 / (1u64 << 52) as f64 - 1.0
-    }
-}
-
 /// `rows` rows of `width` real coefficients that a known point satisfies. Each row starts `step` unknowns
 /// after the one before.
->>>>>>> refs/heads/english
 fn band(n: usize, rows: usize, width: usize, step: usize) -> Problem {
     let mut random = Random::new(1);
     let mut problem = Problem::new(n).unwrap();

@@ -1,13 +1,8 @@
 /// A stand-in for the part of GMM++'s interface that programs for CoMISo use: sparse matrices that
 /// are filled entry by entry. It contains no code of GMM++.
 ///
-<<<<<<< HEAD
-/// Where the real GMM++ was included before, this file is empty; where it is wanted instead, leave
-/// this directory out of the include path (see docs/comiso.md).
-=======
 /// If the real GMM++ was included before, this file is empty. To use the real one instead, leave
-/// this directory out of the include path (see docs/migration-from-comiso.md).
->>>>>>> refs/heads/english
+/// this directory out of the include path (see docs/comiso.md).
 
 #if !defined(GMM_KERNEL_H__) && !defined(ROUNDEL_GMM_SHIM)
 #define ROUNDEL_GMM_SHIM 1

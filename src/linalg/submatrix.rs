@@ -1,0 +1,73 @@
+//! Parts of a symmetric matrix, which is given by its lower triangle.
+
+use super::Sparse;
+use crate::Result;
+
+/// The place of an unknown that is not a member.
+pub const NO_PLACE: u32 = u32::MAX;
+
+/// The place of each of `dim` unknowns among `members`; [`NO_PLACE`] for all others.
+pub fn places(dim: usize, members: &[u32]) -> Vec<u32> {
+    let mut place = vec![NO_PLACE; dim];
+    for (k, &i) in members.iter().enumerate() {
+        place[i as usize] = k as u32;
+    }
+    place
+}
+
+/// The lower triangle of the principal submatrix of `members`, which increase.
+///
+/// # Errors
+/// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+pub fn principal_submatrix(lower: &Sparse, members: &[u32]) -> Result<Sparse> {
+    let place = places(lower.rows(), members);
+    let entries = lower.entries().filter_map(|(i, j, v)| {
+        let (a, b) = (place[i as usize], place[j as usize]);
+        (a != NO_PLACE && b != NO_PLACE).then_some((a, b, v))
+    });
+    Sparse::from_triplets(members.len(), members.len(), entries)
+}
+
+/// The block with the rows `rows` and the columns `cols`, which have no member in common.
+///
+/// # Errors
+/// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+pub fn coupling(lower: &Sparse, rows: &[u32], cols: &[u32]) -> Result<Sparse> {
+    let (row, col) = (places(lower.rows(), rows), places(lower.rows(), cols));
+    let entries = lower.entries().filter_map(|(i, j, v)| {
+        let (i, j) = (i as usize, j as usize);
+        if row[i] != NO_PLACE && col[j] != NO_PLACE {
+            Some((row[i], col[j], v))
+        } else if row[j] != NO_PLACE && col[i] != NO_PLACE {
+            Some((row[j], col[i], v))
+        } else {
+            None
+        }
+    });
+    Sparse::from_triplets(rows.len(), cols.len(), entries)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn parts_hold_the_entries_of_the_whole() {
+        let n = 7;
+        let value = |i: u32, j: u32| f64::from(10 * i.max(j) + i.min(j));
+        let lower = (0..n).flat_map(|i| (0..=i).map(move |j| (i, j, value(i, j))));
+        let a = Sparse::from_triplets(n as usize, n as usize, lower).unwrap();
+        let (some, others) = ([1, 2, 5], [0, 3, 6]);
+        let own = principal_submatrix(&a, &some).unwrap();
+        assert_eq!(own.len(), 6);
+        for (a, b, v) in own.entries() {
+            assert!(b <= a);
+            assert_eq!(v, value(some[a as usize], some[b as usize]));
+        }
+        let mixed = coupling(&a, &some, &others).unwrap();
+        assert_eq!(mixed.len(), 9);
+        for (a, b, v) in mixed.entries() {
+            assert_eq!(v, value(some[a as usize], others[b as usize]));
+        }
+    }
+}
