@@ -59,8 +59,8 @@ fn map(case: &Case, strategy: Strategy) -> (SeamlessMap, Solution) {
     (case.problem.map(&case.mesh, &solution).unwrap(), solution)
 }
 
-/// Whether the cut turns each component into one disk, which is connected across the edges that are not
-/// cut and has Euler characteristic 1.
+/// Whether the cut turns each component into one disk: connected across the edges that are not cut, with
+/// Euler characteristic 1.
 fn is_cut_to_disks(mesh: &TriangleMesh, cut: &CutGraph) -> bool {
     let components = mesh.components();
     let mut charts = 0;

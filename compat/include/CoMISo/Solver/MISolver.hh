@@ -99,13 +99,13 @@ class COMISODLLEXPORT MISolver {
     void set_stats(bool on = true) { stats_ = on; }
     bool get_stats() const { return stats_; }
 
-    /// Whether constraints may be reordered. Roundel always may, which affects only the time.
+    /// Whether constraints may be reordered. Roundel always does, which affects only the time.
     bool& use_constraint_reordering() { return constraint_reordering_; }
     void set_use_constraint_reordering(bool on) { constraint_reordering_ = on; }
 
-    /// Chooses one of Roundel's strategies instead of the kind of rounding above, unless that is
-    /// none. An empty name undoes the choice. Overrides the function set_roundel_strategy and the
-    /// environment.
+    /// Chooses one of Roundel's strategies instead of the kind of rounding above. This has no
+    /// effect if rounding is turned off (set_no_rounding). An empty name undoes the choice.
+    /// Overrides the function set_roundel_strategy and the environment.
     void set_roundel_strategy(std::string strategy) { strategy_ = std::move(strategy); }
     const std::string& get_roundel_strategy() const { return strategy_; }
 
