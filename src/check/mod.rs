@@ -20,6 +20,7 @@ mod transitions;
 
 pub use isolines::feature_edges;
 pub use orientation::orientation;
+pub use singular::Singularity;
 
 use crate::mesh::TriangleMesh;
 use crate::mesh::features::check_edges;
@@ -62,15 +63,6 @@ pub struct Defect {
     pub element: usize,
     /// How far it is from what the rule asks.
     pub amount: f64,
-}
-
-/// A vertex around which a map turns other than once.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Singularity {
-    /// The vertex.
-    pub vertex: usize,
-    /// Its index in quarters: 1 where three quads meet, -1 where five do.
-    pub quarters: i32,
 }
 
 /// What is wrong with a map, rule by rule; elements in increasing order.
@@ -225,8 +217,4 @@ fn validate(mesh: &TriangleMesh, uv: &[[[f64; 2]; 3]], options: &CheckOptions) -
 
 fn defect(element: usize, amount: f64) -> Defect {
     Defect { element, amount }
-}
-
-fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
-    (a[0] - b[0]).hypot(a[1] - b[1])
 }

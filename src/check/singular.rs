@@ -5,8 +5,17 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::{Singularity, orientation};
+use super::orientation::orientation;
 use crate::mesh::TriangleMesh;
+
+/// A vertex around which a map turns other than once.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Singularity {
+    /// The vertex.
+    pub vertex: usize,
+    /// Its index in quarters: 1 where three quads meet, -1 where five do.
+    pub quarters: i32,
+}
 
 /// The singular vertices, in increasing order.
 ///

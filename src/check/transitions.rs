@@ -4,7 +4,6 @@
 //! translation. Both ends of an edge are seen from both faces, so that a turn and a translation
 //! explain them but for a residual; the turn with the least is taken.
 
-use super::distance;
 use crate::mesh::TriangleMesh;
 
 /// What carries the coordinates of an edge's first face to those of its second.
@@ -55,4 +54,8 @@ pub(super) fn seen(
 /// A point turned by quarters counter-clockwise about the origin.
 fn turn(quarters: u8, [x, y]: [f64; 2]) -> [f64; 2] {
     [[x, y], [-y, x], [-x, -y], [y, -x]][usize::from(quarters)]
+}
+
+fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
+    (a[0] - b[0]).hypot(a[1] - b[1])
 }

@@ -9,6 +9,7 @@ mod cone_paths;
 mod cut_graph;
 mod dirichlet;
 mod feature_strips;
+mod from_values;
 mod isolines;
 mod problem;
 mod seamless_map;
@@ -26,6 +27,6 @@ pub use seamless_map::{SeamlessMap, Transition};
 pub use sizing::Sizing;
 
 pub(crate) use feature_strips::hold_apart;
-pub(crate) use seamless_map::gradient;
+pub(crate) use from_values::gradient;
 pub(crate) use separation::{Wish, constraints_of, solve_separated};
 pub(crate) use winding_defects::{has_winding_defect, winding_defects};

@@ -21,11 +21,11 @@ use super::isolines::{Isoline, isolines};
 use super::seams::{Seam, seams};
 use super::sectors::Sectors;
 use super::sizing::Density;
-use super::{Combing, CutGraph, SeamlessMap, Sizing};
+use super::{Combing, CutGraph, Sizing};
 use crate::field::OrientationField;
 use crate::mesh::features::FeatureGraph;
 use crate::mesh::{TriangleMesh, turned};
-use crate::{Error, Problem, Result, Solution, Solver, Triangle};
+use crate::{Error, Problem, Result, Solver, Triangle};
 
 /// What the square of an integer translation costs: enough to decide those that nothing else does,
 /// too little to change any other.
@@ -152,7 +152,7 @@ impl SeamlessProblem {
     ) -> Result<()> {
         self.field.check_mesh(mesh)?;
         let before = std::mem::replace(&mut self.density, Density::new(mesh, sizing)?);
-        let energy = Dirichlet::new(self, mesh);
+        let energy = self.dirichlet(mesh);
         let told = solver.set_linear(&energy.linear);
         if let Err(error) = told.and_then(|()| solver.set_constant(energy.constant)) {
             self.density = before;
@@ -191,7 +191,7 @@ impl SeamlessProblem {
     ) -> Result<Self> {
         let mut this = self.clone();
         this.density = density;
-        let energy = Dirichlet::new(&this, mesh);
+        let energy = this.dirichlet(mesh);
         solver.set_linear(&energy.linear)?;
         solver.set_constant(energy.constant)?;
         this.problem.set_linear(&energy.linear)?;
@@ -219,29 +219,6 @@ impl SeamlessProblem {
         &self.cones
     }
 
-    /// The map that belongs to a solution of the problem.
-    ///
-    /// # Errors
-    /// [`Error::LengthMismatch`] for another mesh or the solution of another problem.
-    pub fn map(&self, mesh: &TriangleMesh, solution: &Solution) -> Result<SeamlessMap> {
-        self.field.check_mesh(mesh)?;
-        SeamlessMap::new(self, mesh, solution.values())
-    }
-
-    /// Whether this is a map of that mesh and this problem.
-    pub(crate) fn check_map(&self, mesh: &TriangleMesh, map: &SeamlessMap) -> Result<()> {
-        self.field.check_mesh(mesh)?;
-        let (expected, actual) = (self.problem.variables(), map.values().len());
-        match expected == actual && map.copies() == self.sectors.copy {
-            true => Ok(()),
-            false => Err(Error::LengthMismatch {
-                what: "the map of the parametrization",
-                expected,
-                actual,
-            }),
-        }
-    }
-
     /// Combed arms of a face, as long as the gradients shall be.
     pub(crate) fn targets(&self, mesh: &TriangleMesh, face: usize) -> [[f64; 3]; 2] {
         let arms = self.combing.arms(mesh, &self.field, face);
@@ -254,8 +231,14 @@ impl SeamlessProblem {
         2 * (self.sectors.count() + seam)
     }
 
+    fn dirichlet(&self, mesh: &TriangleMesh) -> Dirichlet {
+        let unknowns = self.translation(self.seams.len());
+        let targets = |face| self.targets(mesh, face);
+        Dirichlet::new(mesh, &self.sectors, &self.cut, unknowns, targets)
+    }
+
     fn add_energy(&mut self, mesh: &TriangleMesh) -> Result<()> {
-        let energy = Dirichlet::new(self, mesh);
+        let energy = self.dirichlet(mesh);
         energy.add_to(&mut self.problem)?;
         let translations: Vec<usize> =
             (self.translation(0)..self.translation(self.seams.len())).collect();

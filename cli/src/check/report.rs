@@ -5,7 +5,7 @@ use std::path::Path;
 use roundel::check::Defect;
 use serde::Serialize;
 
-use super::Checked;
+use super::checked::Checked;
 
 /// What `--json` prints of a check.
 #[derive(Serialize)]
