@@ -44,13 +44,8 @@ fn interior_index(mesh: &TriangleMesh, uv: &[[[f64; 2]; 3]], quarters: &[u8], v:
     let mut holonomy = 0;
     for (face, corner) in mesh.ring(v) {
         let k = (corner + 2) % 3;
-        let e = mesh.edge_of(face, k);
-        let forth = i32::from(quarters[e]);
-        holonomy += if mesh.edge(e).first == (face, k) {
-            forth
-        } else {
-            -forth
-        };
+        let forth = i32::from(quarters[mesh.edge_of(face, k)]);
+        holonomy += mesh.out_of(face, k, forth);
     }
     let holonomy = holonomy.rem_euclid(4);
     match turns_around(mesh, |f| uv[f], v).map(|angle| 4 - angle) {

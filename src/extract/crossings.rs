@@ -8,6 +8,7 @@ use std::cmp::Ordering;
 
 use super::grid_map::ONE;
 use super::refined::{NONE, Refined, next};
+use crate::mesh::turned;
 use crate::{Error, Result};
 
 /// An integer line through an edge, in the coordinates of one of its faces.
@@ -93,16 +94,12 @@ impl Line {
     /// The same line after a transition.
     fn carried(self, quarters: u8, shift: [i64; 2]) -> Line {
         let axis = self.axis ^ (quarters & 1);
-        let is_negated = match (quarters, self.axis) {
-            (0, _) => false,
-            (1, axis) => axis == 1,
-            (2, _) => true,
-            (_, axis) => axis == 0,
-        };
-        let shift = shift[usize::from(axis)] / ONE;
+        let mut point = [0; 2];
+        point[usize::from(self.axis)] = self.level;
+        let level = turned(quarters, point)[usize::from(axis)];
         Line {
             axis,
-            level: shift + if is_negated { -self.level } else { self.level },
+            level: shift[usize::from(axis)] / ONE + level,
         }
     }
 }

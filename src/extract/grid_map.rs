@@ -11,7 +11,7 @@
 
 use super::place::doubled_area;
 use crate::map::SeamlessMap;
-use crate::mesh::{TriangleMesh, turned};
+use crate::mesh::{TriangleMesh, angle_at, turned};
 use crate::{Error, Result};
 
 /// Coordinates must lie within plus and minus this: products of differences then fit 128 bits.
@@ -302,7 +302,7 @@ fn outward(mesh: &TriangleMesh, uvs: &[[[f64; 2]; 3]], steps: &[[Step; 3]], v: u
             }
             let [a, b] = [uvs[f][edge], uvs[f][(edge + 1) % 3]];
             let along = [b[0] - a[0], b[1] - a[1]];
-            let right = [along[1], -along[0]].map(|x| match x.abs() < ON_LINE {
+            let right = turned(3, along).map(|x| match x.abs() < ON_LINE {
                 true => 0,
                 false => x.signum() as i64,
             });
@@ -319,11 +319,6 @@ fn outward(mesh: &TriangleMesh, uvs: &[[[f64; 2]; 3]], steps: &[[Step; 3]], v: u
 
 /// Signed quarter turns of the coordinates around an interior vertex.
 fn winding(mesh: &TriangleMesh, uvs: &[[[f64; 2]; 3]], v: usize) -> i64 {
-    let angle = |(f, k): (usize, usize)| {
-        let [a, b, c] = [0, 1, 2].map(|i| uvs[f][(k + i) % 3]);
-        let (x, y) = ([b[0] - a[0], b[1] - a[1]], [c[0] - a[0], c[1] - a[1]]);
-        (x[0] * y[1] - x[1] * y[0]).atan2(x[0] * y[0] + x[1] * y[1])
-    };
-    let total: f64 = mesh.ring(v).map(angle).sum();
+    let total: f64 = mesh.ring(v).map(|(f, k)| angle_at(uvs[f], k)).sum();
     (total / std::f64::consts::FRAC_PI_2).round() as i64
 }

@@ -159,9 +159,7 @@ fn set_jump(
         let message = format!("there is no jump of {jump} over side {side} of face {face}");
         return Err(wrong(line, &message));
     }
-    let e = mesh.edge_of(face, side);
-    let leaves_first = mesh.edge(e).first == (face, side);
-    field.period_jumps[e] = if leaves_first { jump } else { -jump };
+    field.period_jumps[mesh.edge_of(face, side)] = mesh.out_of(face, side, jump);
     Ok(())
 }
 

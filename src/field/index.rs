@@ -79,10 +79,7 @@ impl OrientationField {
             }
             let e = mesh.edge_of(face, k);
             let step = self.kappa[e] + self.step() * f64::from(self.period_jumps[e]);
-            sum += match mesh.edge(e).first == (face, k) {
-                true => step,
-                false => -step,
-            };
+            sum += mesh.out_of(face, k, step);
         }
         sum
     }

@@ -103,10 +103,8 @@ pub(super) fn ring_sum(
     let mut turn = TAU;
     for (face, corner) in mesh.ring(vertex) {
         let k = (corner + 2) % 3;
-        let e = mesh.edge_of(face, k);
-        let leaves_first = mesh.edge(e).first == (face, k);
         turn -= mesh.angle(face, corner);
-        turn -= if leaves_first { kappa[e] } else { -kappa[e] };
+        turn -= mesh.out_of(face, k, kappa[mesh.edge_of(face, k)]);
     }
     (turn / step).round() - f64::from(steps)
 }

@@ -138,11 +138,7 @@ impl FieldProblem {
             for (face, corner) in mesh.ring(v) {
                 let k = (corner + 2) % 3;
                 let e = mesh.edge_of(face, k);
-                let sign = if mesh.edge(e).first == (face, k) {
-                    1.0
-                } else {
-                    -1.0
-                };
+                let sign = mesh.out_of(face, k, 1.0);
                 match self.jumps[e] {
                     Jump::Boundary => {}
                     Jump::Known(p) => sum -= sign * f64::from(p),
@@ -268,11 +264,7 @@ fn hint_rings(
             let e = mesh.edge_of(face, k);
             if let Some(row) = row_of_edge[e] {
                 rows.push(row);
-                signs.push(if mesh.edge(e).first == (face, k) {
-                    1
-                } else {
-                    -1
-                });
+                signs.push(mesh.out_of(face, k, 1));
             }
         }
         if rows.len() - start == mesh.face_degree(v) {

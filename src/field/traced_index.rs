@@ -40,10 +40,7 @@ impl OrientationField {
             };
             let arm = self.arm(mesh, face, steps);
             let e = mesh.edge_of(face, k);
-            steps += match mesh.edge(e).first == (face, k) {
-                true => -self.period_jumps[e],
-                false => self.period_jumps[e],
-            };
+            steps -= mesh.out_of(face, k, self.period_jumps[e]);
             let matched = self.arm(mesh, across, steps);
             let (from, to) = (mesh.normal(face), mesh.normal(across));
             // Over the edge: what lies along it stays, what lies across it turns with the plane.

@@ -53,11 +53,8 @@ impl Combing {
 
     /// The transition over local edge `k` of a face, out of that face.
     pub fn transition_from(&self, mesh: &TriangleMesh, face: usize, k: usize) -> u8 {
-        let e = mesh.edge_of(face, k);
-        match mesh.edge(e).first == (face, k) {
-            true => self.transitions[e],
-            false => (4 - self.transitions[e]) % 4,
-        }
+        let forth = i32::from(self.transitions[mesh.edge_of(face, k)]);
+        mesh.out_of(face, k, forth).rem_euclid(4) as u8
     }
 
     /// The combed cross of a face: the chosen arm X, and Y a quarter turn counter-clockwise about
@@ -91,9 +88,8 @@ fn comb(mesh: &TriangleMesh, field: &OrientationField, cut: &CutGraph) -> Vec<u8
                     continue;
                 }
                 let jump = i64::from(field.period_jumps()[e]);
-                let leaves_first = mesh.edge(e).first == (face, k);
-                let out = if leaves_first { jump } else { -jump };
-                quarters[across] = (i64::from(quarters[face]) - out).rem_euclid(4) as u8;
+                let turned = i64::from(quarters[face]) - mesh.out_of(face, k, jump);
+                quarters[across] = turned.rem_euclid(4) as u8;
                 queue.push_back(across);
             }
         }

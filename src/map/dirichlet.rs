@@ -56,8 +56,7 @@ impl Dirichlet {
                 sum.add_edge(ends, weight, aims);
 
                 let e = mesh.edge_of(face, k);
-                let edge = mesh.edge(e);
-                let waits = edge.first == (face, k) && edge.second.is_some();
+                let waits = mesh.is_first_side(face, k) && mesh.neighbor(face, k).is_some();
                 if cut.contains(e) {
                     sum.pairs.push((ends, weight));
                 } else if waits {

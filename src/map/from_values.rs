@@ -76,7 +76,7 @@ fn transitions(problem: &SeamlessProblem, mesh: &TriangleMesh, values: &[f64]) -
                 quarters,
                 translation,
             };
-            transitions.push(match mesh.edge(edge).first == (face, k) {
+            transitions.push(match mesh.is_first_side(face, k) {
                 true => forth,
                 false => forth.inverse(),
             });

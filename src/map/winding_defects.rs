@@ -8,7 +8,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use super::{SeamlessMap, SeamlessProblem};
 use crate::Result;
-use crate::mesh::{TriangleMesh, orientation};
+use crate::mesh::{TriangleMesh, angle_at, orientation};
 
 impl SeamlessProblem {
     /// The inner vertices around which a map of this problem turns another number of times than the
@@ -58,9 +58,7 @@ fn turns_around(mesh: &TriangleMesh, uv: impl Fn(usize) -> [[f64; 2]; 3], v: usi
         if orientation(uv) <= 0.0 {
             return None;
         }
-        let at = |k: usize| uv[(corner + k) % 3];
-        let [a, b] = [at(1), at(2)].map(|p| [p[0] - at(0)[0], p[1] - at(0)[1]]);
-        sum += (a[0] * b[1] - a[1] * b[0]).atan2(a[0] * b[0] + a[1] * b[1]);
+        sum += angle_at(uv, corner);
     }
     Some((sum / FRAC_PI_2).round() as i32)
 }

@@ -15,6 +15,8 @@
 
 use std::f64::consts::FRAC_1_SQRT_2;
 
+use crate::mesh::turned;
+
 /// How much the area counts beside the angles. The paper's examples have 1/128 to 1.
 const AREA_WEIGHT: f64 = 1.0;
 
@@ -186,7 +188,7 @@ fn eigen(a: f64, b: f64, c: f64) -> [(f64, [f64; 2]); 2] {
     let angle = 0.5 * (2.0 * b).atan2(a - c);
     let (y, x) = angle.sin_cos();
     let (mean, half) = (0.5 * (a + c), b.hypot(0.5 * (a - c)));
-    [(mean + half, [x, y]), (mean - half, [-y, x])]
+    [(mean + half, [x, y]), (mean - half, turned(1, [x, y]))]
 }
 
 #[cfg(test)]

@@ -11,8 +11,8 @@ use std::f64::consts::FRAC_PI_2;
 use super::disk::Disk;
 use crate::Result;
 use crate::linalg::{Cholesky, Sparse};
-use crate::mesh::TriangleMesh;
 use crate::mesh::vector::{norm, sub};
+use crate::mesh::{TriangleMesh, angle_between, turned};
 
 /// Corner coordinates of a face.
 type Shape = [[f64; 2]; 3];
@@ -53,7 +53,7 @@ impl Layout {
             let [a, b] = [k, (k + 1) % 3].map(|k| minus(at[k], centers[&face]));
             polar.insert(mesh.corners(face)[k], [angle, a[0].hypot(a[1]).ln()]);
             seed.get_or_insert((face, k, a[1].atan2(a[0])));
-            angle += (a[0] * b[1] - a[1] * b[0]).atan2(a[0] * b[0] + a[1] * b[1]);
+            angle += angle_between(a, b);
         }
         let is_around = (angle - around).abs() < 1e-6;
         let Some((face, corner, direction)) = seed.filter(|_| is_around) else {
@@ -168,8 +168,8 @@ fn turns(
             false => (k, (l + 1) % 3),
             true => ((k + 1) % 3, l),
         };
-        let turned = turn[mine] + FRAC_PI_2 * f64::from(quarter(uv(face), k, uv(next), l));
-        found.insert(next, whole(next, other, turned));
+        let there = turn[mine] + FRAC_PI_2 * f64::from(quarter(uv(face), k, uv(next), l));
+        found.insert(next, whole(next, other, there));
         true
     });
     found
@@ -266,17 +266,11 @@ fn harmonic(
 fn quarter(from: Shape, k: usize, to: Shape, l: usize) -> i32 {
     let a = minus(from[(k + 1) % 3], from[k]);
     let b = minus(to[l], to[(l + 1) % 3]);
-    let angle = (a[0] * b[1] - a[1] * b[0]).atan2(a[0] * b[0] + a[1] * b[1]);
-    (angle / FRAC_PI_2).round() as i32
+    (angle_between(a, b) / FRAC_PI_2).round() as i32
 }
 
-fn rotated([x, y]: [f64; 2], quarters: i32) -> [f64; 2] {
-    match quarters.rem_euclid(4) {
-        0 => [x, y],
-        1 => [-y, x],
-        2 => [-x, -y],
-        _ => [y, -x],
-    }
+fn rotated(p: [f64; 2], quarters: i32) -> [f64; 2] {
+    turned(quarters.rem_euclid(4) as u8, p)
 }
 
 fn minus(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
