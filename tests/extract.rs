@@ -204,7 +204,7 @@ fn planted_folds_away_from_irregular_vertices_leave_no_trace() {
         .map(|t| t.map(|v| at[v as usize]))
         .collect();
     let (before, after) = (quads_of(&mesh, &uvs), quads_of(&mesh, &folded));
-    assert!(after.unfolded > 0);
+    assert!(after.folds_removed > 0);
     assert_eq!(
         (after.quads.len(), after.others.len()),
         (before.quads.len(), 0)
@@ -231,7 +231,7 @@ fn shapes_become_quads_of_their_topology() {
         assert_eq!(quads.figures().boundary_edges, 0, "{name}");
         let same = quads_of(&mesh, &map.corner_uvs());
         assert_eq!(quads, same, "{name}: transitions given and found");
-        if quads.unfolded + quads.repaired == 0 {
+        if quads.folds_removed + quads.repaired == 0 {
             assert_eq!(quads.figures().irregular, map.cones().len(), "{name}");
         }
         let before = QuadQuality::new(&quads);

@@ -19,7 +19,7 @@ mod singular;
 mod transitions;
 
 pub use isolines::feature_edges;
-pub use orientation::orientation;
+use orientation::orientation;
 pub use singular::Singularity;
 
 use crate::mesh::TriangleMesh;
@@ -94,7 +94,7 @@ pub struct MapCheck {
 impl MapCheck {
     /// Whether nothing is wrong.
     pub fn is_valid(&self) -> bool {
-        self.is_integer() && self.is_unfolded() && self.is_aligned()
+        self.is_integer() && self.is_fold_free() && self.is_aligned()
     }
 
     /// Whether coordinates turn by quarters over every edge, whatever they shift by.
@@ -108,7 +108,7 @@ impl MapCheck {
     }
 
     /// Whether every triangle is the right way round and has an area.
-    pub fn is_unfolded(&self) -> bool {
+    pub fn is_fold_free(&self) -> bool {
         self.flipped.is_empty() && self.degenerate.is_empty()
     }
 

@@ -30,7 +30,7 @@ pub(super) fn quad_mesh(mesh: &TriangleMesh, refined: &Refined, graph: &Graph) -
         quads,
         others,
         partial_cells,
-        unfolded: 0,
+        folds_removed: 0,
         repaired: 0,
         folded: Vec::new(),
         expected_euler: mesh.euler_characteristic(),

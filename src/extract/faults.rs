@@ -112,7 +112,7 @@ mod tests {
             quads: quads.to_vec(),
             others: others.iter().map(|face| face.to_vec()).collect(),
             partial_cells: 0,
-            unfolded: 0,
+            folds_removed: 0,
             repaired: 0,
             folded: Vec::new(),
             expected_euler: 1,

@@ -57,11 +57,11 @@ pub fn extract(
     monitor.progress(Phase::Quads, 0.2)?;
     let mut graph = trace::graph(&refined, &mut arrangement);
     monitor.progress(Phase::Quads, 0.4)?;
-    let unfolded = fold_removal::remove_folds(&mut graph);
+    let removed = fold_removal::remove_folds(&mut graph);
     let repaired = repair::repair(&mut graph);
     monitor.progress(Phase::Quads, 0.8)?;
     let mut quads = faces::quad_mesh(mesh, &refined, &graph);
-    (quads.unfolded, quads.repaired) = (unfolded, repaired);
+    (quads.folds_removed, quads.repaired) = (removed, repaired);
     quads.folded = map.folded();
     Ok(quads)
 }

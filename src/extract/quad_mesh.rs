@@ -27,7 +27,7 @@ pub struct QuadMesh {
     /// Cells that the boundary cuts through and that are left out.
     pub partial_cells: usize,
     /// Integer points that folds of the map had doubled, taken out or joined.
-    pub unfolded: usize,
+    pub folds_removed: usize,
     /// Moves that made quads of what folds had left: lines taken out, vertices put in.
     pub repaired: usize,
     /// Triangles that the map turns over or collapses, in increasing order: where faults are, they
