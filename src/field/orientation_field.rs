@@ -11,11 +11,11 @@ use crate::{Error, Result};
 /// they match over edges.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OrientationField {
-    pub(crate) symmetry: u8,
-    pub(crate) angles: Vec<f64>,
-    pub(crate) period_jumps: Vec<i32>,
-    pub(crate) kappa: Vec<f64>,
-    pub(crate) constrained: Vec<bool>,
+    pub(super) symmetry: u8,
+    pub(super) angles: Vec<f64>,
+    pub(super) period_jumps: Vec<i32>,
+    pub(super) kappa: Vec<f64>,
+    pub(super) constrained: Vec<bool>,
 }
 
 impl OrientationField {

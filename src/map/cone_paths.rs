@@ -11,7 +11,7 @@ use std::collections::BinaryHeap;
 use crate::mesh::TriangleMesh;
 
 /// Adds the paths to `is_cut`.
-pub(crate) fn join_cones(mesh: &TriangleMesh, cones: &[usize], is_cut: &mut [bool]) {
+pub(super) fn join_cones(mesh: &TriangleMesh, cones: &[usize], is_cut: &mut [bool]) {
     let mut sweep = Sweep::new(mesh, cones);
     for (e, edge) in mesh.edges().enumerate() {
         if is_cut[e] || edge.second.is_none() {

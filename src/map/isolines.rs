@@ -35,7 +35,7 @@ impl Isoline {
 /// All feature edges, curve by curve.
 ///
 /// An edge follows the coordinate whose arm is nearer to it in its first face.
-pub(crate) fn isolines(
+pub(super) fn isolines(
     mesh: &TriangleMesh,
     field: &OrientationField,
     combing: &Combing,

@@ -53,13 +53,13 @@ impl Default for SeamlessOptions {
 /// the first vertex.
 #[derive(Debug, Clone)]
 pub struct SeamlessProblem {
-    pub(crate) problem: Problem,
-    pub(crate) field: OrientationField,
-    pub(crate) cut: CutGraph,
-    pub(crate) combing: Combing,
+    pub(super) problem: Problem,
+    pub(super) field: OrientationField,
+    pub(super) cut: CutGraph,
+    pub(super) combing: Combing,
     pub(crate) sectors: Sectors,
-    pub(crate) seams: Vec<Seam>,
-    pub(crate) cones: Vec<usize>,
+    pub(super) seams: Vec<Seam>,
+    pub(super) cones: Vec<usize>,
     pub(crate) isolines: Vec<Isoline>,
     /// The lengths of the gradients aimed at.
     density: Density,
@@ -227,7 +227,7 @@ impl SeamlessProblem {
     }
 
     /// The unknown that is `s` of a seam; `t` is the next.
-    pub(crate) fn translation(&self, seam: usize) -> usize {
+    pub(super) fn translation(&self, seam: usize) -> usize {
         2 * (self.sectors.count() + seam)
     }
 
@@ -264,7 +264,7 @@ impl SeamlessProblem {
     }
 
     /// The quarter turns of a seam, from its left to its right side.
-    pub(crate) fn seam_turns(&self, mesh: &TriangleMesh, seam: usize) -> u8 {
+    pub(super) fn seam_turns(&self, mesh: &TriangleMesh, seam: usize) -> u8 {
         let first = self.seams[seam].first();
         first.map_or(0, |&(f, k)| self.combing.transition_from(mesh, f, k))
     }

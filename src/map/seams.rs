@@ -8,10 +8,10 @@ use super::CutGraph;
 use crate::mesh::TriangleMesh;
 
 /// A chain of cut edges, tip to tail: (face, local edge) on its left side.
-pub(crate) type Seam = Vec<(usize, usize)>;
+pub(super) type Seam = Vec<(usize, usize)>;
 
 /// All seams, by the lowest of their two ends, around it counter-clockwise.
-pub(crate) fn seams(mesh: &TriangleMesh, cut: &CutGraph, cones: &[usize]) -> Vec<Seam> {
+pub(super) fn seams(mesh: &TriangleMesh, cut: &CutGraph, cones: &[usize]) -> Vec<Seam> {
     let degree = cut.degrees(mesh);
     let ends = |v: usize| degree[v] > 0 && (degree[v] != 2 || mesh.is_boundary_vertex(v));
     let mut is_end: Vec<bool> = (0..mesh.vertex_count()).map(ends).collect();

@@ -41,7 +41,7 @@ impl Sizing {
 
 /// Unit squares a unit length in every face.
 #[derive(Debug, Clone)]
-pub(crate) enum Density {
+pub(super) enum Density {
     Uniform(f64),
     /// Along the arm that the field stores, and across.
     Faces(Vec<[f64; 2]>),
@@ -51,7 +51,7 @@ impl Density {
     /// # Errors
     /// [`Error::InvalidArgument`] for no quads and for lengths that are not above zero, with the
     /// face where there is one; [`Error::NotFinite`]; [`Error::LengthMismatch`].
-    pub(crate) fn new(mesh: &TriangleMesh, sizing: &Sizing) -> Result<Self> {
+    pub(super) fn new(mesh: &TriangleMesh, sizing: &Sizing) -> Result<Self> {
         match sizing {
             Sizing::Quads(0) => Err(Error::InvalidArgument {
                 what: "a parametrization for no quads".into(),
@@ -84,7 +84,7 @@ impl Density {
     }
 
     /// So many times as dense.
-    pub(crate) fn scaled(&self, factor: f64) -> Self {
+    pub(super) fn scaled(&self, factor: f64) -> Self {
         match self {
             Density::Uniform(density) => Density::Uniform(factor * density),
             Density::Faces(faces) => {
@@ -94,7 +94,7 @@ impl Density {
     }
 
     /// So many times as dense in every face.
-    pub(crate) fn graded(&self, factors: &[f64]) -> Self {
+    pub(super) fn graded(&self, factors: &[f64]) -> Self {
         let of = |face: usize| match self {
             Density::Uniform(density) => [*density; 2],
             Density::Faces(faces) => faces[face],
@@ -104,7 +104,7 @@ impl Density {
     }
 
     /// Along the two arms of a face that is combed by this many quarter turns.
-    pub(crate) fn of(&self, face: usize, quarters: u8) -> [f64; 2] {
+    pub(super) fn of(&self, face: usize, quarters: u8) -> [f64; 2] {
         match self {
             Density::Uniform(density) => [*density; 2],
             Density::Faces(densities) => {

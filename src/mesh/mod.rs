@@ -39,12 +39,12 @@ pub use check::ZERO_AREA_TOLERANCE;
 pub use closest::ClosestPoint;
 pub use error::MeshError;
 pub use jitter::jitter;
-pub use orientation::orientation;
-pub use plane::turned;
-pub(crate) use plane::{angle_at, angle_between};
 pub use subdivide::subdivide;
 pub use topology::Components;
 pub use triangle_mesh::{Edge, TriangleMesh};
+
+pub(crate) use orientation::orientation;
+pub(crate) use plane::{angle_at, angle_between, turned};
 
 #[cfg(test)]
 mod error_tests;
