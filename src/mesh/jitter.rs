@@ -13,7 +13,7 @@ use super::{MeshError, TriangleMesh};
 pub fn jitter(mesh: &TriangleMesh, amplitude: f64, seed: u64) -> Result<TriangleMesh, MeshError> {
     if !amplitude.is_finite() || amplitude < 0.0 {
         return Err(MeshError::InvalidArgument {
-            what: format!("a jitter of {amplitude} is not a finite number of at least 0"),
+            what: format!("the jitter amplitude is {amplitude}; it must be finite and at least 0"),
         });
     }
     let mut shortest = vec![f64::INFINITY; mesh.vertex_count()];
@@ -36,8 +36,8 @@ pub fn jitter(mesh: &TriangleMesh, amplitude: f64, seed: u64) -> Result<Triangle
     TriangleMesh::new(vertices, mesh.triangles().to_vec())
 }
 
-/// SplitMix64 (Steele, Lea, Flood 2014): eight lines, no state but a counter, and the same
-/// numbers on every machine and in every version, which no general generator promises.
+/// SplitMix64 (`steele2014`): eight lines, a counter as its only state, and the same numbers on
+/// every machine and in every version, which no general generator promises.
 struct SplitMix(u64);
 
 impl SplitMix {

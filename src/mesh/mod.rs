@@ -1,8 +1,8 @@
 //! Triangle meshes: validated connectivity, measures, files, procedural shapes, curvature.
 //!
 //! A [`TriangleMesh`] is an oriented 2-manifold with or without boundary, of any genus and any
-//! number of components, and does not change once made. What is not one is refused with a
-//! [`MeshError`] that names the element. Elements are counted from 0. Local edge `k` of a face
+//! number of components, and does not change once made. Anything else is refused with a
+//! [`MeshError`] that names the element at fault. Elements are counted from 0. Local edge `k` of a face
 //! runs from its corner `k` to its corner `k + 1`; angles are counter-clockwise about the face
 //! normal, from local edge 0, the face's first edge in the file.
 //!

@@ -1,4 +1,4 @@
-//! The mesh itself: vertices, faces, and who is next to whom.
+//! The mesh itself: vertices, faces and their adjacency.
 
 use std::ops::Neg;
 

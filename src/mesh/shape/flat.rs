@@ -22,7 +22,7 @@ pub(super) fn plane(target: usize) -> Result<TriangleMesh, MeshError> {
 
 /// Unit squares in a row, each of four patches between its sides and its hole.
 pub(super) fn plate_with_holes(target: usize) -> Result<TriangleMesh, MeshError> {
-    // Means of the sides and arcs, and of what is between them.
+    // The mean of a side and an arc, and the mean distance between them.
     let lengths = [0.7, 0.34];
     let triangles = |[along, across]: [usize; 2]| 8 * HOLES * along * across;
     let [along, across] = divide(lengths, 1, target, triangles);
