@@ -1,14 +1,14 @@
-//! Singular vertices: those around which the map turns other than once.
+//! Singular vertices (`bommes2012`, equation (6.2)): those whose angles in the map do not sum to one turn.
 //!
-//! The quarter turns around a vertex, composed, are its index up to whole turns; these are told by
-//! the angles of the map, which are trusted where all triangles around are the right way round.
+//! The composed quarter turns around a vertex give its index up to whole turns. The angles of the map tell
+//! the whole turns; they are trusted where all triangles around are positively oriented.
 
 use std::f64::consts::FRAC_PI_2;
 
 use super::orientation::orientation;
 use crate::mesh::TriangleMesh;
 
-/// A vertex around which a map turns other than once.
+/// A vertex around which the angles of a map do not sum to one turn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Singularity {
     /// The vertex.
@@ -19,8 +19,8 @@ pub struct Singularity {
 
 /// The singular vertices, in increasing order.
 ///
-/// `quarters` holds the turn of each edge from its first to its second face. At the boundary a
-/// vertex is singular where the angle is not a half turn, and only looked at if `on_boundary`.
+/// `quarters` holds the turn of each edge from its first to its second face. A boundary vertex is
+/// singular if its angle is not half a turn, and is checked only if `on_boundary`.
 pub(super) fn singularities(
     mesh: &TriangleMesh,
     uv: &[[[f64; 2]; 3]],
@@ -56,8 +56,8 @@ fn interior_index(mesh: &TriangleMesh, uv: &[[[f64; 2]; 3]], quarters: &[u8], v:
     }
 }
 
-/// The quarter turns that the map's angles around a vertex add up to; none where a triangle there
-/// is folded.
+/// The quarter turns to which the map's angles around a vertex sum; none if a triangle there is
+/// folded.
 pub(super) fn turns_around(
     mesh: &TriangleMesh,
     uv: impl Fn(usize) -> [[f64; 2]; 3],

@@ -1,8 +1,8 @@
-//! Combing: one arm of every cross chosen such that the arms match over all edges but the cut.
+//! Combing: one arm of every cross is chosen such that the arms match over all edges off the cut.
 //!
-//! Kälberer, Nieser, Polthier 2007, section 3, and Bommes, Zimmer, Kobbelt 2009, section 5: once
-//! the surface is cut open to a disk without cones, the period jumps can be turned away one face
-//! after the other; what is left of them sits on the cut, as quarter turns.
+//! `kalberer2007`, section 3, and `bommes2009`, section 5: once the surface is cut open to a disk without
+//! cones, the period jumps can be removed by turning one face after the other. The rest of them, quarter
+//! turns, lies on the cut.
 
 use std::collections::VecDeque;
 use std::f64::consts::FRAC_PI_2;
@@ -39,13 +39,13 @@ impl Combing {
         })
     }
 
-    /// One number a face, 0 to 3: the quarter turns, counter-clockwise, from the arm that the field
+    /// One number for each face, 0 to 3: the quarter turns, counter-clockwise, from the arm that the field
     /// stores to the one chosen.
     pub fn quarters(&self) -> &[u8] {
         &self.quarters
     }
 
-    /// One number an edge, 0 to 3: the quarter turns, counter-clockwise, that take coordinates
+    /// One number for each edge, 0 to 3: the quarter turns, counter-clockwise, that take coordinates
     /// along the arms of its first face to those along the arms of its second. Zero off the cut.
     pub fn transitions(&self) -> &[u8] {
         &self.transitions

@@ -1,15 +1,15 @@
-//! How far gradients are from what they should be, as a quadratic form in the vertices.
+//! The deviation of gradients from their targets, as a quadratic form in the vertices.
 //!
-//! On a triangle, area |g|^2 is the sum over its edges of w_k (g . e_k)^2 with w_k half the
-//! cotangent of the opposite angle (Pinkall, Polthier 1993), and a gradient times an edge is a
-//! difference of two values. So is, with the value aimed at,
+//! On a triangle, area |g|^2 is the sum over its edges of w_k (g . e_k)^2 with w_k half the cotangent of
+//! the opposite angle (`pinkall1993`), and a gradient times an edge is a difference of two values. With
+//! the target X of the gradient,
 //!
 //! ```text
 //! area |grad u - X|^2 = sum over edges (a, b) of w_k (u_b - u_a - X . e_k)^2
 //! ```
 //!
-//! The sums are formed here, one entry an edge and a vertex, since a quadratic matrix from least
-//! squares over the triangles would need three times the memory on the way.
+//! The sums are formed here, with one entry for each edge and each vertex: least-squares rows for every
+//! triangle would need three times the memory to form the matrix.
 
 use super::CutGraph;
 use super::sectors::Sectors;

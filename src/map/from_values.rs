@@ -17,7 +17,7 @@ impl SeamlessProblem {
         SeamlessMap::new(self, mesh, solution.values())
     }
 
-    /// Whether this is a map of that mesh and this problem.
+    /// Checks that this is a map of that mesh and this problem.
     pub(crate) fn check_map(&self, mesh: &TriangleMesh, map: &SeamlessMap) -> Result<()> {
         self.field.check_mesh(mesh)?;
         let (expected, actual) = (self.problem.variables(), map.values().len());
@@ -86,7 +86,7 @@ fn transitions(problem: &SeamlessProblem, mesh: &TriangleMesh, values: &[f64]) -
     transitions
 }
 
-/// By gradients in space, and so by other formulas than the problem was made of.
+/// The energy by gradients in space, and so by other formulas than those of the problem.
 fn energy(problem: &SeamlessProblem, mesh: &TriangleMesh, map: &SeamlessMap) -> f64 {
     let mut sum = CompensatedSum::new(0.0);
     for face in 0..mesh.face_count() {

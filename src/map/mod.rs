@@ -1,7 +1,7 @@
 //! The seamless parametrization that follows a field, as a mixed-integer problem: coordinates on the
 //! surface cut open, integer translations over the cut.
 //!
-//! Bommes, Zimmer, Kobbelt 2009, section 5. A client of the solver: it builds a
+//! `bommes2009`, section 5; `bommes2012`, section 8.4. A client of the solver: it builds a
 //! [`Problem`](crate::Problem) and reads a [`Solution`](crate::Solution).
 
 mod combing;

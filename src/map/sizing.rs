@@ -1,4 +1,4 @@
-//! How large the quads of a map shall be.
+//! The size of the quads of a map.
 
 use crate::mesh::TriangleMesh;
 use crate::{Error, Result};
@@ -39,7 +39,7 @@ impl Sizing {
     }
 }
 
-/// Unit squares a unit length in every face.
+/// The number of unit squares per unit of length in every face.
 #[derive(Debug, Clone)]
 pub(super) enum Density {
     Uniform(f64),
@@ -54,7 +54,7 @@ impl Density {
     pub(super) fn new(mesh: &TriangleMesh, sizing: &Sizing) -> Result<Self> {
         match sizing {
             Sizing::Quads(0) => Err(Error::InvalidArgument {
-                what: "a parametrization for no quads".into(),
+                what: "the number of quads is 0; it must be at least 1".into(),
                 index: None,
             }),
             Sizing::Quads(quads) => {
@@ -83,7 +83,7 @@ impl Density {
         }
     }
 
-    /// So many times as dense.
+    /// `factor` times this density.
     pub(super) fn scaled(&self, factor: f64) -> Self {
         match self {
             Density::Uniform(density) => Density::Uniform(factor * density),
@@ -93,7 +93,7 @@ impl Density {
         }
     }
 
-    /// So many times as dense in every face.
+    /// This density times a factor for every face.
     pub(super) fn graded(&self, factors: &[f64]) -> Self {
         let of = |face: usize| match self {
             Density::Uniform(density) => [*density; 2],
@@ -103,7 +103,7 @@ impl Density {
         Density::Faces(graded.map(|(face, f)| of(face).map(|d| f * d)).collect())
     }
 
-    /// Along the two arms of a face that is combed by this many quarter turns.
+    /// The densities along the two arms of a face that is combed by these quarter turns.
     pub(super) fn of(&self, face: usize, quarters: u8) -> [f64; 2] {
         match self {
             Density::Uniform(density) => [*density; 2],
@@ -129,7 +129,7 @@ fn check(what: &'static str, length: f64, face: Option<usize>) -> Result<()> {
     match length > 0.0 {
         true => Ok(()),
         false => Err(Error::InvalidArgument {
-            what: format!("{what}: {length} is not above zero"),
+            what: format!("{what}: {length} is not above 0"),
             index: face,
         }),
     }
