@@ -1,9 +1,9 @@
 //! A disk around a cone laid anew in polar coordinates.
 //!
-//! Around a cone of q quarter turns a map looks like `z^(q/4)`: the logarithm of the distance from the
-//! cone and the angle are both harmonic. They are solved for, with the boundary of the disk where it
-//! is and the angle growing by q quarters on the way around, so that the disk is covered as often as
-//! the cone asks for, whatever was there before.
+//! Around a cone of q quarter turns a map looks like `z^(q/4)`: the angle and the logarithm of the distance
+//! from the cone are both harmonic. They are computed with the boundary of the disk where it is and the angle
+//! growing by q quarter turns around the cone. The map then covers the disk as often as the cone requires,
+//! whatever it did before.
 
 use std::collections::{BTreeMap, VecDeque};
 use std::f64::consts::FRAC_PI_2;
@@ -32,7 +32,7 @@ struct Charts {
 }
 
 impl Layout {
-    /// With `quarters` around the center; none where the boundary does not go around it that often.
+    /// The layout with `quarters` around the center; none if the boundary makes another number of turns.
     ///
     /// # Errors
     /// [`OutOfMemory`](crate::Error::OutOfMemory).
@@ -143,7 +143,7 @@ fn centers(
     found
 }
 
-/// What turns angles into directions, corner by corner, from that of one corner on.
+/// What turns the angle of each corner into its direction, starting from the direction of one corner.
 fn turns(
     mesh: &TriangleMesh,
     disk: &Disk,
@@ -175,7 +175,7 @@ fn turns(
     found
 }
 
-/// Offers every step across an edge inside the disk until none is taken any more.
+/// Tries every step across an edge inside the disk until none is taken any more.
 fn spread(
     mesh: &TriangleMesh,
     disk: &Disk,
@@ -261,8 +261,8 @@ fn harmonic(
     Ok(())
 }
 
-/// How many quarters the chart of the second face is turned from that of the first, by the edge `k`
-/// of the one, which is `l` of the other, the other way round.
+/// The quarter turns from the chart of one face to that of another, by their common edge: local edge `k`
+/// of the one, `l` of the other.
 fn quarter(from: Shape, k: usize, to: Shape, l: usize) -> i32 {
     let a = minus(from[(k + 1) % 3], from[k]);
     let b = minus(to[l], to[(l + 1) % 3]);
