@@ -204,7 +204,7 @@ fn folds_away_from_irregular_vertices_do_not_change_the_quads() {
         .map(|t| t.map(|v| at[v as usize]))
         .collect();
     let (before, after) = (quads_of(&mesh, &uvs), quads_of(&mesh, &folded));
-    assert!(after.unfolded > 0);
+    assert!(after.folds_removed > 0);
     assert_eq!(
         (after.quads.len(), after.others.len()),
         (before.quads.len(), 0)
@@ -234,7 +234,7 @@ fn quads_have_the_topology_of_their_shape() {
             quads, same,
             "{name}: with given and with computed transitions"
         );
-        if quads.unfolded + quads.repaired == 0 {
+        if quads.folds_removed + quads.repaired == 0 {
             assert_eq!(quads.figures().irregular, map.cones().len(), "{name}");
         }
         let before = QuadQuality::new(&quads);

@@ -207,7 +207,7 @@ fn fold_free_map(mesh: &TriangleMesh) -> (FoldFreeMap, bool) {
     let found = check_map(mesh, &map.corner_uvs(), &options).unwrap();
     let steps = [&found.rotations, &found.translations];
     assert!(steps.iter().all(|faults| faults.is_empty()), "{found:?}");
-    assert_eq!(found.is_unfolded(), unfolded.untangled.flipped_after == 0);
+    assert_eq!(found.is_fold_free(), unfolded.untangled.flipped_after == 0);
     (unfolded, found.is_valid())
 }
 

@@ -1,12 +1,10 @@
-//! Edges that shall lie on integer isolines: features and the boundary.
+//! Edges that must lie on integer isolines: features and the boundary.
 
 use crate::mesh::TriangleMesh;
 use crate::mesh::vector::{cross, dot, norm};
 
-/// How far an edge is from the nearest line u = integer or v = integer, in the face on its first
-/// side and in that on its second; the larger of the two.
-///
-/// An edge that crosses to another line in between is as far as its farther end.
+/// The distance of an edge from the nearest line u = integer or v = integer, the larger of those in its
+/// two faces. It is that of the farther end.
 pub(super) fn distance_to_isoline(mesh: &TriangleMesh, uv: &[[[f64; 2]; 3]], edge: usize) -> f64 {
     let edge = mesh.edge(edge);
     let sides = std::iter::once(edge.first).chain(edge.second);

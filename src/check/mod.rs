@@ -1,17 +1,17 @@
 //! Whether coordinates on a surface are an integer-grid map, element by element.
 //!
-//! Bommes 2012, chapter 6 (and Bommes, Campen, Ebke, Alliez, Kobbelt 2013, section 3): the integer
-//! lines of the plane become a quad mesh on the surface if
+//! `bommes2012`, chapter 6, equations (6.1) to (6.3), and `bommes2013`, section 3: the integer lines of
+//! the plane become a quad mesh on the surface if
 //!
 //! | condition | file |
 //! | --- | --- |
-//! | over every edge coordinates turn by quarters and shift by integers | `transitions` |
+//! | over every edge coordinates change by a quarter turn and integers | `transitions` |
 //! | every singular vertex is at an integer point | `singular` |
-//! | every triangle is the right way round, and none is without area | `orientation` |
+//! | every triangle is positively oriented | `orientation` |
 //! | features and boundary are on integer lines | `isolines` |
 //!
-//! Nothing but the mesh and the coordinates of its corners is looked at, wherever they come from:
-//! the check shares no code with what makes maps but the predicate.
+//! The check uses nothing but the mesh and the coordinates of its corners, wherever they come from, and
+//! shares no code with what makes maps.
 
 mod isolines;
 mod orientation;
@@ -19,7 +19,8 @@ mod singular;
 mod transitions;
 
 pub use isolines::feature_edges;
-pub use orientation::orientation;
+use orientation::orientation;
+pub use singular::Singularity;
 
 use crate::mesh::TriangleMesh;
 use crate::mesh::features::check_edges;
@@ -30,8 +31,8 @@ use transitions::seen;
 
 /// How exact a map has to be, in units of the integer grid.
 ///
-/// Coordinates written with six decimals pass, and what a solver leaves of a constraint; a wrong
-/// translation is never as near to an integer by chance.
+/// Coordinates with six decimals pass, and so does the residual that a solver leaves of a constraint. A
+/// wrong translation is hardly ever as near to an integer by chance.
 pub const MAP_TOLERANCE: f64 = 1e-6;
 
 /// What to check beyond transitions, singular vertices and orientation.
@@ -39,9 +40,9 @@ pub const MAP_TOLERANCE: f64 = 1e-6;
 pub struct CheckOptions {
     /// What counts as integer, and as the same point, in units of the grid.
     pub tolerance: f64,
-    /// Edges of the mesh that shall be on integer isolines.
+    /// Edges of the mesh that must be on integer isolines.
     pub features: Vec<usize>,
-    /// Whether the boundary shall be on integer isolines.
+    /// Whether the boundary must be on integer isolines.
     pub boundary: bool,
 }
 
@@ -60,32 +61,23 @@ impl Default for CheckOptions {
 pub struct Defect {
     /// The edge, vertex or face.
     pub element: usize,
-    /// How far it is from what the rule asks.
+    /// Its distance from satisfying the rule.
     pub amount: f64,
-}
-
-/// A vertex around which a map turns other than once.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Singularity {
-    /// The vertex.
-    pub vertex: usize,
-    /// Its index in quarters: 1 where three quads meet, -1 where five do.
-    pub quarters: i32,
 }
 
 /// What is wrong with a map, rule by rule; elements in increasing order.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MapCheck {
-    /// Edges over which coordinates do not turn by quarters: the difference of the edge's two
-    /// images.
+    /// Edges over which coordinates do not change by a quarter turn, with the difference of the edge's
+    /// two images.
     pub rotations: Vec<Defect>,
-    /// Edges that coordinates turn over by quarters, but with a translation that is not integer.
+    /// Edges over which coordinates change by a quarter turn, but with a translation that is not integer.
     pub translations: Vec<Defect>,
     /// All singular vertices, good and bad.
     pub singularities: Vec<Singularity>,
     /// Singular vertices that are not at integer points.
     pub off_grid: Vec<Defect>,
-    /// Faces that are folded, by the exact sign: their area in unit squares.
+    /// Faces whose orientation, decided exactly, is negative, with their area in unit squares.
     pub flipped: Vec<Defect>,
     /// Faces whose corners are collinear, exactly.
     pub degenerate: Vec<usize>,
@@ -95,32 +87,32 @@ pub struct MapCheck {
     pub features: Vec<Defect>,
     /// The largest difference of an edge's two images.
     pub worst_rotation: f64,
-    /// The largest distance of a translation from integers, over edges that turn by quarters.
+    /// The largest distance of a translation from integers, over edges with a quarter turn.
     pub worst_translation: f64,
 }
 
 impl MapCheck {
     /// Whether nothing is wrong.
     pub fn is_valid(&self) -> bool {
-        self.is_integer() && self.is_unfolded() && self.is_aligned()
+        self.is_integer() && self.is_fold_free() && self.is_aligned()
     }
 
-    /// Whether coordinates turn by quarters over every edge, whatever they shift by.
+    /// Whether coordinates change by a quarter turn and any translation over every edge.
     pub fn is_seamless(&self) -> bool {
         self.rotations.is_empty()
     }
 
-    /// Whether they also shift by integers, and every singular vertex is at an integer point.
+    /// Whether translations are integer as well, and every singular vertex is at an integer point.
     pub fn is_integer(&self) -> bool {
         self.is_seamless() && self.translations.is_empty() && self.off_grid.is_empty()
     }
 
-    /// Whether every triangle is the right way round and has an area.
-    pub fn is_unfolded(&self) -> bool {
+    /// Whether every triangle is positively oriented.
+    pub fn is_fold_free(&self) -> bool {
         self.flipped.is_empty() && self.degenerate.is_empty()
     }
 
-    /// Whether features and boundary are on integer isolines, as far as that was asked for.
+    /// Whether the features and the boundary that were to be checked are on integer isolines.
     pub fn is_aligned(&self) -> bool {
         self.boundary.is_empty() && self.features.is_empty()
     }
@@ -216,7 +208,10 @@ fn validate(mesh: &TriangleMesh, uv: &[[[f64; 2]; 3]], options: &CheckOptions) -
     }
     if !(0.0..0.25).contains(&options.tolerance) {
         return Err(Error::InvalidArgument {
-            what: format!("the tolerance {} is not in 0..0.25", options.tolerance),
+            what: format!(
+                "the tolerance is {}; it must be at least 0 and below 0.25",
+                options.tolerance
+            ),
             index: None,
         });
     }
@@ -225,8 +220,4 @@ fn validate(mesh: &TriangleMesh, uv: &[[[f64; 2]; 3]], options: &CheckOptions) -
 
 fn defect(element: usize, amount: f64) -> Defect {
     Defect { element, amount }
-}
-
-fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
-    (a[0] - b[0]).hypot(a[1] - b[1])
 }

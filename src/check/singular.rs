@@ -1,17 +1,26 @@
-//! Singular vertices: those around which the map turns other than once.
+//! Singular vertices (`bommes2012`, equation (6.2)): those whose angles in the map do not sum to one turn.
 //!
-//! The quarter turns around a vertex, composed, are its index up to whole turns; these are told by
-//! the angles of the map, which are trusted where all triangles around are the right way round.
+//! The composed quarter turns around a vertex give its index up to whole turns. The angles of the map tell
+//! the whole turns; they are trusted where all triangles around are positively oriented.
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::{Singularity, orientation};
+use super::orientation::orientation;
 use crate::mesh::TriangleMesh;
+
+/// A vertex around which the angles of a map do not sum to one turn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Singularity {
+    /// The vertex.
+    pub vertex: usize,
+    /// Its index in quarters: 1 where three quads meet, -1 where five do.
+    pub quarters: i32,
+}
 
 /// The singular vertices, in increasing order.
 ///
-/// `quarters` holds the turn of each edge from its first to its second face. At the boundary a
-/// vertex is singular where the angle is not a half turn, and only looked at if `on_boundary`.
+/// `quarters` holds the turn of each edge from its first to its second face. A boundary vertex is
+/// singular if its angle is not half a turn, and is checked only if `on_boundary`.
 pub(super) fn singularities(
     mesh: &TriangleMesh,
     uv: &[[[f64; 2]; 3]],
@@ -35,13 +44,8 @@ fn interior_index(mesh: &TriangleMesh, uv: &[[[f64; 2]; 3]], quarters: &[u8], v:
     let mut holonomy = 0;
     for (face, corner) in mesh.ring(v) {
         let k = (corner + 2) % 3;
-        let e = mesh.edge_of(face, k);
-        let forth = i32::from(quarters[e]);
-        holonomy += if mesh.edge(e).first == (face, k) {
-            forth
-        } else {
-            -forth
-        };
+        let forth = i32::from(quarters[mesh.edge_of(face, k)]);
+        holonomy += mesh.out_of(face, k, forth);
     }
     let holonomy = holonomy.rem_euclid(4);
     match turns_around(mesh, |f| uv[f], v).map(|angle| 4 - angle) {
@@ -52,8 +56,8 @@ fn interior_index(mesh: &TriangleMesh, uv: &[[[f64; 2]; 3]], quarters: &[u8], v:
     }
 }
 
-/// The quarter turns that the map's angles around a vertex add up to; none where a triangle there
-/// is folded.
+/// The quarter turns to which the map's angles around a vertex sum; none if a triangle there is
+/// folded.
 pub(super) fn turns_around(
     mesh: &TriangleMesh,
     uv: impl Fn(usize) -> [[f64; 2]; 3],

@@ -1,10 +1,9 @@
 //! How coordinates change over an edge, read off the coordinates alone.
 //!
-//! Bommes 2012, chapter 6: the transition of an integer-grid map is a quarter turn and an integer
-//! translation. Both ends of an edge are seen from both faces, so that a turn and a translation
-//! explain them but for a residual; the turn with the least is taken.
+//! `bommes2012`, equation (6.1): the transition of an integer-grid map is a quarter turn and an integer
+//! translation. Both faces have coordinates of both ends of an edge, which a turn and a translation explain
+//! up to a residual. The turn with the least residual is taken.
 
-use super::distance;
 use crate::mesh::TriangleMesh;
 
 /// What carries the coordinates of an edge's first face to those of its second.
@@ -12,16 +11,16 @@ use crate::mesh::TriangleMesh;
 pub(super) struct Seen {
     /// Quarter turns counter-clockwise, 0 to 3.
     pub quarters: u8,
-    /// How far the edge, turned, is from itself as the other face has it.
+    /// The difference between the turned edge and the edge in the other face.
     pub rotation_error: f64,
-    /// How far the translation is from integers.
+    /// The distance of the translation from integers.
     pub translation_error: f64,
 }
 
 /// The transition of an interior edge; none at the boundary.
 ///
-/// An edge without length says nothing of the turn: of all turns that explain it, the one with the
-/// translation nearest to integers is taken.
+/// An edge without length does not determine the turn: of all turns that explain it, the one whose
+/// translation is nearest to integers is taken.
 pub(super) fn seen(
     mesh: &TriangleMesh,
     uv: &[[[f64; 2]; 3]],
@@ -55,4 +54,8 @@ pub(super) fn seen(
 /// A point turned by quarters counter-clockwise about the origin.
 fn turn(quarters: u8, [x, y]: [f64; 2]) -> [f64; 2] {
     [[x, y], [-y, x], [-x, -y], [y, -x]][usize::from(quarters)]
+}
+
+fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
+    (a[0] - b[0]).hypot(a[1] - b[1])
 }

@@ -1,4 +1,4 @@
-//! All integer lines of all triangles: chords glued over edges, crossings as integer points.
+//! All integer lines of all triangles: chords joined over edges, and integer points where they cross.
 
 use super::chords::{Chord, Triangle};
 use super::cones::Ray;

@@ -3,8 +3,8 @@
 //! A line is a chord of the triangle: it enters and leaves through the border, or starts at a
 //! corner that is an irregular vertex. Read off the border counter-clockwise, the ends of two
 //! chords alternate exactly if the chords cross, and the order of the ends is the order around the
-//! crossing. Nothing but the order of crossings along edges is used, so the triangle may be turned
-//! over, or have no area.
+//! crossing. Nothing but the order of crossings along edges is used, so the triangle may be folded or
+//! have no area.
 
 use super::crossings::{Crossings, Line};
 use super::grid_map::ONE;
@@ -18,13 +18,13 @@ pub(super) struct Chord {
     pub(super) at: [usize; 2],
 }
 
-/// The border of one triangle and the chords in it; made anew for every triangle.
+/// The border of one triangle and its chords, loaded for one triangle after the other.
 #[derive(Default)]
 pub(super) struct Triangle {
     corners: [[i64; 2]; 3],
     corner_at: [usize; 3],
-    /// The crossing at every place of the border with the side it is seen from, 2 c + side; none at
-    /// corners.
+    /// At every place of the border the crossing c and the side from which it is seen, as 2 c + side;
+    /// none at corners.
     pub(super) border: Vec<u32>,
     /// Lines u, lines v.
     pub(super) chords: [Vec<Chord>; 2],
@@ -32,7 +32,7 @@ pub(super) struct Triangle {
 }
 
 impl Triangle {
-    /// Turns to another triangle.
+    /// Loads another triangle.
     pub(super) fn load(&mut self, mesh: &Refined, crossings: &Crossings, face: usize) {
         self.corners = mesh.corners[face];
         self.border.clear();

@@ -15,7 +15,7 @@ pub(super) struct Ray {
     pub(super) direction: u8,
 }
 
-/// Adds every irregular vertex with its rays. Returns the port of each ray.
+/// Adds every irregular vertex with its rays to the graph. Returns the port of each ray.
 pub(super) fn add(mesh: &Refined, rays: &[Ray], graph: &mut Graph) -> Vec<u32> {
     let mut ports = vec![NONE; rays.len()];
     // Rays come face by face.

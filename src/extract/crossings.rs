@@ -1,13 +1,14 @@
 //! Where integer lines cross edges, in order along them.
 //!
-//! On an edge the crossings with `u = i` and with `v = j` come in an order that one comparison of
-//! exact products decides. Ties, an integer point on the edge, go to `u` first, seen from the side
-//! that owns the edge: both faces see the same order, and that is all that consistency takes.
+//! One comparison of exact products decides the order of a crossing with `u = i` and one with `v = j`
+//! on an edge. At a tie, an integer point on the edge, `u` comes first, as seen from the side that owns
+//! the edge. Both faces see the same order, and consistency needs no more.
 
 use std::cmp::Ordering;
 
 use super::grid_map::ONE;
 use super::refined::{NONE, Refined, next};
+use crate::mesh::turned;
 use crate::{Error, Result};
 
 /// An integer line through an edge, in the coordinates of one of its faces.
@@ -21,8 +22,7 @@ pub(super) struct Line {
 
 /// The crossings of all edges, one list an edge, owned by its lower half-edge.
 pub(super) struct Crossings {
-    /// For every half-edge that owns an edge where its list starts, for the others where that of
-    /// the owner does; as long as half-edges and one more.
+    /// For every half-edge the start of the list of its edge.
     start: Vec<u32>,
     count: Vec<u32>,
     lines: Vec<Line>,
@@ -93,16 +93,12 @@ impl Line {
     /// The same line after a transition.
     fn carried(self, quarters: u8, shift: [i64; 2]) -> Line {
         let axis = self.axis ^ (quarters & 1);
-        let is_negated = match (quarters, self.axis) {
-            (0, _) => false,
-            (1, axis) => axis == 1,
-            (2, _) => true,
-            (_, axis) => axis == 0,
-        };
-        let shift = shift[usize::from(axis)] / ONE;
+        let mut point = [0; 2];
+        point[usize::from(self.axis)] = self.level;
+        let level = turned(quarters, point)[usize::from(axis)];
         Line {
             axis,
-            level: shift + if is_negated { -self.level } else { self.level },
+            level: shift[usize::from(axis)] / ONE + level,
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Faces: walks along lines that keep to the left.
+//! Faces of the graph, as walks along lines that keep to the left, and positions of their corners.
 
 use super::graph::{Graph, Place, Walk};
 use super::grid_map::ONE;
@@ -30,7 +30,7 @@ pub(super) fn quad_mesh(mesh: &TriangleMesh, refined: &Refined, graph: &Graph) -
         quads,
         others,
         partial_cells,
-        unfolded: 0,
+        folds_removed: 0,
         repaired: 0,
         folded: Vec::new(),
         expected_euler: mesh.euler_characteristic(),
@@ -39,7 +39,7 @@ pub(super) fn quad_mesh(mesh: &TriangleMesh, refined: &Refined, graph: &Graph) -
     result
 }
 
-/// Numbers the vertices that have faces, and says where they are.
+/// Numbers the vertices that have faces, and computes their positions.
 fn place(mesh: &TriangleMesh, refined: &Refined, graph: &Graph, result: &mut QuadMesh) {
     let mut number = vec![NONE; graph.places.len()];
     let used: Vec<u32> = result.faces().flatten().copied().collect();

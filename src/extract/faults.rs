@@ -1,16 +1,16 @@
-//! What keeps a mesh from being nothing but conforming quads, element by element.
+//! The elements that keep a mesh from consisting of conforming quads alone.
 
 use super::QuadMesh;
 
 /// The elements at fault, each list in increasing order.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct QuadFaults {
-    /// Faces that are no quads or have a vertex twice. The quads are numbered first, then the
-    /// others, as in files.
+    /// Faces that are not quads or have a vertex twice. The quads are numbered first, then the others,
+    /// as in files.
     pub faces: Vec<usize>,
     /// Edges, as pairs of vertices, with more than two faces or two that run the same way.
     pub edges: Vec<[usize; 2]>,
-    /// Vertices whose faces are more than one fan.
+    /// Vertices whose faces form more than one fan.
     pub vertices: Vec<usize>,
 }
 
@@ -25,8 +25,8 @@ impl QuadFaults {
 pub(super) type Side = ([u32; 2], bool);
 
 impl QuadMesh {
-    /// The elements at fault. None are found where all that is wrong is the Euler characteristic: then
-    /// a handle of the mesh is closed or a component lost.
+    /// The elements at fault. There are none if only the Euler characteristic is wrong, that is, if a
+    /// handle of the mesh was closed or a component lost.
     pub fn faults(&self) -> QuadFaults {
         let is_at_fault = |face: &[u32]| face.len() != 4 || has_twice(face);
         let faces = self.faces().enumerate();
@@ -54,7 +54,7 @@ impl QuadMesh {
         sides
     }
 
-    /// Vertices around which going from face to face over edges does not reach all faces.
+    /// Vertices whose faces are not all connected over edges at the vertex.
     fn pinched(&self) -> Vec<usize> {
         // (vertex, vertex before, vertex after) of every corner.
         let mut corners: Vec<[u32; 3]> = Vec::with_capacity(4 * self.quads.len());
@@ -81,8 +81,8 @@ pub(super) fn is_bad(edge: &[Side]) -> bool {
     edge.len() > 2 || edge.len() == 2 && edge[0].1 == edge[1].1
 }
 
-/// Whether the corners of one vertex are more than one fan: joined where one ends at the vertex that
-/// the next begins with.
+/// Whether the corners of one vertex form more than one fan. Two corners are connected if one ends at
+/// the vertex with which the other begins.
 fn is_parted(corners: &[[u32; 3]]) -> bool {
     let mut is_reached = vec![false; corners.len()];
     is_reached[0] = true;
@@ -112,7 +112,7 @@ mod tests {
             quads: quads.to_vec(),
             others: others.iter().map(|face| face.to_vec()).collect(),
             partial_cells: 0,
-            unfolded: 0,
+            folds_removed: 0,
             repaired: 0,
             folded: Vec::new(),
             expected_euler: 1,

@@ -1,4 +1,4 @@
-//! What is to be known of the connectivity of quads, counted from the faces alone.
+//! Figures of the connectivity of quads, counted from the faces alone.
 
 use super::QuadMesh;
 use super::faults::{has_twice, is_bad};
@@ -48,8 +48,8 @@ impl QuadMesh {
         }
     }
 
-    /// Whether this is what was asked for: quads and nothing else, each edge with two faces (one at a
-    /// boundary), and the Euler characteristic of the triangle mesh.
+    /// Whether all faces are quads, each edge has two faces (one at a boundary), and the Euler
+    /// characteristic is that of the triangle mesh.
     pub fn is_conforming(&self) -> bool {
         let figures = self.figures();
         !self.quads.is_empty()

@@ -1,24 +1,24 @@
-//! Folds taken out: lines that cross once forth and once back are pulled apart.
+//! Folds removed: lines that cross twice in opposite directions are pulled apart.
 //!
-//! Where the map turns triangles over, an integer point has several preimages, as many forth as
-//! back but for one, and lines run back to the level they came from. Ebke et al. 2013, section 6,
-//! join such points by rules for their cases. Here three moves of the drawing do it, none of which
-//! changes the surface it is drawn on:
+//! Where the map folds, an integer point has several preimages, one more of positive than of negative
+//! orientation, and lines run back to the level they came from. `ebke2013`, section 6, joins such points by
+//! rules for each case. Here three moves of the drawing do it, none of which changes the surface that it is
+//! drawn on:
 //!
-//! - two lines that bound an empty lens cross at two points of which one is turned over: both
-//!   points go, and the lines pass each other;
-//! - a line from an irregular vertex that comes back at once goes;
-//! - a line without length between an irregular vertex and a point is drawn to one point.
+//! - two lines that bound an empty lens cross at two points of opposite orientation: both points are
+//!   removed, and the lines pass each other;
+//! - a line that leaves an irregular vertex and comes back at once is removed;
+//! - a line without length between an irregular vertex and a point is contracted to one point.
 //!
-//! On a disk two families of lines without lenses cross no more often than they must (the bigon
-//! criterion), so folds away from irregular vertices leave no trace; at irregular ones the moves
-//! leave as many lines as the coordinates turn by quarters around all that was folded together.
+//! On a disk two families of lines without lenses have the least number of crossings (the bigon criterion),
+//! so folds away from irregular vertices leave no trace. At an irregular vertex the moves leave as many
+//! lines as the quarter turns of the coordinates around everything that was folded together.
 
 use std::collections::VecDeque;
 
 use super::graph::{Graph, Place};
 
-/// Takes folds out until there are none. Returns how many points were taken out or joined.
+/// Removes folds until there are none. Returns the number of points removed or joined.
 pub(super) fn remove_folds(graph: &mut Graph) -> usize {
     let before = graph.live_vertices();
     let mut queue: VecDeque<u32> = (0..graph.port_count() as u32)
@@ -66,7 +66,7 @@ fn joins_any(_: &Graph, _: u32) -> bool {
     true
 }
 
-/// Pulls lenses apart and drops loops, until none is left.
+/// Removes lenses and loops until none is left.
 fn settle(graph: &mut Graph, queue: &mut VecDeque<u32>) {
     while let Some(port) = queue.pop_front() {
         if !graph.is_fold(port) {
@@ -108,7 +108,7 @@ fn is_crossing(graph: &Graph, port: u32) -> bool {
     is_face && around == port && graph.next(graph.next(port)) != port
 }
 
-/// Ports at and across from the vertices of these, where a move may make room for the next.
+/// The ports of these ports' vertices, and those next to their mates: a move may make another possible there.
 fn neighbours(graph: &Graph, ports: &[u32]) -> Vec<u32> {
     let mut found = Vec::new();
     for &port in ports {

@@ -2,7 +2,7 @@
 //!
 //! A rotation system: every vertex has its ports, the ends of lines that leave it, in a
 //! counter-clockwise ring, and every port its mate at the other end of the line. Ports and mates
-//! say what faces there are, and stay a drawing on the same surface under all moves here.
+//! determine the faces. All moves here keep a drawing on the same surface.
 
 use super::refined::NONE;
 
@@ -13,7 +13,7 @@ pub(super) enum Place {
     Face(u32, [i64; 2]),
     /// An irregular vertex of the mesh.
     Vertex(u32),
-    /// Put into the middle of a cell with these corners.
+    /// In the middle of a cell with these corners.
     Middle(Vec<u32>),
 }
 
@@ -88,7 +88,7 @@ impl Graph {
         self.turn[b as usize] = (4 - turn % 4) % 4;
     }
 
-    /// Whether a line comes back to the level it left: a fold of the map turned it around.
+    /// Whether a line comes back to the level that it left, because a fold of the map turned it around.
     pub(super) fn is_fold(&self, port: u32) -> bool {
         let Some(mate) = self.mate(port) else {
             return false;
@@ -149,7 +149,7 @@ impl Graph {
         }
     }
 
-    /// Takes a port out of its ring.
+    /// Removes a port from its ring.
     pub(super) fn remove(&mut self, port: u32) {
         let (before, after) = (self.previous(port), self.next(port));
         self.next[before as usize] = after;
@@ -157,7 +157,7 @@ impl Graph {
         self.vertex[port as usize] = NONE;
     }
 
-    /// Takes the line of a port away, at both ends.
+    /// Removes the line of a port, at both ends.
     pub(super) fn remove_line(&mut self, port: u32) {
         let mate = self.mate[port as usize];
         self.remove(port);
@@ -166,7 +166,7 @@ impl Graph {
         }
     }
 
-    /// Takes a crossing of two lines away: each then runs through.
+    /// Removes a crossing of two lines, both of which then run through.
     pub(super) fn uncross(&mut self, port: u32) {
         let ring = self.ring(port);
         let half = ring.len() / 2;
@@ -190,7 +190,7 @@ impl Graph {
         }
     }
 
-    /// Draws a line to one point: its two vertices become that of `port`.
+    /// Contracts a line to one point: its two vertices become that of `port`.
     pub(super) fn contract(&mut self, port: u32) {
         let mate = self.mate[port as usize];
         let kept = self.vertex(port);

@@ -1,29 +1,29 @@
-//! An integer-grid map made exact: transitions of quarter turns and integers that hold bit by bit.
+//! An integer-grid map made exact: transitions of quarter turns and integers that hold to the last bit.
 //!
-//! Ebke et al. 2013, section 4 ("sanitization"), with fixed-point numbers in place of truncated
-//! floating-point ones: quarter turns and integer shifts are exact for them without further ado.
-//! Around a regular vertex one corner decides, and transitions carry it to the others; an irregular
-//! vertex lies where the transitions around it leave it, which must be an integer point.
+//! This is the sanitization of `ebke2013`, section 4, with fixed-point numbers in place of truncated
+//! floating-point numbers: quarter turns and integer shifts of them are exact. Around a regular vertex one
+//! corner decides, and transitions carry its coordinates to the others. An irregular vertex lies at the
+//! fixed point of the transitions around it, which must be an integer point.
 //!
-//! Coordinates are counted in units of 2^-32. Those of irregular vertices are whole numbers, hence
-//! even counts; all others are made odd, which quarter turns and integer shifts preserve. So no
-//! other vertex ever lies on an integer line, and no line ever needs a rule for passing a vertex.
+//! Coordinates are counted in units of 2^-32. Those of irregular vertices are integers, hence even counts;
+//! all others are made odd, and quarter turns and integer shifts keep them odd. No other vertex ever lies on
+//! an integer line, and lines need no rule for passing through a vertex.
 
 use super::place::doubled_area;
 use crate::map::SeamlessMap;
-use crate::mesh::{TriangleMesh, turned};
+use crate::mesh::{TriangleMesh, angle_at, turned};
 use crate::{Error, Result};
 
-/// Coordinates must lie within plus and minus this: products of differences then fit 128 bits.
+/// The largest absolute value of a coordinate: products of differences then fit 128 bits.
 pub const RANGE: f64 = (1u64 << 28) as f64;
 
-/// How far coordinates may be off a quarter turn and an integer shift across an edge.
+/// The largest deviation of coordinates from a quarter turn and an integer shift across an edge.
 pub const SEAM_TOLERANCE: f64 = 1e-2;
 
 /// The unit of coordinates, as a count.
 pub(super) const ONE: i64 = 1 << 32;
 
-/// Coordinates closer to a whole number than this are meant to be on it.
+/// Coordinates closer to an integer than this count as on it.
 const ON_LINE: f64 = 1e-6;
 
 /// Exact coordinates at the corners of every face.
@@ -46,10 +46,11 @@ impl IntegerGridMap {
     /// The map with these coordinates at the corners of every face.
     ///
     /// # Errors
-    /// [`Error::LengthMismatch`] for other than one triple of coordinates a face; with the face,
+    /// [`Error::LengthMismatch`] unless there is one triple of coordinates for each face; with the face,
     /// [`Error::NotFinite`] and [`Error::Overflow`] for a coordinate outside [`RANGE`];
-    /// [`Error::InvalidArgument`] with the edge that is no quarter turn and integer shift within
-    /// [`SEAM_TOLERANCE`], or with the vertex around which transitions leave no integer point.
+    /// [`Error::InvalidArgument`] with an edge over which coordinates do not change by a quarter turn
+    /// and an integer shift within [`SEAM_TOLERANCE`], or with a vertex around which the transitions have
+    /// no integer fixed point.
     pub fn new(mesh: &TriangleMesh, uvs: &[[[f64; 2]; 3]]) -> Result<Self> {
         check(mesh, uvs)?;
         Self::exact(mesh, uvs, |edge| nearest_quarters(uvs, edge))
@@ -71,7 +72,7 @@ impl IntegerGridMap {
         })
     }
 
-    /// Faces that are turned over or have no area.
+    /// Faces with a negative or no area.
     pub(super) fn folded(&self) -> Vec<usize> {
         let faces = self.corners.iter().enumerate();
         let folded = faces.filter(|(_, [a, b, c])| doubled_area(*a, *b, *c) <= 0);
@@ -102,7 +103,7 @@ impl IntegerGridMap {
             let sides = [edge.first, second];
             let step = step(uvs, sides, quarters(sides)).ok_or_else(|| Error::InvalidArgument {
                 what: format!(
-                    "the map is not seamless by quarter turns and integers over edge {e}, of faces {} and {}",
+                    "over edge {e}, between faces {} and {}, the map does not change by a quarter turn and integers",
                     sides[0].0, sides[1].0
                 ),
                 index: Some(e),
@@ -141,7 +142,7 @@ impl IntegerGridMap {
                     sum.then(steps[f][(k + 2) % 3])
                 });
                 let fixed = around.fixed_point().ok_or_else(|| Error::InvalidArgument {
-                    what: format!("the coordinates around vertex {v} close at no integer point"),
+                    what: format!("the transitions around vertex {v} have no integer fixed point"),
                     index: Some(v),
                 })?;
                 let branch = || is_on_lines(given) && winding(mesh, uvs, v) != 4;
@@ -188,8 +189,7 @@ impl Step {
         }
     }
 
-    /// The one point that stays where it is, in units; `Some(None)` if all do, `None` if no
-    /// integer point does.
+    /// The fixed point, in units; `Some(None)` if all points are fixed, `None` if no integer point is.
     fn fixed_point(self) -> Option<Option<[i64; 2]>> {
         let [a, b] = self.shift;
         let doubled = match self.quarters {
@@ -259,7 +259,7 @@ fn nearest_quarters(uvs: &[[[f64; 2]; 3]], sides: [(usize, usize); 2]) -> u8 {
     })
 }
 
-/// The step over an edge with this turn, unless the coordinates deny it.
+/// The step over an edge with this turn; none if the coordinates contradict it.
 fn step(uvs: &[[[f64; 2]; 3]], sides: [(usize, usize); 2], quarters: u8) -> Option<Step> {
     let [p, q] = ends(uvs, sides);
     let shifts = [0, 1].map(|end| {
@@ -289,8 +289,8 @@ fn off_line(x: f64, side: i64) -> i64 {
     2 * (x * (ONE / 2) as f64).floor() as i64 + 1
 }
 
-/// The sides, in the first corner of the ring, to which a boundary vertex shall leave integer
-/// lines, so that boundary edges along them lie outside of them and the lines themselves inside.
+/// The directions, in the first corner of the ring, in which a boundary vertex moves off integer lines:
+/// outwards, so that lines along the boundary lie inside the surface.
 fn outward(mesh: &TriangleMesh, uvs: &[[[f64; 2]; 3]], steps: &[[Step; 3]], v: usize) -> [i64; 2] {
     let mut sides = [1, 1];
     // Quarter turns from the first corner to the current one.
@@ -302,12 +302,12 @@ fn outward(mesh: &TriangleMesh, uvs: &[[[f64; 2]; 3]], steps: &[[Step; 3]], v: u
             }
             let [a, b] = [uvs[f][edge], uvs[f][(edge + 1) % 3]];
             let along = [b[0] - a[0], b[1] - a[1]];
-            let right = [along[1], -along[0]].map(|x| match x.abs() < ON_LINE {
+            let right = turned(3, along).map(|x| match x.abs() < ON_LINE {
                 true => 0,
                 false => x.signum() as i64,
             });
             let right = turned((4 - quarters) % 4, right);
-            // An edge across both axes is along no line and has no say.
+            // An edge along neither axis lies on no line.
             if let Some(axis) = (0..2).find(|&axis| right[1 - axis] == 0 && right[axis] != 0) {
                 sides[axis] = right[axis];
             }
@@ -319,11 +319,6 @@ fn outward(mesh: &TriangleMesh, uvs: &[[[f64; 2]; 3]], steps: &[[Step; 3]], v: u
 
 /// Signed quarter turns of the coordinates around an interior vertex.
 fn winding(mesh: &TriangleMesh, uvs: &[[[f64; 2]; 3]], v: usize) -> i64 {
-    let angle = |(f, k): (usize, usize)| {
-        let [a, b, c] = [0, 1, 2].map(|i| uvs[f][(k + i) % 3]);
-        let (x, y) = ([b[0] - a[0], b[1] - a[1]], [c[0] - a[0], c[1] - a[1]]);
-        (x[0] * y[1] - x[1] * y[0]).atan2(x[0] * y[0] + x[1] * y[1])
-    };
-    let total: f64 = mesh.ring(v).map(angle).sum();
+    let total: f64 = mesh.ring(v).map(|(f, k)| angle_at(uvs[f], k)).sum();
     (total / std::f64::consts::FRAC_PI_2).round() as i64
 }

@@ -1,14 +1,13 @@
 //! Quad extraction: from an integer-grid map to the quads that its integer lines bound.
 //!
-//! The task, and the order of its steps, are those of Ebke, Bommes, Campen, Kobbelt 2013, "QEx:
-//! robust quad mesh extraction": make the map exact, find its integer points, trace the integer
-//! lines between them, walk around faces. What differs is how robustness is had. Coordinates are
-//! fixed-point numbers, and every vertex but the irregular ones is kept off the integer lines by
-//! parity (`grid_map`), so a line meets triangles only through the interior of edges. All that
-//! is ever decided is the sign of a vertex and the order of two crossings along one edge; the rest
-//! (`arrangement`) is the combinatorics of chords in a triangle, which is consistent whatever the
-//! map looks like, folded and collapsed triangles included. Folds then show up as lines that cross
-//! once forth and once back, and are taken out by moves that keep the topology (`unfold`).
+//! The task and the order of the steps are those of `ebke2013`: make the map exact, find its integer points,
+//! trace the integer lines between them, and walk around faces. What differs is how the method becomes
+//! robust. Coordinates are fixed-point numbers, and parity keeps every vertex but the irregular ones off
+//! the integer lines (`grid_map`), so that a line meets triangles only through the interior of edges. The
+//! only decisions are the sign of a vertex and the order of two crossings along one edge. Everything else
+//! (`arrangement`) is the combinatorics of chords in a triangle, which is consistent for every map, also
+//! where triangles are folded or collapsed. Folds appear as lines that cross twice in opposite directions.
+//! Moves that keep the topology remove them (`fold_removal`) and make quads of what is left (`repair`).
 
 mod arrangement;
 mod chords;
@@ -42,8 +41,8 @@ use refined::Refined;
 
 /// The quads of an integer-grid map.
 ///
-/// The result has the orientation of the mesh. Whether it is made of nothing but quads, and where
-/// it is not, it tells itself. The monitor is asked between steps.
+/// The result has the orientation of the mesh. [`QuadMesh::is_conforming`] tells whether it consists of
+/// quads alone, and [`QuadMesh::faults`] where it does not. The monitor is asked between steps.
 ///
 /// # Errors
 /// [`Error::LengthMismatch`](crate::Error::LengthMismatch) for the map of another mesh, [`Error::Overflow`](crate::Error::Overflow) for a map with more
@@ -59,11 +58,11 @@ pub fn extract(
     monitor.progress(Phase::Quads, 0.2)?;
     let mut graph = trace::graph(&refined, &mut arrangement);
     monitor.progress(Phase::Quads, 0.4)?;
-    let unfolded = fold_removal::remove_folds(&mut graph);
+    let removed = fold_removal::remove_folds(&mut graph);
     let repaired = repair::repair(&mut graph);
     monitor.progress(Phase::Quads, 0.8)?;
     let mut quads = faces::quad_mesh(mesh, &refined, &graph);
-    (quads.unfolded, quads.repaired) = (unfolded, repaired);
+    (quads.folds_removed, quads.repaired) = (removed, repaired);
     quads.folded = map.folded();
     Ok(quads)
 }

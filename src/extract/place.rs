@@ -1,4 +1,4 @@
-//! Exact arithmetic of points in the plane, and where in a triangle a point lies.
+//! Exact areas in the plane, and barycentric coordinates.
 
 /// Twice the signed area of a triangle, exactly.
 pub(super) fn doubled_area(a: [i64; 2], b: [i64; 2], c: [i64; 2]) -> i128 {
@@ -6,10 +6,10 @@ pub(super) fn doubled_area(a: [i64; 2], b: [i64; 2], c: [i64; 2]) -> i128 {
     d(b, 0) * d(c, 1) - d(b, 1) * d(c, 0)
 }
 
-/// Barycentric coordinates of a point, cut off at the triangle's border; those of the centroid in
-/// a triangle without area.
+/// Barycentric coordinates of a point, clamped to the triangle; those of the centroid in a triangle
+/// without area.
 pub(super) fn barycentric(corners: [[i64; 2]; 3], p: [i64; 2]) -> [f64; 3] {
-    /// What is closer to a corner or an edge than this is on it: the map is known no better.
+    /// A point closer to a corner or an edge than this counts as on it: the map is not more exact.
     const ON: f64 = 1e-7;
     let [a, b, c] = corners;
     let whole = doubled_area(a, b, c);

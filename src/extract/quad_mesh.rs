@@ -1,4 +1,4 @@
-//! The quads, and what is to be known of them.
+//! The quads, their origin on the triangle mesh, and what extraction did.
 
 use crate::mesh::vector::Vec3;
 
@@ -9,7 +9,7 @@ pub enum Origin {
     Vertex(usize),
     /// In a face, with barycentric coordinates.
     Face(usize, [f64; 3]),
-    /// Off the surface: in the middle of a cell that was no square.
+    /// Off the surface: in the middle of a cell that was not a square.
     Middle,
 }
 
@@ -18,20 +18,19 @@ pub enum Origin {
 pub struct QuadMesh {
     /// Positions. Every vertex has a face.
     pub vertices: Vec<Vec3>,
-    /// Where each vertex was on the triangle mesh.
+    /// The place of each vertex on the triangle mesh.
     pub origins: Vec<Origin>,
     /// Corners of the quads, counter-clockwise.
     pub quads: Vec<[u32; 4]>,
-    /// Corners of the faces that are no quads.
+    /// Corners of the faces that are not quads.
     pub others: Vec<Vec<u32>>,
-    /// Cells that the boundary cuts through and that are left out.
+    /// The number of cells that the boundary cuts through, which are left out.
     pub partial_cells: usize,
-    /// Integer points that folds of the map had doubled, taken out or joined.
-    pub unfolded: usize,
-    /// Moves that made quads of what folds had left: lines taken out, vertices put in.
+    /// The number of integer points, duplicated by folds of the map, that were removed or joined.
+    pub folds_removed: usize,
+    /// The number of moves that made quads of the cells left by folds.
     pub repaired: usize,
-    /// Triangles that the map turns over or collapses, in increasing order: where faults are, they
-    /// are the reason.
+    /// Triangles that the map folds or collapses, in increasing order: the cause of faults.
     pub folded: Vec<usize>,
     /// The Euler characteristic of the triangle mesh.
     pub expected_euler: i64,

@@ -1,23 +1,22 @@
-//! What folds leave behind made quads, by moves of the drawing alone.
+//! Cells that folds leave behind are made quads, by moves of the drawing alone.
 //!
-//! Where the map winds around a point more often than it should, unfolding leaves cells that are no
-//! squares: an irregular vertex with a single line, and somewhere near it a cell of eight sides.
-//! The parity of `i + j` changes along every line and neither quarter turns nor unfolding touch it,
-//! so every cell that is a disk has an even number of sides, and these moves make quads of all:
+//! Where the map winds around a point more often than it should, removing folds leaves cells that are not
+//! squares: an irregular vertex with a single line, and near it a cell of eight sides. The parity of `i + j`
+//! changes along every line, and neither quarter turns nor the removal of folds change that. Every cell that
+//! is a disk therefore has an even number of sides, and these moves make quads of all:
 //!
-//! - a cell of two sides is closed, and a line that ends inside of a cell or bounds nothing goes;
-//! - a vertex of two lines goes, and with it the edge between its two cells (Daniels, Silva,
-//!   Shepherd, Cohen 2008, "Quadrilateral mesh simplification", calls it a doublet);
-//! - of two lines between the same two vertices one goes, where its two cells have four sides each;
-//! - a cell of six or more sides gets a vertex in its middle, joined to every other of its corners.
+//! - a cell of two sides is closed, and a line that ends inside a cell or bounds nothing is removed;
+//! - a vertex of two lines, a doublet (`daniels2008`), is removed with the edge between its two cells;
+//! - of two lines between the same two vertices one is removed, if its two cells have four sides each;
+//! - a cell of six or more sides gets a vertex in its middle, joined to every other one of its corners.
 
 use super::graph::{Graph, Place, Walk};
 use super::refined::NONE;
 
-/// So few vertices are left as they are: those of the least closed surface of quads, a cube.
+/// No doublet is removed if so few vertices are left: a cube is the smallest closed surface of quads.
 const LEAST: usize = 8;
 
-/// Makes the moves until there are none. Returns how many there were.
+/// Makes the moves until none is possible. Returns their number.
 pub(super) fn repair(graph: &mut Graph) -> usize {
     let mut moves = 0;
     let mut queue: Vec<u32> = (0..graph.port_count() as u32).rev().collect();
@@ -51,8 +50,8 @@ pub(super) fn repair(graph: &mut Graph) -> usize {
     moves + part_doubles(graph)
 }
 
-/// A vertex of two lines between two quads, to different vertices that keep three lines or more:
-/// one doublet that made the next would unzip the tip of every finger.
+/// Whether a vertex of two lines lies between two quads, its neighbours differ, and both keep three
+/// lines or more. Otherwise one removal would make the next doublet, along every finger of the shape.
 fn is_doublet(graph: &Graph, port: u32) -> bool {
     let other = graph.next(port);
     let (Some(a), Some(b)) = (graph.mate(port), graph.mate(other)) else {
@@ -68,7 +67,7 @@ fn is_doublet(graph: &Graph, port: u32) -> bool {
             .all(|p| sides(graph, p, 4) == Some(4))
 }
 
-/// The sides of the cell to the left of a line, if they are at most so many.
+/// The number of sides of the cell to the left of a line, if it is at most `most`.
 fn sides(graph: &Graph, first: u32, most: usize) -> Option<usize> {
     let mut port = first;
     for count in 1..=most {
@@ -80,8 +79,8 @@ fn sides(graph: &Graph, first: u32, most: usize) -> Option<usize> {
     None
 }
 
-/// Takes away one of two lines between the same vertices, and fills the cell of six sides that is
-/// left. Returns how many.
+/// Removes one of two lines between the same vertices, and fills the cell of six sides that is left.
+/// Returns the number of such cells.
 fn part_doubles(graph: &mut Graph) -> usize {
     let mut lines: Vec<([u32; 2], u32)> = Vec::new();
     for port in 0..graph.port_count() as u32 {
@@ -127,7 +126,7 @@ fn ring_of_six(graph: &Graph, port: u32, mate: u32) -> Option<[u32; 6]> {
     Some([a, b, c, d, e, f])
 }
 
-/// Fills the cell to the left of a line. Returns how many it filled, one.
+/// Fills the cell to the left of a line. Returns the number of cells filled: 1, or 0 if it is open.
 fn fill_from(graph: &mut Graph, first: u32) -> usize {
     let mut cell = vec![first];
     while let Some(mate) = graph.mate(cell[cell.len() - 1]) {
@@ -142,7 +141,7 @@ fn fill_from(graph: &mut Graph, first: u32) -> usize {
     0
 }
 
-/// Puts a vertex into every cell of six sides or more. Returns how many.
+/// Puts a vertex into every cell of six sides or more. Returns the number of such cells.
 fn fill(graph: &mut Graph) -> usize {
     let mut large = Vec::new();
     graph.for_each_cell(|cell, end| {
@@ -156,7 +155,7 @@ fn fill(graph: &mut Graph) -> usize {
     large.len()
 }
 
-/// Whether the even corners of a cell, 0, or the odd ones, 1, are better off with one line more.
+/// The half of a cell's corners that gets one line more: the even ones, 0, or the odd ones, 1.
 fn better_half(graph: &Graph, cell: &[u32]) -> usize {
     let cost = |start: usize| -> i64 {
         let valence = |&port: &u32| graph.ring(port).len() as i64;

@@ -1,4 +1,4 @@
-//! Following the lines from point to point over edges, turning with the coordinates.
+//! Integer lines followed from point to point over edges; transitions turn their direction.
 
 use super::arrangement::{Arrangement, RAY};
 use super::cones;

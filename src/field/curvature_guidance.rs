@@ -1,4 +1,5 @@
-//! Faces whose direction the surface itself gives: those with a reliable curvature direction.
+//! Directions from the curvature of the surface, as hard constraints on the faces where they are most
+//! reliable and as soft guides for all faces.
 
 use super::{Constraint, Guide};
 use crate::mesh::TriangleMesh;
@@ -17,18 +18,20 @@ pub fn curvature_constraints(mesh: &TriangleMesh, fraction: f64) -> Result<Vec<C
     Ok(curvature.map_or_else(Vec::new, |found| most_reliable(&found, count)))
 }
 
-/// How many faces this fraction is.
+/// The number of faces that this fraction stands for.
 pub(super) fn count(mesh: &TriangleMesh, fraction: f64) -> Result<usize> {
     if !(0.0..=1.0).contains(&fraction) {
         return Err(Error::InvalidArgument {
-            what: format!("the fraction of constrained faces is {fraction}, outside 0 to 1"),
+            what: format!(
+                "the fraction of constrained faces is {fraction}; it must be from 0 to 1"
+            ),
             index: None,
         });
     }
     Ok((fraction * mesh.face_count() as f64).round() as usize)
 }
 
-/// So many faces with the most reliable direction.
+/// The `count` faces whose direction is most reliable.
 pub(super) fn most_reliable(curvature: &Curvature, count: usize) -> Vec<Constraint> {
     let mut faces = curvature.by_reliability();
     faces.truncate(count);
@@ -40,14 +43,14 @@ pub(super) fn most_reliable(curvature: &Curvature, count: usize) -> Vec<Constrai
     faces.into_iter().map(constraint).collect()
 }
 
-/// A guide lighter than this is left out: edges weigh 1, and it would drown in their rounding.
+/// Guides with less weight are left out: they are below the rounding error of edges, which weigh 1.
 const LIGHT: f64 = 1e-9;
 
 /// A guide for every face towards the direction of least absolute curvature, with the weight
 /// `weight * area * (|k1| - |k2|)^2`: nothing where the surface is flat or round.
 ///
-/// On a refined mesh the squares of angles between neighbours fall as areas do, so that the balance
-/// between smoothness and curvature depends neither on the triangles nor on the size.
+/// If a mesh is refined, the squared angles between neighbours shrink as areas do. The balance between
+/// smoothness and curvature therefore depends neither on the triangulation nor on the size.
 ///
 /// # Errors
 /// [`Error::InvalidArgument`] for a weight that is negative or not finite.
@@ -66,7 +69,7 @@ pub fn curvature_guides(mesh: &TriangleMesh, weight: f64) -> Result<Vec<Guide>> 
 pub(super) fn check_weight(weight: f64) -> Result<()> {
     if !(weight >= 0.0 && weight.is_finite()) {
         return Err(Error::InvalidArgument {
-            what: format!("the weight of curvature is {weight}, not a number from 0"),
+            what: format!("the curvature weight is {weight}; it must be finite and at least 0"),
             index: None,
         });
     }

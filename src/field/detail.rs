@@ -1,11 +1,10 @@
-//! Turning that a field shall not see: the curvature of details smaller than a quad.
+//! Curvature of details smaller than a quad, which a field ignores.
 //!
-//! Ray, Vallet, Alonso, Lévy 2009, "Geometry-aware direction field processing": a field
-//! turns around a vertex by the curvature there less 2 pi times its index, and so noise and small
-//! features attract irregular vertices, pairs of them that hardly a quad fits between. With the
-//! curvature smoothed before the indices are decided they stay where curvature is at the scale of
-//! interest. Two steps of implicit diffusion say how much curvature flows along each edge; the
-//! transport over the edge turns by as much more.
+//! Around a vertex a field turns by the curvature there less 2 pi times its index. Noise and small
+//! features therefore attract irregular vertices, often in pairs with hardly a quad between them. If
+//! curvature is smoothed before the indices are decided (`ray2009`), irregular vertices stay where there
+//! is curvature at the scale of interest. Two steps of implicit diffusion tell how much curvature flows
+//! along each edge, and the transport over the edge turns by as much more.
 
 use super::FieldOptions;
 use crate::linalg::{Cholesky, Sparse};
@@ -13,17 +12,17 @@ use crate::mesh::vector::{cotangent, norm, sub};
 use crate::mesh::{Edge, TriangleMesh};
 use crate::{Error, Result};
 
-/// Steps of diffusion: one alone leaves a peak where all was in a vertex.
+/// Steps of diffusion: a single one leaves a peak where all curvature was at one vertex.
 const STEPS: usize = 2;
 
-/// Least and largest weight of an edge: a Laplacian of thin or obtuse triangles keeps its signs.
+/// Least and largest weight of an edge: with them the Laplacian of thin and obtuse triangles keeps its signs.
 const WEIGHTS: [f64; 2] = [0.1, 10.0];
 
-/// By how much more than the surface the transport turns over every edge, from its first to its
-/// second face, once curvature has flowed as far as the length of details in `options`.
+/// The additional turn of the transport over every edge, from its first to its second face, after
+/// curvature has flowed as far as the length of details in `options`.
 ///
-/// None flows to or from the boundary, and vertices of faces whose direction is given in any case:
-/// what turns there is no noise.
+/// No curvature flows to or from the boundary or the vertices of firmly constrained faces: what turns
+/// there is not noise.
 ///
 /// # Errors
 /// [`Error::NotFinite`], and [`Error::InvalidArgument`] for a negative length.
@@ -68,7 +67,7 @@ pub(super) fn detail(mesh: &TriangleMesh, options: &FieldOptions) -> Result<Vec<
     Ok(flow)
 }
 
-/// No longer than the mesh is: beyond, nothing changes any more.
+/// The length of details, at most the size of the mesh: beyond, nothing changes any more.
 fn length(mesh: &TriangleMesh, options: &FieldOptions) -> Result<f64> {
     let length = options.detail;
     if !length.is_finite() {
@@ -79,7 +78,7 @@ fn length(mesh: &TriangleMesh, options: &FieldOptions) -> Result<f64> {
     }
     if length < 0.0 {
         return Err(Error::InvalidArgument {
-            what: format!("the length of details is {length}, below zero"),
+            what: format!("the length of details is {length}; it must be at least 0"),
             index: None,
         });
     }
@@ -87,7 +86,7 @@ fn length(mesh: &TriangleMesh, options: &FieldOptions) -> Result<f64> {
     Ok(length.min(norm(sub(high, low))))
 }
 
-/// From where to where each edge goes, seen from its first face.
+/// The ends of each edge, in the direction of its first face.
 fn ends(mesh: &TriangleMesh) -> impl Iterator<Item = [usize; 2]> + '_ {
     mesh.edges().map(|edge| {
         let (face, k) = edge.first;
@@ -126,7 +125,7 @@ fn flowing(mesh: &TriangleMesh, options: &FieldOptions) -> Vec<f64> {
     mesh.edges().zip(ends(mesh)).map(weight).collect()
 }
 
-/// Of the angle opposite of an edge.
+/// The cotangent of the angle opposite to a local edge.
 fn opposite_cotangent(mesh: &TriangleMesh, face: usize, k: usize) -> f64 {
     let corners = mesh.corner_positions(face);
     let [a, b, c] = [0, 1, 2].map(|i| corners[(k + i) % 3]);

@@ -1,9 +1,8 @@
-//! A field from one direction a face, as other programs have it.
+//! A field from one direction for each face, the form in which other programs store it.
 //!
-//! A direction is one arm of the face's cross; which arms match over an edge it does not say.
-//! Nearest matching decides: of the four arms across, the one that turns least (Ray, Vallet, Li,
-//! Levy 2008, section 3: the period jump that leaves the angle between crosses within a quarter
-//! of a right angle to either side).
+//! A direction is one arm of the face's cross; it does not tell which arms match over an edge. Nearest
+//! matching decides that: the period jump is the one that leaves the least angle between the matched arms,
+//! at most an eighth of a turn for crosses (`ray2008`, section 3).
 
 use super::OrientationField;
 use crate::mesh::TriangleMesh;
@@ -13,12 +12,12 @@ use crate::{Error, Result};
 impl OrientationField {
     /// The field of crosses with this direction in every face, matched by the nearest arms over every edge.
     ///
-    /// Directions are vectors in space of any length; what of them points out of the face is
-    /// dropped. No face counts as constrained.
+    /// Directions are vectors in space of any length; their component normal to the face is dropped.
+    /// No face counts as constrained.
     ///
     /// # Errors
-    /// [`Error::LengthMismatch`] for other than one direction a face; with the face,
-    /// [`Error::NotFinite`], and [`Error::InvalidArgument`] for one across its face.
+    /// [`Error::LengthMismatch`] unless there is one direction for each face; with the face,
+    /// [`Error::NotFinite`], and [`Error::InvalidArgument`] for a direction perpendicular to it.
     pub fn from_directions(mesh: &TriangleMesh, directions: &[Vec3]) -> Result<Self> {
         Self::matched(mesh, directions, 4)
     }
@@ -51,7 +50,7 @@ impl OrientationField {
         Ok(field)
     }
 
-    /// The arm of a face that its angle is of: a unit vector in space, in the face.
+    /// The arm of a face at its angle: a unit vector in space, in the plane of the face.
     pub fn direction(&self, mesh: &TriangleMesh, face: usize) -> Vec3 {
         let [x, y] = mesh.frame(face);
         let angle = self.angles[face];
@@ -86,7 +85,7 @@ pub(super) fn angle(mesh: &TriangleMesh, face: usize, direction: Vec3) -> Result
     let [x, y] = mesh.frame(face).map(|axis| dot(unit, axis));
     if x.hypot(y) < IN_FACE {
         return Err(Error::InvalidArgument {
-            what: format!("the direction of face {face} does not lie in it"),
+            what: format!("the direction of face {face} is perpendicular to the face"),
             index: Some(face),
         });
     }

@@ -1,11 +1,11 @@
 //! Crosses aligned to feature edges, as constraints on the faces beside them.
 //!
-//! A face beside one feature edge has an arm along it (Bommes, Zimmer, Kobbelt 2009, section 4.2).
-//! The wedge of faces between two feature edges at a vertex becomes a whole number of quads, the
-//! nearest to its angle. It must not become none, which would collapse its faces in a map: so the
-//! faces of a wedge of less than half a right angle are turned, evenly from its first edge to its
-//! last, until one quad fits in. The same rule decides for a face between two feature edges
-//! whatever its angle, since in a single triangle only one of them can follow each coordinate.
+//! A face beside one feature edge has an arm along it (`bommes2009`, section 4.2). The wedge of faces
+//! between two feature edges at a vertex becomes a whole number of quads, the nearest to its angle. That
+//! number must not be 0, which would collapse the faces in a map. The faces of a wedge of less than half a
+//! right angle are therefore turned, evenly from its first edge to its last, until one quad fits in. The
+//! same holds for a face between two feature edges whatever its angle, since in a single triangle each
+//! coordinate can follow only one of them.
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
@@ -14,9 +14,10 @@ use crate::mesh::TriangleMesh;
 use crate::mesh::features::FeatureGraph;
 use crate::{Error, Result};
 
-/// The directions of all faces at feature edges, in increasing order of faces: along the edge for a
-/// face with one, unless it lies in a wedge of less than 45 degrees between feature edges; evenly
-/// between what both edges ask for in such wedges, and for a face with two feature edges. Where
+/// The directions of all faces at feature edges, in increasing order of faces.
+///
+/// A face with one feature edge follows that edge. In a wedge of less than 45 degrees between feature
+/// edges, and in a face with two of them, directions turn evenly from one edge to the other. Where
 /// narrow wedges overlap, that at the lowest vertex comes first.
 ///
 /// # Errors
@@ -34,7 +35,9 @@ pub fn feature_constraints(
             [k] => *along = Some(mesh.edge_angle(face, k)),
             [_, _, _] => {
                 return Err(Error::InvalidArgument {
-                    what: format!("all three edges of face {face} are features"),
+                    what: format!(
+                        "all three edges of face {face} are features: no cross follows them all"
+                    ),
                     index: Some(face),
                 });
             }

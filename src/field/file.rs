@@ -1,10 +1,10 @@
-//! Fields as text files: one line `X Y Z` a face, a direction, which is one arm of its cross.
+//! Fields as text files: for each face one line `X Y Z`, a direction, which is one arm of its cross.
 //!
-//! That is what libigl and its users call a per-face field. Crosses match over an edge by their
-//! nearest arms; where a field means another matching, a line `jump FACE SIDE P` behind the
-//! directions says that P quarter turns after the unfolding over local edge SIDE lead from the
-//! arm of FACE to the arm across. Numbers are counted from 0; empty lines and what follows a `#`
-//! are comments. A field of other symmetry than crosses has a first line `symmetry N`.
+//! libigl and its users call this a per-face field. Crosses match over an edge by their nearest arms. If
+//! a field needs another matching, a line `jump FACE SIDE P` after the directions gives it: after the
+//! unfolding over local edge SIDE, P quarter turns lead from the arm of FACE to the arm across. Elements
+//! are counted from 0; empty lines and text after a `#` are ignored. A field of another symmetry than 4
+//! starts with a line `symmetry N`.
 
 use std::f64::consts::TAU;
 use std::fs::File;
@@ -54,7 +54,7 @@ impl OrientationField {
         if self.symmetry != 4 {
             writeln!(out, "symmetry {}", self.symmetry)?;
         }
-        // Full turns that the angle of a face made, and its direction has lost.
+        // Full turns of each face's angle, which its direction does not keep.
         let mut turns = Vec::with_capacity(mesh.face_count());
         for face in 0..mesh.face_count() {
             let direction = self.direction(mesh, face);
@@ -93,13 +93,18 @@ fn parse(mesh: &TriangleMesh, text: &str) -> Result<OrientationField> {
                 directions.push(direction(line, [x, y, z])?);
                 at_line.push(line);
             }
-            _ => return Err(wrong(line, "not a direction X Y Z, nor jump FACE SIDE P")),
+            _ => {
+                return Err(wrong(
+                    line,
+                    "expected a direction X Y Z or jump FACE SIDE P",
+                ));
+            }
         }
         if directions.len() > mesh.face_count() {
             let faces = mesh.face_count();
             return Err(wrong(
                 line,
-                &format!("a direction too many: the mesh has {faces} faces"),
+                &format!("there are more directions than the {faces} faces of the mesh"),
             ));
         }
     }
@@ -122,7 +127,7 @@ fn parse(mesh: &TriangleMesh, text: &str) -> Result<OrientationField> {
 fn arms_of(line: usize, arms: &str) -> Result<u8> {
     let arms: Option<u8> = arms.parse().ok();
     let known = arms.filter(|arms| [1, 2, 4, 6].contains(arms));
-    known.ok_or_else(|| wrong(line, "a symmetry is 1, 2, 4 or 6"))
+    known.ok_or_else(|| wrong(line, "the symmetry must be 1, 2, 4 or 6"))
 }
 
 fn direction(line: usize, words: [&str; 3]) -> Result<Vec3> {
@@ -142,7 +147,7 @@ fn jump_of(line: usize, [face, side, jump]: [&str; 3]) -> Result<Jump> {
     let numbers = (face.parse(), side.parse(), jump.parse());
     match numbers {
         (Ok(face), Ok(side), Ok(jump)) => Ok((face, side, jump)),
-        _ => Err(wrong(line, "a jump is jump FACE SIDE P, whole numbers")),
+        _ => Err(wrong(line, "a jump needs three integers: jump FACE SIDE P")),
     }
 }
 
@@ -152,16 +157,16 @@ fn set_jump(
     line: usize,
     (face, side, jump): Jump,
 ) -> Result<()> {
-    /// More than a field of angles within a turn can mean.
+    /// Angles lie within one turn, so that no meaningful jump is as large.
     const LARGEST: i32 = 1 << 20;
     let exists = face < mesh.face_count() && side < 3;
     if !exists || mesh.neighbor(face, side).is_none() || jump.abs() > LARGEST {
-        let message = format!("there is no jump of {jump} over side {side} of face {face}");
+        let message = format!(
+            "side {side} of face {face} is no interior edge, or the jump {jump} is too large"
+        );
         return Err(wrong(line, &message));
     }
-    let e = mesh.edge_of(face, side);
-    let leaves_first = mesh.edge(e).first == (face, side);
-    field.period_jumps[e] = if leaves_first { jump } else { -jump };
+    field.period_jumps[mesh.edge_of(face, side)] = mesh.out_of(face, side, jump);
     Ok(())
 }
 

@@ -1,8 +1,8 @@
-//! What a field and the map that follows it keep to: features, boundary, directions, curvature,
-//! indices, said once for both.
+//! What a field and its map follow: features, boundary, directions, curvature and indices, stated once
+//! for both.
 //!
-//! Where several ask for the direction of one face, the first of these decides: a direction that is
-//! given, a feature or the boundary, a reliable curvature.
+//! If several of them determine the direction of a face, the first of these decides: a given direction,
+//! a feature or the boundary, a reliable curvature.
 
 use super::feature_alignment::edge_constraints;
 use super::{
@@ -28,7 +28,7 @@ pub struct Guidance {
     /// This part of the faces, those with the most reliable curvature, have the direction of least
     /// absolute curvature ([`curvature_constraints`](super::curvature_constraints)).
     pub constrain_curvature: f64,
-    /// How much all others should have it ([`curvature_guides`](super::curvature_guides)).
+    /// The weight with which all other faces are pulled towards it ([`curvature_guides`](super::curvature_guides)).
     pub curvature_weight: f64,
     /// Edges whose normals differ by at least this are features (radians), for crosses no more than
     /// two of a face.
@@ -37,14 +37,13 @@ pub struct Guidance {
     pub feature_lines: Vec<[usize; 2]>,
     /// Features by number of the edge.
     pub feature_edges: Vec<usize>,
-    /// Whether edges of the boundary are followed like features. A field of single directions,
-    /// N = 1, does not: on which side of an edge it should lie nobody says.
+    /// Whether edges of the boundary are followed like features. A field of single directions, N = 1,
+    /// does not follow them: nothing tells to which side of an edge it points.
     pub align_boundary: bool,
     /// Details smaller than this length attract no irregular vertices, and directions of curvature
-    /// are those at this scale; see [`FieldOptions::detail`]. None stands for 0 where a field is
-    /// wanted for itself, for the length of quads' edges where a map shall follow it
-    /// ([`map_options`](Self::map_options)), and for a quarter of it in
-    /// [`quadrangulate`](crate::quad::quadrangulate).
+    /// are those at this scale; see [`FieldOptions::detail`]. `None` means 0 for a field on its own,
+    /// the edge length of quads for a field that a map follows ([`map_options`](Self::map_options)),
+    /// and a quarter of it in [`quadrangulate`](crate::quad::quadrangulate).
     pub detail: Option<f64>,
 }
 
@@ -87,7 +86,7 @@ impl Guidance {
         }
     }
 
-    /// What a field follows that keeps to these features, for the field itself.
+    /// The options of a field that follows these features, for a field on its own.
     ///
     /// # Errors
     /// [`Error::LengthMismatch`] for features of another mesh, [`Error::InvalidArgument`] for
@@ -134,7 +133,7 @@ impl Guidance {
             4 => feature_constraints(mesh, features)?,
             1 if features.edges().next().is_some() => {
                 return Err(Error::InvalidArgument {
-                    what: "features have no direction that a field of symmetry 1 could take".into(),
+                    what: "a field of symmetry 1 cannot follow features: nothing tells to which side of an edge it points".into(),
                     index: None,
                 });
             }
@@ -156,10 +155,10 @@ impl Guidance {
 /// The most rounds of averaging curvature: a radius of 16 edges of triangles.
 const MOST_ROUNDS: usize = 256;
 
-/// Rounds of averaging, each over the neighbours of a face, whose radius is a length: as many as
-/// its square has edges' squares.
+/// The rounds of averaging over neighbours that reach as far as a length: its square over that of an
+/// edge.
 ///
-/// Directions that change within a quad are noise to it.
+/// Directions that change within a quad are noise to that quad.
 fn smoothing_rounds(mesh: &TriangleMesh, length: f64) -> usize {
     // Of an equilateral triangle with the mean area.
     let edge = 4.0 / 3f64.sqrt() * mesh.surface_area() / mesh.face_count() as f64;

@@ -1,4 +1,4 @@
-//! Guidance as a text file, one wish a line:
+//! Guidance as a text file, with one item on each line:
 //!
 //! ```text
 //! direction FACE X Y Z          the face has this direction
@@ -7,9 +7,9 @@
 //! index VERTEX STEPS            the vertex has this index, in quarters for crosses (1/N)
 //! ```
 //!
-//! Numbers of faces and vertices count from 0; empty lines and what follows a `#` are comments.
-//! Directions are vectors in space; what of them points out of the face is dropped. One `index`
-//! means that all are given: other vertices are regular.
+//! Faces and vertices are counted from 0; empty lines and text after a `#` are ignored. Directions are
+//! vectors in space; their component normal to the face is dropped. If there is any `index`, all
+//! vertices without one are regular.
 
 use std::path::Path;
 
@@ -23,8 +23,8 @@ impl Guidance {
     /// Adds what a file asks for.
     ///
     /// # Errors
-    /// [`Error::Io`]; [`Error::Parse`] with the line for what is none of these, an element that the
-    /// mesh does not have, and a direction across its face. Elements that are named twice show
+    /// [`Error::Io`]; [`Error::Parse`] with the line for any other text, an element that the mesh does
+    /// not have, and a direction perpendicular to its face. Elements that are named twice are refused
     /// when the field is made.
     pub fn read(&mut self, mesh: &TriangleMesh, path: impl AsRef<Path>) -> Result<()> {
         let path = path.as_ref();
@@ -86,13 +86,13 @@ impl Guidance {
                 let vertex = vertex(mesh, v)?;
                 let steps = steps
                     .parse()
-                    .map_err(|_| format!("'{steps}' is not a whole number"))?;
+                    .map_err(|_| format!("'{steps}' is not an integer"))?;
                 let indices = self.indices.get_or_insert_default();
                 indices.push(PrescribedIndex { vertex, steps });
             }
             _ => {
                 return Err(
-                    "not direction FACE X Y Z [WEIGHT], edge VERTEX VERTEX or index VERTEX STEPS"
+                    "expected direction FACE X Y Z [WEIGHT], edge VERTEX VERTEX or index VERTEX STEPS"
                         .into(),
                 );
             }
@@ -108,7 +108,7 @@ fn vertex(mesh: &TriangleMesh, word: &str) -> std::result::Result<usize, String>
 fn element(what: &str, word: &str, count: usize) -> std::result::Result<usize, String> {
     match word.parse() {
         Ok(number) if number < count => Ok(number),
-        _ => Err(format!("'{word}' is no {what} from 0 to {}", count - 1)),
+        _ => Err(format!("'{word}' is not a {what} from 0 to {}", count - 1)),
     }
 }
 

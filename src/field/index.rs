@@ -1,15 +1,15 @@
 //! Indices of vertices and boundary loops from the period jumps.
 //!
-//! The index counts the turns that the cross makes around a vertex, the vertex's own angle defect
-//! included (Bommes, Zimmer, Kobbelt 2009, section 4.2; Ray, Vallet, Li, Levy 2008):
+//! The index counts the turns of the cross around a vertex, the angle defect of the vertex included
+//! (`bommes2009`, section 4.2; `ray2008`):
 //!
 //! ```text
 //! I(v) = (2 pi - sum of angles - sum over the ring, counter-clockwise, of (kappa + 2 pi/N p)) / 2 pi
 //! ```
 //!
-//! a multiple of 1/N; a cube corner has +1/4 in a field of crosses. A boundary loop collects what its vertices turn
-//! (pi - sum of angles) and the same sums over their open fans, so that by Gauss-Bonnet all
-//! indices together are the Euler characteristic.
+//! a multiple of 1/N; a cube corner has +1/4 in a field of crosses. The index of a boundary loop sums
+//! the turns of its vertices (pi - sum of angles) and the same sums over their open fans, so that by
+//! Gauss-Bonnet all indices sum to the Euler characteristic.
 
 use std::f64::consts::{PI, TAU};
 
@@ -31,8 +31,8 @@ impl OrientationField {
             .collect()
     }
 
-    /// How many quarter turns the field has around a vertex, from one boundary edge to the other at
-    /// the boundary, where that is whole only if it follows both.
+    /// The quarter turns of the field around a vertex. At the boundary they are counted from one boundary
+    /// edge to the other, and are a whole number only if the field follows both.
     pub(crate) fn quarters(&self, mesh: &TriangleMesh, v: usize) -> i32 {
         let mut around = angle_sum(mesh, v) + self.turning(mesh, v);
         let mut faces = mesh.ring(v).map(|(face, _)| face);
@@ -79,10 +79,7 @@ impl OrientationField {
             }
             let e = mesh.edge_of(face, k);
             let step = self.kappa[e] + self.step() * f64::from(self.period_jumps[e]);
-            sum += match mesh.edge(e).first == (face, k) {
-                true => step,
-                false => -step,
-            };
+            sum += mesh.out_of(face, k, step);
         }
         sum
     }

@@ -1,6 +1,7 @@
-//! The orientation field of a mesh as a mixed-integer problem: an angle a face, a period jump an edge.
+//! The orientation field of a mesh as a mixed-integer problem: one angle for each face, one period jump
+//! for each edge.
 //!
-//! Bommes, Zimmer, Kobbelt 2009, section 4. A client of the solver: it builds a
+//! `bommes2009`, section 4; `bommes2012`, section 8.2. A client of the solver: it builds a
 //! [`Problem`](crate::Problem) and reads a [`Solution`](crate::Solution).
 
 mod curvature_guidance;

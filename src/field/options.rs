@@ -1,4 +1,4 @@
-//! What a field shall follow, and how symmetric it is.
+//! The options of a field: its symmetry and what it follows.
 
 use std::f64::consts::TAU;
 
@@ -36,7 +36,7 @@ pub struct PrescribedIndex {
     pub steps: i32,
 }
 
-/// What a field shall follow.
+/// The options of a field.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FieldOptions {
     /// N: arms of a direction, evenly around. 4 for crosses, and 1, 2 or 6.
@@ -92,7 +92,7 @@ impl FieldOptions {
         match self.symmetry {
             1 | 2 | 4 | 6 => Ok(TAU / f64::from(self.symmetry)),
             other => Err(Error::InvalidArgument {
-                what: format!("a field of symmetry {other}: 1, 2, 4 and 6 are"),
+                what: format!("the symmetry is {other}; it must be 1, 2, 4 or 6"),
                 index: None,
             }),
         }

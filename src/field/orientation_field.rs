@@ -11,11 +11,11 @@ use crate::{Error, Result};
 /// they match over edges.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OrientationField {
-    pub(crate) symmetry: u8,
-    pub(crate) angles: Vec<f64>,
-    pub(crate) period_jumps: Vec<i32>,
-    pub(crate) kappa: Vec<f64>,
-    pub(crate) constrained: Vec<bool>,
+    pub(super) symmetry: u8,
+    pub(super) angles: Vec<f64>,
+    pub(super) period_jumps: Vec<i32>,
+    pub(super) kappa: Vec<f64>,
+    pub(super) constrained: Vec<bool>,
 }
 
 impl OrientationField {
@@ -30,19 +30,19 @@ impl OrientationField {
         &self.angles
     }
 
-    /// One number an edge of the mesh, from its first to its second face: `angle + kappa +
+    /// One number for each edge of the mesh, from its first to its second face: `angle + kappa +
     /// 2 pi/N jump` is the matching arm of the second. Zero at the boundary.
     pub fn period_jumps(&self) -> &[i32] {
         &self.period_jumps
     }
 
-    /// One angle an edge: the frame of its first face seen in that of its second, after unfolding,
+    /// One angle for each edge: the frame of its first face seen in that of its second, after unfolding,
     /// in (-pi, pi]. Zero at the boundary.
     pub fn kappa(&self) -> &[f64] {
         &self.kappa
     }
 
-    /// Which faces had their direction given.
+    /// Which faces had a given direction.
     pub fn constrained(&self) -> &[bool] {
         &self.constrained
     }
@@ -85,8 +85,8 @@ impl OrientationField {
         sum.value()
     }
 
-    /// Sum of `weight (theta - angle)^2` over the guides of faces that are not constrained: with
-    /// [`energy`](Self::energy), what the solver made least.
+    /// Sum of `weight (theta - angle)^2` over the guides of faces that are not constrained. With
+    /// [`energy`](Self::energy) it is what the solver minimises.
     pub fn guide_energy(&self, guides: &[Guide]) -> f64 {
         let mut sum = CompensatedSum::new(0.0);
         for guide in guides.iter().filter(|g| !self.constrained[g.face]) {

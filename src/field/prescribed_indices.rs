@@ -6,9 +6,9 @@
 //! sum over the ring, counter-clockwise, of +-p = (2 pi (1 - I) - sum of angles - sum of +-kappa) N / 2 pi
 //! ```
 //!
-//! an integer for every index that is a multiple of 1/N. This is what makes the layout-guided
-//! fields of the literature a special case (Crane, Desbrun, Schröder 2010, section 2: trivial
-//! connections with given singularities): the integers are given, up to those around handles.
+//! an integer for every index that is a multiple of 1/N. Fields with given singularities, such as the
+//! trivial connections of `crane2010`, section 2, are the special case in which all integers but those
+//! around handles are given.
 
 use std::f64::consts::TAU;
 
@@ -49,7 +49,7 @@ pub(super) fn steps(
         if place.replace(n).is_some() {
             return Err(refused(
                 position,
-                format!("vertex {vertex} has two indices"),
+                format!("vertex {vertex} is given two indices"),
             ));
         }
     }
@@ -58,7 +58,7 @@ pub(super) fn steps(
     Ok(steps)
 }
 
-/// That the indices of closed components sum to what Poincaré and Hopf say.
+/// Checks that the indices of every closed component sum to its Euler characteristic (Poincaré, Hopf).
 fn check_sums(mesh: &TriangleMesh, symmetry: u8, steps: &[i32]) -> Result<()> {
     let components = mesh.components();
     let of_face = |face: usize| components.of_face[face] as usize;
@@ -103,10 +103,8 @@ pub(super) fn ring_sum(
     let mut turn = TAU;
     for (face, corner) in mesh.ring(vertex) {
         let k = (corner + 2) % 3;
-        let e = mesh.edge_of(face, k);
-        let leaves_first = mesh.edge(e).first == (face, k);
         turn -= mesh.angle(face, corner);
-        turn -= if leaves_first { kappa[e] } else { -kappa[e] };
+        turn -= mesh.out_of(face, k, kappa[mesh.edge_of(face, k)]);
     }
     (turn / step).round() - f64::from(steps)
 }

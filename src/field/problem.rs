@@ -1,15 +1,15 @@
 //! The smoothest N-symmetric direction field of a mesh as a mixed-integer problem.
 //!
-//! Bommes, Zimmer, Kobbelt 2009, section 4, for crosses, N = 4; Ray, Vallet, Li, Levy 2008 for any
-//! N: one angle a face, one period jump an interior edge,
+//! `bommes2009`, section 4, and `bommes2012`, section 8.2, for crosses, N = 4; `ray2008` for any N.
+//! With one angle for each face and one period jump for each interior edge,
 //!
 //! ```text
 //! E = sum over interior edges (i, j) of (theta_i + kappa_ij + 2 pi/N p_ij - theta_j)^2
 //!   + sum over guided faces of w_i (theta_i - phi_i)^2
 //! ```
 //!
-//! without the edges between two constrained faces. Jumps are zero on a spanning forest, which
-//! grows from the faces whose arm is named: there no frame can be turned to move a jump away.
+//! without the edges between two constrained faces. Jumps are zero on a spanning forest, which grows
+//! from the constrained and guided faces: their frames cannot be turned to move a jump away.
 
 use super::detail::detail;
 use super::prescribed_indices::{ring_sum, steps};
@@ -25,7 +25,7 @@ enum Jump {
     Boundary,
     /// In the problem as this unknown.
     Unknown(u32),
-    /// Zero, on the forest; or, between constrained faces, whatever is nearest.
+    /// Zero on the forest; between constrained faces the nearest jump.
     Known(i32),
 }
 
@@ -54,7 +54,7 @@ impl FieldProblem {
         Self::with_options(mesh, &options)
     }
 
-    /// The problem for a mesh and what the field shall follow there.
+    /// The problem for a mesh and the options of the field.
     ///
     /// # Errors
     /// With the position in the list at fault, [`Error::IndexOutOfRange`] for what does not exist,
@@ -99,7 +99,8 @@ impl FieldProblem {
         Ok(this)
     }
 
-    /// One row an edge of the energy, whose transport turns by what is `ignored` in addition; gives the row of every edge that has one.
+    /// Adds one row of the energy for each edge, whose transport turns by `ignored` in addition. Returns
+    /// the row of every edge that has one.
     fn add_edges(
         &mut self,
         mesh: &TriangleMesh,
@@ -138,11 +139,7 @@ impl FieldProblem {
             for (face, corner) in mesh.ring(v) {
                 let k = (corner + 2) % 3;
                 let e = mesh.edge_of(face, k);
-                let sign = if mesh.edge(e).first == (face, k) {
-                    1.0
-                } else {
-                    -1.0
-                };
+                let sign = mesh.out_of(face, k, 1.0);
                 match self.jumps[e] {
                     Jump::Boundary => {}
                     Jump::Known(p) => sum -= sign * f64::from(p),
@@ -156,7 +153,9 @@ impl FieldProblem {
                 self.problem.add_constraint(&unknowns, &signs, sum)?;
             } else if sum != 0.0 {
                 return Err(Error::InvalidArgument {
-                    what: format!("the directions given around vertex {v} decide another index"),
+                    what: format!(
+                        "the directions given around vertex {v} fix another index than the one prescribed"
+                    ),
                     index: Some(v),
                 });
             }
@@ -169,8 +168,7 @@ impl FieldProblem {
         &self.problem
     }
 
-    /// The right sides of the least-squares rows where the field sees all details, whatever it was
-    /// stated to ignore.
+    /// The right sides of the least-squares rows of the same field with all details.
     pub(super) fn right_sides_with_details(&self, mesh: &TriangleMesh) -> Vec<f64> {
         let mut rhs = self.problem.least_squares().0.rhs().to_vec();
         let is_fixed = |face: usize| self.problem.pins()[face].is_some();
@@ -253,8 +251,8 @@ fn jumps(
     (jumps.collect(), kappa)
 }
 
-/// Hands the rings of interior vertices to the solver: a basis of short cycles, up to one ring a
-/// closed component and the cycles around handles, boundaries and constrained regions.
+/// Gives the rings of interior vertices to the solver as short cycles. They are a basis but for one
+/// ring of each closed component and the cycles around handles, boundaries and constrained regions.
 fn hint_rings(
     mesh: &TriangleMesh,
     row_of_edge: &[Option<usize>],
@@ -268,11 +266,7 @@ fn hint_rings(
             let e = mesh.edge_of(face, k);
             if let Some(row) = row_of_edge[e] {
                 rows.push(row);
-                signs.push(if mesh.edge(e).first == (face, k) {
-                    1
-                } else {
-                    -1
-                });
+                signs.push(mesh.out_of(face, k, 1));
             }
         }
         if rows.len() - start == mesh.face_degree(v) {

@@ -1,8 +1,8 @@
 //! The spanning forest of the dual graph along which period jumps are zero.
 //!
-//! Every tree of dual edges can have all its jumps moved to zero by turning the frames of its
-//! faces by quarter turns, as long as no two constrained faces lie in one tree (Bommes, Zimmer,
-//! Kobbelt 2009, section 4.1: "reducing the search space").
+//! All jumps on a tree of dual edges can be moved to zero by turning the frames of its faces by quarter
+//! turns, as long as no two constrained faces lie in one tree (`bommes2009`, section 4.1, "reducing the
+//! search space").
 
 use std::collections::VecDeque;
 
@@ -10,8 +10,8 @@ use crate::mesh::TriangleMesh;
 
 /// Whether each edge of the mesh belongs to the forest.
 ///
-/// Breadth-first from the `rooted` faces, those with a given direction, in increasing number, neighbours in increasing
-/// number; a component without one grows from its lowest face.
+/// The search is breadth-first from the `rooted` faces, those with a given direction, and visits faces
+/// and neighbours in increasing order. A component without such a face grows from its lowest face.
 pub(super) fn spanning_forest(mesh: &TriangleMesh, rooted: &[bool]) -> Vec<bool> {
     let mut in_forest = vec![false; mesh.edge_count()];
     let mut reached = rooted.to_vec();

@@ -1,9 +1,9 @@
 //! Vertex indices by following an arm of the cross around the vertex in space.
 //!
-//! Independent of [`super::index`]: no kappa, no frames unfolded in the plane. An arm is carried
-//! from face to face as a vector, turned over each edge into the next face's plane, and compared
-//! with the arm that it is matched with there; the angles between them add up to the turning of
-//! the field.
+//! This is independent of [`super::index`]: it uses no kappa and unfolds no frames into the plane. An arm
+//! is carried from face to face as a vector, turned over each edge into the next face's plane, and
+//! compared with the arm that it is matched with there. The angles between them sum to the turning of the
+//! field.
 
 use std::f64::consts::TAU;
 
@@ -40,10 +40,7 @@ impl OrientationField {
             };
             let arm = self.arm(mesh, face, steps);
             let e = mesh.edge_of(face, k);
-            steps += match mesh.edge(e).first == (face, k) {
-                true => -self.period_jumps[e],
-                false => self.period_jumps[e],
-            };
+            steps -= mesh.out_of(face, k, self.period_jumps[e]);
             let matched = self.arm(mesh, across, steps);
             let (from, to) = (mesh.normal(face), mesh.normal(across));
             // Over the edge: what lies along it stays, what lies across it turns with the plane.

@@ -1,8 +1,8 @@
-//! Combing: one arm of every cross chosen such that the arms match over all edges but the cut.
+//! Combing: one arm of every cross is chosen such that the arms match over all edges off the cut.
 //!
-//! Kälberer, Nieser, Polthier 2007, section 3, and Bommes, Zimmer, Kobbelt 2009, section 5: once
-//! the surface is cut open to a disk without cones, the period jumps can be turned away one face
-//! after the other; what is left of them sits on the cut, as quarter turns.
+//! `kalberer2007`, section 3, and `bommes2009`, section 5: once the surface is cut open to a disk without
+//! cones, the period jumps can be removed by turning one face after the other. The rest of them, quarter
+//! turns, lies on the cut.
 
 use std::collections::VecDeque;
 use std::f64::consts::FRAC_PI_2;
@@ -39,13 +39,13 @@ impl Combing {
         })
     }
 
-    /// One number a face, 0 to 3: the quarter turns, counter-clockwise, from the arm that the field
+    /// One number for each face, 0 to 3: the quarter turns, counter-clockwise, from the arm that the field
     /// stores to the one chosen.
     pub fn quarters(&self) -> &[u8] {
         &self.quarters
     }
 
-    /// One number an edge, 0 to 3: the quarter turns, counter-clockwise, that take coordinates
+    /// One number for each edge, 0 to 3: the quarter turns, counter-clockwise, that take coordinates
     /// along the arms of its first face to those along the arms of its second. Zero off the cut.
     pub fn transitions(&self) -> &[u8] {
         &self.transitions
@@ -53,11 +53,8 @@ impl Combing {
 
     /// The transition over local edge `k` of a face, out of that face.
     pub fn transition_from(&self, mesh: &TriangleMesh, face: usize, k: usize) -> u8 {
-        let e = mesh.edge_of(face, k);
-        match mesh.edge(e).first == (face, k) {
-            true => self.transitions[e],
-            false => (4 - self.transitions[e]) % 4,
-        }
+        let forth = i32::from(self.transitions[mesh.edge_of(face, k)]);
+        mesh.out_of(face, k, forth).rem_euclid(4) as u8
     }
 
     /// The combed cross of a face: the chosen arm X, and Y a quarter turn counter-clockwise about
@@ -91,9 +88,8 @@ fn comb(mesh: &TriangleMesh, field: &OrientationField, cut: &CutGraph) -> Vec<u8
                     continue;
                 }
                 let jump = i64::from(field.period_jumps()[e]);
-                let leaves_first = mesh.edge(e).first == (face, k);
-                let out = if leaves_first { jump } else { -jump };
-                quarters[across] = (i64::from(quarters[face]) - out).rem_euclid(4) as u8;
+                let turned = i64::from(quarters[face]) - mesh.out_of(face, k, jump);
+                quarters[across] = turned.rem_euclid(4) as u8;
                 queue.push_back(across);
             }
         }

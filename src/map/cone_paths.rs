@@ -1,9 +1,9 @@
-//! Shortest paths from a cut graph to the cones that it does not yet reach.
+//! Shortest paths from a cut graph to the cones that it does not reach yet.
 //!
-//! One sweep of Dijkstra's algorithm from all that is cut so far and from the boundary. A cone that
-//! is settled puts its path into the cut graph, and the sweep goes on from there at distance zero,
-//! so that every cone joins what is nearest to it at that time (the shortest-path heuristic for
-//! Steiner trees: Takahashi, Matsuyama 1980).
+//! One sweep of Dijkstra's algorithm starts from the cut graph and the boundary. When it settles a cone,
+//! the path to the cone joins the cut graph, and its vertices become sources at distance zero. Every cone
+//! thus joins what is nearest to it at that time (the shortest-path heuristic for Steiner trees,
+//! `takahashi1980`).
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -11,7 +11,7 @@ use std::collections::BinaryHeap;
 use crate::mesh::TriangleMesh;
 
 /// Adds the paths to `is_cut`.
-pub(crate) fn join_cones(mesh: &TriangleMesh, cones: &[usize], is_cut: &mut [bool]) {
+pub(super) fn join_cones(mesh: &TriangleMesh, cones: &[usize], is_cut: &mut [bool]) {
     let mut sweep = Sweep::new(mesh, cones);
     for (e, edge) in mesh.edges().enumerate() {
         if is_cut[e] || edge.second.is_none() {

@@ -1,9 +1,9 @@
 //! The cut graph: edges along which a surface is opened so that one chart covers it.
 //!
-//! Bommes, Zimmer, Kobbelt 2009, section 5 ("computing the cut graph"). A spanning tree of the dual
-//! graph glues the triangles to one disk a component; the other edges, pruned of their loose ends,
-//! are a cut graph of the topology alone (Erickson, Har-Peled 2004, section 3). Shortest paths then
-//! join it to every cone, so that what is left is simply connected and holds no cone.
+//! `bommes2009`, section 5 ("computing the cut graph"). A spanning tree of the dual graph glues the
+//! triangles of each component to one disk. The other edges, pruned of their loose ends, are a cut graph
+//! of the topology alone (`erickson2004`, section 3). Shortest paths then join it to every cone, so that
+//! the rest of the surface is simply connected and has no cone in its interior.
 
 use std::collections::VecDeque;
 
@@ -11,10 +11,10 @@ use super::cone_paths::join_cones;
 use crate::mesh::TriangleMesh;
 use crate::{Error, Result};
 
-/// A set of interior edges whose removal leaves one disk a component, and no cone in its interior.
+/// A set of interior edges that cuts each component into one disk without a cone in its interior.
 ///
-/// The boundary bounds the disk as well, but is no part of the set: nothing lies across it. A
-/// closed sphere without two cones is opened along one edge.
+/// Boundary edges bound the disk as well, but are not in the set. A closed sphere with fewer than two
+/// cones is opened along one edge.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct CutGraph {
     is_cut: Vec<bool>,
@@ -84,7 +84,7 @@ fn edges_off_the_dual_tree(mesh: &TriangleMesh) -> Vec<bool> {
     off
 }
 
-/// Takes away edges with a loose end until there is none. The boundary holds on to what ends there.
+/// Removes edges with a loose end until there is none. An end on the boundary is not loose.
 fn prune(mesh: &TriangleMesh, is_cut: &mut [bool]) {
     let mut degree = degrees(mesh, is_cut);
     let is_loose = |v: usize, degree: u32| degree == 1 && !mesh.is_boundary_vertex(v);

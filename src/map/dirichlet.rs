@@ -1,45 +1,52 @@
-//! How far gradients are from what they should be, as a quadratic form in the vertices.
+//! The deviation of gradients from their targets, as a quadratic form in the vertices.
 //!
-//! On a triangle, area |g|^2 is the sum over its edges of w_k (g . e_k)^2 with w_k half the
-//! cotangent of the opposite angle (Pinkall, Polthier 1993), and a gradient times an edge is a
-//! difference of two values. So is, with the value aimed at,
+//! On a triangle, area |g|^2 is the sum over its edges of w_k (g . e_k)^2 with w_k half the cotangent of
+//! the opposite angle (`pinkall1993`), and a gradient times an edge is a difference of two values. With
+//! the target X of the gradient,
 //!
 //! ```text
 //! area |grad u - X|^2 = sum over edges (a, b) of w_k (u_b - u_a - X . e_k)^2
 //! ```
 //!
-//! The sums are formed here, one entry an edge and a vertex, since a quadratic matrix from least
-//! squares over the triangles would need three times the memory on the way.
+//! The sums are formed here, with one entry for each edge and each vertex: least-squares rows for every
+//! triangle would need three times the memory to form the matrix.
 
-use super::SeamlessProblem;
+use super::CutGraph;
+use super::sectors::Sectors;
 use crate::mesh::TriangleMesh;
-use crate::mesh::vector::{cotangent, dot, sub};
+use crate::mesh::vector::{Vec3, cotangent, dot, sub};
 use crate::{Problem, Result, Triangle};
 
 /// Matrix, linear term and constant for the two coordinates of all copies.
-pub(crate) struct Dirichlet {
+pub(super) struct Dirichlet {
     /// Sum of weights around every copy.
     diagonal: Vec<f64>,
     /// Two copies and the weight between them.
     pairs: Vec<([u32; 2], f64)>,
-    pub(crate) linear: Vec<f64>,
-    pub(crate) constant: f64,
+    pub(super) linear: Vec<f64>,
+    pub(super) constant: f64,
 }
 
 impl Dirichlet {
-    pub(crate) fn new(map: &SeamlessProblem, mesh: &TriangleMesh) -> Self {
-        let copies = map.sectors.count();
+    /// The energy whose gradients aim at `targets` of every face, as a form in `unknowns` values.
+    pub(super) fn new(
+        mesh: &TriangleMesh,
+        sectors: &Sectors,
+        cut: &CutGraph,
+        unknowns: usize,
+        targets: impl Fn(usize) -> [Vec3; 2],
+    ) -> Self {
         let mut sum = Dirichlet {
-            diagonal: vec![0.0; copies],
+            diagonal: vec![0.0; sectors.count()],
             pairs: Vec::with_capacity(mesh.edge_count() + 1000),
-            linear: vec![0.0; map.translation(map.seams.len())],
+            linear: vec![0.0; unknowns],
             constant: 0.0,
         };
         // The weight of an edge that is not cut waits here for its second face.
         let mut pending = vec![0.0; mesh.edge_count()];
         for face in 0..mesh.face_count() {
-            let copy = map.sectors.copy[face];
-            let targets = map.targets(mesh, face);
+            let copy = sectors.copy[face];
+            let targets = targets(face);
             let corners = mesh.corner_positions(face);
             for k in 0..3 {
                 let ends = [copy[k], copy[(k + 1) % 3]];
@@ -49,9 +56,8 @@ impl Dirichlet {
                 sum.add_edge(ends, weight, aims);
 
                 let e = mesh.edge_of(face, k);
-                let edge = mesh.edge(e);
-                let waits = edge.first == (face, k) && edge.second.is_some();
-                if map.cut.contains(e) {
+                let waits = mesh.is_first_side(face, k) && mesh.neighbor(face, k).is_some();
+                if cut.contains(e) {
                     sum.pairs.push((ends, weight));
                 } else if waits {
                     pending[e] = weight;
@@ -74,7 +80,7 @@ impl Dirichlet {
         }
     }
 
-    pub(crate) fn add_to(&self, problem: &mut Problem) -> Result<()> {
+    pub(super) fn add_to(&self, problem: &mut Problem) -> Result<()> {
         let count = 2 * (self.diagonal.len() + self.pairs.len());
         let mut rows = Vec::with_capacity(count);
         let mut cols = Vec::with_capacity(count);

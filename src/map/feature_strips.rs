@@ -27,7 +27,7 @@ const ROUNDS: usize = 3;
 
 /// Two unknowns, one of each curve: the second is one more than the first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Strip {
+pub(super) struct Strip {
     unknowns: [usize; 2],
 }
 

@@ -1,9 +1,9 @@
 //! Feature edges as isolines of a map.
 //!
-//! Bommes, Zimmer, Kobbelt 2009, section 5.2 ("alignment"): along a feature edge the coordinate
-//! across it stays the same, and its value is an integer, so that the edge becomes a chain of quad
-//! edges. The rows link the vertices of a curve within a chart and the seams' transitions link
-//! charts, so that one integer a curve and chart is enough.
+//! `bommes2009`, section 5.2 ("alignment"): along a feature edge the coordinate across it is constant
+//! and its value is an integer, so that the edge becomes a chain of quad edges. Constraints link the
+//! vertices of a curve within a chart, and transitions over seams link charts, so that one integer for
+//! each curve in each chart is enough.
 
 use super::Combing;
 use super::sectors::Sectors;
@@ -21,7 +21,7 @@ pub(crate) struct Isoline {
     pub(crate) ends: [u32; 2],
     /// The coordinate that stays the same: 0 for u, 1 for v.
     pub(crate) axis: usize,
-    /// Whether no edge before it, in the same chart, has its value.
+    /// Whether it is the first edge of its curve in its chart, whose value is made integer.
     pub(crate) is_first: bool,
 }
 
@@ -35,7 +35,7 @@ impl Isoline {
 /// All feature edges, curve by curve.
 ///
 /// An edge follows the coordinate whose arm is nearer to it in its first face.
-pub(crate) fn isolines(
+pub(super) fn isolines(
     mesh: &TriangleMesh,
     field: &OrientationField,
     combing: &Combing,

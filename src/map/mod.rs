@@ -1,7 +1,7 @@
 //! The seamless parametrization that follows a field, as a mixed-integer problem: coordinates on the
 //! surface cut open, integer translations over the cut.
 //!
-//! Bommes, Zimmer, Kobbelt 2009, section 5. A client of the solver: it builds a
+//! `bommes2009`, section 5; `bommes2012`, section 8.4. A client of the solver: it builds a
 //! [`Problem`](crate::Problem) and reads a [`Solution`](crate::Solution).
 
 mod combing;
@@ -9,6 +9,7 @@ mod cone_paths;
 mod cut_graph;
 mod dirichlet;
 mod feature_strips;
+mod from_values;
 mod isolines;
 mod problem;
 mod seamless_map;
@@ -26,6 +27,6 @@ pub use seamless_map::{SeamlessMap, Transition};
 pub use sizing::Sizing;
 
 pub(crate) use feature_strips::hold_apart;
-pub(crate) use seamless_map::gradient;
+pub(crate) use from_values::gradient;
 pub(crate) use separation::{Wish, constraints_of, solve_separated};
 pub(crate) use winding_defects::{has_winding_defect, winding_defects};

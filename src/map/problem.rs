@@ -1,6 +1,7 @@
 //! The seamless parametrization that follows a field, as a mixed-integer problem.
 //!
-//! Bommes, Zimmer, Kobbelt 2009, section 5: coordinates (u, v) on the surface cut open, with
+//! `bommes2009`, section 5, and `bommes2012`, section 8.4: coordinates (u, v) on the surface cut open,
+//! with the energy
 //!
 //! ```text
 //! E = sum over triangles of area (|grad u - h X|^2 + |grad v - h Y|^2) + 1e-6 |translations|^2
@@ -21,20 +22,20 @@ use super::isolines::{Isoline, isolines};
 use super::seams::{Seam, seams};
 use super::sectors::Sectors;
 use super::sizing::Density;
-use super::{Combing, CutGraph, SeamlessMap, Sizing};
+use super::{Combing, CutGraph, Sizing};
 use crate::field::OrientationField;
 use crate::mesh::features::FeatureGraph;
 use crate::mesh::{TriangleMesh, turned};
-use crate::{Error, Problem, Result, Solution, Solver, Triangle};
+use crate::{Error, Problem, Result, Solver, Triangle};
 
-/// What the square of an integer translation costs: enough to decide those that nothing else does,
-/// too little to change any other.
+/// The weight of the square of an integer translation: enough to decide translations that nothing else
+/// decides, too little to change any other.
 pub const TRANSLATION_WEIGHT: f64 = 1e-6;
 
-/// How to parametrize.
+/// The options of a parametrization.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct SeamlessOptions {
-    /// How many unit squares the map shall cover: the number of quads aimed at.
+    /// The target number of quads: how many unit squares the map should cover.
     pub quads: usize,
 }
 
@@ -47,21 +48,21 @@ impl Default for SeamlessOptions {
 /// The mixed-integer problem of a seamless parametrization, and how to read its solution.
 ///
 /// Unknowns: u and v of copy `c` of the cut surface's vertices are unknowns `2 c` and `2 c + 1`;
-/// the translation (s, t) of each seam follows. Integer are all translations, the first copy of
-/// every cone, and one coordinate a feature curve and chart. In every component the first cone is
-/// pinned to the origin; without cones, each coordinate of the first feature that has it, or else of
-/// the first vertex.
+/// the translation (s, t) of each seam follows. The integers are all translations, the coordinates of
+/// the first copy of every cone, and one coordinate of every feature curve in every chart. In every
+/// component the first cone is pinned to the origin. A component without cones has each coordinate
+/// pinned at the first feature along which it is constant, or else at the first vertex.
 #[derive(Debug, Clone)]
 pub struct SeamlessProblem {
-    pub(crate) problem: Problem,
-    pub(crate) field: OrientationField,
-    pub(crate) cut: CutGraph,
-    pub(crate) combing: Combing,
+    pub(super) problem: Problem,
+    pub(super) field: OrientationField,
+    pub(super) cut: CutGraph,
+    pub(super) combing: Combing,
     pub(crate) sectors: Sectors,
-    pub(crate) seams: Vec<Seam>,
-    pub(crate) cones: Vec<usize>,
+    pub(super) seams: Vec<Seam>,
+    pub(super) cones: Vec<usize>,
     pub(crate) isolines: Vec<Isoline>,
-    /// The lengths of the gradients aimed at.
+    /// The target lengths of the gradients.
     density: Density,
 }
 
@@ -79,8 +80,8 @@ impl SeamlessProblem {
         Self::with_features(mesh, field, &sizing, &FeatureGraph::none(mesh))
     }
 
-    /// The problem for a mesh, a field on it, the size of quads and the edges that shall be
-    /// isolines: the field should follow them
+    /// The problem for a mesh, a field on it, the size of quads, and the edges that are to be
+    /// isolines, which the field should follow
     /// ([`feature_constraints`](crate::field::feature_constraints)).
     ///
     /// # Errors
@@ -99,7 +100,10 @@ impl SeamlessProblem {
         features.check_mesh(mesh)?;
         if field.symmetry() != 4 {
             return Err(Error::InvalidArgument {
-                what: format!("a map follows crosses, not {} arms", field.symmetry()),
+                what: format!(
+                    "a map needs a field of symmetry 4; this one has {}",
+                    field.symmetry()
+                ),
                 index: None,
             });
         }
@@ -124,7 +128,7 @@ impl SeamlessProblem {
         Ok(this)
     }
 
-    /// Fills the problem.
+    /// Adds the energy, constraints, integers and pins to the problem.
     fn state(&mut self, mesh: &TriangleMesh) -> Result<()> {
         self.add_energy(mesh)?;
         for seam in 0..self.seams.len() {
@@ -138,8 +142,9 @@ impl SeamlessProblem {
         self.pin_origins(mesh)
     }
 
-    /// Aims at another size of quads. Only linear terms change: the solver of this problem keeps
-    /// elimination, orderings and factors, and its next solve is that of a new problem of that size.
+    /// Changes the target size of quads. Only linear terms change: the solver of this problem keeps its
+    /// elimination, orderings and factors, and its next solve gives the result of a new problem of that
+    /// size.
     ///
     /// # Errors
     /// [`Error::LengthMismatch`] for another mesh or the solver of another problem, and those of
@@ -152,7 +157,7 @@ impl SeamlessProblem {
     ) -> Result<()> {
         self.field.check_mesh(mesh)?;
         let before = std::mem::replace(&mut self.density, Density::new(mesh, sizing)?);
-        let energy = Dirichlet::new(self, mesh);
+        let energy = self.dirichlet(mesh);
         let told = solver.set_linear(&energy.linear);
         if let Err(error) = told.and_then(|()| solver.set_constant(energy.constant)) {
             self.density = before;
@@ -162,8 +167,8 @@ impl SeamlessProblem {
         self.problem.set_constant(energy.constant)
     }
 
-    /// The same problem for a map so many times as large in length, which `solver` is told as well: it
-    /// keeps what does not depend on the size.
+    /// The same problem for a map that is `factor` times as large in length. The new linear terms are set
+    /// in `solver` too, which keeps what does not depend on the size.
     pub(crate) fn refined(
         &self,
         mesh: &TriangleMesh,
@@ -173,7 +178,7 @@ impl SeamlessProblem {
         self.with_density(mesh, self.density.scaled(factor), solver)
     }
 
-    /// The same for a map so many times as large in every face.
+    /// As [`refined`](Self::refined) with a factor for every face.
     pub(crate) fn graded(
         &self,
         mesh: &TriangleMesh,
@@ -191,7 +196,7 @@ impl SeamlessProblem {
     ) -> Result<Self> {
         let mut this = self.clone();
         this.density = density;
-        let energy = Dirichlet::new(&this, mesh);
+        let energy = this.dirichlet(mesh);
         solver.set_linear(&energy.linear)?;
         solver.set_constant(energy.constant)?;
         this.problem.set_linear(&energy.linear)?;
@@ -219,30 +224,7 @@ impl SeamlessProblem {
         &self.cones
     }
 
-    /// The map that belongs to a solution of the problem.
-    ///
-    /// # Errors
-    /// [`Error::LengthMismatch`] for another mesh or the solution of another problem.
-    pub fn map(&self, mesh: &TriangleMesh, solution: &Solution) -> Result<SeamlessMap> {
-        self.field.check_mesh(mesh)?;
-        SeamlessMap::new(self, mesh, solution.values())
-    }
-
-    /// Whether this is a map of that mesh and this problem.
-    pub(crate) fn check_map(&self, mesh: &TriangleMesh, map: &SeamlessMap) -> Result<()> {
-        self.field.check_mesh(mesh)?;
-        let (expected, actual) = (self.problem.variables(), map.values().len());
-        match expected == actual && map.copies() == self.sectors.copy {
-            true => Ok(()),
-            false => Err(Error::LengthMismatch {
-                what: "the map of the parametrization",
-                expected,
-                actual,
-            }),
-        }
-    }
-
-    /// Combed arms of a face, as long as the gradients shall be.
+    /// The target gradients of a face: the combed arms, scaled by the density.
     pub(crate) fn targets(&self, mesh: &TriangleMesh, face: usize) -> [[f64; 3]; 2] {
         let arms = self.combing.arms(mesh, &self.field, face);
         let density = self.density.of(face, self.combing.quarters()[face]);
@@ -250,12 +232,18 @@ impl SeamlessProblem {
     }
 
     /// The unknown that is `s` of a seam; `t` is the next.
-    pub(crate) fn translation(&self, seam: usize) -> usize {
+    pub(super) fn translation(&self, seam: usize) -> usize {
         2 * (self.sectors.count() + seam)
     }
 
+    fn dirichlet(&self, mesh: &TriangleMesh) -> Dirichlet {
+        let unknowns = self.translation(self.seams.len());
+        let targets = |face| self.targets(mesh, face);
+        Dirichlet::new(mesh, &self.sectors, &self.cut, unknowns, targets)
+    }
+
     fn add_energy(&mut self, mesh: &TriangleMesh) -> Result<()> {
-        let energy = Dirichlet::new(self, mesh);
+        let energy = self.dirichlet(mesh);
         energy.add_to(&mut self.problem)?;
         let translations: Vec<usize> =
             (self.translation(0)..self.translation(self.seams.len())).collect();
@@ -281,7 +269,7 @@ impl SeamlessProblem {
     }
 
     /// The quarter turns of a seam, from its left to its right side.
-    pub(crate) fn seam_turns(&self, mesh: &TriangleMesh, seam: usize) -> u8 {
+    pub(super) fn seam_turns(&self, mesh: &TriangleMesh, seam: usize) -> u8 {
         let first = self.seams[seam].first();
         first.map_or(0, |&(f, k)| self.combing.transition_from(mesh, f, k))
     }
@@ -298,15 +286,16 @@ impl SeamlessProblem {
         twice.map(|same| same[0]).collect()
     }
 
-    /// How many quarter turns a map has around every inner vertex; none at the boundary.
+    /// The quarter turns of a map around every interior vertex; none at the boundary.
     pub(crate) fn quarters(&self, mesh: &TriangleMesh) -> Vec<Option<i32>> {
         (0..mesh.vertex_count())
             .map(|v| (!mesh.is_boundary_vertex(v)).then(|| self.field.quarters(mesh, v)))
             .collect()
     }
 
-    /// Integer are cones, translations, isolines, and vertices where the boundary turns back: both its
-    /// edges lie on one isoline then, which leaves the vertex free along it.
+    /// Makes the coordinates of cones, the translations and the values of isolines integer, and the
+    /// coordinates of vertices where the boundary turns back: there both boundary edges lie on one
+    /// isoline, which leaves the vertex free along it.
     fn set_integers(&mut self, mesh: &TriangleMesh) -> Result<()> {
         let first = &self.sectors.first;
         let turns = self.between_isolines(mesh);
@@ -324,7 +313,7 @@ impl SeamlessProblem {
             .set_integers(&cones.chain(translations).chain(values).collect::<Vec<_>>())
     }
 
-    /// Fixes what no term and no constraint does: where the origin of a component lies.
+    /// Pins the origin of every component, which neither energy nor constraints determine.
     fn pin_origins(&mut self, mesh: &TriangleMesh) -> Result<()> {
         let components = mesh.components();
         let component_of = |v: usize| {
@@ -339,7 +328,7 @@ impl SeamlessProblem {
                 self.pin_first_copy(v, 1)?;
             }
         }
-        // Isolines lie on integers already: a shift by anything else is not free.
+        // The values of isolines are integer: only an integer shift is free, which a pin decides.
         let component_of_copy = self.component_of_copy(mesh, &components.of_face);
         for isoline in &self.isolines {
             let pinned = &mut is_pinned[component_of_copy[isoline.ends[0] as usize] as usize];
@@ -373,7 +362,7 @@ impl SeamlessProblem {
     }
 }
 
-/// Where coordinate `axis` of a point comes from when it is turned by quarters: (axis, sign).
+/// The coordinate, with its sign, that becomes coordinate `axis` after a turn by quarters.
 fn turned_axis(quarters: u8, axis: usize) -> (usize, f64) {
     let signed = turned(quarters, [1.0_f64, 2.0])[axis];
     (signed.abs() as usize - 1, signed.signum())

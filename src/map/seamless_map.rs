@@ -1,10 +1,6 @@
-//! A seamless map, and its energy measured on the mesh.
+//! A seamless map: coordinates on the cut surface and how they change over the cut.
 
-use super::SeamlessProblem;
-use crate::linalg::CompensatedSum;
-use crate::mesh::vector::{Vec3, add, cross, dot, scale, sub};
-use crate::mesh::{TriangleMesh, orientation, turned};
-use crate::{Error, Result};
+use crate::mesh::turned;
 
 /// How coordinates change over one cut edge, from its first to its second face.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -23,51 +19,34 @@ impl Transition {
         let turned = turned(self.quarters, uv);
         [0, 1].map(|axis| turned[axis] + self.translation[axis])
     }
+
+    /// `q = R p + t` is `p = R^-1 q - R^-1 t`.
+    pub(super) fn inverse(&self) -> Self {
+        let quarters = (4 - self.quarters) % 4;
+        let back = turned(quarters, self.translation);
+        Transition {
+            edge: self.edge,
+            quarters,
+            // No minus zero in anybody's output.
+            translation: back.map(|x| 0.0 - x),
+        }
+    }
 }
 
 /// Coordinates on a cut surface that turn by quarters and shift by integers over the cut.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SeamlessMap {
     /// Of all unknowns of the problem, the coordinates first.
-    values: Vec<f64>,
-    coordinates: usize,
-    copies: Vec<[u32; 3]>,
-    transitions: Vec<Transition>,
-    cones: Vec<usize>,
-    flipped: Vec<usize>,
-    energy: f64,
+    pub(super) values: Vec<f64>,
+    pub(super) coordinates: usize,
+    pub(super) copies: Vec<[u32; 3]>,
+    pub(super) transitions: Vec<Transition>,
+    pub(super) cones: Vec<usize>,
+    pub(super) flipped: Vec<usize>,
+    pub(super) energy: f64,
 }
 
 impl SeamlessMap {
-    pub(crate) fn new(
-        problem: &SeamlessProblem,
-        mesh: &TriangleMesh,
-        values: &[f64],
-    ) -> Result<Self> {
-        let expected = problem.translation(problem.seams.len());
-        if values.len() != expected {
-            return Err(Error::LengthMismatch {
-                what: "the solution of the parametrization",
-                expected,
-                actual: values.len(),
-            });
-        }
-        let mut map = SeamlessMap {
-            values: values.to_vec(),
-            coordinates: 2 * problem.sectors.count(),
-            copies: problem.sectors.copy.clone(),
-            transitions: transitions(problem, mesh, values),
-            cones: problem.cones.clone(),
-            flipped: Vec::new(),
-            energy: 0.0,
-        };
-        map.flipped = (0..mesh.face_count())
-            .filter(|&face| orientation(map.uv(face)) <= 0.0)
-            .collect();
-        map.energy = energy(problem, mesh, &map);
-        Ok(map)
-    }
-
     /// The coordinates of the corners of a face.
     pub fn uv(&self, face: usize) -> [[f64; 2]; 3] {
         let uv = self.vertex_uvs();
@@ -115,65 +94,4 @@ impl SeamlessMap {
     pub fn energy(&self) -> f64 {
         self.energy
     }
-}
-
-fn transitions(problem: &SeamlessProblem, mesh: &TriangleMesh, values: &[f64]) -> Vec<Transition> {
-    let mut transitions = Vec::new();
-    for (seam, sides) in problem.seams.iter().enumerate() {
-        let s = problem.translation(seam);
-        let translation = [values[s], values[s + 1]];
-        let quarters = problem.seam_turns(mesh, seam);
-        for &(face, k) in sides {
-            let edge = mesh.edge_of(face, k);
-            let forth = Transition {
-                edge,
-                quarters,
-                translation,
-            };
-            transitions.push(match mesh.edge(edge).first == (face, k) {
-                true => forth,
-                false => inverse(forth),
-            });
-        }
-    }
-    transitions.sort_unstable_by_key(|t| t.edge);
-    transitions
-}
-
-/// `q = R p + t` is `p = R^-1 q - R^-1 t`.
-fn inverse(forth: Transition) -> Transition {
-    let quarters = (4 - forth.quarters) % 4;
-    let back = turned(quarters, forth.translation);
-    Transition {
-        edge: forth.edge,
-        quarters,
-        // No minus zero in anybody's output.
-        translation: back.map(|x| 0.0 - x),
-    }
-}
-
-/// By gradients in space, and so by other formulas than the problem was made of.
-fn energy(problem: &SeamlessProblem, mesh: &TriangleMesh, map: &SeamlessMap) -> f64 {
-    let mut sum = CompensatedSum::new(0.0);
-    for face in 0..mesh.face_count() {
-        let (uv, area) = (map.uv(face), mesh.area(face));
-        let targets = problem.targets(mesh, face);
-        for (axis, target) in targets.into_iter().enumerate() {
-            let gradient = gradient(mesh, face, uv.map(|corner| corner[axis]));
-            let error = sub(gradient, target);
-            sum.add_product(area, dot(error, error));
-        }
-    }
-    sum.value()
-}
-
-/// The gradient of the linear function with these values at the corners.
-pub(crate) fn gradient(mesh: &TriangleMesh, face: usize, values: [f64; 3]) -> Vec3 {
-    let corners = mesh.corner_positions(face);
-    let normal = mesh.normal(face);
-    let opposite = |k: usize| sub(corners[(k + 2) % 3], corners[(k + 1) % 3]);
-    let rise = (1..3).fold([0.0; 3], |sum, k| {
-        add(sum, scale(opposite(k), values[k] - values[0]))
-    });
-    scale(cross(normal, rise), 0.5 / mesh.area(face))
 }

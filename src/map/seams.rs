@@ -1,17 +1,17 @@
 //! Seams: the cut graph taken apart into chains with one transition each.
 //!
-//! Around a regular vertex the transitions compose to the identity, so that two cut edges which
-//! meet there alone share theirs, the translation included. A seam ends where that does not hold:
-//! at cones, at the boundary, and where other than two cut edges meet.
+//! Around a regular vertex the transitions compose to the identity. If exactly two cut edges meet
+//! there, they therefore have the same transition, the translation included. A seam ends where that
+//! does not hold: at cones, at the boundary, and where other than two cut edges meet.
 
 use super::CutGraph;
 use crate::mesh::TriangleMesh;
 
 /// A chain of cut edges, tip to tail: (face, local edge) on its left side.
-pub(crate) type Seam = Vec<(usize, usize)>;
+pub(super) type Seam = Vec<(usize, usize)>;
 
-/// All seams, by the lowest of their two ends, around it counter-clockwise.
-pub(crate) fn seams(mesh: &TriangleMesh, cut: &CutGraph, cones: &[usize]) -> Vec<Seam> {
+/// All seams, in increasing order of the lower end, counter-clockwise around it.
+pub(super) fn seams(mesh: &TriangleMesh, cut: &CutGraph, cones: &[usize]) -> Vec<Seam> {
     let degree = cut.degrees(mesh);
     let ends = |v: usize| degree[v] > 0 && (degree[v] != 2 || mesh.is_boundary_vertex(v));
     let mut is_end: Vec<bool> = (0..mesh.vertex_count()).map(ends).collect();

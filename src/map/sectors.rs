@@ -15,7 +15,7 @@ pub(crate) struct Sectors {
 impl Sectors {
     /// Copies are numbered by vertex, within one counter-clockwise: from the first corner of the
     /// ring that has a cut edge on its clockwise side (at the boundary from the first corner).
-    pub(crate) fn new(mesh: &TriangleMesh, cut: &CutGraph) -> Self {
+    pub(super) fn new(mesh: &TriangleMesh, cut: &CutGraph) -> Self {
         let mut copy = vec![[0; 3]; mesh.face_count()];
         let mut first = Vec::with_capacity(mesh.vertex_count() + 1);
         let mut copies = 0;

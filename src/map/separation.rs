@@ -15,7 +15,7 @@ pub(crate) trait Wish {
 ///
 /// # Errors
 /// Those of [`eliminate`], but for constraints that contradict each other.
-pub(crate) fn with_separation<'a, W: Wish>(
+pub(super) fn with_separation<'a, W: Wish>(
     stated: &Problem,
     wishes: &mut Vec<W>,
     monitor: &impl Fn() -> Monitor<'a>,

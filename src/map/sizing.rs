@@ -1,4 +1,4 @@
-//! How large the quads of a map shall be.
+//! The size of the quads of a map.
 
 use crate::mesh::TriangleMesh;
 use crate::{Error, Result};
@@ -39,9 +39,9 @@ impl Sizing {
     }
 }
 
-/// Unit squares a unit length in every face.
+/// The number of unit squares per unit of length in every face.
 #[derive(Debug, Clone)]
-pub(crate) enum Density {
+pub(super) enum Density {
     Uniform(f64),
     /// Along the arm that the field stores, and across.
     Faces(Vec<[f64; 2]>),
@@ -51,10 +51,10 @@ impl Density {
     /// # Errors
     /// [`Error::InvalidArgument`] for no quads and for lengths that are not above zero, with the
     /// face where there is one; [`Error::NotFinite`]; [`Error::LengthMismatch`].
-    pub(crate) fn new(mesh: &TriangleMesh, sizing: &Sizing) -> Result<Self> {
+    pub(super) fn new(mesh: &TriangleMesh, sizing: &Sizing) -> Result<Self> {
         match sizing {
             Sizing::Quads(0) => Err(Error::InvalidArgument {
-                what: "a parametrization for no quads".into(),
+                what: "the number of quads is 0; it must be at least 1".into(),
                 index: None,
             }),
             Sizing::Quads(quads) => {
@@ -83,8 +83,8 @@ impl Density {
         }
     }
 
-    /// So many times as dense.
-    pub(crate) fn scaled(&self, factor: f64) -> Self {
+    /// `factor` times this density.
+    pub(super) fn scaled(&self, factor: f64) -> Self {
         match self {
             Density::Uniform(density) => Density::Uniform(factor * density),
             Density::Faces(faces) => {
@@ -93,8 +93,8 @@ impl Density {
         }
     }
 
-    /// So many times as dense in every face.
-    pub(crate) fn graded(&self, factors: &[f64]) -> Self {
+    /// This density times a factor for every face.
+    pub(super) fn graded(&self, factors: &[f64]) -> Self {
         let of = |face: usize| match self {
             Density::Uniform(density) => [*density; 2],
             Density::Faces(faces) => faces[face],
@@ -103,8 +103,8 @@ impl Density {
         Density::Faces(graded.map(|(face, f)| of(face).map(|d| f * d)).collect())
     }
 
-    /// Along the two arms of a face that is combed by this many quarter turns.
-    pub(crate) fn of(&self, face: usize, quarters: u8) -> [f64; 2] {
+    /// The densities along the two arms of a face that is combed by these quarter turns.
+    pub(super) fn of(&self, face: usize, quarters: u8) -> [f64; 2] {
         match self {
             Density::Uniform(density) => [*density; 2],
             Density::Faces(densities) => {
@@ -129,7 +129,7 @@ fn check(what: &'static str, length: f64, face: Option<usize>) -> Result<()> {
     match length > 0.0 {
         true => Ok(()),
         false => Err(Error::InvalidArgument {
-            what: format!("{what}: {length} is not above zero"),
+            what: format!("{what}: {length} is not above 0"),
             index: face,
         }),
     }

@@ -1,7 +1,7 @@
 //! A map as a Wavefront OBJ file: positions `v`, coordinates `vt`, corners `f v/vt`.
 //!
-//! One `vt` a vertex of the cut surface, so that a viewer tears the texture at the cut and nowhere
-//! else.
+//! There is one `vt` for each vertex of the cut surface, so that a viewer tears the texture at the cut
+//! and nowhere else.
 
 use std::fs::File;
 use std::io::{self, BufWriter, Write};

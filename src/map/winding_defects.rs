@@ -1,20 +1,20 @@
-//! Vertices around which a map turns another number of times than its field.
+//! Winding defects: vertices around which the winding of a map differs from that of its field.
 //!
-//! With every triangle the right way round, the angles of a map around a vertex sum to as many
-//! quarter turns as the field says only where the map covers the neighbourhood once. No single
-//! triangle shows that: a ring may go around its vertex twice without a fold.
+//! With every triangle positively oriented, the angles of a map around a vertex sum to as many quarter
+//! turns as the field has there exactly if the map covers the neighbourhood once. No single triangle shows
+//! that: a ring may go around its vertex twice without a fold.
 
 use std::f64::consts::FRAC_PI_2;
 
 use super::{SeamlessMap, SeamlessProblem};
 use crate::Result;
-use crate::mesh::{TriangleMesh, orientation};
+use crate::mesh::{TriangleMesh, angle_at, orientation};
 
 impl SeamlessProblem {
-    /// The inner vertices around which a map of this problem turns another number of times than the
-    /// field, in increasing order. Vertices of flipped faces are not looked at.
+    /// The interior vertices at which the winding of a map of this problem differs from that of the
+    /// field, in increasing order. Vertices of flipped faces are left out.
     ///
-    /// A map without flipped faces and without these is locally injective inside.
+    /// A map without flipped faces and winding defects is locally injective in the interior.
     ///
     /// # Errors
     /// [`LengthMismatch`](crate::Error::LengthMismatch) for the map of another problem or mesh.
@@ -26,7 +26,7 @@ impl SeamlessProblem {
     }
 }
 
-/// The vertices that a map turns around another number of quarters than these, where they are told.
+/// The vertices with given quarter turns at which a map makes another number of them.
 pub(crate) fn winding_defects(
     mesh: &TriangleMesh,
     quarters: &[Option<i32>],
@@ -38,7 +38,7 @@ pub(crate) fn winding_defects(
         .collect()
 }
 
-/// Whether a map turns around a vertex another number of quarters than these.
+/// Whether a map makes another number of quarter turns around a vertex than is given for it.
 pub(crate) fn has_winding_defect(
     mesh: &TriangleMesh,
     quarters: &[Option<i32>],
@@ -49,8 +49,8 @@ pub(crate) fn has_winding_defect(
     quarters[v].is_some() && turns().is_some_and(|turns| Some(turns) != quarters[v])
 }
 
-/// The quarter turns that the map's angles around a vertex add up to; none where a triangle there
-/// is folded.
+/// The quarter turns to which the map's angles around a vertex sum; none if a triangle there is
+/// folded.
 fn turns_around(mesh: &TriangleMesh, uv: impl Fn(usize) -> [[f64; 2]; 3], v: usize) -> Option<i32> {
     let mut sum = 0.0;
     for (face, corner) in mesh.ring(v) {
@@ -58,9 +58,7 @@ fn turns_around(mesh: &TriangleMesh, uv: impl Fn(usize) -> [[f64; 2]; 3], v: usi
         if orientation(uv) <= 0.0 {
             return None;
         }
-        let at = |k: usize| uv[(corner + k) % 3];
-        let [a, b] = [at(1), at(2)].map(|p| [p[0] - at(0)[0], p[1] - at(0)[1]]);
-        sum += (a[0] * b[1] - a[1] * b[0]).atan2(a[0] * b[0] + a[1] * b[1]);
+        sum += angle_at(uv, corner);
     }
     Some((sum / FRAC_PI_2).round() as i32)
 }

@@ -1,19 +1,18 @@
-//! What can be said of vertices and faces before anything is known of their neighbours.
+//! The checks of vertices and faces that need no adjacency.
 //!
 //! Order of the checks of a mesh, each over all elements before the next: size, faces at all,
 //! coordinates, vertex numbers, repeated vertices, areas (this file); edges with more than two
 //! faces, orientation ([`super::connectivity`]); isolated vertices, fans of faces
 //! ([`super::rings`]). Within a check the lowest element is named. Areas come before edges
-//! because a sliver that collapsed is the cause, and the edge it spoils the consequence.
+//! because a collapsed sliver is the cause, and the edge that it spoils is the consequence.
 
 use super::MeshError;
 use super::vector::{Vec3, cross, dot, sub};
 
-/// A face counts as without area when twice its area is at most this part of its longest edge
-/// squared.
+/// A face has no area if twice its area is at most this fraction of the square of its longest edge.
 ///
-/// Rounding of the coordinates alone leaves a collinear triangle about 1e-16 of it. Needles
-/// above are kept: they are valid, and their angles are still right to a few digits.
+/// Rounding of the coordinates alone gives a collinear triangle about 1e-16. Needles above the
+/// tolerance are valid: their angles are still right to a few digits.
 pub const ZERO_AREA_TOLERANCE: f64 = 1e-14;
 
 /// Checks sizes, coordinates and faces one by one.

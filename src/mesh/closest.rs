@@ -1,9 +1,8 @@
-//! The closest point of a set of triangles, by a tree of boxes.
+//! The closest point on a set of triangles, by a tree of bounding boxes.
 //!
-//! Boxes are halved at the median centroid along their longest side; a search goes down nearer
-//! boxes first and leaves out those farther than the best so far. The point of a triangle closest
-//! to another: Ericson 2005, "Real-Time Collision Detection", section 5.1.5, which holds for
-//! triangles that are segments as well.
+//! Boxes are halved at the median centroid along their longest side. A search visits nearer boxes first
+//! and leaves out those farther away than the best point so far. The closest point on one triangle is
+//! that of `ericson2005`, section 5.1.5, which holds for triangles that are segments as well.
 
 use super::TriangleMesh;
 use super::vector::{Vec3, add, dot, scale, sub};
@@ -28,7 +27,7 @@ struct Node {
     second: u32,
 }
 
-/// So many triangles are not worth halving.
+/// A box with at most this many triangles is not divided.
 const LEAF: usize = 4;
 
 impl ClosestPoint {
@@ -99,7 +98,7 @@ impl ClosestPoint {
 
     /// The triangle with the point closest to `p`, and that point; none if there is no triangle.
     ///
-    /// A triangle that may be near, such as that of the last search, makes it shorter.
+    /// A `hint`, a triangle that may be near such as that of the last search, shortens the search.
     pub fn find(&self, p: Vec3, hint: Option<usize>) -> Option<(usize, Vec3)> {
         let start = hint.unwrap_or(0);
         let mut best = (start, closest(*self.triangles.get(start)?, p));

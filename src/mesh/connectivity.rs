@@ -2,7 +2,7 @@
 //!
 //! A half-edge is named by 3 f + k, local edge k of face f. Half-edges are bucketed by their
 //! lower end point with a counting sort; within a bucket, about six long, those with the same
-//! upper end point are one edge. No hash map, and the order does not depend on anything but the
+//! upper end point are one edge. There is no hash map, and the order depends on nothing but the
 //! faces.
 
 use super::MeshError;

@@ -14,7 +14,7 @@ use crate::linalg::Random;
 pub fn jitter(mesh: &TriangleMesh, amplitude: f64, seed: u64) -> Result<TriangleMesh, MeshError> {
     if !amplitude.is_finite() || amplitude < 0.0 {
         return Err(MeshError::InvalidArgument {
-            what: format!("a jitter of {amplitude} is not a finite number of at least 0"),
+            what: format!("the jitter amplitude is {amplitude}; it must be finite and at least 0"),
         });
     }
     let mut shortest = vec![f64::INFINITY; mesh.vertex_count()];

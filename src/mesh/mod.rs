@@ -1,8 +1,8 @@
 //! Triangle meshes: validated connectivity, measures, files, procedural shapes, curvature.
 //!
 //! A [`TriangleMesh`] is an oriented 2-manifold with or without boundary, of any genus and any
-//! number of components, and does not change once made. What is not one is refused with a
-//! [`MeshError`] that names the element. Elements are counted from 0. Local edge `k` of a face
+//! number of components, and does not change once made. Anything else is refused with a
+//! [`MeshError`] that names the element at fault. Elements are counted from 0. Local edge `k` of a face
 //! runs from its corner `k` to its corner `k + 1`; angles are counter-clockwise about the face
 //! normal, from local edge 0, the face's first edge in the file.
 //!
@@ -27,7 +27,7 @@ pub mod io;
 mod jitter;
 mod measure;
 mod orientation;
-mod quarter_turn;
+mod plane;
 mod rings;
 pub mod shape;
 mod subdivide;
@@ -39,11 +39,12 @@ pub use check::ZERO_AREA_TOLERANCE;
 pub use closest::ClosestPoint;
 pub use error::MeshError;
 pub use jitter::jitter;
-pub use orientation::orientation;
-pub use quarter_turn::turned;
 pub use subdivide::subdivide;
 pub use topology::Components;
 pub use triangle_mesh::{Edge, TriangleMesh};
+
+pub(crate) use orientation::orientation;
+pub(crate) use plane::{angle_at, angle_between, turned};
 
 #[cfg(test)]
 mod error_tests;

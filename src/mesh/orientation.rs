@@ -1,8 +1,7 @@
-//! Which way round a triangle lies in the plane, decided exactly.
+//! The orientation of a triangle in the plane, decided exactly.
 //!
-//! By the sign of its area computed in as many digits as it takes (Shewchuk 1997, "Adaptive
-//! precision floating-point arithmetic and fast robust geometric predicates"), from the crate
-//! `robust`: the plain formula has the wrong sign for needles.
+//! It is the sign of the area, computed in as many digits as it takes (`shewchuk1997`) by the crate
+//! `robust`; the plain formula has the wrong sign for needles.
 
 use robust::{Coord, orient2d};
 

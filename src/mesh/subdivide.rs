@@ -1,4 +1,4 @@
-//! Midpoint subdivision: every face into four alike, the surface unchanged.
+//! Midpoint subdivision: every face becomes four similar ones, and the surface stays the same.
 
 use super::vector::{add, scale};
 use super::{MeshError, TriangleMesh};

@@ -1,4 +1,6 @@
-//! The mesh itself: vertices, faces, and who is next to whom.
+//! The mesh itself: vertices, faces and their adjacency.
+
+use std::ops::Neg;
 
 use super::connectivity::{Connectivity, NONE, connect};
 use super::rings::{Rings, rings};
@@ -124,6 +126,20 @@ impl TriangleMesh {
     pub fn edge_of(&self, face: usize, k: usize) -> usize {
         debug_assert!(k < 3, "a face has three edges");
         self.half_edge[3 * face + k] as usize
+    }
+
+    /// Whether local edge `k` of a face is its edge's first side.
+    pub fn is_first_side(&self, face: usize, k: usize) -> bool {
+        self.edge_half[self.edge_of(face, k)] as usize == 3 * face + k
+    }
+
+    /// The value of an edge over its local edge `k` out of a face: what is counted from the first
+    /// side to the second changes its sign the other way.
+    pub fn out_of<T: Neg<Output = T>>(&self, face: usize, k: usize, value: T) -> T {
+        match self.is_first_side(face, k) {
+            true => value,
+            false => -value,
+        }
     }
 
     /// The corners (face, corner) around a vertex, counter-clockwise.

@@ -1,9 +1,9 @@
-//! Chains of quads' edges along curves, closed where the map leaves gaps in them.
+//! Chains of quads' edges along curves, with the gaps that the map leaves in them closed.
 //!
-//! A curve is an isoline, so quads have a chain of edges along it. But where the map folds, some
-//! vertices of that chain come out beside the curve, and where a curve ends on the surface, no integer
-//! point need be. Every node of the curves gets the nearest vertex of the chain, and every gap
-//! between two vertices on a curve the shortest way through vertices beside it, spread evenly.
+//! A curve is an isoline, so quads have a chain of edges along it. But where the map folds, some vertices of
+//! the chain lie beside the curve, and where a curve ends on the surface there may be no integer point. Every
+//! node of the curves therefore gets the nearest vertex of the chain. Every gap between two vertices on a
+//! curve is closed by the shortest way through vertices beside it, which are spread evenly.
 
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet, BinaryHeap};
@@ -15,13 +15,13 @@ use crate::extract::QuadMesh;
 use crate::mesh::TriangleMesh;
 use crate::mesh::vector::{Vec3, norm, sub};
 
-/// So many vertices a gap has at most.
+/// The largest number of vertices that close a gap.
 const LONGEST: usize = 8;
 
-/// How far from the curve those may be, in mean edge lengths.
+/// The largest distance of these vertices from the curve, in mean edge lengths.
 const NEAR: f64 = 1.0;
 
-/// What a step costs beside the distance from the curve, in mean edge lengths.
+/// The cost of a step in addition to the distance from the curve, in mean edge lengths.
 const STEP: f64 = 0.2;
 
 /// Binds vertices to curves and nodes, and moves them there.
@@ -99,8 +99,8 @@ impl Chains<'_> {
         members
     }
 
-    /// Fixes a vertex at every node that has none: of those that end a chain there and their
-    /// neighbours, the nearest.
+    /// Fixes a vertex at every node that has none: the nearest of the last vertices of its chains and
+    /// their neighbours.
     fn take_nodes(&mut self, mesh: &TriangleMesh) {
         for curve in 0..self.surface.curves.len() {
             let ends = self.surface.curves[curve].ends;
@@ -167,7 +167,7 @@ impl Chains<'_> {
         }
     }
 
-    /// Moves vertices to these places, all or none: not where that turns a quad over.
+    /// Moves all vertices to these places, or none if that would invert a quad.
     fn moves(&mut self, way: &[u32], places: &[Vec3]) -> bool {
         let around = way.iter().flat_map(|&v| &self.quads_at[v as usize]);
         let around: BTreeSet<u32> = around.copied().collect();

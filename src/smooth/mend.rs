@@ -1,8 +1,8 @@
-//! The worst quads, mended one vertex at a time.
+//! The worst quads, improved one vertex at a time.
 //!
-//! A corner of a poor quad tries a few places: towards the mean of its neighbours, towards what its
-//! quads ask, and around where it is. It takes the one that leaves the worst of its quads best, if
-//! that is better than before.
+//! For each corner of a poor quad a few places are tried: towards the mean of its neighbours, towards the
+//! targets of its quads, and along its edges and diagonals. The corner takes the place at which the worst of
+//! its quads is best, if that is an improvement.
 
 use super::quality::scaled_jacobian;
 use super::square;
@@ -10,13 +10,13 @@ use super::surface::Surface;
 use crate::extract::QuadMesh;
 use crate::mesh::vector::{Vec3, add, scale, sub};
 
-/// Quads with a scaled Jacobian below this are mended.
+/// Quads with a scaled Jacobian below this are improved.
 const POOR: f64 = 0.5;
 
-/// How many times all poor quads are gone through.
+/// The most passes over all poor quads.
 const ROUNDS: usize = 20;
 
-/// Mends what it can.
+/// Improves poor quads until no vertex moves.
 pub(super) fn mend(quads: &mut QuadMesh, surface: &mut Surface) {
     let around = quads.around();
     for _ in 0..ROUNDS {
@@ -44,9 +44,9 @@ fn worst(quads: &QuadMesh, around: &[u32]) -> f64 {
     qualities.fold(f64::INFINITY, f64::min)
 }
 
-/// Moves a vertex to the best of the places tried. Whether it moved.
+/// Moves a vertex to the best of the places tried. Returns whether it moved.
 fn improve(quads: &mut QuadMesh, surface: &mut Surface, v: usize, around: &[u32]) -> bool {
-    /// What is not better by this much is not worth a move.
+    /// The least improvement for which a vertex moves.
     const GAIN: f64 = 1e-3;
     let before = quads.vertices[v];
     let mut best = (worst(quads, around) + GAIN, before);

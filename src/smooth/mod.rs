@@ -1,11 +1,10 @@
-//! Smoothing of quads that stay on the surface: towards squares of one size.
+//! Smoothing of quads on the surface, towards squares of one size.
 //!
-//! Every quad asks for its corners where the square closest to it has them (the least-squares fit
-//! of Bouaziz, Deuss, Schwartzburg, Weise, Pauly 2012, "Shape-Up: shaping discrete geometry with
-//! projections", section 4), of a size between its own and that of all; a vertex goes to the mean of
-//! what its quads ask, and from there to the closest point of the surface. Vertices on the boundary
-//! and on features slide along them; where these end, meet or turn, one stays. What is left turned over is mended one vertex at
-//! a time.
+//! Every quad has a target for its corners: the square closest to it (the least-squares fit of
+//! `bouaziz2012`, section 4), of a size between its own and the mean size. A vertex moves to the mean of its
+//! targets, and from there to the closest point of the surface. Vertices on the boundary and on features
+//! slide along them; a vertex where these end, meet or turn is fixed. Quads that are still inverted are
+//! improved one vertex at a time.
 
 mod chains;
 mod curve;
@@ -23,16 +22,16 @@ use crate::{Error, Monitor, Result};
 pub use quality::QuadQuality;
 use surface::Surface;
 
-/// How to smooth.
+/// The options of smoothing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SmoothOptions {
-    /// How many times all vertices are moved.
+    /// The number of times that all vertices move.
     pub rounds: usize,
-    /// From 0 to 1: how much a quad shall have the mean size of all instead of its own.
+    /// The size of a quad's target: from its own size at 0 to the mean size of all at 1.
     pub uniformity: f64,
-    /// From 0 to 1: how much a vertex is held where the map has it.
+    /// The pull of a vertex to its place in the map: none at 0, all at 1.
     pub hold: f64,
-    /// Edges of the triangle mesh that edges of quads shall stay on.
+    /// Edges of the triangle mesh on which edges of quads stay.
     pub features: Vec<usize>,
 }
 
@@ -49,7 +48,7 @@ impl Default for SmoothOptions {
 
 /// Moves the vertices of quads over the mesh that they were extracted from.
 ///
-/// Faces that are no quads have no say. Connectivity and origins stay.
+/// Faces that are not quads have no effect. Connectivity and origins do not change.
 ///
 /// # Errors
 /// [`Error::IndexOutOfRange`] for a feature that is no edge, [`Error::InvalidArgument`] for a
@@ -96,7 +95,10 @@ pub fn smooth(
 fn check(options: &SmoothOptions) -> Result<()> {
     if !(0.0..=1.0).contains(&options.uniformity) {
         return Err(Error::InvalidArgument {
-            what: format!("the uniformity is {}, outside 0 to 1", options.uniformity),
+            what: format!(
+                "the uniformity is {}; it must be from 0 to 1",
+                options.uniformity
+            ),
             index: None,
         });
     }

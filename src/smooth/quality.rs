@@ -1,4 +1,4 @@
-//! How good quads are: angles, scaled Jacobians, edge lengths.
+//! The quality of quads: angles, scaled Jacobians and edge lengths.
 
 use crate::extract::QuadMesh;
 use crate::mesh::vector::{Vec3, cross, dot, norm, normalize, sub};
@@ -8,7 +8,7 @@ use crate::mesh::vector::{Vec3, cross, dot, norm, normalize, sub};
 pub struct QuadQuality {
     /// Mean over all corners of the deviation from a right angle, in degrees.
     pub angle_deviation: f64,
-    /// The scaled Jacobian that one quad in a hundred falls below.
+    /// The first percentile of the scaled Jacobians.
     pub scaled_jacobian_p1: f64,
     /// The least scaled Jacobian.
     pub scaled_jacobian_min: f64,

@@ -3,8 +3,8 @@
 use crate::extract::QuadMesh;
 use crate::mesh::vector::{Vec3, add, cross, dot, norm, normalize, scale, sub};
 
-/// The square closest to these corners about their centre, in the plane across the cross product of
-/// their diagonals; its size between its own and the given edge length.
+/// The square about the centre of these corners that is closest to them, in the plane normal to the
+/// cross product of their diagonals. `uniformity` blends its size with the given edge length.
 pub(super) fn closest(corners: [Vec3; 4], edge: f64, uniformity: f64) -> [Vec3; 4] {
     let [a, b, c, d] = corners;
     let center = scale(add(add(a, b), add(c, d)), 0.25);

@@ -1,4 +1,4 @@
-//! Where each vertex may go: over the surface, along a curve on it, or nowhere.
+//! The constraint of each vertex: to the surface, to a curve on it, or to a point.
 
 use super::curve::Curve;
 use crate::extract::{Origin, QuadMesh};
@@ -6,7 +6,7 @@ use crate::mesh::features::FeatureGraph;
 use crate::mesh::vector::Vec3;
 use crate::mesh::{ClosestPoint, TriangleMesh};
 
-/// What a vertex is bound to.
+/// The constraint of a vertex.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Bond {
     Surface,
@@ -18,7 +18,7 @@ pub(super) enum Bond {
 /// The surface with its curves: boundary and features.
 pub(super) struct Surface {
     faces: ClosestPoint,
-    /// Each by itself: curves may be closer to each other than vertices are.
+    /// One tree for each curve: curves may be closer to each other than vertices are.
     pub(super) curves: Vec<Curve>,
     pub(super) bonds: Vec<Bond>,
     /// The vertex of the mesh that each fixed vertex is at: where curves end, meet or turn.
@@ -53,7 +53,7 @@ impl Surface {
         }
     }
 
-    /// Where a vertex goes that is wanted at `p`.
+    /// The place nearest to `p` that a vertex may have.
     pub(super) fn project(&mut self, vertex: usize, p: Vec3) -> Vec3 {
         let hint = self.hints[vertex];
         let found = match self.bonds[vertex] {
@@ -69,7 +69,7 @@ impl Surface {
     }
 }
 
-/// What a vertex from there is bound to, and the node that it is fixed at.
+/// The constraint of a vertex with this origin, and the node at which it is fixed.
 fn place(
     mesh: &TriangleMesh,
     on: &[Bond],

@@ -1,4 +1,4 @@
-//! A disk of faces around a vertex.
+//! A disk of faces around a vertex, its boundary, and a path from the vertex to the boundary.
 
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
@@ -20,8 +20,8 @@ pub(super) struct Disk {
 }
 
 impl Disk {
-    /// The largest disk of the center's own faces and such as may be in it, around the center; none
-    /// where these are no disk.
+    /// The largest disk around the center of its own faces and those that `may_be_in` it; none if the
+    /// faces found form no disk.
     pub fn around(
         mesh: &TriangleMesh,
         center: usize,

@@ -1,33 +1,34 @@
-//! What a triangle pays for its distortion, and what that is as a quadratic form.
+//! The distortion energy of a triangle, and its convex quadratic form for Newton's method.
 //!
-//! Garanzha, Kaporin, Kudryavtseva, Protais, Ray, Sokolov 2021, equations (2) to (4), in the plane:
+//! `garanzha2021`, equations (2) to (4), in the plane:
 //!
 //! ```text
 //! psi(J) = (tr J'J + lambda (det^2 + 1)) / chi(det),    chi(d) = (d + sqrt(eps^2 + d^2)) / 2
 //! ```
 //!
-//! chi is positive everywhere, so that a folded triangle has a finite energy, and tends to
-//! max(d, 0) with eps, so that an unfolded one can never fold. The form is that of Newton's method
-//! with the Hessian projected to the positive semi-definite ones, by the eigensystem in closed form:
-//! the conformal part p and the anticonformal part q of J have `tr J'J = |p|^2 + |q|^2` and
-//! `2 det = |p|^2 - |q|^2`, so that psi is a function of these two squares alone (Smith, de Goes, Kim
-//! 2019, "Analytic eigensystems for isotropic distortion energies", section 4).
+//! chi is positive everywhere, so that a folded triangle has a finite energy. As eps goes to 0, chi tends
+//! to max(d, 0), so that a triangle that is not folded can never fold. The Hessian is projected to a
+//! positive definite one by its eigensystem in closed form (`smith2019`, section 4): the conformal part p
+//! and the anticonformal part q of J have `tr J'J = |p|^2 + |q|^2` and `2 det = |p|^2 - |q|^2`, so that
+//! psi is a function of these two squares alone.
 
 use std::f64::consts::FRAC_1_SQRT_2;
 
-/// How much the area counts beside the angles. The paper's examples have 1/128 to 1.
+use crate::mesh::turned;
+
+/// lambda, the weight of the area relative to the angles. The paper's examples have 1/128 to 1.
 const AREA_WEIGHT: f64 = 1.0;
 
 /// The least eigenvalue that a projected Hessian keeps, so that no direction is free of cost.
 const LEAST_CURVATURE: f64 = 1e-6;
 
-/// The triangle in the plane that a face would like to become.
+/// The triangle in the plane that is the target of a face.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Rest {
     /// Gradients of the three hat functions.
     pub gradients: [[f64; 2]; 3],
-    /// What the triangle counts: the root of its area. By area, small triangles would stay folded
-    /// until eps is small; by number, fine parts of a mesh would outweigh all else.
+    /// The weight of the triangle, the root of its area. Weighted by area, small triangles would stay
+    /// folded until eps is small; with equal weights, fine parts of a mesh would dominate.
     pub weight: f64,
 }
 
@@ -186,7 +187,7 @@ fn eigen(a: f64, b: f64, c: f64) -> [(f64, [f64; 2]); 2] {
     let angle = 0.5 * (2.0 * b).atan2(a - c);
     let (y, x) = angle.sin_cos();
     let (mean, half) = (0.5 * (a + c), b.hypot(0.5 * (a - c)));
-    [(mean + half, [x, y]), (mean - half, [-y, x])]
+    [(mean + half, [x, y]), (mean - half, turned(1, [x, y]))]
 }
 
 #[cfg(test)]

@@ -1,8 +1,8 @@
-//! What may still move once the integers are held.
+//! The degrees of freedom that are left when the integers are held.
 //!
-//! The constraints of the parametrization with every integer unknown pinned go through the
-//! elimination: what is left of them is `x = T y + t` with `y` free and continuous. Only T is
-//! needed, as steps start from a solution: `x + T dy` satisfies whatever x does.
+//! The constraints of the parametrization, with every integer unknown pinned, are eliminated, which leaves
+//! `x = T y + t` with `y` free and continuous. Only T is needed, because steps start from a solution: if x
+//! satisfies the constraints, so does `x + T dy`.
 
 use std::ops::Range;
 
@@ -12,7 +12,7 @@ use crate::map::SeamlessProblem;
 use crate::map::constraints_of;
 use crate::{Model, Monitor, Result};
 
-/// Which coordinates each free unknown moves, and which faces.
+/// The coordinates and the faces that each free unknown moves.
 pub(super) struct Freedom {
     /// `T`: one row a coordinate (u of copy c is 2 c, v is 2 c + 1).
     pub moves: Sparse,
@@ -85,8 +85,8 @@ impl Freedom {
         self.faces[range].iter().map(|&f| f as usize)
     }
 
-    /// The two free unknowns that move the copies of one vertex, and no other; none where there
-    /// are fewer or more.
+    /// The two free unknowns that move the copies of one vertex and no other vertex; none if there are
+    /// fewer or more.
     pub fn of_copies(&self, copies: Range<u32>) -> Option<[usize; 2]> {
         let rows = 2 * copies.start as usize..2 * copies.end as usize;
         let mut unknowns: Vec<usize> = rows

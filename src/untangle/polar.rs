@@ -1,9 +1,9 @@
 //! A disk around a cone laid anew in polar coordinates.
 //!
-//! Around a cone of q quarter turns a map looks like `z^(q/4)`: the logarithm of the distance from the
-//! cone and the angle are both harmonic. They are solved for, with the boundary of the disk where it
-//! is and the angle growing by q quarters on the way around, so that the disk is covered as often as
-//! the cone asks for, whatever was there before.
+//! Around a cone of q quarter turns a map looks like `z^(q/4)`: the angle and the logarithm of the distance
+//! from the cone are both harmonic. They are computed with the boundary of the disk where it is and the angle
+//! growing by q quarter turns around the cone. The map then covers the disk as often as the cone requires,
+//! whatever it did before.
 
 use std::collections::{BTreeMap, VecDeque};
 use std::f64::consts::FRAC_PI_2;
@@ -11,8 +11,8 @@ use std::f64::consts::FRAC_PI_2;
 use super::disk::Disk;
 use crate::Result;
 use crate::linalg::{Cholesky, Sparse};
-use crate::mesh::TriangleMesh;
 use crate::mesh::vector::{norm, sub};
+use crate::mesh::{TriangleMesh, angle_between, turned};
 
 /// Corner coordinates of a face.
 type Shape = [[f64; 2]; 3];
@@ -32,7 +32,7 @@ struct Charts {
 }
 
 impl Layout {
-    /// With `quarters` around the center; none where the boundary does not go around it that often.
+    /// The layout with `quarters` around the center; none if the boundary makes another number of turns.
     ///
     /// # Errors
     /// [`OutOfMemory`](crate::Error::OutOfMemory).
@@ -53,7 +53,7 @@ impl Layout {
             let [a, b] = [k, (k + 1) % 3].map(|k| minus(at[k], centers[&face]));
             polar.insert(mesh.corners(face)[k], [angle, a[0].hypot(a[1]).ln()]);
             seed.get_or_insert((face, k, a[1].atan2(a[0])));
-            angle += (a[0] * b[1] - a[1] * b[0]).atan2(a[0] * b[0] + a[1] * b[1]);
+            angle += angle_between(a, b);
         }
         let is_around = (angle - around).abs() < 1e-6;
         let Some((face, corner, direction)) = seed.filter(|_| is_around) else {
@@ -143,7 +143,7 @@ fn centers(
     found
 }
 
-/// What turns angles into directions, corner by corner, from that of one corner on.
+/// What turns the angle of each corner into its direction, starting from the direction of one corner.
 fn turns(
     mesh: &TriangleMesh,
     disk: &Disk,
@@ -168,14 +168,14 @@ fn turns(
             false => (k, (l + 1) % 3),
             true => ((k + 1) % 3, l),
         };
-        let turned = turn[mine] + FRAC_PI_2 * f64::from(quarter(uv(face), k, uv(next), l));
-        found.insert(next, whole(next, other, turned));
+        let there = turn[mine] + FRAC_PI_2 * f64::from(quarter(uv(face), k, uv(next), l));
+        found.insert(next, whole(next, other, there));
         true
     });
     found
 }
 
-/// Offers every step across an edge inside the disk until none is taken any more.
+/// Tries every step across an edge inside the disk until none is taken any more.
 fn spread(
     mesh: &TriangleMesh,
     disk: &Disk,
@@ -261,22 +261,16 @@ fn harmonic(
     Ok(())
 }
 
-/// How many quarters the chart of the second face is turned from that of the first, by the edge `k`
-/// of the one, which is `l` of the other, the other way round.
+/// The quarter turns from the chart of one face to that of another, by their common edge: local edge `k`
+/// of the one, `l` of the other.
 fn quarter(from: Shape, k: usize, to: Shape, l: usize) -> i32 {
     let a = minus(from[(k + 1) % 3], from[k]);
     let b = minus(to[l], to[(l + 1) % 3]);
-    let angle = (a[0] * b[1] - a[1] * b[0]).atan2(a[0] * b[0] + a[1] * b[1]);
-    (angle / FRAC_PI_2).round() as i32
+    (angle_between(a, b) / FRAC_PI_2).round() as i32
 }
 
-fn rotated([x, y]: [f64; 2], quarters: i32) -> [f64; 2] {
-    match quarters.rem_euclid(4) {
-        0 => [x, y],
-        1 => [-y, x],
-        2 => [-x, -y],
-        _ => [y, -x],
-    }
+fn rotated(p: [f64; 2], quarters: i32) -> [f64; 2] {
+    turned(quarters.rem_euclid(4) as u8, p)
 }
 
 fn minus(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {

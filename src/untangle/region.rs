@@ -1,6 +1,6 @@
-//! Where to move: everything within so many rings of a folded face.
+//! Regions that may move: everything within a number of rings around folded faces.
 //!
-//! A fold concerns its neighbourhood, and a small system costs little. Regions that touch are one.
+//! A fold concerns its neighbourhood, and a small system costs little. Regions that touch are merged.
 
 use super::freedom::Freedom;
 

@@ -1,16 +1,16 @@
-//! How fast the barrier closes: from a rounded-off energy to one that no fold can pass.
+//! The schedule that closes the barrier: from a smooth energy to one that no fold can pass.
 //!
-//! Garanzha, Kaporin, Kudryavtseva, Protais, Ray, Sokolov 2021, section 3.2 (equation 7): eps falls
-//! the faster, the more the last minimisation gained and the less is folded.
+//! `garanzha2021`, section 3.2, equation (7): eps falls the faster, the more the last minimisation gained
+//! and the less is folded.
 
 use super::system::System;
 use crate::monitor::Phase;
 use crate::{Monitor, Result};
 
-/// Where eps begins: the determinant at rest.
+/// The first eps: the determinant at rest.
 pub(super) const FIRST_EPS: f64 = 1.0;
 
-/// Below, eps changes nothing that doubles can show.
+/// The last eps: a smaller one makes no difference in double precision.
 const LAST_EPS: f64 = 1e-9;
 
 /// The least part by which eps falls: the paper proves its 1/10.
@@ -22,7 +22,7 @@ const CONVERGED: f64 = 1e-3;
 /// Steps at one eps.
 const INNER_STEPS: usize = 6;
 
-/// Steps made once nothing is folded any more, to get away from the edge of it.
+/// Steps after the last fold is removed, away from degenerate triangles.
 const POLISHING_STEPS: usize = 3;
 
 /// How the work on a region ended.
@@ -33,7 +33,7 @@ pub(super) struct Outcome {
     pub steps: usize,
 }
 
-/// Works on a region until nothing is folded, or for so many steps.
+/// Works on a region until nothing is folded, for at most `most_steps` steps.
 pub(super) fn unfold(
     system: &mut System,
     x: &mut [f64],
@@ -75,7 +75,7 @@ fn narrowed(eps: f64, gain: f64, least: f64) -> f64 {
     (1.0 - gain * root / (root - least)) * eps
 }
 
-/// Steps that keep everything unfolded.
+/// Makes steps that fold nothing.
 fn polish(system: &mut System, x: &mut [f64], eps: f64) -> Result<usize> {
     let eps = eps.min(system.least_determinant(x)).max(LAST_EPS);
     for step in 0..POLISHING_STEPS {

@@ -1,16 +1,16 @@
-//! Local stiffening: around folds, triangles that the map distorts count more than their area.
+//! Local stiffening: around folds, triangles that the map distorts get a larger weight.
 //!
-//! Bommes, Zimmer, Kobbelt 2009, section 5.4. With the singular values of the map of a triangle,
-//! relative to what they should be, and the sign t of its determinant,
+//! `bommes2009`, section 5.4. With the singular values of the map of a triangle, relative to its targets, and
+//! the sign t of its determinant,
 //!
 //! ```text
 //! lambda = |t sigma1 - 1| + |t sigma2 - 1|,    w += min(c |lap lambda|, d),    c = 1, d = 5
 //! ```
 //!
-//! where lap is the uniform Laplacian over neighbouring triangles. Weights are smoothed afterwards,
-//! as a triangle alone resists little. The paper solves for the whole surface each time, integers and all.
-//! Here the integers stay, and what is far from a fold as well: that costs one linear solve of a small
-//! region, and what is left of folds is for the barrier to undo.
+//! where lap is the uniform Laplacian over neighbouring triangles. Weights are smoothed afterwards, as a
+//! single triangle resists little. The paper solves for the whole surface each time, with the integers. Here
+//! the integers and everything far from a fold stay: a step costs one linear solve of a small region, and the
+//! barrier removes the folds that are left.
 
 use super::Untangling;
 use super::energy::Quadratic;
@@ -20,7 +20,7 @@ use crate::mesh::vector::{dot, norm, sub};
 use crate::monitor::Phase;
 use crate::{Error, Monitor, Result};
 
-/// How far around a fold weights grow and vertices move.
+/// The rings of faces around a fold whose weights grow and whose vertices move.
 const RINGS: usize = 6;
 
 /// `c`.
@@ -33,8 +33,8 @@ const MOST: f64 = 5.0;
 const SMOOTHING: usize = 3;
 
 impl Untangling<'_> {
-    /// Makes the surroundings of each fold stiffer until it is gone, at most so often, and keeps what has
-    /// the fewest folds.
+    /// Stiffens the surroundings of each fold until it is gone, at most `times` times, and keeps the state
+    /// with the fewest folds.
     pub(super) fn stiffen(&mut self, times: usize, monitor: &mut Monitor) -> Result<()> {
         for region in regions(self.freedom, &self.folded(), RINGS) {
             monitor.progress(Phase::Untangle, 0.0)?;
@@ -78,7 +78,7 @@ impl Untangling<'_> {
         region.faces.iter().map(|&f| across(f)).collect()
     }
 
-    /// Adds to the weights what the map's distortion asks for.
+    /// Increases the weights by the Laplacian of the distortion.
     fn stiffen_distorted(
         &self,
         region: &Region,
@@ -103,7 +103,7 @@ impl Untangling<'_> {
         }
     }
 
-    /// How far the map of a face is from an isometry to what it should be: 0, if it is one.
+    /// The distortion of the map of a face relative to its targets: 0 for an isometry.
     fn distortion(&self, face: usize) -> f64 {
         let uv = self.uv(face);
         let targets = self.problem.targets(self.mesh, face);

@@ -1,7 +1,7 @@
-//! What no motion can unfold: where the integers alone collapse a triangle.
+//! Folds that no motion can remove, because the integers alone collapse a triangle.
 //!
-//! Two reasons can be told by looking at one element: a face whose corners are all held where it
-//! has no area, and an edge whose two ends are held at one point.
+//! Two causes can be told from one element: a face without positive area whose corners are all held, and an
+//! edge whose two ends are held at one point.
 
 use super::freedom::Freedom;
 use crate::mesh::TriangleMesh;
@@ -10,7 +10,7 @@ use crate::mesh::orientation;
 /// Why faces stay folded.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub(super) struct Stuck {
-    /// Faces with all corners held, and not counter-clockwise.
+    /// Faces with all corners held that are not positively oriented.
     pub faces: Vec<usize>,
     /// Edges with both ends held at the same point.
     pub edges: Vec<usize>,

@@ -11,10 +11,10 @@ use crate::linalg::Sparse;
 use crate::mesh::orientation;
 use crate::{Error, Result};
 
-/// How often a step is halved before it is given up.
+/// The most halvings of a step before it is given up.
 const HALVINGS: usize = 24;
 
-/// The part of the decrease promised by the slope that a step must keep (Armijo).
+/// The fraction of the decrease predicted by the slope that a step must reach (Armijo).
 const DECREASE: f64 = 1e-4;
 
 /// One region, ready to be solved.
@@ -127,7 +127,7 @@ impl<'a> System<'a> {
         Ok(before)
     }
 
-    /// Goes to the least of the sum of these forms, one a face, with their slopes at `x`.
+    /// Moves to the minimum of the sum of these forms, one for each face, with their slopes at `x`.
     pub fn minimise(&mut self, x: &mut [f64], forms: &[Quadratic]) -> Result<()> {
         let hessian = match &mut self.hessian {
             Some(hessian) => hessian,

@@ -1,8 +1,9 @@
-//! Vertices that a map without folds goes around once too often, mended.
+//! Vertices around which a map without folds winds once too often, corrected.
 //!
-//! Undoing folds, a cone of -1/4 may come out a quarter turn wide, and a vertex beside it two whole
-//! turns: no motion without folds leads out of it. A disk around both is laid anew in polar
-//! coordinates, larger and larger ones, and what that folds is untangled again.
+//! Removing folds may leave a cone of -1/4 that is a quarter turn wide and beside it a vertex with two
+//! whole turns. No motion without folds leads out of that state. A disk around both is therefore laid
+//! anew in polar coordinates, with larger and larger radii, and the folds that this makes are untangled
+//! again.
 
 use std::collections::BTreeSet;
 
@@ -14,60 +15,60 @@ use crate::map::{has_winding_defect, winding_defects};
 use crate::mesh::orientation;
 use crate::{Monitor, Result};
 
-/// How far around a cone, in units of the map, is laid anew, attempt after attempt.
+/// The radii of the disks that are laid anew around a cone, in units of the map, in this order.
 const RADII: [f64; 12] = [0.5, 0.7, 1.0, 1.2, 1.4, 1.7, 2.0, 2.4, 2.8, 3.4, 4.0, 5.6];
 
-/// A disk of more faces than these is not worth the work that it makes.
+/// Larger disks are not tried: they cost more than they gain.
 const MOST_FACES: usize = 4000;
 
-/// How often all such cones are looked at: mending one may wind another up.
+/// Passes over all winding defects: removing one may cause another.
 const ROUNDS: usize = 8;
 
-/// How many faces all steps may look at, as a multiple of the mesh's faces.
+/// The work budget: how many faces all steps together may visit, as a multiple of the mesh's faces.
 const PASSES: usize = 20;
 
-/// How closed the barrier is at first: open, it undoes more folds; nearly closed, what the layout
-/// unwound stays so.
+/// The first eps of the barrier. A large one removes more folds; a small one keeps the winding that
+/// the layout has corrected.
 const FIRST_EPS: [f64; 3] = [1.0, 0.1, 0.01];
 
-/// How far around what that folds is worked on.
+/// How many rings of faces around the new folds may move, attempt after attempt.
 const RINGS: [usize; 3] = [2, 5, 12];
 
 impl Untangling<'_> {
-    /// The vertices that the map goes around another number of times than the field.
+    /// The vertices around which the winding of the map differs from that of the field.
     pub(super) fn winding_defects(&self) -> Vec<usize> {
         winding_defects(self.mesh, self.quarters, |face| self.uv(face))
     }
 
-    /// Mends cones that are narrower than they should be in a map without folds, as far as it can.
+    /// Removes winding defects of cones, as far as it can, in a map without folds.
     pub(super) fn unwind(&mut self, monitor: &mut Monitor) -> Result<()> {
         self.budget = self
             .budget
             .min(PASSES.saturating_mul(self.mesh.face_count()));
-        let mut winding_defects = self.winding_defects();
+        let mut defects = self.winding_defects();
         let mut left_behind = BTreeSet::new();
         for _ in 0..ROUNDS {
-            let before = winding_defects.clone();
+            let before = defects.clone();
             for cone in before.iter().copied() {
-                if self.quarters[cone] != Some(4) && winding_defects.contains(&cone) {
-                    self.unwind_cone(cone, &mut winding_defects, &mut left_behind, monitor)?;
+                if self.quarters[cone] != Some(4) && defects.contains(&cone) {
+                    self.unwind_cone(cone, &mut defects, &mut left_behind, monitor)?;
                 }
             }
-            if winding_defects.is_empty() || winding_defects == before {
+            if defects.is_empty() || defects == before {
                 break;
             }
         }
         Ok(())
     }
 
-    /// Lays larger and larger disks around a cone anew, until fewer vertices are `winding_defects`.
+    /// Lays larger and larger disks around a cone anew until fewer winding defects are left.
     ///
-    /// Where none helps, the first is taken that winds another cone in its stead which was not
-    /// `left_behind` so before: that one may have more room.
+    /// If no disk reduces their number, the first one is kept that moves the defect to a cone that
+    /// was not `left_behind` before: that cone may have more room around it.
     fn unwind_cone(
         &mut self,
         cone: usize,
-        winding_defects: &mut Vec<usize>,
+        defects: &mut Vec<usize>,
         left_behind: &mut BTreeSet<usize>,
         monitor: &mut Monitor,
     ) -> Result<()> {
@@ -89,16 +90,16 @@ impl Untangling<'_> {
             for first_eps in FIRST_EPS {
                 let before = self.values.clone();
                 self.lay(&layout);
-                self.unfold_disk(&disk, first_eps, monitor)?;
-                let left = self.wound_since(&before, winding_defects);
+                self.untangle_disk(&disk, first_eps, monitor)?;
+                let left = self.defects_after_move(&before, defects);
                 let now = std::mem::replace(&mut self.values, before);
                 let Some(left) = left else { continue };
-                if left.len() < winding_defects.len() {
-                    (self.values, *winding_defects) = (now, left);
+                if left.len() < defects.len() {
+                    (self.values, *defects) = (now, left);
                     return Ok(());
                 }
                 let is_other = |v: &usize| !left_behind.contains(v);
-                let moves = left.len() == winding_defects.len() && !left.contains(&cone);
+                let moves = left.len() == defects.len() && !left.contains(&cone);
                 if instead.is_none() && moves && left.iter().all(is_other) {
                     instead = Some((now, left));
                 }
@@ -106,13 +107,14 @@ impl Untangling<'_> {
         }
         if let Some((values, left)) = instead {
             left_behind.insert(cone);
-            (self.values, *winding_defects) = (values, left);
+            (self.values, *defects) = (values, left);
         }
         Ok(())
     }
 
-    /// The winding defects, which at other values were these; none where what moved is folded.
-    fn wound_since(&self, before: &[f64], winding_defects: &[usize]) -> Option<Vec<usize>> {
+    /// The winding defects after a move, given the values and the defects before it; none where a
+    /// face that moved is folded.
+    fn defects_after_move(&self, before: &[f64], defects: &[usize]) -> Option<Vec<usize>> {
         let first = &self.problem.sectors.first;
         let vertex = |i: usize| first.partition_point(|&copy| copy as usize <= i / 2) - 1;
         let both = self.values.iter().zip(before).enumerate();
@@ -129,15 +131,15 @@ impl Untangling<'_> {
         let near: BTreeSet<usize> = corners.collect();
         let uv = |face| self.uv(face);
         let has_winding_defect = |v: &usize| has_winding_defect(self.mesh, self.quarters, uv, *v);
-        let far = winding_defects.iter().filter(|v| !near.contains(v));
+        let far = defects.iter().filter(|v| !near.contains(v));
         let found = near.iter().copied().filter(has_winding_defect);
         let mut left: Vec<usize> = far.copied().chain(found).collect();
         left.sort_unstable();
         Some(left)
     }
 
-    /// What lies within `radius` of a cone in the map, without vertices that cannot go wherever one
-    /// likes: on the boundary, cones, on features.
+    /// The disk within `radius` of a cone in the map, without vertices that cannot move freely: cones
+    /// and vertices on the boundary or on features.
     fn disk(&self, cone: usize, radius: f64) -> Option<Disk> {
         let near = faces_within(self.mesh, cone, radius, &|face| self.uv(face));
         let is_fixed = |v: usize| {
@@ -166,7 +168,7 @@ impl Untangling<'_> {
         }
     }
 
-    fn unfold_disk(&mut self, disk: &Disk, first_eps: f64, monitor: &mut Monitor) -> Result<()> {
+    fn untangle_disk(&mut self, disk: &Disk, first_eps: f64, monitor: &mut Monitor) -> Result<()> {
         for rings in RINGS {
             let is_folded = |&face: &usize| orientation(self.uv(face)) <= 0.0;
             let mut folded: Vec<usize> = disk.faces.iter().copied().filter(is_folded).collect();
@@ -228,22 +230,29 @@ mod tests {
                 places: places.collect(),
             });
             let crushed = work.folded().len();
-            assert_eq!(work.wound_since(&before, &winding_defects), None, "folded");
+            assert_eq!(
+                work.defects_after_move(&before, &winding_defects),
+                None,
+                "folded"
+            );
             work.lay(&layout);
             let folded = work.folded().len();
             assert!(4 * folded < crushed, "{cone}: {folded} of {crushed}");
-            work.unfold_disk(&disk, 0.1, watch).unwrap();
+            work.untangle_disk(&disk, 0.1, watch).unwrap();
             assert!(
                 work.folded().is_empty() && work.winding_defects().is_empty(),
                 "{cone}"
             );
             // What moved alone tells what a look at everything tells.
             assert_eq!(
-                work.wound_since(&before, &winding_defects),
+                work.defects_after_move(&before, &winding_defects),
                 Some(Vec::new())
             );
-            assert_eq!(work.wound_since(&before, &[]), Some(Vec::new()));
-            assert_eq!(work.wound_since(&work.values, &[cone]), Some(vec![cone]));
+            assert_eq!(work.defects_after_move(&before, &[]), Some(Vec::new()));
+            assert_eq!(
+                work.defects_after_move(&work.values, &[cone]),
+                Some(vec![cone])
+            );
             laid += 1;
         }
         assert!(laid > 3, "{laid}");

@@ -1,5 +1,6 @@
 //! `roundel check`: whether the coordinates in a file are an integer-grid map.
 
+mod checked;
 mod report;
 mod summary;
 
@@ -7,11 +8,12 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use roundel::Result;
-use roundel::check::{CheckOptions, MAP_TOLERANCE, MapCheck, check_map, feature_edges};
-use roundel::mesh::{TriangleMesh, io};
+use roundel::check::{CheckOptions, MAP_TOLERANCE, check_map, feature_edges};
+use roundel::mesh::io;
 
 use crate::exit::{self, Exit};
 use crate::output;
+use checked::Checked;
 use report::CheckReport;
 use summary::CheckSummary;
 
@@ -44,14 +46,6 @@ pub struct Arguments {
     /// Print one JSON object instead of the summary
     #[arg(long)]
     pub json: bool,
-}
-
-/// A map that has been checked.
-struct Checked {
-    mesh: TriangleMesh,
-    check: MapCheck,
-    read: f64,
-    seconds: f64,
 }
 
 /// Runs the command and tells its outcome, once.

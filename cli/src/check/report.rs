@@ -5,7 +5,7 @@ use std::path::Path;
 use roundel::check::Defect;
 use serde::Serialize;
 
-use super::Checked;
+use super::checked::Checked;
 
 /// What `--json` prints of a check.
 #[derive(Serialize)]
@@ -62,7 +62,7 @@ impl CheckReport {
             valid: check.is_valid(),
             seamless: check.is_seamless(),
             integer: check.is_integer(),
-            unfolded: check.is_unfolded(),
+            unfolded: check.is_fold_free(),
             aligned: check.is_aligned(),
             faces: checked.mesh.face_count(),
             vertices: checked.mesh.vertex_count(),

@@ -4,7 +4,7 @@ use std::fmt;
 
 use roundel::check::Defect;
 
-use super::Checked;
+use super::checked::Checked;
 use crate::summary::{counted, counted_vertices, line, thousands};
 
 /// Lines for the mesh, for each rule, and the verdict.

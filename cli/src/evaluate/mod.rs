@@ -8,10 +8,11 @@
 //! | `run` | all solves of a table, row by row |
 //! | `reference` | the figures of the thesis and of the original |
 //! | `others` | other solvers on the same MPS files, where their figures are given |
-//! | `table`, `plot`, `page` | CSV, SVG and HTML |
+//! | `table`, `plots`, `plot`, `scale`, `escape`, `page` | CSV, SVG and HTML |
 
 mod arguments;
 mod cells;
+mod escape;
 mod experiments;
 mod meshes;
 mod others;

@@ -7,7 +7,7 @@ use std::path::Path;
 
 use roundel::{Error, Result};
 
-use super::page::escape;
+use super::escape::escape;
 
 /// The columns of the file, in its order.
 const HEADS: [&str; 8] = [

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::page::escape;
+use super::escape::escape;
 use super::scale::Scale;
 
 const WIDTH: f64 = 640.0;

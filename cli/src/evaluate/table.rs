@@ -1,7 +1,7 @@
 //! Rows as CSV and as an HTML table.
 
+use super::escape::escape;
 use super::experiments::Kind;
-use super::page::escape;
 use super::row::Row;
 use crate::summary::thousands;
 

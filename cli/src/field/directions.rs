@@ -1,13 +1,12 @@
 //! What a field follows: the flags of every command that computes one.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
+use roundel::Error;
 use roundel::field::{Constraint, Guidance};
 use roundel::mesh::TriangleMesh;
 use roundel::mesh::features::FeatureGraph;
 use roundel::quad::QuadOptions;
-
-use super::named;
 
 /// How much of the faces have the direction of their curvature when nobody says.
 const CURVED: f64 = 0.1;
@@ -110,6 +109,17 @@ impl Directions {
     /// Whether the command line says how curvature counts.
     pub fn says_curvature(&self) -> bool {
         self.constrain_curvature.is_some() || self.curvature_weight != 0.0
+    }
+}
+
+/// The error with the name of a file: what is told of a failure begins with the mesh's.
+pub fn named(path: &Path, error: Error) -> Error {
+    match error {
+        Error::Parse { line, message } => Error::Parse {
+            line,
+            message: format!("{message} ({})", path.display()),
+        },
+        other => other,
     }
 }
 

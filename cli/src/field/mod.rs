@@ -3,6 +3,7 @@
 mod arguments;
 mod directions;
 mod report;
+mod solved;
 mod summary;
 
 use std::path::Path;
@@ -11,7 +12,7 @@ use std::time::Instant;
 use roundel::field::{FieldProblem, OrientationField, solve_field};
 use roundel::mesh::{TriangleMesh, io};
 use roundel::problem::mps::{self, MpsProblem};
-use roundel::{Error, Options, Result, Solution, Strategy};
+use roundel::{Error, Options, Result};
 use roundel_pictures::{FieldModel, View, draw_field};
 
 use crate::exit::Exit;
@@ -19,27 +20,15 @@ use crate::progress::Progress;
 use crate::report::Preparation;
 use crate::{interrupt, mesh, output};
 pub use arguments::Arguments;
-pub use directions::Directions;
+pub use directions::{Directions, named};
 use report::FieldReport;
+use solved::Solved;
 use summary::FieldSummary;
 
 /// Runs the command and tells its outcome, once.
 pub fn run(arguments: &Arguments) -> Exit {
     let told = solve(arguments).and_then(|solved| tell(arguments, &solved));
     output::conclude(&arguments.mesh, arguments.json, told)
-}
-
-/// A field, and how it was come by.
-struct Solved {
-    strategy: Strategy,
-    mesh: TriangleMesh,
-    /// Edges that it follows.
-    features: usize,
-    field: OrientationField,
-    solution: Solution,
-    before: Preparation,
-    /// Seconds that files and picture took.
-    written: f64,
 }
 
 fn solve(arguments: &Arguments) -> Result<Solved> {
@@ -85,17 +74,6 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
         },
         written: started.elapsed().as_secs_f64(),
     })
-}
-
-/// The error with the name of a file: what is told of a failure begins with the mesh's.
-pub fn named(path: &Path, error: Error) -> Error {
-    match error {
-        Error::Parse { line, message } => Error::Parse {
-            line,
-            message: format!("{message} ({})", path.display()),
-        },
-        other => other,
-    }
 }
 
 fn is_text(path: &Path) -> bool {

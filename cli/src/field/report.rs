@@ -4,7 +4,7 @@ use std::path::Path;
 
 use serde::Serialize;
 
-use super::Solved;
+use super::solved::Solved;
 use crate::memory;
 use crate::report::Report;
 

@@ -2,7 +2,8 @@
 
 use std::fmt;
 
-use super::{Arguments, Solved};
+use super::Arguments;
+use super::solved::Solved;
 use crate::summary::{counted, counted_vertices, energy, line, verdict};
 
 /// Lines for the mesh, the problem, the solution and the field, and one for what was written.

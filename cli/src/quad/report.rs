@@ -120,7 +120,7 @@ impl QuadCounts {
             bad_edges: figures.bad_edges,
             degenerate_faces: figures.degenerate,
             partial_cells: quads.partial_cells,
-            unfolded_points: quads.unfolded,
+            unfolded_points: quads.folds_removed,
             repairs: quads.repaired,
             conforming: quads.is_conforming(),
             faults: Faults::of(quads),

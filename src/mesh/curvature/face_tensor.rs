@@ -1,10 +1,9 @@
 //! The second fundamental form of a face from the normals at its corners.
 //!
-//! Rusinkiewicz, "Estimating curvatures and their derivatives on triangle meshes", 2004, section
-//! 3.1: along every edge e of the face the form times e should be the difference of the normals
-//! at its ends; three edges, two equations each, three unknowns, least squares. Normals at
-//! vertices by Max, "Weights for computing vertex normals from facet normals", 1999: exact where
-//! the neighbours lie on a sphere.
+//! `rusinkiewicz2004`, section 3.1: along every edge e of the face the form times e should be the
+//! difference of the normals at its ends. Three edges give two equations each for three unknowns, which
+//! are solved in the least-squares sense. Normals at vertices are those of `max1999`, which are exact
+//! where the neighbours lie on a sphere.
 
 use crate::mesh::TriangleMesh;
 use crate::mesh::vector::{Vec3, add, cross, dot, normalize, scale, sub};

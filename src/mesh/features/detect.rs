@@ -1,4 +1,4 @@
-//! Feature edges that the surface shows by itself: sharp ones, and its boundary.
+//! Feature edges found on the surface: sharp edges and the boundary.
 
 use std::f64::consts::PI;
 
@@ -19,9 +19,9 @@ impl FeatureGraph {
         Ok(Self::of(mesh, is_sharp.collect()))
     }
 
-    /// These and the sharp edges ([`by_angle`](Self::by_angle)), but no more than two edges of a
-    /// face: where all three would be, the sharp one at which the surface turns least is left out.
-    /// Quads cannot follow three edges of one triangle.
+    /// Adds the sharp edges ([`by_angle`](Self::by_angle)) to the graph, but at most two edges of each
+    /// face, as quads cannot follow three edges of one triangle: the sharp edge at which the surface
+    /// turns least is left out.
     ///
     /// # Errors
     /// [`Error::LengthMismatch`] for another mesh, and those of [`by_angle`](Self::by_angle).
@@ -60,7 +60,7 @@ fn check(angle: f64) -> Result<()> {
     match angle > 0.0 && angle <= PI {
         true => Ok(()),
         false => Err(Error::InvalidArgument {
-            what: format!("the angle of features is {angle}, not above 0 and at most pi"),
+            what: format!("the feature angle is {angle}; it must be above 0 and at most pi"),
             index: None,
         }),
     }

@@ -10,7 +10,7 @@ impl FeatureGraph {
     /// The graph of a file's line elements, on the mesh of that file.
     ///
     /// Vertex numbers count from 1, or from the end where they are negative; what follows a `/` is
-    /// passed over, and so is all else in the file. A file without lines gives the graph without
+    /// ignored, and so is all else in the file. A file without lines gives the graph without
     /// edges.
     ///
     /// # Errors
@@ -41,7 +41,7 @@ impl FeatureGraph {
                     let Some(vertices) = vertices else {
                         return Err(wrong(
                             number,
-                            "a line needs the numbers of two vertices or more",
+                            "a line element needs the numbers of at least two vertices",
                         ));
                     };
                     for pair in vertices.windows(2) {

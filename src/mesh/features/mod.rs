@@ -1,8 +1,8 @@
-//! Feature graphs: the edges that a quad mesh should keep, as curves between corners.
+//! Feature graphs: the edges that a quad mesh should keep, as curves between nodes.
 //!
-//! Edges come from the angle between faces, from the line elements of a file, or from the caller.
-//! A curve runs between nodes: corners, where other than two feature edges meet or two of them at
-//! a turn, and open ends, where a single edge stops inside the surface.
+//! Edges come from the angle between faces, from the line elements of a file, or from the caller. A node
+//! is a corner, where three or more feature edges meet or two meet at a sharp turn, or an open end, where
+//! a single feature edge stops.
 
 mod curves;
 mod detect;
@@ -12,16 +12,16 @@ mod file;
 use super::TriangleMesh;
 use crate::{Error, Result};
 
-/// Two feature edges that meet alone form a corner where the curve turns by more than this: half
-/// of the turn that one more or one quad less at the vertex makes.
+/// Where exactly two feature edges meet, they form a corner if the curve turns by more than this: half
+/// of the right angle by which one quad more or less turns it.
 pub const CORNER_TURN: f64 = std::f64::consts::FRAC_PI_4;
 
-/// A chain of feature edges between two nodes, or around.
+/// A chain of feature edges between two nodes, or a loop.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct FeatureCurve {
     /// The edges of the mesh, tip to tail.
     pub edges: Vec<usize>,
-    /// The vertices along them, one more than edges; of a loop the last is the first.
+    /// The vertices along them, one more than edges; a loop ends at its first vertex.
     pub vertices: Vec<usize>,
 }
 

@@ -1,4 +1,4 @@
-//! What a writer takes: positions and triangles, coloured or not, manifold or not.
+//! What a writer takes: positions and triangles, with or without colours, manifold or not.
 
 use crate::mesh::vector::Vec3;
 use crate::mesh::{MeshError, TriangleMesh};
@@ -47,7 +47,7 @@ impl Drawing<'_> {
 fn fits(what: &str, colors: Option<&[[u8; 3]]>, expected: usize) -> Result<(), MeshError> {
     match colors {
         Some(colors) if colors.len() != expected => Err(MeshError::InvalidArgument {
-            what: format!("{} {what} colors for {expected} of them", colors.len()),
+            what: format!("there are {} {what} colors, not {expected}", colors.len()),
         }),
         _ => Ok(()),
     }

@@ -1,8 +1,8 @@
 //! Reading and writing of mesh files: OBJ, OFF and PLY, told apart by extension.
 //!
-//! Vertices and faces keep the numbers of the file. Only triangles are read: a polygon is an
-//! error that names its face. What a file says beyond positions and faces (normals, texture
-//! coordinates, colours, materials, groups) is passed over.
+//! Vertices and faces keep the numbers of the file. Only triangles are read: any other polygon is an
+//! error that names its face. Normals, texture coordinates, colours, materials and groups are
+//! ignored.
 
 mod drawing;
 mod obj;

@@ -1,10 +1,10 @@
 //! Wavefront OBJ, parsed by `tobj`.
 //!
-//! `tobj` serves renderers: it numbers vertices anew in the order of their first use, drops the
-//! unused ones, starts over at every group, and reports errors without a line. Elements keep the
-//! file's numbers here, so it is fed the file line by line, only `v` and `f` lines and these
-//! behind one polyline through all vertices, which by its rule numbers them as in the file. The
-//! feeder also knows which line it handed out last.
+//! `tobj` serves renderers: it numbers vertices anew in the order of their first use, drops unused
+//! ones, starts over at every group, and reports errors without a line. Here elements keep the file's
+//! numbers. The feeder therefore hands `tobj` one polyline through all vertices, which makes it number
+//! them as in the file, and then the `v` and `f` lines alone. It also remembers the line that it
+//! handed out last, for errors.
 
 use std::io::{BufRead, Cursor, Read, Write};
 
@@ -169,7 +169,7 @@ fn explain(error: &LoadError, bytes: &[u8], line: usize, vertices: usize) -> Mes
     let message = match error {
         LoadError::PositionParseError => "a vertex needs three numbers",
         LoadError::ScalingByZeroError => "the weight of a vertex is zero",
-        LoadError::FaceParseError => "a corner of a face is a vertex number, or numbers between /",
+        LoadError::FaceParseError => "a corner must be a vertex number, or numbers separated by /",
         _ => "the line is not readable text",
     };
     MeshError::Parse {

@@ -1,7 +1,7 @@
 //! Texture coordinates of the corners of an OBJ file's faces.
 //!
-//! `tobj` numbers them anew as it does vertices, so that the lines `vt` and `f` are read here; what
-//! else a face holds has been validated by the reader of the mesh when this runs.
+//! `tobj` numbers them anew, as it does vertices, so the lines `vt` and `f` are read here. The reader
+//! of the mesh has validated the rest of every face before.
 
 use std::path::Path;
 
@@ -23,7 +23,7 @@ pub fn read_textured(path: impl AsRef<Path>) -> Result<TexturedMesh, MeshError> 
     let format = Format::of(path)?;
     if format != Format::Obj {
         return Err(MeshError::InvalidArgument {
-            what: "coordinates of corners are read from OBJ files only".into(),
+            what: "texture coordinates are read from OBJ files only".into(),
         });
     }
     let bytes = std::fs::read(path).map_err(|e| failed(path, &e))?;

@@ -1,8 +1,8 @@
 //! Geomview's object file format (Geomview manual, section 4.2.5), the ascii variants.
 //!
-//! No crate reads OFF with its variants and tells lines; the format is counts, then one line a
-//! vertex, then one line a face. Of COFF, NOFF, STOFF the numbers after the position are passed
-//! over, as are colours after a face.
+//! No crate reads OFF with its variants and reports lines. The format is the counts, then one line
+//! for each vertex, then one line for each face. In COFF, NOFF and STOFF the numbers after a position
+//! are ignored, as are colours after a face.
 
 use std::io::Write;
 

@@ -1,8 +1,8 @@
 //! Polygon file format, read by `ply-rs-bw`: ascii and binary of both byte orders.
 //!
-//! Taken are `x y z` of the element `vertex` and the list `vertex_indices` (or `vertex_index`)
-//! of the element `face`. Written is binary little endian with double coordinates and colours
-//! as `red green blue`, which MeshLab and Blender show.
+//! It reads `x y z` of the element `vertex` and the list `vertex_indices` (or `vertex_index`) of the
+//! element `face`. It writes binary little endian with double coordinates and with colours as
+//! `red green blue`, which MeshLab and Blender show.
 
 use std::io::Cursor;
 use std::io::Write;
@@ -27,7 +27,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Soup, MeshError> {
         if element.count > bytes.len() {
             return Err(MeshError::Malformed {
                 message: format!(
-                    "there are not {} elements '{name}' in the file",
+                    "the file is too short for {} elements '{name}'",
                     element.count
                 ),
             });

@@ -1,4 +1,4 @@
-//! The rounded cube: six square grids on a cube, drawn in to its rounding.
+//! The rounded cube: six square grids on a cube, projected onto the rounded surface.
 
 use super::ball::nearest_square;
 use super::quads::Quads;
@@ -31,8 +31,8 @@ pub(super) fn rounded_cube(target: usize) -> Result<TriangleMesh, MeshError> {
     quads.weld().triangulate()
 }
 
-/// The coordinate on the cube of the point at this part of the way across a face of the rounded
-/// cube: even steps on the flat part and, seen from its axis, on the rounding.
+/// The coordinate on the cube of a point, given as a fraction of the way across a face of the rounded
+/// cube: steps are even in length on the flat part and in angle on the rounding.
 fn on_cube(part: f64) -> f64 {
     let flat = HALF - RADIUS;
     let across = flat + RADIUS * std::f64::consts::FRAC_PI_4;

@@ -5,7 +5,7 @@ use std::f64::consts::FRAC_PI_2;
 use super::ball::nearest_square;
 use super::divide;
 use super::quads::Quads;
-use crate::mesh::{MeshError, TriangleMesh};
+use crate::mesh::{MeshError, TriangleMesh, turned};
 
 /// Number of holes, one in each unit square of the plate.
 const HOLES: usize = 3;
@@ -22,7 +22,7 @@ pub(super) fn plane(target: usize) -> Result<TriangleMesh, MeshError> {
 
 /// Unit squares in a row, each of four patches between its sides and its hole.
 pub(super) fn plate_with_holes(target: usize) -> Result<TriangleMesh, MeshError> {
-    // Means of the sides and arcs, and of what is between them.
+    // The mean of a side and an arc, and the mean distance between them.
     let lengths = [0.7, 0.34];
     let triangles = |[along, across]: [usize; 2]| 8 * HOLES * along * across;
     let [along, across] = divide(lengths, 1, target, triangles);
@@ -34,12 +34,7 @@ pub(super) fn plate_with_holes(target: usize) -> Result<TriangleMesh, MeshError>
                 let (sin, cos) = (FRAC_PI_2 * (0.5 - u)).sin_cos();
                 let x = (1.0 - v) * HOLE_RADIUS * cos + v * 0.5;
                 let y = (1.0 - v) * HOLE_RADIUS * sin + v * (0.5 - u);
-                let [x, y] = match side {
-                    0 => [x, y],
-                    1 => [-y, x],
-                    2 => [-x, -y],
-                    _ => [y, -x],
-                };
+                let [x, y] = turned(side, [x, y]);
                 [centre + x, y, 0.0]
             });
         }

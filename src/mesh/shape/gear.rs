@@ -1,7 +1,7 @@
 //! A spur gear with a bore: a mechanical part with many sharp edges.
 //!
-//! An annulus from the bore to the root circle, and a patch for every tooth; straight walls. It
-//! stands in for the pinion of the mixed-integer literature, which may not be passed on.
+//! An annulus from the bore to the root circle, a patch for every tooth, and straight walls. It
+//! stands in for the pinion of the literature, which may not be redistributed.
 
 use std::f64::consts::TAU;
 

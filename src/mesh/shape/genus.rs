@@ -1,8 +1,8 @@
 //! A closed smooth surface of any genus: a chain of rings that have grown together.
 //!
-//! A plate with square holes, cut of the integer grid and so of quadrangles with only valences
-//! 3, 4 and 5, gives the connectivity; the smoothed union of tori through its middle gives the
-//! surface that its points are brought to.
+//! The connectivity is that of a plate with square holes, cut from the integer grid, so that its
+//! quadrangles have only valences 3, 4 and 5. The surface is the smoothed union of tori through the
+//! middle of the plate, onto which its points are projected.
 
 use super::divide;
 use super::implicit::{Implicit, relax};
@@ -19,8 +19,8 @@ const ROUNDS: usize = 20;
 
 /// A chain of `holes` rings along the x axis.
 pub(super) fn chain_of_rings(holes: usize, target: usize) -> Result<TriangleMesh, MeshError> {
-    // Lengths on the surface of what becomes the top of a bar, a side of a hole, and a wall.
-    // Slightly apart, so that the three do not all jump at once.
+    // Lengths on the surface of the top of a bar, a side of a hole, and a wall. They differ slightly,
+    // so that the three counts do not all jump at once.
     let triangles = |[bar, hole, layers]: [usize; 3]| {
         let (width, depth) = ((holes + 1) * bar + holes * hole, 2 * bar + hole);
         let flat = width * depth - holes * hole * hole;

@@ -1,4 +1,4 @@
-//! Bringing a mesh to the zero set of a function, its points evenly spread.
+//! Projection of a mesh onto the zero set of a function, with its points spread evenly.
 
 use super::quads::Quads;
 use crate::mesh::vector::{Vec3, add, dot, scale, sub};

@@ -1,8 +1,8 @@
 //! Procedural shapes: meshes of any size without a file, the same on every run.
 //!
-//! Written `shape:NAME` or `shape:NAME:TRIANGLES` where a program takes a mesh. Each shape is
-//! built of regular pieces, so its number of triangles is the nearest that the pieces allow:
-//! within a tenth of what was asked from 3,000 triangles on (genus-N: times N).
+//! Where the program takes a mesh, it also takes `shape:NAME` or `shape:NAME:TRIANGLES`. Each shape
+//! is built of regular pieces, so its number of triangles is the nearest that the pieces allow: from
+//! 3,000 triangles on (genus-N: 3,000 N) within a tenth of the number given.
 
 mod ball;
 mod cubes;
@@ -16,16 +16,16 @@ mod torus;
 
 use super::{MeshError, TriangleMesh};
 
-/// How many triangles a shape gets when nobody says.
+/// The number of triangles of a shape if none is given.
 pub const DEFAULT_TRIANGLES: usize = 10_000;
 
-/// The most that may be asked for.
+/// The largest number of triangles that may be given.
 pub const MAX_TRIANGLES: usize = 20_000_000;
 
 /// The highest N of `genus-N`.
 pub const MAX_GENUS: usize = 100;
 
-/// Every shape: its name, and what it is.
+/// Every shape: its name and a description.
 pub const NAMES: &[(&str, &str)] = &[
     (
         "rounded-cube",
@@ -58,7 +58,9 @@ pub const NAMES: &[(&str, &str)] = &[
 pub fn by_name(name: &str, triangles: usize) -> Result<TriangleMesh, MeshError> {
     if !(1..=MAX_TRIANGLES).contains(&triangles) {
         return Err(MeshError::InvalidArgument {
-            what: format!("{triangles} triangles: a shape has 1 to {MAX_TRIANGLES}"),
+            what: format!(
+                "the number of triangles is {triangles}; it must be from 1 to {MAX_TRIANGLES}"
+            ),
         });
     }
     match name {

@@ -141,12 +141,8 @@ impl<'a> Walker<'a> {
     fn cross(&self, stand: &mut Stand, opposite: usize) -> Option<()> {
         let k = (opposite + 1) % 3;
         let (across, l) = self.mesh.neighbor(stand.face, k)?;
-        let e = self.mesh.edge_of(stand.face, k);
-        let jump = self.field.period_jumps()[e];
-        stand.arm += match self.mesh.edge(e).first == (stand.face, k) {
-            true => -jump,
-            false => jump,
-        };
+        let jump = self.field.period_jumps()[self.mesh.edge_of(stand.face, k)];
+        stand.arm -= self.mesh.out_of(stand.face, k, jump);
         // The common edge runs the other way in the other face.
         let (from, to) = (stand.weights[k], stand.weights[(k + 1) % 3]);
         let mut weights = [0.0; 3];

@@ -1,0 +1,20 @@
+//! What `roundel field` found, for its summary and its report.
+
+use roundel::field::OrientationField;
+use roundel::mesh::TriangleMesh;
+use roundel::{Solution, Strategy};
+
+use crate::report::Preparation;
+
+/// A field, and how it was come by.
+pub(super) struct Solved {
+    pub(super) strategy: Strategy,
+    pub(super) mesh: TriangleMesh,
+    /// Edges that it follows.
+    pub(super) features: usize,
+    pub(super) field: OrientationField,
+    pub(super) solution: Solution,
+    pub(super) before: Preparation,
+    /// Seconds that files and picture took.
+    pub(super) written: f64,
+}
