@@ -54,6 +54,7 @@ pub mod smooth;
 pub mod solve;
 pub mod untangle;
 
+pub use capi::peak_memory;
 pub use error::{Error, InputError, Result};
 pub use monitor::{CancelToken, Event, Flow, Monitor};
 pub use problem::{Layout, Model, Problem, Triangle};

@@ -29,24 +29,26 @@ const SOURCES: &[&str] = &[
     "mesh",
     "mesh_files",
     "guidance",
+    "curvature",
     "field",
     "field_problem",
-    "field_guided",
     "map",
     "map_fold_free",
     "map_results",
-    "quads",
     "quad_options",
+    "quads",
     "quads_results",
 ];
 
 /// Files without anything that C sees.
 const INTERNAL: &[&str] = &[
     "mod",
+    "failure",
     "guard",
     "guidance_files",
     "input",
     "matrix",
+    "memory",
     "output",
     "panic_tests",
     "test_panic",
