@@ -58,6 +58,7 @@ pub mod untangle;
 #[path = "../tests/common/random.rs"]
 mod test_random;
 
+pub use capi::peak_memory;
 pub use error::{Error, InputError, Result};
 pub use monitor::{CancelToken, Event, Flow, Monitor};
 pub use problem::{Layout, Model, Problem, Triangle};

@@ -30,24 +30,26 @@ const SOURCES: &[&str] = &[
     "mesh",
     "mesh_files",
     "guidance",
+    "curvature",
     "field",
     "field_problem",
-    "field_guided",
     "map",
     "map_fold_free",
     "map_results",
-    "quads",
     "quad_options",
+    "quads",
     "quads_results",
 ];
 
 /// Files that declare nothing for C.
 const INTERNAL: &[&str] = &[
     "mod",
+    "failure",
     "guard",
     "guidance_files",
     "input",
     "matrix",
+    "memory",
     "output",
     "panic_tests",
     "test_panic",

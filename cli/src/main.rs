@@ -6,7 +6,6 @@ mod exit;
 mod extract;
 mod field;
 mod interrupt;
-mod memory;
 mod mesh;
 mod options;
 mod output;

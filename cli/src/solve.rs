@@ -9,7 +9,6 @@ use roundel::{Options, Result, Solution, Strategy};
 
 use crate::exit::{self, Exit};
 use crate::interrupt;
-use crate::memory;
 use crate::options::SolverOptions;
 use crate::output;
 use crate::progress::Progress;
@@ -104,7 +103,7 @@ fn tell(arguments: &Arguments, solved: &Solved) -> Result<()> {
                 assemble: None,
             },
             &solved.solution,
-            memory::peak_bytes(),
+            roundel::peak_memory(),
         ))
     } else {
         let summary = Summary {

@@ -28,7 +28,7 @@ static roundel_map* made(const roundel_mesh* mesh, double edge_length, double de
     OK(roundel_guidance_set_detail(guidance, edge_length));
     OK(roundel_options_new(&options));
     OK(roundel_options_set_text(options, "strategy", "adaptive"));
-    OK(roundel_field_solve_guided(mesh, guidance, options, NULL, &field));
+    OK(roundel_field_solve(mesh, guidance, options, NULL, &field));
     OK(roundel_map_new(mesh, field, NULL, &map));
     OK(roundel_map_set_edge_length(map, edge_length));
     OK(roundel_map_solve_fold_free(map, NULL, NULL));
@@ -80,7 +80,7 @@ int main(int count, char** argument) {
     OK(roundel_mesh_read(argument[1], &mesh));
     OK(roundel_mesh_face_count(mesh, &faces));
     roundel_map* map = made(mesh, edge_length, degrees);
-    OK(roundel_map_flipped_count(map, &flipped));
+    OK(roundel_map_flipped_face_count(map, &flipped));
     CHECK(flipped == 0);
     double* uv = malloc(6 * faces * sizeof *uv);
     CHECK(uv != NULL);

@@ -29,12 +29,12 @@ int main(int count, char** argument) {
     OK(roundel_mesh_read(argument[1], &mesh));
 
     OK(roundel_quad_options_new(&options));
-    OK(roundel_quads_make_with(mesh, options, NULL, &quads));
+    OK(roundel_quads_make(mesh, options, NULL, &quads));
     OK(roundel_quad_options_free(options));
     written(quads, argument[2], argument[3]);
 
-    /* A thousand are the default. */
-    OK(roundel_quads_make(mesh, 1000, NULL, NULL, NULL, &quads));
+    /* NULL stands for the default options. */
+    OK(roundel_quads_make(mesh, NULL, NULL, &quads));
     written(quads, argument[2], argument[3]);
 
     OK(roundel_mesh_free(mesh));

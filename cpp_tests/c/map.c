@@ -27,7 +27,7 @@ static model made(const char* shape, size_t triangles) {
     OK(roundel_guidance_new(&m.guidance));
     OK(roundel_guidance_set_feature_angle(m.guidance, 0.7));
     OK(roundel_guidance_set_curvature(m.guidance, 0.0, 0.1));
-    OK(roundel_field_solve_guided(m.mesh, m.guidance, NULL, NULL, &m.field));
+    OK(roundel_field_solve(m.mesh, m.guidance, NULL, NULL, &m.field));
     return m;
 }
 
@@ -142,9 +142,9 @@ static void untangled(const model* m) {
     OK(roundel_map_new(m->mesh, m->field, NULL, &map));
     OK(roundel_map_set_quads(map, 210));
     OK(roundel_map_solve(map, NULL, NULL));
-    OK(roundel_map_flipped_count(map, &before));
+    OK(roundel_map_flipped_face_count(map, &before));
     OK(roundel_map_untangle(map, NULL));
-    OK(roundel_map_flipped_count(map, &after));
+    OK(roundel_map_flipped_face_count(map, &after));
     CHECK(before > 0 && after < before);
     double* uv = corners(map, m->faces);
     CHECK(isolines(m, uv) > 100);
@@ -163,15 +163,15 @@ static void stiffened(const model* m) {
     OK(roundel_map_new(m->mesh, m->field, NULL, &map));
     OK(roundel_map_set_quads(map, 80));
     OK(roundel_map_solve(map, direct, NULL));
-    OK(roundel_map_flipped_count(map, &before));
+    OK(roundel_map_flipped_face_count(map, &before));
     OK(roundel_map_untangle(map, NULL));
-    OK(roundel_map_flipped_count(map, &stiff));
+    OK(roundel_map_flipped_face_count(map, &stiff));
     double* a = corners(map, m->faces);
 
     OK(roundel_map_set_stiffening_count(map, 0));
     OK(roundel_map_solve(map, direct, NULL));
     OK(roundel_map_untangle(map, NULL));
-    OK(roundel_map_flipped_count(map, &soft));
+    OK(roundel_map_flipped_face_count(map, &soft));
     double* b = corners(map, m->faces);
     CHECK(before > 0 && soft < before && stiff < before);
     CHECK(memcmp(a, b, 6 * m->faces * sizeof *a) != 0);
@@ -189,13 +189,13 @@ static void fold_free(const model* m) {
     OK(roundel_map_new(m->mesh, m->field, NULL, &map));
     OK(roundel_map_set_quads(map, 210));
     OK(roundel_map_solve(map, NULL, NULL));
-    OK(roundel_map_flipped_count(map, &rounded));
+    OK(roundel_map_flipped_face_count(map, &rounded));
     double* plain = corners(map, m->faces);
     OK(roundel_map_refinement_count(map, &refinements));
     CHECK(rounded > 0 && refinements == 0);
 
     OK(roundel_map_solve_fold_free(map, NULL, NULL));
-    OK(roundel_map_flipped_count(map, &flipped));
+    OK(roundel_map_flipped_face_count(map, &flipped));
     OK(roundel_map_winding_defect_count(map, &winding_defects));
     OK(roundel_map_round_count(map, &rounds));
     OK(roundel_map_refinement_count(map, &refinements));
@@ -224,8 +224,8 @@ static void elsewhere(const model* m, roundel_map* map) {
     roundel_solution* solution = NULL;
     double *a = corners(map, m->faces), *b = NULL;
     OK(roundel_map_make_problem(map, &problem));
-    OK(roundel_solve(problem, NULL, &solution));
-    OK(roundel_map_take_solution(map, solution));
+    OK(roundel_problem_solve(problem, NULL, NULL, &solution));
+    OK(roundel_map_set_solution(map, solution));
     b = corners(map, m->faces);
     CHECK(memcmp(a, b, 6 * m->faces * sizeof *a) == 0);
     free(a);

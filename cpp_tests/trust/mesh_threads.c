@@ -16,6 +16,7 @@ typedef struct {
     const roundel_mesh* mesh;
     const roundel_field* field;
     const roundel_guidance* guidance;
+    const roundel_quad_options* options;
     roundel_cancel_token* token;
     double* uvs;
     size_t length, quads;
@@ -32,7 +33,7 @@ static void* make(void* data) {
            roundel_map_set_quads(map, 60) == ROUNDEL_OK &&
            roundel_map_solve_fold_free(map, NULL, NULL) == ROUNDEL_OK &&
            roundel_map_corner_uvs(map, mine->uvs, mine->length) == ROUNDEL_OK &&
-           roundel_quads_make(mine->mesh, 60, mine->guidance, NULL, NULL, &quads) == ROUNDEL_OK &&
+           roundel_quads_make(mine->mesh, mine->options, NULL, &quads) == ROUNDEL_OK &&
            roundel_quads_count(quads, &mine->quads) == ROUNDEL_OK;
     mine->ended = good ? ROUNDEL_OK : ROUNDEL_ERROR_INVALID_ARGUMENT;
     roundel_quads_free(quads);
@@ -75,18 +76,22 @@ int main(void) {
     roundel_mesh* mesh = NULL;
     roundel_field* field = NULL;
     roundel_guidance* guidance = NULL;
+    roundel_quad_options* options = NULL;
     roundel_cancel_token* token = NULL;
     size_t faces = 0;
     job jobs[THREADS] = {0};
     int good = roundel_mesh_make_shape("rounded-cube", 300, &mesh) == ROUNDEL_OK &&
                roundel_mesh_face_count(mesh, &faces) == ROUNDEL_OK &&
                roundel_guidance_new(&guidance) == ROUNDEL_OK &&
-               roundel_field_solve_guided(mesh, guidance, NULL, NULL, &field) == ROUNDEL_OK &&
+               roundel_quad_options_new(&options) == ROUNDEL_OK &&
+               roundel_quad_options_set_quads(options, 60) == ROUNDEL_OK &&
+               roundel_quad_options_set_guidance(options, guidance) == ROUNDEL_OK &&
+               roundel_field_solve(mesh, guidance, NULL, NULL, &field) == ROUNDEL_OK &&
                roundel_cancel_token_new(&token) == ROUNDEL_OK;
     for (int k = 0; k < THREADS; ++k) {
         double* uvs = calloc(6 * faces, sizeof *uvs);
         good = good && uvs != NULL;
-        jobs[k] = (job){mesh, field, guidance, token, uvs, 6 * faces, 0, ROUNDEL_OK};
+        jobs[k] = (job){mesh, field, guidance, options, token, uvs, 6 * faces, 0, ROUNDEL_OK};
     }
     good = good && all(jobs, make, ROUNDEL_OK);
     for (int k = 1; good && k < THREADS; ++k) {
@@ -99,6 +104,7 @@ int main(void) {
     }
     roundel_cancel_token_free(token);
     roundel_field_free(field);
+    roundel_quad_options_free(options);
     roundel_guidance_free(guidance);
     roundel_mesh_free(mesh);
     puts(good ? "as they should" : "FAILED");

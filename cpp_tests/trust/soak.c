@@ -46,8 +46,7 @@ static int solve_once(int round) {
                ROUNDEL_OK &&
            roundel_solver_new(problem, &solver) == ROUNDEL_OK;
     if (good) {
-        const roundel_status ended =
-            roundel_solver_solve_with(solver, options, &monitor, &solution);
+        const roundel_status ended = roundel_solver_solve(solver, options, &monitor, &solution);
         good = contradicts ? ended == ROUNDEL_ERROR_INFEASIBLE || ended == ROUNDEL_ERROR_CANCELLED
                : cancels   ? ended == ROUNDEL_OK || ended == ROUNDEL_ERROR_CANCELLED
                            : ended == ROUNDEL_OK &&

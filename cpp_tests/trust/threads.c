@@ -55,7 +55,7 @@ static void* solve(void* data) {
     char text[200];
     roundel_options* options = make_options("lattice");
     roundel_solution* solution = NULL;
-    mine->good = roundel_solve(mine->problem, options, &solution) == ROUNDEL_OK &&
+    mine->good = roundel_problem_solve(mine->problem, options, NULL, &solution) == ROUNDEL_OK &&
                  roundel_solution_values(solution, mine->values, SIZE) == ROUNDEL_OK &&
                  roundel_solution_values(solution, mine->values, 1) != ROUNDEL_OK &&
                  roundel_last_error_message(text, sizeof text) > 0;
@@ -97,7 +97,7 @@ static int cancelled(const roundel_problem* problem) {
     good = good && pthread_create(&other, NULL, cancel_soon, token) == 0;
     if (good) {
         /* A slow machine may have no solution yet, and a fast one may have proved the optimum. */
-        const roundel_status ended = roundel_solve_with(problem, options, &monitor, &solution);
+        const roundel_status ended = roundel_problem_solve(problem, options, &monitor, &solution);
         pthread_join(other, NULL);
         good = ended == ROUNDEL_ERROR_CANCELLED ||
                (ended == ROUNDEL_OK && roundel_solution_status(solution, &status) == ROUNDEL_OK &&

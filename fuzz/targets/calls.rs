@@ -108,9 +108,9 @@ fn used(u: &mut Unstructured, h: &mut Handles, which: u8) -> Result<()> {
             15 => roundel_options_set_text(options, name.as_ptr(), value.as_ptr()),
             16 => roundel_options_set_int(options, name.as_ptr(), b),
             17 => roundel_options_set_real(options, name.as_ptr(), a.min(100.0)),
-            18 => h.make(|h| &mut h.solutions, |out| roundel_solve(problem, options, out)),
+            18 => h.make(|h| &mut h.solutions, |out| roundel_problem_solve(problem, options, null(), out)),
             19 => h.make(|h| &mut h.solvers, |out| roundel_solver_new(problem, out)),
-            20 => h.make(|h| &mut h.solutions, |out| roundel_solver_solve(solver, options, out)),
+            20 => h.make(|h| &mut h.solutions, |out| roundel_solver_solve(solver, options, null(), out)),
             21 => roundel_solver_set_constraint_right_sides(solver, x, reals.len()),
             22 => roundel_solver_pin(solver, b, a),
             23 => roundel_solver_set_linear(solver, x, reals.len()),
@@ -124,7 +124,7 @@ fn used(u: &mut Unstructured, h: &mut Handles, which: u8) -> Result<()> {
             29 => roundel_guidance_set_indices(guidance, ints.len() / 2, i, i.add(ints.len() / 2)),
             30 => roundel_guidance_set_feature_lines(guidance, ints.len() / 2, i),
             31 => h.make(|h| &mut h.fields, |out| {
-                roundel_field_solve_guided(mesh, guidance, options, null(), out)
+                roundel_field_solve(mesh, guidance, options, null(), out)
             }),
             32 => h.make(|h| &mut h.maps, |out| roundel_map_new(mesh, field, guidance, out)),
             33 => roundel_map_set_quads(map, small),
@@ -134,7 +134,7 @@ fn used(u: &mut Unstructured, h: &mut Handles, which: u8) -> Result<()> {
             37 => roundel_quad_options_set_edge_lengths(quad, x, reals.len()),
             42 => roundel_map_solve_fold_free(map, options, null()),
             43 => roundel_map_untangle(map, null()),
-            38 => h.make(|h| &mut h.quads, |out| roundel_quads_make_with(mesh, quad, null(), out)),
+            38 => h.make(|h| &mut h.quads, |out| roundel_quads_make(mesh, quad, null(), out)),
             _ => h.make(|h| &mut h.quads, |out| roundel_quads_extract(map, out)),
         }
     });

@@ -439,10 +439,10 @@ typedef struct roundel_solution roundel_solution;
 /**
  * A problem whose matrices and integers are fixed, for many solves.
  *
- * Elimination, orderings and factors are kept: the first solve costs what roundel_solve costs, one
+ * Elimination, orderings and factors are kept: the first solve costs what roundel_problem_solve costs, one
  * with other linear terms, right sides or pinned values a fraction. Pinning or releasing a variable
  * that is in no constraint keeps the elimination; one that is in a constraint calls for another. The
- * solution is that of roundel_solve for the same data, except that a warm start (option
+ * solution is that of roundel_problem_solve for the same data, except that a warm start (option
  * "warm_start") may improve it.
  *
  * A solve that fails changes nothing: the data stay as they were set, and the solver can be used
@@ -720,13 +720,14 @@ roundel_status roundel_problem_clone(const struct roundel_problem *problem,
 /**
  * Gives the number of variables.
  */
-roundel_status roundel_problem_variables(const struct roundel_problem *problem, size_t *variables);
+roundel_status roundel_problem_variable_count(const struct roundel_problem *problem,
+                                              size_t *variables);
 
 /**
  * Gives the number of constraints added so far, which is the number of the next one.
  */
-roundel_status roundel_problem_constraints(const struct roundel_problem *problem,
-                                           size_t *constraints);
+roundel_status roundel_problem_constraint_count(const struct roundel_problem *problem,
+                                                size_t *constraints);
 
 /**
  * Adds `count` entries to Q, which stands in the objective as 1/2 x'Qx, in any order, duplicates
@@ -1144,8 +1145,8 @@ roundel_status roundel_solution_free(struct roundel_solution *solution);
 /**
  * Gives the number of variables.
  */
-roundel_status roundel_solution_variables(const struct roundel_solution *solution,
-                                          size_t *variables);
+roundel_status roundel_solution_variable_count(const struct roundel_solution *solution,
+                                               size_t *variables);
 
 /**
  * Copies the values, one a variable. `length` is the number of variables. Integer variables hold
@@ -1203,28 +1204,21 @@ roundel_status roundel_solution_violations(const struct roundel_solution *soluti
                                            double *integrality);
 
 /**
- * Solves a problem. `options` may be NULL for the default options. On success `solution` is a new
- * handle, to be freed with roundel_solution_free.
+ * Solves a problem. `options` may be NULL for the default options. `monitor` hears of progress and
+ * of every better solution, and may cancel; it may be NULL. On success `solution` is a new handle,
+ * to be freed with roundel_solution_free.
  *
- * The problem is not changed; it may be solved again, as it is or after changes (a pinned
- * variable, another guess, more terms or constraints). Several threads may solve it at once.
+ * The problem is not changed. It may be solved again, as it is or after changes: a pinned variable,
+ * another guess, more terms or constraints. Several threads may solve it at once.
  *
  * Apart from bad input, fails with ROUNDEL_ERROR_INFEASIBLE, ROUNDEL_ERROR_NO_INTEGER_SOLUTION,
  * ROUNDEL_ERROR_UNBOUNDED, ROUNDEL_ERROR_NOT_CONVEX, and ROUNDEL_ERROR_CANCELLED or
  * ROUNDEL_ERROR_TIME_LIMIT when ended before a first solution was found.
  */
-roundel_status roundel_solve(const struct roundel_problem *problem,
-                             const struct roundel_options *options,
-                             struct roundel_solution **solution);
-
-/**
- * Solves a problem under the eyes of `monitor`, which hears of progress and of every better
- * solution, and may cancel. `options` and `monitor` may be NULL. See roundel_solve.
- */
-roundel_status roundel_solve_with(const struct roundel_problem *problem,
-                                  const struct roundel_options *options,
-                                  const struct roundel_monitor *monitor,
-                                  struct roundel_solution **solution);
+roundel_status roundel_problem_solve(const struct roundel_problem *problem,
+                                     const struct roundel_options *options,
+                                     const struct roundel_monitor *monitor,
+                                     struct roundel_solution **solution);
 
 /**
  * Makes a solver for a problem, of which it keeps a copy. To be freed with roundel_solver_free.
@@ -1286,21 +1280,14 @@ roundel_status roundel_solver_pin(struct roundel_solver *solver,
 roundel_status roundel_solver_unpin(struct roundel_solver *solver, int64_t variable);
 
 /**
- * Solves the problem as it stands. `options` may be NULL for the default options. On success
- * `solution` is a new handle, to be freed with roundel_solution_free. Fails as roundel_solve does.
+ * Solves the problem as it stands. `options` may be NULL for the default options, `monitor` for
+ * none; its callback must not use the solver. On success `solution` is a new handle, to be freed
+ * with roundel_solution_free. Fails as roundel_problem_solve does.
  */
 roundel_status roundel_solver_solve(struct roundel_solver *solver,
                                     const struct roundel_options *options,
+                                    const struct roundel_monitor *monitor,
                                     struct roundel_solution **solution);
-
-/**
- * Solves the problem as it stands under the eyes of `monitor`, which may cancel. `options` and
- * `monitor` may be NULL. See roundel_solver_solve. The callback must not use the solver.
- */
-roundel_status roundel_solver_solve_with(struct roundel_solver *solver,
-                                         const struct roundel_options *options,
-                                         const struct roundel_monitor *monitor,
-                                         struct roundel_solution **solution);
 
 /**
  * Makes a problem from a file in free-format MPS, gzipped or not. Variables and constraints are
@@ -1600,18 +1587,19 @@ roundel_status roundel_mesh_mark_features(const struct roundel_mesh *mesh,
                                           size_t length);
 
 /**
- * Finds the smoothest field of a mesh with the directions of `constraint_count` faces given (see
- * roundel_field_make_problem), under the eyes of `monitor`. `options` and `monitor` may be NULL.
+ * Gives the directions of least absolute curvature of the faces where they are most reliable:
+ * `fraction` of all faces, rounded to the nearest count, in increasing order. `faces` and `angles` have room for `capacity` entries, and as many as the mesh
+ * has faces are always enough; `count` tells how many were written.
  *
- * Fails as roundel_field_make_problem and roundel_solve do.
+ * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for a fraction outside of 0 to 1,
+ * ROUNDEL_ERROR_LENGTH_MISMATCH where the room is too small.
  */
-roundel_status roundel_field_solve(const struct roundel_mesh *mesh,
-                                   size_t constraint_count,
-                                   const int32_t *faces,
-                                   const double *angles,
-                                   const struct roundel_options *options,
-                                   const struct roundel_monitor *monitor,
-                                   struct roundel_field **field);
+roundel_status roundel_mesh_curvature_constraints(const struct roundel_mesh *mesh,
+                                                  double fraction,
+                                                  size_t capacity,
+                                                  int32_t *faces,
+                                                  double *angles,
+                                                  size_t *count);
 
 /**
  * Frees a field. NULL is allowed.
@@ -1685,9 +1673,30 @@ roundel_status roundel_field_solution(const struct roundel_field *field,
                                       struct roundel_solution **solution);
 
 /**
- * Makes the mixed-integer problem of the smoothest field of a mesh with the directions of
- * `constraint_count` faces given: `angles` of one arm, in radians, counter-clockwise about the
- * normal from the face's first edge. A face may be constrained once.
+ * Gives N, the number of arms that a field has in a face.
+ */
+roundel_status roundel_field_symmetry(const struct roundel_field *field, int32_t *arms);
+
+/**
+ * Finds the smoothest field of a mesh that follows a guidance. `guidance`, `options` and `monitor`
+ * may be NULL.
+ *
+ * With the position in the list at fault, fails with ROUNDEL_ERROR_INDEX_OUT_OF_RANGE for an
+ * element that the mesh does not have, ROUNDEL_ERROR_NOT_FINITE, and
+ * ROUNDEL_ERROR_INVALID_ARGUMENT for one that is named twice, two vertices that no edge joins, a
+ * negative weight or an index at the boundary. ROUNDEL_ERROR_INVALID_ARGUMENT also for indices that
+ * do not sum to the Euler characteristic, and with the face for one whose three edges are features.
+ * Else as roundel_problem_solve does.
+ */
+roundel_status roundel_field_solve(const struct roundel_mesh *mesh,
+                                   const struct roundel_guidance *guidance,
+                                   const struct roundel_options *options,
+                                   const struct roundel_monitor *monitor,
+                                   struct roundel_field **field);
+
+/**
+ * Makes the mixed-integer problem of the field that roundel_field_solve finds. `guidance` may be
+ * NULL.
  *
  * Variable f is the angle of face f. Period jumps follow in the order of the edges, without those
  * of the boundary, between two constrained faces, and of a spanning forest, where they are zero:
@@ -1695,82 +1704,20 @@ roundel_status roundel_field_solution(const struct roundel_field *field,
  * number, neighbours in increasing number.
  */
 roundel_status roundel_field_make_problem(const struct roundel_mesh *mesh,
-                                          size_t constraint_count,
-                                          const int32_t *faces,
-                                          const double *angles,
+                                          const struct roundel_guidance *guidance,
                                           struct roundel_problem **problem);
 
 /**
- * Makes the field that a solution of roundel_field_make_problem's problem stands for; mesh and
- * constraints are those of the problem.
+ * Makes the field of a solution of roundel_field_make_problem's problem. `mesh` and `guidance` are
+ * those of the problem.
  *
  * Fails with ROUNDEL_ERROR_LENGTH_MISMATCH for the solution of another problem,
  * ROUNDEL_ERROR_OVERFLOW for a period jump beyond 2^31.
  */
 roundel_status roundel_field_from_solution(const struct roundel_mesh *mesh,
-                                           size_t constraint_count,
-                                           const int32_t *faces,
-                                           const double *angles,
+                                           const struct roundel_guidance *guidance,
                                            const struct roundel_solution *solution,
                                            struct roundel_field **field);
-
-/**
- * Gives constraints that the surface itself suggests: `fraction` of the faces (rounded to the
- * nearest count), those whose direction of least absolute curvature is most reliable, in
- * increasing order. `faces` and `angles` have room for `capacity` entries, and as many as the mesh
- * has faces are always enough; `count` tells how many were written.
- *
- * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for a fraction outside of 0 to 1,
- * ROUNDEL_ERROR_LENGTH_MISMATCH where the room is too small.
- */
-roundel_status roundel_mesh_curvature_constraints(const struct roundel_mesh *mesh,
-                                                  double fraction,
-                                                  size_t capacity,
-                                                  int32_t *faces,
-                                                  double *angles,
-                                                  size_t *count);
-
-/**
- * Finds the smoothest field of a mesh that follows a guidance, under the eyes of `monitor`.
- * `guidance`, `options` and `monitor` may be NULL.
- *
- * With the position in the list at fault, fails with ROUNDEL_ERROR_INDEX_OUT_OF_RANGE for an
- * element that the mesh does not have, ROUNDEL_ERROR_NOT_FINITE, and
- * ROUNDEL_ERROR_INVALID_ARGUMENT for one that is named twice, two vertices that no edge joins, a
- * negative weight or an index at the boundary. ROUNDEL_ERROR_INVALID_ARGUMENT also for indices that
- * do not sum to the Euler characteristic, and with the face for one whose three edges are features.
- * Else as roundel_solve does.
- */
-roundel_status roundel_field_solve_guided(const struct roundel_mesh *mesh,
-                                          const struct roundel_guidance *guidance,
-                                          const struct roundel_options *options,
-                                          const struct roundel_monitor *monitor,
-                                          struct roundel_field **field);
-
-/**
- * Makes the mixed-integer problem of the field that roundel_field_solve_guided finds. Variables are
- * those of roundel_field_make_problem. `guidance` may be NULL.
- */
-roundel_status roundel_field_make_guided_problem(const struct roundel_mesh *mesh,
-                                                 const struct roundel_guidance *guidance,
-                                                 struct roundel_problem **problem);
-
-/**
- * Makes the field that a solution of roundel_field_make_guided_problem's problem stands for; mesh
- * and guidance are those of the problem.
- *
- * Fails with ROUNDEL_ERROR_LENGTH_MISMATCH for the solution of another problem,
- * ROUNDEL_ERROR_OVERFLOW for a period jump beyond 2^31.
- */
-roundel_status roundel_field_from_guided_solution(const struct roundel_mesh *mesh,
-                                                  const struct roundel_guidance *guidance,
-                                                  const struct roundel_solution *solution,
-                                                  struct roundel_field **field);
-
-/**
- * Gives N, the number of arms that a field has in a face.
- */
-roundel_status roundel_field_symmetry(const struct roundel_field *field, int32_t *arms);
 
 /**
  * Makes a map, not yet solved for, of a mesh and a field on it, with 1000 quads aimed at. Features
@@ -1821,7 +1768,7 @@ roundel_status roundel_map_set_edge_lengths(struct roundel_map *map,
  * Solves for the map under the eyes of `monitor`, which may cancel. `options` and `monitor` may be
  * NULL. A later call after another size was set skips elimination, orderings and factorizations.
  *
- * Fails as roundel_solve does, and leaves what an earlier solve found. The callback must not use
+ * Fails as roundel_problem_solve does, and leaves what an earlier solve found. The callback must not use
  * the map.
  */
 roundel_status roundel_map_solve(struct roundel_map *map,
@@ -1841,8 +1788,8 @@ roundel_status roundel_map_make_problem(const struct roundel_map *map,
  *
  * Fails with ROUNDEL_ERROR_LENGTH_MISMATCH for the solution of another problem.
  */
-roundel_status roundel_map_take_solution(struct roundel_map *map,
-                                         const struct roundel_solution *solution);
+roundel_status roundel_map_set_solution(struct roundel_map *map,
+                                        const struct roundel_solution *solution);
 
 /**
  * Solves for a map without folds, as the program `roundel parametrize` does: integers that collapse
@@ -1851,11 +1798,11 @@ roundel_status roundel_map_take_solution(struct roundel_map *map,
  * Of all maps that with the fewest folds is kept. `options` are those of every solve, `monitor`
  * watches each; both may be NULL. Every solve starts from nothing. A relaxation is not untangled.
  *
- * roundel_map_flipped_count and roundel_map_winding_defect_count tell what is left, roundel_map_round_count and
+ * roundel_map_flipped_face_count and roundel_map_winding_defect_count tell what is left, roundel_map_round_count and
  * roundel_map_refinement_count what it took. A map that was made finer keeps the size asked for
  * in mind, for the next solve.
  *
- * Fails as roundel_solve does for the first solve, with ROUNDEL_ERROR_CANCELLED also later, and
+ * Fails as roundel_problem_solve does for the first solve, with ROUNDEL_ERROR_CANCELLED also later, and
  * leaves what an earlier solve found. The callback must not use the map.
  */
 roundel_status roundel_map_solve_fold_free(struct roundel_map *map,
@@ -1871,7 +1818,7 @@ roundel_status roundel_map_set_stiffening_count(struct roundel_map *map, size_t 
 /**
  * Moves the vertices that integers do not hold until as few faces as can be are turned over or
  * collapsed, under the eyes of `monitor`, which may be NULL. Seams, cones and isolines stay what
- * they are. roundel_map_flipped_count tells what is left; the solution stays that of the solve. After
+ * they are. roundel_map_flipped_face_count tells what is left; the solution stays that of the solve. After
  * roundel_map_solve_fold_free there is nothing left to do.
  *
  * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT where nothing has been solved for, and after a
@@ -1963,13 +1910,15 @@ roundel_status roundel_map_cones(const struct roundel_map *map, int32_t *vertice
 /**
  * Gives the number of faces that the map turns over or collapses.
  */
-roundel_status roundel_map_flipped_count(const struct roundel_map *map, size_t *count);
+roundel_status roundel_map_flipped_face_count(const struct roundel_map *map, size_t *count);
 
 /**
  * Copies the faces that the map turns over or collapses, in increasing order. `length` is their
  * number.
  */
-roundel_status roundel_map_flipped(const struct roundel_map *map, int32_t *faces, size_t length);
+roundel_status roundel_map_flipped_faces(const struct roundel_map *map,
+                                         int32_t *faces,
+                                         size_t length);
 
 /**
  * Gives how far the gradients of u and v are from the arms of the field, as long as they should
@@ -1989,76 +1938,6 @@ roundel_status roundel_map_solution(const struct roundel_map *map,
  * Writes the mesh with the coordinates of its corners as OBJ.
  */
 roundel_status roundel_map_write(const struct roundel_map *map, const char *file);
-
-/**
- * Turns `face_count` triangles, given as for roundel_mesh_new, into about `quad_count` quads: field,
- * map, extraction and smoothing in one call, under the eyes of `monitor`.
- *
- * `guidance` says what the quads follow; its features, and the boundary where it is followed,
- * become chains of their edges. NULL stands for the boundary and the curvature. `options` are those
- * of both solves; NULL stands for lattice decoding of the map and adaptive rounding of the field.
- * `monitor` may be NULL.
- *
- * Fails as roundel_mesh_new, roundel_field_solve and roundel_map_solve do, and with
- * ROUNDEL_ERROR_INVALID_ARGUMENT for no quads. Whether all faces are quads tells
- * roundel_quads_is_conforming.
- */
-roundel_status roundel_quadrangulate(size_t vertex_count,
-                                     const double *coordinates,
-                                     size_t face_count,
-                                     const int32_t *corners,
-                                     size_t quad_count,
-                                     const struct roundel_guidance *guidance,
-                                     const struct roundel_options *options,
-                                     const struct roundel_monitor *monitor,
-                                     struct roundel_quads **quads);
-
-/**
- * roundel_quadrangulate for a mesh that is there already.
- */
-roundel_status roundel_quads_make(const struct roundel_mesh *mesh,
-                                  size_t quad_count,
-                                  const struct roundel_guidance *guidance,
-                                  const struct roundel_options *options,
-                                  const struct roundel_monitor *monitor,
-                                  struct roundel_quads **quads);
-
-/**
- * Extracts the quads of the last solve of a map. Faces that the map turns over are coped with.
- *
- * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for a map that has not been solved for, or whose
- * integers were not decided.
- */
-roundel_status roundel_quads_extract(const struct roundel_map *map, struct roundel_quads **quads);
-
-/**
- * Extracts the quads of an integer-grid map from anywhere: u, v of the three corners of every face.
- * Over seams coordinates turn by quarters and shift by integers, and irregular vertices lie on
- * integers. `length` is six times the number of faces.
- *
- * Fails with ROUNDEL_ERROR_NOT_FINITE and ROUNDEL_ERROR_OVERFLOW with the face,
- * ROUNDEL_ERROR_INVALID_ARGUMENT with the edge that is no such seam or the vertex around which
- * coordinates close at no integer point.
- */
-roundel_status roundel_quads_extract_uvs(const struct roundel_mesh *mesh,
-                                         const double *uvs,
-                                         size_t length,
-                                         struct roundel_quads **quads);
-
-/**
- * Moves the vertices of quads over the mesh that they were extracted from, towards squares of one
- * size. They stay on the features of `guidance` and on the boundary; NULL stands for no features.
- * After a failure the quads are what they were.
- */
-roundel_status roundel_quads_smooth(struct roundel_quads *quads,
-                                    const struct roundel_mesh *mesh,
-                                    const struct roundel_guidance *guidance,
-                                    const struct roundel_monitor *monitor);
-
-/**
- * Frees quads. NULL is allowed.
- */
-roundel_status roundel_quads_free(struct roundel_quads *quads);
 
 /**
  * Makes quad options. To be freed with roundel_quad_options_free.
@@ -2135,15 +2014,54 @@ roundel_status roundel_quad_options_set_smooth(struct roundel_quad_options *opti
                                                int32_t smooth);
 
 /**
- * Turns a mesh into quads, as roundel_quads_make does, with all that `options` say, under the eyes
- * of `monitor`. Both may be NULL.
+ * Makes quads of a mesh: field, map, extraction and smoothing in one call. `options` may be NULL
+ * for new quad options, `monitor` for none. Features, and the boundary where it is followed, become
+ * chains of the quads' edges. roundel_quads_is_conforming tells whether all faces are quads.
  *
- * Fails as roundel_quads_make, roundel_map_set_edge_length and roundel_map_set_edge_lengths do.
+ * Fails as roundel_field_solve and roundel_map_solve do, and with ROUNDEL_ERROR_INVALID_ARGUMENT,
+ * ROUNDEL_ERROR_NOT_FINITE or ROUNDEL_ERROR_LENGTH_MISMATCH for a size that is none.
  */
-roundel_status roundel_quads_make_with(const struct roundel_mesh *mesh,
-                                       const struct roundel_quad_options *options,
-                                       const struct roundel_monitor *monitor,
-                                       struct roundel_quads **quads);
+roundel_status roundel_quads_make(const struct roundel_mesh *mesh,
+                                  const struct roundel_quad_options *options,
+                                  const struct roundel_monitor *monitor,
+                                  struct roundel_quads **quads);
+
+/**
+ * Extracts the quads of the last solve of a map. Faces that the map turns over are coped with.
+ *
+ * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for a map that has not been solved for, or whose
+ * integers were not decided.
+ */
+roundel_status roundel_quads_extract(const struct roundel_map *map, struct roundel_quads **quads);
+
+/**
+ * Extracts the quads of an integer-grid map from anywhere: u, v of the three corners of every face.
+ * Over seams coordinates turn by quarters and shift by integers, and irregular vertices lie on
+ * integers. `length` is six times the number of faces.
+ *
+ * Fails with ROUNDEL_ERROR_NOT_FINITE and ROUNDEL_ERROR_OVERFLOW with the face,
+ * ROUNDEL_ERROR_INVALID_ARGUMENT with the edge that is no such seam or the vertex around which
+ * coordinates close at no integer point.
+ */
+roundel_status roundel_quads_extract_from_uvs(const struct roundel_mesh *mesh,
+                                              const double *uvs,
+                                              size_t length,
+                                              struct roundel_quads **quads);
+
+/**
+ * Moves the vertices of quads over the mesh that they were extracted from, towards squares of one
+ * size. They stay on the features of `guidance` and on the boundary; NULL stands for no features.
+ * After a failure the quads are what they were.
+ */
+roundel_status roundel_quads_smooth(struct roundel_quads *quads,
+                                    const struct roundel_mesh *mesh,
+                                    const struct roundel_guidance *guidance,
+                                    const struct roundel_monitor *monitor);
+
+/**
+ * Frees quads. NULL is allowed.
+ */
+roundel_status roundel_quads_free(struct roundel_quads *quads);
 
 /**
  * Gives the number of vertices. Every vertex has a face.
@@ -2153,9 +2071,9 @@ roundel_status roundel_quads_vertex_count(const struct roundel_quads *quads, siz
 /**
  * Copies x, y, z of every vertex. `length` is three times the number of vertices.
  */
-roundel_status roundel_quads_vertices(const struct roundel_quads *quads,
-                                      double *coordinates,
-                                      size_t length);
+roundel_status roundel_quads_coordinates(const struct roundel_quads *quads,
+                                         double *coordinates,
+                                         size_t length);
 
 /**
  * Gives the number of quads.
@@ -2174,19 +2092,19 @@ roundel_status roundel_quads_corners(const struct roundel_quads *quads,
  * Gives the number of faces that are no quads, and of all their corners together. Either place may
  * not be NULL.
  */
-roundel_status roundel_quads_other_count(const struct roundel_quads *quads,
-                                         size_t *count,
-                                         size_t *corner_count);
+roundel_status roundel_quads_other_face_counts(const struct roundel_quads *quads,
+                                               size_t *count,
+                                               size_t *corner_count);
 
 /**
  * Copies the faces that are no quads: the number of corners of each, and the corners of all, one
- * face after the other. The lengths are those of roundel_quads_other_count.
+ * face after the other. The lengths are those of roundel_quads_other_face_counts.
  */
-roundel_status roundel_quads_others(const struct roundel_quads *quads,
-                                    size_t count,
-                                    int32_t *sizes,
-                                    size_t corner_count,
-                                    int32_t *corners);
+roundel_status roundel_quads_other_faces(const struct roundel_quads *quads,
+                                         size_t count,
+                                         int32_t *sizes,
+                                         size_t corner_count,
+                                         int32_t *corners);
 
 /**
  * Gives the number of vertices with other than four edges, or three on the boundary.

@@ -1,89 +1,13 @@
 //! The last error of each thread: its text, and the element at fault as a number.
 
-use std::cell::RefCell;
 use std::ffi::c_char;
 
+use super::failure::{Failure, last};
 use super::guard::boundary;
 use super::input::slice_mut;
 use super::output::copy_truncated;
-use super::status::roundel_status::{self, *};
+use super::status::roundel_status;
 use crate::Error;
-
-/// Why a call failed: what the library says, or what only the C interface can get wrong.
-#[derive(Debug)]
-pub(super) enum Failure {
-    Library(Error),
-    /// What the library says of an entry of a matrix, and the row that it is in.
-    InRow {
-        row: usize,
-        error: Error,
-    },
-    Null(&'static str),
-    Panic(String),
-    Unusable,
-}
-
-/// What the body of an entry gives back.
-pub(super) type Outcome<T = ()> = Result<T, Failure>;
-
-impl From<Error> for Failure {
-    fn from(error: Error) -> Self {
-        Failure::Library(error)
-    }
-}
-
-#[derive(Default)]
-struct LastError {
-    message: String,
-    index: Option<usize>,
-    line: Option<usize>,
-    direction: Vec<f64>,
-}
-
-thread_local! {
-    static LAST: RefCell<LastError> = RefCell::default();
-}
-
-impl Failure {
-    /// Keeps the failure as this thread's last error and gives its number.
-    pub(super) fn record(self) -> roundel_status {
-        let (status, message) = match &self {
-            Failure::Library(error) => (error.into(), error.to_string()),
-            Failure::InRow { row, error } => (error.into(), format!("row {row}: {error}")),
-            Failure::Null(what) => (ROUNDEL_ERROR_NULL_POINTER, format!("{what} is NULL")),
-            Failure::Panic(text) => (
-                ROUNDEL_ERROR_PANIC,
-                format!("a defect of the library, please report it: {text}"),
-            ),
-            Failure::Unusable => (
-                ROUNDEL_ERROR_UNUSABLE,
-                "the handle was given up in an earlier error and can only be freed".into(),
-            ),
-        };
-        let error = match self {
-            Failure::Library(error) | Failure::InRow { error, .. } => Some(error),
-            _ => None,
-        };
-        let last = LastError {
-            message,
-            index: error.as_ref().and_then(Error::index),
-            line: error.as_ref().and_then(Error::line),
-            direction: match error {
-                Some(Error::Unbounded { direction, .. } | Error::NotConvex { direction, .. }) => {
-                    direction
-                }
-                _ => Vec::new(),
-            },
-        };
-        // Fails only while the thread ends, when nobody can ask any more.
-        let _ = LAST.try_with(|slot| slot.replace(last));
-        status
-    }
-}
-
-fn last<T>(read: impl FnOnce(&LastError) -> T) -> Option<T> {
-    LAST.try_with(|slot| read(&slot.borrow())).ok()
-}
 
 fn number(n: Option<usize>) -> i64 {
     n.and_then(|n| i64::try_from(n).ok()).unwrap_or(-1)

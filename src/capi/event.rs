@@ -4,7 +4,7 @@ use std::ffi::{CString, c_char, c_void};
 use std::mem::offset_of;
 
 use super::cancel::roundel_cancel_token;
-use super::error::{Failure, Outcome};
+use super::failure::{Failure, Outcome};
 use super::guard;
 use super::input::{aligned, slice};
 use crate::monitor::{EventKind, Phase};

@@ -1,18 +1,14 @@
-//! The field handle: an orientation field of a mesh, solved, read and measured.
+//! The field handle: what can be asked of an orientation field.
 
-use super::error::Outcome;
-use super::event::{monitor as watched_by, roundel_monitor};
-use super::field_problem::constraints;
+use super::failure::Outcome;
 use super::guard::{self, Guarded, object};
-use super::mesh::roundel_mesh;
-use super::options::roundel_options;
 use super::output::{Out, copy_numbers};
 use super::solution::roundel_solution;
 use super::status::roundel_status;
-use crate::field::{FieldProblem, OrientationField};
+use crate::Solution;
+use crate::field::OrientationField;
 use crate::mesh::TriangleMesh;
 use crate::mesh::features::FeatureGraph;
-use crate::{Options, Solution};
 
 /// All that can be asked of a field, so that the mesh need not live as long.
 pub(super) struct Found {
@@ -60,43 +56,6 @@ impl Found {
 pub struct roundel_field(Guarded<Found>);
 
 object!(roundel_field, Found, "field");
-
-/// Finds the smoothest field of a mesh with the directions of `constraint_count` faces given (see
-/// roundel_field_make_problem), under the eyes of `monitor`. `options` and `monitor` may be NULL.
-///
-/// Fails as roundel_field_make_problem and roundel_solve do.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn roundel_field_solve(
-    mesh: *const roundel_mesh,
-    constraint_count: usize,
-    faces: *const i32,
-    angles: *const f64,
-    options: *const roundel_options,
-    monitor: *const roundel_monitor,
-    field: *mut *mut roundel_field,
-) -> roundel_status {
-    let body = |mesh: &TriangleMesh| {
-        let default = Options::default();
-        // SAFETY: the caller gives arrays of the length given or NULL, live handles or NULL, a
-        // monitor as its members say or NULL, and a place for the field or NULL.
-        let (given, options, monitor, out) = unsafe {
-            (
-                constraints(mesh, constraint_count, faces, angles)?,
-                guard::value_or(options, &default)?,
-                watched_by(monitor)?,
-                Out::new("field", field)?,
-            )
-        };
-        let problem = FieldProblem::new(mesh, &given)?;
-        let solution = crate::solve_with(problem.problem(), options, monitor)?;
-        let found = problem.field(mesh, &solution)?;
-        let none = FeatureGraph::none(mesh);
-        out.set(guard::handle(Found::new(mesh, found, none, solution)));
-        Ok(())
-    };
-    // SAFETY: the caller gives a live handle, or NULL.
-    unsafe { guard::read(mesh, body) }
-}
 
 /// Frees a field. NULL is allowed.
 #[unsafe(no_mangle)]
@@ -272,6 +231,22 @@ pub unsafe extern "C" fn roundel_field_solution(
         // SAFETY: the caller gives a place for the handle, or NULL.
         let out = unsafe { Out::new("solution", solution) }?;
         out.set(guard::handle(found.solution.clone()));
+        Ok(())
+    };
+    // SAFETY: the caller gives a live handle, or NULL.
+    unsafe { guard::read(field, body) }
+}
+
+/// Gives N, the number of arms that a field has in a face.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_field_symmetry(
+    field: *const roundel_field,
+    arms: *mut i32,
+) -> roundel_status {
+    let body = |found: &Found| {
+        // SAFETY: the caller gives a place for the number, or NULL.
+        let out = unsafe { Out::new("symmetry", arms) }?;
+        out.set(i32::from(found.field().symmetry()));
         Ok(())
     };
     // SAFETY: the caller gives a live handle, or NULL.

@@ -1,45 +1,68 @@
-//! Orientation fields as plain problems: stated, and read back from any solution.
+//! How fields are made: solved for, or stated as a plain problem and read back.
 
-use super::error::Outcome;
+use super::event::{roundel_monitor, watchers};
 use super::field::{Found, roundel_field};
 use super::guard;
-use super::input::{indices, slice, slice_mut};
+use super::guidance::roundel_guidance;
 use super::mesh::roundel_mesh;
+use super::options::roundel_options;
 use super::output::Out;
 use super::problem::roundel_problem;
 use super::solution::roundel_solution;
 use super::status::roundel_status;
-use crate::field::{Constraint, FieldProblem, curvature_constraints};
+use crate::field::{FieldProblem, Guidance, smoothest_field};
 use crate::mesh::TriangleMesh;
 use crate::mesh::features::FeatureGraph;
-use crate::{Error, Solution};
+use crate::{Options, Result, Solution};
 
-/// The caller's constraints.
-///
-/// # Safety
-/// `faces` and `angles` are NULL or have `count` entries.
-pub(super) unsafe fn constraints(
-    mesh: &TriangleMesh,
-    count: usize,
-    faces: *const i32,
-    angles: *const f64,
-) -> Outcome<Vec<Constraint>> {
-    // SAFETY: handed on.
-    let (faces, angles) = unsafe {
-        (
-            indices("constrained faces", faces, count, mesh.face_count())?,
-            slice("constrained angles", angles, count)?,
-        )
-    };
-    let pairs = faces.into_iter().zip(angles);
-    Ok(pairs
-        .map(|(face, &angle)| Constraint { face, angle })
-        .collect())
+/// The problem of the field that follows a guidance, and the features.
+fn stated(mesh: &TriangleMesh, guidance: &Guidance) -> Result<(FieldProblem, FeatureGraph)> {
+    let features = guidance.features(mesh)?;
+    let options = guidance.field_options(mesh, &features)?;
+    Ok((FieldProblem::with_options(mesh, &options)?, features))
 }
 
-/// Makes the mixed-integer problem of the smoothest field of a mesh with the directions of
-/// `constraint_count` faces given: `angles` of one arm, in radians, counter-clockwise about the
-/// normal from the face's first edge. A face may be constrained once.
+/// Finds the smoothest field of a mesh that follows a guidance. `guidance`, `options` and `monitor`
+/// may be NULL.
+///
+/// With the position in the list at fault, fails with ROUNDEL_ERROR_INDEX_OUT_OF_RANGE for an
+/// element that the mesh does not have, ROUNDEL_ERROR_NOT_FINITE, and
+/// ROUNDEL_ERROR_INVALID_ARGUMENT for one that is named twice, two vertices that no edge joins, a
+/// negative weight or an index at the boundary. ROUNDEL_ERROR_INVALID_ARGUMENT also for indices that
+/// do not sum to the Euler characteristic, and with the face for one whose three edges are features.
+/// Else as roundel_problem_solve does.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_field_solve(
+    mesh: *const roundel_mesh,
+    guidance: *const roundel_guidance,
+    options: *const roundel_options,
+    monitor: *const roundel_monitor,
+    field: *mut *mut roundel_field,
+) -> roundel_status {
+    let body = |mesh: &TriangleMesh| {
+        let (crosses, default) = (Guidance::default(), Options::default());
+        // SAFETY: the caller gives live handles or NULL, a monitor as its members say or NULL, and
+        // a place for the field or NULL.
+        let (guidance, options, monitor, out) = unsafe {
+            (
+                guard::value_or(guidance, &crosses)?,
+                guard::value_or(options, &default)?,
+                watchers(monitor)?,
+                Out::new("field", field)?,
+            )
+        };
+        let features = guidance.features(mesh)?;
+        let follows = guidance.field_options(mesh, &features)?;
+        let (found, solution) = smoothest_field(mesh, &follows, options, monitor)?;
+        out.set(guard::handle(Found::new(mesh, found, features, solution)));
+        Ok(())
+    };
+    // SAFETY: the caller gives a live handle, or NULL.
+    unsafe { guard::read(mesh, body) }
+}
+
+/// Makes the mixed-integer problem of the field that roundel_field_solve finds. `guidance` may be
+/// NULL.
 ///
 /// Variable f is the angle of face f. Period jumps follow in the order of the edges, without those
 /// of the boundary, between two constrained faces, and of a spanning forest, where they are zero:
@@ -48,20 +71,19 @@ pub(super) unsafe fn constraints(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_field_make_problem(
     mesh: *const roundel_mesh,
-    constraint_count: usize,
-    faces: *const i32,
-    angles: *const f64,
+    guidance: *const roundel_guidance,
     problem: *mut *mut roundel_problem,
 ) -> roundel_status {
     let body = |mesh: &TriangleMesh| {
-        // SAFETY: the caller gives arrays of the length given and a place, or NULL.
-        let (given, out) = unsafe {
+        let crosses = Guidance::default();
+        // SAFETY: the caller gives a live handle and a place, or NULL.
+        let (guidance, out) = unsafe {
             (
-                constraints(mesh, constraint_count, faces, angles)?,
+                guard::value_or(guidance, &crosses)?,
                 Out::new("problem", problem)?,
             )
         };
-        let made = FieldProblem::new(mesh, &given)?;
+        let (made, _) = stated(mesh, guidance)?;
         out.set(guard::handle(made.problem().clone()));
         Ok(())
     };
@@ -69,88 +91,32 @@ pub unsafe extern "C" fn roundel_field_make_problem(
     unsafe { guard::read(mesh, body) }
 }
 
-/// Makes the field that a solution of roundel_field_make_problem's problem stands for; mesh and
-/// constraints are those of the problem.
+/// Makes the field of a solution of roundel_field_make_problem's problem. `mesh` and `guidance` are
+/// those of the problem.
 ///
 /// Fails with ROUNDEL_ERROR_LENGTH_MISMATCH for the solution of another problem,
 /// ROUNDEL_ERROR_OVERFLOW for a period jump beyond 2^31.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_field_from_solution(
     mesh: *const roundel_mesh,
-    constraint_count: usize,
-    faces: *const i32,
-    angles: *const f64,
+    guidance: *const roundel_guidance,
     solution: *const roundel_solution,
     field: *mut *mut roundel_field,
 ) -> roundel_status {
     let body = |mesh: &TriangleMesh| {
-        // SAFETY: the caller gives arrays of the length given, a live handle and a place, or NULL.
-        let (given, solution, out): (_, &Solution, _) = unsafe {
+        let crosses = Guidance::default();
+        // SAFETY: the caller gives live handles and a place, or NULL.
+        let (guidance, solution, out): (_, &Solution, _) = unsafe {
             (
-                constraints(mesh, constraint_count, faces, angles)?,
+                guard::value_or(guidance, &crosses)?,
                 guard::value(solution)?,
                 Out::new("field", field)?,
             )
         };
-        let found = FieldProblem::new(mesh, &given)?.field(mesh, solution)?;
-        let none = FeatureGraph::none(mesh);
-        out.set(guard::handle(Found::new(
-            mesh,
-            found,
-            none,
-            solution.clone(),
-        )));
-        Ok(())
-    };
-    // SAFETY: the caller gives a live handle, or NULL.
-    unsafe { guard::read(mesh, body) }
-}
-
-/// Gives constraints that the surface itself suggests: `fraction` of the faces (rounded to the
-/// nearest count), those whose direction of least absolute curvature is most reliable, in
-/// increasing order. `faces` and `angles` have room for `capacity` entries, and as many as the mesh
-/// has faces are always enough; `count` tells how many were written.
-///
-/// Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for a fraction outside of 0 to 1,
-/// ROUNDEL_ERROR_LENGTH_MISMATCH where the room is too small.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn roundel_mesh_curvature_constraints(
-    mesh: *const roundel_mesh,
-    fraction: f64,
-    capacity: usize,
-    faces: *mut i32,
-    angles: *mut f64,
-    count: *mut usize,
-) -> roundel_status {
-    let body = |mesh: &TriangleMesh| {
-        // SAFETY: the caller gives a place for the number, or NULL.
-        let out = unsafe { Out::new("count", count) }?;
-        let found = curvature_constraints(mesh, fraction)?;
-        if found.len() > capacity {
-            Err(Error::LengthMismatch {
-                what: "curvature constraints",
-                expected: found.len(),
-                actual: capacity,
-            })?;
-        }
-        let last = found.last().map_or(0, |c| c.face);
-        if i32::try_from(last).is_err() {
-            Err(Error::Overflow {
-                what: format!("face {last} does not fit 32 bits"),
-                index: Some(last),
-            })?;
-        }
-        // SAFETY: the caller gives arrays of `capacity` numbers, or NULL.
-        let (faces, angles) = unsafe {
-            (
-                slice_mut("faces", faces, found.len())?,
-                slice_mut("angles", angles, found.len())?,
-            )
-        };
-        for ((face, angle), c) in faces.iter_mut().zip(angles).zip(&found) {
-            (*face, *angle) = (c.face as i32, c.angle);
-        }
-        out.set(found.len());
+        let (problem, features) = stated(mesh, guidance)?;
+        let found = problem.field(mesh, solution)?;
+        let solution = solution.clone();
+        out.set(guard::handle(Found::new(mesh, found, features, solution)));
         Ok(())
     };
     // SAFETY: the caller gives a live handle, or NULL.

@@ -7,7 +7,7 @@ use std::panic::{self, AssertUnwindSafe};
 use std::sync::Once;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use super::error::{Failure, Outcome};
+use super::failure::{Failure, Outcome};
 use super::input::aligned;
 use super::status::roundel_status;
 

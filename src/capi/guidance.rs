@@ -2,7 +2,7 @@
 
 use std::ffi::c_char;
 
-use super::error::Outcome;
+use super::failure::Outcome;
 use super::guard::{self, Guarded, boundary, object};
 use super::guidance_files::read_features;
 use super::input::{indices, path, slice};

@@ -1,6 +1,6 @@
 //! What the caller knows of a problem's structure, in the solver's own words.
 
-use super::error::Outcome;
+use super::failure::Outcome;
 use super::guard;
 use super::input::{Index, indices, slice};
 use super::problem::roundel_problem;

@@ -3,7 +3,7 @@
 use std::ffi::{CStr, c_char};
 use std::path::Path;
 
-use super::error::{Failure, Outcome};
+use super::failure::{Failure, Outcome};
 use crate::Error;
 
 /// That a pointer is neither NULL nor misaligned.

@@ -1,7 +1,7 @@
 //! The map handle: a seamless map of a mesh, solved for at one density after the other.
 
-use super::error::Outcome;
 use super::event::{monitor as watched_by, roundel_monitor};
+use super::failure::Outcome;
 use super::field::{Found as FoundField, roundel_field};
 use super::guard::{self, Guarded, object};
 use super::guidance::roundel_guidance;
@@ -212,7 +212,7 @@ pub unsafe extern "C" fn roundel_map_set_edge_lengths(
 /// Solves for the map under the eyes of `monitor`, which may cancel. `options` and `monitor` may be
 /// NULL. A later call after another size was set skips elimination, orderings and factorizations.
 ///
-/// Fails as roundel_solve does, and leaves what an earlier solve found. The callback must not use
+/// Fails as roundel_problem_solve does, and leaves what an earlier solve found. The callback must not use
 /// the map.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_map_solve(
@@ -254,7 +254,7 @@ pub unsafe extern "C" fn roundel_map_make_problem(
 ///
 /// Fails with ROUNDEL_ERROR_LENGTH_MISMATCH for the solution of another problem.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn roundel_map_take_solution(
+pub unsafe extern "C" fn roundel_map_set_solution(
     map: *mut roundel_map,
     solution: *const roundel_solution,
 ) -> roundel_status {

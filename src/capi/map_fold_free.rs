@@ -1,7 +1,7 @@
 //! Maps without folds: solved for as a whole, or untangled afterwards, and what that left and took.
 
-use super::error::Outcome;
 use super::event::{monitor as watched_by, roundel_monitor, watchers};
+use super::failure::Outcome;
 use super::guard;
 use super::map::{Mapped, roundel_map};
 use super::map_results::give;
@@ -17,11 +17,11 @@ use crate::{Error, Options, SolveStatus};
 /// Of all maps that with the fewest folds is kept. `options` are those of every solve, `monitor`
 /// watches each; both may be NULL. Every solve starts from nothing. A relaxation is not untangled.
 ///
-/// roundel_map_flipped_count and roundel_map_winding_defect_count tell what is left, roundel_map_round_count and
+/// roundel_map_flipped_face_count and roundel_map_winding_defect_count tell what is left, roundel_map_round_count and
 /// roundel_map_refinement_count what it took. A map that was made finer keeps the size asked for
 /// in mind, for the next solve.
 ///
-/// Fails as roundel_solve does for the first solve, with ROUNDEL_ERROR_CANCELLED also later, and
+/// Fails as roundel_problem_solve does for the first solve, with ROUNDEL_ERROR_CANCELLED also later, and
 /// leaves what an earlier solve found. The callback must not use the map.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_map_solve_fold_free(
@@ -65,7 +65,7 @@ pub unsafe extern "C" fn roundel_map_set_stiffening_count(
 
 /// Moves the vertices that integers do not hold until as few faces as can be are turned over or
 /// collapsed, under the eyes of `monitor`, which may be NULL. Seams, cones and isolines stay what
-/// they are. roundel_map_flipped_count tells what is left; the solution stays that of the solve. After
+/// they are. roundel_map_flipped_face_count tells what is left; the solution stays that of the solve. After
 /// roundel_map_solve_fold_free there is nothing left to do.
 ///
 /// Fails with ROUNDEL_ERROR_INVALID_ARGUMENT where nothing has been solved for, and after a

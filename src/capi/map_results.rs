@@ -2,7 +2,7 @@
 
 use std::ffi::c_char;
 
-use super::error::Outcome;
+use super::failure::Outcome;
 use super::guard;
 use super::input::{path, slice_mut};
 use super::map::{Found, Mapped, roundel_map};
@@ -189,7 +189,7 @@ pub unsafe extern "C" fn roundel_map_cones(
 
 /// Gives the number of faces that the map turns over or collapses.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn roundel_map_flipped_count(
+pub unsafe extern "C" fn roundel_map_flipped_face_count(
     map: *const roundel_map,
     count: *mut usize,
 ) -> roundel_status {
@@ -204,7 +204,7 @@ pub unsafe extern "C" fn roundel_map_flipped_count(
 /// Copies the faces that the map turns over or collapses, in increasing order. `length` is their
 /// number.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn roundel_map_flipped(
+pub unsafe extern "C" fn roundel_map_flipped_faces(
     map: *const roundel_map,
     faces: *mut i32,
     length: usize,

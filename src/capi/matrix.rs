@@ -1,6 +1,6 @@
 //! Sparse matrices in the caller's arrays, and rows added from them.
 
-use super::error::{Failure, Outcome};
+use super::failure::{Failure, Outcome};
 use super::guard;
 use super::input::{Index, indices, slice};
 use super::output::optional;

@@ -2,7 +2,7 @@
 
 use std::ffi::c_char;
 
-use super::error::Outcome;
+use super::failure::Outcome;
 use super::guard::{self, Guarded, boundary, object};
 use super::input::{Index, indices, slice, text};
 use super::output::{Out, copy_numbers};
@@ -53,7 +53,7 @@ unsafe fn from_arrays<I: Index>(
 ///
 /// # Safety
 /// The arrays are as the caller of the entry says.
-pub(super) unsafe fn triangles<I: Index>(
+unsafe fn triangles<I: Index>(
     (vertex_count, coordinates): (usize, *const f64),
     (face_count, corners): (usize, *const I),
 ) -> Outcome<TriangleMesh> {

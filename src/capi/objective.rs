@@ -1,6 +1,6 @@
 //! The objective: quadratic, linear and constant terms.
 
-use super::error::{Failure, Outcome};
+use super::failure::{Failure, Outcome};
 use super::guard;
 use super::input::{Index, index, indices, slice};
 use super::matrix::Compressed;

@@ -2,7 +2,7 @@
 
 use std::ffi::c_char;
 
-use super::error::{Failure, Outcome};
+use super::failure::{Failure, Outcome};
 use super::guard::{self, Guarded, boundary, object};
 use super::input::text;
 use super::output::{Out, copy_whole};

@@ -3,7 +3,7 @@
 use std::ffi::c_char;
 use std::ptr;
 
-use super::error::{Failure, Outcome};
+use super::failure::{Failure, Outcome};
 use super::input::{aligned, slice_mut};
 use crate::Error;
 

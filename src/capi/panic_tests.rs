@@ -38,7 +38,7 @@ fn a_panic_gives_up_the_handle_and_no_other() {
         assert_eq!(roundel_test_panic(bad), ROUNDEL_ERROR_PANIC);
         assert!(message().contains("asked to panic"), "{}", message());
         assert_eq!(
-            roundel_problem_variables(bad, &raw mut count),
+            roundel_problem_variable_count(bad, &raw mut count),
             ROUNDEL_ERROR_UNUSABLE
         );
         assert_eq!(
@@ -46,12 +46,15 @@ fn a_panic_gives_up_the_handle_and_no_other() {
             ROUNDEL_ERROR_UNUSABLE
         );
         let mut solution = ptr::null_mut();
-        let solved = roundel_solve(bad, ptr::null(), &raw mut solution);
+        let solved = roundel_problem_solve(bad, ptr::null(), ptr::null(), &raw mut solution);
         assert_eq!(solved, ROUNDEL_ERROR_UNUSABLE);
         assert!(solution.is_null());
         assert!(message().contains("can only be freed"), "{}", message());
         assert_eq!(count, 7);
-        assert_eq!(roundel_problem_variables(good, &raw mut count), ROUNDEL_OK);
+        assert_eq!(
+            roundel_problem_variable_count(good, &raw mut count),
+            ROUNDEL_OK
+        );
         assert_eq!(count, 2);
         assert_eq!(roundel_problem_free(bad), ROUNDEL_OK);
         assert_eq!(roundel_problem_free(good), ROUNDEL_OK);

@@ -1,6 +1,6 @@
 //! The problem handle: made, copied, measured, freed.
 
-use super::error::Failure;
+use super::failure::Failure;
 use super::guard::{self, Guarded, boundary, object};
 use super::output::Out;
 use super::status::roundel_status;
@@ -57,7 +57,7 @@ pub unsafe extern "C" fn roundel_problem_clone(
 
 /// Gives the number of variables.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn roundel_problem_variables(
+pub unsafe extern "C" fn roundel_problem_variable_count(
     problem: *const roundel_problem,
     variables: *mut usize,
 ) -> roundel_status {
@@ -72,7 +72,7 @@ pub unsafe extern "C" fn roundel_problem_variables(
 
 /// Gives the number of constraints added so far, which is the number of the next one.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn roundel_problem_constraints(
+pub unsafe extern "C" fn roundel_problem_constraint_count(
     problem: *const roundel_problem,
     constraints: *mut usize,
 ) -> roundel_status {

@@ -1,19 +1,15 @@
 //! The handle of quad options: all that can be decided on the way from a mesh to quads.
 
-use super::error::Outcome;
-use super::event::{roundel_monitor, watchers};
+use super::failure::Outcome;
 use super::guard::{self, Guarded, Object, boundary, object};
 use super::guidance::roundel_guidance;
 use super::input::slice;
-use super::mesh::roundel_mesh;
 use super::options::roundel_options;
 use super::output::Out;
-use super::quads::roundel_quads;
 use super::status::roundel_status;
 use crate::Error;
 use crate::map::Sizing;
-use crate::mesh::TriangleMesh;
-use crate::quad::{QuadOptions, quadrangulate};
+use crate::quad::QuadOptions;
 use crate::smooth::SmoothOptions;
 
 /// How to make quads: their size, what they follow, how field and map are solved, untangling and
@@ -229,32 +225,4 @@ pub unsafe extern "C" fn roundel_quad_options_set_smooth(
         |options: &mut QuadOptions, yes: bool| options.smooth = yes.then(SmoothOptions::default);
     // SAFETY: the caller gives a live handle, or NULL.
     unsafe { decide(options, "quads are smoothed", smooth, set) }
-}
-
-/// Turns a mesh into quads, as roundel_quads_make does, with all that `options` say, under the eyes
-/// of `monitor`. Both may be NULL.
-///
-/// Fails as roundel_quads_make, roundel_map_set_edge_length and roundel_map_set_edge_lengths do.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn roundel_quads_make_with(
-    mesh: *const roundel_mesh,
-    options: *const roundel_quad_options,
-    monitor: *const roundel_monitor,
-    quads: *mut *mut roundel_quads,
-) -> roundel_status {
-    let body = |mesh: &TriangleMesh| {
-        let default = QuadOptions::default();
-        // SAFETY: the caller gives live handles, a monitor as its members say and a place, or NULL.
-        let (options, monitor, out) = unsafe {
-            (
-                guard::value_or(options, &default)?,
-                watchers(monitor)?,
-                Out::new("quads", quads)?,
-            )
-        };
-        out.set(guard::handle(quadrangulate(mesh, options, monitor)?.quads));
-        Ok(())
-    };
-    // SAFETY: the caller gives a live handle, or NULL.
-    unsafe { guard::read(mesh, body) }
 }

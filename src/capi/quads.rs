@@ -1,18 +1,16 @@
 //! The quads handle: extracted from a map, or made from a mesh in one call.
 
-use super::error::Outcome;
 use super::event::{monitor as watched_by, roundel_monitor, watchers};
-use super::guard::{self, Guarded, boundary, object};
+use super::guard::{self, Guarded, object};
 use super::guidance::roundel_guidance;
 use super::input::slice;
 use super::map::{Mapped, roundel_map};
-use super::mesh::{roundel_mesh, triangles};
-use super::options::roundel_options;
+use super::mesh::roundel_mesh;
 use super::output::Out;
+use super::quad_options::roundel_quad_options;
 use super::status::roundel_status;
 use crate::extract::{IntegerGridMap, QuadMesh, extract};
 use crate::field::Guidance;
-use crate::map::Sizing;
 use crate::mesh::TriangleMesh;
 use crate::quad::{QuadOptions, quadrangulate};
 use crate::smooth::{SmoothOptions, smooth};
@@ -23,80 +21,35 @@ use crate::{Error, Monitor};
 pub struct roundel_quads(Guarded<QuadMesh>);
 
 object!(roundel_quads, QuadMesh, "quads");
-/// Turns `face_count` triangles, given as for roundel_mesh_new, into about `quad_count` quads: field,
-/// map, extraction and smoothing in one call, under the eyes of `monitor`.
-///
-/// `guidance` says what the quads follow; its features, and the boundary where it is followed,
-/// become chains of their edges. NULL stands for the boundary and the curvature. `options` are those
-/// of both solves; NULL stands for lattice decoding of the map and adaptive rounding of the field.
-/// `monitor` may be NULL.
-///
-/// Fails as roundel_mesh_new, roundel_field_solve and roundel_map_solve do, and with
-/// ROUNDEL_ERROR_INVALID_ARGUMENT for no quads. Whether all faces are quads tells
-/// roundel_quads_is_conforming.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn roundel_quadrangulate(
-    vertex_count: usize,
-    coordinates: *const f64,
-    face_count: usize,
-    corners: *const i32,
-    quad_count: usize,
-    guidance: *const roundel_guidance,
-    options: *const roundel_options,
-    monitor: *const roundel_monitor,
-    quads: *mut *mut roundel_quads,
-) -> roundel_status {
-    boundary(None, || {
-        // SAFETY: the caller gives arrays of the lengths given or NULL.
-        let mesh = unsafe { triangles((vertex_count, coordinates), (face_count, corners)) }?;
-        // SAFETY: the caller gives live handles, a monitor as its members say, or NULL.
-        unsafe { make(&mesh, quad_count, guidance, options, monitor, quads) }
-    })
-}
 
-/// roundel_quadrangulate for a mesh that is there already.
+/// Makes quads of a mesh: field, map, extraction and smoothing in one call. `options` may be NULL
+/// for new quad options, `monitor` for none. Features, and the boundary where it is followed, become
+/// chains of the quads' edges. roundel_quads_is_conforming tells whether all faces are quads.
+///
+/// Fails as roundel_field_solve and roundel_map_solve do, and with ROUNDEL_ERROR_INVALID_ARGUMENT,
+/// ROUNDEL_ERROR_NOT_FINITE or ROUNDEL_ERROR_LENGTH_MISMATCH for a size that is none.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_quads_make(
     mesh: *const roundel_mesh,
-    quad_count: usize,
-    guidance: *const roundel_guidance,
-    options: *const roundel_options,
+    options: *const roundel_quad_options,
     monitor: *const roundel_monitor,
     quads: *mut *mut roundel_quads,
 ) -> roundel_status {
     let body = |mesh: &TriangleMesh| {
-        // SAFETY: the caller gives live handles, a monitor as its members say, or NULL.
-        unsafe { make(mesh, quad_count, guidance, options, monitor, quads) }
+        let default = QuadOptions::default();
+        // SAFETY: the caller gives live handles, a monitor as its members say and a place, or NULL.
+        let (options, monitor, out) = unsafe {
+            (
+                guard::value_or(options, &default)?,
+                watchers(monitor)?,
+                Out::new("quads", quads)?,
+            )
+        };
+        out.set(guard::handle(quadrangulate(mesh, options, monitor)?.quads));
+        Ok(())
     };
     // SAFETY: the caller gives a live handle, or NULL.
     unsafe { guard::read(mesh, body) }
-}
-
-/// # Safety
-/// As the callers of the entries above say.
-unsafe fn make(
-    mesh: &TriangleMesh,
-    quad_count: usize,
-    guidance: *const roundel_guidance,
-    options: *const roundel_options,
-    monitor: *const roundel_monitor,
-    quads: *mut *mut roundel_quads,
-) -> Outcome {
-    let default = QuadOptions::default();
-    // SAFETY: handed on.
-    let (monitor, out, wanted) = unsafe {
-        let wanted = QuadOptions {
-            sizing: Sizing::Quads(quad_count),
-            vary_curvature: guidance.is_null(),
-            guidance: guard::value_or(guidance, &default.guidance)?.clone(),
-            field: guard::value_or(options, &default.field)?.clone(),
-            map: guard::value_or(options, &default.map)?.clone(),
-            ..default
-        };
-        (watchers(monitor)?, Out::new("quads", quads)?, wanted)
-    };
-    out.set(guard::handle(quadrangulate(mesh, &wanted, monitor)?.quads));
-    Ok(())
 }
 
 /// Extracts the quads of the last solve of a map. Faces that the map turns over are coped with.
@@ -128,7 +81,7 @@ pub unsafe extern "C" fn roundel_quads_extract(
 /// ROUNDEL_ERROR_INVALID_ARGUMENT with the edge that is no such seam or the vertex around which
 /// coordinates close at no integer point.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn roundel_quads_extract_uvs(
+pub unsafe extern "C" fn roundel_quads_extract_from_uvs(
     mesh: *const roundel_mesh,
     uvs: *const f64,
     length: usize,

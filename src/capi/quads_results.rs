@@ -64,7 +64,7 @@ pub unsafe extern "C" fn roundel_quads_vertex_count(
 
 /// Copies x, y, z of every vertex. `length` is three times the number of vertices.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn roundel_quads_vertices(
+pub unsafe extern "C" fn roundel_quads_coordinates(
     quads: *const roundel_quads,
     coordinates: *mut f64,
     length: usize,
@@ -100,7 +100,7 @@ pub unsafe extern "C" fn roundel_quads_corners(
 /// Gives the number of faces that are no quads, and of all their corners together. Either place may
 /// not be NULL.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn roundel_quads_other_count(
+pub unsafe extern "C" fn roundel_quads_other_face_counts(
     quads: *const roundel_quads,
     count: *mut usize,
     corner_count: *mut usize,
@@ -122,9 +122,9 @@ pub unsafe extern "C" fn roundel_quads_other_count(
 }
 
 /// Copies the faces that are no quads: the number of corners of each, and the corners of all, one
-/// face after the other. The lengths are those of roundel_quads_other_count.
+/// face after the other. The lengths are those of roundel_quads_other_face_counts.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn roundel_quads_others(
+pub unsafe extern "C" fn roundel_quads_other_faces(
     quads: *const roundel_quads,
     count: usize,
     sizes: *mut i32,

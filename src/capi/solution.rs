@@ -85,7 +85,7 @@ unsafe fn give<T>(
 
 /// Gives the number of variables.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn roundel_solution_variables(
+pub unsafe extern "C" fn roundel_solution_variable_count(
     solution: *const roundel_solution,
     variables: *mut usize,
 ) -> roundel_status {

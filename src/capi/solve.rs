@@ -1,6 +1,4 @@
-//! The solve, plain and watched.
-
-use std::ptr;
+//! The solve of a problem.
 
 use super::event::{monitor as watched_by, roundel_monitor};
 use super::guard;
@@ -11,29 +9,18 @@ use super::solution::roundel_solution;
 use super::status::roundel_status;
 use crate::{Options, Problem};
 
-/// Solves a problem. `options` may be NULL for the default options. On success `solution` is a new
-/// handle, to be freed with roundel_solution_free.
+/// Solves a problem. `options` may be NULL for the default options. `monitor` hears of progress and
+/// of every better solution, and may cancel; it may be NULL. On success `solution` is a new handle,
+/// to be freed with roundel_solution_free.
 ///
-/// The problem is not changed; it may be solved again, as it is or after changes (a pinned
-/// variable, another guess, more terms or constraints). Several threads may solve it at once.
+/// The problem is not changed. It may be solved again, as it is or after changes: a pinned variable,
+/// another guess, more terms or constraints. Several threads may solve it at once.
 ///
 /// Apart from bad input, fails with ROUNDEL_ERROR_INFEASIBLE, ROUNDEL_ERROR_NO_INTEGER_SOLUTION,
 /// ROUNDEL_ERROR_UNBOUNDED, ROUNDEL_ERROR_NOT_CONVEX, and ROUNDEL_ERROR_CANCELLED or
 /// ROUNDEL_ERROR_TIME_LIMIT when ended before a first solution was found.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn roundel_solve(
-    problem: *const roundel_problem,
-    options: *const roundel_options,
-    solution: *mut *mut roundel_solution,
-) -> roundel_status {
-    // SAFETY: handed on.
-    unsafe { roundel_solve_with(problem, options, ptr::null(), solution) }
-}
-
-/// Solves a problem under the eyes of `monitor`, which hears of progress and of every better
-/// solution, and may cancel. `options` and `monitor` may be NULL. See roundel_solve.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn roundel_solve_with(
+pub unsafe extern "C" fn roundel_problem_solve(
     problem: *const roundel_problem,
     options: *const roundel_options,
     monitor: *const roundel_monitor,

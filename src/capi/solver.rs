@@ -1,9 +1,7 @@
 //! The solver handle: one problem, solved again and again with other right sides and pins.
 
-use std::ptr;
-
-use super::error::Outcome;
 use super::event::{monitor as watched_by, roundel_monitor};
+use super::failure::Outcome;
 use super::guard::{self, Guarded, object};
 use super::input::{index, slice};
 use super::options::roundel_options;
@@ -15,10 +13,10 @@ use crate::{Options, Problem, Result, Solver};
 
 /// A problem whose matrices and integers are fixed, for many solves.
 ///
-/// Elimination, orderings and factors are kept: the first solve costs what roundel_solve costs, one
+/// Elimination, orderings and factors are kept: the first solve costs what roundel_problem_solve costs, one
 /// with other linear terms, right sides or pinned values a fraction. Pinning or releasing a variable
 /// that is in no constraint keeps the elimination; one that is in a constraint calls for another. The
-/// solution is that of roundel_solve for the same data, except that a warm start (option
+/// solution is that of roundel_problem_solve for the same data, except that a warm start (option
 /// "warm_start") may improve it.
 ///
 /// A solve that fails changes nothing: the data stay as they were set, and the solver can be used
@@ -154,22 +152,11 @@ pub unsafe extern "C" fn roundel_solver_unpin(
     unsafe { guard::write(solver, body) }
 }
 
-/// Solves the problem as it stands. `options` may be NULL for the default options. On success
-/// `solution` is a new handle, to be freed with roundel_solution_free. Fails as roundel_solve does.
+/// Solves the problem as it stands. `options` may be NULL for the default options, `monitor` for
+/// none; its callback must not use the solver. On success `solution` is a new handle, to be freed
+/// with roundel_solution_free. Fails as roundel_problem_solve does.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_solver_solve(
-    solver: *mut roundel_solver,
-    options: *const roundel_options,
-    solution: *mut *mut roundel_solution,
-) -> roundel_status {
-    // SAFETY: handed on.
-    unsafe { roundel_solver_solve_with(solver, options, ptr::null(), solution) }
-}
-
-/// Solves the problem as it stands under the eyes of `monitor`, which may cancel. `options` and
-/// `monitor` may be NULL. See roundel_solver_solve. The callback must not use the solver.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn roundel_solver_solve_with(
     solver: *mut roundel_solver,
     options: *const roundel_options,
     monitor: *const roundel_monitor,

@@ -5,7 +5,6 @@ use std::path::Path;
 use serde::Serialize;
 
 use super::solved::Solved;
-use crate::memory;
 use crate::report::Report;
 
 /// What `--json` prints of a field.
@@ -32,7 +31,7 @@ impl<'a> FieldReport<'a> {
                 solved.strategy.name(),
                 solved.before,
                 &solved.solution,
-                memory::peak_bytes(),
+                roundel::peak_memory(),
             ),
             faces: mesh.face_count(),
             vertices: mesh.vertex_count(),

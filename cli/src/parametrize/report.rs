@@ -4,7 +4,6 @@ use roundel::map::Sizing;
 use serde::Serialize;
 
 use super::{Arguments, Solved};
-use crate::memory;
 use crate::report::Report;
 
 /// What `--json` prints of a map. Times and counts are those of the parametrization, but for
@@ -64,7 +63,7 @@ impl<'a> MapReport<'a> {
                 solved.options.strategy.name(),
                 solved.before,
                 &solved.solution,
-                memory::peak_bytes(),
+                roundel::peak_memory(),
             ),
             faces: mesh.face_count(),
             vertices: mesh.vertex_count(),

@@ -8,7 +8,6 @@ use serde::Serialize;
 use super::Arguments;
 use super::faults::Faults;
 use super::steps::Solved;
-use crate::memory;
 use crate::report::{Preparation, Report};
 use crate::summary::{counted, thousands};
 
@@ -147,7 +146,7 @@ impl<'a> QuadReport<'a> {
                     assemble: None,
                 },
                 &made.solution,
-                memory::peak_bytes(),
+                roundel::peak_memory(),
             ),
             faces: solved.mesh.face_count(),
             field_irregular_vertices: made.untangled.map.cones().len(),

@@ -11,6 +11,7 @@
 #include <math.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 
 /* No index, or no line. */
 #define NONE (-1)
@@ -33,6 +34,11 @@ typedef struct {
     int64_t line;
 } expectation;
 
+/* Where failures are written. */
+void report_to(FILE* file);
+/* Whether there were enough cases, and all did as they should. */
+int all_held(void);
+void failed(const char* call, const char* what);
 void held(fixture* f, const char* call, roundel_status status, expectation expected);
 void fine(const char* call, int holds);
 

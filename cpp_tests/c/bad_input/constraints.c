@@ -50,7 +50,7 @@ static void matrix(fixture* f) {
         ROUNDEL_ERROR_INDEX_OUT_OF_RANGE, "entry 1 is 2, outside 0..2", 1);
     BAD(f, roundel_problem_add_constraints_csc(p, 3, rows, 2, columns, one, 2, one, &first),
         ROUNDEL_ERROR_LENGTH_MISMATCH, "expected 4 entries, got 3", NONE);
-    GOOD(roundel_problem_constraints(p, &count));
+    GOOD(roundel_problem_constraint_count(p, &count));
     HOLDS(first == 7 && count == 0);
 }
 

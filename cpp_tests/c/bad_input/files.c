@@ -66,7 +66,7 @@ static void contents(fixture* f) {
     }
     write(file, HEAD COLUMNS_PART RHS_PART BOUNDS_PART QUAD_PART "ENDATA\n");
     GOOD(roundel_problem_read_mps(file, &p));
-    GOOD(roundel_problem_constraints(p, &count));
+    GOOD(roundel_problem_constraint_count(p, &count));
     HOLDS(count == 1);
     GOOD(roundel_problem_free(p));
     remove(file);
@@ -101,7 +101,7 @@ static void replay(fixture* f) {
     double values[3] = {7.0, 7.0, 7.0};
     GOOD(roundel_problem_save_replay(f->problem, f->options, file));
     GOOD(roundel_problem_load_replay(file, &p, &o));
-    GOOD(roundel_solve(p, o, &s));
+    GOOD(roundel_problem_solve(p, o, NULL, &s));
     GOOD(roundel_solution_values(s, values, 3));
     HOLDS(memcmp(values, f->values, sizeof values) == 0);
     GOOD(roundel_solution_free(s));

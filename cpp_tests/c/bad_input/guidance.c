@@ -74,25 +74,25 @@ static void on_a_mesh(fixture* f, const roundel_mesh* disk) {
     BAD(f, roundel_mesh_mark_features(disk, NULL, NULL, edges), null, "marks", NONE);
     BAD(f, roundel_mesh_mark_features(disk, NULL, marks, 1), ROUNDEL_ERROR_LENGTH_MISMATCH, "marks",
         NONE);
-    BAD(f, roundel_field_solve_guided(NULL, g, NULL, NULL, &field), null, "mesh", NONE);
-    BAD(f, roundel_field_solve_guided(disk, g, NULL, NULL, NULL), null, "field", NONE);
-    BAD(f, roundel_field_make_guided_problem(NULL, g, &problem), null, "mesh", NONE);
-    BAD(f, roundel_field_make_guided_problem(disk, g, NULL), null, "problem", NONE);
-    BAD(f, roundel_field_from_guided_solution(disk, g, NULL, &field), null, "solution", NONE);
-    BAD(f, roundel_field_from_guided_solution(disk, g, f->solution, NULL), null, "field", NONE);
-    BAD(f, roundel_field_from_guided_solution(disk, g, f->solution, &field),
-        ROUNDEL_ERROR_LENGTH_MISMATCH, "solution", NONE);
+    BAD(f, roundel_field_solve(NULL, g, NULL, NULL, &field), null, "mesh", NONE);
+    BAD(f, roundel_field_solve(disk, g, NULL, NULL, NULL), null, "field", NONE);
+    BAD(f, roundel_field_make_problem(NULL, g, &problem), null, "mesh", NONE);
+    BAD(f, roundel_field_make_problem(disk, g, NULL), null, "problem", NONE);
+    BAD(f, roundel_field_from_solution(disk, g, NULL, &field), null, "solution", NONE);
+    BAD(f, roundel_field_from_solution(disk, g, f->solution, NULL), null, "field", NONE);
+    BAD(f, roundel_field_from_solution(disk, g, f->solution, &field), ROUNDEL_ERROR_LENGTH_MISMATCH,
+        "solution", NONE);
     GOOD(roundel_guidance_set_constraints(g, 2, far, angles));
-    BAD(f, roundel_field_solve_guided(disk, g, NULL, NULL, &field), range, "constrained", 1);
+    BAD(f, roundel_field_solve(disk, g, NULL, NULL, &field), range, "constrained", 1);
     GOOD(roundel_guidance_set_constraints(g, 2, twice, angles));
-    BAD(f, roundel_field_solve_guided(disk, g, NULL, NULL, &field), ROUNDEL_ERROR_INVALID_ARGUMENT,
+    BAD(f, roundel_field_solve(disk, g, NULL, NULL, &field), ROUNDEL_ERROR_INVALID_ARGUMENT,
         "twice", 1);
     GOOD(roundel_guidance_set_constraints(g, 0, NULL, NULL));
     GOOD(roundel_guidance_set_guides(g, 2, far, angles, angles));
-    BAD(f, roundel_field_solve_guided(disk, g, NULL, NULL, &field), range, "guided", 1);
+    BAD(f, roundel_field_solve(disk, g, NULL, NULL, &field), range, "guided", 1);
     GOOD(roundel_guidance_set_guides(g, 0, NULL, NULL, NULL));
     GOOD(roundel_guidance_set_indices(g, 2, far, twice));
-    BAD(f, roundel_field_make_guided_problem(disk, g, &problem), range, "index", 1);
+    BAD(f, roundel_field_make_problem(disk, g, &problem), range, "index", 1);
     GOOD(roundel_guidance_clear_indices(g));
     GOOD(roundel_guidance_set_feature_lines(g, 1, apart));
     BAD(f, roundel_mesh_mark_features(disk, g, marks, edges), ROUNDEL_ERROR_INVALID_ARGUMENT,
@@ -121,8 +121,8 @@ static void maps(fixture* f, const roundel_mesh* disk) {
     GOOD(roundel_mesh_make_shape("sphere", 200, &other));
     GOOD(roundel_guidance_new(&lines));
     GOOD(roundel_guidance_set_symmetry(lines, 2));
-    GOOD(roundel_field_solve_guided(disk, NULL, NULL, NULL, &field));
-    GOOD(roundel_field_solve_guided(disk, lines, NULL, NULL, &two));
+    GOOD(roundel_field_solve(disk, NULL, NULL, NULL, &field));
+    GOOD(roundel_field_solve(disk, lines, NULL, NULL, &two));
     BAD(f, roundel_field_symmetry(NULL, &arms), null, "field", NONE);
     BAD(f, roundel_field_symmetry(field, NULL), null, "symmetry", NONE);
     GOOD(roundel_field_symmetry(two, &arms));
@@ -150,8 +150,8 @@ static void maps(fixture* f, const roundel_mesh* disk) {
     BAD(f, roundel_map_untangle(map, NULL), invalid, "has not been solved", NONE);
     BAD(f, roundel_map_make_problem(NULL, &problem), null, "map", NONE);
     BAD(f, roundel_map_make_problem(map, NULL), null, "problem", NONE);
-    BAD(f, roundel_map_take_solution(map, NULL), null, "solution", NONE);
-    BAD(f, roundel_map_take_solution(map, f->solution), length, "got 3", NONE);
+    BAD(f, roundel_map_set_solution(map, NULL), null, "solution", NONE);
+    BAD(f, roundel_map_set_solution(map, f->solution), length, "got 3", NONE);
     BAD(f, roundel_map_energy(map, numbers), invalid, "has not been solved", NONE);
     BAD(f, roundel_map_vertex_count(map, &count), invalid, "has not been solved", NONE);
     BAD(f, roundel_map_corner_uvs(map, numbers, 2), invalid, "has not been solved", NONE);
@@ -181,8 +181,8 @@ static void maps(fixture* f, const roundel_mesh* disk) {
     BAD(f, roundel_map_transitions(map, 1000000, whole, whole, numbers), length, "cut edges", NONE);
     BAD(f, roundel_map_cone_count(map, NULL), null, "cone count", NONE);
     BAD(f, roundel_map_cones(map, whole, 1000000), length, "cones", NONE);
-    BAD(f, roundel_map_flipped_count(map, NULL), null, "flipped count", NONE);
-    BAD(f, roundel_map_flipped(map, whole, 1000000), length, "flipped", NONE);
+    BAD(f, roundel_map_flipped_face_count(map, NULL), null, "flipped count", NONE);
+    BAD(f, roundel_map_flipped_faces(map, whole, 1000000), length, "flipped", NONE);
     BAD(f, roundel_map_energy(map, NULL), null, "energy", NONE);
     BAD(f, roundel_map_solution(map, NULL), null, "solution", NONE);
     BAD(f, roundel_map_write(map, NULL), null, "file", NONE);

@@ -13,8 +13,8 @@ static void no_problem(fixture* f) {
     roundel_solution* solution = NULL;
     size_t count = 7;
     BAD(f, roundel_problem_clone(NULL, &copy), null, "problem", NONE);
-    BAD(f, roundel_problem_variables(NULL, &count), null, "problem", NONE);
-    BAD(f, roundel_problem_constraints(NULL, &count), null, "problem", NONE);
+    BAD(f, roundel_problem_variable_count(NULL, &count), null, "problem", NONE);
+    BAD(f, roundel_problem_constraint_count(NULL, &count), null, "problem", NONE);
     BAD(f, roundel_problem_add_quadratic_triplets(NULL, full, 1, index, index, one), null,
         "problem", NONE);
     BAD(f, roundel_problem_add_quadratic_csc(NULL, full, 2, offsets, 1, index, one), null,
@@ -37,8 +37,7 @@ static void no_problem(fixture* f) {
     BAD(f, roundel_problem_hint_cycles(NULL, 2, offsets, 1, index, sign), null, "problem", NONE);
     BAD(f, roundel_problem_write_mps(NULL, "never.mps"), null, "problem", NONE);
     BAD(f, roundel_problem_save_replay(NULL, NULL, "never.mps"), null, "problem", NONE);
-    BAD(f, roundel_solve(NULL, NULL, &solution), null, "problem", NONE);
-    BAD(f, roundel_solve_with(NULL, NULL, NULL, &solution), null, "problem", NONE);
+    BAD(f, roundel_problem_solve(NULL, NULL, NULL, &solution), null, "problem", NONE);
     HOLDS(copy == NULL && solution == NULL && count == 7);
 }
 
@@ -50,7 +49,7 @@ static void no_solution(fixture* f) {
     roundel_solve_status status = ROUNDEL_SOLVE_LIMIT;
     roundel_counts counts;
     roundel_seconds seconds;
-    BAD(f, roundel_solution_variables(NULL, &count), null, "solution", NONE);
+    BAD(f, roundel_solution_variable_count(NULL, &count), null, "solution", NONE);
     BAD(f, roundel_solution_values(NULL, &number, 1), null, "solution", NONE);
     BAD(f, roundel_solution_energy(NULL, &number), null, "solution", NONE);
     BAD(f, roundel_solution_lower_bound(NULL, &known, &number), null, "solution", NONE);
@@ -69,13 +68,13 @@ static void no_place(fixture* f) {
     int32_t known = 7;
     BAD(f, roundel_problem_new(3, NULL), null, "problem", NONE);
     BAD(f, roundel_problem_clone(f->problem, NULL), null, "copy", NONE);
-    BAD(f, roundel_problem_variables(f->problem, NULL), null, "variables", NONE);
-    BAD(f, roundel_problem_constraints(f->problem, NULL), null, "constraints", NONE);
+    BAD(f, roundel_problem_variable_count(f->problem, NULL), null, "variables", NONE);
+    BAD(f, roundel_problem_constraint_count(f->problem, NULL), null, "constraints", NONE);
     BAD(f, roundel_options_new(NULL), null, "options", NONE);
     BAD(f, roundel_cancel_token_new(NULL), null, "cancel token", NONE);
     BAD(f, roundel_cancel_token_is_cancelled(f->token, NULL), null, "cancelled", NONE);
-    BAD(f, roundel_solve(f->problem, NULL, NULL), null, "solution", NONE);
-    BAD(f, roundel_solution_variables(f->solution, NULL), null, "variables", NONE);
+    BAD(f, roundel_problem_solve(f->problem, NULL, NULL, NULL), null, "solution", NONE);
+    BAD(f, roundel_solution_variable_count(f->solution, NULL), null, "variables", NONE);
     BAD(f, roundel_solution_values(f->solution, NULL, 3), null, "values", NONE);
     BAD(f, roundel_solution_energy(f->solution, NULL), null, "energy", NONE);
     BAD(f, roundel_solution_lower_bound(f->solution, NULL, &number), null, "known", NONE);

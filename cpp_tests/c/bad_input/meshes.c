@@ -112,39 +112,39 @@ static void copies(fixture* f, const roundel_mesh* tetra) {
 
 static void constraints(fixture* f, const roundel_mesh* tetra) {
     const roundel_status null = ROUNDEL_ERROR_NULL_POINTER;
-    const int32_t faces[2] = {1, 4}, twice[2] = {2, 2}, last[1] = {3};
+    const int32_t faces[2] = {1, 4}, twice[2] = {2, 2};
     const double angles[2] = {0.5, 0.25}, infinite[2] = {0.5, (double)NAN};
     int32_t found[4] = {7, 7, 7, 7};
     double direction[4] = {7.0, 7.0, 7.0, 7.0};
     size_t count = 7;
+    roundel_guidance* g = NULL;
     roundel_field* field = NULL;
     roundel_problem* problem = NULL;
     roundel_monitor unsized_monitor = {0, NULL, NULL, NULL};
-    BAD(f, roundel_field_solve(NULL, 0, NULL, NULL, NULL, NULL, &field), null, "mesh", NONE);
-    BAD(f, roundel_field_solve(tetra, 0, NULL, NULL, NULL, NULL, NULL), null, "field", NONE);
-    BAD(f, roundel_field_solve(tetra, 1, NULL, angles, NULL, NULL, &field), null,
-        "constrained faces", NONE);
-    BAD(f, roundel_field_solve(tetra, 1, last, NULL, NULL, NULL, &field), null,
-        "constrained angles", NONE);
-    BAD(f, roundel_field_solve(tetra, 2, faces, angles, NULL, NULL, &field),
-        ROUNDEL_ERROR_INDEX_OUT_OF_RANGE, "constrained faces: entry 1 is 4", 1);
-    BAD(f, roundel_field_solve(tetra, 2, twice, angles, NULL, NULL, &field),
-        ROUNDEL_ERROR_INVALID_ARGUMENT, "twice", 1);
-    BAD(f, roundel_field_solve(tetra, 2, twice, infinite, NULL, NULL, &field),
-        ROUNDEL_ERROR_NOT_FINITE, "constrained angles", 1);
-    BAD(f, roundel_field_solve(tetra, 1, last, angles, NULL, &unsized_monitor, &field),
+    GOOD(roundel_guidance_new(&g));
+    BAD(f, roundel_field_solve(NULL, NULL, NULL, NULL, &field), null, "mesh", NONE);
+    BAD(f, roundel_field_solve(tetra, NULL, NULL, NULL, NULL), null, "field", NONE);
+    BAD(f, roundel_field_solve(tetra, NULL, NULL, &unsized_monitor, &field),
         ROUNDEL_ERROR_INVALID_ARGUMENT, "monitor", NONE);
-    BAD(f, roundel_field_make_problem(NULL, 0, NULL, NULL, &problem), null, "mesh", NONE);
-    BAD(f, roundel_field_make_problem(tetra, 0, NULL, NULL, NULL), null, "problem", NONE);
-    BAD(f, roundel_field_make_problem(tetra, 2, faces, angles, &problem),
-        ROUNDEL_ERROR_INDEX_OUT_OF_RANGE, "4", 1);
-    BAD(f, roundel_field_from_solution(NULL, 0, NULL, NULL, f->solution, &field), null, "mesh",
-        NONE);
-    BAD(f, roundel_field_from_solution(tetra, 0, NULL, NULL, NULL, &field), null, "solution", NONE);
-    BAD(f, roundel_field_from_solution(tetra, 0, NULL, NULL, f->solution, NULL), null, "field",
-        NONE);
-    BAD(f, roundel_field_from_solution(tetra, 0, NULL, NULL, f->solution, &field),
+    BAD(f, roundel_field_make_problem(NULL, NULL, &problem), null, "mesh", NONE);
+    BAD(f, roundel_field_make_problem(tetra, NULL, NULL), null, "problem", NONE);
+    BAD(f, roundel_field_from_solution(NULL, NULL, f->solution, &field), null, "mesh", NONE);
+    BAD(f, roundel_field_from_solution(tetra, NULL, NULL, &field), null, "solution", NONE);
+    BAD(f, roundel_field_from_solution(tetra, NULL, f->solution, NULL), null, "field", NONE);
+    BAD(f, roundel_field_from_solution(tetra, NULL, f->solution, &field),
         ROUNDEL_ERROR_LENGTH_MISMATCH, "got 3", NONE);
+    GOOD(roundel_guidance_set_constraints(g, 2, faces, angles));
+    BAD(f, roundel_field_solve(tetra, g, NULL, NULL, &field), ROUNDEL_ERROR_INDEX_OUT_OF_RANGE,
+        "constrained faces: entry 1 is 4", 1);
+    BAD(f, roundel_field_make_problem(tetra, g, &problem), ROUNDEL_ERROR_INDEX_OUT_OF_RANGE, "4",
+        1);
+    GOOD(roundel_guidance_set_constraints(g, 2, twice, angles));
+    BAD(f, roundel_field_solve(tetra, g, NULL, NULL, &field), ROUNDEL_ERROR_INVALID_ARGUMENT,
+        "twice", 1);
+    GOOD(roundel_guidance_set_constraints(g, 2, twice, infinite));
+    BAD(f, roundel_field_solve(tetra, g, NULL, NULL, &field), ROUNDEL_ERROR_NOT_FINITE, "constrain",
+        1);
+    GOOD(roundel_guidance_free(g));
     BAD(f, roundel_mesh_curvature_constraints(NULL, 0.5, 4, found, direction, &count), null, "mesh",
         NONE);
     BAD(f, roundel_mesh_curvature_constraints(tetra, 0.5, 4, NULL, direction, &count), null,
@@ -170,9 +170,13 @@ static void fields(fixture* f, const roundel_mesh* tetra) {
     double numbers[6] = {7.0}, energy = 7.0;
     int32_t jumps[6] = {7};
     size_t count = 7;
+    roundel_guidance* g = NULL;
     roundel_field* field = NULL;
     roundel_solution* solution = NULL;
-    GOOD(roundel_field_solve(tetra, 1, face, angle, NULL, NULL, &field));
+    GOOD(roundel_guidance_new(&g));
+    GOOD(roundel_guidance_set_constraints(g, 1, face, angle));
+    GOOD(roundel_field_solve(tetra, g, NULL, NULL, &field));
+    GOOD(roundel_guidance_free(g));
     BAD(f, roundel_field_angles(NULL, numbers, 4), null, "field", NONE);
     BAD(f, roundel_field_angles(field, NULL, 4), null, "angles", NONE);
     BAD(f, roundel_field_angles(field, numbers, 6), length, "angles: expected 4", NONE);

@@ -15,7 +15,7 @@ static roundel_problem* convex(void) {
 
 static void solves(const roundel_problem* p) {
     roundel_solution* s = NULL;
-    GOOD(roundel_solve(p, NULL, &s));
+    GOOD(roundel_problem_solve(p, NULL, NULL, &s));
     GOOD(roundel_solution_free(s));
 }
 
@@ -23,7 +23,7 @@ static void solves(const roundel_problem* p) {
 static void answers(roundel_problem* p) {
     size_t count = 0;
     GOOD(roundel_problem_add_constant(p, 1.0));
-    GOOD(roundel_problem_constraints(p, &count));
+    GOOD(roundel_problem_constraint_count(p, &count));
     GOOD(roundel_problem_free(p));
 }
 
@@ -33,21 +33,24 @@ static void contradictory(fixture* f) {
     roundel_problem* p = convex();
     GOOD(roundel_problem_add_constraint(p, 1, x, ones, 5.0));
     GOOD(roundel_problem_add_constraint(p, 0, NULL, NULL, 1.0));
-    BAD(f, roundel_solve(p, NULL, &s), ROUNDEL_ERROR_INFEASIBLE, "constraint 1: 0 = 1", 1);
+    BAD(f, roundel_problem_solve(p, NULL, NULL, &s), ROUNDEL_ERROR_INFEASIBLE,
+        "constraint 1: 0 = 1", 1);
     answers(p);
 
     p = convex();
     GOOD(roundel_problem_add_constraint(p, 2, x, sum, 5.0));
     GOOD(roundel_problem_add_constraint(p, 2, x, sum, 5.0));
     GOOD(roundel_problem_add_constraint(p, 2, x, sum, 6.0));
-    BAD(f, roundel_solve(p, NULL, &s), ROUNDEL_ERROR_INFEASIBLE, "constraint 2: x0 + 2 x1 = 6", 2);
+    BAD(f, roundel_problem_solve(p, NULL, NULL, &s), ROUNDEL_ERROR_INFEASIBLE,
+        "constraint 2: x0 + 2 x1 = 6", 2);
     answers(p);
 
     p = convex();
     GOOD(roundel_problem_pin(p, 0, 1.0));
     GOOD(roundel_problem_add_constraint(p, 1, x + 1, ones, 3.0));
     GOOD(roundel_problem_add_constraint(p, 1, x, ones, 2.0));
-    BAD(f, roundel_solve(p, NULL, &s), ROUNDEL_ERROR_INFEASIBLE, "constraint 1: x0 = 2", 1);
+    BAD(f, roundel_problem_solve(p, NULL, NULL, &s), ROUNDEL_ERROR_INFEASIBLE,
+        "constraint 1: x0 = 2", 1);
     GOOD(roundel_problem_unpin(p, 0));
     solves(p);
     answers(p);
@@ -61,20 +64,21 @@ static void non_integral(fixture* f) {
     GOOD(roundel_problem_set_integers(p, 2, x));
     GOOD(roundel_problem_add_constraint(p, 1, x + 2, one, 1.0));
     GOOD(roundel_problem_add_constraint(p, 2, x, even, 3.0));
-    BAD(f, roundel_solve(p, NULL, &s), ROUNDEL_ERROR_NO_INTEGER_SOLUTION,
+    BAD(f, roundel_problem_solve(p, NULL, NULL, &s), ROUNDEL_ERROR_NO_INTEGER_SOLUTION,
         "constraint 1: 2 x0 + 4 x1 = 3", 1);
     answers(p);
 
     p = convex();
     GOOD(roundel_problem_set_integers(p, 1, x));
     GOOD(roundel_problem_add_constraint(p, 1, x, three, 1.0));
-    BAD(f, roundel_solve(p, NULL, &s), ROUNDEL_ERROR_NO_INTEGER_SOLUTION, "constraint 0", 0);
+    BAD(f, roundel_problem_solve(p, NULL, NULL, &s), ROUNDEL_ERROR_NO_INTEGER_SOLUTION,
+        "constraint 0", 0);
     answers(p);
 
     p = convex();
     GOOD(roundel_problem_set_integers(p, 2, x));
     GOOD(roundel_problem_pin(p, 1, 0.5));
-    BAD(f, roundel_solve(p, NULL, &s), ROUNDEL_ERROR_INVALID_ARGUMENT,
+    BAD(f, roundel_problem_solve(p, NULL, NULL, &s), ROUNDEL_ERROR_INVALID_ARGUMENT,
         "variable 1 is pinned to 0.5", 1);
     GOOD(roundel_problem_pin(p, 1, 2.0));
     solves(p);
@@ -88,8 +92,8 @@ static void indefinite(fixture* f) {
     roundel_solution* s = NULL;
     roundel_problem* p = convex();
     GOOD(roundel_problem_add_quadratic_triplets(p, ROUNDEL_TRIANGLE_LOWER, 1, x + 2, x + 2, minus));
-    BAD(f, roundel_solve(p, NULL, &s), ROUNDEL_ERROR_NOT_CONVEX, "variable 2", 2);
-    HOLDS(roundel_solve(p, NULL, &s) == ROUNDEL_ERROR_NOT_CONVEX);
+    BAD(f, roundel_problem_solve(p, NULL, NULL, &s), ROUNDEL_ERROR_NOT_CONVEX, "variable 2", 2);
+    HOLDS(roundel_problem_solve(p, NULL, NULL, &s) == ROUNDEL_ERROR_NOT_CONVEX);
     GOOD(roundel_last_error_direction(direction, 4));
     HOLDS(fabs(direction[2]) == 1.0 && direction[0] == 0.0);
     BAD(f, roundel_last_error_direction(untouched, 3), ROUNDEL_ERROR_LENGTH_MISMATCH, "direction",
@@ -108,8 +112,8 @@ static void unbounded(fixture* f) {
     GOOD(roundel_problem_new(4, &p));
     solves(p);
     GOOD(roundel_problem_add_linear_term(p, 3, -1.0));
-    BAD(f, roundel_solve(p, NULL, &s), ROUNDEL_ERROR_UNBOUNDED, "variable 3", 3);
-    HOLDS(roundel_solve(p, NULL, &s) == ROUNDEL_ERROR_UNBOUNDED);
+    BAD(f, roundel_problem_solve(p, NULL, NULL, &s), ROUNDEL_ERROR_UNBOUNDED, "variable 3", 3);
+    HOLDS(roundel_problem_solve(p, NULL, NULL, &s) == ROUNDEL_ERROR_UNBOUNDED);
     GOOD(roundel_last_error_direction(direction, 4));
     HOLDS(direction[3] == 1.0 && s == NULL);
     GOOD(roundel_problem_add_quadratic_triplets(p, ROUNDEL_TRIANGLE_FULL, 1, x + 3, x + 3, two));
@@ -124,11 +128,11 @@ static void overflowing(fixture* f) {
     roundel_problem* p = convex();
     GOOD(roundel_problem_add_linear_term(p, 1, large[0]));
     GOOD(roundel_problem_add_linear_term(p, 1, large[0]));
-    BAD(f, roundel_solve(p, NULL, &s), ROUNDEL_ERROR_OVERFLOW, "variable 1", 1);
+    BAD(f, roundel_problem_solve(p, NULL, NULL, &s), ROUNDEL_ERROR_OVERFLOW, "variable 1", 1);
     answers(p);
     p = convex();
     GOOD(roundel_problem_add_least_squares(p, 1, x, large, 1.0, 1.0, NULL));
-    BAD(f, roundel_solve(p, NULL, &s), ROUNDEL_ERROR_OVERFLOW, "(0, 0)", 0);
+    BAD(f, roundel_problem_solve(p, NULL, NULL, &s), ROUNDEL_ERROR_OVERFLOW, "(0, 0)", 0);
     answers(p);
     HOLDS(s == NULL);
 }

@@ -37,21 +37,19 @@ static void sizes(fixture* f, const roundel_mesh* torus) {
     roundel_quad_options* q = NULL;
     roundel_quads* made = NULL;
     GOOD(roundel_quad_options_new(&q));
-    BAD(f, roundel_quads_make_with(NULL, q, NULL, &made), ROUNDEL_ERROR_NULL_POINTER, "mesh", NONE);
-    BAD(f, roundel_quads_make_with(torus, q, NULL, NULL), ROUNDEL_ERROR_NULL_POINTER, "quads",
-        NONE);
+    BAD(f, roundel_quads_make(NULL, q, NULL, &made), ROUNDEL_ERROR_NULL_POINTER, "mesh", NONE);
+    BAD(f, roundel_quads_make(torus, q, NULL, NULL), ROUNDEL_ERROR_NULL_POINTER, "quads", NONE);
     GOOD(roundel_quad_options_set_quads(q, 0));
-    BAD(f, roundel_quads_make_with(torus, q, NULL, &made), invalid, "no quads", NONE);
+    BAD(f, roundel_quads_make(torus, q, NULL, &made), invalid, "no quads", NONE);
     GOOD(roundel_quad_options_set_edge_length(q, 0.0));
-    BAD(f, roundel_quads_make_with(torus, q, NULL, &made), invalid, "edge length", NONE);
+    BAD(f, roundel_quads_make(torus, q, NULL, &made), invalid, "edge length", NONE);
     GOOD(roundel_quad_options_set_edge_length(q, -1.0));
-    BAD(f, roundel_quads_make_with(torus, q, NULL, &made), invalid, "edge length", NONE);
+    BAD(f, roundel_quads_make(torus, q, NULL, &made), invalid, "edge length", NONE);
     GOOD(roundel_quad_options_set_edge_length(q, (double)NAN));
-    BAD(f, roundel_quads_make_with(torus, q, NULL, &made), ROUNDEL_ERROR_NOT_FINITE, "edge length",
-        0);
+    BAD(f, roundel_quads_make(torus, q, NULL, &made), ROUNDEL_ERROR_NOT_FINITE, "edge length", 0);
     GOOD(roundel_quad_options_set_edge_lengths(q, two, 4));
-    BAD(f, roundel_quads_make_with(torus, q, NULL, &made), ROUNDEL_ERROR_LENGTH_MISMATCH,
-        "edge lengths", NONE);
+    BAD(f, roundel_quads_make(torus, q, NULL, &made), ROUNDEL_ERROR_LENGTH_MISMATCH, "edge lengths",
+        NONE);
     HOLDS(made == NULL);
     GOOD(roundel_quad_options_free(q));
 }

@@ -96,7 +96,7 @@ static void sweep(fixture* f, const char* name, large_call call) {
         ++refused;
         held(f, name, status,
              (expectation){ROUNDEL_ERROR_OUT_OF_MEMORY, "not enough memory", NONE, NONE});
-        GOOD(roundel_problem_constraints(p, &count));
+        GOOD(roundel_problem_constraint_count(p, &count));
         HOLDS(count == 0);
     }
     HOLDS(refused > 0);

@@ -57,9 +57,8 @@ static void arguments(fixture* f, roundel_solver* s) {
     BAD(f, roundel_solver_pin(s, 0, (double)INFINITY), finite, "pinned", 0);
     BAD(f, roundel_solver_unpin(NULL, 0), null, "solver", NONE);
     BAD(f, roundel_solver_unpin(s, INT64_MAX), range, "9223372036854775807", 0);
-    BAD(f, roundel_solver_solve(NULL, NULL, &x), null, "solver", NONE);
-    BAD(f, roundel_solver_solve(s, NULL, NULL), null, "solution", NONE);
-    BAD(f, roundel_solver_solve_with(NULL, NULL, NULL, &x), null, "solver", NONE);
+    BAD(f, roundel_solver_solve(NULL, NULL, NULL, &x), null, "solver", NONE);
+    BAD(f, roundel_solver_solve(s, NULL, NULL, NULL), null, "solution", NONE);
     HOLDS(made == NULL && x == NULL);
     GOOD(roundel_solver_free(NULL));
 }
@@ -67,7 +66,7 @@ static void arguments(fixture* f, roundel_solver* s) {
 /* The values of a solve that must succeed. */
 static void solved(roundel_solver* s, double values[3]) {
     roundel_solution* x = NULL;
-    GOOD(roundel_solver_solve(s, NULL, &x));
+    GOOD(roundel_solver_solve(s, NULL, NULL, &x));
     GOOD(roundel_solution_values(x, values, 3));
     GOOD(roundel_solution_free(x));
 }
@@ -78,12 +77,14 @@ static void data(fixture* f, roundel_solver* s) {
     roundel_solution* x = NULL;
     solved(s, before);
     GOOD(roundel_solver_set_constraint_right_sides(s, apart, 3));
-    BAD(f, roundel_solver_solve(s, NULL, &x), ROUNDEL_ERROR_INFEASIBLE, "0.75", 1);
+    BAD(f, roundel_solver_solve(s, NULL, NULL, &x), ROUNDEL_ERROR_INFEASIBLE, "0.75", 1);
     GOOD(roundel_solver_set_constraint_right_sides(s, odd, 3));
-    BAD(f, roundel_solver_solve(s, NULL, &x), ROUNDEL_ERROR_NO_INTEGER_SOLUTION, "2 x2 = 3", 2);
+    BAD(f, roundel_solver_solve(s, NULL, NULL, &x), ROUNDEL_ERROR_NO_INTEGER_SOLUTION, "2 x2 = 3",
+        2);
     GOOD(roundel_solver_set_constraint_right_sides(s, holds, 3));
     GOOD(roundel_solver_pin(s, 2, 1.5));
-    BAD(f, roundel_solver_solve(s, NULL, &x), ROUNDEL_ERROR_INVALID_ARGUMENT, "pinned to 1.5", 2);
+    BAD(f, roundel_solver_solve(s, NULL, NULL, &x), ROUNDEL_ERROR_INVALID_ARGUMENT, "pinned to 1.5",
+        2);
     GOOD(roundel_solver_unpin(s, 2));
     HOLDS(x == NULL);
     solved(s, after);

@@ -9,18 +9,6 @@
 
 namespace {
 
-std::vector<double> coordinates(const roundel::Mesh& mesh) {
-    std::vector<double> values(3 * mesh.vertices());
-    CHECK(roundel_mesh_coordinates(mesh.get(), values.data(), values.size()) == ROUNDEL_OK);
-    return values;
-}
-
-std::vector<std::int32_t> corners(const roundel::Mesh& mesh) {
-    std::vector<std::int32_t> values(3 * mesh.faces());
-    CHECK(roundel_mesh_corners(mesh.get(), values.data(), values.size()) == ROUNDEL_OK);
-    return values;
-}
-
 } // namespace
 
 namespace {
@@ -78,12 +66,13 @@ void meshes_become_quads_of_their_topology() {
     // On a closed torus there are as many vertices as quads.
     CHECK(made.vertices().size() == 3 * made.size());
 
-    // The C function for plain arrays gives the same quads.
-    const auto V = coordinates(mesh);
-    const auto F = corners(mesh);
+    // The C function gives the same quads.
+    roundel_quad_options* options = nullptr;
     roundel_quads* plain = nullptr;
-    CHECK(roundel_quadrangulate(V.size() / 3, V.data(), F.size() / 3, F.data(), 300, nullptr,
-                                nullptr, nullptr, &plain) == ROUNDEL_OK);
+    CHECK(roundel_quad_options_new(&options) == ROUNDEL_OK);
+    CHECK(roundel_quad_options_set_quads(options, 300) == ROUNDEL_OK);
+    CHECK(roundel_quads_make(mesh.get(), options, nullptr, &plain) == ROUNDEL_OK);
+    CHECK(roundel_quad_options_free(options) == ROUNDEL_OK);
     const roundel::Quads same(plain);
     CHECK(same.corners().size() == made.corners().size());
     for (std::size_t i = 0; i < same.vertices().size(); ++i) {
@@ -125,7 +114,6 @@ void meshes_become_quads_of_their_topology() {
     CHECK(status.code == ROUNDEL_ERROR_LENGTH_MISMATCH);
     roundel_quads* none = nullptr;
     CHECK(roundel_quads_extract(nullptr, &none) == ROUNDEL_ERROR_NULL_POINTER);
-    CHECK(roundel_quads_make(mesh.get(), 10, nullptr, nullptr, nullptr, nullptr) ==
-          ROUNDEL_ERROR_NULL_POINTER);
+    CHECK(roundel_quads_make(mesh.get(), nullptr, nullptr, nullptr) == ROUNDEL_ERROR_NULL_POINTER);
     CHECK(roundel_quads_free(nullptr) == ROUNDEL_OK && none == nullptr);
 }

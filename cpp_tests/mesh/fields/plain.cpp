@@ -43,7 +43,7 @@ Solved solve_plainly(const Assembly& assembly) {
     must(roundel_options_new(&options));
     must(roundel_options_set_text(options, "strategy", "greedy"));
     roundel_solution* solution = nullptr;
-    must(roundel_solve(problem, options, &solution));
+    must(roundel_problem_solve(problem, options, NULL, &solution));
     std::vector<double> values(assembly.variables);
     Solved solved{0.0, {}, {}};
     must(roundel_solution_values(solution, values.data(), values.size()));

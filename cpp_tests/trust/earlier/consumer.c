@@ -31,7 +31,7 @@ static int solves(void) {
                roundel_problem_set_integers(problem, 1, index + 1) == ROUNDEL_OK &&
                roundel_options_new(&options) == ROUNDEL_OK &&
                roundel_options_set_text(options, "strategy", "greedy") == ROUNDEL_OK &&
-               roundel_solve_with(problem, options, &monitor, &solution) == ROUNDEL_OK &&
+               roundel_problem_solve(problem, options, &monitor, &solution) == ROUNDEL_OK &&
                roundel_solution_values(solution, x, 2) == ROUNDEL_OK &&
                roundel_solution_counts(solution, &counts) == ROUNDEL_OK;
     good = good && heard > 0 && counts.variables == 2 && counts.integers == 1 && x[1] == 0.0 &&
@@ -56,7 +56,7 @@ static int finds_a_field(void) {
     roundel_mesh* mesh = NULL;
     roundel_field* field = NULL;
     const int good = roundel_mesh_make_shape("sphere", 100, &mesh) == ROUNDEL_OK &&
-                     roundel_field_solve(mesh, 0, NULL, NULL, NULL, NULL, &field) == ROUNDEL_OK &&
+                     roundel_field_solve(mesh, NULL, NULL, NULL, &field) == ROUNDEL_OK &&
                      roundel_field_energy(field, &energy) == ROUNDEL_OK && energy > 0.0;
     roundel_field_free(field);
     roundel_mesh_free(mesh);

@@ -237,8 +237,7 @@ inline Field orientation_field(const Mesh& mesh, const FieldOptions& options = {
     detail::Handle<roundel_field, roundel_field_free> found;
     const auto call = [&](const roundel_options* how, const roundel_monitor* monitor) {
         roundel_field* made = nullptr;
-        const auto code =
-            roundel_field_solve_guided(mesh.get(), guidance.get(), how, monitor, &made);
+        const auto code = roundel_field_solve(mesh.get(), guidance.get(), how, monitor, &made);
         found.reset(made);
         return code;
     };
@@ -254,7 +253,7 @@ inline Problem orientation_problem(const Mesh& mesh, const FieldOptions& options
                                    Status* status = nullptr) {
     roundel_problem* made = nullptr;
     if (const auto guidance = detail::guidance_of(options, status)) {
-        detail::check(roundel_field_make_guided_problem(mesh.get(), guidance.get(), &made), status);
+        detail::check(roundel_field_make_problem(mesh.get(), guidance.get(), &made), status);
     }
     return Problem(made);
 }
@@ -265,8 +264,8 @@ inline Field orientation_field(const Mesh& mesh, const Solution& solution,
                                const FieldOptions& options, Status* status = nullptr) {
     const auto guidance = detail::guidance_of(options, status);
     roundel_field* found = nullptr;
-    if (!guidance || !detail::check(roundel_field_from_guided_solution(mesh.get(), guidance.get(),
-                                                                       solution.get(), &found),
+    if (!guidance || !detail::check(roundel_field_from_solution(mesh.get(), guidance.get(),
+                                                                solution.get(), &found),
                                     status)) {
         return {};
     }

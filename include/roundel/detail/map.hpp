@@ -244,7 +244,7 @@ class Map {
             listed(roundel_map_cone_count, roundel_map_cones, cones_, status) &&
             listed(roundel_map_winding_defect_count, roundel_map_winding_defects, winding_defects_,
                    status)) {
-            listed(roundel_map_flipped_count, roundel_map_flipped, flipped_, status);
+            listed(roundel_map_flipped_face_count, roundel_map_flipped_faces, flipped_, status);
         }
     }
 

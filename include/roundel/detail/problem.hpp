@@ -78,14 +78,14 @@ class Problem {
 
     std::size_t variables(Status* status = nullptr) const {
         std::size_t count = 0;
-        detail::check(roundel_problem_variables(get(), &count), status);
+        detail::check(roundel_problem_variable_count(get(), &count), status);
         return count;
     }
 
     /// The number of constraints so far, which is also the index of the next one.
     std::size_t constraints(Status* status = nullptr) const {
         std::size_t count = 0;
-        detail::check(roundel_problem_constraints(get(), &count), status);
+        detail::check(roundel_problem_constraint_count(get(), &count), status);
         return count;
     }
 

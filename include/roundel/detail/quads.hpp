@@ -207,15 +207,15 @@ class Quads {
         const auto told = [&](roundel_status code) { return detail::check(code, status); };
         if (!told(roundel_quads_vertex_count(get(), &vertices)) ||
             !told(roundel_quads_count(get(), &quads)) ||
-            !told(roundel_quads_other_count(get(), &count, &corners))) {
+            !told(roundel_quads_other_face_counts(get(), &count, &corners))) {
             return;
         }
         vertices_.resize(3 * vertices);
         corners_.resize(4 * quads);
         std::vector<std::int32_t> sizes(count), all(corners);
-        if (!told(roundel_quads_vertices(get(), vertices_.data(), vertices_.size())) ||
+        if (!told(roundel_quads_coordinates(get(), vertices_.data(), vertices_.size())) ||
             !told(roundel_quads_corners(get(), corners_.data(), corners_.size())) ||
-            !told(roundel_quads_others(get(), count, sizes.data(), corners, all.data()))) {
+            !told(roundel_quads_other_faces(get(), count, sizes.data(), corners, all.data()))) {
             return;
         }
         others_.clear();
@@ -245,7 +245,7 @@ inline Quads quads(const Map& map, Status* status = nullptr) {
 inline Quads quads(const Mesh& mesh, span<const double> corner_uvs, Status* status = nullptr) {
     roundel_quads* made = nullptr;
     const auto code =
-        roundel_quads_extract_uvs(mesh.get(), corner_uvs.data(), corner_uvs.size(), &made);
+        roundel_quads_extract_from_uvs(mesh.get(), corner_uvs.data(), corner_uvs.size(), &made);
     return detail::check(code, status) ? Quads(made, status) : Quads();
 }
 
@@ -324,7 +324,7 @@ inline Quads quadrangulate(const Mesh& mesh, const QuadOptions& options = {},
     detail::Handle<roundel_quads, roundel_quads_free> found;
     const auto call = [&](const roundel_options*, const roundel_monitor* monitor) {
         roundel_quads* made = nullptr;
-        const auto code = roundel_quads_make_with(mesh.get(), how.get(), monitor, &made);
+        const auto code = roundel_quads_make(mesh.get(), how.get(), monitor, &made);
         found.reset(made);
         return code;
     };

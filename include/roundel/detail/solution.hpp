@@ -41,7 +41,7 @@ class Solution {
     /// Takes ownership of a solution of the C interface.
     explicit Solution(roundel_solution* owned, Status* status = nullptr) : handle_(owned) {
         std::size_t variables = 0;
-        if (detail::check(roundel_solution_variables(get(), &variables), status)) {
+        if (detail::check(roundel_solution_variable_count(get(), &variables), status)) {
             values_.resize(variables);
             detail::check(roundel_solution_values(get(), values_.data(), variables), status);
         }

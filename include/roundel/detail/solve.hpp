@@ -153,11 +153,11 @@ inline Solution solve(const Problem& problem, const Options& options = {},
     // The length of the direction that some failures contain; 0 for a problem that was moved away.
     std::size_t variables = 0;
     if (problem.get()) {
-        roundel_problem_variables(problem.get(), &variables);
+        roundel_problem_variable_count(problem.get(), &variables);
     }
     const auto call = [&](const roundel_options* how, const roundel_monitor* monitor,
                           roundel_solution** made) {
-        return roundel_solve_with(problem.get(), how, monitor, made);
+        return roundel_problem_solve(problem.get(), how, monitor, made);
     };
     return detail::solution_of(options, call, variables, status);
 }

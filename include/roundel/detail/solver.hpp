@@ -22,7 +22,7 @@ class Solver {
         roundel_solver* made = nullptr;
         if (detail::check(roundel_solver_new(problem.get(), &made), status)) {
             handle_.reset(made);
-            roundel_problem_variables(problem.get(), &variables_);
+            roundel_problem_variable_count(problem.get(), &variables_);
         }
     }
 
@@ -67,7 +67,7 @@ class Solver {
     Solution solve(const Options& options = {}, Status* status = nullptr) {
         const auto call = [this](const roundel_options* how, const roundel_monitor* monitor,
                                  roundel_solution** made) {
-            return roundel_solver_solve_with(get(), how, monitor, made);
+            return roundel_solver_solve(get(), how, monitor, made);
         };
         return detail::solution_of(options, call, variables_, status);
     }

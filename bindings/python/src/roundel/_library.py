@@ -35,28 +35,3 @@ def last_message() -> str:
     buffer = ffi.new("char[]", length + 1)
     lib.roundel_last_error_message(buffer, length + 1)
     return ffi.string(buffer).decode(errors="replace")
-
-
-class Handle:
-    """Owns an object of the library and frees it."""
-
-    def __init__(self, kind: str, pointer: Any) -> None:
-        self.pointer = ffi.gc(pointer, getattr(lib, f"{kind}_free"))
-
-    @classmethod
-    def made(cls, kind: str, call: Any, *arguments: Any) -> "Handle":
-        """Owns the object that `call(*arguments, &object)` makes."""
-        from .errors import check  # the two need each other
-
-        place = ffi.new(f"{kind} **")
-        check(call(*arguments, place))
-        return cls(kind, place[0])
-
-
-def number(call: Any, *arguments: Any, kind: str = "size_t") -> Any:
-    """The number that `call(*arguments, &number)` returns."""
-    from .errors import check  # the two need each other
-
-    place = ffi.new(f"{kind} *")
-    check(call(*arguments, place))
-    return place[0]

@@ -6,7 +6,8 @@ from typing import Any, Optional
 
 import numpy as np
 
-from ._library import Handle, ffi, lib, number
+from ._handle import Handle, number
+from ._library import ffi, lib
 from .arrays import pointer
 from .errors import check
 from .guidance import guidance_handle, split
@@ -117,6 +118,6 @@ def field(
     guidance = guidance_handle(mesh, wishes)
     handle, watch = options_handle(options), Watch(progress, cancel)
     place = ffi.new("roundel_field **")
-    call, of = lib.roundel_field_solve_guided, mesh._handle.pointer
+    call, of = lib.roundel_field_solve, mesh._handle.pointer
     watch.check(call(of, pointer_of(guidance), handle.pointer, watch.pointer, place))
     return Field(mesh, Handle("roundel_field", place[0]), guidance)

@@ -7,7 +7,8 @@ from typing import Any, Mapping, Optional
 
 import numpy as np
 
-from ._library import Handle, lib, path
+from ._handle import Handle
+from ._library import lib, path
 from .arrays import indices32, pointer, reals
 from .errors import check
 

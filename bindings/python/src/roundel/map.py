@@ -6,7 +6,8 @@ from typing import Any, Optional
 
 import numpy as np
 
-from ._library import Handle, lib, number, path
+from ._handle import Handle, number
+from ._library import lib, path
 from .arrays import pointer, reals
 from .errors import check
 from .field import Field, field
@@ -107,7 +108,7 @@ class Map:
     @property
     def flipped(self) -> np.ndarray:
         """The faces that the map flips or collapses."""
-        return self._list(lib.roundel_map_flipped_count, lib.roundel_map_flipped)
+        return self._list(lib.roundel_map_flipped_face_count, lib.roundel_map_flipped_faces)
 
     @property
     def winding_defects(self) -> np.ndarray:
@@ -122,7 +123,7 @@ class Map:
     @property
     def valid(self) -> bool:
         """Whether no face is flipped or collapsed."""
-        return number(lib.roundel_map_flipped_count, self._handle.pointer) == 0
+        return number(lib.roundel_map_flipped_face_count, self._handle.pointer) == 0
 
     @property
     def energy(self) -> float:

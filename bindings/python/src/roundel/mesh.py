@@ -6,7 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from ._library import Handle, ffi, lib, number, path
+from ._handle import Handle, number
+from ._library import ffi, lib, path
 from .arrays import indices, pointer, reals
 from .errors import check
 

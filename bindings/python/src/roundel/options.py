@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, Mapping, Union
 
-from ._library import Handle, ffi, lib, text
+from ._handle import Handle
+from ._library import ffi, lib, text
 from .errors import check
 
 

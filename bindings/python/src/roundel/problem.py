@@ -6,7 +6,8 @@ from typing import Any, Mapping, Optional
 
 import numpy as np
 
-from ._library import Handle, ffi, lib, number, path
+from ._handle import Handle, number
+from ._library import ffi, lib, path
 from .arrays import compressed, indices, indices32, pointer, reals
 from .errors import check
 from .options import options_handle
@@ -65,12 +66,12 @@ class Problem:
     @property
     def variables(self) -> int:
         """The number of variables."""
-        return number(lib.roundel_problem_variables, self._handle.pointer)
+        return number(lib.roundel_problem_variable_count, self._handle.pointer)
 
     @property
     def constraints(self) -> int:
         """The number of constraints so far, which is also the index of the next one."""
-        return number(lib.roundel_problem_constraints, self._handle.pointer)
+        return number(lib.roundel_problem_constraint_count, self._handle.pointer)
 
     def quadratic(self, Q: Any, triangle: str = "full") -> None:
         """Adds 1/2 x'Qx. `triangle` says which entries are given: "full", "upper" or "lower"."""

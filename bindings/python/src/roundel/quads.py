@@ -6,7 +6,8 @@ from typing import Any, Iterator, Optional
 
 import numpy as np
 
-from ._library import Handle, ffi, lib, number, path
+from ._handle import Handle, number
+from ._library import ffi, lib, path
 from .arrays import pointer, reals
 from .errors import check
 from .guidance import guidance_handle, split
@@ -37,7 +38,7 @@ class Quads:
     def vertices(self) -> np.ndarray:
         """x, y, z of every vertex."""
         found = np.empty((number(lib.roundel_quads_vertex_count, self._handle.pointer), 3))
-        check(lib.roundel_quads_vertices(self._handle.pointer, pointer(found), found.size))
+        check(lib.roundel_quads_coordinates(self._handle.pointer, pointer(found), found.size))
         return found
 
     @property
@@ -51,10 +52,10 @@ class Quads:
     def others(self) -> list[np.ndarray]:
         """The corners of every face that is not a quad."""
         counts = ffi.new("size_t[2]")
-        check(lib.roundel_quads_other_count(self._handle.pointer, counts, counts + 1))
+        check(lib.roundel_quads_other_face_counts(self._handle.pointer, counts, counts + 1))
         sizes, corners = np.empty(counts[0], np.int32), np.empty(counts[1], np.int32)
         arrays = (len(sizes), pointer(sizes), len(corners), pointer(corners))
-        check(lib.roundel_quads_others(self._handle.pointer, *arrays))
+        check(lib.roundel_quads_other_faces(self._handle.pointer, *arrays))
         return np.split(corners, np.cumsum(sizes)[:-1]) if len(sizes) else []
 
     @property
@@ -103,7 +104,7 @@ def extract(V: Any, F: Any, uvs: Any) -> Quads:
     mesh = as_mesh(V, F)
     given = reals(uvs, "uvs", (-1, 3, 2))
     arguments = (mesh._handle.pointer, pointer(given), given.size)
-    return Quads(Handle.made("roundel_quads", lib.roundel_quads_extract_uvs, *arguments))
+    return Quads(Handle.made("roundel_quads", lib.roundel_quads_extract_from_uvs, *arguments))
 
 
 def quad(
@@ -159,5 +160,5 @@ def quad(
     check(lib.roundel_quad_options_set_smooth(how.pointer, int(smooth)))
     watch = Watch(progress, cancel)
     place = ffi.new("roundel_quads **")
-    watch.check(lib.roundel_quads_make_with(mesh._handle.pointer, how.pointer, watch.pointer, place))
+    watch.check(lib.roundel_quads_make(mesh._handle.pointer, how.pointer, watch.pointer, place))
     return Quads(Handle("roundel_quads", place[0]))

@@ -7,7 +7,8 @@ from typing import Any, Optional
 
 import numpy as np
 
-from ._library import ffi, lib, number, text
+from ._handle import number
+from ._library import ffi, lib, text
 from .arrays import pointer
 from .errors import check
 
@@ -49,7 +50,7 @@ class Solution:
 
 def taken(pointer_: Any) -> Solution:
     """Copies a solution of the library. The caller still has to free it."""
-    values = np.empty(number(lib.roundel_solution_variables, pointer_))
+    values = np.empty(number(lib.roundel_solution_variable_count, pointer_))
     check(lib.roundel_solution_values(pointer_, pointer(values), len(values)))
     violations = ffi.new("double[2]")
     check(lib.roundel_solution_violations(pointer_, violations, violations + 1))

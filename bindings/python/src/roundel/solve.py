@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import Any, Mapping, Optional, Union
 
-from ._library import Handle, ffi, lib
+from ._handle import Handle
+from ._library import ffi, lib
 from .arrays import compressed
 from .options import options_handle
 from .problem import Problem
@@ -69,7 +70,7 @@ def solve(
     handle, watch = options_handle(options), Watch(progress, cancel)
     place = ffi.new("roundel_solution **")
     pointer = problem._handle.pointer
-    status = lib.roundel_solve_with(pointer, handle.pointer, watch.pointer, place)
+    status = lib.roundel_problem_solve(pointer, handle.pointer, watch.pointer, place)
     watch.check(status, problem.variables)
     return taken(Handle("roundel_solution", place[0]).pointer)
 

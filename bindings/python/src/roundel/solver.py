@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import Any, Optional
 
-from ._library import Handle, ffi, lib
+from ._handle import Handle
+from ._library import ffi, lib
 from .arrays import pointer, reals
 from .errors import check
 from .options import options_handle
@@ -71,7 +72,7 @@ class Solver:
         """Solves the problem with its current data. Keywords are those of `roundel.solve`."""
         handle, watch = options_handle(options), Watch(progress, cancel)
         place = ffi.new("roundel_solution **")
-        call = lib.roundel_solver_solve_with
+        call = lib.roundel_solver_solve
         status = call(self._handle.pointer, handle.pointer, watch.pointer, place)
         watch.check(status, self._variables)
         return taken(Handle("roundel_solution", place[0]).pointer)

@@ -6,7 +6,8 @@ import sys
 from dataclasses import dataclass
 from typing import Any, Callable, Optional, Union
 
-from ._library import Handle, ffi, lib, text
+from ._handle import Handle
+from ._library import ffi, lib, text
 from .errors import check
 
 

@@ -157,7 +157,7 @@ class COMISODLLEXPORT ConstrainedSolver {
     template <class Vector> void answer(Vector& x, bool tell) {
         const auto call = [this](const roundel_options* how, const roundel_monitor* monitor,
                                  roundel_solution** made) {
-            return roundel_solver_solve_with(solver_.get(), how, monitor, made);
+            return roundel_solver_solve(solver_.get(), how, monitor, made);
         };
         const ::roundel::Options options = roundel_detail::options_for(settings_);
         const ::roundel::Solution solution =

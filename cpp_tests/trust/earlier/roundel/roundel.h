@@ -13,7 +13,6 @@
  * threads at once, any other from one. Nothing is ever printed, and no call ends the process.
  */
 
-
 #ifndef ROUNDEL_H
 #define ROUNDEL_H
 
@@ -47,9 +46,9 @@
  */
 enum roundel_status
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
-  : int32_t
+    : int32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
- {
+{
     /**
      * The call did what it says.
      */
@@ -186,9 +185,9 @@ typedef int32_t roundel_status;
  */
 enum roundel_solve_status
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
-  : int32_t
+    : int32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
- {
+{
     /**
      * The energy is the least possible, and that is proved.
      */
@@ -231,9 +230,9 @@ typedef int32_t roundel_solve_status;
  */
 enum roundel_triangle
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
-  : int32_t
+    : int32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
- {
+{
     /**
      * Both triangles, which must agree.
      */
@@ -260,9 +259,9 @@ typedef int32_t roundel_triangle;
  */
 enum roundel_option_type
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
-  : int32_t
+    : int32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
- {
+{
     /**
      * A whole number: roundel_options_set_int.
      */
@@ -289,9 +288,9 @@ typedef int32_t roundel_option_type;
  */
 enum roundel_event_kind
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
-  : int32_t
+    : int32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
- {
+{
     /**
      * A part of the solve has got so far: see `phase` and `fraction`.
      */
@@ -304,6 +303,10 @@ enum roundel_event_kind
      * A better solution than any before: see `energy`.
      */
     ROUNDEL_EVENT_IMPROVED = 3,
+    /**
+     * A better lower bound than any before: see `lower_bound` and `gap`.
+     */
+    ROUNDEL_EVENT_RAISED = 4,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -318,9 +321,9 @@ typedef int32_t roundel_event_kind;
  */
 enum roundel_phase
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
-  : int32_t
+    : int32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
- {
+{
     /**
      * Not a progress event.
      */
@@ -337,6 +340,14 @@ enum roundel_phase
      * The search for integers.
      */
     ROUNDEL_PHASE_ROUND = 3,
+    /**
+     * Motion of what is continuous around integers that are held.
+     */
+    ROUNDEL_PHASE_UNTANGLE = 4,
+    /**
+     * Extraction of quads from a map, and their smoothing.
+     */
+    ROUNDEL_PHASE_QUADS = 5,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -353,10 +364,31 @@ typedef int32_t roundel_phase;
 typedef struct roundel_cancel_token roundel_cancel_token;
 
 /**
- * A 4-symmetric direction field of a mesh: a cross in every face, and how crosses match over
- * edges. It does not need the mesh any more.
+ * An N-symmetric direction field of a mesh: N arms in every face, a cross for N = 4, and how they
+ * match over edges. It does not need the mesh any more.
  */
 typedef struct roundel_field roundel_field;
+
+/**
+ * What a field shall follow, and which edges become isolines of its map: features, boundary, given
+ * directions, curvature, given indices. Where several ask for the direction of one face, the first
+ * of these decides: a direction that is given, a feature or the boundary, a reliable curvature.
+ *
+ * A new one asks for crosses that follow the boundary, and for nothing else; where a function
+ * takes a guidance, NULL stands for that. Numbers of faces, edges and vertices are those of the
+ * mesh that it is used with, and are checked there.
+ */
+typedef struct roundel_guidance roundel_guidance;
+
+/**
+ * A seamless map of a mesh: coordinates (u, v) on the surface cut open, whose gradients follow a
+ * field of crosses, which turn by quarters and shift by integers over the cut. Cones are integer
+ * points, features isolines of integer value. It keeps what it needs of mesh and field.
+ *
+ * It is made for a size of quads, solved, and solved again for other sizes, from what was kept of
+ * the first solve. What it tells is of the last solve.
+ */
+typedef struct roundel_map roundel_map;
 
 /**
  * An oriented triangle mesh, with or without boundary, of any genus and any number of components.
@@ -385,9 +417,55 @@ typedef struct roundel_options roundel_options;
 typedef struct roundel_problem roundel_problem;
 
 /**
+ * How to make quads: their size, what they follow, how field and map are solved, untangling and
+ * smoothing. A new one is what the program `roundel quad` does without flags: 1000 quads along the
+ * boundary and the curvature, the field's integers decided adaptively and the map's by lattice
+ * decoding. Sizes and guidance are checked when quads are made.
+ */
+typedef struct roundel_quad_options roundel_quad_options;
+
+/**
+ * A mesh of quads with shared vertices. Where a map leaves no quads to be made, other polygons are
+ * kept beside them. It does not need the mesh and the map that it is from any more.
+ */
+typedef struct roundel_quads roundel_quads;
+
+/**
  * A solution. Energy and violations are recomputed from the problem's own arrays.
  */
 typedef struct roundel_solution roundel_solution;
+
+/**
+ * A problem whose matrices and integers are fixed, for many solves.
+ *
+ * Elimination, orderings and factors are kept: the first solve costs what roundel_problem_solve
+ * costs, one with other linear terms, right sides or pinned values a fraction. Pinning or releasing
+ * a variable that is in no constraint keeps the elimination; one that is in a constraint calls for
+ * another. The solution is that of roundel_problem_solve for the same data, except that a warm
+ * start (option "warm_start") may improve it.
+ *
+ * A solve that fails changes nothing: the data stay as they were set, and the solver can be used
+ * with them or with others.
+ */
+typedef struct roundel_solver roundel_solver;
+
+/**
+ * What there is to know about one preset. The texts live as long as the library is loaded.
+ */
+typedef struct roundel_preset {
+    /**
+     * Its name.
+     */
+    const char* name;
+    /**
+     * What it is for.
+     */
+    const char* text;
+    /**
+     * Zero, for later use.
+     */
+    int64_t reserved[6];
+} roundel_preset;
 
 /**
  * What there is to know about one option. The texts live as long as the library is loaded.
@@ -396,19 +474,19 @@ typedef struct roundel_option {
     /**
      * Its name.
      */
-    const char *name;
+    const char* name;
     /**
      * Its default value.
      */
-    const char *default_value;
+    const char* default_value;
     /**
      * The values allowed: an interval, or words with a bar between them.
      */
-    const char *range;
+    const char* range;
     /**
      * What it does.
      */
-    const char *text;
+    const char* text;
     /**
      * The type of its value, a roundel_option_type.
      */
@@ -444,9 +522,13 @@ typedef struct roundel_counts {
      */
     int64_t reduced_continuous;
     /**
+     * Entries below the diagonal of the factor that the relaxation was solved with.
+     */
+    int64_t factor_nonzeros;
+    /**
      * Zero, for later use.
      */
-    int64_t reserved[11];
+    int64_t reserved[10];
 } roundel_counts;
 
 /**
@@ -498,7 +580,7 @@ typedef struct roundel_event {
     /**
      * A line of UTF-8 text; empty where there is none, never NULL.
      */
-    const char *text;
+    const char* text;
     /**
      * Seconds since the solve began.
      */
@@ -522,7 +604,7 @@ typedef struct roundel_event {
  * anything else ends the solve and keeps the best solution. It must return: no exception and no
  * longjmp may leave it.
  */
-typedef int32_t (*roundel_callback)(const struct roundel_event *event, void *user_data);
+typedef int32_t (*roundel_callback)(const struct roundel_event* event, void* user_data);
 
 /**
  * Who watches a solve.
@@ -539,11 +621,11 @@ typedef struct roundel_monitor {
     /**
      * Handed to the callback as it is.
      */
-    void *user_data;
+    void* user_data;
     /**
      * Ends the solve when it is set; may be NULL.
      */
-    const struct roundel_cancel_token *cancel_token;
+    const struct roundel_cancel_token* cancel_token;
 } roundel_monitor;
 
 #ifdef __cplusplus
@@ -553,7 +635,7 @@ extern "C" {
 /**
  * Version of the library that is linked, such as "0.1.0".
  */
-const char *roundel_version_string(void);
+const char* roundel_version_string(void);
 
 /**
  * First number of the version of the library that is linked.
@@ -578,12 +660,12 @@ int32_t roundel_abi_version(void);
 /**
  * The word for a status, such as "index_out_of_range"; "unknown" for a number that is none.
  */
-const char *roundel_status_name(int32_t status);
+const char* roundel_status_name(int32_t status);
 
 /**
  * The word for the end of a solve, such as "optimal"; "unknown" for a number that is none.
  */
-const char *roundel_solve_status_name(int32_t status);
+const char* roundel_solve_status_name(int32_t status);
 
 /**
  * Copies the message of the last call that failed on this thread, which names the element at
@@ -592,7 +674,7 @@ const char *roundel_solve_status_name(int32_t status);
  * Returns the length of the whole message without its NUL, as snprintf does; 0 if no call has
  * failed. `buffer` may be NULL if `capacity` is 0. Calls that succeed leave the message alone.
  */
-size_t roundel_last_error_message(char *buffer, size_t capacity);
+size_t roundel_last_error_message(char* buffer, size_t capacity);
 
 /**
  * The element at fault in the last call that failed on this thread, counted from 0: a position
@@ -613,7 +695,7 @@ int64_t roundel_last_error_line(void);
  * Fails with ROUNDEL_ERROR_LENGTH_MISMATCH if the last error had no direction, or one of another
  * length. Being a failure, that takes the place of the last error.
  */
-roundel_status roundel_last_error_direction(double *direction, size_t length);
+roundel_status roundel_last_error_direction(double* direction, size_t length);
 
 /**
  * Makes a problem of `variables` unknowns with objective zero, no constraint and no integers.
@@ -621,29 +703,30 @@ roundel_status roundel_last_error_direction(double *direction, size_t length);
  * Fails with ROUNDEL_ERROR_EMPTY for no variables, ROUNDEL_ERROR_OVERFLOW beyond 2^31 - 1 of
  * them, ROUNDEL_ERROR_OUT_OF_MEMORY.
  */
-roundel_status roundel_problem_new(size_t variables, struct roundel_problem **problem);
+roundel_status roundel_problem_new(size_t variables, struct roundel_problem** problem);
 
 /**
  * Frees a problem. NULL is allowed, and so is a handle that was given up.
  */
-roundel_status roundel_problem_free(struct roundel_problem *problem);
+roundel_status roundel_problem_free(struct roundel_problem* problem);
 
 /**
  * Makes a copy of a problem, which then lives on its own.
  */
-roundel_status roundel_problem_clone(const struct roundel_problem *problem,
-                                     struct roundel_problem **copy);
+roundel_status roundel_problem_clone(const struct roundel_problem* problem,
+                                     struct roundel_problem** copy);
 
 /**
  * Gives the number of variables.
  */
-roundel_status roundel_problem_variables(const struct roundel_problem *problem, size_t *variables);
+roundel_status roundel_problem_variable_count(const struct roundel_problem* problem,
+                                              size_t* variables);
 
 /**
  * Gives the number of constraints added so far, which is the number of the next one.
  */
-roundel_status roundel_problem_constraints(const struct roundel_problem *problem,
-                                           size_t *constraints);
+roundel_status roundel_problem_constraint_count(const struct roundel_problem* problem,
+                                                size_t* constraints);
 
 /**
  * Adds `count` entries to Q, which stands in the objective as 1/2 x'Qx, in any order, duplicates
@@ -651,22 +734,19 @@ roundel_status roundel_problem_constraints(const struct roundel_problem *problem
  *
  * Errors give the position of the entry at fault as their index.
  */
-roundel_status roundel_problem_add_quadratic_triplets(struct roundel_problem *problem,
-                                                      int32_t triangle,
-                                                      size_t count,
-                                                      const int32_t *rows,
-                                                      const int32_t *columns,
-                                                      const double *values);
+roundel_status roundel_problem_add_quadratic_triplets(struct roundel_problem* problem,
+                                                      int32_t triangle, size_t count,
+                                                      const int32_t* rows, const int32_t* columns,
+                                                      const double* values);
 
 /**
  * roundel_problem_add_quadratic_triplets with 64-bit indices.
  */
-roundel_status roundel_problem_add_quadratic_triplets_i64(struct roundel_problem *problem,
-                                                          int32_t triangle,
-                                                          size_t count,
-                                                          const int64_t *rows,
-                                                          const int64_t *columns,
-                                                          const double *values);
+roundel_status roundel_problem_add_quadratic_triplets_i64(struct roundel_problem* problem,
+                                                          int32_t triangle, size_t count,
+                                                          const int64_t* rows,
+                                                          const int64_t* columns,
+                                                          const double* values);
 
 /**
  * Adds a matrix in compressed columns to Q: the entries of column k are those from offsets[k] to
@@ -675,24 +755,18 @@ roundel_status roundel_problem_add_quadratic_triplets_i64(struct roundel_problem
  *
  * Errors give a position in the array at fault as their index.
  */
-roundel_status roundel_problem_add_quadratic_csc(struct roundel_problem *problem,
-                                                 int32_t triangle,
-                                                 size_t offset_count,
-                                                 const int32_t *offsets,
-                                                 size_t count,
-                                                 const int32_t *rows,
-                                                 const double *values);
+roundel_status roundel_problem_add_quadratic_csc(struct roundel_problem* problem, int32_t triangle,
+                                                 size_t offset_count, const int32_t* offsets,
+                                                 size_t count, const int32_t* rows,
+                                                 const double* values);
 
 /**
  * roundel_problem_add_quadratic_csc with 64-bit indices.
  */
-roundel_status roundel_problem_add_quadratic_csc_i64(struct roundel_problem *problem,
-                                                     int32_t triangle,
-                                                     size_t offset_count,
-                                                     const int64_t *offsets,
-                                                     size_t count,
-                                                     const int64_t *rows,
-                                                     const double *values);
+roundel_status roundel_problem_add_quadratic_csc_i64(struct roundel_problem* problem,
+                                                     int32_t triangle, size_t offset_count,
+                                                     const int64_t* offsets, size_t count,
+                                                     const int64_t* rows, const double* values);
 
 /**
  * Adds a matrix in compressed rows to Q: the entries of row k are those from offsets[k] to
@@ -701,64 +775,95 @@ roundel_status roundel_problem_add_quadratic_csc_i64(struct roundel_problem *pro
  *
  * Errors give a position in the array at fault as their index.
  */
-roundel_status roundel_problem_add_quadratic_csr(struct roundel_problem *problem,
-                                                 int32_t triangle,
-                                                 size_t offset_count,
-                                                 const int32_t *offsets,
-                                                 size_t count,
-                                                 const int32_t *columns,
-                                                 const double *values);
+roundel_status roundel_problem_add_quadratic_csr(struct roundel_problem* problem, int32_t triangle,
+                                                 size_t offset_count, const int32_t* offsets,
+                                                 size_t count, const int32_t* columns,
+                                                 const double* values);
 
 /**
  * roundel_problem_add_quadratic_csr with 64-bit indices.
  */
-roundel_status roundel_problem_add_quadratic_csr_i64(struct roundel_problem *problem,
-                                                     int32_t triangle,
-                                                     size_t offset_count,
-                                                     const int64_t *offsets,
-                                                     size_t count,
-                                                     const int64_t *columns,
-                                                     const double *values);
+roundel_status roundel_problem_add_quadratic_csr_i64(struct roundel_problem* problem,
+                                                     int32_t triangle, size_t offset_count,
+                                                     const int64_t* offsets, size_t count,
+                                                     const int64_t* columns, const double* values);
 
 /**
  * Adds `values`, one a variable, to the linear term q. `length` is the number of variables.
  */
-roundel_status roundel_problem_add_linear(struct roundel_problem *problem,
-                                          const double *values,
+roundel_status roundel_problem_add_linear(struct roundel_problem* problem, const double* values,
                                           size_t length);
 
 /**
  * Adds `coefficient` to the linear term of one variable.
  */
-roundel_status roundel_problem_add_linear_term(struct roundel_problem *problem,
-                                               int64_t variable,
+roundel_status roundel_problem_add_linear_term(struct roundel_problem* problem, int64_t variable,
                                                double coefficient);
 
 /**
  * Adds `constant` to the objective.
  */
-roundel_status roundel_problem_add_constant(struct roundel_problem *problem, double constant);
+roundel_status roundel_problem_add_constant(struct roundel_problem* problem, double constant);
 
 /**
  * Adds weight * (sum_k coefficients[k] x[indices[k]] - rhs)^2 to the objective, without a factor
  * of 1/2. The row itself is kept, and its number goes to `row`, which may be NULL.
  */
-roundel_status roundel_problem_add_least_squares(struct roundel_problem *problem,
-                                                 size_t count,
-                                                 const int32_t *indices,
-                                                 const double *coefficients,
-                                                 double rhs,
-                                                 double weight,
-                                                 size_t *row);
+roundel_status roundel_problem_add_least_squares(struct roundel_problem* problem, size_t count,
+                                                 const int32_t* indices, const double* coefficients,
+                                                 double rhs, double weight, size_t* row);
+
+/**
+ * Adds sum_i weights[i] ((A x)_i - rhs[i])^2 to the objective, one term a row of A, which is given
+ * in compressed rows: the entries of row i are those from offsets[i] to before offsets[i + 1].
+ * `offset_count` is one more than `row_count`, `count` the number of entries. Entries of a row may
+ * be in any order, duplicates are summed. `weights` may be NULL: all are 1 then. The number of the
+ * first new row goes to `first`, which may be NULL. After an error nothing has been added.
+ *
+ * Errors give a position in the array at fault as their index; the message names the row too.
+ */
+roundel_status roundel_problem_add_least_squares_csr(struct roundel_problem* problem,
+                                                     size_t offset_count, const int32_t* offsets,
+                                                     size_t count, const int32_t* columns,
+                                                     const double* values, size_t row_count,
+                                                     const double* rhs, const double* weights,
+                                                     size_t* first);
+
+/**
+ * roundel_problem_add_least_squares_csr with 64-bit indices.
+ */
+roundel_status roundel_problem_add_least_squares_csr_i64(
+    struct roundel_problem* problem, size_t offset_count, const int64_t* offsets, size_t count,
+    const int64_t* columns, const double* values, size_t row_count, const double* rhs,
+    const double* weights, size_t* first);
+
+/**
+ * The same of A in compressed columns: the entries of column k are those from offsets[k] to before
+ * offsets[k + 1]. `offset_count` is one more than the number of variables.
+ */
+roundel_status roundel_problem_add_least_squares_csc(struct roundel_problem* problem,
+                                                     size_t offset_count, const int32_t* offsets,
+                                                     size_t count, const int32_t* rows,
+                                                     const double* values, size_t row_count,
+                                                     const double* rhs, const double* weights,
+                                                     size_t* first);
+
+/**
+ * roundel_problem_add_least_squares_csc with 64-bit indices.
+ */
+roundel_status roundel_problem_add_least_squares_csc_i64(struct roundel_problem* problem,
+                                                         size_t offset_count,
+                                                         const int64_t* offsets, size_t count,
+                                                         const int64_t* rows, const double* values,
+                                                         size_t row_count, const double* rhs,
+                                                         const double* weights, size_t* first);
 
 /**
  * Adds the constraint sum_k coefficients[k] x[indices[k]] = rhs. Constraints are numbered from 0
  * in the order given, and errors name them by that number. Duplicate indices are summed.
  */
-roundel_status roundel_problem_add_constraint(struct roundel_problem *problem,
-                                              size_t count,
-                                              const int32_t *indices,
-                                              const double *coefficients,
+roundel_status roundel_problem_add_constraint(struct roundel_problem* problem, size_t count,
+                                              const int32_t* indices, const double* coefficients,
                                               double rhs);
 
 /**
@@ -770,87 +875,70 @@ roundel_status roundel_problem_add_constraint(struct roundel_problem *problem,
  *
  * Errors give a position in the array at fault as their index.
  */
-roundel_status roundel_problem_add_constraints_csr(struct roundel_problem *problem,
-                                                   size_t offset_count,
-                                                   const int32_t *offsets,
-                                                   size_t count,
-                                                   const int32_t *columns,
-                                                   const double *values,
-                                                   size_t constraint_count,
-                                                   const double *rhs,
-                                                   size_t *first);
+roundel_status roundel_problem_add_constraints_csr(struct roundel_problem* problem,
+                                                   size_t offset_count, const int32_t* offsets,
+                                                   size_t count, const int32_t* columns,
+                                                   const double* values, size_t constraint_count,
+                                                   const double* rhs, size_t* first);
 
 /**
  * roundel_problem_add_constraints_csr with 64-bit indices.
  */
-roundel_status roundel_problem_add_constraints_csr_i64(struct roundel_problem *problem,
-                                                       size_t offset_count,
-                                                       const int64_t *offsets,
-                                                       size_t count,
-                                                       const int64_t *columns,
-                                                       const double *values,
-                                                       size_t constraint_count,
-                                                       const double *rhs,
-                                                       size_t *first);
+roundel_status roundel_problem_add_constraints_csr_i64(struct roundel_problem* problem,
+                                                       size_t offset_count, const int64_t* offsets,
+                                                       size_t count, const int64_t* columns,
+                                                       const double* values,
+                                                       size_t constraint_count, const double* rhs,
+                                                       size_t* first);
 
 /**
  * Adds the constraints C x = rhs, one a row of C, which is given in compressed columns: the
- * entries of column k are those from offsets[k] to before offsets[k + 1]. `offset_count` is one more
- * than the number of variables, `count` the number of entries. Entries of a column may be in any
- * order, duplicates are summed. The number of the first new constraint goes to `first`, which may
- * be NULL.
+ * entries of column k are those from offsets[k] to before offsets[k + 1]. `offset_count` is one
+ * more than the number of variables, `count` the number of entries. Entries of a column may be in
+ * any order, duplicates are summed. The number of the first new constraint goes to `first`, which
+ * may be NULL.
  *
  * Errors give a position in the array at fault as their index.
  */
-roundel_status roundel_problem_add_constraints_csc(struct roundel_problem *problem,
-                                                   size_t offset_count,
-                                                   const int32_t *offsets,
-                                                   size_t count,
-                                                   const int32_t *rows,
-                                                   const double *values,
-                                                   size_t constraint_count,
-                                                   const double *rhs,
-                                                   size_t *first);
+roundel_status roundel_problem_add_constraints_csc(struct roundel_problem* problem,
+                                                   size_t offset_count, const int32_t* offsets,
+                                                   size_t count, const int32_t* rows,
+                                                   const double* values, size_t constraint_count,
+                                                   const double* rhs, size_t* first);
 
 /**
  * roundel_problem_add_constraints_csc with 64-bit indices.
  */
-roundel_status roundel_problem_add_constraints_csc_i64(struct roundel_problem *problem,
-                                                       size_t offset_count,
-                                                       const int64_t *offsets,
-                                                       size_t count,
-                                                       const int64_t *rows,
-                                                       const double *values,
-                                                       size_t constraint_count,
-                                                       const double *rhs,
-                                                       size_t *first);
+roundel_status roundel_problem_add_constraints_csc_i64(struct roundel_problem* problem,
+                                                       size_t offset_count, const int64_t* offsets,
+                                                       size_t count, const int64_t* rows,
+                                                       const double* values,
+                                                       size_t constraint_count, const double* rhs,
+                                                       size_t* first);
 
 /**
  * Makes variables integer. Naming one twice is no error.
  */
-roundel_status roundel_problem_set_integers(struct roundel_problem *problem,
-                                            size_t count,
-                                            const int32_t *variables);
+roundel_status roundel_problem_set_integers(struct roundel_problem* problem, size_t count,
+                                            const int32_t* variables);
 
 /**
  * Fixes one variable to a value; an integer variable must be given an integer by the time of the
  * solve.
  */
-roundel_status roundel_problem_pin(struct roundel_problem *problem,
-                                   int64_t variable,
+roundel_status roundel_problem_pin(struct roundel_problem* problem, int64_t variable,
                                    double pinned_value);
 
 /**
  * Frees a pinned variable again; one that is free stays so.
  */
-roundel_status roundel_problem_unpin(struct roundel_problem *problem, int64_t variable);
+roundel_status roundel_problem_unpin(struct roundel_problem* problem, int64_t variable);
 
 /**
  * Sets the point that variables keep to where the objective does not decide them (zero unless
  * set), one value a variable. `length` is the number of variables.
  */
-roundel_status roundel_problem_set_guess(struct roundel_problem *problem,
-                                         const double *values,
+roundel_status roundel_problem_set_guess(struct roundel_problem* problem, const double* values,
                                          size_t length);
 
 /**
@@ -862,67 +950,56 @@ roundel_status roundel_problem_set_guess(struct roundel_problem *problem,
  * A hint never changes what is solved. One that does not hold is ignored by the solve, which says
  * so in a log event. A later hint replaces an earlier one.
  */
-roundel_status roundel_problem_hint_cycles(struct roundel_problem *problem,
-                                           size_t offset_count,
-                                           const int32_t *offsets,
-                                           size_t count,
-                                           const int32_t *rows,
-                                           const int8_t *signs);
+roundel_status roundel_problem_hint_cycles(struct roundel_problem* problem, size_t offset_count,
+                                           const int32_t* offsets, size_t count,
+                                           const int32_t* rows, const int8_t* signs);
 
 /**
  * roundel_problem_hint_cycles with 64-bit indices.
  */
-roundel_status roundel_problem_hint_cycles_i64(struct roundel_problem *problem,
-                                               size_t offset_count,
-                                               const int64_t *offsets,
-                                               size_t count,
-                                               const int64_t *rows,
-                                               const int8_t *signs);
+roundel_status roundel_problem_hint_cycles_i64(struct roundel_problem* problem, size_t offset_count,
+                                               const int64_t* offsets, size_t count,
+                                               const int64_t* rows, const int8_t* signs);
 
 /**
  * Makes a set of options with their default values.
  */
-roundel_status roundel_options_new(struct roundel_options **options);
+roundel_status roundel_options_new(struct roundel_options** options);
 
 /**
  * Frees options. NULL is allowed.
  */
-roundel_status roundel_options_free(struct roundel_options *options);
+roundel_status roundel_options_free(struct roundel_options* options);
 
 /**
  * Sets an option to a whole number; one that takes a real number takes this too.
  */
-roundel_status roundel_options_set_int(struct roundel_options *options,
-                                       const char *name,
+roundel_status roundel_options_set_int(struct roundel_options* options, const char* name,
                                        int64_t value);
 
 /**
  * Sets an option to a real number.
  */
-roundel_status roundel_options_set_real(struct roundel_options *options,
-                                        const char *name,
+roundel_status roundel_options_set_real(struct roundel_options* options, const char* name,
                                         double value);
 
 /**
  * Sets an option to a text.
  */
-roundel_status roundel_options_set_text(struct roundel_options *options,
-                                        const char *name,
-                                        const char *value);
+roundel_status roundel_options_set_text(struct roundel_options* options, const char* name,
+                                        const char* value);
 
 /**
  * Reads an option whose value is a whole number.
  */
-roundel_status roundel_options_get_int(const struct roundel_options *options,
-                                       const char *name,
-                                       int64_t *value);
+roundel_status roundel_options_get_int(const struct roundel_options* options, const char* name,
+                                       int64_t* value);
 
 /**
  * Reads an option whose value is a real number.
  */
-roundel_status roundel_options_get_real(const struct roundel_options *options,
-                                        const char *name,
-                                        double *value);
+roundel_status roundel_options_get_real(const struct roundel_options* options, const char* name,
+                                        double* value);
 
 /**
  * Reads an option whose value is a text: into `buffer`, which has `capacity` bytes, with the NUL
@@ -931,11 +1008,25 @@ roundel_status roundel_options_get_real(const struct roundel_options *options,
  *
  * Fails with ROUNDEL_ERROR_LENGTH_MISMATCH if the buffer is too small.
  */
-roundel_status roundel_options_get_text(const struct roundel_options *options,
-                                        const char *name,
-                                        char *buffer,
-                                        size_t capacity,
-                                        size_t *length);
+roundel_status roundel_options_get_text(const struct roundel_options* options, const char* name,
+                                        char* buffer, size_t capacity, size_t* length);
+
+/**
+ * How many presets there are.
+ */
+size_t roundel_preset_count(void);
+
+/**
+ * Describes preset number `index`, from 0 to below roundel_preset_count.
+ */
+roundel_status roundel_preset_info(size_t index, struct roundel_preset* preset);
+
+/**
+ * Sets all options that the preset of this name is about; others, such as the time limit, stay.
+ *
+ * Fails with ROUNDEL_ERROR_OPTION_RANGE where there is no such preset.
+ */
+roundel_status roundel_options_set_preset(struct roundel_options* options, const char* name);
 
 /**
  * How many options there are.
@@ -945,123 +1036,176 @@ size_t roundel_option_count(void);
 /**
  * Describes option number `index`, from 0 to below roundel_option_count.
  */
-roundel_status roundel_option_info(size_t index, struct roundel_option *option);
+roundel_status roundel_option_info(size_t index, struct roundel_option* option);
 
 /**
  * Makes a token that is not set.
  */
-roundel_status roundel_cancel_token_new(struct roundel_cancel_token **token);
+roundel_status roundel_cancel_token_new(struct roundel_cancel_token** token);
 
 /**
  * Frees a token. NULL is allowed.
  */
-roundel_status roundel_cancel_token_free(struct roundel_cancel_token *token);
+roundel_status roundel_cancel_token_free(struct roundel_cancel_token* token);
 
 /**
  * Asks every solve that holds this token to end, those yet to begin included.
  */
-roundel_status roundel_cancel_token_cancel(const struct roundel_cancel_token *token);
+roundel_status roundel_cancel_token_cancel(const struct roundel_cancel_token* token);
 
 /**
  * Takes the request back, so that the token can be used again.
  */
-roundel_status roundel_cancel_token_reset(const struct roundel_cancel_token *token);
+roundel_status roundel_cancel_token_reset(const struct roundel_cancel_token* token);
 
 /**
  * Gives 1 if the token is set, 0 if not.
  */
-roundel_status roundel_cancel_token_is_cancelled(const struct roundel_cancel_token *token,
-                                                 int32_t *cancelled);
+roundel_status roundel_cancel_token_is_cancelled(const struct roundel_cancel_token* token,
+                                                 int32_t* cancelled);
 
 /**
  * Frees a solution. NULL is allowed.
  */
-roundel_status roundel_solution_free(struct roundel_solution *solution);
+roundel_status roundel_solution_free(struct roundel_solution* solution);
 
 /**
  * Gives the number of variables.
  */
-roundel_status roundel_solution_variables(const struct roundel_solution *solution,
-                                          size_t *variables);
+roundel_status roundel_solution_variable_count(const struct roundel_solution* solution,
+                                               size_t* variables);
 
 /**
  * Copies the values, one a variable. `length` is the number of variables. Integer variables hold
  * exact integers, except after a relaxation.
  */
-roundel_status roundel_solution_values(const struct roundel_solution *solution,
-                                       double *values,
+roundel_status roundel_solution_values(const struct roundel_solution* solution, double* values,
                                        size_t length);
 
 /**
  * Gives the objective at the solution, in the caller's units.
  */
-roundel_status roundel_solution_energy(const struct roundel_solution *solution, double *energy);
+roundel_status roundel_solution_energy(const struct roundel_solution* solution, double* energy);
 
 /**
  * Gives a bound that no integer solution's energy is below. `known` becomes 1, or 0 where there
  * is no bound, which is minus infinity then.
  */
-roundel_status roundel_solution_lower_bound(const struct roundel_solution *solution,
-                                            int32_t *known,
-                                            double *lower_bound);
+roundel_status roundel_solution_lower_bound(const struct roundel_solution* solution, int32_t* known,
+                                            double* lower_bound);
 
 /**
  * Gives (energy - lower_bound) / max(1, |energy|). `known` becomes 1, or 0 where there is no
  * bound, and the gap infinite then.
  */
-roundel_status roundel_solution_gap(const struct roundel_solution *solution,
-                                    int32_t *known,
-                                    double *gap);
+roundel_status roundel_solution_gap(const struct roundel_solution* solution, int32_t* known,
+                                    double* gap);
 
 /**
  * Gives how the solve ended.
  */
-roundel_status roundel_solution_status(const struct roundel_solution *solution,
-                                       roundel_solve_status *status);
+roundel_status roundel_solution_status(const struct roundel_solution* solution,
+                                       roundel_solve_status* status);
 
 /**
  * Gives the sizes of the problem before and after elimination.
  */
-roundel_status roundel_solution_counts(const struct roundel_solution *solution,
-                                       struct roundel_counts *counts);
+roundel_status roundel_solution_counts(const struct roundel_solution* solution,
+                                       struct roundel_counts* counts);
 
 /**
  * Gives the wall-clock seconds that the solve took, by phase.
  */
-roundel_status roundel_solution_seconds(const struct roundel_solution *solution,
-                                        struct roundel_seconds *seconds);
+roundel_status roundel_solution_seconds(const struct roundel_solution* solution,
+                                        struct roundel_seconds* seconds);
 
 /**
  * Gives the largest |c . x - d| / max(1, sum_j |c_j x_j|) over the constraints, and the largest
  * distance of an integer variable from an integer.
  */
-roundel_status roundel_solution_violations(const struct roundel_solution *solution,
-                                           double *constraint,
-                                           double *integrality);
+roundel_status roundel_solution_violations(const struct roundel_solution* solution,
+                                           double* constraint, double* integrality);
 
 /**
- * Solves a problem. `options` may be NULL for the default options. On success `solution` is a new
- * handle, to be freed with roundel_solution_free.
+ * Solves a problem. `options` may be NULL for the default options. `monitor` hears of progress and
+ * of every better solution, and may cancel; it may be NULL. On success `solution` is a new handle,
+ * to be freed with roundel_solution_free.
  *
- * The problem is not changed; it may be solved again, as it is or after changes (a pinned
- * variable, another guess, more terms or constraints). Several threads may solve it at once.
+ * The problem is not changed. It may be solved again, as it is or after changes: a pinned variable,
+ * another guess, more terms or constraints. Several threads may solve it at once.
  *
  * Apart from bad input, fails with ROUNDEL_ERROR_INFEASIBLE, ROUNDEL_ERROR_NO_INTEGER_SOLUTION,
  * ROUNDEL_ERROR_UNBOUNDED, ROUNDEL_ERROR_NOT_CONVEX, and ROUNDEL_ERROR_CANCELLED or
  * ROUNDEL_ERROR_TIME_LIMIT when ended before a first solution was found.
  */
-roundel_status roundel_solve(const struct roundel_problem *problem,
-                             const struct roundel_options *options,
-                             struct roundel_solution **solution);
+roundel_status roundel_problem_solve(const struct roundel_problem* problem,
+                                     const struct roundel_options* options,
+                                     const struct roundel_monitor* monitor,
+                                     struct roundel_solution** solution);
 
 /**
- * Solves a problem under the eyes of `monitor`, which hears of progress and of every better
- * solution, and may cancel. `options` and `monitor` may be NULL. See roundel_solve.
+ * Makes a solver for a problem, of which it keeps a copy. To be freed with roundel_solver_free.
+ *
+ * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for an integer variable pinned to a fraction,
+ * ROUNDEL_ERROR_OVERFLOW, ROUNDEL_ERROR_OUT_OF_MEMORY. All else shows in the first solve.
  */
-roundel_status roundel_solve_with(const struct roundel_problem *problem,
-                                  const struct roundel_options *options,
-                                  const struct roundel_monitor *monitor,
-                                  struct roundel_solution **solution);
+roundel_status roundel_solver_new(const struct roundel_problem* problem,
+                                  struct roundel_solver** solver);
+
+/**
+ * Frees a solver. NULL is allowed.
+ */
+roundel_status roundel_solver_free(struct roundel_solver* solver);
+
+/**
+ * Replaces the linear term q, one value a variable. What least-squares rows add to it is not
+ * touched. `length` is the number of variables.
+ */
+roundel_status roundel_solver_set_linear(struct roundel_solver* solver, const double* values,
+                                         size_t length);
+
+/**
+ * Replaces the right sides of the constraints, one a constraint, in the order in which they were
+ * added. Whether they can hold shows in the next solve.
+ */
+roundel_status roundel_solver_set_constraint_right_sides(struct roundel_solver* solver,
+                                                         const double* values, size_t length);
+
+/**
+ * Replaces the right sides of the least-squares rows, one a row, in the order in which they were
+ * added.
+ */
+roundel_status roundel_solver_set_least_squares_right_sides(struct roundel_solver* solver,
+                                                            const double* values, size_t length);
+
+/**
+ * Sets the point that variables keep to where the objective does not decide them, one value a
+ * variable. A warm start begins there, until a solution is found.
+ */
+roundel_status roundel_solver_set_guess(struct roundel_solver* solver, const double* values,
+                                        size_t length);
+
+/**
+ * Fixes one variable to a value; an integer variable must be given an integer by the time of the
+ * solve. One that is pinned already gets another value.
+ */
+roundel_status roundel_solver_pin(struct roundel_solver* solver, int64_t variable,
+                                  double pinned_value);
+
+/**
+ * Releases a pinned variable; one that is free stays so.
+ */
+roundel_status roundel_solver_unpin(struct roundel_solver* solver, int64_t variable);
+
+/**
+ * Solves the problem as it stands. `options` may be NULL for the default options, `monitor` for
+ * none; its callback must not use the solver. On success `solution` is a new handle, to be freed
+ * with roundel_solution_free. Fails as roundel_problem_solve does.
+ */
+roundel_status roundel_solver_solve(struct roundel_solver* solver,
+                                    const struct roundel_options* options,
+                                    const struct roundel_monitor* monitor,
+                                    struct roundel_solution** solution);
 
 /**
  * Makes a problem from a file in free-format MPS, gzipped or not. Variables and constraints are
@@ -1070,7 +1214,7 @@ roundel_status roundel_solve_with(const struct roundel_problem *problem,
  * Fails with ROUNDEL_ERROR_PARSE and ROUNDEL_ERROR_NOT_SUPPORTED with the line at fault,
  * ROUNDEL_ERROR_IO.
  */
-roundel_status roundel_problem_read_mps(const char *file, struct roundel_problem **problem);
+roundel_status roundel_problem_read_mps(const char* file, struct roundel_problem** problem);
 
 /**
  * Writes a problem as free-format MPS, gzipped if the file's name ends in ".gz". Variables are
@@ -1079,23 +1223,21 @@ roundel_status roundel_problem_read_mps(const char *file, struct roundel_problem
  * MPS has no place for some parts: pins become constraints, least-squares rows are summed into Q,
  * q and c, and the guess is lost. roundel_problem_save_replay keeps pins and guess.
  */
-roundel_status roundel_problem_write_mps(const struct roundel_problem *problem, const char *file);
+roundel_status roundel_problem_write_mps(const struct roundel_problem* problem, const char* file);
 
 /**
  * Writes a problem and how to solve it, so that the solve can be repeated elsewhere: `file`, which
  * ends in ".mps" or ".mps.gz", and beside it a file that ends in ".replay.json" for options, pins
  * and guess. `options` may be NULL for the default options.
  */
-roundel_status roundel_problem_save_replay(const struct roundel_problem *problem,
-                                           const struct roundel_options *options,
-                                           const char *file);
+roundel_status roundel_problem_save_replay(const struct roundel_problem* problem,
+                                           const struct roundel_options* options, const char* file);
 
 /**
  * Makes the problem and the options that roundel_problem_save_replay wrote to `file`.
  */
-roundel_status roundel_problem_load_replay(const char *file,
-                                           struct roundel_problem **problem,
-                                           struct roundel_options **options);
+roundel_status roundel_problem_load_replay(const char* file, struct roundel_problem** problem,
+                                           struct roundel_options** options);
 
 /**
  * Makes a mesh of `vertex_count` vertices, whose `coordinates` are x, y, z in turn, and
@@ -1109,20 +1251,15 @@ roundel_status roundel_problem_load_replay(const char *file,
  * ROUNDEL_ERROR_INCONSISTENT_ORIENTATION, ROUNDEL_ERROR_ISOLATED_VERTEX,
  * ROUNDEL_ERROR_NON_MANIFOLD_VERTEX.
  */
-roundel_status roundel_mesh_new(size_t vertex_count,
-                                const double *coordinates,
-                                size_t face_count,
-                                const int32_t *corners,
-                                struct roundel_mesh **mesh);
+roundel_status roundel_mesh_new(size_t vertex_count, const double* coordinates, size_t face_count,
+                                const int32_t* corners, struct roundel_mesh** mesh);
 
 /**
  * roundel_mesh_new with 64-bit corners.
  */
-roundel_status roundel_mesh_new_i64(size_t vertex_count,
-                                    const double *coordinates,
-                                    size_t face_count,
-                                    const int64_t *corners,
-                                    struct roundel_mesh **mesh);
+roundel_status roundel_mesh_new_i64(size_t vertex_count, const double* coordinates,
+                                    size_t face_count, const int64_t* corners,
+                                    struct roundel_mesh** mesh);
 
 /**
  * Makes a procedural shape of about `faces` triangles: "rounded-cube", "sphere", "torus",
@@ -1130,76 +1267,70 @@ roundel_status roundel_mesh_new_i64(size_t vertex_count,
  *
  * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for another name or a number that cannot be served.
  */
-roundel_status roundel_mesh_make_shape(const char *name, size_t faces, struct roundel_mesh **mesh);
+roundel_status roundel_mesh_make_shape(const char* name, size_t faces, struct roundel_mesh** mesh);
 
 /**
  * Makes a copy whose vertices are moved by a reproducible noise, uniform in +-`amplitude` times
  * the shortest edge of each vertex, so that nothing in a symmetric mesh is equal any more.
  */
-roundel_status roundel_mesh_jitter(const struct roundel_mesh *mesh,
-                                   double amplitude,
-                                   int64_t seed,
-                                   struct roundel_mesh **copy);
+roundel_status roundel_mesh_jitter(const struct roundel_mesh* mesh, double amplitude, int64_t seed,
+                                   struct roundel_mesh** copy);
 
 /**
  * Frees a mesh. NULL is allowed.
  */
-roundel_status roundel_mesh_free(struct roundel_mesh *mesh);
+roundel_status roundel_mesh_free(struct roundel_mesh* mesh);
 
 /**
  * Gives the number of vertices.
  */
-roundel_status roundel_mesh_vertex_count(const struct roundel_mesh *mesh, size_t *count);
+roundel_status roundel_mesh_vertex_count(const struct roundel_mesh* mesh, size_t* count);
 
 /**
  * Gives the number of undirected edges, boundary included.
  */
-roundel_status roundel_mesh_edge_count(const struct roundel_mesh *mesh, size_t *count);
+roundel_status roundel_mesh_edge_count(const struct roundel_mesh* mesh, size_t* count);
 
 /**
  * Gives the number of faces.
  */
-roundel_status roundel_mesh_face_count(const struct roundel_mesh *mesh, size_t *count);
+roundel_status roundel_mesh_face_count(const struct roundel_mesh* mesh, size_t* count);
 
 /**
  * Gives the number of boundary loops.
  */
-roundel_status roundel_mesh_boundary_loop_count(const struct roundel_mesh *mesh, size_t *count);
+roundel_status roundel_mesh_boundary_loop_count(const struct roundel_mesh* mesh, size_t* count);
 
 /**
  * Gives vertices minus edges plus faces.
  */
-roundel_status roundel_mesh_euler_characteristic(const struct roundel_mesh *mesh,
-                                                 int64_t *characteristic);
+roundel_status roundel_mesh_euler_characteristic(const struct roundel_mesh* mesh,
+                                                 int64_t* characteristic);
 
 /**
  * Copies x, y, z of every vertex. `length` is three times the number of vertices.
  */
-roundel_status roundel_mesh_coordinates(const struct roundel_mesh *mesh,
-                                        double *coordinates,
+roundel_status roundel_mesh_coordinates(const struct roundel_mesh* mesh, double* coordinates,
                                         size_t length);
 
 /**
  * Copies the three corners of every face. `length` is three times the number of faces.
  */
-roundel_status roundel_mesh_corners(const struct roundel_mesh *mesh,
-                                    int32_t *corners,
+roundel_status roundel_mesh_corners(const struct roundel_mesh* mesh, int32_t* corners,
                                     size_t length);
 
 /**
  * Copies the two faces of every edge, first and second, the second -1 at the boundary. `length`
  * is twice the number of edges.
  */
-roundel_status roundel_mesh_edge_faces(const struct roundel_mesh *mesh,
-                                       int32_t *faces,
+roundel_status roundel_mesh_edge_faces(const struct roundel_mesh* mesh, int32_t* faces,
                                        size_t length);
 
 /**
  * Copies the edges of every face, in the order of its local edges. `length` is three times the
  * number of faces.
  */
-roundel_status roundel_mesh_face_edges(const struct roundel_mesh *mesh,
-                                       int32_t *edges,
+roundel_status roundel_mesh_face_edges(const struct roundel_mesh* mesh, int32_t* edges,
                                        size_t length);
 
 /**
@@ -1209,147 +1340,685 @@ roundel_status roundel_mesh_face_edges(const struct roundel_mesh *mesh,
  * the line at fault, ROUNDEL_ERROR_NOT_A_TRIANGLE and ROUNDEL_ERROR_INDEX_OUT_OF_RANGE with the
  * face, ROUNDEL_ERROR_NOT_SUPPORTED for another extension.
  */
-roundel_status roundel_mesh_read(const char *file, struct roundel_mesh **mesh);
+roundel_status roundel_mesh_read(const char* file, struct roundel_mesh** mesh);
 
 /**
  * Writes a mesh as OBJ, OFF or binary PLY, told apart by extension. Reading gives back the same
  * numbers.
  */
-roundel_status roundel_mesh_write(const struct roundel_mesh *mesh, const char *file);
+roundel_status roundel_mesh_write(const struct roundel_mesh* mesh, const char* file);
 
 /**
- * Finds the smoothest field of a mesh with the directions of `constraint_count` faces given (see
- * roundel_field_make_problem), under the eyes of `monitor`. `options` and `monitor` may be NULL.
- *
- * Fails as roundel_field_make_problem and roundel_solve do.
+ * Makes a guidance. To be freed with roundel_guidance_free.
  */
-roundel_status roundel_field_solve(const struct roundel_mesh *mesh,
-                                   size_t constraint_count,
-                                   const int32_t *faces,
-                                   const double *angles,
-                                   const struct roundel_options *options,
-                                   const struct roundel_monitor *monitor,
-                                   struct roundel_field **field);
+roundel_status roundel_guidance_new(struct roundel_guidance** guidance);
+
+/**
+ * Makes the guidance that quads have where none is given: crosses that follow the boundary and the
+ * curvature. To be freed with roundel_guidance_free.
+ */
+roundel_status roundel_guidance_new_for_quads(struct roundel_guidance** guidance);
+
+/**
+ * Frees a guidance. NULL is allowed.
+ */
+roundel_status roundel_guidance_free(struct roundel_guidance* guidance);
+
+/**
+ * Sets N, the number of arms in a face, evenly around: 4 for crosses (the default), and 1, 2 or 6
+ * for fields alone. A map needs crosses.
+ *
+ * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for another number.
+ */
+roundel_status roundel_guidance_set_symmetry(struct roundel_guidance* guidance, int32_t arms);
+
+/**
+ * Sets the directions that `count` faces have: `angles` of one arm, in radians, counter-clockwise
+ * about the normal from the face's first edge. Each face at most once.
+ */
+roundel_status roundel_guidance_set_constraints(struct roundel_guidance* guidance, size_t count,
+                                                const int32_t* faces, const double* angles);
+
+/**
+ * Sets the directions that `count` faces should have, each at most once: a deviation costs its
+ * square times the weight, where one between neighbours costs its square. A face with a direction
+ * that it must have keeps that.
+ */
+roundel_status roundel_guidance_set_guides(struct roundel_guidance* guidance, size_t count,
+                                           const int32_t* faces, const double* angles,
+                                           const double* weights);
+
+/**
+ * Prescribes all irregular vertices: `count` vertices of the interior, each once, and their
+ * indices in `steps` of 1/N; all others become regular. On closed meshes the indices must sum to
+ * the Euler characteristic, which shows when the field is made. roundel_guidance_clear_indices
+ * takes it back.
+ */
+roundel_status roundel_guidance_set_indices(struct roundel_guidance* guidance, size_t count,
+                                            const int32_t* vertices, const int32_t* steps);
+
+/**
+ * Leaves indices to the energy, as at first.
+ */
+roundel_status roundel_guidance_clear_indices(struct roundel_guidance* guidance);
+
+/**
+ * Sets how curvature counts. `fraction` of the faces, 0 to 1, those whose direction of least
+ * absolute curvature is most reliable, have that direction; all others are pulled towards theirs
+ * with weight `weight` * area * (|k1| - |k2|)^2. Both are 0 at first.
+ *
+ * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for a fraction outside of 0 to 1 and for a weight that
+ * is negative or not finite.
+ */
+roundel_status roundel_guidance_set_curvature(struct roundel_guidance* guidance, double fraction,
+                                              double weight);
+
+/**
+ * Makes edges features at which the normals of the two faces differ by `angle` radians or more; 0
+ * makes none.
+ *
+ * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for an angle outside of 0 to pi.
+ */
+roundel_status roundel_guidance_set_feature_angle(struct roundel_guidance* guidance, double angle);
+
+/**
+ * Makes `count` edges features, by number; they take the place of those that were set before.
+ */
+roundel_status roundel_guidance_set_feature_edges(struct roundel_guidance* guidance, size_t count,
+                                                  const int32_t* edges);
+
+/**
+ * Makes the edges between `count` pairs of vertices features; they take the place of those that
+ * were set before. `vertices` has twice as many entries.
+ */
+roundel_status roundel_guidance_set_feature_lines(struct roundel_guidance* guidance, size_t count,
+                                                  const int32_t* vertices);
+
+/**
+ * Sets whether edges of the boundary are features: 1, as at first, or 0.
+ *
+ * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for another number.
+ */
+roundel_status roundel_guidance_set_align_boundary(struct roundel_guidance* guidance,
+                                                   int32_t align);
+
+/**
+ * Sets the length, in units of the mesh, of details that attract no irregular vertices; their
+ * curvature is smoothed away before indices are decided. 0 is none. As long as it is not set, a
+ * field sees all details, and quads those as long as a quarter of their edges.
+ *
+ * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for a length that is negative or not finite.
+ */
+roundel_status roundel_guidance_set_detail(struct roundel_guidance* guidance, double length);
+
+/**
+ * Adds what a text file asks for, one wish a line: "direction FACE X Y Z [WEIGHT]" (one that the
+ * face has, or with a weight should have), "edge VERTEX VERTEX" (a feature), "index VERTEX STEPS".
+ * What follows a # is a comment.
+ *
+ * Fails with ROUNDEL_ERROR_IO, and with ROUNDEL_ERROR_PARSE and the line for what is none of these
+ * or not on the mesh; nothing is added then.
+ */
+roundel_status roundel_guidance_read(struct roundel_guidance* guidance,
+                                     const struct roundel_mesh* mesh, const char* file);
+
+/**
+ * Adds the line elements of an OBJ file, which has the vertices of the mesh, to the feature edges.
+ *
+ * Fails with ROUNDEL_ERROR_IO, and with ROUNDEL_ERROR_PARSE and the line for what is no line
+ * between vertices that an edge joins; nothing is added then.
+ */
+roundel_status roundel_guidance_read_features(struct roundel_guidance* guidance,
+                                              const struct roundel_mesh* mesh, const char* file);
+
+/**
+ * Marks the edges of a mesh that a guidance makes features: 1 for each, 0 for all others.
+ * `length` is the number of edges. `guidance` may be NULL.
+ */
+roundel_status roundel_mesh_mark_features(const struct roundel_mesh* mesh,
+                                          const struct roundel_guidance* guidance, int32_t* marks,
+                                          size_t length);
+
+/**
+ * Gives the directions of least absolute curvature of the faces where they are most reliable:
+ * `fraction` of all faces, rounded to the nearest count, in increasing order. `faces` and `angles`
+ * have room for `capacity` entries, and as many as the mesh has faces are always enough; `count`
+ * tells how many were written.
+ *
+ * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for a fraction outside of 0 to 1,
+ * ROUNDEL_ERROR_LENGTH_MISMATCH where the room is too small.
+ */
+roundel_status roundel_mesh_curvature_constraints(const struct roundel_mesh* mesh, double fraction,
+                                                  size_t capacity, int32_t* faces, double* angles,
+                                                  size_t* count);
 
 /**
  * Frees a field. NULL is allowed.
  */
-roundel_status roundel_field_free(struct roundel_field *field);
+roundel_status roundel_field_free(struct roundel_field* field);
 
 /**
- * Copies the angle of one arm of every face's cross: radians, counter-clockwise about the normal
- * from the face's first edge. Not reduced to a quarter turn: the period jumps belong to these very
- * angles. `length` is the number of faces.
+ * Copies the angle of one arm of every face: radians, counter-clockwise about the normal
+ * from the face's first edge. Not reduced to the angle between arms: the period jumps belong to
+ * these very angles. `length` is the number of faces.
  */
-roundel_status roundel_field_angles(const struct roundel_field *field,
-                                    double *angles,
+roundel_status roundel_field_angles(const struct roundel_field* field, double* angles,
                                     size_t length);
 
 /**
- * Copies the period jump of every edge, from its first to its second face: angle + kappa + pi/2
+ * Copies the period jump of every edge, from its first to its second face: angle + kappa + 2 pi/N
  * jump is the matching arm of the second. Zero at the boundary. `length` is the number of edges.
  */
-roundel_status roundel_field_period_jumps(const struct roundel_field *field,
-                                          int32_t *jumps,
+roundel_status roundel_field_period_jumps(const struct roundel_field* field, int32_t* jumps,
                                           size_t length);
 
 /**
  * Copies kappa of every edge: the angle of the frame of its first face seen in that of its second,
  * after unfolding, in (-pi, pi]. Zero at the boundary. `length` is the number of edges.
  */
-roundel_status roundel_field_kappa(const struct roundel_field *field, double *kappa, size_t length);
+roundel_status roundel_field_kappa(const struct roundel_field* field, double* kappa, size_t length);
 
 /**
- * Copies the index of every vertex in full turns, from the period jumps: a multiple of 1/4, and
+ * Copies the index of every vertex in full turns, from the period jumps: a multiple of 1/N, and
  * +1/4 at the corner of a cube. Zero for vertices of the boundary. `length` is the number of
  * vertices.
  */
-roundel_status roundel_field_vertex_indices(const struct roundel_field *field,
-                                            double *indices,
+roundel_status roundel_field_vertex_indices(const struct roundel_field* field, double* indices,
                                             size_t length);
 
 /**
  * roundel_field_vertex_indices found another way: by following an arm of the cross in space around
  * each vertex.
  */
-roundel_status roundel_field_traced_indices(const struct roundel_field *field,
-                                            double *indices,
+roundel_status roundel_field_traced_indices(const struct roundel_field* field, double* indices,
                                             size_t length);
 
 /**
  * Copies the index of every boundary loop. With the indices of the vertices they sum to the Euler
  * characteristic. `length` is the number of boundary loops.
  */
-roundel_status roundel_field_boundary_indices(const struct roundel_field *field,
-                                              double *indices,
+roundel_status roundel_field_boundary_indices(const struct roundel_field* field, double* indices,
                                               size_t length);
 
 /**
  * Gives the energy, recomputed on the mesh from angles and period jumps: the sum over interior
- * edges, not between two constrained faces, of (angle + kappa + pi/2 jump - other angle)^2.
+ * edges, not between two constrained faces, of (angle + kappa + 2 pi/N jump - other angle)^2.
  */
-roundel_status roundel_field_energy(const struct roundel_field *field, double *energy);
+roundel_status roundel_field_energy(const struct roundel_field* field, double* energy);
 
 /**
  * Gives the number of irregular vertices: those whose index is not zero.
  */
-roundel_status roundel_field_irregular_count(const struct roundel_field *field, size_t *count);
+roundel_status roundel_field_irregular_count(const struct roundel_field* field, size_t* count);
 
 /**
  * Makes a copy of the solution behind a field, which tells how the solve ended, its lower bound
  * and its times. To be freed with roundel_solution_free.
  */
-roundel_status roundel_field_solution(const struct roundel_field *field,
-                                      struct roundel_solution **solution);
+roundel_status roundel_field_solution(const struct roundel_field* field,
+                                      struct roundel_solution** solution);
 
 /**
- * Makes the mixed-integer problem of the smoothest field of a mesh with the directions of
- * `constraint_count` faces given: `angles` of one arm, in radians, counter-clockwise about the
- * normal from the face's first edge. A face may be constrained once.
+ * Gives N, the number of arms that a field has in a face.
+ */
+roundel_status roundel_field_symmetry(const struct roundel_field* field, int32_t* arms);
+
+/**
+ * Finds the smoothest field of a mesh that follows a guidance. `guidance`, `options` and `monitor`
+ * may be NULL.
+ *
+ * With the position in the list at fault, fails with ROUNDEL_ERROR_INDEX_OUT_OF_RANGE for an
+ * element that the mesh does not have, ROUNDEL_ERROR_NOT_FINITE, and
+ * ROUNDEL_ERROR_INVALID_ARGUMENT for one that is named twice, two vertices that no edge joins, a
+ * negative weight or an index at the boundary. ROUNDEL_ERROR_INVALID_ARGUMENT also for indices that
+ * do not sum to the Euler characteristic, and with the face for one whose three edges are features.
+ * Else as roundel_problem_solve does.
+ */
+roundel_status roundel_field_solve(const struct roundel_mesh* mesh,
+                                   const struct roundel_guidance* guidance,
+                                   const struct roundel_options* options,
+                                   const struct roundel_monitor* monitor,
+                                   struct roundel_field** field);
+
+/**
+ * Makes the mixed-integer problem of the field that roundel_field_solve finds. `guidance` may be
+ * NULL.
  *
  * Variable f is the angle of face f. Period jumps follow in the order of the edges, without those
  * of the boundary, between two constrained faces, and of a spanning forest, where they are zero:
  * breadth-first from the constrained faces (else the lowest face of a component) in increasing
  * number, neighbours in increasing number.
  */
-roundel_status roundel_field_make_problem(const struct roundel_mesh *mesh,
-                                          size_t constraint_count,
-                                          const int32_t *faces,
-                                          const double *angles,
-                                          struct roundel_problem **problem);
+roundel_status roundel_field_make_problem(const struct roundel_mesh* mesh,
+                                          const struct roundel_guidance* guidance,
+                                          struct roundel_problem** problem);
 
 /**
- * Makes the field that a solution of roundel_field_make_problem's problem stands for; mesh and
- * constraints are those of the problem.
+ * Makes the field of a solution of roundel_field_make_problem's problem. `mesh` and `guidance` are
+ * those of the problem.
  *
  * Fails with ROUNDEL_ERROR_LENGTH_MISMATCH for the solution of another problem,
  * ROUNDEL_ERROR_OVERFLOW for a period jump beyond 2^31.
  */
-roundel_status roundel_field_from_solution(const struct roundel_mesh *mesh,
-                                           size_t constraint_count,
-                                           const int32_t *faces,
-                                           const double *angles,
-                                           const struct roundel_solution *solution,
-                                           struct roundel_field **field);
+roundel_status roundel_field_from_solution(const struct roundel_mesh* mesh,
+                                           const struct roundel_guidance* guidance,
+                                           const struct roundel_solution* solution,
+                                           struct roundel_field** field);
 
 /**
- * Gives constraints that the surface itself suggests: `fraction` of the faces (rounded to the
- * nearest count), those whose direction of least absolute curvature is most reliable, in
- * increasing order. `faces` and `angles` have room for `capacity` entries, and as many as the mesh
- * has faces are always enough; `count` tells how many were written.
+ * Makes a map, not yet solved for, of a mesh and a field on it, with 1000 quads aimed at. Features
+ * are those of `guidance`, or of that of the field where it is NULL. To be freed with
+ * roundel_map_free.
  *
- * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for a fraction outside of 0 to 1,
- * ROUNDEL_ERROR_LENGTH_MISMATCH where the room is too small.
+ * Fails with ROUNDEL_ERROR_LENGTH_MISMATCH for the field of another mesh,
+ * ROUNDEL_ERROR_INVALID_ARGUMENT for a field of other than crosses, ROUNDEL_ERROR_OVERFLOW,
+ * ROUNDEL_ERROR_OUT_OF_MEMORY, and as roundel_mesh_mark_features does.
  */
-roundel_status roundel_mesh_curvature_constraints(const struct roundel_mesh *mesh,
-                                                  double fraction,
-                                                  size_t capacity,
-                                                  int32_t *faces,
-                                                  double *angles,
-                                                  size_t *count);
+roundel_status roundel_map_new(const struct roundel_mesh* mesh, const struct roundel_field* field,
+                               const struct roundel_guidance* guidance, struct roundel_map** map);
+
+/**
+ * Frees a map. NULL is allowed.
+ */
+roundel_status roundel_map_free(struct roundel_map* map);
+
+/**
+ * Aims at a number of quads.
+ *
+ * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for none.
+ */
+roundel_status roundel_map_set_quads(struct roundel_map* map, size_t quads);
+
+/**
+ * Aims at quads with edges of one length, in units of the mesh.
+ *
+ * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for one that is not above zero,
+ * ROUNDEL_ERROR_NOT_FINITE.
+ */
+roundel_status roundel_map_set_edge_length(struct roundel_map* map, double edge_length);
+
+/**
+ * Aims at quads with edges of two lengths a face: along the arm that the field stores there (its
+ * angle), and across it. `length` is twice the number of faces.
+ *
+ * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT and the face for one that is not above zero,
+ * ROUNDEL_ERROR_NOT_FINITE, ROUNDEL_ERROR_LENGTH_MISMATCH.
+ */
+roundel_status roundel_map_set_edge_lengths(struct roundel_map* map, const double* edge_lengths,
+                                            size_t length);
+
+/**
+ * Solves for the map under the eyes of `monitor`, which may cancel. `options` and `monitor` may be
+ * NULL. A later call after another size was set skips elimination, orderings and factorizations.
+ *
+ * Fails as roundel_problem_solve does, and leaves what an earlier solve found. The callback must
+ * not use the map.
+ */
+roundel_status roundel_map_solve(struct roundel_map* map, const struct roundel_options* options,
+                                 const struct roundel_monitor* monitor);
+
+/**
+ * Makes a copy of the mixed-integer problem of a map at its present size, to be kept or solved in
+ * another way. Variables 2 c and 2 c + 1 are u and v of vertex c of the cut surface; the
+ * translations of the seams follow.
+ */
+roundel_status roundel_map_make_problem(const struct roundel_map* map,
+                                        struct roundel_problem** problem);
+
+/**
+ * Takes any solution of roundel_map_make_problem's problem in place of a solve.
+ *
+ * Fails with ROUNDEL_ERROR_LENGTH_MISMATCH for the solution of another problem.
+ */
+roundel_status roundel_map_set_solution(struct roundel_map* map,
+                                        const struct roundel_solution* solution);
+
+/**
+ * Solves for a map without folds, as the program `roundel parametrize` does: integers that collapse
+ * cones are decided anew, faces that are turned over are untangled, vertices that the map goes
+ * around once too often are laid anew, and where folds are left all that is done for a finer map.
+ * Of all maps that with the fewest folds is kept. `options` are those of every solve, `monitor`
+ * watches each; both may be NULL. Every solve starts from nothing. A relaxation is not untangled.
+ *
+ * roundel_map_flipped_face_count and roundel_map_winding_defect_count tell what is left,
+ * roundel_map_round_count and roundel_map_refinement_count what it took. A map that was made finer
+ * keeps the size asked for in mind, for the next solve.
+ *
+ * Fails as roundel_problem_solve does for the first solve, with ROUNDEL_ERROR_CANCELLED also later,
+ * and leaves what an earlier solve found. The callback must not use the map.
+ */
+roundel_status roundel_map_solve_fold_free(struct roundel_map* map,
+                                           const struct roundel_options* options,
+                                           const struct roundel_monitor* monitor);
+
+/**
+ * Sets how often the surroundings of faces that are turned over are made stiffer before these are
+ * untangled, the classical remedy, with the integers kept: at most 5 times unless told otherwise.
+ */
+roundel_status roundel_map_set_stiffening_count(struct roundel_map* map, size_t count);
+
+/**
+ * Moves the vertices that integers do not hold until as few faces as can be are turned over or
+ * collapsed, under the eyes of `monitor`, which may be NULL. Seams, cones and isolines stay what
+ * they are. roundel_map_flipped_face_count tells what is left; the solution stays that of the
+ * solve. After roundel_map_solve_fold_free there is nothing left to do.
+ *
+ * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT where nothing has been solved for, and after a
+ * relaxation, which has no integers to hold; ROUNDEL_ERROR_CANCELLED, which leaves the map as it
+ * was.
+ */
+roundel_status roundel_map_untangle(struct roundel_map* map, const struct roundel_monitor* monitor);
+
+/**
+ * Gives the number of inner vertices around which the map turns another number of times than the
+ * field, faces that are turned over left aside: a ring of faces may go around its vertex twice
+ * without a fold. Recomputed from the mesh. With none of these and no flipped faces, a map is
+ * one to one around every inner point.
+ */
+roundel_status roundel_map_winding_defect_count(const struct roundel_map* map, size_t* count);
+
+/**
+ * Copies the vertices of roundel_map_winding_defect_count, in increasing order. `length` is their
+ * number.
+ */
+roundel_status roundel_map_winding_defects(const struct roundel_map* map, int32_t* vertices,
+                                           size_t length);
+
+/**
+ * Gives how often roundel_map_solve_fold_free decided integers anew, at the size that the map has;
+ * 0 after any other solve.
+ */
+roundel_status roundel_map_round_count(const struct roundel_map* map, size_t* count);
+
+/**
+ * Gives how often roundel_map_solve_fold_free made the map finer than asked for, each time by the
+ * square root of two in length; 0 after any other solve. Smaller quads around what folds were left
+ * after that are not counted.
+ */
+roundel_status roundel_map_refinement_count(const struct roundel_map* map, size_t* count);
+
+/**
+ * Copies u, v of the three corners of every face. `length` is six times the number of faces.
+ */
+roundel_status roundel_map_corner_uvs(const struct roundel_map* map, double* uvs, size_t length);
+
+/**
+ * Gives the number of vertices of the cut surface: a vertex has one for each sector between cut
+ * edges.
+ */
+roundel_status roundel_map_vertex_count(const struct roundel_map* map, size_t* count);
+
+/**
+ * Copies u, v of every vertex of the cut surface. `length` is twice their number.
+ */
+roundel_status roundel_map_vertex_uvs(const struct roundel_map* map, double* uvs, size_t length);
+
+/**
+ * Copies the three corners of every face as vertices of the cut surface. `length` is three times
+ * the number of faces.
+ */
+roundel_status roundel_map_vertex_corners(const struct roundel_map* map, int32_t* corners,
+                                          size_t length);
+
+/**
+ * Gives the number of cut edges.
+ */
+roundel_status roundel_map_cut_count(const struct roundel_map* map, size_t* count);
+
+/**
+ * Copies the cut edges in increasing order, and how coordinates change over each from its first to
+ * its second face: by `quarters` turns counter-clockwise, 0 to 3, then by a translation (s, t).
+ * `count` is the number of cut edges; `translations` has twice as many entries.
+ */
+roundel_status roundel_map_transitions(const struct roundel_map* map, size_t count, int32_t* edges,
+                                       int32_t* quarters, double* translations);
+
+/**
+ * Gives the number of cones: irregular vertices of the field.
+ */
+roundel_status roundel_map_cone_count(const struct roundel_map* map, size_t* count);
+
+/**
+ * Copies the cones in increasing order. `length` is their number.
+ */
+roundel_status roundel_map_cones(const struct roundel_map* map, int32_t* vertices, size_t length);
+
+/**
+ * Gives the number of faces that the map turns over or collapses.
+ */
+roundel_status roundel_map_flipped_face_count(const struct roundel_map* map, size_t* count);
+
+/**
+ * Copies the faces that the map turns over or collapses, in increasing order. `length` is their
+ * number.
+ */
+roundel_status roundel_map_flipped_faces(const struct roundel_map* map, int32_t* faces,
+                                         size_t length);
+
+/**
+ * Gives how far the gradients of u and v are from the arms of the field, as long as they should
+ * be: the sum over triangles of area times the squares of both differences, recomputed from the
+ * mesh.
+ */
+roundel_status roundel_map_energy(const struct roundel_map* map, double* energy);
+
+/**
+ * Makes a copy of the solution behind a map, which tells how the solve ended, its lower bound and
+ * its times. To be freed with roundel_solution_free.
+ */
+roundel_status roundel_map_solution(const struct roundel_map* map,
+                                    struct roundel_solution** solution);
+
+/**
+ * Writes the mesh with the coordinates of its corners as OBJ.
+ */
+roundel_status roundel_map_write(const struct roundel_map* map, const char* file);
+
+/**
+ * Makes quad options. To be freed with roundel_quad_options_free.
+ */
+roundel_status roundel_quad_options_new(struct roundel_quad_options** options);
+
+/**
+ * Frees quad options. NULL is allowed.
+ */
+roundel_status roundel_quad_options_free(struct roundel_quad_options* options);
+
+/**
+ * Aims at a number of quads.
+ */
+roundel_status roundel_quad_options_set_quads(struct roundel_quad_options* options, size_t quads);
+
+/**
+ * Aims at edges of one length instead, in units of the mesh.
+ */
+roundel_status roundel_quad_options_set_edge_length(struct roundel_quad_options* options,
+                                                    double edge_length);
+
+/**
+ * Aims at edges of two lengths a face instead: along the arm that the field stores there, and
+ * across it. `length` is twice the number of faces.
+ */
+roundel_status roundel_quad_options_set_edge_lengths(struct roundel_quad_options* options,
+                                                     const double* edge_lengths, size_t length);
+
+/**
+ * Sets what quads follow, by a copy of `guidance`; NULL stands for the boundary and the curvature,
+ * which is what roundel_guidance_new_for_quads makes.
+ */
+roundel_status roundel_quad_options_set_guidance(struct roundel_quad_options* options,
+                                                 const struct roundel_guidance* guidance);
+
+/**
+ * Sets whether curvature may count for less than the guidance has it, where the map is less
+ * distorted then: 1, as at first, or 0. On meshes that are not large a few fields are tried.
+ *
+ * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for another number.
+ */
+roundel_status roundel_quad_options_set_vary_curvature(struct roundel_quad_options* options,
+                                                       int32_t vary);
+
+/**
+ * Sets how the field is solved for, by a copy of `solve`; NULL stands for adaptive rounding.
+ */
+roundel_status roundel_quad_options_set_field_options(struct roundel_quad_options* options,
+                                                      const struct roundel_options* solve);
+
+/**
+ * Sets how the map is solved for, by a copy of `solve`; NULL stands for lattice decoding.
+ */
+roundel_status roundel_quad_options_set_map_options(struct roundel_quad_options* options,
+                                                    const struct roundel_options* solve);
+
+/**
+ * Sets whether a map is untangled whose folds extraction cannot cope with: 1, as at first, or 0.
+ *
+ * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for another number.
+ */
+roundel_status roundel_quad_options_set_untangle(struct roundel_quad_options* options,
+                                                 int32_t untangle);
+
+/**
+ * Sets whether quads are smoothed: 1, as at first, or 0, which leaves vertices where the map has
+ * them.
+ *
+ * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for another number.
+ */
+roundel_status roundel_quad_options_set_smooth(struct roundel_quad_options* options,
+                                               int32_t smooth);
+
+/**
+ * Makes quads of a mesh: field, map, extraction and smoothing in one call. `options` may be NULL
+ * for new quad options, `monitor` for none. Features, and the boundary where it is followed, become
+ * chains of the quads' edges. roundel_quads_is_conforming tells whether all faces are quads.
+ *
+ * Fails as roundel_field_solve and roundel_map_solve do, and with ROUNDEL_ERROR_INVALID_ARGUMENT,
+ * ROUNDEL_ERROR_NOT_FINITE or ROUNDEL_ERROR_LENGTH_MISMATCH for a size that is none.
+ */
+roundel_status roundel_quads_make(const struct roundel_mesh* mesh,
+                                  const struct roundel_quad_options* options,
+                                  const struct roundel_monitor* monitor,
+                                  struct roundel_quads** quads);
+
+/**
+ * Extracts the quads of the last solve of a map. Faces that the map turns over are coped with.
+ *
+ * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for a map that has not been solved for, or whose
+ * integers were not decided.
+ */
+roundel_status roundel_quads_extract(const struct roundel_map* map, struct roundel_quads** quads);
+
+/**
+ * Extracts the quads of an integer-grid map from anywhere: u, v of the three corners of every face.
+ * Over seams coordinates turn by quarters and shift by integers, and irregular vertices lie on
+ * integers. `length` is six times the number of faces.
+ *
+ * Fails with ROUNDEL_ERROR_NOT_FINITE and ROUNDEL_ERROR_OVERFLOW with the face,
+ * ROUNDEL_ERROR_INVALID_ARGUMENT with the edge that is no such seam or the vertex around which
+ * coordinates close at no integer point.
+ */
+roundel_status roundel_quads_extract_from_uvs(const struct roundel_mesh* mesh, const double* uvs,
+                                              size_t length, struct roundel_quads** quads);
+
+/**
+ * Moves the vertices of quads over the mesh that they were extracted from, towards squares of one
+ * size. They stay on the features of `guidance` and on the boundary; NULL stands for no features.
+ * After a failure the quads are what they were.
+ */
+roundel_status roundel_quads_smooth(struct roundel_quads* quads, const struct roundel_mesh* mesh,
+                                    const struct roundel_guidance* guidance,
+                                    const struct roundel_monitor* monitor);
+
+/**
+ * Frees quads. NULL is allowed.
+ */
+roundel_status roundel_quads_free(struct roundel_quads* quads);
+
+/**
+ * Gives the number of vertices. Every vertex has a face.
+ */
+roundel_status roundel_quads_vertex_count(const struct roundel_quads* quads, size_t* count);
+
+/**
+ * Copies x, y, z of every vertex. `length` is three times the number of vertices.
+ */
+roundel_status roundel_quads_coordinates(const struct roundel_quads* quads, double* coordinates,
+                                         size_t length);
+
+/**
+ * Gives the number of quads.
+ */
+roundel_status roundel_quads_count(const struct roundel_quads* quads, size_t* count);
+
+/**
+ * Copies the four corners of every quad, counter-clockwise seen from outside. `length` is four
+ * times the number of quads.
+ */
+roundel_status roundel_quads_corners(const struct roundel_quads* quads, int32_t* corners,
+                                     size_t length);
+
+/**
+ * Gives the number of faces that are no quads, and of all their corners together. Either place may
+ * not be NULL.
+ */
+roundel_status roundel_quads_other_face_counts(const struct roundel_quads* quads, size_t* count,
+                                               size_t* corner_count);
+
+/**
+ * Copies the faces that are no quads: the number of corners of each, and the corners of all, one
+ * face after the other. The lengths are those of roundel_quads_other_face_counts.
+ */
+roundel_status roundel_quads_other_faces(const struct roundel_quads* quads, size_t count,
+                                         int32_t* sizes, size_t corner_count, int32_t* corners);
+
+/**
+ * Gives the number of vertices with other than four edges, or three on the boundary.
+ */
+roundel_status roundel_quads_irregular_count(const struct roundel_quads* quads, size_t* count);
+
+/**
+ * Gives vertices minus edges plus faces.
+ */
+roundel_status roundel_quads_euler_characteristic(const struct roundel_quads* quads,
+                                                  int64_t* euler);
+
+/**
+ * Gives 1 if there is nothing but quads, each edge has two faces, or one at the boundary, and the
+ * Euler characteristic is that of the triangle mesh; 0 otherwise: roundel_quads_faults names the
+ * elements at fault.
+ */
+roundel_status roundel_quads_is_conforming(const struct roundel_quads* quads,
+                                           int32_t* is_conforming);
+
+/**
+ * Gives the numbers of elements that keep quads from conforming: faces that are no quads or have a
+ * vertex twice, edges with more than two faces or two that run the same way, and vertices whose
+ * faces are more than one fan; and of triangles that the map folds, which is where faults come
+ * from. No place may be NULL.
+ */
+roundel_status roundel_quads_fault_counts(const struct roundel_quads* quads, size_t* face_count,
+                                          size_t* edge_count, size_t* vertex_count,
+                                          size_t* triangle_count);
+
+/**
+ * Copies the elements that roundel_quads_fault_counts counts: faces, the quads numbered first and
+ * then the others; the two vertices of each edge; vertices; triangles of the mesh. The lengths are
+ * those counts.
+ */
+roundel_status roundel_quads_faults(const struct roundel_quads* quads, size_t face_count,
+                                    int32_t* faces, size_t edge_count, int32_t* edges,
+                                    size_t vertex_count, int32_t* vertices, size_t triangle_count,
+                                    int32_t* triangles);
+
+/**
+ * Writes the faces as OBJ. Reading gives back the same numbers.
+ *
+ * Fails with ROUNDEL_ERROR_IO.
+ */
+roundel_status roundel_quads_write(const struct roundel_quads* quads, const char* file);
 
 #ifdef __cplusplus
-}  // extern "C"
-#endif  // __cplusplus
+} // extern "C"
+#endif // __cplusplus
 
-#endif  /* ROUNDEL_H */
+#endif /* ROUNDEL_H */

@@ -1,0 +1,84 @@
+//! Why a call failed, kept as its thread's last error.
+
+use std::cell::RefCell;
+
+use super::status::roundel_status::{self, *};
+use crate::Error;
+
+/// Why a call failed: what the library says, or what only the C interface can get wrong.
+#[derive(Debug)]
+pub(super) enum Failure {
+    Library(Error),
+    /// What the library says of an entry of a matrix, and the row that it is in.
+    InRow {
+        row: usize,
+        error: Error,
+    },
+    Null(&'static str),
+    Panic(String),
+    Unusable,
+}
+
+/// What the body of an entry gives back.
+pub(super) type Outcome<T = ()> = Result<T, Failure>;
+
+impl From<Error> for Failure {
+    fn from(error: Error) -> Self {
+        Failure::Library(error)
+    }
+}
+
+/// What a thread remembers of its last call that failed.
+#[derive(Default)]
+pub(super) struct LastError {
+    pub(super) message: String,
+    pub(super) index: Option<usize>,
+    pub(super) line: Option<usize>,
+    pub(super) direction: Vec<f64>,
+}
+
+thread_local! {
+    static LAST: RefCell<LastError> = RefCell::default();
+}
+
+impl Failure {
+    /// Keeps the failure as this thread's last error and gives its number.
+    pub(super) fn record(self) -> roundel_status {
+        let (status, message) = match &self {
+            Failure::Library(error) => (error.into(), error.to_string()),
+            Failure::InRow { row, error } => (error.into(), format!("row {row}: {error}")),
+            Failure::Null(what) => (ROUNDEL_ERROR_NULL_POINTER, format!("{what} is NULL")),
+            Failure::Panic(text) => (
+                ROUNDEL_ERROR_PANIC,
+                format!("a defect of the library, please report it: {text}"),
+            ),
+            Failure::Unusable => (
+                ROUNDEL_ERROR_UNUSABLE,
+                "the handle was given up in an earlier error and can only be freed".into(),
+            ),
+        };
+        let error = match self {
+            Failure::Library(error) | Failure::InRow { error, .. } => Some(error),
+            _ => None,
+        };
+        let last = LastError {
+            message,
+            index: error.as_ref().and_then(Error::index),
+            line: error.as_ref().and_then(Error::line),
+            direction: match error {
+                Some(Error::Unbounded { direction, .. } | Error::NotConvex { direction, .. }) => {
+                    direction
+                }
+                _ => Vec::new(),
+            },
+        };
+        // Fails only while the thread ends, when nobody can ask any more.
+        let _ = LAST.try_with(|slot| slot.replace(last));
+        status
+    }
+}
+
+/// Reads this thread's last error; None while the thread ends.
+pub(super) fn last<T>(read: impl FnOnce(&LastError) -> T) -> Option<T> {
+    LAST.try_with(|slot| read(&slot.borrow())).ok()
+}

@@ -1,0 +1,43 @@
+//! Peak memory of this process, from the operating system's own account.
+
+/// The most memory that this process has had resident so far, in bytes; `None` where the operating
+/// system does not tell.
+pub fn peak_memory() -> Option<u64> {
+    #[cfg(unix)]
+    {
+        let mut usage = std::mem::MaybeUninit::<libc::rusage>::zeroed();
+        // SAFETY: the pointer is to a writable `rusage`, and RUSAGE_SELF is a valid request.
+        let code = unsafe { libc::getrusage(libc::RUSAGE_SELF, usage.as_mut_ptr()) };
+        if code != 0 {
+            return None;
+        }
+        // SAFETY: all bits zero are a valid `rusage` of integers, whatever the call wrote over them.
+        let most = u64::try_from(unsafe { usage.assume_init() }.ru_maxrss).ok()?;
+        // Apple counts bytes, all others kibibytes.
+        let unit = if cfg!(target_vendor = "apple") {
+            1
+        } else {
+            1024
+        };
+        most.checked_mul(unit)
+    }
+    #[cfg(not(unix))]
+    None
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    use super::peak_memory;
+
+    #[test]
+    fn the_peak_grows_by_the_memory_that_is_touched_and_never_falls() {
+        const MORE: usize = 256 << 20;
+        let before = peak_memory().unwrap();
+        let touched = vec![1_u8; before as usize + MORE];
+        let during = peak_memory().unwrap();
+        assert!(during >= before + MORE as u64, "{before} to {during}");
+        assert!(during < 16 * (before + MORE as u64), "bytes, not kibibytes");
+        drop(touched);
+        assert!(peak_memory().unwrap() >= during);
+    }
+}
