@@ -23,7 +23,7 @@ const fn elsewhere(command: &'static str, file: &'static str, words: &'static st
 /// Commands that are run by something else than the tests of the program, which run `roundel ...`
 /// and `cargo run --release -p roundel-cli -- ...`, and those of the installed package, which run
 /// whatever pages beside a CMakeLists.txt or with pkg-config say.
-const ELSEWHERE: [Elsewhere; 23] = [
+const ELSEWHERE: [Elsewhere; 22] = [
     elsewhere("scripts/test", ".ci/run", "scripts/test"),
     elsewhere(
         "roundel evaluate --tables tables --max-triangles 2000 --time-limit 10",
@@ -44,11 +44,6 @@ const ELSEWHERE: [Elsewhere; 23] = [
         "cmake -S . -B build && cmake --build build && cmake --install build --prefix ~/roundel",
         "cpp_tests/package/install.cmake",
         "--install \"${BUILD}\" --prefix",
-    ),
-    elsewhere(
-        "python3 -m venv ~/env && . ~/env/bin/activate",
-        "scripts/test-python",
-        "python3 -m venv",
     ),
     elsewhere(
         "pip wheel --no-deps -w dist bindings/python && pip install dist/roundel-*.whl",
