@@ -65,53 +65,6 @@ fn checking_shares_no_code_with_what_makes_maps() {
 }
 
 #[test]
-fn unsafe_code_lives_in_the_c_interface_only() {
-    for (path, text) in sources() {
-        if module(&path) == "capi" {
-            continue;
-        }
-        let tokens = tokens(&text);
-        let found = tokens.iter().any(|t| t == "unsafe");
-        assert!(!found, "{} is unsafe", path.display());
-        let allowed = tokens
-            .windows(3)
-            .any(|w| w == ["allow", "(", "unsafe_code"]);
-        let is_gate = path.ends_with("src/lib.rs");
-        assert!(is_gate || !allowed, "{} allows unsafe", path.display());
-    }
-}
-
-#[test]
-fn the_library_never_prints() {
-    for (path, text) in sources() {
-        let found = macros_called(
-            &tokens(&text),
-            &["print", "println", "eprint", "eprintln", "dbg"],
-        );
-        assert!(found.is_empty(), "{} calls {found:?}", path.display());
-    }
-}
-
-#[test]
-fn no_file_is_longer_than_a_reader_can_hold() {
-    for (path, text) in sources() {
-        let lines = text.lines().count();
-        assert!(lines <= LONGEST, "{} has {lines} lines", path.display());
-    }
-}
-
-#[test]
-fn every_file_says_first_what_it_is() {
-    for (path, text) in sources() {
-        assert!(
-            text.starts_with("//! "),
-            "{} has no heading",
-            path.display()
-        );
-    }
-}
-
-#[test]
 fn the_documented_layers_are_these() {
     let text = described();
     let listed = text.lines().filter_map(|line| line.strip_prefix("- `"));
@@ -158,6 +111,53 @@ fn described() -> String {
 
 fn starts_with_number(text: &str) -> bool {
     text.starts_with(|c: char| c.is_ascii_digit())
+}
+
+#[test]
+fn unsafe_code_lives_in_the_c_interface_only() {
+    for (path, text) in sources() {
+        if module(&path) == "capi" {
+            continue;
+        }
+        let tokens = tokens(&text);
+        let found = tokens.iter().any(|t| t == "unsafe");
+        assert!(!found, "{} is unsafe", path.display());
+        let allowed = tokens
+            .windows(3)
+            .any(|w| w == ["allow", "(", "unsafe_code"]);
+        let is_gate = path.ends_with("src/lib.rs");
+        assert!(is_gate || !allowed, "{} allows unsafe", path.display());
+    }
+}
+
+#[test]
+fn the_library_never_prints() {
+    for (path, text) in sources() {
+        let found = macros_called(
+            &tokens(&text),
+            &["print", "println", "eprint", "eprintln", "dbg"],
+        );
+        assert!(found.is_empty(), "{} calls {found:?}", path.display());
+    }
+}
+
+#[test]
+fn no_file_is_longer_than_a_reader_can_hold() {
+    for (path, text) in sources() {
+        let lines = text.lines().count();
+        assert!(lines <= LONGEST, "{} has {lines} lines", path.display());
+    }
+}
+
+#[test]
+fn every_file_says_first_what_it_is() {
+    for (path, text) in sources() {
+        assert!(
+            text.starts_with("//! "),
+            "{} has no heading",
+            path.display()
+        );
+    }
 }
 
 #[test]
