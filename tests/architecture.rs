@@ -65,6 +65,55 @@ fn the_check_shares_no_code_with_the_construction_of_maps() {
 }
 
 #[test]
+fn the_documented_layers_are_these() {
+    let text = described();
+    let listed = text.lines().filter_map(|line| line.strip_prefix("- `"));
+    let names: Vec<_> = listed.filter_map(|line| line.split('`').next()).collect();
+    assert_eq!(names, LAYERS);
+}
+
+#[test]
+fn documented_files_exist() {
+    let text = described();
+    let named: Vec<_> = text.split('`').filter(|t| t.ends_with(".rs")).collect();
+    assert!(named.len() > 25, "{named:?}");
+    for name in named {
+        let path = root().parent().unwrap().join(name);
+        assert!(path.is_file(), "docs/architecture.md names {name}");
+    }
+}
+
+/// The solver's steps, in italics, are called by the field and the map.
+#[test]
+fn no_documented_step_returns_to_an_earlier_layer() {
+    let text = described();
+    let is_step = |line: &&str| line.strip_prefix("| ").is_some_and(starts_with_number);
+    let mut last = height("mesh").unwrap();
+    let mut count = 0;
+    for step in text.lines().filter(is_step) {
+        let file = step.split("`src/").nth(1).unwrap();
+        let layer = height(file.split('/').next().unwrap()).unwrap();
+        let is_solver = layer < height("mesh").unwrap();
+        assert_eq!(is_solver, step.contains("| *"), "{step}");
+        if !is_solver {
+            assert!(layer >= last, "{step}");
+            last = layer;
+        }
+        count += 1;
+        assert!(step.starts_with(&format!("| {count} |")), "{step}");
+    }
+    assert!(count > 20 && last == height("smooth").unwrap());
+}
+
+fn described() -> String {
+    fs::read_to_string(root().parent().unwrap().join("docs/architecture.md")).unwrap()
+}
+
+fn starts_with_number(text: &str) -> bool {
+    text.starts_with(|c: char| c.is_ascii_digit())
+}
+
+#[test]
 fn unsafe_code_lives_in_the_c_interface_only() {
     for (path, text) in sources() {
         if module(&path) == "capi" {

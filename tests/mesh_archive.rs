@@ -18,8 +18,8 @@ use roundel::check::{CheckOptions, check_map};
 use roundel::field::solve_field;
 use roundel::map::{SeamlessProblem, Sizing};
 use roundel::mesh::{MeshError, TriangleMesh, io};
-use roundel::quad::QuadOptions;
-use roundel::untangle::{FoldFreeMap, UntangleOptions, solve_fold_free};
+use roundel::quad::{FoldFreeMap, QuadOptions, solve_fold_free};
+use roundel::untangle::UntangleOptions;
 use roundel::{Monitor, Options, Strategy};
 
 const DEBIAN: &str = "/usr/share/doc/libcgal-dev/data.tar.gz";

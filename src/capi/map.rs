@@ -14,7 +14,8 @@ use super::solution::roundel_solution;
 use super::status::roundel_status;
 use crate::map::{SeamlessMap, SeamlessOptions, SeamlessProblem, Sizing};
 use crate::mesh::TriangleMesh;
-use crate::untangle::{FoldFreeMap, UntangleOptions};
+use crate::quad::FoldFreeMap;
+use crate::untangle::UntangleOptions;
 use crate::{Error, Options, Result, Solution, SolveStatus, Solver};
 
 /// All that a solve at another size needs again, and what the last one found.

@@ -8,7 +8,8 @@ use super::map_results::give;
 use super::options::roundel_options;
 use super::output::{Out, copy_numbers};
 use super::status::roundel_status;
-use crate::untangle::{UntangleOptions, solve_fold_free, untangle};
+use crate::quad::solve_fold_free;
+use crate::untangle::{UntangleOptions, untangle};
 use crate::{Error, Options, SolveStatus};
 
 /// Solves for a map without folds, as the program `roundel parametrize` does: integers that collapse

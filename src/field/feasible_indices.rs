@@ -3,149 +3,22 @@
 //! The smoothest field may turn at one vertex as often as the surface does: the tip of a horn gets
 //! index 1, around which no angle is left for a map, as `2 pi (1 - I)` is what its triangles have to
 //! share. Where that is too little or more than they can hold, quarters move to the nearest vertices
-//! that can take them, and the field is solved for again with those indices prescribed. So it is
-//! where indices are decided without the details of the surface ([`super::detail`]).
+//! that can take them.
 
-use std::collections::VecDeque;
+use std::collections::{BTreeSet, VecDeque};
 
-use super::{Constraint, FieldOptions, FieldProblem, OrientationField, PrescribedIndex};
 use crate::mesh::TriangleMesh;
-use crate::{Error, Monitor, Options, Result, Solution, Solver, WarmStart, solve_with};
 
 /// Quarters of the largest index that a vertex keeps: half a turn is left, as at the end of a
 /// pillow.
-const MOST: i32 = 2;
+pub(super) const MOST: i32 = 2;
 
 /// Quarters of the least index that a vertex keeps: six quads meet.
 const LEAST: i32 = -2;
 
-/// The smoothest field, whether a map can follow it or not, and the solution that it was read from.
-///
-/// With a length of [details](FieldOptions::detail) this is [`solve_field`], as all who want none of
-/// the details want quads.
-///
-/// # Errors
-/// Those of [`solve_field`].
-pub fn smoothest_field<'a>(
-    mesh: &TriangleMesh,
-    options: &FieldOptions,
-    solver: &Options,
-    monitor: impl Fn() -> Monitor<'a>,
-) -> Result<(OrientationField, Solution)> {
-    if options.detail > 0.0 {
-        return solve_field(mesh, options, solver, monitor);
-    }
-    solve_stated(mesh, options, solver, monitor())
-}
-
-/// The field of the problem that these options state.
-fn solve_stated(
-    mesh: &TriangleMesh,
-    options: &FieldOptions,
-    solver: &Options,
-    monitor: Monitor,
-) -> Result<(OrientationField, Solution)> {
-    let problem = FieldProblem::with_options(mesh, options)?;
-    let solution = solve_with(problem.problem(), solver, monitor)?;
-    Ok((problem.field(mesh, &solution)?, solution))
-}
-
-/// The smoothest field, all details seen, with the period jumps of the solver's last solution, which
-/// did not see them.
-fn smoothest_with(
-    mesh: &TriangleMesh,
-    problem: &FieldProblem,
-    solver: &mut Solver,
-    options: &Options,
-    monitor: Monitor,
-) -> Result<(OrientationField, Solution)> {
-    solver.set_least_squares_right_sides(&problem.right_sides_with_details(mesh))?;
-    let keep = Options {
-        warm_start: WarmStart::Keep,
-        ..options.clone()
-    };
-    let solution = solver.solve_with(&keep, monitor)?;
-    Ok((problem.field(mesh, &solution)?, solution))
-}
-
-/// The smoothest field among those that a map can follow, and the solution that it was read from.
-///
-/// With a length of [details](FieldOptions::detail) a first field, which does not see them, decides
-/// the indices; the field is the smoothest with these.
-///
-/// Indices that the caller prescribes are kept whatever they are, and so are the
-/// [firm](FieldOptions::firm) constraints. Other directions of faces around a vertex give way where
-/// they alone decide an index that no map can have.
-///
-/// # Errors
-/// Those of [`FieldProblem::with_options`], of [`solve`](crate::solve()) and of
-/// [`FieldProblem::field`].
-pub fn solve_field<'a>(
-    mesh: &TriangleMesh,
-    options: &FieldOptions,
-    solver: &Options,
-    monitor: impl Fn() -> Monitor<'a>,
-) -> Result<(OrientationField, Solution)> {
-    let problem = FieldProblem::with_options(mesh, options)?;
-    let mut kept = Solver::new(problem.problem())?;
-    let solution = kept.solve_with(solver, monitor())?;
-    let field = problem.field(mesh, &solution)?;
-    if options.indices.is_some() || options.symmetry != 4 {
-        return Ok((field, solution));
-    }
-    let found = steps(mesh, &field);
-    let steps = spread(mesh, found.clone());
-    if steps == found {
-        return match options.detail > 0.0 {
-            true => smoothest_with(mesh, &problem, &mut kept, solver, monitor()),
-            false => Ok((field, solution)),
-        };
-    }
-    let irregular = (0..steps.len()).filter(|&v| steps[v] != 0);
-    let indices = irregular.map(|vertex| PrescribedIndex {
-        vertex,
-        steps: steps[vertex],
-    });
-    let mut spread = FieldOptions {
-        indices: Some(indices.collect()),
-        detail: 0.0,
-        ..options.clone()
-    };
-    for _ in 0..2 {
-        match solve_stated(mesh, &spread, solver, monitor()) {
-            // Directions alone may decide an index.
-            Err(
-                Error::InvalidArgument { .. }
-                | Error::Infeasible { .. }
-                | Error::NoIntegerSolution { .. },
-            ) => give_way(mesh, &field, &mut spread),
-            other => return other,
-        }
-    }
-    Ok((field, solution))
-}
-
-/// Takes the directions away of faces around vertices whose index is another than the field's.
-fn give_way(mesh: &TriangleMesh, field: &OrientationField, options: &mut FieldOptions) {
-    let mut steps = steps(mesh, field);
-    for given in options.indices.iter().flatten() {
-        steps[given.vertex] -= given.steps;
-    }
-    let regular = |c: &Constraint| mesh.corners(c.face).iter().all(|&v| steps[v] == 0);
-    let given = std::mem::take(&mut options.constraints).into_iter();
-    let kept = given
-        .enumerate()
-        .filter(|(k, c)| *k < options.firm || regular(c));
-    options.constraints = kept.map(|(_, c)| c).collect();
-}
-
-fn steps(mesh: &TriangleMesh, field: &OrientationField) -> Vec<i32> {
-    let indices = field.vertex_indices(mesh);
-    indices.iter().map(|i| (4.0 * i).round() as i32).collect()
-}
-
-/// The same indices, none beyond what a map can have, as long as there is where to put the rest.
-fn spread(mesh: &TriangleMesh, mut steps: Vec<i32>) -> Vec<i32> {
+/// The same indices, in quarters, none beyond what a map can have, as long as there is where to put the
+/// rest.
+pub(super) fn feasible_indices(mesh: &TriangleMesh, mut steps: Vec<i32>) -> Vec<i32> {
     for v in 0..steps.len() {
         while steps[v] > MOST {
             let Some(to) = nearest(mesh, v, |w| steps[w] < 1) else {
@@ -172,7 +45,7 @@ fn least(mesh: &TriangleMesh, vertex: usize) -> i32 {
 
 /// The first interior vertex breadth-first from one, itself excepted, that will do.
 fn nearest(mesh: &TriangleMesh, from: usize, will_do: impl Fn(usize) -> bool) -> Option<usize> {
-    let mut is_seen = std::collections::BTreeSet::from([from]);
+    let mut is_seen = BTreeSet::from([from]);
     let mut queue = VecDeque::from([from]);
     while let Some(v) = queue.pop_front() {
         for (face, corner) in mesh.ring(v) {
@@ -186,60 +59,4 @@ fn nearest(mesh: &TriangleMesh, from: usize, will_do: impl Fn(usize) -> bool) ->
         }
     }
     None
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// A cone so steep that the smoothest field turns as it does: more than half a turn at the tip.
-    fn horn(sides: u32) -> TriangleMesh {
-        let at = |ring: u32, k: u32| 1 + (ring - 1) * sides + k % sides;
-        let mut points = vec![[0.0, 0.0, 20.0]];
-        let mut triangles = Vec::new();
-        for ring in 1..=20u32 {
-            let radius = 0.1 * f64::from(ring);
-            for k in 0..sides {
-                let (sin, cos) =
-                    (std::f64::consts::TAU * f64::from(k) / f64::from(sides)).sin_cos();
-                points.push([radius * cos, radius * sin, 20.0 - f64::from(ring)]);
-                if ring == 1 {
-                    triangles.push([0, at(1, k), at(1, k + 1)]);
-                } else {
-                    let [a, b] = [at(ring - 1, k), at(ring - 1, k + 1)];
-                    let [c, d] = [at(ring, k), at(ring, k + 1)];
-                    triangles.extend([[a, c, d], [a, d, b]]);
-                }
-            }
-        }
-        TriangleMesh::new(points, triangles).unwrap()
-    }
-
-    #[test]
-    fn no_vertex_keeps_an_index_that_no_map_can_have() {
-        let mesh = horn(8);
-        let options = FieldOptions::default();
-        let problem = FieldProblem::with_options(&mesh, &options).unwrap();
-        let solution = solve_with(problem.problem(), &Options::default(), Monitor::default());
-        let smoothest = problem.field(&mesh, &solution.unwrap()).unwrap();
-        let before = steps(&mesh, &smoothest);
-        assert!(before[0] > MOST, "{}", before[0]);
-        let (field, _) =
-            solve_field(&mesh, &options, &Options::default(), Monitor::default).unwrap();
-        let after = steps(&mesh, &field);
-        assert!(after.iter().all(|&n| n <= MOST), "{after:?}");
-        assert_eq!(after.iter().sum::<i32>(), before.iter().sum::<i32>());
-    }
-
-    #[test]
-    fn a_field_that_a_map_can_follow_is_left_alone() {
-        let mesh = crate::mesh::shape::by_name("rounded-cube", 600).unwrap();
-        let options = FieldOptions::default();
-        let problem = FieldProblem::with_options(&mesh, &options).unwrap();
-        let solution = solve_with(problem.problem(), &Options::default(), Monitor::default());
-        let smoothest = problem.field(&mesh, &solution.unwrap()).unwrap();
-        let (field, _) =
-            solve_field(&mesh, &options, &Options::default(), Monitor::default).unwrap();
-        assert_eq!(field, smoothest);
-    }
 }

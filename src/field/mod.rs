@@ -17,13 +17,14 @@ mod options;
 mod orientation_field;
 mod prescribed_indices;
 mod problem;
+mod solve_field;
 mod spanning_forest;
 mod traced_index;
 
 pub use curvature_guidance::{curvature_constraints, curvature_guides};
-pub use feasible_indices::{smoothest_field, solve_field};
 pub use feature_alignment::feature_constraints;
 pub use guidance::Guidance;
 pub use options::{Constraint, FieldOptions, Guide, PrescribedIndex};
 pub use orientation_field::OrientationField;
 pub use problem::FieldProblem;
+pub use solve_field::{smoothest_field, solve_field};

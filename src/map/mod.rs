@@ -26,7 +26,6 @@ pub use problem::{SeamlessOptions, SeamlessProblem, TRANSLATION_WEIGHT};
 pub use seamless_map::{SeamlessMap, Transition};
 pub use sizing::Sizing;
 
-pub(crate) use feature_strips::hold_apart;
 pub(crate) use from_values::gradient;
-pub(crate) use separation::{Wish, constraints_of, solve_separated};
+pub(crate) use separation::{SeparationConstraint, constraints_of, solve_separated};
 pub(crate) use winding_defects::{has_winding_defect, winding_defects};

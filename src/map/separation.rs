@@ -1,77 +1,100 @@
-//! Constraints added to a problem, without those that contradict the others.
+//! Separation constraints: what keeps two cones, two corners of a triangle or two feature curves apart
+//! that the integers of a map have put on top of each other.
 
+use super::SeamlessMap;
 use crate::eliminate::eliminate;
 use crate::problem::RowList;
 use crate::{Error, Model, Monitor, Options, Problem, Result, Solution, Solver, solve_with};
 
-/// A constraint that something asks for, on top of those that there are.
-pub(crate) trait Wish {
-    /// The two unknowns, their coefficients, and the right side.
-    fn row(&self) -> ([usize; 2], [f64; 2], f64);
+/// `b - a = by` for two unknowns `[a, b]` of a map that integers decide, `by` a whole number.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct SeparationConstraint {
+    pub(crate) unknowns: [usize; 2],
+    pub(crate) by: f64,
 }
 
-/// The problem with the wishes as constraints, those left out that contradict it or the wishes before
+impl SeparationConstraint {
+    /// Between the same coordinate, 0 for u and 1 for v, of two copies of vertices.
+    pub(crate) fn new(copies: [u32; 2], axis: usize, by: f64) -> Self {
+        let unknowns = copies.map(|copy| 2 * copy as usize + axis);
+        SeparationConstraint { unknowns, by }
+    }
+
+    /// Whether a map has both at one value, or the wrong way round.
+    pub(crate) fn is_collapsed(&self, map: &SeamlessMap) -> bool {
+        let [a, b] = self.unknowns.map(|unknown| map.values()[unknown].round());
+        (b - a) * self.by <= 0.0
+    }
+
+    fn row(&self) -> ([usize; 2], [f64; 2], f64) {
+        let [a, b] = self.unknowns;
+        ([b, a], [1.0, -1.0], self.by)
+    }
+}
+
+/// Solves under these constraints as well. Those are left out that contradict the problem or the
+/// constraints before them; none if none is left.
+///
+/// # Errors
+/// Those of [`solve_with`], but for constraints that contradict each other.
+pub(crate) fn solve_separated<'a>(
+    solver: &mut Solver,
+    constraints: &mut Vec<SeparationConstraint>,
+    options: &Options,
+    monitor: &impl Fn() -> Monitor<'a>,
+) -> Result<Option<Solution>> {
+    while !constraints.is_empty() {
+        let mut rows = RowList::default();
+        let variables = solver.problem().variables();
+        for (indices, coefficients, rhs) in constraints.iter().map(SeparationConstraint::row) {
+            let what = "separation constraint";
+            rows.push(what, variables, &indices, &coefficients, rhs)?;
+        }
+        match solver.solve_subject_to(&rows, options, monitor()) {
+            Ok(Some(solution)) => return Ok(Some(solution)),
+            Ok(None) => {
+                let problem = with_separation(solver.problem(), constraints, monitor)?;
+                let solved = problem.map(|problem| solve_with(&problem, options, monitor()));
+                return solved.transpose();
+            }
+            Err(
+                Error::Infeasible { constraint, .. } | Error::NoIntegerSolution { constraint, .. },
+            ) => constraints.remove(constraint),
+            Err(error) => return Err(error),
+        };
+    }
+    Ok(None)
+}
+
+/// The problem with these constraints stated, but for those that contradict it or the constraints before
 /// them; none if none is left.
 ///
 /// # Errors
 /// Those of [`eliminate`], but for constraints that contradict each other.
-pub(super) fn with_separation<'a, W: Wish>(
+fn with_separation<'a>(
     stated: &Problem,
-    wishes: &mut Vec<W>,
+    constraints: &mut Vec<SeparationConstraint>,
     monitor: &impl Fn() -> Monitor<'a>,
 ) -> Result<Option<Problem>> {
     // Whether constraints can hold does not depend on the objective, and is told faster without.
     let bare = without_objective(stated)?;
-    while !wishes.is_empty() {
-        let row = match eliminate(&Model::new(&with(&bare, wishes)?)?, &mut monitor()) {
-            Ok(_) => return with(stated, wishes).map(Some),
+    while !constraints.is_empty() {
+        let row = match eliminate(&Model::new(&with(&bare, constraints)?)?, &mut monitor()) {
+            Ok(_) => return with(stated, constraints).map(Some),
             Err(
                 Error::Infeasible { constraint, .. } | Error::NoIntegerSolution { constraint, .. },
             ) => constraint,
             Err(error) => return Err(error),
         };
         let at = row.checked_sub(stated.constraints());
-        wishes.remove(at.unwrap_or(wishes.len() - 1));
+        constraints.remove(at.unwrap_or(constraints.len() - 1));
     }
     Ok(None)
 }
 
-/// The solution under the wishes as further constraints, those left out that contradict the problem or
-/// the wishes before them; none if none is left.
-///
-/// # Errors
-/// Those of [`solve_with`], but for constraints that contradict each other.
-pub(crate) fn solve_separated<'a, W: Wish>(
-    solver: &mut Solver,
-    wishes: &mut Vec<W>,
-    options: &Options,
-    monitor: &impl Fn() -> Monitor<'a>,
-) -> Result<Option<Solution>> {
-    while !wishes.is_empty() {
-        let mut rows = RowList::default();
-        for (indices, coefficients, rhs) in wishes.iter().map(Wish::row) {
-            let variables = solver.problem().variables();
-            rows.push("wish", variables, &indices, &coefficients, rhs)?;
-        }
-        match solver.solve_subject_to(&rows, options, monitor()) {
-            Ok(Some(solution)) => return Ok(Some(solution)),
-            Ok(None) => {
-                let problem = with_separation(solver.problem(), wishes, monitor)?;
-                let solved = problem.map(|problem| solve_with(&problem, options, monitor()));
-                return solved.transpose();
-            }
-            Err(
-                Error::Infeasible { constraint, .. } | Error::NoIntegerSolution { constraint, .. },
-            ) => wishes.remove(constraint),
-            Err(error) => return Err(error),
-        };
-    }
-    Ok(None)
-}
-
-fn with<W: Wish>(stated: &Problem, wishes: &[W]) -> Result<Problem> {
+fn with(stated: &Problem, constraints: &[SeparationConstraint]) -> Result<Problem> {
     let mut problem = stated.clone();
-    for (indices, coefficients, rhs) in wishes.iter().map(Wish::row) {
+    for (indices, coefficients, rhs) in constraints.iter().map(SeparationConstraint::row) {
         problem.add_constraint(&indices, &coefficients, rhs)?;
     }
     Ok(problem)
@@ -106,36 +129,38 @@ pub(crate) fn constraints_of(stated: &Problem) -> Result<Problem> {
 mod tests {
     use super::*;
 
-    struct Differ(usize, usize, f64);
-
-    impl Wish for Differ {
-        fn row(&self) -> ([usize; 2], [f64; 2], f64) {
-            ([self.1, self.0], [1.0, -1.0], self.2)
-        }
+    fn apart(a: usize, b: usize, by: f64) -> SeparationConstraint {
+        let unknowns = [a, b];
+        SeparationConstraint { unknowns, by }
     }
 
     #[test]
-    fn what_contradicts_an_earlier_wish_or_the_problem_is_left_out() {
+    fn what_contradicts_an_earlier_constraint_or_the_problem_is_left_out() {
         let mut stated = Problem::new(4).unwrap();
         stated.add_constraint(&[0, 1], &[1.0, -1.0], 0.0).unwrap();
         stated.set_integers(&[0, 1, 2, 3]).unwrap();
         stated.pin(3, 2.0).unwrap();
-        let mut wishes = vec![
-            Differ(0, 1, 1.0),
-            Differ(1, 2, 1.0),
-            Differ(0, 2, 2.0),
-            Differ(2, 3, 0.5),
-            Differ(2, 3, 1.0),
+        let given = vec![
+            apart(0, 1, 1.0),
+            apart(1, 2, 1.0),
+            apart(0, 2, 2.0),
+            apart(2, 3, 0.5),
+            apart(2, 3, 1.0),
         ];
-        let found = with_separation(&stated, &mut wishes, &Monitor::default).unwrap();
+        let mut stays = given.clone();
+        let found = with_separation(&stated, &mut stays, &Monitor::default).unwrap();
         assert_eq!(found.unwrap().constraints(), 3);
-        let left: Vec<_> = wishes.iter().map(|w| (w.0, w.1, w.2)).collect();
-        assert_eq!(left, [(1, 2, 1.0), (2, 3, 1.0)]);
-        let mut none = vec![Differ(0, 1, 1.0)];
-        assert!(
-            with_separation(&stated, &mut none, &Monitor::default)
-                .unwrap()
-                .is_none()
-        );
+        assert_eq!(stays, [apart(1, 2, 1.0), apart(2, 3, 1.0)]);
+
+        let mut stays = given;
+        let mut solver = Solver::new(&stated).unwrap();
+        let options = Options::default();
+        let solution = solve_separated(&mut solver, &mut stays, &options, &Monitor::default);
+        assert_eq!(solution.unwrap().unwrap().values(), [0.0, 0.0, 1.0, 2.0]);
+        assert_eq!(stays, [apart(1, 2, 1.0), apart(2, 3, 1.0)]);
+
+        let mut none = vec![apart(0, 1, 1.0)];
+        let found = with_separation(&stated, &mut none, &Monitor::default);
+        assert!(found.unwrap().is_none());
     }
 }

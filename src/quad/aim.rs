@@ -11,38 +11,30 @@ use crate::{Monitor, Options, Result, Solver, Strategy};
 /// No more than so many times as many are asked for.
 const MOST: f64 = 2.0;
 
-/// What the relaxation is like for the size that was asked for.
-pub(super) struct Relaxed {
-    pub(super) energy: f64,
-    /// How many unit squares it covers.
-    pub(super) squares: f64,
-}
-
-/// Asks for so many quads that the relaxation covers as many as were wanted. Other sizes stay.
+/// Asks for so many quads that the relaxation covers as many as were wanted, and gives the energy of that
+/// many unit squares. Other sizes stay.
 pub(super) fn aim(
     mesh: &TriangleMesh,
     problem: &mut SeamlessProblem,
     solver: &mut Solver,
     sizing: &Sizing,
     monitor: Monitor,
-) -> Result<Relaxed> {
+) -> Result<f64> {
     let options = Options {
         strategy: Strategy::Relax,
         ..Options::default()
     };
     let solution = solver.solve_with(&options, monitor)?;
-    let relaxed = Relaxed {
-        energy: solution.energy(),
-        squares: area(mesh, &problem.map(mesh, &solution)?),
+    let squares = area(mesh, &problem.map(mesh, &solution)?);
+    let &Sizing::Quads(wanted) = sizing else {
+        return Ok(solution.energy());
     };
-    if let &Sizing::Quads(wanted) = sizing {
-        let more = (wanted as f64 / relaxed.squares).clamp(1.0, MOST);
-        let asked = (more * wanted as f64).round() as usize;
-        if asked != wanted {
-            problem.resize(mesh, &Sizing::Quads(asked), solver)?;
-        }
+    let more = (wanted as f64 / squares).clamp(1.0, MOST);
+    let asked = (more * wanted as f64).round() as usize;
+    if asked != wanted {
+        problem.resize(mesh, &Sizing::Quads(asked), solver)?;
     }
-    Ok(relaxed)
+    Ok(solution.energy() / squares * wanted as f64)
 }
 
 /// How many unit squares a map covers.

@@ -8,9 +8,10 @@
 
 use super::QuadOptions;
 use super::aim::aim;
-use super::quadrangulate::timed;
+use super::outcome::Outcome;
+use super::quadrangulation::timed;
 use crate::field::{FieldOptions, Guidance, OrientationField, solve_field};
-use crate::map::{SeamlessProblem, Sizing};
+use crate::map::SeamlessProblem;
 use crate::mesh::TriangleMesh;
 use crate::mesh::features::FeatureGraph;
 use crate::{Error, Monitor, Result, Solution, Solver};
@@ -47,34 +48,29 @@ const OTHERS: [Use; 4] = [
 /// takes no longer than one of 40,000.
 const FACES: usize = 39_000;
 
-/// What an irregular vertex costs, in the energy of a map of unit squares. A few more are worth it
-/// where they make all quads more even, many are not.
-const PRICE: f64 = 2.0;
-
 /// A field, and the problem of the map that follows it.
-pub(super) struct Decided {
-    pub(super) wishes: FieldOptions,
+pub(super) struct ChosenField {
+    /// What the field follows.
+    pub(super) options: FieldOptions,
     pub(super) field: OrientationField,
-    pub(super) field_solution: Solution,
+    pub(super) solution: Solution,
     pub(super) problem: SeamlessProblem,
     pub(super) solver: Solver,
-    cost: f64,
+    outcome: Outcome,
 }
 
 /// The best of the fields that may be tried. `seconds` are those of fields and of maps.
-pub(super) fn decide<'a>(
+pub(super) fn choose_field<'a>(
     mesh: &TriangleMesh,
     options: &QuadOptions,
     features: &FeatureGraph,
     monitor: &impl Fn() -> Monitor<'a>,
-    seconds: [&mut f64; 2],
-) -> Result<Decided> {
-    let [of_field, of_map] = seconds;
+    [of_field, of_map]: [&mut f64; 2],
+) -> Result<ChosenField> {
     let mut best = follow(mesh, options, features, monitor, [of_field, of_map])?;
     for other in others(mesh, options) {
-        let seconds = [&mut *of_field, &mut *of_map];
-        match follow(mesh, &other, features, monitor, seconds) {
-            Ok(found) if found.cost < best.cost => best = found,
+        match follow(mesh, &other, features, monitor, [of_field, of_map]) {
+            Ok(found) if found.outcome < best.outcome => best = found,
             // What the caller asks for can be had, and so that is no error.
             Ok(_) | Err(Error::Infeasible { .. } | Error::NoIntegerSolution { .. }) => {}
             Err(error) => return Err(error),
@@ -111,26 +107,21 @@ fn follow<'a>(
     features: &FeatureGraph,
     monitor: &impl Fn() -> Monitor<'a>,
     [of_field, of_map]: [&mut f64; 2],
-) -> Result<Decided> {
-    let wishes = options.guidance.field_options(mesh, features)?;
-    let (field, field_solution) = timed(of_field, || {
-        solve_field(mesh, &wishes, &options.field, monitor)
+) -> Result<ChosenField> {
+    let field_options = options.guidance.field_options(mesh, features)?;
+    let (field, solution) = timed(of_field, || {
+        solve_field(mesh, &field_options, &options.field, monitor)
     })?;
     timed(of_map, || {
         let sizing = &options.sizing;
         let mut problem = SeamlessProblem::with_features(mesh, &field, sizing, features)?;
         let mut solver = Solver::new(problem.problem())?;
-        let relaxed = aim(mesh, &mut problem, &mut solver, sizing, monitor())?;
-        let squares = match sizing {
-            Sizing::Quads(wanted) => *wanted as f64,
-            _ => relaxed.squares,
-        };
-        let cones = problem.cones().len() as f64;
-        Ok(Decided {
-            cost: relaxed.energy / relaxed.squares * squares + PRICE * cones,
-            wishes,
+        let energy = aim(mesh, &mut problem, &mut solver, sizing, monitor())?;
+        Ok(ChosenField {
+            outcome: Outcome::of_relaxation(energy, problem.cones().len()),
+            options: field_options,
             field,
-            field_solution,
+            solution,
             problem,
             solver,
         })

@@ -2,6 +2,7 @@
 //!
 //! Which vertices are cones is said by hand: a flat field has none.
 
+use super::super::held_elements::{HeldElements, NearCones};
 use super::*;
 use crate::field::{Constraint, FieldProblem};
 use crate::map::Sizing;
@@ -51,9 +52,14 @@ impl Flat {
         copy.map(|copy| [copies.contains(&copy); 2]).collect()
     }
 
+    /// What integers may collapse where they hold these coordinates.
+    fn elements(&self, held: &[[bool; 2]]) -> HeldElements {
+        HeldElements::new(&self.problem, &self.mesh, held)
+    }
+
     /// Near cones where these vertices are cones: each pair from its lower vertex, in order.
     fn near(&self, cones: &[usize]) -> Vec<([u32; 2], [f64; 2])> {
-        let found = self.problem.near_cones(&self.mesh, &self.held(cones));
+        let found = self.elements(&self.held(cones)).pairs;
         let mut pairs = Vec::new();
         for NearCones {
             copies,
@@ -81,9 +87,11 @@ impl Flat {
 
     /// What of these cones is collapsed in a map.
     fn collapsed(&self, cones: &[usize], at: impl Fn([f64; 2]) -> [f64; 2]) -> Collapsed {
-        let held = self.held(cones);
-        let near = self.problem.near_cones(&self.mesh, &held);
-        Collapsed::find(&held, &near, &[], &self.map(at))
+        let elements = HeldElements {
+            isoline_triangles: Vec::new(),
+            ..self.elements(&self.held(cones))
+        };
+        Collapsed::find(&elements, &self.map(at))
     }
 }
 
@@ -101,8 +109,8 @@ fn assert_pairs(found: &[([u32; 2], [f64; 2])], expected: &[([u32; 2], [f64; 2])
     }
 }
 
-fn apart(from: u32, to: u32, axis: usize, by: f64) -> Apart {
-    Apart::new([from, to], axis, by)
+fn apart(from: u32, to: u32, axis: usize, by: f64) -> SeparationConstraint {
+    SeparationConstraint::new([from, to], axis, by)
 }
 
 #[test]
@@ -142,7 +150,7 @@ fn vertices_of_which_one_coordinate_is_held_are_no_cones() {
     let strip = Flat::grid(8, 1, 1.0, &[]);
     let mut held = strip.held(&[0, 8]);
     held[8] = [true, false];
-    assert_eq!(strip.problem.near_cones(&strip.mesh, &held), []);
+    assert_eq!(strip.elements(&held).pairs, []);
 }
 
 #[test]
@@ -180,7 +188,7 @@ fn no_path_leads_across_the_cut() {
         let mut held = vec![[false; 2]; problem.sectors.count()];
         let all = cones.into_iter().flat_map(copies);
         all.for_each(|copy| held[copy as usize] = [true; 2]);
-        problem.near_cones(&mesh, &held).len()
+        HeldElements::new(&problem, &mesh, &held).pairs.len()
     };
     let mut cut = 0;
     for i in 0..sides {
@@ -204,7 +212,7 @@ fn two_cones_are_collapsed_at_one_point_or_the_wrong_way_round() {
     let count = |at: fn([f64; 2]) -> [f64; 2]| {
         let found = strip.collapsed(&[0, 4], at);
         assert!(found.faces.is_empty() && found.isoline_triangles.is_empty());
-        assert!(found.cones().all(|cones| cones == [0, 4]));
+        assert!(found.pairs.iter().all(|pair| pair.vertices == [0, 4]));
         assert_eq!(found.count(), found.pairs.len());
         found.count()
     };
@@ -252,10 +260,11 @@ fn a_pair_is_held_apart_along_its_longer_coordinate_by_that_or_one_unit() {
         }];
         let collapsed = Collapsed {
             pairs,
-            ..Collapsed::default()
+            faces: Vec::new(),
+            isoline_triangles: Vec::new(),
         };
         let map = strip.map(|_| [0.0; 2]);
-        strip.problem.apart(&strip.mesh, &map, &collapsed)
+        collapsed.separation(&strip.mesh, &strip.problem, &map)
     };
     assert_eq!(held([3.2, 0.4]), [apart(6, 1, 0, 3.0)]);
     assert_eq!(held([-0.2, -2.6]), [apart(6, 1, 1, -3.0)]);
@@ -274,7 +283,7 @@ fn a_face_is_held_open_as_the_nearest_triangle_of_units() {
         ..collapsed
     };
     let map = square.map(at);
-    let found = square.problem.apart(&square.mesh, &map, &faces);
+    let found = faces.separation(&square.mesh, &square.problem, &map);
     // From vertex 0 to vertex 2 by (1, 0), to vertex 3 by (1, 1).
     let u = [apart(0, 2, 0, 1.0), apart(0, 3, 0, 1.0)];
     let v = [apart(0, 2, 1, 0.0), apart(0, 3, 1, 1.0)];
@@ -288,19 +297,19 @@ fn a_face_on_one_isoline_is_held_open_by_one_unit() {
     let points = points.map(|[x, y]| [x, y, 0.0]).to_vec();
     let flat = Flat::new(points, vec![[0, 1, 2], [0, 2, 3]], 0.2, &[]);
     let held = [[true, false]; 4];
-    let isoline_triangles = flat.problem.isoline_triangles(&flat.mesh, &held);
-    assert_eq!(isoline_triangles.len(), 2);
+    let elements = flat.elements(&held);
+    assert_eq!(elements.isoline_triangles.len(), 2);
     let map = flat.map(|[_, y]| [0.0, 5.0 * y]);
-    let collapsed = Collapsed::find(&held, &[], &isoline_triangles, &map);
+    let collapsed = Collapsed::find(&elements, &map);
     assert_eq!(
         (collapsed.isoline_triangles.len(), collapsed.count()),
         (2, 2)
     );
-    let found = flat.problem.apart(&flat.mesh, &map, &collapsed);
+    let found = collapsed.separation(&flat.mesh, &flat.problem, &map);
     assert_eq!(found, [apart(2, 0, 0, -1.0)]);
     // In the map as it should be nothing is wrong.
     let map = flat.map(|[x, y]| [5.0 * x, 5.0 * y]);
-    assert!(Collapsed::find(&held, &[], &isoline_triangles, &map).is_empty());
+    assert!(Collapsed::find(&elements, &map).count() == 0);
 }
 
 #[test]
@@ -319,9 +328,7 @@ fn no_two_cones_are_joined_twice() {
         isoline_triangles: Vec::new(),
     };
     let map = square.map(|_| [0.0; 2]);
-    let found = square.problem.apart(&square.mesh, &map, &collapsed);
+    let found = collapsed.separation(&square.mesh, &square.problem, &map);
     assert_eq!(found.len(), 5);
     assert_eq!(found[4], apart(0, 1, 1, 1.0));
-    assert!(found[4].is_between(&apart(0, 1, 1, 3.0)));
-    assert!(!found[4].is_between(&apart(0, 1, 0, 1.0)));
 }

@@ -20,7 +20,7 @@ const REACH: f64 = 3.0;
 const LEAST_EDGES: f64 = 4.0;
 
 /// Multiplies the lengths of faces, one a face, around the faults of a map.
-pub(super) fn grow_around(
+pub(crate) fn grow_around(
     mesh: &TriangleMesh,
     problem: &SeamlessProblem,
     untangled: &Untangled,

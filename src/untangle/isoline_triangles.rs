@@ -4,7 +4,7 @@
 //! first the other is on is for the integers alone: on the wrong one, or on the same isoline, the face is
 //! turned over or flat whatever else moves.
 
-use crate::map::SeamlessProblem;
+use crate::map::{SeamlessMap, SeamlessProblem};
 use crate::mesh::TriangleMesh;
 
 /// Such a face, its coordinate, and by how much that should differ from each corner to the next.
@@ -16,12 +16,15 @@ pub(super) struct IsolineTriangle {
 }
 
 impl IsolineTriangle {
-    /// The two corners, if any, between which integers must differ otherwise than at these coordinates,
-    /// and by how much they should: of a face on one isoline the two that should be farthest apart, and
+    /// The two corners, if any, between which integers must differ otherwise than in this map, and
+    /// by how much they should: of a face on one isoline the two that should be farthest apart, and
     /// else an end of the edge on an isoline and the corner on the wrong side of it.
-    pub fn wrong(&self, at: [f64; 3]) -> Option<([usize; 2], f64)> {
+    pub fn wrong(&self, map: &SeamlessMap) -> Option<([usize; 2], f64)> {
+        self.wrong_at(map.uv(self.face).map(|p| p[self.axis].round()))
+    }
+
+    fn wrong_at(&self, at: [f64; 3]) -> Option<([usize; 2], f64)> {
         let ahead = |k: usize| (k + 1) % 3;
-        let at = at.map(f64::round);
         if at[0] == at[1] && at[0] == at[2] {
             let size = |k: &usize| self.aim[*k].abs();
             let across = (0..3).max_by(|a, b| size(a).total_cmp(&size(b)))?;
@@ -61,7 +64,7 @@ mod tests {
     use super::*;
 
     /// The first edge should be an isoline nearly, the third corner 1.5 beyond it.
-    const BANDED: IsolineTriangle = IsolineTriangle {
+    const TRIANGLE: IsolineTriangle = IsolineTriangle {
         face: 0,
         axis: 0,
         aim: [0.2, 1.4, -1.6],
@@ -69,24 +72,24 @@ mod tests {
 
     #[test]
     fn a_face_between_isolines_as_it_should_be_is_left_alone() {
-        assert_eq!(BANDED.wrong([4.0, 4.0, 5.0]), None);
-        assert_eq!(BANDED.wrong([4.0, 4.0, 7.0]), None);
+        assert_eq!(TRIANGLE.wrong_at([4.0, 4.0, 5.0]), None);
+        assert_eq!(TRIANGLE.wrong_at([4.0, 4.0, 7.0]), None);
         // Not decided by this coordinate.
-        assert_eq!(BANDED.wrong([4.0, 5.0, 3.0]), None);
+        assert_eq!(TRIANGLE.wrong_at([4.0, 5.0, 3.0]), None);
     }
 
     #[test]
     fn a_corner_on_the_wrong_side_of_an_isoline_is_told_how_far_it_should_be() {
-        assert_eq!(BANDED.wrong([4.0, 4.0, 3.0]), Some(([0, 2], 1.5)));
+        assert_eq!(TRIANGLE.wrong_at([4.0, 4.0, 3.0]), Some(([0, 2], 1.5)));
         let turned = IsolineTriangle {
             aim: [-1.6, 0.2, 1.4],
-            ..BANDED
+            ..TRIANGLE
         };
-        assert_eq!(turned.wrong([3.0, 4.0, 4.0]), Some(([1, 0], 1.5)));
+        assert_eq!(turned.wrong_at([3.0, 4.0, 4.0]), Some(([1, 0], 1.5)));
     }
 
     #[test]
     fn a_face_on_one_isoline_is_opened_where_it_should_be_widest() {
-        assert_eq!(BANDED.wrong([4.0, 4.0, 4.0]), Some(([2, 0], -1.6)));
+        assert_eq!(TRIANGLE.wrong_at([4.0, 4.0, 4.0]), Some(([2, 0], -1.6)));
     }
 }

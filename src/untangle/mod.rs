@@ -18,17 +18,18 @@
 //! | a disk around a vertex | `disk` |
 //! | a disk around a cone, in polar coordinates | `polar` |
 //! | vertices gone around twice | `unwind` |
-//! | faces between isolines, turned over | `isoline_triangles` |
-//! | cones at one point, held apart | `separate` |
-//! | smaller quads around what is left | `graded` |
-//! | all of it, from the problem on | `unfolded` |
+//! | what integers alone may collapse | `held_elements`, `isoline_triangles` |
+//! | what they do collapse, and how to hold it apart | `collapsed` |
+//! | smaller quads around what is left | `grading` |
+//!
+//! What is tried when, [`solve_fold_free`](crate::quad::solve_fold_free) decides.
 
-mod attempts;
 mod collapsed;
 mod disk;
 mod energy;
 mod freedom;
 mod grading;
+mod held_elements;
 mod hessian;
 mod isoline_triangles;
 mod polar;
@@ -39,8 +40,9 @@ mod stuck;
 mod system;
 mod unwind;
 
-pub use attempts::{FoldFreeMap, solve_fold_free};
-pub use collapsed::Collapsed;
+pub(crate) use collapsed::Collapsed;
+pub(crate) use grading::grow_around;
+pub(crate) use held_elements::HeldElements;
 
 use crate::map::{SeamlessMap, SeamlessProblem};
 use crate::mesh::TriangleMesh;
@@ -119,19 +121,26 @@ impl Untangled {
         self.flipped_after + self.winding_defects.len()
     }
 
-    /// A map that nothing was done to, and whose vertices were not looked at.
-    pub fn as_it_is(map: SeamlessMap) -> Self {
+    /// A map that nothing was done to.
+    ///
+    /// # Errors
+    /// [`LengthMismatch`](crate::Error::LengthMismatch) for the map of another problem or mesh.
+    pub fn untouched(
+        mesh: &TriangleMesh,
+        problem: &SeamlessProblem,
+        map: SeamlessMap,
+    ) -> Result<Self> {
         let flipped = map.flipped().len();
-        Untangled {
+        Ok(Untangled {
+            winding_defects: problem.winding_defects(mesh, &map)?,
             map,
             flipped_before: flipped,
             flipped_stiffened: flipped,
             flipped_after: flipped,
-            winding_defects: Vec::new(),
             steps: 0,
             stuck_faces: Vec::new(),
             collapsed_edges: Vec::new(),
-        }
+        })
     }
 }
 
@@ -153,11 +162,11 @@ pub fn untangle(
 ) -> Result<Untangled> {
     problem.check_map(mesh, map)?;
     let structure = Structure::new(mesh, problem, map, monitor)?;
-    untangle_in(&structure, mesh, problem, map, options, monitor)
+    structure.untangle(mesh, problem, map, options, monitor)
 }
 
 /// What integers and size of a map do not change.
-struct Structure {
+pub(crate) struct Structure {
     freedom: Freedom,
     /// How many quarter turns there should be around each vertex.
     quarters: Vec<Option<i32>>,
@@ -165,7 +174,7 @@ struct Structure {
 
 impl Structure {
     /// Of all maps of this problem, whatever their size: of which this is one.
-    fn new(
+    pub(crate) fn new(
         mesh: &TriangleMesh,
         problem: &SeamlessProblem,
         map: &SeamlessMap,
@@ -176,49 +185,58 @@ impl Structure {
             quarters: problem.quarters(mesh),
         })
     }
-}
 
-/// [`untangle`], for a map of known structure.
-fn untangle_in(
-    structure: &Structure,
-    mesh: &TriangleMesh,
-    problem: &SeamlessProblem,
-    map: &SeamlessMap,
-    options: &UntangleOptions,
-    monitor: &mut Monitor,
-) -> Result<Untangled> {
-    let mut work = Untangling::new(structure, mesh, problem, map, options);
-    let flipped_before = work.folded().len();
-    if flipped_before == 0 && work.winding_defects().is_empty() {
-        return Ok(Untangled::as_it_is(map.clone()));
+    /// What integers alone may collapse in maps of this problem.
+    pub(crate) fn held_elements(
+        &self,
+        mesh: &TriangleMesh,
+        problem: &SeamlessProblem,
+    ) -> HeldElements {
+        HeldElements::new(problem, mesh, &self.freedom.held())
     }
-    work.stiffen(options.stiffenings, monitor)?;
-    let flipped_stiffened = work.folded().len();
-    for rings in RINGS {
-        let folded = work.folded();
-        if folded.is_empty() || work.budget == 0 {
-            break;
+
+    /// [`untangle`], for a map of this structure.
+    pub(crate) fn untangle(
+        &self,
+        mesh: &TriangleMesh,
+        problem: &SeamlessProblem,
+        map: &SeamlessMap,
+        options: &UntangleOptions,
+        monitor: &mut Monitor,
+    ) -> Result<Untangled> {
+        let mut work = Untangling::new(self, mesh, problem, map, options);
+        let flipped_before = work.folded().len();
+        if flipped_before == 0 && work.winding_defects().is_empty() {
+            return Untangled::untouched(mesh, problem, map.clone());
         }
-        for region in regions(work.freedom, &folded, rings) {
-            work.unfold(&region, schedule::FIRST_EPS, monitor)?;
+        work.stiffen(options.stiffenings, monitor)?;
+        let flipped_stiffened = work.folded().len();
+        for rings in RINGS {
+            let folded = work.folded();
+            if folded.is_empty() || work.budget == 0 {
+                break;
+            }
+            for region in regions(work.freedom, &folded, rings) {
+                work.unfold(&region, schedule::FIRST_EPS, monitor)?;
+            }
         }
+        if work.folded().is_empty() {
+            work.unwind(monitor)?;
+        }
+        monitor.progress(Phase::Untangle, 1.0)?;
+        let left = work.folded();
+        let stuck = Stuck::find(mesh, work.freedom, &work.values, &left);
+        Ok(Untangled {
+            stuck_faces: stuck.faces,
+            collapsed_edges: stuck.edges,
+            flipped_before,
+            flipped_stiffened,
+            winding_defects: work.winding_defects(),
+            flipped_after: left.len(),
+            steps: work.steps,
+            map: SeamlessMap::new(problem, mesh, &work.values)?,
+        })
     }
-    if work.folded().is_empty() {
-        work.unwind(monitor)?;
-    }
-    monitor.progress(Phase::Untangle, 1.0)?;
-    let left = work.folded();
-    let stuck = Stuck::find(mesh, work.freedom, &work.values, &left);
-    Ok(Untangled {
-        stuck_faces: stuck.faces,
-        collapsed_edges: stuck.edges,
-        flipped_before,
-        flipped_stiffened,
-        winding_defects: work.winding_defects(),
-        flipped_after: left.len(),
-        steps: work.steps,
-        map: SeamlessMap::new(problem, mesh, &work.values)?,
-    })
 }
 
 /// The state of the work.

@@ -11,7 +11,8 @@ use std::time::Instant;
 use roundel::map::{SeamlessProblem, Sizing};
 use roundel::mesh::TriangleMesh;
 use roundel::problem::mps::{self, MpsProblem};
-use roundel::untangle::{FoldFreeMap, UntangleOptions, Untangled, solve_fold_free};
+use roundel::quad::{FoldFreeMap, solve_fold_free};
+use roundel::untangle::{UntangleOptions, Untangled};
 use roundel::{Options, Result, Solution};
 
 use crate::exit::Exit;
@@ -39,8 +40,6 @@ struct Solved {
     /// Edges that are isolines.
     features: usize,
     untangled: Untangled,
-    /// Vertices around which the map turns another number of times than the field.
-    winding_defects: Vec<usize>,
     /// How often integers were decided anew.
     rounds: usize,
     /// How often the map was made finer.
@@ -78,7 +77,7 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
         true => {
             let solution = roundel::solve_with(problem.problem(), &options, monitor())?;
             let map = problem.map(&mesh, &solution)?;
-            FoldFreeMap::as_it_is(solution, map)
+            FoldFreeMap::untouched(&mesh, &problem, solution, map)?
         }
         false => {
             let work = UntangleOptions {
@@ -98,7 +97,6 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
         ..
     } = unfolded;
     let untangle_seconds = solved - solution.seconds().total;
-    let winding_defects = problem.winding_defects(&mesh, &untangled.map)?;
     if let Some(path) = &arguments.out {
         untangled.map.write_obj(&mesh, path)?;
     }
@@ -109,7 +107,6 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
         sizing,
         features: features.edges().count(),
         untangled,
-        winding_defects,
         rounds,
         refinements,
         gradings,

@@ -80,7 +80,7 @@ impl<'a> MapReport<'a> {
             flipped_stiffened: untangled.flipped_stiffened,
             flipped: map.flipped().len(),
             flipped_faces: map.flipped(),
-            winding_defects: &solved.winding_defects,
+            winding_defects: &untangled.winding_defects,
             untangle: Untangling {
                 rounds: solved.rounds,
                 refinements: solved.refinements,

@@ -20,7 +20,6 @@ impl fmt::Display for MapSummary<'_> {
             sizing: _,
             features,
             untangled,
-            winding_defects,
             untangle_seconds,
             rounds,
             refinements,
@@ -65,10 +64,10 @@ impl fmt::Display for MapSummary<'_> {
         }
         line(f, "untangle", &unfolded, *untangle_seconds)?;
         let mut flipped = format!("{} flipped", counted(map.flipped().len(), "face"));
-        if !winding_defects.is_empty() {
+        if !untangled.winding_defects.is_empty() {
             flipped += &format!(
                 ", {} covered twice",
-                counted_vertices(winding_defects.len(), "")
+                counted_vertices(untangled.winding_defects.len(), "")
             );
         }
         match &self.arguments.out {

@@ -1,0 +1,192 @@
+//! The field of a mesh: its problem stated and solved, with indices that a map can have.
+//!
+//! A first solve decides the indices. Where no map can have these, the field is solved for again with
+//! feasible ones prescribed ([`super::feasible_indices`]). So it is where indices are decided without the
+//! details of the surface ([`super::detail`]).
+
+use super::feasible_indices::feasible_indices;
+use super::{Constraint, FieldOptions, FieldProblem, OrientationField, PrescribedIndex};
+use crate::mesh::TriangleMesh;
+use crate::{Error, Monitor, Options, Result, Solution, Solver, WarmStart, solve_with};
+
+/// The smoothest field, whether a map can follow it or not, and the solution that it was read from.
+///
+/// With a length of [details](FieldOptions::detail) this is [`solve_field`], as all who want none of
+/// the details want quads.
+///
+/// # Errors
+/// Those of [`solve_field`].
+pub fn smoothest_field<'a>(
+    mesh: &TriangleMesh,
+    options: &FieldOptions,
+    solver: &Options,
+    monitor: impl Fn() -> Monitor<'a>,
+) -> Result<(OrientationField, Solution)> {
+    if options.detail > 0.0 {
+        return solve_field(mesh, options, solver, monitor);
+    }
+    solve_stated(mesh, options, solver, monitor())
+}
+
+/// The field of the problem that these options state.
+fn solve_stated(
+    mesh: &TriangleMesh,
+    options: &FieldOptions,
+    solver: &Options,
+    monitor: Monitor,
+) -> Result<(OrientationField, Solution)> {
+    let problem = FieldProblem::with_options(mesh, options)?;
+    let solution = solve_with(problem.problem(), solver, monitor)?;
+    Ok((problem.field(mesh, &solution)?, solution))
+}
+
+/// The smoothest field, all details seen, with the period jumps of the solver's last solution, which
+/// did not see them.
+fn smoothest_with(
+    mesh: &TriangleMesh,
+    problem: &FieldProblem,
+    solver: &mut Solver,
+    options: &Options,
+    monitor: Monitor,
+) -> Result<(OrientationField, Solution)> {
+    solver.set_least_squares_right_sides(&problem.right_sides_with_details(mesh))?;
+    let keep = Options {
+        warm_start: WarmStart::Keep,
+        ..options.clone()
+    };
+    let solution = solver.solve_with(&keep, monitor)?;
+    Ok((problem.field(mesh, &solution)?, solution))
+}
+
+/// The smoothest field among those that a map can follow, and the solution that it was read from.
+///
+/// With a length of [details](FieldOptions::detail) a first field, which does not see them, decides
+/// the indices; the field is the smoothest with these.
+///
+/// Indices that the caller prescribes are kept whatever they are, and so are the
+/// [firm](FieldOptions::firm) constraints. Other directions of faces around a vertex give way where
+/// they alone decide an index that no map can have.
+///
+/// # Errors
+/// Those of [`FieldProblem::with_options`], of [`solve`](crate::solve()) and of
+/// [`FieldProblem::field`].
+pub fn solve_field<'a>(
+    mesh: &TriangleMesh,
+    options: &FieldOptions,
+    solver: &Options,
+    monitor: impl Fn() -> Monitor<'a>,
+) -> Result<(OrientationField, Solution)> {
+    let problem = FieldProblem::with_options(mesh, options)?;
+    let mut kept = Solver::new(problem.problem())?;
+    let solution = kept.solve_with(solver, monitor())?;
+    let field = problem.field(mesh, &solution)?;
+    if options.indices.is_some() || options.symmetry != 4 {
+        return Ok((field, solution));
+    }
+    let found = steps(mesh, &field);
+    let steps = feasible_indices(mesh, found.clone());
+    if steps == found {
+        return match options.detail > 0.0 {
+            true => smoothest_with(mesh, &problem, &mut kept, solver, monitor()),
+            false => Ok((field, solution)),
+        };
+    }
+    let irregular = (0..steps.len()).filter(|&v| steps[v] != 0);
+    let indices = irregular.map(|vertex| PrescribedIndex {
+        vertex,
+        steps: steps[vertex],
+    });
+    let mut feasible = FieldOptions {
+        indices: Some(indices.collect()),
+        detail: 0.0,
+        ..options.clone()
+    };
+    for _ in 0..2 {
+        match solve_stated(mesh, &feasible, solver, monitor()) {
+            // Directions alone may decide an index.
+            Err(
+                Error::InvalidArgument { .. }
+                | Error::Infeasible { .. }
+                | Error::NoIntegerSolution { .. },
+            ) => give_way(mesh, &field, &mut feasible),
+            other => return other,
+        }
+    }
+    Ok((field, solution))
+}
+
+/// Takes the directions away of faces around vertices whose index is another than the field's.
+fn give_way(mesh: &TriangleMesh, field: &OrientationField, options: &mut FieldOptions) {
+    let mut steps = steps(mesh, field);
+    for given in options.indices.iter().flatten() {
+        steps[given.vertex] -= given.steps;
+    }
+    let regular = |c: &Constraint| mesh.corners(c.face).iter().all(|&v| steps[v] == 0);
+    let given = std::mem::take(&mut options.constraints).into_iter();
+    let kept = given
+        .enumerate()
+        .filter(|(k, c)| *k < options.firm || regular(c));
+    options.constraints = kept.map(|(_, c)| c).collect();
+}
+
+fn steps(mesh: &TriangleMesh, field: &OrientationField) -> Vec<i32> {
+    let indices = field.vertex_indices(mesh);
+    indices.iter().map(|i| (4.0 * i).round() as i32).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::feasible_indices::MOST;
+    use super::*;
+
+    /// A cone so steep that the smoothest field turns as it does: more than half a turn at the tip.
+    fn horn(sides: u32) -> TriangleMesh {
+        let at = |ring: u32, k: u32| 1 + (ring - 1) * sides + k % sides;
+        let mut points = vec![[0.0, 0.0, 20.0]];
+        let mut triangles = Vec::new();
+        for ring in 1..=20u32 {
+            let radius = 0.1 * f64::from(ring);
+            for k in 0..sides {
+                let (sin, cos) =
+                    (std::f64::consts::TAU * f64::from(k) / f64::from(sides)).sin_cos();
+                points.push([radius * cos, radius * sin, 20.0 - f64::from(ring)]);
+                if ring == 1 {
+                    triangles.push([0, at(1, k), at(1, k + 1)]);
+                } else {
+                    let [a, b] = [at(ring - 1, k), at(ring - 1, k + 1)];
+                    let [c, d] = [at(ring, k), at(ring, k + 1)];
+                    triangles.extend([[a, c, d], [a, d, b]]);
+                }
+            }
+        }
+        TriangleMesh::new(points, triangles).unwrap()
+    }
+
+    #[test]
+    fn no_vertex_keeps_an_index_that_no_map_can_have() {
+        let mesh = horn(8);
+        let options = FieldOptions::default();
+        let problem = FieldProblem::with_options(&mesh, &options).unwrap();
+        let solution = solve_with(problem.problem(), &Options::default(), Monitor::default());
+        let smoothest = problem.field(&mesh, &solution.unwrap()).unwrap();
+        let before = steps(&mesh, &smoothest);
+        assert!(before[0] > MOST, "{}", before[0]);
+        let (field, _) =
+            solve_field(&mesh, &options, &Options::default(), Monitor::default).unwrap();
+        let after = steps(&mesh, &field);
+        assert!(after.iter().all(|&n| n <= MOST), "{after:?}");
+        assert_eq!(after.iter().sum::<i32>(), before.iter().sum::<i32>());
+    }
+
+    #[test]
+    fn a_field_that_a_map_can_follow_is_left_alone() {
+        let mesh = crate::mesh::shape::by_name("rounded-cube", 600).unwrap();
+        let options = FieldOptions::default();
+        let problem = FieldProblem::with_options(&mesh, &options).unwrap();
+        let solution = solve_with(problem.problem(), &Options::default(), Monitor::default());
+        let smoothest = problem.field(&mesh, &solution.unwrap()).unwrap();
+        let (field, _) =
+            solve_field(&mesh, &options, &Options::default(), Monitor::default).unwrap();
+        assert_eq!(field, smoothest);
+    }
+}

@@ -1,0 +1,115 @@
+//! What is better: one ordering of whatever was found on the way from a mesh to quads.
+//!
+//! The members are compared from the first to the last, and less is better. Each step fills in what it
+//! can tell: the relaxation of a map its distortion, integers the elements that they collapse, a map its
+//! folds and winding defects, quads what these have left in them. Only outcomes of one step are compared.
+//!
+//! Missed features come before faults: extraction mends nearly all folds of a map, a lost feature nothing.
+
+use crate::extract::QuadMesh;
+use crate::untangle::Untangled;
+
+/// What a field costs for each of its cones, in the energy of a map of unit squares. A few more are
+/// worth it where they make all quads more even, many are not.
+const CONE_COST: f64 = 2.0;
+
+/// How far a result is from a good one.
+#[derive(Debug, Clone, Copy, PartialEq, PartialOrd, Default)]
+pub(super) struct Outcome {
+    /// Whether quads have holes, or faces are among them that are no quads.
+    does_not_conform: bool,
+    /// Features that no edge of a quad runs along.
+    missed_features: usize,
+    /// Elements that integers collapse, folds and winding defects of a map, or what extraction had to
+    /// repair of these.
+    faults: usize,
+    /// Vertices of other than four quads.
+    irregular_vertices: usize,
+    /// How far quads are from squares of one size.
+    distortion: f64,
+}
+
+impl Outcome {
+    /// Of a field, by the relaxation of its map: its energy, for a map of as many unit squares as every
+    /// field is to have, and its cones.
+    pub(super) fn of_relaxation(energy: f64, cones: usize) -> Self {
+        Outcome {
+            distortion: energy + CONE_COST * cones as f64,
+            ..Outcome::default()
+        }
+    }
+
+    /// Of integers that collapse so many elements.
+    pub(super) fn of_integers(collapsed: usize) -> Self {
+        Outcome {
+            faults: collapsed,
+            ..Outcome::default()
+        }
+    }
+
+    /// Of a map.
+    pub(super) fn of_map(map: &Untangled) -> Self {
+        Outcome {
+            faults: map.faults(),
+            ..Outcome::default()
+        }
+    }
+
+    /// Of quads that miss so many features.
+    pub(super) fn of_quads(quads: &QuadMesh, missed_features: usize) -> Self {
+        Outcome {
+            does_not_conform: !quads.is_conforming(),
+            missed_features,
+            faults: quads.repaired,
+            irregular_vertices: quads.figures().irregular,
+            ..Outcome::default()
+        }
+    }
+
+    /// Whether quads conform.
+    pub(super) fn conforms(&self) -> bool {
+        !self.does_not_conform
+    }
+
+    /// Whether quads conform and have all features: folds that cost neither do not matter.
+    pub(super) fn is_whole(&self) -> bool {
+        self.conforms() && self.missed_features == 0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The members in the order in which they count.
+    fn of(members: [usize; 5]) -> Outcome {
+        Outcome {
+            does_not_conform: members[0] > 0,
+            missed_features: members[1],
+            faults: members[2],
+            irregular_vertices: members[3],
+            distortion: members[4] as f64,
+        }
+    }
+
+    /// Every combination of nothing and something, the something larger the less it counts.
+    fn all() -> impl Iterator<Item = [usize; 5]> {
+        let member = |n: usize, k: usize| if n >> k & 1 == 1 { 1 + k } else { 0 };
+        (0..32).map(move |n| [0, 1, 2, 3, 4].map(|k| member(n, k)))
+    }
+
+    #[test]
+    fn outcomes_are_ordered_by_the_first_member_that_differs() {
+        for a in all() {
+            for b in all() {
+                assert_eq!(of(a).partial_cmp(&of(b)), Some(a.cmp(&b)), "{a:?} {b:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn an_energy_that_is_no_number_is_never_better() {
+        let [good, bad] = [1.0, f64::NAN].map(|energy| Outcome::of_relaxation(energy, 8));
+        assert_eq!(bad.partial_cmp(&good), None);
+    }
+}

@@ -1,0 +1,166 @@
+//! Elements of a map whose shape integers alone decide: cones, and corners of features and boundary,
+//! where both coordinates are integers as well.
+//!
+//! Two cones that a short path joins, or an isoline, cannot lie at one point, nor all three corners of a
+//! face on one line: whatever else moves, the faces between them stay without area.
+
+use std::collections::{BTreeSet, VecDeque};
+
+use super::isoline_triangles::IsolineTriangle;
+use crate::map::SeamlessProblem;
+use crate::mesh::TriangleMesh;
+use crate::mesh::vector::{dot, sub};
+
+/// How many edges a path between two cones has at most,
+const LONGEST_PATH: usize = 4;
+
+/// unless edges are so short that more of them span so many quads.
+const LONGEST_REACH: f64 = 2.0;
+
+/// What integers may collapse, in all maps of one problem.
+pub(crate) struct HeldElements {
+    pub(super) pairs: Vec<NearCones>,
+    /// Faces of three cones or corners.
+    pub(super) faces: Vec<usize>,
+    pub(super) isoline_triangles: Vec<IsolineTriangle>,
+}
+
+/// Two copies of cones in one chart, and by how much the coordinates should differ from the first
+/// to the second: along a shortest path between them.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct NearCones {
+    pub copies: [u32; 2],
+    pub vertices: [u32; 2],
+    pub aim: [f64; 2],
+}
+
+impl HeldElements {
+    /// Those of a problem of which integers hold these coordinates of every copy.
+    pub(super) fn new(problem: &SeamlessProblem, mesh: &TriangleMesh, held: &[[bool; 2]]) -> Self {
+        let is_point: Vec<bool> = held.iter().map(|axes| *axes == [true; 2]).collect();
+        let copies = &problem.sectors.copy;
+        let is_held = |&face: &usize| copies[face].iter().all(|&c| is_point[c as usize]);
+        HeldElements {
+            pairs: problem.near_cones(mesh, &is_point),
+            faces: (0..mesh.face_count()).filter(is_held).collect(),
+            isoline_triangles: problem.isoline_triangles(mesh, held),
+        }
+    }
+}
+
+impl SeamlessProblem {
+    /// Pairs of cones and corners that a path of a few edges or an isoline joins, no other on it and
+    /// no cut across it.
+    fn near_cones(&self, mesh: &TriangleMesh, held: &[bool]) -> Vec<NearCones> {
+        let longest = LONGEST_PATH.max((LONGEST_REACH / self.mean_aim(mesh)) as usize);
+        let mut found = Vec::new();
+        for v in 0..mesh.vertex_count() {
+            for copy in self.sectors.first[v]..self.sectors.first[v + 1] {
+                if held[copy as usize] {
+                    self.paths_from(mesh, [v as u32, copy], longest, held, &mut found);
+                }
+            }
+        }
+        self.runs(mesh, held, &mut found);
+        found
+    }
+
+    /// The mean length of edges in the map as it should be.
+    pub(super) fn mean_aim(&self, mesh: &TriangleMesh) -> f64 {
+        let faces = 0..mesh.face_count();
+        let length = |face: usize| {
+            let [u, v] = self.aim(mesh, face, 0, 1);
+            u.hypot(v)
+        };
+        faces.map(length).sum::<f64>() / mesh.face_count() as f64
+    }
+
+    /// Follows isolines from one cone or corner to the next, within a chart.
+    fn runs(&self, mesh: &TriangleMesh, held: &[bool], found: &mut Vec<NearCones>) {
+        let mut vertex_of = vec![0; self.sectors.count()];
+        for v in 0..mesh.vertex_count() {
+            for copy in self.sectors.first[v]..self.sectors.first[v + 1] {
+                vertex_of[copy as usize] = v as u32;
+            }
+        }
+        // Where a run began, how far it should have come, and where it is.
+        let mut run: Option<(u32, [f64; 2], u32)> = None;
+        for isoline in &self.isolines {
+            let [from, to] = isoline.ends;
+            let (begin, mut aim) = match run {
+                Some((begin, aim, at)) if at == from && !isoline.is_first => (begin, aim),
+                _ if held[from as usize] => (from, [0.0; 2]),
+                _ => {
+                    run = None;
+                    continue;
+                }
+            };
+            let step = self.aim_along(mesh, isoline.edge, [from, to]);
+            aim = [aim[0] + step[0], aim[1] + step[1]];
+            run = Some((begin, aim, to));
+            if held[to as usize] {
+                found.push(NearCones {
+                    copies: [begin, to],
+                    vertices: [begin, to].map(|copy| vertex_of[copy as usize]),
+                    aim,
+                });
+                run = None;
+            }
+        }
+    }
+
+    /// By how much the coordinates should differ along an edge in the chart of its first face.
+    fn aim_along(&self, mesh: &TriangleMesh, edge: usize, [from, to]: [u32; 2]) -> [f64; 2] {
+        let (face, _) = mesh.edge(edge).first;
+        let copies = self.sectors.copy[face];
+        let corner = |copy: u32| copies.iter().position(|&c| c == copy).unwrap_or(0);
+        self.aim(mesh, face, corner(from), corner(to))
+    }
+
+    /// Breadth-first from a copy of a cone; each pair is found from its lower cone.
+    fn paths_from(
+        &self,
+        mesh: &TriangleMesh,
+        [from, copy]: [u32; 2],
+        longest: usize,
+        held: &[bool],
+        found: &mut Vec<NearCones>,
+    ) {
+        let mut reached = BTreeSet::from([copy]);
+        let mut queue = VecDeque::from([(from as usize, copy, [0.0; 2], 0)]);
+        while let Some((v, at, aim, length)) = queue.pop_front() {
+            for (face, corner) in mesh.ring(v) {
+                if self.sectors.copy[face][corner] != at {
+                    continue;
+                }
+                for end in [(corner + 1) % 3, (corner + 2) % 3] {
+                    let next = self.sectors.copy[face][end];
+                    if !reached.insert(next) {
+                        continue;
+                    }
+                    let w = mesh.corners(face)[end];
+                    let step = self.aim(mesh, face, corner, end);
+                    let aim = [aim[0] + step[0], aim[1] + step[1]];
+                    if !held[next as usize] {
+                        if length + 1 < longest {
+                            queue.push_back((w, next, aim, length + 1));
+                        }
+                    } else if from < w as u32 {
+                        found.push(NearCones {
+                            copies: [copy, next],
+                            vertices: [from, w as u32],
+                            aim,
+                        });
+                    }
+                }
+            }
+        }
+    }
+
+    /// By how much the coordinates of two corners of a face should differ.
+    pub(super) fn aim(&self, mesh: &TriangleMesh, face: usize, from: usize, to: usize) -> [f64; 2] {
+        let corners = mesh.corner_positions(face);
+        let step = sub(corners[to], corners[from]);
+        self.targets(mesh, face).map(|target| dot(target, step))
+    }
+}
