@@ -7,7 +7,7 @@ use roundel::Result;
 use roundel::mesh::{TriangleMesh, io, shape, subdivide};
 
 use super::experiments::Subject;
-use super::failed;
+use crate::output;
 
 /// More than this a procedural shape is not drawn up with but subdivided to.
 const DRAWN: usize = 200_000;
@@ -19,7 +19,8 @@ impl Scratch {
     /// A folder inside `out`.
     pub fn new(out: &Path) -> Result<Self> {
         let folder = out.join(format!("scratch-{}", std::process::id()));
-        fs::create_dir(&folder).map_err(|reason| failed(&folder, &reason))?;
+        fs::create_dir(&folder)
+            .map_err(|reason| output::io_error(&folder.to_string_lossy(), &reason))?;
         Ok(Scratch(folder))
     }
 

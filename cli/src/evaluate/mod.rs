@@ -28,7 +28,7 @@ mod table;
 use std::fs;
 use std::path::Path;
 
-use roundel::{Error, Result};
+use roundel::Result;
 
 use crate::exit::Exit;
 use crate::output;
@@ -45,7 +45,7 @@ fn evaluate(arguments: &Arguments) -> Result<()> {
         Some(file) => Some(others::read(file)?),
         None => None,
     };
-    fs::create_dir_all(out).map_err(|reason| failed(out, &reason))?;
+    fs::create_dir_all(out).map_err(|reason| output::io_error(&out.to_string_lossy(), &reason))?;
     let scratch = meshes::Scratch::new(out)?;
     let mut tables = Vec::new();
     for experiment in experiments::all(arguments.max_triangles) {
@@ -64,12 +64,5 @@ fn evaluate(arguments: &Arguments) -> Result<()> {
 }
 
 fn write(path: &Path, content: &str) -> Result<()> {
-    fs::write(path, content).map_err(|reason| failed(path, &reason))
-}
-
-/// The error of a file or folder that cannot be written.
-fn failed(path: &Path, reason: &std::io::Error) -> Error {
-    Error::Io {
-        message: format!("{}: {reason}", path.display()),
-    }
+    fs::write(path, content).map_err(|reason| output::io_error(&path.to_string_lossy(), &reason))
 }

@@ -8,6 +8,7 @@ use std::path::Path;
 use roundel::{Error, Result};
 
 use super::escape::escape;
+use crate::output;
 
 /// The columns of the file, in its order.
 const HEADS: [&str; 8] = [
@@ -27,9 +28,8 @@ pub struct Others(Vec<Vec<String>>);
 
 /// Reads the file at `path`.
 pub fn read(path: &Path) -> Result<Others> {
-    let text = fs::read_to_string(path).map_err(|reason| Error::Io {
-        message: format!("{}: {reason}", path.display()),
-    })?;
+    let text = fs::read_to_string(path)
+        .map_err(|reason| output::io_error(&path.to_string_lossy(), &reason))?;
     parse(&text).map_err(|(line, reason)| Error::Io {
         message: format!("{}: line {line}: {reason}", path.display()),
     })

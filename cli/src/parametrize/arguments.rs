@@ -12,8 +12,9 @@ use crate::options::SolverOptions;
 /// Compute a seamless parametrization of a triangle mesh that follows a cross field.
 ///
 /// The field comes from a file, or is that of `roundel field` with the same directions. Features,
-/// and the boundary unless it is free, become isolines of integer value: chains of quads' edges. The solver's
-/// options are those of the parametrization; time limit and threads hold for each of the two solves.
+/// and the boundary unless it is free, become isolines of integer value: chains of quads' edges.
+/// The solver's options are those of the parametrization; time limit and threads hold for each of
+/// the two solves.
 #[derive(clap::Args)]
 #[command(after_help = exit::HELP)]
 pub struct Arguments {
