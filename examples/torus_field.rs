@@ -1,8 +1,8 @@
 //! The smallest orientation field: a smooth cross field on a coarse torus.
 //!
-//! One angle a face and one period jump a dual edge, E = sum (theta_i + kappa_ij + pi/2 p_ij -
-//! theta_j)^2 (Bommes, Zimmer, Kobbelt 2009, section 3). Jumps on a spanning forest of the dual
-//! graph are zero without loss, and one angle is constrained, since only differences count.
+//! One angle for each face and one period jump for each dual edge, E = sum (theta_i + kappa_ij +
+//! pi/2 p_ij - theta_j)^2 (`bommes2009`, section 4). Jumps on a spanning forest of the dual graph
+//! are zero without loss, and one angle is constrained, since only differences count.
 //!
 //! ```text
 //! cargo run --release --example torus_field [OUT.mps]

@@ -1,4 +1,4 @@
-//! Exit codes: what a script learns without reading the output.
+//! Exit codes: the outcome of a run, for scripts.
 
 use std::process::ExitCode;
 
@@ -13,7 +13,7 @@ pub enum Exit {
     Failed = 1,
     /// No point satisfies the constraints and the integralities.
     Infeasible = 3,
-    /// The objective has no least value.
+    /// The objective has no minimum.
     Unbounded = 4,
     /// Out of time, or cancelled, before a first solution.
     Stopped = 5,
@@ -21,16 +21,16 @@ pub enum Exit {
     Invalid = 6,
 }
 
-/// The codes as `--help` prints them. Code 2 is given by clap.
+/// The codes as `--help` prints them. Code 2 comes from clap.
 pub const HELP: &str = "\
 Exit codes:
-  0  solved: the program has a solution to show, proved or not
-  1  error: a file, bad input, or something that is not supported
+  0  solved: there is a solution, proved to be optimal or not
+  1  error: a file cannot be read or written, or the input is wrong or not supported
   2  usage: the command line is wrong
-  3  infeasible: the constraints contradict each other, or have no integer solution
-  4  unbounded: the objective has no least value, or is not convex
-  5  stopped: time limit or cancel, before a first solution
-  6  invalid: what was checked is not what it should be";
+  3  infeasible: the constraints have no solution, or no integer solution
+  4  unbounded: the objective has no minimum, or is not convex
+  5  stopped: the time limit or a cancel came before the first solution
+  6  invalid: the map that was checked is not valid";
 
 impl Exit {
     /// The code of a run that ended in `error`.

@@ -1,4 +1,4 @@
-//! Peak memory, from the kernel's own account.
+//! Peak memory, as the kernel reports it.
 
 /// The most memory that this process has had resident, in bytes.
 ///

@@ -71,7 +71,7 @@ void set(roundel::Options& options, const std::string& name, const QString& valu
     }
     if (!is_number) {
         throw std::invalid_argument("option " + name + ": " + value.toStdString() +
-                                    " is not a number of its kind");
+                                    " is not a number of its type");
     }
 }
 
@@ -84,7 +84,7 @@ roundel::Options solver_options(const RichParameterList& list) {
         }
         const int equals = word.indexOf('=');
         if (equals < 1) {
-            throw std::invalid_argument("not NAME=VALUE: " + word.toStdString());
+            throw std::invalid_argument("expected NAME=VALUE, found " + word.toStdString());
         }
         set(options, word.left(equals).toStdString(), word.mid(equals + 1));
     }
@@ -96,13 +96,13 @@ roundel::Options solver_options(const RichParameterList& list) {
 void declare_parameters(const MeshModel& mesh, RichParameterList& list) {
     const float diagonal = mesh.cm.bbox.Diag();
     list.addParam(RichEnum("Size", by_count, sizes(), "Size of quads by",
-                           "Which of the next three fields says how large quads shall be."));
+                           "Which of the next three fields gives the size of quads."));
     list.addParam(
-        RichInt("Quads", 1000, "Number of quads", "About how many quads there shall be."));
+        RichInt("Quads", 1000, "Number of quads", "The target number of quads."));
     list.addParam(RichFloat("GradientSize", gradient_size, "Gradient size",
-                            "Edges of quads along the diagonal of the bounding box."));
+                            "The number of quads along the diagonal of the bounding box."));
     list.addParam(RichAbsPerc("EdgeLength", diagonal / gradient_size, 0.0F, diagonal, "Edge length",
-                              "The length of quads' edges."));
+                              "The edge length of quads."));
     list.addParam(RichFloat("FeatureAngle", 0.0F, "Feature angle (degrees)",
                             "Edges at which the surface turns by this much or more become chains "
                             "of quads' edges; 0 for none."));
@@ -116,11 +116,11 @@ void declare_parameters(const MeshModel& mesh, RichParameterList& list) {
     list.addParam(RichEnum("FieldStrategy", strategies().indexOf("adaptive"), strategies(),
                            "Integers of the field", "How the integers of the field are decided."));
     list.addParam(RichBool("Untangle", true, "Untangle",
-                           "Turn faces back that the map turns over, where quads need it."));
+                           "Remove the folds of the map where quads need it."));
     list.addParam(RichBool("Smooth", true, "Smooth",
                            "Move vertices over the surface towards squares of one size."));
     list.addParam(RichString("SolverOptions", "", "Solver options",
-                             "Further options of the solver, NAME=VALUE parted by spaces, such as "
+                             "Further options of the solver, NAME=VALUE separated by spaces, such as "
                              "time_limit=10 threads=2."));
 }
 

@@ -1,4 +1,4 @@
-//! Where the meshes come from.
+//! The meshes of the tables: from files, or procedural ones of about their size.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -9,10 +9,10 @@ use roundel::mesh::{TriangleMesh, io, shape, subdivide};
 use super::experiments::Subject;
 use crate::output;
 
-/// More than this a procedural shape is not drawn up with but subdivided to.
+/// Larger procedural shapes are made by subdivision.
 const DRAWN: usize = 200_000;
 
-/// A folder for meshes and fields on the way. It is gone once this is dropped.
+/// A folder for intermediate meshes and fields. It is deleted when this is dropped.
 pub struct Scratch(PathBuf);
 
 impl Scratch {

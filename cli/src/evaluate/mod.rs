@@ -1,4 +1,5 @@
-//! `roundel evaluate`: the tables of Bommes' thesis, run anew, beside what they were.
+//! `roundel evaluate`: the tables of Bommes' thesis (`bommes2012`, section 5.3), run anew beside its
+//! figures.
 //!
 //! | file | step |
 //! | --- | --- |
@@ -34,7 +35,7 @@ use crate::exit::Exit;
 use crate::output;
 pub use arguments::Arguments;
 
-/// Runs the command and tells every row as soon as it is there.
+/// Runs the command.
 pub fn run(arguments: &Arguments) -> Exit {
     output::conclude(&arguments.tables, false, evaluate(arguments))
 }

@@ -1,4 +1,4 @@
-//! What other mixed-integer solvers make of the same MPS files: the CSV file of
+//! Results of other mixed-integer solvers on the same MPS files, from the CSV file of
 //! `scripts/other-solvers`, as a table of the page.
 
 use std::fmt::Write;
@@ -40,12 +40,12 @@ fn parse(text: &str) -> std::result::Result<Others, (usize, String)> {
     let mut lines = text.lines().enumerate();
     let heads = lines.next().map(|(_, line)| fields(line));
     if heads.is_none_or(|heads| heads != HEADS) {
-        return Err((1, format!("not the columns {}", HEADS.join(","))));
+        return Err((1, format!("expected the columns {}", HEADS.join(","))));
     }
     let row = |(at, line): (usize, &str)| {
         let row = fields(line);
         if row.len() != HEADS.len() {
-            return Err((at + 1, format!("{} columns", row.len())));
+            return Err((at + 1, format!("expected 8 columns, found {}", row.len())));
         }
         let number = |field: &&String| !field.is_empty() && field.parse::<f64>().is_err();
         match row[4..].iter().find(number) {

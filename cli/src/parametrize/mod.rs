@@ -1,4 +1,4 @@
-//! `roundel parametrize`: a seamless map of a mesh, its figures and its files.
+//! `roundel parametrize`: a seamless map of a mesh, with its figures and files.
 
 mod arguments;
 mod field;
@@ -30,7 +30,7 @@ pub fn run(arguments: &Arguments) -> Exit {
     output::conclude(&arguments.mesh, arguments.json, told)
 }
 
-/// A map, and how it was come by.
+/// A map, and how it was found.
 struct Solved {
     options: Options,
     mesh: TriangleMesh,
@@ -39,13 +39,13 @@ struct Solved {
     /// Edges that are isolines.
     features: usize,
     untangled: Untangled,
-    /// Vertices around which the map turns another number of times than the field.
+    /// Vertices at which the winding of the map differs from that of the field.
     winding_defects: Vec<usize>,
-    /// How often integers were decided anew.
+    /// The number of times that integers were decided anew.
     rounds: usize,
-    /// How often the map was made finer.
+    /// The number of refinements of the whole map.
     refinements: usize,
-    /// How often it was made finer around its faults alone.
+    /// The number of refinements around faults alone.
     gradings: usize,
     /// Seconds of the map beside those of the last solve.
     untangle_seconds: f64,

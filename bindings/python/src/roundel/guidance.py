@@ -19,7 +19,7 @@ from .errors import check
 #: drawn to it; `constraints`: (faces, angles) that a field must have; `guides`: (faces, angles,
 #: weights) that it should have; `indices`: (vertices, steps), all irregular vertices with their index
 #: in steps of 1/4; `symmetry`: arms of the field, 1, 2, 4 or 6; `detail`: the length of details that
-#: attract no irregular vertices; `guide_file`: a file with such wishes.
+#: attract no irregular vertices; `guide_file`: a text file with such guidance.
 KEYWORDS = (
     "features",
     "align_boundary",

@@ -1,6 +1,6 @@
 //! Streamlines of a cross field, evenly spaced over the surface.
 //!
-//! Jobard and Lefer 1997: a streamline is traced until it comes too near to another one, and new
+//! `jobard1997`: a streamline is traced until it comes too near to another one, and new
 //! ones start at the wanted distance beside those that are there. On a cross field only lines
 //! that run alike keep their distance (see [`spacing`]), and each line also seeds the lines that
 //! cross it, so that both families together look like the quads that the field asks for.
