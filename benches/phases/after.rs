@@ -1,4 +1,4 @@
-//! What is done with integers once they are decided.
+//! The steps after the integers are decided.
 
 use criterion::Criterion;
 use roundel::linalg::minimise_fixed;

@@ -10,7 +10,7 @@ use roundel::{Error, Model, Monitor, Options, Problem, Result, solve};
 /// Faces of the mesh.
 pub const TRIANGLES: usize = 10_000;
 
-/// A problem, what is left of it after elimination, and the minimiser of that.
+/// A problem, the reduced problem after elimination, and its minimiser.
 pub struct Case {
     pub family: &'static str,
     pub problem: Problem,

@@ -1,4 +1,4 @@
-//! What follows the rounding of one integer, by each of the ways there are.
+//! The update after the rounding of one integer, by each method.
 
 use criterion::{BatchSize, Criterion};
 use roundel::Options;

@@ -24,13 +24,13 @@ pub enum Exit {
 /// The codes as `--help` prints them. Code 2 comes from clap.
 pub const HELP: &str = "\
 Exit codes:
-  0  solved: there is a solution, proved to be optimal or not
-  1  error: a file cannot be read or written, or the input is wrong or not supported
+  0  solved: the program has a solution to show, proved or not
+  1  error: a file, bad input, or something that is not supported
   2  usage: the command line is wrong
-  3  infeasible: the constraints have no solution, or no integer solution
-  4  unbounded: the objective has no minimum, or is not convex
-  5  stopped: the time limit or a cancel came before the first solution
-  6  invalid: the map that was checked is not valid";
+  3  infeasible: the constraints contradict each other, or have no integer solution
+  4  unbounded: the objective has no least value, or is not convex
+  5  stopped: time limit or cancel, before a first solution
+  6  invalid: what was checked is not what it should be";
 
 impl Exit {
     /// The code of a run that ended in `error`.

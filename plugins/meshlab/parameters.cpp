@@ -97,8 +97,7 @@ void declare_parameters(const MeshModel& mesh, RichParameterList& list) {
     const float diagonal = mesh.cm.bbox.Diag();
     list.addParam(RichEnum("Size", by_count, sizes(), "Size of quads by",
                            "Which of the next three fields gives the size of quads."));
-    list.addParam(
-        RichInt("Quads", 1000, "Number of quads", "The target number of quads."));
+    list.addParam(RichInt("Quads", 1000, "Number of quads", "The target number of quads."));
     list.addParam(RichFloat("GradientSize", gradient_size, "Gradient size",
                             "The number of quads along the diagonal of the bounding box."));
     list.addParam(RichAbsPerc("EdgeLength", diagonal / gradient_size, 0.0F, diagonal, "Edge length",
@@ -115,13 +114,14 @@ void declare_parameters(const MeshModel& mesh, RichParameterList& list) {
                            "Integers of the map", "How the integers of the map are decided."));
     list.addParam(RichEnum("FieldStrategy", strategies().indexOf("adaptive"), strategies(),
                            "Integers of the field", "How the integers of the field are decided."));
-    list.addParam(RichBool("Untangle", true, "Untangle",
-                           "Remove the folds of the map where quads need it."));
+    list.addParam(
+        RichBool("Untangle", true, "Untangle", "Remove the folds of the map where quads need it."));
     list.addParam(RichBool("Smooth", true, "Smooth",
                            "Move vertices over the surface towards squares of one size."));
-    list.addParam(RichString("SolverOptions", "", "Solver options",
-                             "Further options of the solver, NAME=VALUE separated by spaces, such as "
-                             "time_limit=10 threads=2."));
+    list.addParam(
+        RichString("SolverOptions", "", "Solver options",
+                   "Further options of the solver, NAME=VALUE separated by spaces, such as "
+                   "time_limit=10 threads=2."));
 }
 
 roundel::QuadOptions quad_options(const MeshModel& mesh, const RichParameterList& list) {

@@ -7,11 +7,11 @@
 
 #include <roundel/roundel.hpp>
 
-/// Adds what the dialog asks for, with the defaults of `roundel quad`.
+/// Adds the parameters of the dialog, with the defaults of `roundel quad`.
 void declare_parameters(const MeshModel& mesh, RichParameterList& list);
 
-/// What the dialog, or a script, says; `solve` is set. Throws std::invalid_argument for a choice
-/// that there is not and for text that is no option; all else the library checks.
+/// The options that the dialog, or a script, gives; `solve` is set. Throws std::invalid_argument
+/// for an unknown choice or option; the library checks everything else.
 roundel::QuadOptions quad_options(const MeshModel& mesh, const RichParameterList& list);
 
 #endif // ROUNDEL_MESHLAB_PARAMETERS_HPP

@@ -125,7 +125,7 @@ pub fn html(others: &Others) -> String {
     text + "</table>\n"
 }
 
-/// A number with so many decimals; nothing stays nothing.
+/// A number with this many decimals; empty text stays empty.
 fn shortened(number: &str, decimals: usize) -> String {
     let number = number.parse();
     number.map_or_else(|_| String::new(), |v: f64| format!("{v:.decimals$}"))
