@@ -1,7 +1,7 @@
 //! The smallest orientation field: a smooth cross field on a coarse torus.
 //!
 //! The unknowns are one angle for each face and one period jump for each dual edge. The energy is
-//! E = sum (theta_i + kappa_ij + pi/2 p_ij - theta_j)^2 (Bommes, Zimmer, Kobbelt 2009, section 3).
+//! E = sum (theta_i + kappa_ij + pi/2 p_ij - theta_j)^2 (`bommes2009`, section 4).
 //! Jumps on a spanning forest of the dual graph are zero without loss of generality. One angle is
 //! constrained, since only differences count.
 //!

@@ -1,4 +1,4 @@
-//! Exit codes: what a script learns without reading the output.
+//! Exit codes: the outcome of a run, for scripts.
 
 use std::process::ExitCode;
 
@@ -13,7 +13,7 @@ pub enum Exit {
     Failed = 1,
     /// No point satisfies the constraints and the integralities.
     Infeasible = 3,
-    /// The objective has no least value.
+    /// The objective has no minimum.
     Unbounded = 4,
     /// Out of time, or cancelled, before a first solution.
     Stopped = 5,
@@ -21,7 +21,7 @@ pub enum Exit {
     Invalid = 6,
 }
 
-/// The codes as `--help` prints them. Code 2 is given by clap.
+/// The codes as `--help` prints them. Code 2 comes from clap.
 pub const HELP: &str = "\
 Exit codes:
   0  solved: the program has a solution to show, proved or not

@@ -1,4 +1,4 @@
-//! Ctrl-C: the first one asks the solver to end with what it has, the second ends the program.
+//! Ctrl-C: the first one asks the solver to end with its best solution, the second ends the program.
 
 use roundel::{CancelToken, Error, Result};
 
@@ -7,7 +7,7 @@ const KILLED: i32 = 130;
 
 /// A token that Ctrl-C sets.
 ///
-/// A second Ctrl-C ends the program at once, for the parts that ask no token, such as reading.
+/// A second Ctrl-C ends the program at once, for parts that do not check the token, such as reading.
 pub fn cancel_token() -> Result<CancelToken> {
     let token = CancelToken::new();
     let set = token.clone();

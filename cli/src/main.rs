@@ -1,4 +1,4 @@
-//! The `roundel` program: one command a task, each in a module of its name.
+//! The `roundel` program: one command for each task, in a module of its name.
 
 mod check;
 mod evaluate;

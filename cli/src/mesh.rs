@@ -1,4 +1,4 @@
-//! Where a mesh is named on the command line: a file, or a shape drawn up by name.
+//! A mesh named on the command line: a file, or a procedural shape.
 
 use std::path::Path;
 

@@ -1,4 +1,4 @@
-//! Writing: to files and to standard output, with the file's name in every failure.
+//! Output to files and to standard output, with the file's name in every error.
 
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
@@ -10,8 +10,8 @@ use serde::Serialize;
 use crate::exit::Exit;
 use crate::report::Failure;
 
-/// Writes one `NAME VALUE` line a variable, with the 17 significant digits that give every double
-/// back exactly.
+/// Writes one line `NAME VALUE` for each variable, with the 17 significant digits that give every
+/// double back exactly.
 pub fn write_values(path: &Path, names: &[String], values: &[f64]) -> Result<()> {
     let write = || -> io::Result<()> {
         let mut file = BufWriter::new(File::create(path)?);
@@ -31,7 +31,7 @@ pub fn print_json(object: &impl Serialize) -> Result<()> {
     print(&format!("{text}\n"))
 }
 
-/// Prints `text`. Unlike `print!`, does not panic when nobody reads any more.
+/// Prints `text`. Unlike `print!`, it does not panic if the output is closed.
 pub fn print(text: &str) -> Result<()> {
     let mut stdout = io::stdout().lock();
     stdout
@@ -40,8 +40,8 @@ pub fn print(text: &str) -> Result<()> {
         .map_err(|reason| io_error("standard output", &reason))
 }
 
-/// Ends a command on `file` that has told its solution, if it found one: a failure is told here, on
-/// stdout as JSON if that is wanted, else on stderr.
+/// Ends a command on `file`, which has printed its result if there is one. An error is printed here: on
+/// stdout as JSON if `json`, else on stderr.
 pub fn conclude(file: &Path, json: bool, told: Result<()>) -> Exit {
     let Err(error) = told else {
         return Exit::Solved;
@@ -52,18 +52,19 @@ pub fn conclude(file: &Path, json: bool, told: Result<()>) -> Exit {
     Exit::of(&error)
 }
 
-/// Tells a person what went wrong, on stderr.
+/// Prints an error on stderr, for people.
 pub fn complain(file: &Path, error: &Error) {
     let text = match error {
         // The message names the file that could not be read or written.
         Error::Io { message } => message.clone(),
         _ => format!("{}: {error}", file.display()),
     };
-    // Where stderr is closed there is nobody left to tell.
+    // If stderr is closed, nobody reads the error.
     let _ = writeln!(io::stderr(), "roundel: {text}");
 }
 
-fn io_error(name: &str, reason: &io::Error) -> Error {
+/// The error of a file or stream that cannot be read or written.
+pub fn io_error(name: &str, reason: &io::Error) -> Error {
     Error::Io {
         message: format!("{name}: {reason}"),
     }

@@ -1,4 +1,4 @@
-//! Progress: one line on stderr while a person watches, nothing otherwise.
+//! Progress: one line on stderr if it is a terminal, nothing otherwise.
 
 use std::borrow::Cow;
 use std::time::Duration;
@@ -7,7 +7,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use roundel::monitor::{EventKind, Phase};
 use roundel::{Event, Flow, Monitor};
 
-/// The line. It is gone once this is dropped.
+/// The line. It disappears when this is dropped.
 pub struct Progress(ProgressBar);
 
 /// Often enough to look alive, seldom enough to cost nothing.
@@ -25,7 +25,7 @@ impl Progress {
         Progress(bar)
     }
 
-    /// Says what is being done now, where no monitor tells.
+    /// Shows the current step, for steps without a monitor.
     pub fn say(&self, what: &'static str) {
         self.0.set_message(what);
     }

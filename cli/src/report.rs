@@ -1,4 +1,4 @@
-//! The JSON objects: one a run, of a solution or of a failure.
+//! The JSON object that a run prints: of a solution or of a failure.
 
 use std::path::Path;
 
@@ -43,7 +43,7 @@ struct Seconds {
 pub struct Preparation {
     /// Reading the file.
     pub read: f64,
-    /// Making the problem of it, where the file is not the problem.
+    /// Making the problem, if the file does not hold one.
     pub assemble: Option<f64>,
 }
 
@@ -118,8 +118,8 @@ impl Failure {
     }
 }
 
-/// The status word of a run without a solution: how the solve ended where it says something about
-/// the problem, else `error`.
+/// The status word of a run without a solution: how the solve ended, if that tells something about the
+/// problem, else `error`.
 fn status(error: &Error) -> &'static str {
     match error {
         Error::Infeasible { .. } | Error::NoIntegerSolution { .. } => "infeasible",

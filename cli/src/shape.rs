@@ -18,11 +18,11 @@ pub struct Arguments {
     #[arg(value_name = "NAME")]
     name: String,
 
-    /// About how many triangles
+    /// The approximate number of triangles
     #[arg(long, value_name = "N", default_value_t = DEFAULT_TRIANGLES)]
     triangles: usize,
 
-    /// Move every vertex by noise, up to this part of its shortest edge
+    /// Move every vertex by random noise of up to this fraction of its shortest edge
     #[arg(
         long,
         value_name = "A",
@@ -35,7 +35,7 @@ pub struct Arguments {
     #[arg(long, value_name = "S", default_value_t = 0)]
     seed: u64,
 
-    /// The file: .obj, .off or .ply
+    /// Write the mesh to this file: .obj, .off or .ply
     #[arg(short, long, value_name = "OUT")]
     out: PathBuf,
 }

@@ -1,4 +1,4 @@
-//! `roundel solve`: reads an MPS file, solves it, tells what came out.
+//! `roundel solve`: reads an MPS file, solves the problem and reports the solution.
 
 use std::path::PathBuf;
 use std::time::Instant;
@@ -23,8 +23,8 @@ pub struct Arguments {
     #[arg(value_name = "FILE")]
     file: PathBuf,
 
-    /// Take options, pinned variables and initial guess from the replay file beside FILE; flags
-    /// given here come first
+    /// Take options, pinned variables and initial guess from the replay file beside FILE; flags on the
+    /// command line take precedence
     #[arg(long)]
     replay: bool,
 
@@ -32,7 +32,7 @@ pub struct Arguments {
     #[arg(long)]
     json: bool,
 
-    /// Write one line `NAME VALUE` a variable to this file, 17 digits each
+    /// Write a line `NAME VALUE` for each variable to this file, with 17 digits
     #[arg(long, value_name = "OUT")]
     solution: Option<PathBuf>,
 
@@ -69,7 +69,7 @@ fn read(arguments: &Arguments) -> Result<Input> {
     })
 }
 
-/// A solution, and how it was come by.
+/// A solution, and how it was found.
 struct Solved {
     strategy: Strategy,
     read: f64,

@@ -1,10 +1,10 @@
-//! The readable summary of a solution, for people: one line a phase, what came out and how long.
+//! The readable summary of a solution: one line for each phase, with its result and its seconds.
 
 use std::fmt;
 
 use roundel::Solution;
 
-/// Three lines: what was read, what is left after elimination, what was found.
+/// Three lines: the problem that was read, the problem after elimination, the solution.
 pub struct Summary<'a> {
     /// The strategy's name.
     pub strategy: &'a str,
@@ -40,7 +40,7 @@ impl fmt::Display for Summary<'_> {
     }
 }
 
-/// How a solve ended and how far the energy is from the bound.
+/// The status of a solve, and the gap between energy and bound.
 pub fn verdict(solution: &Solution) -> String {
     let status = solution.status().name();
     match solution.gap() {

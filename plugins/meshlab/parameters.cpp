@@ -73,7 +73,7 @@ void set(roundel::Options& options, const std::string& name, const QString& valu
     }
     if (!is_number) {
         throw std::invalid_argument("option " + name + ": " + value.toStdString() +
-                                    " is not a number of its kind");
+                                    " is not a number of its type");
     }
 }
 
@@ -86,7 +86,7 @@ roundel::Options solver_options(const RichParameterList& list) {
         }
         const int equals = word.indexOf('=');
         if (equals < 1) {
-            throw std::invalid_argument("not NAME=VALUE: " + word.toStdString());
+            throw std::invalid_argument("expected NAME=VALUE, found " + word.toStdString());
         }
         set(options, word.left(equals).toStdString(), word.mid(equals + 1));
     }

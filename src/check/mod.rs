@@ -71,7 +71,8 @@ pub struct MapCheck {
     /// Edges over which coordinates do not change by a quarter turn, with the difference of the edge's
     /// two images.
     pub rotations: Vec<Defect>,
-    /// Edges over which coordinates change by a quarter turn, but with a translation that is not integer.
+    /// Edges over which coordinates change by a quarter turn, but with a translation that is not
+    /// integer.
     pub translations: Vec<Defect>,
     /// All singular vertices, good and bad.
     pub singularities: Vec<Singularity>,

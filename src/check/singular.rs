@@ -1,7 +1,8 @@
-//! Singular vertices (`bommes2012`, equation (6.2)): those whose angles in the map do not sum to one turn.
+//! Singular vertices (`bommes2012`, equation (6.2)): those whose angles in the map do not sum to
+//! one turn.
 //!
-//! The composed quarter turns around a vertex give its index up to whole turns. The angles of the map tell
-//! the whole turns; they are trusted where all triangles around are positively oriented.
+//! The composed quarter turns around a vertex give its index up to whole turns. The angles of the
+//! map tell the whole turns; they are trusted where all triangles around are positively oriented.
 
 use std::f64::consts::FRAC_PI_2;
 

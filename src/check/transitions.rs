@@ -1,8 +1,8 @@
 //! How coordinates change over an edge, read off the coordinates alone.
 //!
-//! `bommes2012`, equation (6.1): the transition of an integer-grid map is a quarter turn and an integer
-//! translation. Both faces have coordinates of both ends of an edge, which a turn and a translation explain
-//! up to a residual. The turn with the least residual is taken.
+//! `bommes2012`, equation (6.1): the transition of an integer-grid map is a quarter turn and an
+//! integer translation. Both faces have coordinates of both ends of an edge, which a turn and a
+//! translation explain up to a residual. The turn with the least residual is taken.
 
 use crate::mesh::TriangleMesh;
 

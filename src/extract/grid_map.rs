@@ -1,13 +1,14 @@
 //! An integer-grid map made exact: transitions of quarter turns and integers that hold to the last bit.
 //!
-//! This is the sanitization of `ebke2013`, section 4, with fixed-point numbers in place of truncated
-//! floating-point numbers: quarter turns and integer shifts of them are exact. Around a regular vertex one
-//! corner decides, and transitions carry its coordinates to the others. An irregular vertex lies at the
-//! fixed point of the transitions around it, which must be an integer point.
+//! This is the sanitization of `ebke2013`, section 4, with fixed-point numbers in place of
+//! truncated floating-point numbers: quarter turns and integer shifts of them are exact. Around a
+//! regular vertex one corner decides, and transitions carry its coordinates to the others. An
+//! irregular vertex lies at the fixed point of the transitions around it, which must be an integer
+//! point.
 //!
-//! Coordinates are counted in units of 2^-32. Those of irregular vertices are integers, hence even counts;
-//! all others are made odd, and quarter turns and integer shifts keep them odd. No other vertex ever lies on
-//! an integer line, and lines need no rule for passing through a vertex.
+//! Coordinates are counted in units of 2^-32. Those of irregular vertices are integers, hence even
+//! counts; all others are made odd, and quarter turns and integer shifts keep them odd. No other
+//! vertex ever lies on an integer line, and lines need no rule for passing through a vertex.
 
 use super::place::doubled_area;
 use crate::map::SeamlessMap;
@@ -46,11 +47,11 @@ impl IntegerGridMap {
     /// The map with these coordinates at the corners of every face.
     ///
     /// # Errors
-    /// [`Error::LengthMismatch`] unless there is one triple of coordinates for each face; with the face,
-    /// [`Error::NotFinite`] and [`Error::Overflow`] for a coordinate outside [`RANGE`];
-    /// [`Error::InvalidArgument`] with an edge over which coordinates do not change by a quarter turn
-    /// and an integer shift within [`SEAM_TOLERANCE`], or with a vertex around which the transitions have
-    /// no integer fixed point.
+    /// [`Error::LengthMismatch`] unless there is one triple of coordinates for each face; with the
+    /// face, [`Error::NotFinite`] and [`Error::Overflow`] for a coordinate outside [`RANGE`];
+    /// [`Error::InvalidArgument`] with an edge over which coordinates do not change by a quarter
+    /// turn and an integer shift within [`SEAM_TOLERANCE`], or with a vertex around which the
+    /// transitions have no integer fixed point.
     pub fn new(mesh: &TriangleMesh, uvs: &[[[f64; 2]; 3]]) -> Result<Self> {
         check(mesh, uvs)?;
         Self::exact(mesh, uvs, |edge| nearest_quarters(uvs, edge))

@@ -1,13 +1,14 @@
 //! Quad extraction: from an integer-grid map to the quads that its integer lines bound.
 //!
-//! The task and the order of the steps are those of `ebke2013`: make the map exact, find its integer points,
-//! trace the integer lines between them, and walk around faces. What differs is how the method becomes
-//! robust. Coordinates are fixed-point numbers, and parity keeps every vertex but the irregular ones off
-//! the integer lines (`grid_map`), so that a line meets triangles only through the interior of edges. The
-//! only decisions are the sign of a vertex and the order of two crossings along one edge. Everything else
-//! (`arrangement`) is the combinatorics of chords in a triangle, which is consistent for every map, also
-//! where triangles are folded or collapsed. Folds appear as lines that cross twice in opposite directions.
-//! Moves that keep the topology remove them (`fold_removal`) and make quads of what is left (`repair`).
+//! The task and the order of the steps are those of `ebke2013`: make the map exact, find its
+//! integer points, trace the integer lines between them, and walk around faces. What differs is how
+//! the method becomes robust. Coordinates are fixed-point numbers, and parity keeps every vertex
+//! but the irregular ones off the integer lines (`grid_map`), so that a line meets triangles only
+//! through the interior of edges. The only decisions are the sign of a vertex and the order of two
+//! crossings along one edge. Everything else (`arrangement`) is the combinatorics of chords in a
+//! triangle, which is consistent for every map, also where triangles are folded or collapsed. Folds
+//! appear as lines that cross twice in opposite directions. Moves that keep the topology remove
+//! them (`fold_removal`) and make quads of what is left (`repair`).
 
 mod arrangement;
 mod chords;
@@ -45,8 +46,9 @@ use refined::Refined;
 /// quads alone, and [`QuadMesh::faults`] where it does not. The monitor is asked between steps.
 ///
 /// # Errors
-/// [`Error::LengthMismatch`](crate::Error::LengthMismatch) for the map of another mesh, [`Error::Overflow`](crate::Error::Overflow) for a map with more
-/// crossings of edges and integer lines than there are 32-bit numbers, [`Error::Cancelled`](crate::Error::Cancelled).
+/// [`Error::LengthMismatch`](crate::Error::LengthMismatch) for the map of another mesh,
+/// [`Error::Overflow`](crate::Error::Overflow) for a map with more crossings of edges and integer
+/// lines than there are 32-bit numbers, [`Error::Cancelled`](crate::Error::Cancelled).
 pub fn extract(
     mesh: &TriangleMesh,
     map: &IntegerGridMap,

@@ -5,18 +5,17 @@ use std::io::{self, BufWriter, Write};
 use std::path::Path;
 
 use super::QuadMesh;
-use crate::{Error, Result};
+use crate::Result;
+use crate::mesh::MeshError;
 
 impl QuadMesh {
     /// Writes vertices and faces. Coordinates are written so that reading gives back the same.
     ///
     /// # Errors
-    /// [`Error::Io`] for a file that cannot be written.
+    /// [`Error::Io`](crate::Error::Io) for a file that cannot be written.
     pub fn write_obj(&self, path: &Path) -> Result<()> {
         let file = File::create(path).and_then(|file| self.encode(BufWriter::new(file)));
-        file.map_err(|reason| Error::Io {
-            message: format!("{}: {reason}", path.display()),
-        })
+        Ok(file.map_err(|reason| MeshError::of_file(path, &reason))?)
     }
 
     fn encode(&self, mut out: impl Write) -> io::Result<()> {

@@ -1,7 +1,7 @@
 //! The mesh on which lines are traced: that of the map, with edges between irregular vertices split.
 //!
-//! Irregular vertices are the only ones on integer lines, so an edge between two of them may lie along a
-//! line. A vertex in its middle, off the line, prevents that.
+//! Irregular vertices are the only ones on integer lines, so an edge between two of them may lie
+//! along a line. A vertex in its middle, off the line, prevents that.
 
 use std::collections::BTreeMap;
 

@@ -1,9 +1,10 @@
 //! Cells that folds leave behind are made quads, by moves of the drawing alone.
 //!
-//! Where the map winds around a point more often than it should, removing folds leaves cells that are not
-//! squares: an irregular vertex with a single line, and near it a cell of eight sides. The parity of `i + j`
-//! changes along every line, and neither quarter turns nor the removal of folds change that. Every cell that
-//! is a disk therefore has an even number of sides, and these moves make quads of all:
+//! Where the map winds around a point more often than it should, removing folds leaves cells that
+//! are not squares: an irregular vertex with a single line, and near it a cell of eight sides. The
+//! parity of `i + j` changes along every line, and neither quarter turns nor the removal of folds
+//! change that. Every cell that is a disk therefore has an even number of sides, and these moves
+//! make quads of all:
 //!
 //! - a cell of two sides is closed, and a line that ends inside a cell or bounds nothing is removed;
 //! - a vertex of two lines, a doublet (`daniels2008`), is removed with the edge between its two cells;

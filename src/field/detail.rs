@@ -1,10 +1,10 @@
 //! Curvature of details smaller than a quad, which a field ignores.
 //!
 //! Around a vertex a field turns by the curvature there less 2 pi times its index. Noise and small
-//! features therefore attract irregular vertices, often in pairs with hardly a quad between them. If
-//! curvature is smoothed before the indices are decided (`ray2009`), irregular vertices stay where there
-//! is curvature at the scale of interest. Two steps of implicit diffusion tell how much curvature flows
-//! along each edge, and the transport over the edge turns by as much more.
+//! features therefore attract irregular vertices, often in pairs with hardly a quad between them.
+//! If curvature is smoothed before the indices are decided (`ray2009`), irregular vertices stay
+//! where there is curvature at the scale of interest. Two steps of implicit diffusion tell how much
+//! curvature flows along each edge, and the transport over the edge turns by as much more.
 
 use super::FieldOptions;
 use crate::linalg::{Cholesky, Sparse};
@@ -15,7 +15,8 @@ use crate::{Error, Result};
 /// Steps of diffusion: a single one leaves a peak where all curvature was at one vertex.
 const STEPS: usize = 2;
 
-/// Least and largest weight of an edge: with them the Laplacian of thin and obtuse triangles keeps its signs.
+/// Least and largest weight of an edge: with them the Laplacian of thin and obtuse triangles keeps
+/// its signs.
 const WEIGHTS: [f64; 2] = [0.1, 10.0];
 
 /// The additional turn of the transport over every edge, from its first to its second face, after

@@ -1,8 +1,8 @@
 //! A field from one direction for each face, the form in which other programs store it.
 //!
-//! A direction is one arm of the face's cross; it does not tell which arms match over an edge. Nearest
-//! matching decides that: the period jump is the one that leaves the least angle between the matched arms,
-//! at most an eighth of a turn for crosses (`ray2008`, section 3).
+//! A direction is one arm of the face's cross; it does not tell which arms match over an edge.
+//! Nearest matching decides that: the period jump is the one that leaves the least angle between
+//! the matched arms, at most an eighth of a turn for crosses (`ray2008`, section 3).
 
 use super::OrientationField;
 use crate::mesh::TriangleMesh;
@@ -10,7 +10,8 @@ use crate::mesh::vector::{Vec3, add, dot, scale};
 use crate::{Error, Result};
 
 impl OrientationField {
-    /// The field of crosses with this direction in every face, matched by the nearest arms over every edge.
+    /// The field of crosses with this direction in every face, matched by the nearest arms over
+    /// every edge.
     ///
     /// Directions are vectors in space of any length; their component normal to the face is dropped.
     /// No face counts as constrained.

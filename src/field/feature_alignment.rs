@@ -1,11 +1,11 @@
 //! Crosses aligned to feature edges, as constraints on the faces beside them.
 //!
-//! A face beside one feature edge has an arm along it (`bommes2009`, section 4.2). The wedge of faces
-//! between two feature edges at a vertex becomes a whole number of quads, the nearest to its angle. That
-//! number must not be 0, which would collapse the faces in a map. The faces of a wedge of less than half a
-//! right angle are therefore turned, evenly from its first edge to its last, until one quad fits in. The
-//! same holds for a face between two feature edges whatever its angle, since in a single triangle each
-//! coordinate can follow only one of them.
+//! A face beside one feature edge has an arm along it (`bommes2009`, section 4.2). The wedge of
+//! faces between two feature edges at a vertex becomes a whole number of quads, the nearest to its
+//! angle. That number must not be 0, which would collapse the faces in a map. The faces of a wedge
+//! of less than half a right angle are therefore turned, evenly from its first edge to its last,
+//! until one quad fits in. The same holds for a face between two feature edges whatever its angle,
+//! since in a single triangle each coordinate can follow only one of them.
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 

@@ -1,10 +1,10 @@
 //! Fields as text files: for each face one line `X Y Z`, a direction, which is one arm of its cross.
 //!
-//! libigl and its users call this a per-face field. Crosses match over an edge by their nearest arms. If
-//! a field needs another matching, a line `jump FACE SIDE P` after the directions gives it: after the
-//! unfolding over local edge SIDE, P quarter turns lead from the arm of FACE to the arm across. Elements
-//! are counted from 0; empty lines and text after a `#` are ignored. A field of another symmetry than 4
-//! starts with a line `symmetry N`.
+//! libigl and its users call this a per-face field. Crosses match over an edge by their nearest
+//! arms. If a field needs another matching, a line `jump FACE SIDE P` after the directions gives
+//! it: after the unfolding over local edge SIDE, P quarter turns lead from the arm of FACE to the
+//! arm across. Elements are counted from 0; empty lines and text after a `#` are ignored. A field
+//! of another symmetry than 4 starts with a line `symmetry N`.
 
 use std::f64::consts::TAU;
 use std::fs::File;
@@ -13,8 +13,8 @@ use std::path::Path;
 
 use super::OrientationField;
 use super::directions::angle;
-use crate::mesh::TriangleMesh;
 use crate::mesh::vector::Vec3;
+use crate::mesh::{MeshError, TriangleMesh};
 use crate::{Error, Result};
 
 impl OrientationField {
@@ -26,7 +26,7 @@ impl OrientationField {
     /// other than one direction a face.
     pub fn read(mesh: &TriangleMesh, path: impl AsRef<Path>) -> Result<Self> {
         let path = path.as_ref();
-        let text = std::fs::read(path).map_err(|reason| failed(path, &reason))?;
+        let text = std::fs::read(path).map_err(|reason| MeshError::of_file(path, &reason))?;
         Self::parse(mesh, &String::from_utf8_lossy(&text))
     }
 
@@ -47,7 +47,7 @@ impl OrientationField {
         self.check_mesh(mesh)?;
         let path = path.as_ref();
         let file = File::create(path).and_then(|file| self.encode(mesh, BufWriter::new(file)));
-        file.map_err(|reason| failed(path, &reason))
+        Ok(file.map_err(|reason| MeshError::of_file(path, &reason))?)
     }
 
     fn encode(&self, mesh: &TriangleMesh, mut out: impl Write) -> io::Result<()> {
@@ -174,12 +174,6 @@ fn wrong(line: usize, message: &str) -> Error {
     Error::Parse {
         line,
         message: message.into(),
-    }
-}
-
-fn failed(path: &Path, reason: &io::Error) -> Error {
-    Error::Io {
-        message: format!("{}: {reason}", path.display()),
     }
 }
 

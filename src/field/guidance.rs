@@ -28,7 +28,8 @@ pub struct Guidance {
     /// This part of the faces, those with the most reliable curvature, have the direction of least
     /// absolute curvature ([`curvature_constraints`](super::curvature_constraints)).
     pub constrain_curvature: f64,
-    /// The weight with which all other faces are pulled towards it ([`curvature_guides`](super::curvature_guides)).
+    /// The weight with which all other faces are pulled towards it
+    /// ([`curvature_guides`](super::curvature_guides)).
     pub curvature_weight: f64,
     /// Edges whose normals differ by at least this are features (radians), for crosses no more than
     /// two of a face.

@@ -15,8 +15,8 @@ use std::path::Path;
 
 use super::directions::angle;
 use super::{Constraint, Guidance, Guide, PrescribedIndex};
-use crate::mesh::TriangleMesh;
 use crate::mesh::features::edge_between;
+use crate::mesh::{MeshError, TriangleMesh};
 use crate::{Error, Result};
 
 impl Guidance {
@@ -28,9 +28,7 @@ impl Guidance {
     /// when the field is made.
     pub fn read(&mut self, mesh: &TriangleMesh, path: impl AsRef<Path>) -> Result<()> {
         let path = path.as_ref();
-        let text = std::fs::read(path).map_err(|reason| Error::Io {
-            message: format!("{}: {reason}", path.display()),
-        })?;
+        let text = std::fs::read(path).map_err(|reason| MeshError::of_file(path, &reason))?;
         self.parse(mesh, &String::from_utf8_lossy(&text))
     }
 

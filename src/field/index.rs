@@ -31,8 +31,8 @@ impl OrientationField {
             .collect()
     }
 
-    /// The quarter turns of the field around a vertex. At the boundary they are counted from one boundary
-    /// edge to the other, and are a whole number only if the field follows both.
+    /// The quarter turns of the field around a vertex. At the boundary they are counted from one
+    /// boundary edge to the other, and are a whole number only if the field follows both.
     pub(crate) fn quarters(&self, mesh: &TriangleMesh, v: usize) -> i32 {
         let mut around = angle_sum(mesh, v) + self.turning(mesh, v);
         let mut faces = mesh.ring(v).map(|(face, _)| face);

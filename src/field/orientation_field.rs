@@ -36,8 +36,8 @@ impl OrientationField {
         &self.period_jumps
     }
 
-    /// One angle for each edge: the frame of its first face seen in that of its second, after unfolding,
-    /// in (-pi, pi]. Zero at the boundary.
+    /// One angle for each edge: the frame of its first face seen in that of its second, after
+    /// unfolding, in (-pi, pi]. Zero at the boundary.
     pub fn kappa(&self) -> &[f64] {
         &self.kappa
     }

@@ -99,8 +99,8 @@ impl FieldProblem {
         Ok(this)
     }
 
-    /// Adds one row of the energy for each edge, whose transport turns by `ignored` in addition. Returns
-    /// the row of every edge that has one.
+    /// Adds one row of the energy for each edge, whose transport turns by `ignored` in addition.
+    /// Returns the row of every edge that has one.
     fn add_edges(
         &mut self,
         mesh: &TriangleMesh,

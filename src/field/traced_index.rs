@@ -1,9 +1,9 @@
 //! Vertex indices by following an arm of the cross around the vertex in space.
 //!
-//! This is independent of [`super::index`]: it uses no kappa and unfolds no frames into the plane. An arm
-//! is carried from face to face as a vector, turned over each edge into the next face's plane, and
-//! compared with the arm that it is matched with there. The angles between them sum to the turning of the
-//! field.
+//! This is independent of [`super::index`]: it uses no kappa and unfolds no frames into the plane.
+//! An arm is carried from face to face as a vector, turned over each edge into the next face's
+//! plane, and compared with the arm that it is matched with there. The angles between them sum to
+//! the turning of the field.
 
 use std::f64::consts::TAU;
 

@@ -1,8 +1,8 @@
 //! Combing: one arm of every cross is chosen such that the arms match over all edges off the cut.
 //!
-//! `kalberer2007`, section 3, and `bommes2009`, section 5: once the surface is cut open to a disk without
-//! cones, the period jumps can be removed by turning one face after the other. The rest of them, quarter
-//! turns, lies on the cut.
+//! `kalberer2007`, section 3, and `bommes2009`, section 5: once the surface is cut open to a disk
+//! without cones, the period jumps can be removed by turning one face after the other. The rest of
+//! them, quarter turns, lies on the cut.
 
 use std::collections::VecDeque;
 use std::f64::consts::FRAC_PI_2;
@@ -39,8 +39,8 @@ impl Combing {
         })
     }
 
-    /// One number for each face, 0 to 3: the quarter turns, counter-clockwise, from the arm that the field
-    /// stores to the one chosen.
+    /// One number for each face, 0 to 3: the quarter turns, counter-clockwise, from the arm that
+    /// the field stores to the one chosen.
     pub fn quarters(&self) -> &[u8] {
         &self.quarters
     }

@@ -1,9 +1,9 @@
 //! Shortest paths from a cut graph to the cones that it does not reach yet.
 //!
-//! One sweep of Dijkstra's algorithm starts from the cut graph and the boundary. When it settles a cone,
-//! the path to the cone joins the cut graph, and its vertices become sources at distance zero. Every cone
-//! thus joins what is nearest to it at that time (the shortest-path heuristic for Steiner trees,
-//! `takahashi1980`).
+//! One sweep of Dijkstra's algorithm starts from the cut graph and the boundary. When it settles a
+//! cone, the path to the cone joins the cut graph, and its vertices become sources at distance
+//! zero. Every cone thus joins what is nearest to it at that time (the shortest-path heuristic for
+//! Steiner trees, `takahashi1980`).
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;

@@ -1,9 +1,9 @@
 //! The cut graph: edges along which a surface is opened so that one chart covers it.
 //!
 //! `bommes2009`, section 5 ("computing the cut graph"). A spanning tree of the dual graph glues the
-//! triangles of each component to one disk. The other edges, pruned of their loose ends, are a cut graph
-//! of the topology alone (`erickson2004`, section 3). Shortest paths then join it to every cone, so that
-//! the rest of the surface is simply connected and has no cone in its interior.
+//! triangles of each component to one disk. The other edges, pruned of their loose ends, are a cut
+//! graph of the topology alone (`erickson2004`, section 3). Shortest paths then join it to every
+//! cone, so that the rest of the surface is simply connected and has no cone in its interior.
 
 use std::collections::VecDeque;
 

@@ -1,8 +1,8 @@
 //! The deviation of gradients from their targets, as a quadratic form in the vertices.
 //!
-//! On a triangle, area |g|^2 is the sum over its edges of w_k (g . e_k)^2 with w_k half the cotangent of
-//! the opposite angle (`pinkall1993`), and a gradient times an edge is a difference of two values. With
-//! the target X of the gradient,
+//! On a triangle, area |g|^2 is the sum over its edges of w_k (g . e_k)^2 with w_k half the
+//! cotangent of the opposite angle (`pinkall1993`), and a gradient times an edge is a difference of
+//! two values. With the target X of the gradient,
 //!
 //! ```text
 //! area |grad u - X|^2 = sum over edges (a, b) of w_k (u_b - u_a - X . e_k)^2

@@ -167,8 +167,8 @@ impl SeamlessProblem {
         self.problem.set_constant(energy.constant)
     }
 
-    /// The same problem for a map that is `factor` times as large in length. The new linear terms are set
-    /// in `solver` too, which keeps what does not depend on the size.
+    /// The same problem for a map that is `factor` times as large in length. The new linear terms
+    /// are set in `solver` too, which keeps what does not depend on the size.
     pub(crate) fn refined(
         &self,
         mesh: &TriangleMesh,

@@ -8,7 +8,7 @@ use std::io::{self, BufWriter, Write};
 use std::path::Path;
 
 use super::SeamlessMap;
-use crate::mesh::TriangleMesh;
+use crate::mesh::{MeshError, TriangleMesh};
 use crate::{Error, Result};
 
 impl SeamlessMap {
@@ -27,9 +27,7 @@ impl SeamlessMap {
             });
         }
         let file = File::create(path).and_then(|file| self.encode(mesh, BufWriter::new(file)));
-        file.map_err(|reason| Error::Io {
-            message: format!("{}: {reason}", path.display()),
-        })
+        Ok(file.map_err(|reason| MeshError::of_file(path, &reason))?)
     }
 
     fn encode(&self, mesh: &TriangleMesh, mut out: impl Write) -> io::Result<()> {

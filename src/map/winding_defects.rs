@@ -1,8 +1,8 @@
 //! Winding defects: vertices around which the winding of a map differs from that of its field.
 //!
-//! With every triangle positively oriented, the angles of a map around a vertex sum to as many quarter
-//! turns as the field has there exactly if the map covers the neighbourhood once. No single triangle shows
-//! that: a ring may go around its vertex twice without a fold.
+//! With every triangle positively oriented, the angles of a map around a vertex sum to as many
+//! quarter turns as the field has there exactly if the map covers the neighbourhood once. No single
+//! triangle shows that: a ring may go around its vertex twice without a fold.
 
 use std::f64::consts::FRAC_PI_2;
 

@@ -1,9 +1,10 @@
 //! Chains of quads' edges along curves, with the gaps that the map leaves in them closed.
 //!
-//! A curve is an isoline, so quads have a chain of edges along it. But where the map folds, some vertices of
-//! the chain lie beside the curve, and where a curve ends on the surface there may be no integer point. Every
-//! node of the curves therefore gets the nearest vertex of the chain. Every gap between two vertices on a
-//! curve is closed by the shortest way through vertices beside it, which are spread evenly.
+//! A curve is an isoline, so quads have a chain of edges along it. But where the map folds, some
+//! vertices of the chain lie beside the curve, and where a curve ends on the surface there may be
+//! no integer point. Every node of the curves therefore gets the nearest vertex of the chain. Every
+//! gap between two vertices on a curve is closed by the shortest way through vertices beside it,
+//! which are spread evenly.
 
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet, BinaryHeap};

@@ -1,10 +1,10 @@
 //! Smoothing of quads on the surface, towards squares of one size.
 //!
 //! Every quad has a target for its corners: the square closest to it (the least-squares fit of
-//! `bouaziz2012`, section 4), of a size between its own and the mean size. A vertex moves to the mean of its
-//! targets, and from there to the closest point of the surface. Vertices on the boundary and on features
-//! slide along them; a vertex where these end, meet or turn is fixed. Quads that are still inverted are
-//! improved one vertex at a time.
+//! `bouaziz2012`, section 4), of a size between its own and the mean size. A vertex moves to the
+//! mean of its targets, and from there to the closest point of the surface. Vertices on the
+//! boundary and on features slide along them; a vertex where these end, meet or turn is fixed.
+//! Quads that are still inverted are improved one vertex at a time.
 
 mod chains;
 mod curve;

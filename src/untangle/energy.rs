@@ -6,11 +6,11 @@
 //! psi(J) = (tr J'J + lambda (det^2 + 1)) / chi(det),    chi(d) = (d + sqrt(eps^2 + d^2)) / 2
 //! ```
 //!
-//! chi is positive everywhere, so that a folded triangle has a finite energy. As eps goes to 0, chi tends
-//! to max(d, 0), so that a triangle that is not folded can never fold. The Hessian is projected to a
-//! positive definite one by its eigensystem in closed form (`smith2019`, section 4): the conformal part p
-//! and the anticonformal part q of J have `tr J'J = |p|^2 + |q|^2` and `2 det = |p|^2 - |q|^2`, so that
-//! psi is a function of these two squares alone.
+//! chi is positive everywhere, so that a folded triangle has a finite energy. As eps goes to 0, chi
+//! tends to max(d, 0), so that a triangle that is not folded can never fold. The Hessian is
+//! projected to a positive definite one by its eigensystem in closed form (`smith2019`, section 4):
+//! the conformal part p and the anticonformal part q of J have `tr J'J = |p|^2 + |q|^2` and
+//! `2 det = |p|^2 - |q|^2`, so that psi is a function of these two squares alone.
 
 use std::f64::consts::FRAC_1_SQRT_2;
 

@@ -1,8 +1,8 @@
 //! The degrees of freedom that are left when the integers are held.
 //!
-//! The constraints of the parametrization, with every integer unknown pinned, are eliminated, which leaves
-//! `x = T y + t` with `y` free and continuous. Only T is needed, because steps start from a solution: if x
-//! satisfies the constraints, so does `x + T dy`.
+//! The constraints of the parametrization, with every integer unknown pinned, are eliminated, which
+//! leaves `x = T y + t` with `y` free and continuous. Only T is needed, because steps start from a
+//! solution: if x satisfies the constraints, so does `x + T dy`.
 
 use std::ops::Range;
 

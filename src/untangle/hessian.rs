@@ -56,8 +56,8 @@ impl Hessian {
     }
 }
 
-/// Calls `term` with two coordinates a and b of a face, unknowns `i >= j` that move them, and the product
-/// of the two coefficients.
+/// Calls `term` with two coordinates a and b of a face, unknowns `i >= j` that move them, and the
+/// product of the two coefficients.
 fn each_term(corners: &Sparse, face: usize, mut term: impl FnMut(usize, usize, usize, usize, f64)) {
     for a in 0..6 {
         for (i, u) in corners.row(6 * face + a) {

@@ -1,9 +1,9 @@
 //! A disk around a cone laid anew in polar coordinates.
 //!
-//! Around a cone of q quarter turns a map looks like `z^(q/4)`: the angle and the logarithm of the distance
-//! from the cone are both harmonic. They are computed with the boundary of the disk where it is and the angle
-//! growing by q quarter turns around the cone. The map then covers the disk as often as the cone requires,
-//! whatever it did before.
+//! Around a cone of q quarter turns a map looks like `z^(q/4)`: the angle and the logarithm of the
+//! distance from the cone are both harmonic. They are computed with the boundary of the disk where
+//! it is and the angle growing by q quarter turns around the cone. The map then covers the disk as
+//! often as the cone requires, whatever it did before.
 
 use std::collections::{BTreeMap, VecDeque};
 use std::f64::consts::FRAC_PI_2;
@@ -32,7 +32,8 @@ struct Charts {
 }
 
 impl Layout {
-    /// The layout with `quarters` around the center; none if the boundary makes another number of turns.
+    /// The layout with `quarters` around the center; none if the boundary makes another number of
+    /// turns.
     ///
     /// # Errors
     /// [`OutOfMemory`](crate::Error::OutOfMemory).
@@ -261,8 +262,8 @@ fn harmonic(
     Ok(())
 }
 
-/// The quarter turns from the chart of one face to that of another, by their common edge: local edge `k`
-/// of the one, `l` of the other.
+/// The quarter turns from the chart of one face to that of another, by their common edge: local
+/// edge `k` of the one, `l` of the other.
 fn quarter(from: Shape, k: usize, to: Shape, l: usize) -> i32 {
     let a = minus(from[(k + 1) % 3], from[k]);
     let b = minus(to[l], to[(l + 1) % 3]);

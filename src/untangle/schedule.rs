@@ -1,7 +1,7 @@
 //! The schedule that closes the barrier: from a smooth energy to one that no fold can pass.
 //!
-//! `garanzha2021`, section 3.2, equation (7): eps falls the faster, the more the last minimisation gained
-//! and the less is folded.
+//! `garanzha2021`, section 3.2, equation (7): eps falls the faster, the more the last minimisation
+//! gained and the less is folded.
 
 use super::system::System;
 use crate::monitor::Phase;

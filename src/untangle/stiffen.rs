@@ -1,16 +1,16 @@
 //! Local stiffening: around folds, triangles that the map distorts get a larger weight.
 //!
-//! `bommes2009`, section 5.4. With the singular values of the map of a triangle, relative to its targets, and
-//! the sign t of its determinant,
+//! `bommes2009`, section 5.4. With the singular values of the map of a triangle, relative to its
+//! targets, and the sign t of its determinant,
 //!
 //! ```text
 //! lambda = |t sigma1 - 1| + |t sigma2 - 1|,    w += min(c |lap lambda|, d),    c = 1, d = 5
 //! ```
 //!
-//! where lap is the uniform Laplacian over neighbouring triangles. Weights are smoothed afterwards, as a
-//! single triangle resists little. The paper solves for the whole surface each time, with the integers. Here
-//! the integers and everything far from a fold stay: a step costs one linear solve of a small region, and the
-//! barrier removes the folds that are left.
+//! where lap is the uniform Laplacian over neighbouring triangles. Weights are smoothed afterwards,
+//! as a single triangle resists little. The paper solves for the whole surface each time, with the
+//! integers. Here the integers and everything far from a fold stay: a step costs one linear solve
+//! of a small region, and the barrier removes the folds that are left.
 
 use super::Untangling;
 use super::energy::Quadratic;
@@ -33,8 +33,8 @@ const MOST: f64 = 5.0;
 const SMOOTHING: usize = 3;
 
 impl Untangling<'_> {
-    /// Stiffens the surroundings of each fold until it is gone, at most `times` times, and keeps the state
-    /// with the fewest folds.
+    /// Stiffens the surroundings of each fold until it is gone, at most `times` times, and keeps
+    /// the state with the fewest folds.
     pub(super) fn stiffen(&mut self, times: usize, monitor: &mut Monitor) -> Result<()> {
         for region in regions(self.freedom, &self.folded(), RINGS) {
             monitor.progress(Phase::Untangle, 0.0)?;

@@ -1,7 +1,7 @@
 //! Folds that no motion can remove, because the integers alone collapse a triangle.
 //!
-//! Two causes can be told from one element: a face without positive area whose corners are all held, and an
-//! edge whose two ends are held at one point.
+//! Two causes can be told from one element: a face without positive area whose corners are all
+//! held, and an edge whose two ends are held at one point.
 
 use super::freedom::Freedom;
 use crate::mesh::TriangleMesh;

@@ -15,7 +15,7 @@ pub(super) struct Ball {
     pub(super) color: [u8; 3],
 }
 
-/// One ball an irregular vertex, in increasing order of vertices.
+/// One ball for each irregular vertex, in increasing order of vertices.
 pub(super) fn balls(mesh: &TriangleMesh, field: &OrientationField) -> Vec<Ball> {
     let indices = field.vertex_indices(mesh);
     let quarters = indices.iter().map(|index| (4.0 * index).round() as i64);

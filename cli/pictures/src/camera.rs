@@ -1,4 +1,4 @@
-//! A pinhole camera that fills the frame with what it is given.
+//! A pinhole camera that fills the frame with the scene.
 
 use roundel::mesh::vector::{Vec3, add, cross, dot, norm, normalize, scale, sub};
 
@@ -6,7 +6,7 @@ use roundel::mesh::vector::{Vec3, add, cross, dot, norm, normalize, scale, sub};
 /// perspective of a portrait lens, which shows depth and bends nothing.
 const DISTANCE: f64 = 5.0;
 
-/// Part of the frame that stays free on each side.
+/// The fraction of the frame that stays empty on each side.
 const MARGIN: f64 = 0.04;
 
 /// Where a point of space falls on the image.

@@ -1,4 +1,4 @@
-//! The picture of a field: surface, streamlines, balls, seen from a good side.
+//! The picture of a field: surface, streamlines and balls.
 
 use super::ambient::sky_visible;
 use super::balls::{balls, unit_sphere};
@@ -16,8 +16,8 @@ use roundel::{Error, Result};
 
 const SURFACE: [u8; 3] = [246, 239, 226];
 const LINE: [u8; 3] = [66, 88, 120];
-/// Squares of streamlines that the surface is meant to have: enough to show where the field goes,
-/// few enough to tell them apart.
+/// The target number of squares between streamlines: enough to show the field, few enough to tell
+/// lines apart.
 const SQUARES: f64 = 3600.0;
 /// Of a streamline and of a ball, in distances between streamlines.
 const LINE_WIDTH: f64 = 0.14;
@@ -36,7 +36,7 @@ pub struct View {
     pub height: usize,
     /// From the mesh towards the eye.
     pub from: [f64; 3],
-    /// The direction that is upwards on the image.
+    /// The direction that points upwards on the image.
     pub up: [f64; 3],
 }
 

@@ -7,7 +7,7 @@ use roundel::mesh::vector::{Vec3, add, dot, normalize, scale};
 /// degrees, so that round parts of a coarse mesh stay round.
 const CREASE: f64 = 0.643;
 
-/// One normal a corner of every face: the mean, weighted by angles, of those faces around its
+/// One normal for each corner of every face: the mean, weighted by angles, of those faces around its
 /// vertex that differ from its own by less than a crease.
 pub(super) fn corner_normals(mesh: &TriangleMesh) -> Vec<[Vec3; 3]> {
     let normals: Vec<Vec3> = (0..mesh.face_count()).map(|f| mesh.normal(f)).collect();

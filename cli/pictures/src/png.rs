@@ -32,7 +32,7 @@ impl Image {
         self.height
     }
 
-    /// Three bytes (red, green, blue; sRGB) a pixel, row by row from the top.
+    /// Three bytes (red, green, blue; sRGB) for each pixel, row by row from the top.
     pub fn pixels(&self) -> &[u8] {
         &self.pixels
     }

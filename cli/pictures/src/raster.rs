@@ -1,4 +1,4 @@
-//! Triangles to samples: edge functions over the bounding box (Pineda 1988).
+//! Triangles to samples: edge functions over the bounding box (`pineda1988`).
 
 use std::ops::Range;
 

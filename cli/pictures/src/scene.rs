@@ -1,4 +1,4 @@
-//! What is drawn: triangles with a normal, a colour and a view of the sky at every corner.
+//! The scene: triangles with a normal, a colour and a view of the sky at every corner.
 
 use super::camera::Camera;
 use super::png::Image;
@@ -6,7 +6,7 @@ use super::raster::{Corner, fill};
 use super::shading::{Color, Lights, encode};
 use roundel::mesh::vector::{Vec3, add, scale};
 
-/// Samples a pixel, in each direction.
+/// Samples of a pixel in each direction.
 const SUPERSAMPLING: usize = 3;
 /// Pixel rows drawn at a time, so that the samples of a large image need not all be held.
 const STRIP: usize = 64;

@@ -19,10 +19,10 @@ use summary::CheckSummary;
 
 /// Check whether the texture coordinates of a mesh are an integer-grid map.
 ///
-/// Over every edge they have to turn by quarters and shift by integers, singular vertices lie on
-/// integer points, all triangles be the right way round (decided exactly), and features and boundary
-/// lie on integer isolines. Vertices, edges and faces are counted from 0, edges in increasing order of
-/// (lower face, local edge there).
+/// Over every edge the coordinates must change by a quarter turn and integers, singular vertices must
+/// be at integer points, all triangles must be positively oriented (decided exactly), and features and
+/// boundary must be on integer isolines. Vertices, edges and faces are counted from 0, edges in
+/// increasing order of (lower face, local edge there).
 #[derive(clap::Args)]
 #[command(after_help = exit::HELP)]
 pub struct Arguments {
@@ -30,15 +30,15 @@ pub struct Arguments {
     #[arg(value_name = "UV.obj")]
     pub map: PathBuf,
 
-    /// Edges over which the normal turns by more than this, in degrees, have to be on isolines
+    /// Require edges over which the normal turns by more than this, in degrees, to be on isolines
     #[arg(long, value_name = "ANGLE", value_parser = angle, allow_negative_numbers = true)]
     pub features: Option<f64>,
 
-    /// The boundary may be anywhere
+    /// Do not require the boundary to be on isolines
     #[arg(long)]
     pub free_boundary: bool,
 
-    /// What counts as integer, and as the same point, in units of the grid
+    /// The tolerance for integers and for equal points, in units of the grid
     #[arg(long, value_name = "T", default_value_t = MAP_TOLERANCE)]
     #[arg(value_parser = tolerance, allow_negative_numbers = true)]
     pub tolerance: f64,
@@ -86,13 +86,13 @@ fn check(arguments: &Arguments) -> Result<Checked> {
 fn angle(text: &str) -> std::result::Result<f64, String> {
     match text.parse() {
         Ok(angle) if (0.0..=180.0).contains(&angle) => Ok(angle),
-        _ => Err("not an angle from 0 to 180 degrees".into()),
+        _ => Err("the angle must be from 0 to 180 degrees".into()),
     }
 }
 
 fn tolerance(text: &str) -> std::result::Result<f64, String> {
     match text.parse() {
         Ok(tolerance) if (0.0..0.25).contains(&tolerance) => Ok(tolerance),
-        _ => Err("not a number from 0 to below 0.25".into()),
+        _ => Err("the tolerance must be at least 0 and below 0.25".into()),
     }
 }

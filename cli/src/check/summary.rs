@@ -1,4 +1,4 @@
-//! The readable summary of a check: one line a rule, how many elements break it and which is worst.
+//! The readable summary of a check: for each rule how many elements break it, and the worst of them.
 
 use std::fmt;
 
@@ -21,15 +21,10 @@ impl fmt::Display for CheckSummary<'_> {
         line(f, "read", &counted(mesh.face_count(), "face"), *read)?;
         let singular = counted_vertices(check.singularities.len(), "singular ");
         line(f, "check", &singular, *seconds)?;
+        rule(f, "edges without a quarter turn", "edge", &check.rotations)?;
         rule(
             f,
-            "edges that do not turn by quarters",
-            "edge",
-            &check.rotations,
-        )?;
-        rule(
-            f,
-            "edges that do not shift by integers",
+            "edges without an integer translation",
             "edge",
             &check.translations,
         )?;
@@ -65,7 +60,7 @@ impl fmt::Display for CheckSummary<'_> {
     }
 }
 
-/// A line where a rule is broken: how often, and where most.
+/// A line for a rule, if elements break it: their number, and the worst.
 fn rule(f: &mut fmt::Formatter, what: &str, noun: &str, defects: &[Defect]) -> fmt::Result {
     let by_amount = |a: &&Defect, b: &&Defect| a.amount.abs().total_cmp(&b.amount.abs());
     let Some(worst) = defects.iter().max_by(by_amount) else {

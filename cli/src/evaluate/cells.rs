@@ -1,7 +1,7 @@
 //! One solve, in a process of its own.
 //!
-//! A process that has solved before keeps what it once had resident; only the first solve of a
-//! process tells what a solve needs.
+//! A process does not give memory back, so that its peak memory is that of one solve only if it makes
+//! one.
 
 use std::path::Path;
 use std::process::{Command, Stdio};
@@ -11,14 +11,14 @@ use serde_json::Value;
 
 use super::row::Row;
 
-/// Solves shorter than this many seconds are repeated, and the shortest counts: what a short one
-/// takes is mostly chance.
+/// Solves shorter than this many seconds are repeated, and the shortest counts, as the time of a short
+/// solve varies.
 const SHORT: f64 = 0.5;
 
-/// How often a short solve is made.
+/// The number of runs of a short solve.
 const TIMES: usize = 3;
 
-/// Runs `roundel WORDS... --json` and puts what it tells into `row`.
+/// Runs `roundel WORDS... --json` and puts its figures into `row`.
 pub fn fill(row: &mut Row, words: &[String]) -> Result<()> {
     let report = report(words)?;
     row.source = "roundel".into();
@@ -48,7 +48,7 @@ pub fn fill(row: &mut Row, words: &[String]) -> Result<()> {
     Ok(())
 }
 
-/// Runs the program for what it writes.
+/// Runs the program for the files that it writes.
 pub fn run(words: &[String]) -> Result<()> {
     match report(words)?["error"]["message"].as_str() {
         None => Ok(()),
@@ -68,7 +68,7 @@ fn report(words: &[String]) -> Result<Value> {
     serde_json::from_slice(&output.stdout).map_err(|_| failed(words, &output.status.to_string()))
 }
 
-/// Of the solve alone: without reading the mesh and making the problem.
+/// The seconds of the solve alone, without reading the mesh and making the problem.
 fn solve_seconds(report: &Value) -> Option<f64> {
     let seconds = |phase: &str| report["seconds"][phase].as_f64();
     Some(seconds("total")? - seconds("read")? - seconds("assemble").unwrap_or(0.0))

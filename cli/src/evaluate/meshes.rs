@@ -1,4 +1,4 @@
-//! Where the meshes come from.
+//! The meshes of the tables: from files, or procedural ones of about their size.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -7,19 +7,20 @@ use roundel::Result;
 use roundel::mesh::{TriangleMesh, io, shape, subdivide};
 
 use super::experiments::Subject;
-use super::failed;
+use crate::output;
 
-/// More than this a procedural shape is not drawn up with but subdivided to.
+/// Larger procedural shapes are made by subdivision.
 const DRAWN: usize = 200_000;
 
-/// A folder for meshes and fields on the way. It is gone once this is dropped.
+/// A folder for intermediate meshes and fields. It is deleted when this is dropped.
 pub struct Scratch(PathBuf);
 
 impl Scratch {
     /// A folder inside `out`.
     pub fn new(out: &Path) -> Result<Self> {
         let folder = out.join(format!("scratch-{}", std::process::id()));
-        fs::create_dir(&folder).map_err(|reason| failed(&folder, &reason))?;
+        fs::create_dir(&folder)
+            .map_err(|reason| output::io_error(&folder.to_string_lossy(), &reason))?;
         Ok(Scratch(folder))
     }
 

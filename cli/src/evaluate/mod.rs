@@ -1,4 +1,5 @@
-//! `roundel evaluate`: the tables of Bommes' thesis, run anew, beside what they were.
+//! `roundel evaluate`: the tables of Bommes' thesis (`bommes2012`, section 5.3), run anew beside its
+//! figures.
 //!
 //! | file | step |
 //! | --- | --- |
@@ -28,13 +29,13 @@ mod table;
 use std::fs;
 use std::path::Path;
 
-use roundel::{Error, Result};
+use roundel::Result;
 
 use crate::exit::Exit;
 use crate::output;
 pub use arguments::Arguments;
 
-/// Runs the command and tells every row as soon as it is there.
+/// Runs the command.
 pub fn run(arguments: &Arguments) -> Exit {
     output::conclude(&arguments.tables, false, evaluate(arguments))
 }
@@ -45,7 +46,7 @@ fn evaluate(arguments: &Arguments) -> Result<()> {
         Some(file) => Some(others::read(file)?),
         None => None,
     };
-    fs::create_dir_all(out).map_err(|reason| failed(out, &reason))?;
+    fs::create_dir_all(out).map_err(|reason| output::io_error(&out.to_string_lossy(), &reason))?;
     let scratch = meshes::Scratch::new(out)?;
     let mut tables = Vec::new();
     for experiment in experiments::all(arguments.max_triangles) {
@@ -64,12 +65,5 @@ fn evaluate(arguments: &Arguments) -> Result<()> {
 }
 
 fn write(path: &Path, content: &str) -> Result<()> {
-    fs::write(path, content).map_err(|reason| failed(path, &reason))
-}
-
-/// The error of a file or folder that cannot be written.
-fn failed(path: &Path, reason: &std::io::Error) -> Error {
-    Error::Io {
-        message: format!("{}: {reason}", path.display()),
-    }
+    fs::write(path, content).map_err(|reason| output::io_error(&path.to_string_lossy(), &reason))
 }

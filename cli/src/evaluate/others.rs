@@ -1,4 +1,4 @@
-//! What other mixed-integer solvers make of the same MPS files: the CSV file of
+//! Results of other mixed-integer solvers on the same MPS files, from the CSV file of
 //! `scripts/other-solvers`, as a table of the page.
 
 use std::fmt::Write;
@@ -8,6 +8,7 @@ use std::path::Path;
 use roundel::{Error, Result};
 
 use super::escape::escape;
+use crate::output;
 
 /// The columns of the file, in its order.
 const HEADS: [&str; 8] = [
@@ -27,9 +28,8 @@ pub struct Others(Vec<Vec<String>>);
 
 /// Reads the file at `path`.
 pub fn read(path: &Path) -> Result<Others> {
-    let text = fs::read_to_string(path).map_err(|reason| Error::Io {
-        message: format!("{}: {reason}", path.display()),
-    })?;
+    let text = fs::read_to_string(path)
+        .map_err(|reason| output::io_error(&path.to_string_lossy(), &reason))?;
     parse(&text).map_err(|(line, reason)| Error::Io {
         message: format!("{}: line {line}: {reason}", path.display()),
     })
@@ -40,12 +40,12 @@ fn parse(text: &str) -> std::result::Result<Others, (usize, String)> {
     let mut lines = text.lines().enumerate();
     let heads = lines.next().map(|(_, line)| fields(line));
     if heads.is_none_or(|heads| heads != HEADS) {
-        return Err((1, format!("not the columns {}", HEADS.join(","))));
+        return Err((1, format!("expected the columns {}", HEADS.join(","))));
     }
     let row = |(at, line): (usize, &str)| {
         let row = fields(line);
         if row.len() != HEADS.len() {
-            return Err((at + 1, format!("{} columns", row.len())));
+            return Err((at + 1, format!("expected 8 columns, found {}", row.len())));
         }
         let number = |field: &&String| !field.is_empty() && field.parse::<f64>().is_err();
         match row[4..].iter().find(number) {
@@ -125,7 +125,7 @@ pub fn html(others: &Others) -> String {
     text + "</table>\n"
 }
 
-/// A number with so many decimals; nothing stays nothing.
+/// A number with this many decimals; empty text stays empty.
 fn shortened(number: &str, decimals: usize) -> String {
     let number = number.parse();
     number.map_or_else(|_| String::new(), |v: f64| format!("{v:.decimals$}"))

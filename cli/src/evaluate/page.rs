@@ -1,4 +1,4 @@
-//! The page: one HTML file that needs no other and no network.
+//! The page: one HTML file without references to other files or the network.
 
 use std::fmt::Write;
 
@@ -68,7 +68,7 @@ fn about(most: usize) -> String {
     )
 }
 
-/// Which rows are not what they are named after.
+/// The rows whose mesh is a procedural stand-in.
 fn stand_ins(tables: &[(Experiment, Vec<Row>)]) -> String {
     let mut said: Vec<(&str, &str)> = Vec::new();
     for row in tables.iter().flat_map(|(_, rows)| rows) {
@@ -91,7 +91,7 @@ fn stand_ins(tables: &[(Experiment, Vec<Row>)]) -> String {
     )
 }
 
-/// As Linux tells it.
+/// The name of the processor, from a file of Linux.
 fn processor() -> Option<String> {
     let info = std::fs::read_to_string("/proc/cpuinfo").ok()?;
     let line = info.lines().find(|l| l.starts_with("model name"))?;

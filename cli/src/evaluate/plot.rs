@@ -13,7 +13,7 @@ const RIGHT: f64 = 400.0;
 const TOP: f64 = 34.0;
 const BOTTOM: f64 = 330.0;
 
-/// Told apart by eyes that see few colours too (Okabe, Ito 2008).
+/// Colours that colour-blind people can tell apart too (`okabe2008`).
 const COLORS: [&str; 8] = [
     "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00", "#000000", "#8a8a8a",
 ];

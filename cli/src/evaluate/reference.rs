@@ -1,8 +1,8 @@
-//! The figures of others: the thesis' own (a 2.8 GHz i7 of 2012), and those of the original program
+//! The reference figures: those of the thesis (a 2.8 GHz i7 of 2012), and those of the original program
 //! with the thesis' parameters (CPU seconds of the solve, 2 cores of 2026, one thread).
 //!
-//! Their problems are stated alike, but constrained faces and the energy's scale are not the same
-//! in the thesis, whose energies can only be compared with each other.
+//! The thesis states the same problems, but with other constrained faces and another scale of the
+//! energy, so that its energies can only be compared with each other.
 
 use roundel::{Error, Result};
 use serde::Deserialize;

@@ -1,6 +1,6 @@
 //! One line of a table: a solver on a mesh, ours or from the reference figures.
 
-/// What is known of one solve. What is not, is none.
+/// The figures of one solve; none where they are not known.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Row {
     /// The mesh of the table.
@@ -8,7 +8,7 @@ pub struct Row {
     /// The mesh's shape, and the size for which its row stands.
     pub shape: String,
     pub triangles: usize,
-    /// What was solved on, if it is not the mesh itself.
+    /// The mesh that stands in for it, if the mesh itself is missing.
     pub stand_in: Option<String>,
     /// `roundel`, `thesis` or `original`.
     pub source: String,
@@ -21,21 +21,21 @@ pub struct Row {
     pub energy: Option<f64>,
     pub irregular_vertices: Option<u64>,
     pub factor_nonzeros: Option<u64>,
-    /// Of the solve alone.
+    /// The seconds of the solve alone.
     pub seconds: Option<f64>,
-    /// Of the whole process.
+    /// The peak memory of the whole process.
     pub peak_memory_bytes: Option<u64>,
-    /// Seconds here by seconds on the mesh before, of the same shape and solver.
+    /// The ratio of the seconds to those on the next smaller mesh of the same shape and solver.
     pub growth: Option<f64>,
 }
 
 impl Row {
-    /// Whether this is a figure of somebody else.
+    /// Whether this is a reference figure.
     pub fn is_reference(&self) -> bool {
         self.source != "roundel"
     }
 
-    /// Solver and, where it is not ours, source.
+    /// The solver, and the source of a reference figure.
     pub fn label(&self) -> String {
         match self.source.as_str() {
             "thesis" => format!("thesis: {}", self.solver),

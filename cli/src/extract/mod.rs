@@ -1,4 +1,4 @@
-//! `roundel extract`: the quads of a map from anywhere.
+//! `roundel extract`: the quads of a map from any program.
 
 use std::fmt;
 use std::path::PathBuf;
@@ -18,8 +18,8 @@ use crate::{interrupt, output};
 
 /// Extract the quads of a map that another program made.
 ///
-/// The map is an integer-grid map: over every seam its coordinates turn by quarters and shift by
-/// integers, and irregular vertices lie on integers. Faces that it turns over are coped with.
+/// The map must be an integer-grid map: over every seam its coordinates change by a quarter turn and
+/// integers, and irregular vertices are at integer points. Folded faces are allowed.
 #[derive(clap::Args)]
 #[command(after_help = exit::HELP)]
 pub struct Arguments {
@@ -31,7 +31,7 @@ pub struct Arguments {
     #[arg(short, long, value_name = "QUADS.obj")]
     out: Option<PathBuf>,
 
-    /// Leave vertices where the map has them
+    /// Do not smooth the quads
     #[arg(long)]
     no_smooth: bool,
 

@@ -18,13 +18,13 @@ pub struct Arguments {
     #[command(flatten)]
     pub directions: Directions,
 
-    /// Arms of a direction, evenly around: 1, 2, 4 (crosses) or 6
+    /// The number of arms, evenly spaced: 1, 2, 4 (crosses) or 6
     #[arg(long, value_name = "N", default_value_t = 4, value_parser = symmetry)]
     pub symmetry: u8,
 
-    /// Write the field to this file: a direction a face, one line each, for `parametrize` and other
-    /// programs (.txt), or the mesh with crosses and irregular vertices, to be looked at in MeshLab
-    /// or Blender (.ply and .obj have colours, .off not)
+    /// Write the field to this file. A .txt file has one line with a direction for each face, for
+    /// `parametrize` and other programs; .ply, .obj and .off files have the mesh with crosses and
+    /// irregular vertices, for MeshLab and Blender (.off without colours)
     #[arg(short, long, value_name = "OUT")]
     pub out: Option<PathBuf>,
 
@@ -41,7 +41,7 @@ pub struct Arguments {
     #[arg(allow_hyphen_values = true)]
     pub picture_from: [f64; 3],
 
-    /// The direction that is upwards in the picture
+    /// The direction that points upwards in the picture
     #[arg(long, value_name = "X,Y,Z", default_value = "0,1,0", value_parser = direction)]
     #[arg(allow_hyphen_values = true)]
     pub picture_up: [f64; 3],
@@ -61,23 +61,25 @@ pub struct Arguments {
 fn symmetry(text: &str) -> Result<u8, String> {
     match text.parse() {
         Ok(arms @ (1 | 2 | 4 | 6)) => Ok(arms),
-        _ => Err("not one of 1, 2, 4, 6".into()),
+        _ => Err("the symmetry must be 1, 2, 4 or 6".into()),
     }
 }
 
 fn size(text: &str) -> Result<[usize; 2], String> {
-    let (width, height) = text.split_once('x').ok_or("not WIDTHxHEIGHT")?;
+    let (width, height) = text.split_once('x').ok_or("expected WIDTHxHEIGHT")?;
     let pixels = |text: &str| match text.parse() {
         Ok(pixels) if (1..=8_192).contains(&pixels) => Ok(pixels),
-        _ => Err(format!("'{text}' is not a number of pixels, 1 to 8192")),
+        _ => Err(format!("'{text}' is not a number of pixels from 1 to 8192")),
     };
     Ok([pixels(width)?, pixels(height)?])
 }
 
 fn direction(text: &str) -> Result<[f64; 3], String> {
     let numbers: Result<Vec<f64>, _> = text.split(',').map(str::parse).collect();
-    let numbers = numbers.map_err(|_| "not X,Y,Z")?;
-    numbers.try_into().map_err(|_| String::from("not X,Y,Z"))
+    let numbers = numbers.map_err(|_| "expected X,Y,Z")?;
+    numbers
+        .try_into()
+        .map_err(|_| String::from("expected X,Y,Z"))
 }
 
 #[cfg(test)]

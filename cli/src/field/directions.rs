@@ -1,4 +1,4 @@
-//! What a field follows: the flags of every command that computes one.
+//! The flags for what a field follows, of every command that computes one.
 
 use std::path::{Path, PathBuf};
 
@@ -8,59 +8,59 @@ use roundel::mesh::TriangleMesh;
 use roundel::mesh::features::FeatureGraph;
 use roundel::quad::QuadOptions;
 
-/// How much of the faces have the direction of their curvature when nobody says.
+/// The default fraction of faces that have the direction of their curvature.
 const CURVED: f64 = 0.1;
 
-/// Features, directions by curvature, by number of face and from a file.
+/// Features, and directions from curvature, for single faces and from a file.
 #[derive(clap::Args)]
 pub struct Directions {
-    /// Follow the edges at which the surface turns by this many degrees or more: features, which are
-    /// isolines of a map
+    /// Follow feature edges, those at which the surface turns by this many degrees or more; in a map
+    /// they are isolines
     #[arg(long, value_name = "DEGREES", value_parser = feature_angle)]
     #[arg(allow_negative_numbers = true)]
     pub features: Option<f64>,
 
-    /// Follow the edges that are line elements of this OBJ file (l V1 V2 ...), which has the
-    /// vertices of the mesh; often it is the mesh
+    /// Follow the edges that are line elements (l V1 V2 ...) of this OBJ file. It must have the
+    /// vertices of the mesh, and may be the file of the mesh
     #[arg(long, value_name = "LINES.obj")]
     pub feature_lines: Option<PathBuf>,
 
-    /// Do not follow the boundary: by default it is a feature
+    /// Do not follow the boundary, which is a feature by default
     #[arg(long)]
     pub free_boundary: bool,
 
-    /// Give this part of the faces, those with the most reliable curvature, the direction of least
-    /// curvature; from 0 to 1 [default: 0.1, for a map or quads 0.005; 0 with features, indices or
-    /// --symmetry 1]
+    /// Constrain this fraction of the faces, those with the most reliable curvature, to the
+    /// direction of least curvature; from 0 to 1 [default: 0.1, for a map or quads 0.005; 0 with
+    /// features, indices or --symmetry 1]
     #[arg(long, value_name = "FRACTION", value_parser = fraction)]
     #[arg(allow_negative_numbers = true)]
     pub constrain_curvature: Option<f64>,
 
-    /// Pull all other faces towards the direction of least curvature, with a weight for an area and
-    /// a difference of curvatures of 1
+    /// Pull all other faces towards the direction of least curvature, with this weight for an area of
+    /// 1 and a difference of curvatures of 1
     #[arg(long, value_name = "WEIGHT", default_value_t = 0.0, value_parser = weight)]
     #[arg(allow_negative_numbers = true)]
     pub curvature_weight: f64,
 
-    /// Let details smaller than this length, in units of the mesh, attract no irregular vertices
-    /// [default: 0; for a map, the length of its quads' edges, and for quads a quarter of it]
+    /// Ignore details smaller than this length, in units of the mesh, so that they attract no irregular
+    /// vertices [default: 0; for a map, the edge length of its quads; for quads, a quarter of it]
     #[arg(long, value_name = "LENGTH", value_parser = weight)]
     #[arg(allow_negative_numbers = true)]
     pub detail: Option<f64>,
 
-    /// Give this face this direction, in degrees counter-clockwise from its first edge; may be
-    /// repeated, and comes before all else
+    /// Constrain this face to this direction, in degrees counter-clockwise from its first edge; may be
+    /// repeated, and takes precedence over all other flags
     #[arg(long, value_name = "FACE:DEGREES", value_parser = constraint)]
     pub fix: Vec<Constraint>,
 
-    /// Follow what this file asks for, one wish a line: direction FACE X Y Z [WEIGHT], edge VERTEX
+    /// Read guidance from this file. A line is one of: direction FACE X Y Z [WEIGHT], edge VERTEX
     /// VERTEX, index VERTEX STEPS (in quarter turns)
     #[arg(long, value_name = "GUIDE.txt")]
     pub guide: Option<PathBuf>,
 }
 
 impl Directions {
-    /// What the command line asks for, for a field of this many arms, and the edges to follow.
+    /// The guidance of the command line, for a field of this symmetry, and the edges to follow.
     pub fn of(
         &self,
         mesh: &TriangleMesh,
@@ -94,8 +94,8 @@ impl Directions {
 }
 
 impl Directions {
-    /// As [`of`](Self::of), for crosses that a map shall follow: where nobody says how curvature
-    /// counts, it does as it does for quads.
+    /// As [`of`](Self::of), for crosses that a map follows: without flags for curvature, the defaults
+    /// of quads hold.
     pub fn of_map(&self, mesh: &TriangleMesh) -> roundel::Result<(Guidance, FeatureGraph)> {
         let (mut guidance, features) = self.of(mesh, 4)?;
         if !self.says_curvature() && guidance.indices.is_none() {
@@ -106,13 +106,13 @@ impl Directions {
         Ok((guidance, features))
     }
 
-    /// Whether the command line says how curvature counts.
+    /// Whether the command line has flags for curvature.
     pub fn says_curvature(&self) -> bool {
         self.constrain_curvature.is_some() || self.curvature_weight != 0.0
     }
 }
 
-/// The error with the name of a file: what is told of a failure begins with the mesh's.
+/// The error with the name of its file, as messages begin with the name of the mesh.
 pub fn named(path: &Path, error: Error) -> Error {
     match error {
         Error::Parse { line, message } => Error::Parse {
@@ -127,7 +127,7 @@ fn feature_angle(text: &str) -> Result<f64, String> {
     let value: f64 = text.parse().map_err(|_| "not a number")?;
     match value > 0.0 && value <= 180.0 {
         true => Ok(value),
-        false => Err("not above 0 and at most 180 degrees".into()),
+        false => Err("the angle must be above 0 and at most 180 degrees".into()),
     }
 }
 
@@ -135,7 +135,7 @@ fn weight(text: &str) -> Result<f64, String> {
     let value: f64 = text.parse().map_err(|_| "not a number")?;
     match value >= 0.0 && value.is_finite() {
         true => Ok(value),
-        false => Err("not a number from 0".into()),
+        false => Err("the number must be finite and at least 0".into()),
     }
 }
 
@@ -143,12 +143,12 @@ fn fraction(text: &str) -> Result<f64, String> {
     let value: f64 = text.parse().map_err(|_| "not a number")?;
     match (0.0..=1.0).contains(&value) {
         true => Ok(value),
-        false => Err("outside [0, 1]".into()),
+        false => Err("the fraction must be from 0 to 1".into()),
     }
 }
 
 fn constraint(text: &str) -> Result<Constraint, String> {
-    let (face, degrees) = text.split_once(':').ok_or("not FACE:DEGREES")?;
+    let (face, degrees) = text.split_once(':').ok_or("expected FACE:DEGREES")?;
     let face = face
         .parse()
         .map_err(|_| "FACE is not the number of a face")?;

@@ -1,4 +1,4 @@
-//! `roundel field`: the smoothest cross field of a mesh, its figures, files and picture.
+//! `roundel field`: the smoothest field of a mesh, with its figures, files and picture.
 
 mod arguments;
 mod directions;
@@ -41,7 +41,7 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
     let started = Instant::now();
     if arguments.symmetry != 4 && draws(arguments) {
         return Err(Error::InvalidArgument {
-            what: "pictures and models are of crosses, --symmetry 4".into(),
+            what: "pictures and models need a field of crosses, --symmetry 4".into(),
             index: None,
         });
     }

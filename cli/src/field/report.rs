@@ -1,4 +1,4 @@
-//! The JSON object of a field: that of a solve, and what is known of the mesh.
+//! The JSON object of a field: that of a solve, with figures of the mesh and the field.
 
 use std::path::Path;
 

@@ -6,11 +6,11 @@ use roundel::{Solution, Strategy};
 
 use crate::report::Preparation;
 
-/// A field, and how it was come by.
+/// A field, and how it was found.
 pub(super) struct Solved {
     pub(super) strategy: Strategy,
     pub(super) mesh: TriangleMesh,
-    /// Edges that it follows.
+    /// The number of edges that it follows.
     pub(super) features: usize,
     pub(super) field: OrientationField,
     pub(super) solution: Solution,

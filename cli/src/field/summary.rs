@@ -1,4 +1,4 @@
-//! The readable summary of a field: one line a phase, what came out and how long.
+//! The readable summary of a field: one line for each phase, with its result and its seconds.
 
 use std::fmt;
 
@@ -6,7 +6,7 @@ use super::Arguments;
 use super::solved::Solved;
 use crate::summary::{counted, counted_vertices, energy, line, verdict};
 
-/// Lines for the mesh, the problem, the solution and the field, and one for what was written.
+/// Lines for the mesh, the problem, the solution and the field.
 pub(super) struct FieldSummary<'a> {
     pub(super) arguments: &'a Arguments,
     pub(super) solved: &'a Solved,

@@ -11,9 +11,10 @@ use crate::options::SolverOptions;
 
 /// Compute a seamless parametrization of a triangle mesh that follows a cross field.
 ///
-/// The field comes from a file, or is that of `roundel field` with the same directions. Features,
-/// and the boundary unless it is free, become isolines of integer value: chains of quads' edges. The solver's
-/// options are those of the parametrization; time limit and threads hold for each of the two solves.
+/// The field comes from a file, or is that of `roundel field` with the same flags. Features,
+/// and the boundary unless it is free, become isolines of integer value: chains of quads' edges.
+/// The solver's options are those of the parametrization; time limit and threads hold for each of
+/// the two solves.
 #[derive(clap::Args)]
 #[command(after_help = exit::HELP)]
 pub struct Arguments {
@@ -22,8 +23,8 @@ pub struct Arguments {
     #[arg(value_name = "MESH")]
     pub mesh: PathBuf,
 
-    /// Take the field from this file, as `roundel field -o FIELD.txt` writes it: a direction X Y Z a
-    /// face, one line each, matched over edges by their nearest arms
+    /// Take the field from this file, as `roundel field -o FIELD.txt` writes it: one line with a
+    /// direction X Y Z for each face, matched over edges by the nearest arms
     #[arg(long, value_name = "FIELD.txt")]
     #[arg(conflicts_with_all = ["constrain_curvature", "curvature_weight", "fix", "field_strategy"])]
     pub field: Option<PathBuf>,
@@ -31,14 +32,14 @@ pub struct Arguments {
     #[command(flatten)]
     pub directions: Directions,
 
-    /// How the field's integers are decided
+    /// The strategy that decides the integers of the field
     #[arg(long, value_name = "WORD", default_value = "adaptive", value_parser = strategy)]
     pub field_strategy: Strategy,
 
     #[command(flatten)]
     pub sizing: SizingFlags,
 
-    /// Make the surroundings of folded triangles stiffer at most so often before they are untangled
+    /// The most rounds of local stiffening around folded triangles, before they are untangled
     #[arg(
         long,
         value_name = "TIMES",
@@ -47,7 +48,7 @@ pub struct Arguments {
     )]
     pub stiffen: usize,
 
-    /// Leave the triangles folded that rounding folds
+    /// Do not untangle: leave the triangles that the map folds
     #[arg(long)]
     pub no_untangle: bool,
 
@@ -67,13 +68,13 @@ pub struct Arguments {
     pub solver: SolverOptions,
 }
 
-/// A strategy that decides integers: a field without them is none.
+/// A strategy that decides integers: a field needs them.
 fn strategy(text: &str) -> Result<Strategy, String> {
     let mut deciding = Strategy::ALL.into_iter().filter(|&s| s != Strategy::Relax);
     let words: Vec<&str> = deciding.clone().map(Strategy::name).collect();
     deciding
         .find(|s| s.name() == text)
-        .ok_or_else(|| format!("not one of {}", words.join(", ")))
+        .ok_or_else(|| format!("expected one of {}", words.join(", ")))
 }
 
 #[cfg(test)]

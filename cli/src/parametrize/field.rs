@@ -1,4 +1,4 @@
-//! Where the field comes from that a map follows: a file, or a solve.
+//! The field that a map follows: from a file, or from a solve.
 
 use std::path::Path;
 use std::time::Instant;
@@ -12,11 +12,11 @@ use roundel::{Monitor, Options, Result};
 use super::Arguments;
 use crate::field::named;
 
-/// How a field was come by.
+/// How a field was found.
 pub(super) struct FieldSource {
     /// The strategy that decided it, if it was solved for.
     pub(super) strategy: Option<&'static str>,
-    /// Sum of squared angles between matched crosses, as `roundel field` tells it.
+    /// Sum of squared angles between matched crosses, as `roundel field` reports it.
     pub(super) energy: f64,
     /// Seconds of the solve, or of reading.
     pub(super) seconds: f64,

@@ -1,4 +1,4 @@
-//! `roundel parametrize`: a seamless map of a mesh, its figures and its files.
+//! `roundel parametrize`: a seamless map of a mesh, with its figures and files.
 
 mod arguments;
 mod field;
@@ -31,7 +31,7 @@ pub fn run(arguments: &Arguments) -> Exit {
     output::conclude(&arguments.mesh, arguments.json, told)
 }
 
-/// A map, and how it was come by.
+/// A map, and how it was found.
 struct Solved {
     options: Options,
     mesh: TriangleMesh,
@@ -40,11 +40,11 @@ struct Solved {
     /// Edges that are isolines.
     features: usize,
     untangled: Untangled,
-    /// How often integers were decided anew.
+    /// The number of times that integers were decided anew.
     rounds: usize,
-    /// How often the map was made finer.
+    /// The number of refinements of the whole map.
     refinements: usize,
-    /// How often it was made finer around its faults alone.
+    /// The number of refinements around faults alone.
     gradings: usize,
     /// Seconds of the map beside those of the last solve.
     untangle_seconds: f64,

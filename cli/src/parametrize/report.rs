@@ -14,7 +14,7 @@ pub struct MapReport<'a> {
     solve: Report<'a>,
     faces: usize,
     vertices: usize,
-    /// What was asked for; null where a length was.
+    /// The target number of quads; null if a length was given.
     quads: Option<usize>,
     edge_length: Option<f64>,
     feature_edges: usize,

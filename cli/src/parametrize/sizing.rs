@@ -1,4 +1,4 @@
-//! How large quads shall be: the flags of every command that makes a map.
+//! The flags for the size of quads, of every command that makes a map.
 
 use std::path::{Path, PathBuf};
 
@@ -9,22 +9,22 @@ use roundel::map::{SeamlessOptions, Sizing};
 #[derive(clap::Args)]
 #[group(multiple = false)]
 pub struct SizingFlags {
-    /// About how many quads the map shall have [default: 1000]
+    /// The target number of quads [default: 1000]
     #[arg(long, value_name = "N", value_parser = quads, allow_negative_numbers = true)]
     pub quads: Option<usize>,
 
-    /// How long edges of quads shall be, in units of the mesh
+    /// The edge length of quads, in units of the mesh
     #[arg(long, value_name = "L", value_parser = length, allow_negative_numbers = true)]
     pub edge_length: Option<f64>,
 
-    /// Take the length of edges from this file, a line a face: one number, or two, along the arm
-    /// that the field of --field stores there and across
+    /// Take the edge lengths from this file, one line for each face: one number, or two, along the arm
+    /// that the field of --field stores there and across it
     #[arg(long, value_name = "SIZES.txt")]
     pub edge_lengths: Option<PathBuf>,
 }
 
 impl SizingFlags {
-    /// What the command line asks for.
+    /// The sizing of the command line.
     pub fn of(&self) -> roundel::Result<Sizing> {
         match (self.edge_length, &self.edge_lengths) {
             (Some(length), _) => Ok(Sizing::EdgeLength(length)),
@@ -54,7 +54,7 @@ fn read(path: &Path) -> roundel::Result<Sizing> {
                 let file = path.display();
                 return Err(Error::Parse {
                     line,
-                    message: format!("not one length of a face or two ({file})"),
+                    message: format!("expected one or two lengths of a face ({file})"),
                 });
             }
         }
@@ -64,7 +64,7 @@ fn read(path: &Path) -> roundel::Result<Sizing> {
 
 fn quads(text: &str) -> Result<usize, String> {
     match text.parse() {
-        Ok(0) | Err(_) => Err("not a number of quads, 1 or more".into()),
+        Ok(0) | Err(_) => Err("the number of quads must be at least 1".into()),
         Ok(quads) => Ok(quads),
     }
 }
@@ -72,7 +72,7 @@ fn quads(text: &str) -> Result<usize, String> {
 fn length(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(length) if length > 0.0 && length.is_finite() => Ok(length),
-        _ => Err("not a length above 0".into()),
+        _ => Err("the length must be finite and above 0".into()),
     }
 }
 

@@ -1,4 +1,4 @@
-//! The readable summary of a map: one line a phase, what came out and how long.
+//! The readable summary of a map: one line for each phase, with its result and its seconds.
 
 use std::fmt;
 

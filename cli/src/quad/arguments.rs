@@ -11,9 +11,9 @@ use crate::parametrize::SizingFlags;
 
 /// Turn a triangle mesh into quads: field, map and extraction in one.
 ///
-/// The solver's options are those of the map, which is decided by `lattice` unless --strategy says
-/// otherwise; time limit and threads hold for each of the two solves. Features, and the boundary
-/// unless it is free, become chains of edges.
+/// The solver's options apply to the map, whose default strategy is `lattice`; the time limit and the
+/// threads apply to each of the two solves. Features become chains of edges, and so does the boundary
+/// unless it is free.
 #[derive(clap::Args)]
 #[command(after_help = exit::HELP)]
 pub struct Arguments {
@@ -32,24 +32,24 @@ pub struct Arguments {
     #[command(flatten)]
     pub directions: Directions,
 
-    /// How the field's integers are decided
+    /// The strategy that decides the integers of the field
     #[arg(long, value_name = "WORD", default_value = "adaptive", value_parser = deciding)]
     pub field_strategy: Strategy,
 
-    /// Leave faces that the map turns over as they are
+    /// Do not untangle: leave the faces that the map folds
     #[arg(long)]
     pub no_untangle: bool,
 
-    /// Leave vertices where the map has them
+    /// Do not smooth the quads
     #[arg(long)]
     pub no_smooth: bool,
 
-    /// Write a page with field, map and quads, to be turned and zoomed in a browser, and all figures
+    /// Write a page for a browser with all figures and an interactive view of field, map and quads
     #[arg(long, value_name = "REPORT.html")]
     pub report: Option<PathBuf>,
 
-    /// Solve field and map by these strategies as well, parted by commas, and show what each finds in
-    /// summary, page and JSON
+    /// Also solve field and map with these strategies, separated by commas, and show their results in
+    /// the summary, the page and JSON
     #[arg(long, value_name = "WORD,...", value_delimiter = ',', value_parser = any)]
     pub compare_strategies: Vec<Strategy>,
 
@@ -73,5 +73,5 @@ fn one_of(text: &str, allowed: impl Fn(Strategy) -> bool) -> Result<Strategy, St
     let mut all = Strategy::ALL.into_iter().filter(|&s| allowed(s));
     let words: Vec<&str> = all.clone().map(Strategy::name).collect();
     all.find(|s| s.name() == text)
-        .ok_or_else(|| format!("not one of {}", words.join(", ")))
+        .ok_or_else(|| format!("expected one of {}", words.join(", ")))
 }

@@ -1,4 +1,4 @@
-//! What is at fault where quads do not conform, for programs and in one line for people.
+//! The elements at fault if quads do not conform, for programs and in one line for people.
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -48,14 +48,14 @@ impl Faults {
     }
 }
 
-/// Tells on stderr, in one line, what keeps quads from conforming, if anything does.
+/// Prints on stderr, in one line, the faults of quads that do not conform.
 pub fn tell_faults(file: &Path, quads: &QuadMesh) {
     if let Some(faults) = Faults::of(quads) {
         let (file, words) = (file.display(), faults.words(quads));
-        // Where stderr is closed there is nobody left to tell.
+        // If stderr is closed, nobody reads the line.
         let _ = writeln!(
             io::stderr(),
-            "roundel: {file}: not all conforming quads: {words}"
+            "roundel: {file}: the quads do not conform: {words}"
         );
     }
 }

@@ -1,4 +1,4 @@
-//! The mesh read, the quads made and written.
+//! The steps of the command: the mesh is read, and the quads are made and written.
 
 use std::time::Instant;
 

@@ -1,4 +1,4 @@
-//! The readable summary of quads: one line a phase.
+//! The readable summary of quads: one line for each phase.
 
 use std::fmt;
 

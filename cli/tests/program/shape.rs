@@ -44,8 +44,14 @@ fn what_cannot_be_drawn_or_written_is_one_line_on_stderr() {
     let out = out.to_str().unwrap();
     for (words, says) in [
         (&["teapot", "-o", out][..], "no shape 'teapot'"),
-        (&["torus", "--triangles", "0", "-o", out], "0 triangles"),
-        (&["torus", "--jitter", "-1", "-o", out], "jitter of -1"),
+        (
+            &["torus", "--triangles", "0", "-o", out],
+            "number of triangles is 0",
+        ),
+        (
+            &["torus", "--jitter", "-1", "-o", out],
+            "jitter amplitude is -1",
+        ),
         (&["torus", "-o", "torus.stl"], "'stl' is not a mesh format"),
         (&["torus", "-o", "no-such-folder/t.obj"], "t.obj: "),
     ] {

@@ -40,7 +40,7 @@ static void sizes(fixture* f, const roundel_mesh* torus) {
     BAD(f, roundel_quads_make(NULL, q, NULL, &made), ROUNDEL_ERROR_NULL_POINTER, "mesh", NONE);
     BAD(f, roundel_quads_make(torus, q, NULL, NULL), ROUNDEL_ERROR_NULL_POINTER, "quads", NONE);
     GOOD(roundel_quad_options_set_quads(q, 0));
-    BAD(f, roundel_quads_make(torus, q, NULL, &made), invalid, "no quads", NONE);
+    BAD(f, roundel_quads_make(torus, q, NULL, &made), invalid, "quads is 0", NONE);
     GOOD(roundel_quad_options_set_edge_length(q, 0.0));
     BAD(f, roundel_quads_make(torus, q, NULL, &made), invalid, "edge length", NONE);
     GOOD(roundel_quad_options_set_edge_length(q, -1.0));

@@ -124,7 +124,7 @@ void errors_are_messages(const Host& host) {
     CHECK(refused("FeatureAngle", FloatValue(-1.0F)).contains("angle of features"));
     CHECK(refused("Strategy", EnumValue(99)) == "Strategy: choice 99 of 0 to 6");
     CHECK(refused("SolverOptions", StringValue("speed=3")) == "no option is called speed");
-    CHECK(refused("SolverOptions", StringValue("speed")) == "not NAME=VALUE: speed");
+    CHECK(refused("SolverOptions", StringValue("speed")) == "expected NAME=VALUE, found speed");
     CHECK(refused("SolverOptions", StringValue("threads=few")).contains("not a number"));
     CHECK(refused("SolverOptions", StringValue("threads=-1")).contains("threads"));
 

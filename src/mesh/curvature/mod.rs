@@ -1,9 +1,9 @@
 //! Principal curvatures and directions of every face, smoothed.
 //!
-//! The tensor of each face (`rusinkiewicz2004`) is averaged with those of its neighbours, weighted by
-//! area, in several rounds. A neighbour's tensor is first turned into the face's frame by unfolding over
-//! the common edge, as directions are everywhere in the library; a symmetric tensor is its mean and a
-//! deviator that turns by twice the angle.
+//! The tensor of each face (`rusinkiewicz2004`) is averaged with those of its neighbours, weighted
+//! by area, in several rounds. A neighbour's tensor is first turned into the face's frame by
+//! unfolding over the common edge, as directions are everywhere in the library; a symmetric tensor
+//! is its mean and a deviator that turns by twice the angle.
 
 mod face_tensor;
 

@@ -18,9 +18,7 @@ impl FeatureGraph {
     /// vertex, and for two vertices that no edge joins.
     pub fn read(mesh: &TriangleMesh, path: impl AsRef<Path>) -> Result<Self> {
         let path = path.as_ref();
-        let bytes = std::fs::read(path).map_err(|reason| MeshError::Io {
-            message: format!("{}: {reason}", path.display()),
-        })?;
+        let bytes = std::fs::read(path).map_err(|reason| MeshError::of_file(path, &reason))?;
         Self::parse(mesh, &String::from_utf8_lossy(&bytes))
     }
 

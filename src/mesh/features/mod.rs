@@ -1,8 +1,8 @@
 //! Feature graphs: the edges that a quad mesh should keep, as curves between nodes.
 //!
-//! Edges come from the angle between faces, from the line elements of a file, or from the caller. A node
-//! is a corner, where three or more feature edges meet or two meet at a sharp turn, or an open end, where
-//! a single feature edge stops.
+//! Edges come from the angle between faces, from the line elements of a file, or from the caller. A
+//! node is a corner, where three or more feature edges meet or two meet at a sharp turn, or an open
+//! end, where a single feature edge stops.
 
 mod curves;
 mod detect;

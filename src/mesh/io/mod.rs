@@ -62,7 +62,7 @@ type Soup = (Vec<Vec3>, Vec<[u32; 3]>);
 pub fn read(path: impl AsRef<Path>) -> Result<TriangleMesh, MeshError> {
     let path = path.as_ref();
     let format = Format::of(path)?;
-    let bytes = std::fs::read(path).map_err(|e| failed(path, &e))?;
+    let bytes = std::fs::read(path).map_err(|e| MeshError::of_file(path, &e))?;
     parse(&bytes, format)
 }
 
@@ -97,7 +97,7 @@ pub fn write<'a>(path: impl AsRef<Path>, drawing: impl Into<Drawing<'a>>) -> Res
     let bytes = encode(&drawing, format);
     std::fs::File::create(path)
         .and_then(|mut file| file.write_all(&bytes))
-        .map_err(|e| failed(path, &e))
+        .map_err(|e| MeshError::of_file(path, &e))
 }
 
 fn encode(drawing: &Drawing, format: Format) -> Vec<u8> {
@@ -105,12 +105,6 @@ fn encode(drawing: &Drawing, format: Format) -> Vec<u8> {
         Format::Obj => obj::encode(drawing),
         Format::Off => off::encode(drawing),
         Format::Ply => ply::encode(drawing),
-    }
-}
-
-fn failed(path: &Path, error: &std::io::Error) -> MeshError {
-    MeshError::Io {
-        message: format!("{}: {error}", path.display()),
     }
 }
 

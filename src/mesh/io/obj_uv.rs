@@ -5,8 +5,8 @@
 
 use std::path::Path;
 
+use super::Format;
 use super::obj::{self, keyword};
-use super::{Format, failed};
 use crate::mesh::{MeshError, TriangleMesh};
 
 /// A mesh and the coordinates (u, v) of the corners of each of its faces.
@@ -26,7 +26,7 @@ pub fn read_textured(path: impl AsRef<Path>) -> Result<TexturedMesh, MeshError> 
             what: "texture coordinates are read from OBJ files only".into(),
         });
     }
-    let bytes = std::fs::read(path).map_err(|e| failed(path, &e))?;
+    let bytes = std::fs::read(path).map_err(|e| MeshError::of_file(path, &e))?;
     parse_textured(&bytes)
 }
 

@@ -1,9 +1,9 @@
 //! Streamlines of a cross field, evenly spaced over the surface.
 //!
-//! Jobard and Lefer 1997: a streamline is traced until it comes too near to another one, and new
-//! ones start at the wanted distance beside those that are there. On a cross field only lines
-//! that run alike keep their distance (see [`spacing`]), and each line also seeds the lines that
-//! cross it, so that both families together look like the quads that the field asks for.
+//! `jobard1997`: a streamline is traced until it comes too near to another one, and new
+//! ones start at a given distance beside it. On a cross field only lines of similar direction keep
+//! their distance (see [`spacing`]), and each line also seeds the lines that cross it, so that both
+//! families together look like the quads of the field.
 
 mod spacing;
 mod walk;
@@ -94,7 +94,7 @@ impl Tracer<'_> {
         ((patch / face) as usize).max(1)
     }
 
-    /// Starts lines beside and across those that there are until there is no room.
+    /// Starts lines beside and across existing ones until there is no room.
     fn spread(&mut self) {
         while let Some(stand) = self.open.pop_front() {
             for side in [1, 3] {

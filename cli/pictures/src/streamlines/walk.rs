@@ -2,7 +2,7 @@
 //!
 //! Within a face the angle is interpolated: at the middle of each edge it is half way to the
 //! matching arm across, so that lines bend instead of breaking at every edge. The interpolant is
-//! the linear one with these three values (Crouzeix and Raviart 1973).
+//! the linear one with these three values (`crouzeix1973`).
 
 use std::f64::consts::FRAC_PI_2;
 
