@@ -7,7 +7,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The layers, from the ground up. A file names its own layer and those before it, nothing else.
-const LAYERS: [&str; 19] = [
+const LAYERS: [&str; 20] = [
     "error",
     "monitor",
     "linalg",
@@ -27,6 +27,7 @@ const LAYERS: [&str; 19] = [
     "smooth",
     "quad",
     "capi",
+    "internals",
 ];
 
 /// No file is longer, in lines.

@@ -1,7 +1,7 @@
 //! What is done with integers once they are decided.
 
 use criterion::Criterion;
-use roundel::linalg::minimise_fixed;
+use roundel::internals::linalg::minimise_fixed;
 use roundel::solve::verify;
 
 use crate::case::Case;

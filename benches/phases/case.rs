@@ -1,8 +1,8 @@
 //! The two families of problems, each taken as far as its relaxation.
 
-use roundel::eliminate::{ReducedModel, eliminate};
 use roundel::field::{FieldProblem, curvature_constraints};
-use roundel::linalg::{Lowest, Minimum, RelaxedFactor};
+use roundel::internals::eliminate::{ReducedModel, eliminate};
+use roundel::internals::linalg::{Lowest, Minimum, RelaxedFactor};
 use roundel::map::{SeamlessOptions, SeamlessProblem};
 use roundel::mesh::shape;
 use roundel::{Error, Model, Monitor, Options, Problem, Result, solve};

@@ -1,7 +1,7 @@
 //! The elimination of Bommes' thesis: which unknowns it keeps.
 
-use roundel::eliminate::Elimination;
-use roundel::linalg::Ordering;
+use roundel::Ordering;
+use roundel::internals::eliminate::Elimination;
 use roundel::{Model, Monitor, Problem};
 
 /// The unknowns that are reduced unknowns themselves.

@@ -9,7 +9,7 @@ mod large;
 mod largest;
 mod properties;
 
-use roundel::eliminate::{ReducedModel, eliminate};
+use roundel::internals::eliminate::{ReducedModel, eliminate};
 use roundel::{Model, Monitor, Problem, Result};
 
 /// A system of equations with integer coefficients; the first unknowns are integer.
