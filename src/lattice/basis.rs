@@ -10,7 +10,7 @@
 //! integer relations. While it is reduced, `REGULAR` of each vector's length is appended to it in
 //! a direction of its own, which makes the vectors independent and the relations the shortest of
 //! all. `refresh` then finds them by their length, and puts them last as *free* coordinates: any
-//! integer there has the same distance. (Pohst 1987 reduces dependent vectors directly; that
+//! integer there has the same distance. (`pohst1987` reduces dependent vectors directly, which
 //! needs exact zeros.)
 
 use faer::{Mat, MatRef};
@@ -166,7 +166,7 @@ impl Basis {
     }
 
     /// Rounds column `k` to within half a basis vector before it, all of them; repeated until
-    /// nothing changes, since large multiples lose digits (Nguyen, Stehle 2009, figure 5).
+    /// nothing changes, since large multiples lose digits (`nguyen2009`, figure 5).
     pub(super) fn size_reduce(&mut self, k: usize) -> Result<()> {
         let n = self.dim;
         loop {

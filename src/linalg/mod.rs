@@ -1,5 +1,6 @@
-//! What faer lacks: fixing unknowns in a sparse factor, semi-definite systems with a documented
-//! choice of minimiser, sums whose terms cancel.
+//! Linear algebra that faer lacks: fixing unknowns in a sparse factor, semi-definite systems with a documented
+//! choice of minimiser, Gauss-Seidel from a queue, and compensated sums. The other layers share the
+//! submatrices, accumulators, disjoint sets and random numbers here.
 
 mod accumulator;
 mod analysis;
