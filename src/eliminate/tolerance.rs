@@ -5,8 +5,9 @@
 //! the caller wrote the row.
 
 /// Coefficients below this, times the largest number that took part in their row, are noise. The
-/// tolerance decides whether continuous unknowns, integers, or none remain in a row. Sums of a few thousand terms in double precision carry noise of about 1e-13; data given
-/// in single precision, which must not pass for noise, differ by 1e-7.
+/// tolerance decides whether continuous unknowns, integers, or none remain in a row. Sums of a few
+/// thousand terms in double precision carry noise of about 1e-13; data given in single precision, which
+/// must not pass for noise, differ by 1e-7.
 pub(super) const RANK: f64 = 1e-10;
 
 /// A row without unknowns holds when its right side is below this times the largest number that

@@ -132,7 +132,7 @@ impl Basis {
 
     /// The caller's coordinates of the vector with coordinates `g` in the orthonormal basis in
     /// which R is triangular: `U R^-1 g`.
-    pub fn from_orthonormal(&self, g: &[f64]) -> Vec<f64> {
+    pub fn orthonormal_to_callers(&self, g: &[f64]) -> Vec<f64> {
         let mut y = g.to_vec();
         for j in (0..self.rank).rev() {
             let column = self.column(j);
@@ -150,7 +150,7 @@ impl Basis {
         x
     }
 
-    /// The transpose of [`from_orthonormal`](Self::from_orthonormal): `R^-T U' force`.
+    /// The transpose of [`orthonormal_to_callers`](Self::orthonormal_to_callers): `R^-T U' force`.
     pub fn to_orthonormal(&self, force: &[f64]) -> Vec<f64> {
         let mut h = Vec::with_capacity(self.rank);
         for j in 0..self.rank {

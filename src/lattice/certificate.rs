@@ -59,7 +59,7 @@ impl Certificate {
                 .collect();
             let mut v = vec![0.0; model.integers().len()];
             for (piece, g) in pieces.iter().zip(&g) {
-                let image = piece.basis.from_orthonormal(g);
+                let image = piece.basis.orthonormal_to_callers(g);
                 for (&place, x) in piece.places.iter().zip(image) {
                     v[place] = x;
                 }

@@ -30,8 +30,9 @@ pub struct Limits {
 /// What an enumeration found out.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Enumerated {
-    /// Steps to the points within the radius that are the closest or within the margin of it,
-    /// with their squared distances, nearest first. Were they more than [`MOST`](super::near_points::MOST), only the closest.
+    /// Steps to the points within the radius that are the closest or within the margin of it, with their
+    /// squared distances, nearest first. Were they more than [`MOST`](super::near_points::MOST), only
+    /// the closest.
     pub near: Vec<(Vec<i64>, f64)>,
     /// Nodes visited.
     pub nodes: u64,

@@ -44,8 +44,8 @@ pub(crate) fn lattice(
     or_rounded(found.map(drop), model, options, factors, search)
 }
 
-/// Falls back to adaptive rounding where the lattice method fails: where its integers are too large to be exact,
-/// or its basis vectors too short to divide by.
+/// Falls back to adaptive rounding where the lattice method fails: where its integers are too large to
+/// be exact, or its basis vectors too short to divide by.
 ///
 /// An objective may be nearly flat along a direction that no integer point lies on. Then larger and larger
 /// integers come closer and closer to its minimum, and no caller wants those.

@@ -1,9 +1,9 @@
 //! Fixing unknowns one by one, the others following exactly, without refactoring.
 //!
-//! In `A = L D L'`, taking unknown k out of the minimisation clears column k of L and leaves the
-//! Schur complement that was there before k was eliminated: a rank-one *update* of the columns on
-//! the path from k to the root, `L33 D33 L33' + d_k l_k l_k'` (`davis2005`, section 3). The row of k stays as it is: it
-//! tells the earlier unknowns how they follow k.
+//! In `A = L D L'`, taking unknown k out of the minimisation clears column k of L and leaves the Schur
+//! complement that was there before k was eliminated: a rank-one *update* of the columns on the path
+//! from k to the root, `L33 D33 L33' + d_k l_k l_k'` (`davis2005`, section 3). The row of k stays as it
+//! is: it tells the earlier unknowns how they follow k.
 //!
 //! The update (`gill1974`, method C1) also yields the solution for free.
 //! When k moves by delta, the later unknowns answer with `L33' dx = -delta * beta`, where `beta_j`

@@ -1,9 +1,9 @@
 //! One factor for everything: continuous unknowns first, integers last.
 //!
-//! The whole factor solves for all unknowns. Its leading part solves for the continuous unknowns while the
-//! integers are held. Its trailing block is the factor of the Schur complement of the integers: the
-//! quadratic form in the integers that remains when the continuous unknowns are minimised over (`golub2013`, section 4.2). The
-//! complement itself is never formed, so no digits are lost to squaring.
+//! The whole factor solves for all unknowns. Its leading part solves for the continuous unknowns while
+//! the integers are held. Its trailing block is the factor of the Schur complement of the integers: the
+//! quadratic form in the integers that remains when the continuous unknowns are minimised over
+//! (`golub2013`, section 4.2). The complement itself is never formed, so no digits are lost to squaring.
 //!
 //! The continuous unknowns come in a post-ordered minimum-degree order of their own block, which faer's
 //! supernodes need. The integers fill up to a dense block in any order. So this is the right factor where

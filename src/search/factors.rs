@@ -1,8 +1,8 @@
 //! The factors of a reduced model, each made on first use and kept.
 //!
-//! Where integers are few, one [`SchurFactor`] serves every purpose. Otherwise the relaxation needs a supernodal
-//! factor, greedy rounding a simplicial one in which unknowns can be fixed, and an offer of integers one of the
-//! continuous block.
+//! Where integers are few, one [`SchurFactor`] serves every purpose. Otherwise the relaxation needs a
+//! supernodal factor, greedy rounding a simplicial one in which unknowns can be fixed, and an offer of
+//! integers one of the continuous block.
 
 use std::time::Instant;
 

@@ -1,10 +1,11 @@
 //! Reformulation of a problem with constraints between integers (`aardal2000`, sections 2 and 3).
 //!
-//! For integers the expansion `x = T y + t` of the elimination has integer entries, but these may be large. A
-//! chain of constraints with coefficients of one digit leads to entries of ten digits. The terms of the
-//! objective in y then reach 1e15 and cancel, and neither the bound nor the solution means anything. The same
-//! integers are `x0 + K z` with a short basis K and a nearby x0 ([`AffineLattice`]). The problem is stated again
-//! in z and the caller's continuous unknowns, from the caller's numbers, and solved like any other.
+//! For integers the expansion `x = T y + t` of the elimination has integer entries, but these may be
+//! large. A chain of constraints with coefficients of one digit leads to entries of ten digits. The
+//! terms of the objective in y then reach 1e15 and cancel, and neither the bound nor the solution means
+//! anything. The same integers are `x0 + K z` with a short basis K and a nearby x0 ([`AffineLattice`]).
+//! The problem is stated again in z and the caller's continuous unknowns, from the caller's numbers, and
+//! solved like any other.
 
 use super::candidate::Candidate;
 use super::eliminated::EliminatedProblem;

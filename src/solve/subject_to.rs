@@ -1,9 +1,10 @@
 //! Further constraints between integers, without another elimination and other factors.
 //!
-//! Minimised over the continuous unknowns, the objective is `E* + 1/2 |R (z - z*)|^2` in the reduced integers z.
-//! Here `R` is the factor of their Schur complement, and `z*` and `E*` are the integers and the energy of the
-//! relaxation. Constraints between integers alone are rows in z. So the constrained problem in z is a small
-//! dense one. It is solved like any other, and its integers are offered to the whole problem.
+//! Minimised over the continuous unknowns, the objective is `E* + 1/2 |R (z - z*)|^2` in the reduced
+//! integers z. Here `R` is the factor of their Schur complement, and `z*` and `E*` are the integers and
+//! the energy of the relaxation. Constraints between integers alone are rows in z. So the constrained
+//! problem in z is a small dense one. It is solved like any other, and its integers are offered to the
+//! whole problem.
 
 use super::Solution;
 use super::eliminated::{EliminatedProblem, SearchResult};
