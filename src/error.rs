@@ -1,9 +1,9 @@
-//! The errors of the library: one type, each variant naming the element at fault.
+//! The error type of the library. Each variant names the element at fault.
 
 /// What every fallible function of the library returns.
 pub type Result<T> = std::result::Result<T, Error>;
 
-/// Why a call failed. Nothing was changed by a call that failed.
+/// Why a call failed. A call that fails changes nothing.
 ///
 /// The text names the element at fault in words; [`Error::index`] and [`Error::line`] give it as
 /// a number. Elements are counted from 0, lines of a file from 1.
@@ -59,7 +59,7 @@ pub enum Error {
         /// The element at fault, where there is one.
         index: Option<usize>,
     },
-    /// Memory for a large array could not be had.
+    /// A large array could not be allocated.
     #[error("not enough memory for {what}")]
     OutOfMemory {
         /// The array.
@@ -97,7 +97,7 @@ pub enum Error {
         /// The row as the caller gave it.
         row: String,
     },
-    /// Integer unknowns that a constraint forces off the integers.
+    /// A constraint that no integer values of its unknowns satisfy.
     #[error("constraint {constraint}: {row} has no integer solution")]
     NoIntegerSolution {
         /// The row at fault.
@@ -125,7 +125,7 @@ pub enum Error {
         /// The direction, one number a variable, largest entry 1 in absolute value.
         direction: Vec<f64>,
     },
-    /// Something that the library does not solve (yet).
+    /// Something that the library does not solve.
     #[error("not supported: {what}")]
     NotSupported {
         /// What is not supported.
@@ -149,7 +149,7 @@ pub enum Error {
         /// The system's reason, with the file's name.
         message: String,
     },
-    /// Input of a client of the solver that is refused, such as a mesh.
+    /// Input of a client of the solver, such as a mesh, that is refused.
     #[error(transparent)]
     Input(#[from] InputError),
     /// Cancelled by the caller before a first solution was found.
@@ -166,7 +166,7 @@ pub enum Error {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error("{message}")]
 pub struct InputError {
-    /// A word for the kind of error that stays the same from version to version.
+    /// A word for the kind of error. It is the same in every version.
     pub code: &'static str,
     /// What is wrong, in words.
     pub message: String,
@@ -175,7 +175,7 @@ pub struct InputError {
 }
 
 impl Error {
-    /// A word for the kind of error that stays the same from version to version.
+    /// A word for the kind of error. It is the same in every version.
     pub fn code(&self) -> &'static str {
         match self {
             Error::InvalidArgument { .. } => "invalid_argument",

@@ -27,9 +27,16 @@
 //! # Ok::<(), roundel::Error>(())
 //! ```
 //!
-//! Where to find what: [`problem`] states and validates, [`eliminate`] removes the equality
-//! constraints, [`round`] and [`mod@solve`] search, [`lattice`] finds closest lattice points,
-//! [`linalg`] holds what faer lacks, [`mesh`] holds triangle meshes, [`capi`] is the C interface.
+//! | Part of the interface | Contents |
+//! | --- | --- |
+//! | [`Problem`], [`problem::mps`] | a problem, and its files |
+//! | [`Options`], [`Strategy`], [`WarmStart`], [`search`] | what a solve may do; the list of all options |
+//! | [`solve()`], [`solve_with`], [`Solver`], [`Solution`], [`mod@solve`] | one solve, re-solves, results, verification, replay |
+//! | [`Monitor`], [`Event`], [`CancelToken`], [`monitor`] | progress, cancel, time limit |
+//! | [`mesh`], [`field`], [`map`], [`untangle`], [`check`] | meshes, orientation fields, seamless maps, their repair and their check |
+//! | [`extract`], [`smooth`], [`quad`] | quads from a map; all the way from a mesh to quads |
+//! | [`Error`], [`InputError`] | what can go wrong |
+//! | [`capi`] | the C interface |
 
 #![deny(unsafe_code)]
 #![deny(missing_docs)]
@@ -37,18 +44,20 @@
 pub mod capi;
 pub mod check;
 mod cycle;
-pub mod eliminate;
+mod eliminate;
 mod error;
 pub mod extract;
 pub mod field;
-pub mod lattice;
-pub mod linalg;
+#[doc(hidden)]
+pub mod internals;
+mod lattice;
+mod linalg;
 pub mod map;
 pub mod mesh;
 pub mod monitor;
 pub mod problem;
 pub mod quad;
-pub mod round;
+mod round;
 pub mod search;
 pub mod smooth;
 pub mod solve;
@@ -60,6 +69,7 @@ mod test_random;
 
 pub use capi::peak_memory;
 pub use error::{Error, InputError, Result};
+pub use linalg::Ordering;
 pub use monitor::{CancelToken, Event, Flow, Monitor};
 pub use problem::{Layout, Model, Problem, Triangle};
 pub use search::{Options, SolveStatus, Strategy, WarmStart};

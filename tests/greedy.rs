@@ -3,7 +3,7 @@
 mod common;
 
 use common::dense_solve;
-use roundel::eliminate::{ReducedModel, eliminate};
+use roundel::internals::eliminate::{ReducedModel, eliminate};
 use roundel::{Model, Monitor, Options, Problem, Strategy, solve};
 
 const TIE: f64 = 1e-9;

@@ -4,7 +4,7 @@
 mod common;
 
 use common::{Random, solve_briefly};
-use roundel::eliminate::eliminate;
+use roundel::internals::eliminate::eliminate;
 use roundel::solve::verify;
 use roundel::{Error, Options, Problem, SolveStatus, Solver, Strategy, Triangle};
 use roundel::{Model, Monitor, WarmStart, solve};

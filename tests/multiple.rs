@@ -2,7 +2,7 @@
 
 mod common;
 
-use roundel::linalg::Ordering;
+use roundel::Ordering;
 use roundel::{Options, Problem, SolveStatus, Strategy, solve};
 
 fn multiple() -> Options {

@@ -5,7 +5,7 @@ mod common;
 use common::{Random, orientation_field, parametrization};
 use proptest::prelude::*;
 use proptest::strategy::Strategy as Generated;
-use roundel::linalg::Ordering;
+use roundel::Ordering;
 use roundel::{Error, Options, Problem, Result, Solution, Solver, Strategy, WarmStart, solve};
 
 /// The parts of a random problem. The constraints hold at the integer point that they were made from.

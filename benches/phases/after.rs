@@ -1,7 +1,7 @@
 //! The phases after the integers are decided: continuous unknowns, expansion, verification.
 
 use criterion::Criterion;
-use roundel::linalg::minimise_fixed;
+use roundel::internals::linalg::minimise_fixed;
 use roundel::solve::verify;
 
 use crate::case::Case;

@@ -1,8 +1,8 @@
 //! The phases from the problem to its relaxation.
 
 use criterion::Criterion;
-use roundel::eliminate::eliminate;
-use roundel::linalg::RelaxedFactor;
+use roundel::internals::eliminate::eliminate;
+use roundel::internals::linalg::RelaxedFactor;
 use roundel::{Model, Monitor, Options, Strategy, solve};
 
 use crate::case::Case;

@@ -1,8 +1,8 @@
 //! A problem of each family (field and map), reduced and relaxed.
 
-use roundel::eliminate::{ReducedModel, eliminate};
 use roundel::field::{FieldProblem, curvature_constraints};
-use roundel::linalg::{Lowest, Minimum, RelaxedFactor};
+use roundel::internals::eliminate::{ReducedModel, eliminate};
+use roundel::internals::linalg::{Lowest, Minimum, RelaxedFactor};
 use roundel::map::{SeamlessOptions, SeamlessProblem};
 use roundel::mesh::shape;
 use roundel::{Error, Model, Monitor, Options, Problem, Result, solve};

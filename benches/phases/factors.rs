@@ -1,7 +1,7 @@
 //! Orderings, factors of both kinds (supernodal and simplicial), and solves with them.
 
 use criterion::{BatchSize, Criterion};
-use roundel::linalg::{Cholesky, EliminationTree, Ldl, equilibrate, minimum_degree};
+use roundel::internals::linalg::{Cholesky, EliminationTree, Ldl, equilibrate, minimum_degree};
 
 use crate::case::Case;
 

@@ -2,7 +2,9 @@
 
 use criterion::{BatchSize, Criterion};
 use roundel::Options;
-use roundel::linalg::{Effort, FixedSolve, Ldl, LocalSolve, conjugate_gradient, minimum_degree};
+use roundel::internals::linalg::{
+    Effort, FixedSolve, Ldl, LocalSolve, conjugate_gradient, minimum_degree,
+};
 
 use crate::case::Case;
 

@@ -1,12 +1,12 @@
 //! A unimodular basis of short cycles.
 //!
 //! An independent set of cycles may generate a sublattice only. So candidates are taken shortest
-//! first (Horton 1987), and each is reduced by those before it, in the coordinates of the
+//! first (`horton1987`), and each is reduced by those before it, in the coordinates of the
 //! fundamental cycles of a spanning forest (one coordinate a chord), with pivots of 1 and -1 only:
 //! integer row operations of determinant one. What reduces to nothing depends on the others; what
 //! has no such entry left is refused. The fundamental cycles are candidates where they are short; of
 //! the others, those of the chords that no candidate was solved for complete the basis. They are
-//! unit rows there, so that its determinant is 1 or -1: it is *integral* (Liebchen, Rizzi 2007).
+//! unit rows there, so that its determinant is 1 or -1: it is *integral* (`liebchen2007`).
 
 use super::cycles::Cycles;
 use super::forest::Forest;

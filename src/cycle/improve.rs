@@ -24,8 +24,7 @@ const TOLERANCE: f64 = 1e-9;
 /// Nodes of one enumeration, at most.
 const NODES: u64 = 20_000;
 
-/// A move of a block waits for one more block an this many cycles of the space before potentials are
-/// made anew.
+/// Potentials are recomputed after one move for each this many cycles of the space; until then moves wait.
 const CYCLES_A_MOVE: usize = 16_384;
 
 /// Blocks within so many edges of a move that waits are not far apart from it.

@@ -1,5 +1,5 @@
 //! Angle-difference systems in the space of their cycles: orientation fields, phase unwrapping,
-//! angular synchronisation, with as many integers as you like.
+//! angular synchronisation, with any number of integers.
 //!
 //! A problem whose terms are `w (x_i - x_j + step p + r)^2`, each with an integer p of its own,
 //! lives on a graph. Around its cycles the angles cancel, and what is left is a closest-vector

@@ -2,7 +2,7 @@
 //!
 //! With `A = L D L'`, the energy is the sum of `w_k^2 / d_k` over `w = L^-1 c`. Going through the
 //! substitution in order of elimination, and rounding every charge where its pivot is reached so
-//! that |w_k| is least, is Babai's algorithm (1986, section 3) on the basis whose coordinates the
+//! that |w_k| is least, is Babai's algorithm (`babai1986`, section 3) on the basis whose coordinates the
 //! charges are; on the dual of a mesh it is nearly reduced. The long cycles come last and see all
 //! others settled.
 

@@ -137,7 +137,7 @@ fn energy(problem: &Problem, integers: &[f64]) -> f64 {
     solve(&problem, &options(Strategy::Relax)).unwrap().energy()
 }
 
-/// Determinant of an integer matrix, exactly (Bareiss 1968).
+/// Determinant of an integer matrix, exactly (`bareiss1968`).
 fn determinant(mut a: Vec<Vec<i128>>) -> i128 {
     let n = a.len();
     let (mut sign, mut previous) = (1, 1);

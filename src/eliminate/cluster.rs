@@ -1,8 +1,8 @@
-//! A shallow tree of unknowns, near ones below a heavy one of their own.
+//! A shallow tree of unknowns, in which neighbours hang below the heaviest among them.
 //!
-//! The unknowns are listed so that near ones follow each other, cut into pieces of [`PIECE`], and
-//! the heaviest of each piece becomes the parent of the others; then the same with the heaviest
-//! ones, until one is left. It is the hierarchy of a Haar basis (Haar 1910), but with single
+//! The unknowns are listed so that neighbours follow each other. The list is cut into pieces of [`PIECE`],
+//! and the heaviest unknown of each piece becomes the parent of the others. The same is repeated with the
+//! parents until one is left. It is the hierarchy of a Haar basis (Haar 1910), but with single
 //! unknowns in place of averages, which keeps it sparse.
 
 use super::unknowns::Unknowns;

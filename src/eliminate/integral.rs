@@ -1,7 +1,7 @@
 //! Rows of integer unknowns only: brought to integer coefficients, then solved by unimodular steps.
 //!
 //! A row with a coefficient of 1 or -1 is solved for that unknown. Any other gets, as in the
-//! equality step of the Omega test (Pugh 1991, section 2.2; the idea is Euclid's, and repeated to
+//! equality step of the Omega test (`pugh1991`, section 2.2; the idea is Euclid's, and repeated to
 //! the end it is Hermite's normal form), a new integer
 //!
 //! ```text

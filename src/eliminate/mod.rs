@@ -3,9 +3,9 @@
 //! Continuous unknowns are eliminated by pivots, integer ones by unimodular steps only, so that
 //! the integer points of `y` are exactly the integer solutions of the constraints.
 //!
-//! The plan is that of Bommes 2012 (chapter 5): a Gaussian elimination that always takes the row
-//! with the fewest entries, and in it a continuous unknown before an integer one. There, integer
-//! rows without a unit coefficient may fail; here Euclid's algorithm takes care of them.
+//! The plan is that of `bommes2012`, chapter 5: Gaussian elimination that always takes the row with the
+//! fewest entries, and in that row a continuous unknown before an integer one. There, integer rows
+//! without a unit coefficient may fail; here Euclid's algorithm solves them.
 //!
 //! | step | file |
 //! | --- | --- |
@@ -18,8 +18,8 @@
 //! | the objective in y | `project` |
 //! | unknowns pinned afterwards | `hold` |
 //!
-//! All but `t` and the linear part of the objective depends on coefficients alone, and is kept by an
-//! [`Elimination`] for other right sides.
+//! Only `t` and the linear part of the objective depend on the right sides. An [`Elimination`] keeps all
+//! the rest, so that other right sides need no other elimination.
 
 mod back;
 mod cluster;

@@ -1,7 +1,7 @@
 //! In which waiting rows an unknown occurs.
 
-/// Linked lists in one array, one list an unknown. A row that lost the unknown stays in its list,
-/// so that nothing is ever searched for; the counts are exact.
+/// Linked lists in one array, one list for each unknown. A row that has lost the unknown stays in its list,
+/// so that no list is ever searched. The counts are exact.
 #[derive(Debug)]
 pub(super) struct Occurrences {
     count: Vec<u32>,

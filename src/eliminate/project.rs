@@ -12,7 +12,7 @@ use crate::linalg::{Accumulator, CompensatedSum, Sparse};
 use crate::monitor::Monitor;
 use crate::{Error, Model, Result};
 
-/// The lower triangle of `T'QT` with every diagonal entry stored, by rows (Gustavson 1978): first
+/// The lower triangle of `T'QT` with every diagonal entry stored, by rows (`gustavson1978`): first
 /// `W = QT`, then row `a` of the result as the sum of the rows of `W` that column `a` of `T` names.
 pub(super) fn hessian(lower: &Sparse, expansion: &Sparse, monitor: &mut Monitor) -> Result<Sparse> {
     let upper = lower.transpose();

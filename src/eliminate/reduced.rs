@@ -39,9 +39,8 @@ impl ReducedModel {
         &self.gradient
     }
 
-    /// How far each entry of the linear term may be from what was meant by `model`, which this was
-    /// reduced from: what is left where large terms have cancelled. An estimate from the sizes of
-    /// all terms that went into it.
+    /// An estimate of the rounding error of each entry of the linear term, from the sizes of all its terms
+    /// in `model`, which this was reduced from. Where large terms cancel, it may exceed the entry.
     pub fn gradient_rounding(&self, model: &Model) -> Vec<f64> {
         project::linear_size(model, &self.expansion)
             .into_iter()
@@ -64,7 +63,7 @@ impl ReducedModel {
         &self.continuous
     }
 
-    /// Where reduced unknowns stay that the objective does not decide.
+    /// The values of reduced unknowns that the objective does not decide.
     pub fn guess(&self) -> &[f64] {
         &self.guess
     }

@@ -69,9 +69,9 @@ impl Row {
     pub fn grow(&mut self, factor: f64, by: &Substitution) {
         self.touched = true;
         let factor = factor.abs();
-        // As in Wilkinson's analysis (1961), noise is that of the largest numbers seen. Multiplying
-        // it up along chains of substitutions would be a bound too, but one that grows without
-        // any relation to the error, until everything passes for noise.
+        // As in Wilkinson's analysis (`wilkinson1961`), the noise is that of the largest numbers seen.
+        // Multiplying it up along chains of substitutions would be a bound too, but one that grows
+        // without any relation to the error, until everything passes for noise.
         let inherited = factor.min(1.0);
         let largest = (factor * by.largest).max(inherited * by.magnitude);
         self.magnitude = self.magnitude.max(largest);

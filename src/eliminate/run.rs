@@ -25,8 +25,8 @@ pub fn eliminate(model: &Model, monitor: &mut Monitor) -> Result<ReducedModel> {
     Elimination::new(model, Ordering::FillReducing, monitor)?.reduce(model, monitor)
 }
 
-/// What the coefficients of the constraints and of Q, and the choice of pinned unknowns, decide:
-/// all of the reduced model but its linear part.
+/// All of the reduced model but its linear part. It depends only on the coefficients of the constraints and
+/// of Q, and on which unknowns are pinned.
 #[derive(Debug)]
 pub struct Elimination {
     record: Record,
@@ -42,11 +42,11 @@ impl Elimination {
     /// Eliminates the constraints and the pinned unknowns of `model`, whatever the right sides and
     /// the pinned values.
     ///
-    /// With [`Ordering::Natural`] rows and pivots are taken as they come, which only serves to show
-    /// what the order is worth. With [`Ordering::LargestPivot`] the row with the fewest entries comes
+    /// With [`Ordering::Natural`] rows and pivots are taken in the order given, which serves to measure
+    /// what a better order gains. With [`Ordering::LargestPivot`] the row with the fewest entries comes
     /// first as well, but is solved for its first largest continuous unknown, or else its first
-    /// integer with coefficient 1 or -1, and long rows do not wait: the elimination of Bommes'
-    /// thesis, which keeps other integers.
+    /// integer with coefficient 1 or -1, and long rows do not wait. That is the elimination of
+    /// `bommes2012`, chapter 5, which keeps other integers.
     ///
     /// # Errors
     /// [`NotSupported`](crate::Error::NotSupported) for a relation of integers with incommensurable

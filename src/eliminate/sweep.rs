@@ -2,7 +2,7 @@
 //!
 //! A row of thousands of entries that were kept up to date would be copied once for every short
 //! row that touches it. Instead all substitutions are put into it at the end, in the order in
-//! which they were made: the left-looking form of the elimination, as in Gilbert and Peierls 1988,
+//! which they were made: the left-looking form of the elimination, as in `gilbert1988`,
 //! with a heap for the order in place of a search of the graph. Its cost is that of the entries
 //! touched.
 

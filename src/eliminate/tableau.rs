@@ -1,6 +1,7 @@
-//! The constraints while they are being eliminated: rows, where unknowns occur, whose turn it is.
+//! The constraints while they are being eliminated: the rows, where each unknown occurs, and which row is
+//! next.
 //!
-//! The fewest entries come first, or, to show what that is worth, the order given.
+//! The row with the fewest entries comes first. For comparison, rows can be taken in the order given.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -95,8 +96,8 @@ impl<'a> Tableau<'a> {
         }
     }
 
-    /// Puts a row that changed where it belongs: exact if it has integers only, among the long
-    /// ones if it is long, else in the queue.
+    /// Queues a row that has changed. A row of integers gets integer coefficients first; a long row is set
+    /// aside.
     fn settle(&mut self, r: usize) -> Result<()> {
         let row = &mut self.rows[r];
         let integer = &self.unknowns.integer;
@@ -122,7 +123,7 @@ impl<'a> Tableau<'a> {
         Ok(())
     }
 
-    /// What decides whose turn it is.
+    /// The key by which rows are queued.
     fn urgency(&self, r: usize) -> u32 {
         match self.ordering {
             Ordering::FillReducing | Ordering::LargestPivot => self.rows[r].entries.len() as u32,
@@ -130,7 +131,7 @@ impl<'a> Tableau<'a> {
         }
     }
 
-    /// How much is in the way of solving for `unknown`: the rows it would be put into.
+    /// The number of rows that solving for `unknown` would change.
     pub fn cost(&self, unknown: u32) -> u32 {
         match self.ordering {
             Ordering::FillReducing => self.occurrences.count(unknown),

@@ -4,38 +4,38 @@
 //! [1, 2). That costs no accuracy, and makes all that follows independent of the units in which
 //! the caller wrote the row.
 
-/// What is left of a row carries no information when it is below this times the largest number
-/// that took part in it: coefficients by which a continuous unknown, an integer, or none at all
-/// remains. Sums of a few thousand terms in double precision carry noise of about 1e-13; data given
-/// in single precision, which must not pass for noise, differ by 1e-7.
+/// Coefficients below this, times the largest number that took part in their row, are noise. The
+/// tolerance decides whether continuous unknowns, integers, or none remain in a row. Sums of a few
+/// thousand terms in double precision carry noise of about 1e-13; data given in single precision, which
+/// must not pass for noise, differ by 1e-7.
 pub(super) const RANK: f64 = 1e-10;
 
 /// A row without unknowns holds when its right side is below this times the largest number that
-/// took part in it. Ten times [`RANK`], since right sides cancel as coefficients do, and a little
-/// later.
+/// took part in it. It is ten times [`RANK`], since right sides gather a little more rounding errors
+/// than coefficients.
 pub(super) const CONSISTENT: f64 = 1e-9;
 
 /// A continuous pivot is at least this times the largest continuous coefficient of its row: the
-/// threshold of Markowitz pivoting (Duff, Erisman, Reid 1986, section 5.4), low enough to leave a
+/// threshold of Markowitz pivoting (`duff1986`, section 5.4), low enough to leave a
 /// choice among short columns. The usual 0.1 lets coefficients grow to 1e11 along random bands of
 /// ten thousand rows, which costs the accuracy of the constraints; 0.3 keeps them below 1e3.
 pub(super) const PIVOT: f64 = 0.3;
 
 /// Coefficients at least this part of the largest count as the largest where only that may be
-/// solved for: rounding must not tell apart what the caller gave as equal.
+/// solved for: rounding must not separate coefficients that the caller gave as equal.
 pub(super) const LARGEST_PIVOT: f64 = 1.0 - 1e-9;
 
-/// Numbers this close to an integer are that integer, as for ties (docs/problems.md).
+/// Numbers this close to an integer count as that integer. Roundings use the same tolerance for ties.
 pub(super) const INTEGRAL: f64 = 1e-9;
 
-/// Of large numbers, this share may be noise on top of [`INTEGRAL`].
+/// For large numbers the tolerance is this share of the number, where that exceeds [`INTEGRAL`].
 pub(super) const INTEGRAL_RELATIVE: f64 = 1e-12;
 
-/// What is further from an integer than this is none, whatever its size.
+/// A number further from an integer than this is not an integer, whatever its size.
 pub(super) const INTEGRAL_LIMIT: f64 = 1e-3;
 
-/// After a computation, coefficients below this that come out as integers to the last bit are
-/// integers: with 2^23 numbers between neighbours, chance has no part in it.
+/// A computed coefficient below this that is an integer to the last bit is taken for an integer. There are
+/// 2^23 doubles between neighbouring integers of this size, so it is hardly one by accident.
 pub(super) const TELLING: f64 = 1_073_741_824.0;
 
 /// The common denominator of a row's coefficient ratios is at most this. Any real is within
@@ -48,9 +48,9 @@ pub(super) const RATIO: f64 = 1e-11;
 /// Integers are kept below 2^53, where sums and products of doubles are exact.
 pub(super) const LARGEST: f64 = 9_007_199_254_740_992.0;
 
-/// A sum this small against its terms is taken for zero at once, which keeps the pattern sparse.
-/// No more than rounding: a larger number dropped while other coefficients of its row remain would
-/// be an error in the solution, multiplied by whatever follows.
+/// A sum this small, relative to its terms, is set to zero at once, which keeps the pattern sparse. The
+/// tolerance is that of rounding: a larger number, dropped while other coefficients of its row remain,
+/// would be an error in the solution that later steps magnify.
 pub(super) const NOISE: f64 = 64.0 * f64::EPSILON;
 
 /// Rows with more entries than this wait until the short ones are gone. As a pivot, a row of `k`

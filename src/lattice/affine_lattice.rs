@@ -1,10 +1,10 @@
 //! A short basis and a near point of an affine lattice `{ x0 + K z : z integer }`, in exact integers.
 //!
-//! Eliminating equations between integers gives some basis of their solutions, whose entries may be as
-//! large as the products of all coefficients. Aardal, Hurkens and Lenstra 2000 (sections 2 and 3) reduce
-//! it by LLL, after which its vectors and the nearest solution are about as short as they come. K and
-//! x0 stay exact; only the multiples are found in floating point, anew from the exact vectors until
-//! nothing gets shorter, so that digits lost in one round are made good in the next.
+//! Eliminating equations between integers gives a basis of their solutions. Its entries may be as large as
+//! the products of all coefficients. `aardal2000`, sections 2 and 3, reduce the basis by LLL, after which
+//! its vectors and the nearest solution are close to the shortest possible. K and x0 stay exact. Only the
+//! multiples are computed in floating point, in rounds that start from the exact vectors and end when
+//! nothing gets shorter. So each round recovers the digits that the one before lost.
 
 use super::{Basis, Transform, lll};
 use crate::{Error, Result};

@@ -10,7 +10,7 @@
 //! integer relations. While it is reduced, `REGULAR` of each vector's length is appended to it in
 //! a direction of its own, which makes the vectors independent and the relations the shortest of
 //! all. `refresh` then finds them by their length, and puts them last as *free* coordinates: any
-//! integer there has the same distance. (Pohst 1987 reduces dependent vectors directly; that
+//! integer there has the same distance. (`pohst1987` reduces dependent vectors directly, which
 //! needs exact zeros.)
 
 use faer::{Mat, MatRef};
@@ -132,7 +132,7 @@ impl Basis {
 
     /// The caller's coordinates of the vector with coordinates `g` in the orthonormal basis in
     /// which R is triangular: `U R^-1 g`.
-    pub fn from_orthonormal(&self, g: &[f64]) -> Vec<f64> {
+    pub fn orthonormal_to_callers(&self, g: &[f64]) -> Vec<f64> {
         let mut y = g.to_vec();
         for j in (0..self.rank).rev() {
             let column = self.column(j);
@@ -150,7 +150,7 @@ impl Basis {
         x
     }
 
-    /// The transpose of [`from_orthonormal`](Self::from_orthonormal): `R^-T U' force`.
+    /// The transpose of [`orthonormal_to_callers`](Self::orthonormal_to_callers): `R^-T U' force`.
     pub fn to_orthonormal(&self, force: &[f64]) -> Vec<f64> {
         let mut h = Vec::with_capacity(self.rank);
         for j in 0..self.rank {
@@ -166,7 +166,7 @@ impl Basis {
     }
 
     /// Rounds column `k` to within half a basis vector before it, all of them; repeated until
-    /// nothing changes, since large multiples lose digits (Nguyen, Stehle 2009, figure 5).
+    /// nothing changes, since large multiples lose digits (`nguyen2009`, figure 5).
     pub(super) fn size_reduce(&mut self, k: usize) -> Result<()> {
         let n = self.dim;
         loop {

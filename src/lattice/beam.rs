@@ -1,6 +1,6 @@
 //! Beam search: nearest plane that keeps the best `width` beginnings instead of one.
 //!
-//! The K-best decoder of communication theory (Guo, Nilsson 2006, section III). Level by level
+//! The K-best decoder of communication theory (`guo2006`, section III). Level by level
 //! from the last coordinate to the first, all beginnings are extended by their nearest integers,
 //! and of the extensions those with the least distances so far are kept. Width 1 is nearest
 //! plane. The work is `width * m^2 / 2` multiplications, whatever the lattice.

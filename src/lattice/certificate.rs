@@ -1,4 +1,4 @@
-//! What a distance in the reduced lattice proves about the energy, rounding errors covered.
+//! A lower bound on the energy from a distance in the reduced lattice, rounding errors included.
 //!
 //! With the exact Schur complement S and the exact relaxation's integers z*, every solution has
 //! `E(z) = E* + (z - z*)' S (z - z*) / 2`. What was computed differs in three ways:
@@ -9,8 +9,8 @@
 //!    most the norm of F, relatively. F is not a guess but *measured end to end*: its product with
 //!    a random vector needs one exact minimisation over the continuous unknowns, which goes
 //!    through the model's own numbers and none of the reduction's. For Gaussian vectors
-//!    g_1 .. g_8, `|F| <= 10 sqrt(2/pi) max |F g_i|` but with probability 1e-8 (Halko,
-//!    Martinsson, Tropp 2011, lemma 4.1).
+//!    g_1 .. g_8, `|F| <= 10 sqrt(2/pi) max |F g_i|` except with probability 1e-8
+//!    (`halko2011`, lemma 4.1).
 //! 3. z*: the target is off by the gradient that is left there, which is measured too.
 //!
 //! So no solution that was not evaluated and is beyond computed distance d has less energy than
@@ -59,7 +59,7 @@ impl Certificate {
                 .collect();
             let mut v = vec![0.0; model.integers().len()];
             for (piece, g) in pieces.iter().zip(&g) {
-                let image = piece.basis.from_orthonormal(g);
+                let image = piece.basis.orthonormal_to_callers(g);
                 for (&place, x) in piece.places.iter().zip(image) {
                     v[place] = x;
                 }
@@ -142,7 +142,7 @@ fn condensed(model: &ReducedModel, factors: &mut Factors, mut force: Vec<f64>) -
         .collect())
 }
 
-/// Normally distributed numbers (Box, Muller 1958; uniform ones by xorshift, Marsaglia 2003).
+/// Normally distributed numbers (`box1958`; uniform ones by xorshift, `marsaglia2003`).
 struct Gaussian(u64);
 
 impl Gaussian {

@@ -1,20 +1,19 @@
-//! What the coordinates that are still undecided must add to a distance, whatever they become.
+//! A lower bound on what the undecided coordinates add to a distance, whatever integers they take.
 //!
 //! With the first k coordinates undecided and c their real minimiser, a point z adds
 //! `|R_k (z - c)|^2`, R_k the leading block of R. For a diagonal `D <= R_k' R_k` (the difference
 //! positive semi-definite) that is at least `sum_i D_i (z_i - c_i)^2`, and over all integers at
-//! least `sum_i D_i |c_i - round(c_i)|^2`: the largest ball inscribed to the quadratic form, as it
-//! were, in the axes' own scale (Buchheim, Huebner, Schoebel 2015, section 3; for sphere decoders
-//! Stojnic, Vikalo, Hassibi 2008, section IV). Fractional parts are spread evenly, so the D whose
-//! trace is the largest gives most on average: a semi-definite program, solved by a barrier with
-//! Newton steps (Boyd, Vandenberghe 2004, section 11.3).
+//! least `sum_i D_i |c_i - round(c_i)|^2` (`buchheim2015`, section 3; for sphere decoders `stojnic2008`,
+//! section IV). Fractional parts are spread evenly, so the D with the largest trace gives the best bound
+//! on average. Finding it is a semi-definite program, solved by a barrier with Newton steps (`boyd2004`,
+//! section 11.3).
 //!
 //! Where lattices are nearly orthogonal, as those of seamless maps are, this cuts the nodes of a
 //! proof in 100 dimensions by a factor of several hundred.
 //!
-//! A D is believed where `R_k'R_k - D` has a Cholesky factor although more than its rounding errors
-//! was taken off the diagonal (Rump 2006, theorem 2.3). What the coordinates' own rounding may hide
-//! is bounded in advance and taken off each bound.
+//! A D is accepted if `R_k'R_k - D`, with more than its rounding errors subtracted from the diagonal, has a
+//! Cholesky factor (`rump2006`, theorem 2.3). The rounding errors of the coordinates are bounded in advance
+//! and subtracted from each bound.
 
 use super::Basis;
 

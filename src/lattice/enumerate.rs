@@ -1,12 +1,12 @@
 //! Enumeration: every lattice point closer to the target than a radius, or the closest of all.
 //!
-//! Schnorr and Euchner 1994, section 2, with the zig-zag order from the centre of each level and
+//! `schnorr1994`, section 2, with the zig-zag order from the centre of each level and
 //! the distance of the best point found as the new radius. The tree itself is in [`super::tree`].
 //!
-//! Why it proves: the candidates of a level come in order of their distance, so that with the
-//! first one outside the radius all later ones are outside too; and one whose undecided coordinates
-//! must take it outside is left out alone (see [`super::Diagonals`]). Distances are sums of squares
-//! and cannot cancel; the offsets are computed near the target, where everything is small.
+//! Why this is a proof: the candidates of a level come in order of their distance. Once one is outside the
+//! radius, all later ones are. A candidate is also skipped, alone, if the lower bound for its undecided
+//! coordinates takes it outside (see [`super::Diagonals`]). Distances are sums of squares and cannot
+//! cancel; offsets are computed near the target, where all numbers are small.
 
 use super::near_points::NearPoints;
 use super::tree::Tree;
@@ -30,8 +30,9 @@ pub struct Limits {
 /// What an enumeration found out.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Enumerated {
-    /// Steps to the points within the radius that are the closest or within the margin of it,
-    /// with their squared distances, nearest first. Were they more than [`MOST`](super::MOST), only the closest.
+    /// Steps to the points within the radius that are the closest or within the margin of it, with their
+    /// squared distances, nearest first. Were they more than [`MOST`](super::near_points::MOST), only
+    /// the closest.
     pub near: Vec<(Vec<i64>, f64)>,
     /// Nodes visited.
     pub nodes: u64,

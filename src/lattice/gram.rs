@@ -51,6 +51,7 @@ impl Gram {
     }
 
     /// `v' G v`.
+    #[cfg(test)]
     pub fn square(&self, v: &[f64]) -> f64 {
         let row = |i: usize| (0..self.dim).map(|j| self.at(i, j) * v[j]).sum::<f64>();
         (0..self.dim).map(|i| v[i] * row(i)).sum()

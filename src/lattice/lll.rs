@@ -1,8 +1,8 @@
 //! LLL reduction with deep insertion, in floating point, the transformation exact.
 //!
-//! Lenstra, Lenstra, Lovasz 1982; deep insertion by Schnorr and Euchner 1994, section 3. R is
-//! updated by rotations, which are stable, and a result is believed only after R was computed
-//! anew from the exact transformation and the Lovasz conditions still hold there.
+//! `lenstra1982`; deep insertion by `schnorr1994`, section 3. R is updated by rotations, which are stable. A
+//! result is accepted only if the Lovasz conditions still hold after R was computed again from the exact
+//! transformation.
 
 use super::Basis;
 use crate::Result;
@@ -19,8 +19,8 @@ const ROUNDS: usize = 20;
 
 /// Reduces `basis`. A vector may move forward by up to `depth` places at a time: 1 is plain LLL.
 ///
-/// `stop` is asked before each vector whether to end, with the multiplications to expect of it; a basis that is not reduced to the end
-/// generates the same lattice and serves as any other, only worse.
+/// `stop` is asked before each vector whether to end, with the multiplications that it will take. A basis
+/// that is not fully reduced generates the same lattice and can be used, with a worse result.
 ///
 /// # Errors
 /// [`Error::Overflow`](crate::Error::Overflow) where the transformation leaves 126 bits.

@@ -1,7 +1,7 @@
 //! Closest lattice points: reduction, nearest plane, enumeration with proof.
 //!
-//! The lattice is that of the Schur complement of the integers, whose factor is the trailing block of
-//! [`SchurFactor`](crate::linalg::SchurFactor).
+//! The Gram matrix of the lattice is the Schur complement of the integers. Its factor is the trailing block
+//! of [`SchurFactor`](crate::linalg::SchurFactor).
 
 mod affine_lattice;
 mod basis;
@@ -22,22 +22,22 @@ mod target;
 mod transform;
 mod tree;
 
-pub use affine_lattice::AffineLattice;
-pub use basis::Basis;
-pub use beam::beam;
-pub use blocks::improve_blocks;
-pub use closest::{Closest, DEPTH, closest};
-pub use diagonal::Diagonals;
-pub use enumerate::{Enumerated, Limits, enumerate};
-pub use gram::{Gram, RANK_TOLERANCE};
-pub use lll::{LOVASZ, is_reduced, lll};
-pub use near_points::{MOST, NEARER};
-pub use nearest_plane::nearest_plane;
-pub use pieces::{Piece, assemble, pieces};
-pub use prove::{predicted_nodes, radius_for};
+pub(crate) use affine_lattice::AffineLattice;
+pub(crate) use basis::Basis;
+pub(crate) use beam::beam;
+pub(crate) use blocks::improve_blocks;
+pub(crate) use closest::{DEPTH, closest};
+pub(crate) use diagonal::Diagonals;
+pub(crate) use enumerate::{Limits, enumerate};
+pub(crate) use gram::Gram;
+pub(crate) use lll::lll;
+pub(crate) use near_points::NEARER;
+pub(crate) use nearest_plane::nearest_plane;
+pub(crate) use pieces::{Piece, assemble, pieces};
+pub(crate) use prove::predicted_nodes;
 pub(crate) use strategy::{exact, lattice};
-pub use target::Target;
-pub use transform::Transform;
+pub(crate) use target::Target;
+pub(crate) use transform::Transform;
 
 #[cfg(test)]
 mod tests;

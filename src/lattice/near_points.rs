@@ -1,11 +1,11 @@
 //! The points that an enumeration has found, and the radius that shrinks with them.
 
-/// Points are looked for that are closer than the best one by at least this part of its squared
-/// distance: far above the rounding errors of a sum of squares, far below
-/// what a proof is allowed to lack.
+/// A point counts as closer than the best one if its squared distance is smaller by at least this part. That
+/// is far above the rounding errors of a sum of squares, and far below the gap at which a solution counts
+/// as optimal.
 pub const NEARER: f64 = 2e-12;
 
-/// Points that are kept at most.
+/// The largest number of points that are kept.
 pub const MOST: usize = 64;
 
 /// The nearest points so far.

@@ -1,6 +1,6 @@
 //! Nearest plane: the lattice point that successive rounding reaches in a reduced basis.
 //!
-//! Babai 1986, section 3. Coordinates are decided from the last to the first, each rounded where
+//! `babai1986`, section 3. Coordinates are decided from the last to the first, each rounded where
 //! the later ones already are. On an LLL-reduced basis the distance is within 2^(m/2) of the
 //! least, and in practice within a few per cent of the energy.
 

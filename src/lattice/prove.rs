@@ -1,12 +1,12 @@
-//! A schedule of enumerations whose radii grow to that of the best point: a bound at any time.
+//! A schedule of enumerations whose radii grow up to the distance of the best point, so that there is a bound
+//! at any time.
 //!
-//! A ball that was searched to its end without finding a point proves its radius. The nodes of
+//! If a ball contains no point, its radius is a bound. The nodes of
 //! an enumeration are predicted by the volumes of balls over those of the projected lattices
-//! (Hanrot, Stehle 2007, section 4; Gama, Nguyen, Regev 2010, section 2). Where the undecided
-//! coordinates of a level must add something, what is left for the decided ones is a ball of the
-//! rest: its volume is that on average ([`Diagonals::moments`]). So
-//! radii are chosen whose enumerations cost sixteen times as much from one to the next: all smaller
-//! balls together cost a fifteenth of the last.
+//! (`hanrot2007`, section 4; `gama2010`, section 2). Where a lower
+//! bound is known for the undecided coordinates of a level, the decided ones are left with a smaller ball,
+//! whose average volume is used ([`Diagonals::moments`]). Radii are chosen so that each enumeration costs
+//! sixteen times as much as the one before. All smaller balls together then cost a fifteenth of the last.
 
 use super::{Basis, Diagonals};
 

@@ -13,10 +13,10 @@ use crate::round;
 use crate::search::{Factors, Options, Search};
 use crate::{Error, Result};
 
-/// A proof that is predicted to need more than so many budgets is not tried.
+/// A proof is not tried if its predicted nodes exceed the budget by more than this factor.
 const HOPELESS: f64 = 4.0;
 
-/// Diagonals of m dimensions take `m^4` of their steps, and so many of these take as long as a node.
+/// Diagonals in m dimensions take `m^4` steps. So many of these steps take as long as one node.
 const DIAGONALS_PER_NODE: u64 = 100;
 
 /// Diagonals are made in at most so many dimensions: no proof comes to an end in more, with them or
@@ -30,7 +30,7 @@ const LAST: f64 = 1e30;
 /// of the nodes.
 const BOUND_SHARE: u64 = 1_000;
 
-/// Decides the integers of `model` as well as it can be done without a proof.
+/// Finds good integers for `model` without a proof.
 ///
 /// # Errors
 /// For lack of memory, and for integers too large to be exact where roundings have them as well.
@@ -44,11 +44,11 @@ pub(crate) fn lattice(
     or_rounded(found.map(drop), model, options, factors, search)
 }
 
-/// Where the lattice ends at integers too large to be exact, or basis vectors too short to divide by, what
-/// rounding finds.
+/// Falls back to adaptive rounding where the lattice method fails: where its integers are too large to
+/// be exact, or its basis vectors too short to divide by.
 ///
-/// In an objective that is all but flat along some direction which no integer point lies on, ever
-/// larger integers come ever closer to its minimum; nobody means those.
+/// An objective may be nearly flat along a direction that no integer point lies on. Then larger and larger
+/// integers come closer and closer to its minimum, and no caller wants those.
 fn or_rounded(
     found: Result<()>,
     model: &ReducedModel,
@@ -244,8 +244,8 @@ fn raise(pieces: &[Piece], certificate: &Certificate, search: &mut Search) {
 
 /// Direct rounding, nearest plane, beam and blocks, each offered; then perturbation rounds.
 ///
-/// Where vectors depend the reduction hangs on tolerances, and adaptive rounding is offered as well; pieces
-/// that are no lattices are left at that.
+/// Where vectors are dependent, the reduction depends on tolerances, so adaptive rounding is offered as well.
+/// Pieces that are not lattices are not improved further.
 fn decode(
     model: &ReducedModel,
     options: &Options,

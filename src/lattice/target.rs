@@ -1,4 +1,4 @@
-//! The point that is to be approached, in coordinates of a reduced basis.
+//! The target of a closest-vector problem, in coordinates of a reduced basis.
 
 use super::Basis;
 use crate::{Error, Result};
@@ -8,8 +8,8 @@ const LARGEST: f64 = 9_007_199_254_740_992.0;
 
 /// A point by its coordinates, split into whole numbers and rests of at most one half.
 ///
-/// Near the whole part everything that follows is small, so that nothing is lost where the
-/// caller's coordinates are large.
+/// All further computations are relative to the whole part, where numbers are small. So no digits are lost
+/// where the caller's coordinates are large.
 #[derive(Debug, Clone)]
 pub struct Target {
     /// The nearest whole coordinates, free ones included.

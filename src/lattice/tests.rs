@@ -1,5 +1,6 @@
 //! What holds of every reduction and every enumeration, on random lattices.
 
+use super::lll::{LOVASZ, is_reduced};
 use super::*;
 use crate::test_random::Random;
 

@@ -37,6 +37,7 @@ impl Transform {
     }
 
     /// Number of columns.
+    #[cfg(test)]
     pub fn dim(&self) -> usize {
         self.dim
     }

@@ -1,9 +1,8 @@
-//! The tree that an enumeration walks through: a path from the root, and what is known along it.
+//! The search tree of an enumeration, stored as the path from the root to the current node.
 //!
-//! Kept by level is the real minimiser of all coordinates that are still undecided there. Deciding
-//! one moves the others along a fixed direction, so that a node costs one multiplication for each
-//! of them; what they must at least add to the distance is read off in the same sweep
-//! (see [`super::Diagonals`]).
+//! Each level keeps the real minimiser of the coordinates that are undecided there. Deciding one coordinate
+//! moves the others along a fixed direction, so a node costs one multiplication for each of them. The same
+//! sweep computes a lower bound on what they add to the distance (see [`super::Diagonals`]).
 
 use super::near_points::NearPoints;
 use super::{Basis, Diagonals, Target};
@@ -78,7 +77,7 @@ impl Tree {
     /// Bounds in advance what rounding may add to the bound of each level.
     ///
     /// A coordinate's error grows with each decision above it: by the error of the direction
-    /// (Higham 2002, theorem 8.5, with the growth of the triangular solve), that of the offset which
+    /// (`higham2002`, theorem 8.5, with the growth of the triangular solve), that of the offset which
     /// it is multiplied by, and the rounding of the sum.
     fn rounding(&self, basis: &Basis, radius: f64) -> Vec<f64> {
         let (m, stride) = (self.m, self.stride);

@@ -1,7 +1,7 @@
 //! Sums of products whose terms cancel.
 
-/// A running sum that carries its own rounding error (Neumaier 1974; products by fused
-/// multiply-add as in Ogita, Rump, Oishi 2005, algorithm Dot2): as if computed in twice the
+/// A running sum that carries its own rounding error (`neumaier1974`; products by fused
+/// multiply-add as in `ogita2005`, algorithm Dot2): as if computed in twice the
 /// working precision.
 #[derive(Debug, Clone, Copy)]
 pub struct CompensatedSum {

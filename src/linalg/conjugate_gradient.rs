@@ -1,6 +1,6 @@
 //! Preconditioned conjugate gradients over the unknowns that are not held.
 //!
-//! Hestenes, Stiefel 1952. The preconditioner is a factor of the whole matrix, restricted to the
+//! `hestenes1952`. The preconditioner is a factor of the whole matrix, restricted to the
 //! free unknowns: exact while nothing is held, and off by a rank that grows with the number of
 //! held unknowns, so that few of them cost few iterations.
 

@@ -1,12 +1,11 @@
 //! Fixing unknowns one by one, the others following exactly, without refactoring.
 //!
-//! In `A = L D L'`, taking unknown k out of the minimisation clears column k of L and leaves the
-//! Schur complement that was there before k was eliminated: a rank-one *update* of the columns on
-//! the path from k to the root, `L33 D33 L33' + d_k l_k l_k'` (Davis, Hager 2005, "Row
-//! modifications of a sparse Cholesky factorization", section 3). The row of k stays as it is: it
-//! tells the earlier unknowns how they follow k.
+//! In `A = L D L'`, taking unknown k out of the minimisation clears column k of L and leaves the Schur
+//! complement that was there before k was eliminated: a rank-one *update* of the columns on the path
+//! from k to the root, `L33 D33 L33' + d_k l_k l_k'` (`davis2005`, section 3). The row of k stays as it
+//! is: it tells the earlier unknowns how they follow k.
 //!
-//! The update (Gill, Golub, Murray, Saunders 1974, method C1) also yields the solution for free.
+//! The update (`gill1974`, method C1) also yields the solution for free.
 //! When k moves by delta, the later unknowns answer with `L33' dx = -delta * beta`, where `beta_j`
 //! are the update's own multipliers: for the updated factor,
 //! `(L33 D33 L33')^-1 l_k d_k = L33^-T beta`.

@@ -1,12 +1,11 @@
-//! Local re-optimisation after unknowns were fixed: Gauss-Seidel that spreads from the neighbours
-//! by a queue and does not push on where the change is below a tolerance.
+//! Local re-optimisation after unknowns were fixed: Gauss-Seidel from a queue. It spreads from the neighbours
+//! of the fixed unknowns and stops where changes fall below a tolerance.
 //!
-//! Bommes, Zimmer, Kobbelt 2009, section 3 ("adaptive" greedy rounding), with two changes that were
-//! measured on orientation fields of 20,000 faces:
+//! `bommes2009`, section 3, with two changes that were measured on orientation fields of 20,000 faces:
 //!
 //! - *Local* integers, which couple to a few unknowns that are not integer, are not relaxed but
 //!   follow exactly: see [`super::static_condensation`].
-//! - Over-relaxation (Young 1954) by [`OVERRELAXATION`].
+//! - Over-relaxation (`young1954`) by [`OVERRELAXATION`].
 
 use std::collections::VecDeque;
 
@@ -31,7 +30,7 @@ pub struct LocalSolve<'a> {
     moved: Vec<u32>,
 }
 
-/// All that an update of one unknown reads of it, side by side.
+/// The data of one unknown that an update reads, stored side by side.
 #[derive(Debug, Clone, Copy)]
 struct Unknown {
     /// Current, but of a free local integer, which follows on demand.

@@ -1,7 +1,7 @@
 //! A simplicial `A = L D L'` of a positive semi-definite matrix, kept open for changes.
 //!
-//! Up-looking, row by row along the elimination tree (Davis 2006, "Direct Methods for Sparse
-//! Linear Systems", section 4.7). faer has this factorization too, but its values cannot be
+//! Up-looking, row by row along the elimination tree (`davis2006`,
+//! section 4.7). faer has this factorization too, but its values cannot be
 //! changed in place afterwards, and a vanished pivot must stay zero here: see [`super::fix`].
 
 use super::cholesky::PIVOT_TOLERANCE;

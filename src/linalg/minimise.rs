@@ -7,12 +7,12 @@ use crate::Result;
 /// minus this proves that the quadratic is not convex.
 pub const CURVATURE_TOLERANCE: f64 = 1e-9;
 
-/// A slope along a direction without curvature counts as zero up to this, relative to the sum of
-/// the absolute values of its terms: so well is the direction known.
+/// A slope along a direction without curvature counts as zero up to this, relative to the sum of the
+/// absolute values of its terms. It is the accuracy to which the direction is known.
 pub const SLOPE_TOLERANCE: f64 = 1e-9;
 
-/// A sum this small next to the absolute values of its terms has cancelled: what is left are their
-/// rounding errors.
+/// A sum this small, relative to the absolute values of its terms, has cancelled: it consists of rounding
+/// errors.
 pub const CANCELLED: f64 = 1e-12;
 
 /// How many vanished pivots are examined for a bad direction, the most suspicious first.
@@ -40,8 +40,8 @@ pub struct Lowest {
 
 /// Minimises `1/2 x'Ax + g'x` for the `A` with lower triangle `lower`, which `factor` belongs to.
 ///
-/// `rounding` tells how far each entry of `g` may be from what was meant, and is asked only where
-/// the answer hangs on it: the noise that is left of large terms is no slope.
+/// `rounding` gives the rounding error of each entry of `g`. It is called only where the result depends on
+/// it: the noise that large terms leave when they cancel is not a slope.
 ///
 /// # Errors
 /// Only for lack of memory: everything else is a [`Minimum`].
@@ -122,8 +122,8 @@ fn null_direction(factor: &Cholesky, j: u32) -> Result<Vec<f64>> {
     Ok(v)
 }
 
-/// A direction of negative curvature, if some pivot that counted as zero was in truth negative, or zero in
-/// a column that is not.
+/// A direction of negative curvature. There is one if a pivot that counted as zero is in fact negative, or is
+/// zero while its column is not.
 ///
 /// With negative pivots `p_j` the factor belongs to `A + sum_j (NULL_PIVOT - p_j) e_j e_j'`, so
 /// one solve with a random right side shows all `p_j` at once as residuals.
@@ -167,9 +167,9 @@ fn downward_curvature(lower: &Sparse, factor: &Cholesky) -> Result<Option<Vec<f6
     Ok(None)
 }
 
-/// The direction `v` of null unknown `j` and that of the null unknown that it moves most, against each
-/// other: of a product of two unknowns without squares, which curves down as much as up, either direction
-/// alone shows the square of what both show.
+/// The direction `v` of null unknown `j`, combined with that of the null unknown that it moves most. A
+/// product of two unknowns without squares curves down as much as up. Either direction alone shows only
+/// the square of the curvature that both together show.
 fn with_partner(factor: &Cholesky, j: u32, mut v: Vec<f64>) -> Result<Vec<f64>> {
     let scale = factor.scale();
     v.iter_mut().for_each(|v| *v /= scale[j as usize]);

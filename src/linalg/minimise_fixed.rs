@@ -4,7 +4,7 @@ use super::{Cholesky, Sparse, minimise_bounded, principal_submatrix};
 use crate::Result;
 
 /// Minimises `1/2 x'Ax + g'x` over the unknowns that are not `held`, from `point`; the held ones
-/// keep their values there. As [`minimise_bounded`], for an objective known to have a minimum.
+/// keep their values there. As `minimise_bounded`, for an objective known to have a minimum.
 ///
 /// # Errors
 /// For lack of memory.

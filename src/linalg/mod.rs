@@ -1,5 +1,6 @@
-//! What faer lacks: fixing unknowns in a sparse factor, semi-definite systems with a documented
-//! choice of minimiser, sums whose terms cancel.
+//! Linear algebra that faer lacks: fixing unknowns in a sparse factor, semi-definite systems with a documented
+//! choice of minimiser, Gauss-Seidel from a queue, and compensated sums. The other layers share the
+//! submatrices, accumulators, disjoint sets and random numbers here.
 
 mod accumulator;
 mod analysis;
@@ -29,17 +30,14 @@ mod unpreconditioned_cg;
 
 pub(crate) use accumulator::Accumulator;
 pub use analysis::Analysis;
-pub use cholesky::{Cholesky, NULL_PIVOT, PIVOT_TOLERANCE};
+pub use cholesky::Cholesky;
 pub use compensated::CompensatedSum;
 pub use conjugate_gradient::{Effort, conjugate_gradient};
 pub(crate) use disjoint_sets::DisjointSets;
 pub use fix::FixedSolve;
 pub use gauss_seidel::LocalSolve;
 pub use ldl::Ldl;
-pub use minimise::{
-    CANCELLED, CURVATURE_TOLERANCE, Lowest, Minimum, SLOPE_TOLERANCE, minimise, minimise_bounded,
-    residual,
-};
+pub use minimise::{CANCELLED, Lowest, Minimum, minimise, minimise_bounded, residual};
 pub use minimise_fixed::minimise_fixed;
 pub use ordering::{EliminationTree, Ordering, minimum_degree};
 pub use path::PathSolve;

@@ -1,8 +1,8 @@
 //! The order of elimination, and the tree that it makes.
 //!
-//! Minimum degree (Amestoy, Davis, Duff 1996) by faer; the elimination tree by Liu 1990,
-//! section 4; a post-order, so that every subtree is a contiguous range of positions. faer does
-//! not post-order what it is given, and its trees cannot be walked from outside.
+//! Minimum degree (`amestoy1996`) is faer's. The elimination tree follows `liu1990`, section 4, and is
+//! post-ordered, so that every subtree is a contiguous range of positions. faer does not post-order a
+//! given order, and its trees cannot be walked from outside.
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::SymbolicSparseColMatRef;
@@ -20,10 +20,10 @@ pub enum Ordering {
     /// In the order that keeps the rest sparse.
     #[default]
     FillReducing,
-    /// As they come: to show what an order is worth.
+    /// In the order given, for comparison.
     Natural,
-    /// Fill-reducing in factorizations; constraints are solved for their largest coefficient,
-    /// and which other rows that fills does not count.
+    /// Fill-reducing in factorizations. Constraints are solved for their largest coefficient, without
+    /// regard to the fill in other rows.
     LargestPivot,
 }
 
@@ -163,7 +163,7 @@ fn permute_pattern(lower: &Sparse, position: &[u32]) -> Vec<Vec<u32>> {
     rows
 }
 
-/// Liu 1990, algorithm 4.2: path compression through virtual ancestors.
+/// `liu1990`, algorithm 4.2: path compression through virtual ancestors.
 fn parents(rows: &[Vec<u32>]) -> Vec<u32> {
     let mut parent = vec![NONE; rows.len()];
     let mut ancestor = vec![NONE; rows.len()];

@@ -1,7 +1,7 @@
 //! Blocks of an inverse, by solves that follow the elimination tree.
 //!
 //! Forward substitution from one unknown touches only the path from its position to the root
-//! (Davis 2006, "Direct Methods for Sparse Linear Systems", sections 3.2 and 4.1). With
+//! (`davis2006`, sections 3.2 and 4.1). With
 //! `V = L^-1 E_B` for a set B of unknowns, which lives on the union of their paths,
 //! `(A^-1)_BB = V' D^-1 V`. faer has neither sparse right-hand sides nor a way to walk its factors.
 

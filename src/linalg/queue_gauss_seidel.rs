@@ -1,7 +1,7 @@
 //! Local re-optimisation by Gauss-Seidel as it was published: a queue of unknowns, an update where
 //! the step exceeds a tolerance, and then its neighbours in turn.
 //!
-//! Bommes, Zimmer, Kobbelt 2009, section 3. [`LocalSolve`](super::LocalSolve) is the improved form;
+//! `bommes2009`, section 3. [`LocalSolve`](super::LocalSolve) is the improved form;
 //! this one leaves behind what the published method leaves behind. An unknown may stand in the
 //! queue more than once: on the orientation fields of a rocker arm (1,000 and 2,000 faces) and of a
 //! body with three holes that, of all variants tried, gave the energies of the thesis' program.

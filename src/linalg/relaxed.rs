@@ -1,8 +1,8 @@
 //! The factor of a whole reduced Hessian, all integers real.
 //!
-//! [Local](super::local_integers) integers are eliminated by hand first, which is one division each, and
-//! only their Schur complement is ordered and factored. On an orientation field that is the
-//! Laplacian of a forest, whose factor has no fill at all.
+//! [Local](super::local_integers) integers are eliminated first, at one division each. Only their Schur
+//! complement is ordered and factored. On an orientation field that is the Laplacian of a forest, whose
+//! factor has no fill.
 
 use super::local_integers::local_integers;
 use super::minimise::{CANCELLED, Lowest, Minimum, minimise};
@@ -130,8 +130,8 @@ impl RelaxedFactor {
         inner
     }
 
-    /// How far the gradient that the rest sees may be off: what is unknown of `gradient` itself, and
-    /// what condensing it adds, which next to nothing else would pass for a slope.
+    /// The rounding error of the condensed gradient: that of `gradient` itself, and that of condensing. Where
+    /// the gradient vanishes, this error must not be taken for a slope.
     fn condensed_rounding(&self, gradient: &[f64], rounding: &[f64]) -> Vec<f64> {
         let noise = |i: u32| CANCELLED * gradient[i as usize].abs() + rounding[i as usize];
         let mut inner: Vec<f64> = self.rest.iter().map(|&i| noise(i)).collect();

@@ -1,13 +1,13 @@
 //! One factor for everything: continuous unknowns first, integers last.
 //!
-//! It solves for the whole, its leading part for the continuous unknowns with the integers held,
-//! and its trailing block is the factor of the Schur complement of the integers: what the objective
-//! asks of them when the continuous unknowns follow (Golub, Van Loan, section 4.2). So the
-//! complement itself is never formed and loses no digits to being squared.
+//! The whole factor solves for all unknowns. Its leading part solves for the continuous unknowns while
+//! the integers are held. Its trailing block is the factor of the Schur complement of the integers: the
+//! quadratic form in the integers that remains when the continuous unknowns are minimised over
+//! (`golub2013`, section 4.2). The complement itself is never formed, so no digits are lost to squaring.
 //!
-//! The continuous unknowns stand in minimum-degree order of their own block, post-ordered, which
-//! faer's supernodes want; the integers fill up to a dense block whatever their order. That makes it
-//! the right factor where integers are few.
+//! The continuous unknowns come in a post-ordered minimum-degree order of their own block, which faer's
+//! supernodes need. The integers fill up to a dense block in any order. So this is the right factor where
+//! integers are few.
 
 use super::{Cholesky, EliminationTree, Sparse, minimum_degree, principal_submatrix};
 use crate::Result;

@@ -1,8 +1,8 @@
 //! Conjugate gradients without a preconditioner, ended by the residual.
 //!
-//! Hestenes, Stiefel 1952. Where few iterations are wanted to be few, [`conjugate_gradient`] does
-//! better; this one is what Bommes' thesis (section 5.2) iterates between two roundings, and its
-//! intermediate points are part of what that method decides.
+//! `hestenes1952`. [`conjugate_gradient`] needs fewer iterations. This one is what `bommes2012`, chapter 5,
+//! iterates between two roundings. That method stops before convergence, so its decisions depend on the
+//! intermediate points, which only the same iteration reproduces.
 //!
 //! [`conjugate_gradient`]: super::conjugate_gradient
 

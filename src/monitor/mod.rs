@@ -11,7 +11,7 @@ pub use event::{Event, EventKind, Flow, Phase};
 
 type Callback<'a> = Box<dyn FnMut(&Event) -> Flow + 'a>;
 
-/// Who watches a solve: a callback, a cancel token, or nobody (the default).
+/// The observer of a solve: a callback, a cancel token, both, or none (the default).
 ///
 /// The callback runs on the thread that called solve.
 pub struct Monitor<'a> {
@@ -40,7 +40,7 @@ impl Default for Monitor<'_> {
     }
 }
 
-/// Progress is told at most this often, so that a callback never dominates a loop.
+/// Progress is reported at most this often, so that a callback never dominates a loop.
 const PROGRESS_INTERVAL: Duration = Duration::from_millis(20);
 
 impl<'a> Monitor<'a> {
@@ -92,7 +92,7 @@ impl<'a> Monitor<'a> {
         }
     }
 
-    /// Tells how far `phase` has got, and asks whether to go on.
+    /// Reports the progress of `phase`; returns whether to go on.
     pub(crate) fn progress(&mut self, phase: Phase, fraction: f64) -> Result<(), Stop> {
         if self.callback.is_some() {
             let now = Instant::now();
@@ -106,24 +106,24 @@ impl<'a> Monitor<'a> {
         self.check()
     }
 
-    /// Tells one line of text.
+    /// Reports one line of text.
     pub(crate) fn log(&mut self, line: &str) {
         self.tell(EventKind::Log(line));
     }
 
-    /// Tells of a better solution.
+    /// Reports a better solution.
     pub(crate) fn improved(&mut self, energy: f64) {
         self.energy = energy;
         self.tell(EventKind::Improved);
     }
 
-    /// Takes note of a better bound and tells of it.
+    /// Records a better bound and reports it.
     pub(crate) fn raised(&mut self, lower_bound: f64) {
         self.bounded(lower_bound);
         self.tell(EventKind::Raised);
     }
 
-    /// Takes note of a better bound.
+    /// Records a better bound.
     pub(crate) fn bounded(&mut self, lower_bound: f64) {
         self.lower_bound = lower_bound;
     }

@@ -1,10 +1,10 @@
-//! A hint from the caller: short cycles in the graph that the least-squares rows make.
+//! A hint from the caller: short cycles in the graph whose edges are the least-squares rows.
 
 use super::RowList;
 use super::check::{in_range, same_length};
 use crate::{Error, Result};
 
-/// What is left of an unknown counts as cancelled up to this, relative to its coefficients.
+/// An unknown has cancelled if its coefficient is at most this, relative to the coefficients summed.
 const CANCELLED: f64 = 1e-12;
 
 /// Cycles as signed sums of least-squares rows in which all continuous unknowns cancel.

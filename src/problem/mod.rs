@@ -394,12 +394,12 @@ impl Problem {
         Ok(())
     }
 
-    /// Hands over short cycles that the caller knows: sums of least-squares rows, each with sign 1
+    /// Sets short cycles that the caller knows: sums of least-squares rows, each with sign 1
     /// or -1, in which all continuous unknowns cancel, such as the rings around the vertices of a
     /// mesh. Cycle `k` has the entries `offsets[k]..offsets[k + 1]` of `rows` and `signs`.
     ///
-    /// A hint never changes what is solved. One that does not hold (unknowns do not cancel) is
-    /// ignored by the solve, which says so in its log. A later hint replaces an earlier one.
+    /// A hint never changes the problem. A solve ignores a hint whose unknowns do not cancel, and says so in
+    /// its log. A later hint replaces an earlier one.
     ///
     /// # Errors
     /// [`Error::LengthMismatch`], [`Error::IndexOutOfRange`] for a row that does not exist yet,

@@ -1,11 +1,10 @@
 //! Adaptive greedy rounding: several integers at a time, re-optimised only as far as needed.
 //!
-//! Bommes' thesis, chapter 5; Bommes, Zimmer, Kobbelt 2009, section 3. Each pass rounds the
-//! integers with the least deviations while these sum up to at most a threshold, then re-optimises
-//! by Gauss-Seidel from their neighbours; where its budget ends, by conjugate gradients; where
-//! those fail, by a factorization.
+//! `bommes2012`, chapter 5; `bommes2009`, section 3. Each pass rounds the integers with the least deviations,
+//! as many as sum up to at most a threshold. Then it re-optimises by Gauss-Seidel from their neighbours;
+//! where that exceeds its budget, by conjugate gradients; where these fail, by a factorization.
 //!
-//! With few integers the exact method is the faster one as well, and is taken instead.
+//! With few integers, exact greedy rounding is faster too and is used instead.
 
 use super::candidates::Candidates;
 use super::{greedy, nearest};
@@ -15,15 +14,15 @@ use crate::linalg::{Effort, LocalSolve, conjugate_gradient, minimise_fixed};
 use crate::monitor::Phase;
 use crate::search::{Factors, Options, Search};
 
-/// Gauss-Seidel updates between two looks at the clock.
+/// Gauss-Seidel updates between two checks of the monitor.
 const UPDATES_AT_A_TIME: usize = 10_000;
 
 /// Rounds by passes.
 ///
-/// When it has to stop early, it offers the integers as they stand, the undecided ones rounded.
+/// If it has to stop early, it offers the integers decided so far and rounds the others.
 ///
 /// # Errors
-/// For lack of memory, and those of the evaluation of its offer.
+/// [`Error::OutOfMemory`](crate::Error::OutOfMemory), and the errors of [`Search::offer`].
 pub(crate) fn adaptive(
     model: &ReducedModel,
     options: &Options,

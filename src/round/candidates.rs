@@ -1,5 +1,5 @@
-//! Integers by their distance from the nearest one: heaps whose stale entries are passed over, each
-//! for a range of distances, so that one fits the cache.
+//! The integers to round next: a priority queue by the distance from the nearest integer. There is one heap for
+//! each range of distances, so that a heap fits the cache; stale entries are skipped.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -10,11 +10,11 @@ use super::nearest;
 /// Ranges of deviations.
 const RANGES: usize = 1024;
 
-/// The undecided integers, the closest to an integer first; deviations that agree to [`TIE`] are
-/// told apart by their unknowns, lowest first.
+/// The undecided integers, the closest to an integer first. Where deviations agree up to [`TIE`], the lowest
+/// unknown comes first.
 ///
-/// The heaps hold a lower bound of each deviation: what comes closer to an integer is entered
-/// anew, what moves away is found out when its turn comes.
+/// The heaps hold a lower bound of each deviation. An unknown that moves closer to an integer is entered
+/// again; one that moves away is detected when its turn comes.
 #[derive(Debug)]
 pub(crate) struct Candidates {
     heaps: Vec<BinaryHeap<Reverse<(u64, u32)>>>,

@@ -1,6 +1,6 @@
 //! Direct rounding: every integer to its nearest value in the relaxation, all at once.
 //!
-//! Bommes' thesis, section 5.3, the first of the solvers compared. The fastest and the worst.
+//! `bommes2012`, section 5.3, the first of the solvers compared: the fastest, with the highest energies.
 
 use super::nearest;
 use crate::Result;

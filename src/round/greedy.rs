@@ -1,8 +1,8 @@
 //! Exact greedy rounding: fix the integer that is closest to one, re-optimise, repeat.
 //!
-//! Bommes' thesis, section 5.3 ("naive greedy rounding"), with the re-optimisation exact at every
-//! step but never a factorization anew: see [`crate::linalg::FixedSolve`]. Where integers are few it
-//! works on their Schur complement alone, otherwise on the sparse factor of the whole.
+//! `bommes2012`, section 5.3 ("naive greedy rounding"). The re-optimisation is exact at every step, without a
+//! new factorization: see [`crate::linalg::FixedSolve`]. Where integers are few, it works on their Schur
+//! complement alone, otherwise on the sparse factor of the whole Hessian.
 
 use super::direct::round_all;
 use super::nearest;
@@ -17,10 +17,10 @@ pub const TIE: f64 = 1e-9;
 
 /// Rounds one integer at a time.
 ///
-/// When it has to stop early, it offers the integers as they stand, the undecided ones rounded.
+/// If it has to stop early, it offers the integers decided so far and rounds the others.
 ///
 /// # Errors
-/// For lack of memory, and those of the evaluation of its offer.
+/// [`Error::OutOfMemory`](crate::Error::OutOfMemory), and the errors of [`Search::offer`].
 pub(crate) fn greedy(
     model: &ReducedModel,
     factors: &mut Factors,

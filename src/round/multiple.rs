@@ -1,16 +1,15 @@
-//! Multiple rounding as it was published and is in use: what programs get that were written for it.
+//! Multiple rounding as it was published, for programs that depend on its results.
 //!
-//! Bommes, Zimmer, Kobbelt 2009, section 3; Bommes' thesis, chapter 5. Each pass rounds the
-//! integers with the least deviations while these sum up to at most a threshold, then re-optimises:
-//! by Gauss-Seidel from their neighbours; where its budget ends, by conjugate gradients; where
-//! those fail, by a factorization, unless that is turned off.
+//! `bommes2009`, section 3; `bommes2012`, chapter 5. Each pass rounds the integers with the least deviations,
+//! as many as sum up to at most a threshold. Then it re-optimises by Gauss-Seidel from their neighbours;
+//! where that exceeds its budget, by conjugate gradients; where these fail, by a factorization, unless
+//! that is turned off.
 //!
-//! [`adaptive`](super::adaptive) has the same plan and better parts: it is more accurate and
-//! quicker. But where few integers of far reach are rounded after a few iterations, the iterations
-//! are part of the decisions, and a program whose results must stay what they were needs these.
-//! Together with [`Ordering::LargestPivot`](crate::linalg::Ordering::LargestPivot), which keeps the
-//! integers that the thesis' elimination keeps, the decisions of the thesis' program on its seamless
-//! parametrizations come out.
+//! [`adaptive`](super::adaptive) follows the same plan, more accurately and faster. But where integers with
+//! wide influence are rounded after a few iterations, the decisions depend on the iterations. A program
+//! whose results must not change needs the same ones. Together with
+//! [`Ordering::LargestPivot`](crate::linalg::Ordering::LargestPivot), which keeps the same integers in the
+//! elimination, this reproduces the decisions of the thesis' program on its seamless parametrizations.
 
 use super::candidates::Candidates;
 use super::nearest;
@@ -27,10 +26,10 @@ const LOOKS_AT_A_TIME: usize = 10_000;
 
 /// Rounds by passes.
 ///
-/// When it has to stop early, it offers the integers as they stand, the undecided ones rounded.
+/// If it has to stop early, it offers the integers decided so far and rounds the others.
 ///
 /// # Errors
-/// For lack of memory, and those of the evaluation of its offer.
+/// [`Error::OutOfMemory`](crate::Error::OutOfMemory), and the errors of [`Search::offer`].
 pub(crate) fn multiple(
     model: &ReducedModel,
     options: &Options,

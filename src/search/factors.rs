@@ -1,7 +1,7 @@
-//! Factorizations, each made when it is first asked for and kept.
+//! The factors of a reduced model, each made on first use and kept.
 //!
-//! Where integers are few, one [`SchurFactor`] serves all. Otherwise there is no single factor: the
-//! relaxation wants a supernodal one, greedy a simplicial one that can fix unknowns, and an offer of
+//! Where integers are few, one [`SchurFactor`] serves every purpose. Otherwise the relaxation needs a
+//! supernodal factor, greedy rounding a simplicial one in which unknowns can be fixed, and an offer of
 //! integers one of the continuous block.
 
 use std::time::Instant;

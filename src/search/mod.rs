@@ -35,7 +35,7 @@ pub(crate) struct Search<'s, 'm> {
     relaxed: Vec<f64>,
     lower_bound: f64,
     incumbent: Option<Incumbent>,
-    /// What was spent, and what may be.
+    /// The multiplications spent, and their limit.
     pub work: Work,
     /// Progress, cancel, time limit.
     pub monitor: &'s mut Monitor<'m>,

@@ -1,7 +1,7 @@
-//! Work, counted in multiplications: a budget that no machine's speed changes.
+//! Work, counted in multiplications: a budget that does not depend on the speed of the machine.
 //!
-//! Counted are the loops that may run long, to the order of what they multiply. Roundings (direct,
-//! greedy, adaptive) are not: their work is what it is.
+//! The loops that may run long count their multiplications, to the leading order. Roundings (direct, greedy,
+//! adaptive) are not counted, since no budget limits them.
 
 use crate::eliminate::ReducedModel;
 use crate::monitor::Monitor;
@@ -12,7 +12,7 @@ const ALWAYS: u64 = 200_000_000;
 /// `auto`: relaxations whose work is granted beyond that.
 const RELAXATIONS: u64 = 1_000;
 
-/// What was spent, and what may be.
+/// The multiplications spent, and their limit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Work {
     spent: u64,
@@ -48,16 +48,16 @@ impl Work {
         self.limit.saturating_sub(self.spent)
     }
 
-    /// Takes note of so many multiplications; whether to end, for lack of more or because the monitor
-    /// says so.
+    /// Counts so many multiplications; returns whether to end, because the limit is reached or because the
+    /// monitor says so.
     pub fn ends(&mut self, multiplications: u64, monitor: &mut Monitor) -> bool {
         self.spend(multiplications);
         self.left() == 0 || monitor.check().is_err()
     }
 }
 
-/// What a relaxation is counted as for each entry of the reduced Hessian. On mesh problems it
-/// multiplies more, whatever the order of elimination.
+/// The multiplications counted for a relaxation, for each entry of the reduced Hessian. On mesh problems the
+/// real number is larger, whatever the order of elimination.
 const PER_ENTRY: u64 = 50;
 
 /// The work of a relaxation.

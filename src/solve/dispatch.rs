@@ -1,4 +1,4 @@
-//! Which method a strategy comes to on a given model.
+//! The choice of method: which one a strategy uses on a given model.
 
 use crate::eliminate::ReducedModel;
 use crate::search::{Factors, Options, Search, Strategy};
@@ -15,8 +15,8 @@ const DENSE: u64 = 12;
 /// Lets the strategy of `options` search.
 ///
 /// Angle-difference systems are decided in cycle space, whatever their size. For other problems the
-/// lattice strategies need a dense matrix of the integers; beyond `dense_integers` they come to
-/// `adaptive`.
+/// lattice strategies need a dense matrix of the integers; beyond `dense_integers` of them, `adaptive` is used
+/// instead.
 ///
 /// # Errors
 /// Those of the method.
@@ -48,7 +48,7 @@ pub(super) fn search(
         }
         Strategy::Lattice if few => lattice::lattice(model, options, factors, search),
         Strategy::Exact if few => {
-            // Where angles differ the cycles know better where to begin.
+            // For an angle-difference system, cycle space gives the better start.
             cycle::auto(given, model, options, factors, search)?;
             lattice::exact(model, options, factors, search)
         }

@@ -10,7 +10,7 @@ use crate::monitor::{Monitor, Phase};
 use crate::search::{Factors, Options, Search, SolveStatus, Strategy, WarmStart, of_relaxation};
 use crate::{Error, Model, Problem, Result, round};
 
-/// A problem with all that does not depend on its right sides.
+/// A problem with everything that does not depend on its right sides.
 pub(super) struct EliminatedProblem<'a> {
     pub problem: &'a Problem,
     pub model: &'a Model,
@@ -93,7 +93,7 @@ impl EliminatedProblem<'_> {
     }
 }
 
-/// Seconds when the search began.
+/// The seconds spent before the search.
 pub(super) struct Clock {
     eliminated: f64,
     factored_before: f64,

@@ -1,11 +1,11 @@
-//! A problem between whose integers constraints stand, in short steps from a near solution.
+//! Reformulation of a problem with constraints between integers (`aardal2000`, sections 2 and 3).
 //!
-//! The expansion `x = T y + t` of the elimination holds whole numbers for integers, but they may be large:
-//! a chain of constraints with coefficients of one digit leads to some of ten, and the objective in y to
-//! terms of 1e15 and more, of which nothing is left when they cancel. A bound is then worthless, and what
-//! is found is anything. The same integers are `x0 + K z` with a short basis K and a near x0
-//! ([`AffineLattice`], after Aardal, Hurkens and Lenstra 2000). The problem is stated anew in z and the caller's
-//! continuous unknowns, from the caller's numbers, and solved as any other.
+//! For integers the expansion `x = T y + t` of the elimination has integer entries, but these may be
+//! large. A chain of constraints with coefficients of one digit leads to entries of ten digits. The
+//! terms of the objective in y then reach 1e15 and cancel, and neither the bound nor the solution means
+//! anything. The same integers are `x0 + K z` with a short basis K and a nearby x0 ([`AffineLattice`]).
+//! The problem is stated again in z and the caller's continuous unknowns, from the caller's numbers, and
+//! solved like any other.
 
 use super::candidate::Candidate;
 use super::eliminated::EliminatedProblem;
@@ -18,17 +18,17 @@ use crate::search::LARGEST_INTEGER;
 use crate::search::{Factors, Options};
 use crate::{Error, Model, Problem, Result};
 
-/// Numbers up to here do no harm: their squares leave twelve digits.
+/// Entries up to this size are harmless: their squares leave twelve digits.
 const HARMLESS: f64 = 1000.0;
 
-/// How much smaller numbers must get.
+/// The reformulation is used if it makes the largest entry smaller by at least this factor.
 const WORTH_IT: f64 = 16.0;
 
-/// Bases with more vectors than this are not reduced, nor those with more numbers.
+/// Larger bases are not reduced: in vectors, and in entries.
 const MOST: usize = 64;
 const MOST_NUMBERS: usize = 1 << 20;
 
-/// Of a sum this small against its terms nothing is left.
+/// A sum this small, relative to its terms, has cancelled.
 const CANCELLED: f64 = 64.0 * f64::EPSILON;
 
 /// The problem in other unknowns: the continuous ones, then z.
@@ -51,11 +51,11 @@ struct Form {
     terms: Vec<(usize, f64)>,
 }
 
-/// Solves the problem in short steps, where the expansion of `reduced` has numbers so large that it is
-/// worth it, and where there is such a reformulation.
+/// Solves the reformulated problem. None if the numbers in the expansion of `reduced` are small enough, or if
+/// the reformulation does not make them much smaller.
 ///
 /// # Errors
-/// Those of a solve, but for what may be a matter of the other unknowns.
+/// Those of a solve, except those that may be due to the reformulation.
 pub(super) fn solve_reformulated(
     of: &EliminatedProblem,
     reduced: &ReducedModel,
@@ -90,7 +90,7 @@ pub(super) fn solve_reformulated(
     }
 }
 
-/// None where integers of the caller's are too large to be exact.
+/// None if some of the caller's integers are too large to be exact.
 fn in_callers_unknowns(
     of: &EliminatedProblem,
     short: &Reformulation,
@@ -348,7 +348,7 @@ impl Reformulation {
     }
 }
 
-/// A sum that knows when nothing is left of it.
+/// A sum that counts as zero once its terms have cancelled.
 #[derive(Clone, Copy)]
 struct Sum {
     sum: CompensatedSum,

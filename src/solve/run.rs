@@ -1,4 +1,4 @@
-//! One solve from beginning to end: validate, eliminate, relax, search, expand, verify.
+//! One solve from beginning to end: validation, elimination, and the solve of what is left.
 
 use super::Solution;
 use super::eliminated::EliminatedProblem;
@@ -8,7 +8,7 @@ use crate::monitor::Monitor;
 use crate::search::{Factors, Options};
 use crate::{Model, Problem, Result};
 
-/// Solves `problem`, watched by nobody.
+/// Solves `problem`, without a monitor.
 ///
 /// # Errors
 /// Everything that [`Error`](crate::Error) names: bad input, contradictory constraints, an
@@ -17,8 +17,7 @@ pub fn solve(problem: &Problem, options: &Options) -> Result<Solution> {
     solve_with(problem, options, Monitor::default())
 }
 
-/// Solves `problem` under the eyes of `monitor`, which hears of progress and of every better
-/// solution, and may cancel.
+/// Solves `problem`. The `monitor` is told of progress and of every better solution, and may cancel.
 ///
 /// # Errors
 /// As [`solve`], and [`Error::Cancelled`](crate::Error::Cancelled) when cancelled before a first

@@ -33,7 +33,7 @@ pub struct Seconds {
     pub total: f64,
 }
 
-/// A solution: values, what they cost, and how far from the best they can be.
+/// A solution: values, their energy, and a lower bound on the energy of every solution.
 ///
 /// Energy and violations are recomputed from the caller's own arrays by code that shares nothing
 /// with the solver.

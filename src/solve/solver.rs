@@ -15,7 +15,7 @@ use crate::problem::RowList;
 use crate::search::{Factors, Options, SolveStatus};
 use crate::{Model, Problem, Result};
 
-/// A problem whose structure is fixed, and what was learned of it.
+/// A problem of fixed structure, with its elimination and factors kept from solve to solve.
 ///
 /// The first solve costs what [`solve`](crate::solve()) costs. A later one with other linear terms,
 /// right sides or pinned values skips elimination, orderings and factorizations. Pinning or releasing
@@ -130,7 +130,7 @@ impl Solver {
         Ok(())
     }
 
-    /// Solves the problem as it stands, watched by nobody.
+    /// Solves the problem as it stands, without a monitor.
     ///
     /// # Errors
     /// As [`solve`](crate::solve()).
@@ -138,7 +138,7 @@ impl Solver {
         self.solve_with(options, Monitor::default())
     }
 
-    /// Solves the problem as it stands under the eyes of `monitor`.
+    /// Solves the problem as it stands, with a `monitor`.
     ///
     /// # Errors
     /// As [`solve_with`](crate::solve_with).

@@ -1,9 +1,10 @@
 //! Further constraints between integers, without another elimination and other factors.
 //!
-//! Where the continuous unknowns follow, the objective is `E* + 1/2 |R (z - z*)|^2` in the reduced
-//! integers z: `R` the factor of their Schur complement, `z*` and `E*` of the relaxation. Constraints
-//! between integers alone are rows in z. So with them the problem is a small dense one, decided like
-//! any other, and what it decides is handed to the problem itself.
+//! Minimised over the continuous unknowns, the objective is `E* + 1/2 |R (z - z*)|^2` in the reduced
+//! integers z. Here `R` is the factor of their Schur complement, and `z*` and `E*` are the integers and
+//! the energy of the relaxation. Constraints between integers alone are rows in z. So the constrained
+//! problem in z is a small dense one. It is solved like any other, and its integers are offered to the
+//! whole problem.
 
 use super::Solution;
 use super::eliminated::{EliminatedProblem, SearchResult};
@@ -15,9 +16,9 @@ use crate::problem::RowList;
 use crate::search::{Factors, Options, Search, SolveStatus, Strategy, WarmStart, of_relaxation};
 use crate::{Model, Problem, Result};
 
-/// Solves under further constraints. None where that takes a solve from the start: where unknowns in
-/// them are not integer, integers are many or begin warm, or a proof is asked for, which takes into
-/// account how all data were rounded.
+/// Solves under further constraints. None where that needs a solve from the start: if unknowns in the
+/// constraints are not integer, if integers are many, with a warm start, or for a strategy that proves, since
+/// a proof must account for the rounding of all data.
 ///
 /// The bound is that of the relaxation without these constraints.
 ///

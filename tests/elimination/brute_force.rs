@@ -2,7 +2,7 @@
 
 use proptest::prelude::*;
 use roundel::Error;
-use roundel::eliminate::ReducedModel;
+use roundel::internals::eliminate::ReducedModel;
 
 use super::exact::{Verdict, rank, verdict};
 use super::{System, box_points, violation};

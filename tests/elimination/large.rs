@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use roundel::eliminate::ReducedModel;
+use roundel::internals::eliminate::ReducedModel;
 use roundel::{Model, Options, Problem, Strategy, solve};
 
 use super::common::Random;

@@ -1,7 +1,7 @@
 //! The elimination of Bommes' thesis keeps the unknowns that the thesis says.
 
-use roundel::eliminate::Elimination;
-use roundel::linalg::Ordering;
+use roundel::Ordering;
+use roundel::internals::eliminate::Elimination;
 use roundel::{Model, Monitor, Problem};
 
 /// The original unknowns that are also reduced unknowns.

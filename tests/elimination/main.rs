@@ -12,7 +12,7 @@ mod large;
 mod largest;
 mod properties;
 
-use roundel::eliminate::{ReducedModel, eliminate};
+use roundel::internals::eliminate::{ReducedModel, eliminate};
 use roundel::{Model, Monitor, Problem, Result};
 
 /// A system of equations with integer coefficients. The integer unknowns come first.

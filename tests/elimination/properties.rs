@@ -1,7 +1,7 @@
 //! Properties of elimination that hold for every feasible system of continuous and integer unknowns.
 
 use proptest::prelude::*;
-use roundel::eliminate::ReducedModel;
+use roundel::internals::eliminate::ReducedModel;
 use roundel::{Error, Model, Problem, Triangle};
 
 use super::exact::rank;

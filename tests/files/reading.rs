@@ -52,7 +52,7 @@ fn every_section_is_read() {
     assert_eq!(m.constant(), 10.0);
     assert_eq!(m.integer(), [false, true, false]);
     assert_eq!(m.constraint_rhs(), [4.0, 0.0]);
-    let entries = |a: &roundel::linalg::Sparse| a.entries().collect::<Vec<_>>();
+    let entries = |a: &roundel::internals::linalg::Sparse| a.entries().collect::<Vec<_>>();
     let rows = [(0, 0, 1.0), (0, 1, 2.0), (1, 1, 3.5), (1, 2, -0.5)];
     assert_eq!(entries(m.constraints()), rows);
     // In 1/2 x'Qx, an off-diagonal entry stands for two.

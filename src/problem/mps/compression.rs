@@ -1,4 +1,4 @@
-//! gzip, by the feature of that name.
+//! Compression by gzip (feature `gzip`).
 
 use std::fs::File;
 use std::io::{BufRead, BufWriter, Read, Write};
@@ -8,7 +8,7 @@ use super::content::parse_text;
 use super::{MpsProblem, io_error};
 use crate::{Error, Result};
 
-/// The first bytes of every gzip file (RFC 1952, section 2.3.1).
+/// The first bytes of every gzip file (`deutsch1996`, section 2.3.1).
 const MAGIC: [u8; 2] = [0x1f, 0x8b];
 
 /// Reads from `reader`, compressed or not.
