@@ -9,5 +9,5 @@ mod options;
 mod quadrangulate;
 
 pub use compare::Compared;
-pub use options::QuadOptions;
+pub use options::{QUAD_OPTIONS, QuadOptions};
 pub use quadrangulate::{QuadSeconds, Quadrangulation, quadrangulate};
