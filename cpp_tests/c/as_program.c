@@ -22,10 +22,10 @@ static roundel_map* made(const roundel_mesh* mesh, double edge_length, double de
     roundel_map* map = NULL;
     OK(roundel_guidance_new_for_quads(&guidance));
     if (degrees > 0.0) {
-        OK(roundel_guidance_set_feature_angle(guidance, degrees * turn));
+        OK(roundel_guidance_set_real(guidance, "feature_angle", degrees * turn));
     }
     /* A map's field ignores details that are smaller than a quad. */
-    OK(roundel_guidance_set_detail(guidance, edge_length));
+    OK(roundel_guidance_set_real(guidance, "detail", edge_length));
     OK(roundel_options_new(&options));
     OK(roundel_options_set_text(options, "strategy", "adaptive"));
     OK(roundel_field_solve(mesh, guidance, options, NULL, &field));

@@ -25,8 +25,8 @@ static model made(const char* shape, size_t triangles) {
     OK(roundel_mesh_face_count(m.mesh, &m.faces));
     OK(roundel_mesh_edge_count(m.mesh, &m.edges));
     OK(roundel_guidance_new(&m.guidance));
-    OK(roundel_guidance_set_feature_angle(m.guidance, 0.7));
-    OK(roundel_guidance_set_curvature(m.guidance, 0.0, 0.1));
+    OK(roundel_guidance_set_real(m.guidance, "feature_angle", 0.7));
+    OK(roundel_guidance_set_real(m.guidance, "curvature_weight", 0.1));
     OK(roundel_field_solve(m.mesh, m.guidance, NULL, NULL, &m.field));
     return m;
 }

@@ -84,7 +84,7 @@ int main(void) {
                roundel_mesh_face_count(mesh, &faces) == ROUNDEL_OK &&
                roundel_guidance_new(&guidance) == ROUNDEL_OK &&
                roundel_quad_options_new(&options) == ROUNDEL_OK &&
-               roundel_quad_options_set_quads(options, 60) == ROUNDEL_OK &&
+               roundel_quad_options_set_int(options, "quads", 60) == ROUNDEL_OK &&
                roundel_quad_options_set_guidance(options, guidance) == ROUNDEL_OK &&
                roundel_field_solve(mesh, guidance, NULL, NULL, &field) == ROUNDEL_OK &&
                roundel_cancel_token_new(&token) == ROUNDEL_OK;

@@ -130,7 +130,7 @@ fn used(u: &mut Unstructured, h: &mut Handles, which: u8) -> Result<()> {
             33 => roundel_map_set_quads(map, small),
             34 => roundel_map_solve(map, options, null()),
             35 => h.make(|h| &mut h.quad_options, |out| handles::modest_quad_options(out)),
-            36 => roundel_quad_options_set_quads(quad, small),
+            36 => roundel_quad_options_set_int(quad, c"quads".as_ptr(), small as i64),
             37 => roundel_quad_options_set_edge_lengths(quad, x, reals.len()),
             42 => roundel_map_solve_fold_free(map, options, null()),
             43 => roundel_map_untangle(map, null()),

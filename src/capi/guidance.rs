@@ -5,7 +5,7 @@ use std::ffi::c_char;
 use super::failure::Outcome;
 use super::guard::{self, Guarded, boundary, object};
 use super::guidance_files::read_features;
-use super::input::{indices, path, slice};
+use super::input::{indices, path, slice, text};
 use super::mesh::roundel_mesh;
 use super::output::{Out, copy_numbers};
 use super::status::roundel_status;
@@ -13,13 +13,14 @@ use crate::Error;
 use crate::field::{Constraint, Guidance, Guide, PrescribedIndex};
 use crate::mesh::TriangleMesh;
 use crate::quad::QuadOptions;
+use crate::search::OptionValue;
 
-/// What a field shall follow, and which edges become isolines of its map: features, boundary, given
-/// directions, curvature, given indices. Where several ask for the direction of one face, the first
-/// of these decides: a direction that is given, a feature or the boundary, a reliable curvature.
+/// What a field follows, and which edges become isolines of its map: features, the boundary, given
+/// directions, the curvature, given indices. Where several state the direction of one face, the first
+/// of these decides: a given direction, a feature or the boundary, a reliable curvature.
 ///
-/// A new one asks for crosses that follow the boundary, and for nothing else; where a function
-/// takes a guidance, NULL stands for that. Numbers of faces, edges and vertices are those of the
+/// roundel_guidance_option_info lists its options. A new guidance asks for crosses that follow the
+/// boundary, and for nothing else; where a function takes a guidance, NULL stands for that. Numbers of faces, edges and vertices are those of the
 /// mesh that it is used with, and are checked there.
 pub struct roundel_guidance(Guarded<Guidance>);
 
@@ -71,6 +72,54 @@ unsafe fn change(
     unsafe { guard::write(guidance, change) }
 }
 
+/// Sets an option of a guidance, which roundel_guidance_option_info lists, to a whole number; one that takes a real number takes this too.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_guidance_set_int(
+    guidance: *mut roundel_guidance,
+    name: *const c_char,
+    value: i64,
+) -> roundel_status {
+    // SAFETY: the caller gives a live handle and a text, or NULL.
+    unsafe {
+        change(guidance, |guidance| {
+            let value = OptionValue::Integer(value);
+            Ok(guidance.set(text("option name", name)?, &value)?)
+        })
+    }
+}
+
+/// Sets an option of a guidance, which roundel_guidance_option_info lists, to a real number.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_guidance_set_real(
+    guidance: *mut roundel_guidance,
+    name: *const c_char,
+    value: f64,
+) -> roundel_status {
+    // SAFETY: the caller gives a live handle and a text, or NULL.
+    unsafe {
+        change(guidance, |guidance| {
+            let value = OptionValue::Real(value);
+            Ok(guidance.set(text("option name", name)?, &value)?)
+        })
+    }
+}
+
+/// Sets an option of a guidance, which roundel_guidance_option_info lists, to a text: one of its words, or "unset" where it may be without a value.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_guidance_set_text(
+    guidance: *mut roundel_guidance,
+    name: *const c_char,
+    value: *const c_char,
+) -> roundel_status {
+    // SAFETY: the caller gives a live handle and texts, or NULL.
+    unsafe {
+        change(guidance, |guidance| {
+            let value = OptionValue::Text(text("option value", value)?.into());
+            Ok(guidance.set(text("option name", name)?, &value)?)
+        })
+    }
+}
+
 /// The caller's numbers of elements, of a mesh that is not known yet.
 ///
 /// # Safety
@@ -78,29 +127,6 @@ unsafe fn change(
 unsafe fn elements(what: &'static str, values: *const i32, count: usize) -> Outcome<Vec<usize>> {
     // SAFETY: handed on.
     unsafe { indices(what, values, count, i32::MAX as usize + 1) }
-}
-
-/// Sets N, the number of arms in a face, evenly around: 4 for crosses (the default), and 1, 2 or 6
-/// for fields alone. A map needs crosses.
-///
-/// Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for another number.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn roundel_guidance_set_symmetry(
-    guidance: *mut roundel_guidance,
-    arms: i32,
-) -> roundel_status {
-    let body = |guidance: &mut Guidance| match arms {
-        1 | 2 | 4 | 6 => {
-            guidance.symmetry = arms as u8;
-            Ok(())
-        }
-        _ => Err(Error::InvalidArgument {
-            what: format!("a field of {arms} arms: 1, 2, 4 and 6 are"),
-            index: None,
-        })?,
-    };
-    // SAFETY: the caller gives a live handle, or NULL.
-    unsafe { change(guidance, body) }
 }
 
 /// Sets the directions that `count` faces have: `angles` of one arm, in radians, counter-clockwise
@@ -164,8 +190,8 @@ pub unsafe extern "C" fn roundel_guidance_set_guides(
 
 /// Prescribes all irregular vertices: `count` vertices of the interior, each once, and their
 /// indices in `steps` of 1/N; all others become regular. On closed meshes the indices must sum to
-/// the Euler characteristic, which shows when the field is made. roundel_guidance_clear_indices takes
-/// it back.
+/// the Euler characteristic, which shows when the field is made. roundel_guidance_clear_indices undoes
+/// this.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_guidance_set_indices(
     guidance: *mut roundel_guidance,
@@ -190,63 +216,13 @@ pub unsafe extern "C" fn roundel_guidance_set_indices(
     unsafe { change(guidance, body) }
 }
 
-/// Leaves indices to the energy, as at first.
+/// Leaves indices to the energy again.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_guidance_clear_indices(
     guidance: *mut roundel_guidance,
 ) -> roundel_status {
     let body = |guidance: &mut Guidance| {
         guidance.indices = None;
-        Ok(())
-    };
-    // SAFETY: the caller gives a live handle, or NULL.
-    unsafe { change(guidance, body) }
-}
-
-/// Sets how curvature counts. `fraction` of the faces, 0 to 1, those whose direction of least
-/// absolute curvature is most reliable, have that direction; all others are pulled towards theirs
-/// with weight `weight` * area * (|k1| - |k2|)^2. Both are 0 at first.
-///
-/// Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for a fraction outside of 0 to 1 and for a weight that
-/// is negative or not finite.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn roundel_guidance_set_curvature(
-    guidance: *mut roundel_guidance,
-    fraction: f64,
-    weight: f64,
-) -> roundel_status {
-    let body = |guidance: &mut Guidance| {
-        if !((0.0..=1.0).contains(&fraction) && weight >= 0.0 && weight.is_finite()) {
-            Err(Error::InvalidArgument {
-                what: format!("curvature: a fraction of {fraction}, a weight of {weight}"),
-                index: None,
-            })?;
-        }
-        guidance.constrain_curvature = fraction;
-        guidance.curvature_weight = weight;
-        Ok(())
-    };
-    // SAFETY: the caller gives a live handle, or NULL.
-    unsafe { change(guidance, body) }
-}
-
-/// Makes edges features at which the normals of the two faces differ by `angle` radians or more; 0
-/// makes none.
-///
-/// Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for an angle outside of 0 to pi.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn roundel_guidance_set_feature_angle(
-    guidance: *mut roundel_guidance,
-    angle: f64,
-) -> roundel_status {
-    let body = |guidance: &mut Guidance| {
-        if !(0.0..=std::f64::consts::PI).contains(&angle) {
-            Err(Error::InvalidArgument {
-                what: format!("the angle of features is {angle}, outside 0 to pi"),
-                index: None,
-            })?;
-        }
-        guidance.feature_angle = (angle > 0.0).then_some(angle);
         Ok(())
     };
     // SAFETY: the caller gives a live handle, or NULL.
@@ -291,59 +267,12 @@ pub unsafe extern "C" fn roundel_guidance_set_feature_lines(
     unsafe { change(guidance, body) }
 }
 
-/// Sets whether edges of the boundary are features: 1, as at first, or 0.
-///
-/// Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for another number.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn roundel_guidance_set_align_boundary(
-    guidance: *mut roundel_guidance,
-    align: i32,
-) -> roundel_status {
-    let body = |guidance: &mut Guidance| {
-        guidance.align_boundary = match align {
-            0 => false,
-            1 => true,
-            _ => Err(Error::InvalidArgument {
-                what: format!("the boundary is aligned by 1 or not by 0, not {align}"),
-                index: None,
-            })?,
-        };
-        Ok(())
-    };
-    // SAFETY: the caller gives a live handle, or NULL.
-    unsafe { change(guidance, body) }
-}
-
-/// Sets the length, in units of the mesh, of details that attract no irregular vertices; their
-/// curvature is smoothed away before indices are decided. 0 is none. As long as it is not set, a
-/// field sees all details, and quads those as long as a quarter of their edges.
-///
-/// Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for a length that is negative or not finite.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn roundel_guidance_set_detail(
-    guidance: *mut roundel_guidance,
-    length: f64,
-) -> roundel_status {
-    let body = |guidance: &mut Guidance| {
-        if !(length >= 0.0 && length.is_finite()) {
-            Err(Error::InvalidArgument {
-                what: format!("details of a length of {length}"),
-                index: None,
-            })?;
-        }
-        guidance.detail = Some(length);
-        Ok(())
-    };
-    // SAFETY: the caller gives a live handle, or NULL.
-    unsafe { change(guidance, body) }
-}
-
-/// Adds what a text file asks for, one wish a line: "direction FACE X Y Z [WEIGHT]" (one that the
-/// face has, or with a weight should have), "edge VERTEX VERTEX" (a feature), "index VERTEX STEPS".
-/// What follows a # is a comment.
+/// Reads guidance from a text file, one request a line, and adds it: "direction FACE X Y Z" for a
+/// direction that the face has, the same with a weight for one that it should have, "edge VERTEX
+/// VERTEX" for a feature, "index VERTEX STEPS" for an irregular vertex. A comment begins with #.
 ///
 /// Fails with ROUNDEL_ERROR_IO, and with ROUNDEL_ERROR_PARSE and the line for what is none of these
-/// or not on the mesh; nothing is added then.
+/// or not on the mesh. After a failure the guidance is what it was.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_guidance_read(
     guidance: *mut roundel_guidance,

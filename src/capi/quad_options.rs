@@ -1,21 +1,24 @@
 //! The handle of quad options: all that can be decided on the way from a mesh to quads.
 
+use std::ffi::c_char;
+
 use super::failure::Outcome;
 use super::guard::{self, Guarded, Object, boundary, object};
 use super::guidance::roundel_guidance;
-use super::input::slice;
+use super::input::{slice, text};
 use super::options::roundel_options;
 use super::output::Out;
 use super::status::roundel_status;
 use crate::Error;
 use crate::map::Sizing;
 use crate::quad::QuadOptions;
-use crate::smooth::SmoothOptions;
+use crate::search::OptionValue;
 
 /// How to make quads: their size, what they follow, how field and map are solved, untangling and
-/// smoothing. A new one is what the program `roundel quad` does without flags: 1000 quads along the
-/// boundary and the curvature, the field's integers decided adaptively and the map's by lattice
-/// decoding. Sizes and guidance are checked when quads are made.
+/// smoothing. roundel_quad_option_info lists what is set by name. New quad options are those of the
+/// program `roundel quad` without flags: 1000 quads along the boundary and the curvature, the field's
+/// integers decided adaptively and the map's by lattice decoding. Guidance is checked when quads are
+/// made. Where vary_curvature is 1, curvature may count for less than the guidance has it.
 pub struct roundel_quad_options(Guarded<QuadOptions>);
 
 object!(roundel_quad_options, QuadOptions, "quad options");
@@ -54,32 +57,6 @@ unsafe fn change(
     unsafe { guard::write(options, change) }
 }
 
-/// An entry that decides yes or no by a number.
-///
-/// # Safety
-/// As [`change`].
-unsafe fn decide(
-    options: *mut roundel_quad_options,
-    what: &str,
-    number: i32,
-    set: impl FnOnce(&mut QuadOptions, bool),
-) -> roundel_status {
-    let body = |options: &mut QuadOptions| {
-        let yes = match number {
-            0 => false,
-            1 => true,
-            _ => Err(Error::InvalidArgument {
-                what: format!("{what} by 1 or not by 0, not {number}"),
-                index: None,
-            })?,
-        };
-        set(options, yes);
-        Ok(())
-    };
-    // SAFETY: handed on.
-    unsafe { change(options, body) }
-}
-
 /// An entry that puts a copy of another handle's value in its place; NULL stands for what new quad
 /// options have there.
 ///
@@ -101,35 +78,55 @@ unsafe fn put<H: Object<Value: Clone>>(
     unsafe { change(options, body) }
 }
 
-/// Aims at a number of quads.
+/// Sets a quad option, which roundel_quad_option_info lists, to a whole number; one that takes a real number takes this too.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn roundel_quad_options_set_quads(
+pub unsafe extern "C" fn roundel_quad_options_set_int(
     options: *mut roundel_quad_options,
-    quads: usize,
+    name: *const c_char,
+    value: i64,
 ) -> roundel_status {
-    let body = |options: &mut QuadOptions| {
-        options.sizing = Sizing::Quads(quads);
-        Ok(())
-    };
-    // SAFETY: the caller gives a live handle, or NULL.
-    unsafe { change(options, body) }
+    // SAFETY: the caller gives a live handle and a text, or NULL.
+    unsafe {
+        change(options, |options| {
+            let value = OptionValue::Integer(value);
+            Ok(options.set(text("option name", name)?, &value)?)
+        })
+    }
 }
 
-/// Aims at edges of one length instead, in units of the mesh.
+/// Sets a quad option, which roundel_quad_option_info lists, to a real number.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn roundel_quad_options_set_edge_length(
+pub unsafe extern "C" fn roundel_quad_options_set_real(
     options: *mut roundel_quad_options,
-    edge_length: f64,
+    name: *const c_char,
+    value: f64,
 ) -> roundel_status {
-    let body = |options: &mut QuadOptions| {
-        options.sizing = Sizing::EdgeLength(edge_length);
-        Ok(())
-    };
-    // SAFETY: the caller gives a live handle, or NULL.
-    unsafe { change(options, body) }
+    // SAFETY: the caller gives a live handle and a text, or NULL.
+    unsafe {
+        change(options, |options| {
+            let value = OptionValue::Real(value);
+            Ok(options.set(text("option name", name)?, &value)?)
+        })
+    }
 }
 
-/// Aims at edges of two lengths a face instead: along the arm that the field stores there, and
+/// Sets a quad option, which roundel_quad_option_info lists, to a text: one of its words, or "unset" where it may be without a value.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_quad_options_set_text(
+    options: *mut roundel_quad_options,
+    name: *const c_char,
+    value: *const c_char,
+) -> roundel_status {
+    // SAFETY: the caller gives a live handle and texts, or NULL.
+    unsafe {
+        change(options, |options| {
+            let value = OptionValue::Text(text("option value", value)?.into());
+            Ok(options.set(text("option name", name)?, &value)?)
+        })
+    }
+}
+
+/// Sets two lengths of edges a face, instead of a number of quads: along the arm that the field stores there, and
 /// across it. `length` is twice the number of faces.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_quad_options_set_edge_lengths(
@@ -143,7 +140,7 @@ pub unsafe extern "C" fn roundel_quad_options_set_edge_lengths(
         let (pairs, rest) = lengths.as_chunks::<2>();
         if !rest.is_empty() {
             Err(Error::InvalidArgument {
-                what: format!("{length} edge lengths of faces: two a face are"),
+                what: format!("{length} edge lengths of faces: expected two a face"),
                 index: None,
             })?;
         }
@@ -165,20 +162,6 @@ pub unsafe extern "C" fn roundel_quad_options_set_guidance(
     unsafe { put(options, guidance, |options| &mut options.guidance) }
 }
 
-/// Sets whether curvature may count for less than the guidance has it, where the map is less
-/// distorted then: 1, as at first, or 0. On meshes that are not large a few fields are tried.
-///
-/// Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for another number.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn roundel_quad_options_set_vary_curvature(
-    options: *mut roundel_quad_options,
-    vary: i32,
-) -> roundel_status {
-    let set = |options: &mut QuadOptions, yes: bool| options.vary_curvature = yes;
-    // SAFETY: the caller gives a live handle, or NULL.
-    unsafe { decide(options, "curvature is varied", vary, set) }
-}
-
 /// Sets how the field is solved for, by a copy of `solve`; NULL stands for adaptive rounding.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_quad_options_set_field_options(
@@ -197,32 +180,4 @@ pub unsafe extern "C" fn roundel_quad_options_set_map_options(
 ) -> roundel_status {
     // SAFETY: the caller gives live handles, or NULL.
     unsafe { put(options, solve, |options| &mut options.map) }
-}
-
-/// Sets whether a map is untangled whose folds extraction cannot cope with: 1, as at first, or 0.
-///
-/// Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for another number.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn roundel_quad_options_set_untangle(
-    options: *mut roundel_quad_options,
-    untangle: i32,
-) -> roundel_status {
-    let set = |options: &mut QuadOptions, yes: bool| options.untangle = yes;
-    // SAFETY: the caller gives a live handle, or NULL.
-    unsafe { decide(options, "maps are untangled", untangle, set) }
-}
-
-/// Sets whether quads are smoothed: 1, as at first, or 0, which leaves vertices where the map has
-/// them.
-///
-/// Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for another number.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn roundel_quad_options_set_smooth(
-    options: *mut roundel_quad_options,
-    smooth: i32,
-) -> roundel_status {
-    let set =
-        |options: &mut QuadOptions, yes: bool| options.smooth = yes.then(SmoothOptions::default);
-    // SAFETY: the caller gives a live handle, or NULL.
-    unsafe { decide(options, "quads are smoothed", smooth, set) }
 }

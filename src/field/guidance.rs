@@ -11,60 +11,52 @@ use super::{
 use crate::mesh::TriangleMesh;
 use crate::mesh::curvature::{SMOOTHING_ROUNDS, smoothed_curvature};
 use crate::mesh::features::FeatureGraph;
+use crate::search::table::options;
 use crate::{Error, Result};
 
-/// What a field shall follow, and which edges become isolines of its map.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Guidance {
-    /// N: arms of a direction, evenly around; see [`FieldOptions::symmetry`].
-    pub symmetry: u8,
-    /// Directions that faces have, each face at most once.
-    pub constraints: Vec<Constraint>,
-    /// Directions that faces should have, each face at most once. A face with a constraint keeps
-    /// that.
-    pub guides: Vec<Guide>,
-    /// The index of every irregular vertex; none leaves that to the energy.
-    pub indices: Option<Vec<PrescribedIndex>>,
-    /// This part of the faces, those with the most reliable curvature, have the direction of least
-    /// absolute curvature ([`curvature_constraints`](super::curvature_constraints)).
-    pub constrain_curvature: f64,
-    /// The weight with which all other faces are pulled towards it
-    /// ([`curvature_guides`](super::curvature_guides)).
-    pub curvature_weight: f64,
-    /// Edges whose normals differ by at least this are features (radians), for crosses no more than
-    /// two of a face.
-    pub feature_angle: Option<f64>,
-    /// Features: edges between these vertices.
-    pub feature_lines: Vec<[usize; 2]>,
-    /// Features by number of the edge.
-    pub feature_edges: Vec<usize>,
-    /// Whether edges of the boundary are followed like features. A field of single directions, N = 1,
-    /// does not follow them: nothing tells to which side of an edge it points.
-    pub align_boundary: bool,
-    /// Details smaller than this length attract no irregular vertices, and directions of curvature
-    /// are those at this scale; see [`FieldOptions::detail`]. `None` means 0 for a field on its own,
-    /// the edge length of quads for a field that a map follows ([`map_options`](Self::map_options)),
-    /// and a quarter of it in [`quadrangulate`](crate::quad::quadrangulate).
-    pub detail: Option<f64>,
-}
+options! {
+    /// What a field follows, and which edges become isolines of its map. The default is crosses that
+    /// follow the boundary, where there is one, and nothing else.
+    pub struct Guidance,
 
-impl Default for Guidance {
-    /// Crosses that follow the boundary, where there is one, and nothing else.
-    fn default() -> Self {
-        Guidance {
-            symmetry: 4,
-            constraints: Vec::new(),
-            guides: Vec::new(),
-            indices: None,
-            constrain_curvature: 0.0,
-            curvature_weight: 0.0,
-            feature_angle: None,
-            feature_lines: Vec::new(),
-            feature_edges: Vec::new(),
-            align_boundary: true,
-            detail: None,
-        }
+    /// The options of a guidance; lists of elements are members of [`Guidance`] alone.
+    GUIDANCE_OPTIONS {
+        /// See [`FieldOptions::symmetry`].
+        symmetry: u8 = 4, "4" in "1|2|4|6",
+            "arms of a direction, evenly around: 4 for crosses; a map needs crosses";
+        /// See [`curvature_constraints`](super::curvature_constraints).
+        constrain_curvature: f64 = 0.0, "0" in "[0, 1]",
+            "the part of the faces, those with the most reliable curvature, that have the direction of least absolute curvature";
+        /// See [`curvature_guides`](super::curvature_guides).
+        curvature_weight: f64 = 0.0, "0" in "[0, inf)",
+            "how strongly all other faces are drawn to the direction of least absolute curvature, for an area and a difference of absolute curvatures of 1";
+        /// For crosses at most two edges of a face become features.
+        feature_angle: Option<f64> = None, "unset" in "[0, 3.141592653589793]",
+            "edges at which the normals of the two faces differ by this many radians or more are features; 0: none";
+        /// A field of single directions, N = 1, does not follow them: on which side of an edge it
+        /// should lie nobody says.
+        align_boundary: bool = true, "1" in "[0, 1]",
+            "1 if edges of the boundary are features";
+        /// Directions of curvature are those at this scale; see [`FieldOptions::detail`],
+        /// [`map_options`](Self::map_options) and
+        /// [`quadrangulate`](crate::quad::quadrangulate).
+        detail: Option<f64> = None, "unset" in "[0, inf)",
+            "details smaller than this length attract no irregular vertices; unset: 0 for a field, the length of quads' edges for a map, a quarter of it for quads";
     }
+    and {
+        /// Directions that faces have, each face at most once.
+        constraints: Vec<Constraint> = Vec::new();
+        /// Directions that faces should have, each face at most once. A face with a constraint keeps
+        /// that.
+        guides: Vec<Guide> = Vec::new();
+        /// The index of every irregular vertex; none leaves that to the energy.
+        indices: Option<Vec<PrescribedIndex>> = None;
+        /// Features: edges between these vertices.
+        feature_lines: Vec<[usize; 2]> = Vec::new();
+        /// Features by number of the edge.
+        feature_edges: Vec<usize> = Vec::new();
+    }
+    by {}
 }
 
 impl Guidance {
@@ -80,7 +72,7 @@ impl Guidance {
         if self.align_boundary && self.symmetry != 1 {
             features = features.with(mesh, &FeatureGraph::boundary(mesh))?;
         }
-        match self.feature_angle {
+        match self.feature_angle.filter(|&angle| angle != 0.0) {
             Some(angle) if self.symmetry == 4 => features.with_sharp(mesh, angle),
             Some(angle) => features.with(mesh, &FeatureGraph::by_angle(mesh, angle)?),
             None => Ok(features),
@@ -164,4 +156,15 @@ fn smoothing_rounds(mesh: &TriangleMesh, length: f64) -> usize {
     // Of an equilateral triangle with the mean area.
     let edge = 4.0 / 3f64.sqrt() * mesh.surface_area() / mesh.face_count() as f64;
     ((length * length / edge).round() as usize).clamp(SMOOTHING_ROUNDS, MOST_ROUNDS)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::search::table::hold;
+
+    #[test]
+    fn every_option_of_the_table_starts_at_its_default_and_comes_back_as_set() {
+        hold(GUIDANCE_OPTIONS, Guidance::set, Guidance::get);
+    }
 }

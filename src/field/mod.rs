@@ -23,7 +23,7 @@ mod traced_index;
 
 pub use curvature_guidance::{curvature_constraints, curvature_guides};
 pub use feature_alignment::feature_constraints;
-pub use guidance::Guidance;
+pub use guidance::{GUIDANCE_OPTIONS, Guidance};
 pub use options::{Constraint, FieldOptions, Guide, PrescribedIndex};
 pub use orientation_field::OrientationField;
 pub use problem::FieldProblem;

@@ -102,7 +102,8 @@ fn log_unit_ball(d: usize) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Gram, Limits, MOST, Target, enumerate, lll};
+    use super::super::near_points::MOST;
+    use super::super::{Gram, Limits, Target, enumerate, lll};
     use super::*;
     use crate::test_random::Random;
 

@@ -26,5 +26,5 @@ mod quadrangulation;
 pub use compare::Compared;
 pub use driver::quadrangulate;
 pub use fold_free::{FoldFreeMap, solve_fold_free};
-pub use options::QuadOptions;
+pub use options::{QUAD_OPTIONS, QuadOptions};
 pub use quadrangulation::{QuadSeconds, Quadrangulation};

@@ -1,56 +1,94 @@
-//! What is to be decided on the way from a mesh to quads.
+//! What is to be decided on the way from a mesh to quads, in one table.
 
 use crate::field::Guidance;
 use crate::map::{SeamlessOptions, Sizing};
+use crate::search::table::options;
 use crate::smooth::SmoothOptions;
 use crate::{Options, Strategy};
 
-/// How to make quads.
-#[derive(Debug, Clone, PartialEq)]
-pub struct QuadOptions {
-    /// How large quads shall be.
-    pub sizing: Sizing,
-    /// What they follow. Features, and the boundary where it is aligned, become chains of edges.
-    pub guidance: Guidance,
-    /// Whether curvature may count for less than the guidance has it, where the map is less
-    /// distorted then: on meshes that are not large a few fields are tried. Never where it counts for
-    /// nothing, or indices are given.
-    pub vary_curvature: bool,
-    /// How the field is solved for.
-    pub field: Options,
-    /// How the map is solved for.
-    pub map: Options,
-    /// Whether a map is untangled whose folds extraction cannot cope with.
-    pub untangle: bool,
-    /// How quads are smoothed; its features are added to those of the guidance. None leaves
-    /// vertices where the map has them.
-    pub smooth: Option<SmoothOptions>,
-    /// Strategies that both problems are solved with as well, to be compared.
-    pub compare: Vec<Strategy>,
+options! {
+    /// How to make quads. The default is as many as [`SeamlessOptions`] has, along the curvature
+    /// where it is clear. The integers of the map are decided by lattice decoding, those of the field
+    /// adaptively: guided by curvature, it is no problem of short cycles, and rounding one by one is
+    /// lower and faster.
+    pub struct QuadOptions,
+
+    /// The options of quads, beside those of the guidance and of the two solves.
+    QUAD_OPTIONS {
+        /// On meshes that are not large a few fields are tried. Never where curvature counts for
+        /// nothing, or indices are given.
+        vary_curvature: bool = true, "1" in "[0, 1]",
+            "1 if curvature may count for less than the guidance has it, where the map is less distorted then";
+        untangle: bool = true, "1" in "[0, 1]",
+            "1 if a map is untangled whose folds extraction cannot cope with";
+    }
+    and {
+        /// How large quads shall be.
+        sizing: Sizing = Sizing::Quads(SeamlessOptions::default().quads);
+        /// What they follow. Features, and the boundary where it is aligned, become chains of edges.
+        guidance: Guidance = Guidance {
+            constrain_curvature: 0.005,
+            curvature_weight: 0.07,
+            ..Guidance::default()
+        };
+        /// How the field is solved for.
+        field: Options = by(Strategy::Adaptive);
+        /// How the map is solved for.
+        map: Options = by(Strategy::Lattice);
+        /// How quads are smoothed; its features are added to those of the guidance. None leaves
+        /// vertices where the map has them.
+        smooth: Option<SmoothOptions> = Some(SmoothOptions::default());
+        /// Strategies that both problems are solved with as well, to be compared.
+        compare: Vec<Strategy> = Vec::new();
+    }
+    by {
+        quads: Option<usize>, "1000" in "[1, 2147483647]",
+            "about how many quads",
+            |options| match options.sizing {
+                Sizing::Quads(count) => Some(count),
+                _ => None,
+            },
+            |options, quads| options.size(quads.map(Sizing::Quads));
+        edge_length: Option<f64>, "unset" in "(0, inf)",
+            "edges of this length, in units of the mesh, instead of a number of quads",
+            |options| match options.sizing {
+                Sizing::EdgeLength(length) => Some(length),
+                _ => None,
+            },
+            |options, length| options.size(length.map(Sizing::EdgeLength));
+        field_strategy: Strategy, "adaptive" in Strategy::WORDS,
+            "how the field's integers are decided",
+            |options| options.field.strategy,
+            |options, strategy| options.field.strategy = strategy;
+        smooth: bool, "1" in "[0, 1]",
+            "1 if vertices move over the surface towards squares of one size",
+            |options| options.smooth.is_some(),
+            |options, smooth| options.smooth = smooth.then(SmoothOptions::default);
+    }
 }
 
-impl Default for QuadOptions {
-    /// As many quads as [`SeamlessOptions`] has them, along the curvature where it is clear. The
-    /// integers of the map are decided by lattice decoding, those of the field adaptively: guided by
-    /// curvature it is no problem of short cycles, and rounding one by one is lower and faster.
-    fn default() -> Self {
-        let by = |strategy| Options {
-            strategy,
-            ..Options::default()
-        };
-        QuadOptions {
-            sizing: Sizing::Quads(SeamlessOptions::default().quads),
-            guidance: Guidance {
-                constrain_curvature: 0.005,
-                curvature_weight: 0.07,
-                ..Guidance::default()
-            },
-            vary_curvature: true,
-            field: by(Strategy::Adaptive),
-            map: by(Strategy::Lattice),
-            untangle: true,
-            smooth: Some(SmoothOptions::default()),
-            compare: Vec::new(),
+fn by(strategy: Strategy) -> Options {
+    Options {
+        strategy,
+        ..Options::default()
+    }
+}
+
+impl QuadOptions {
+    fn size(&mut self, sizing: Option<Sizing>) {
+        if let Some(sizing) = sizing {
+            self.sizing = sizing;
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::search::table::hold;
+
+    #[test]
+    fn every_option_of_the_table_starts_at_its_default_and_comes_back_as_set() {
+        hold(QUAD_OPTIONS, QuadOptions::set, QuadOptions::get);
     }
 }

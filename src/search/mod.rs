@@ -9,13 +9,15 @@ mod options;
 mod presets;
 mod status;
 mod strategy;
+pub(crate) mod table;
 mod warm_start;
 mod work;
 
-pub use options::{OPTIONS, OptionInfo, OptionKind, OptionValue, Options};
+pub use options::{OPTIONS, Options};
 pub use presets::{PRESETS, Preset};
 pub use status::{GAP_TOLERANCE, SolveStatus};
 pub use strategy::Strategy;
+pub use table::{OptionInfo, OptionKind, OptionValue, UNSET};
 pub use warm_start::WarmStart;
 
 pub(crate) use factors::Factors;

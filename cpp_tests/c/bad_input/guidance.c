@@ -4,16 +4,19 @@
 
 static void settings(fixture* f) {
     const roundel_status null = ROUNDEL_ERROR_NULL_POINTER;
-    const roundel_status invalid = ROUNDEL_ERROR_INVALID_ARGUMENT;
+    const roundel_status beyond = ROUNDEL_ERROR_OPTION_RANGE;
     const roundel_status range = ROUNDEL_ERROR_INDEX_OUT_OF_RANGE;
     const int32_t good[2] = {0, 1}, negative[2] = {0, -1};
     const double angles[2] = {0.5, 0.25};
     roundel_guidance* g = NULL;
     BAD(f, roundel_guidance_new(NULL), null, "guidance", NONE);
     GOOD(roundel_guidance_new(&g));
-    BAD(f, roundel_guidance_set_symmetry(NULL, 4), null, "guidance", NONE);
-    BAD(f, roundel_guidance_set_symmetry(g, 3), invalid, "3 arms", NONE);
-    BAD(f, roundel_guidance_set_symmetry(g, -4), invalid, "-4 arms", NONE);
+    BAD(f, roundel_guidance_set_int(NULL, "symmetry", 4), null, "guidance", NONE);
+    BAD(f, roundel_guidance_set_int(g, NULL, 4), null, "option name", NONE);
+    BAD(f, roundel_guidance_set_int(g, "arms", 4), ROUNDEL_ERROR_UNKNOWN_OPTION, "arms", NONE);
+    BAD(f, roundel_guidance_set_int(g, "symmetry", 3), beyond, "1|2|4|6", NONE);
+    BAD(f, roundel_guidance_set_int(g, "symmetry", -4), beyond, "-4", NONE);
+    BAD(f, roundel_guidance_set_real(g, "symmetry", 4.0), ROUNDEL_ERROR_OPTION_TYPE, "whole", NONE);
     BAD(f, roundel_guidance_set_constraints(NULL, 0, NULL, NULL), null, "guidance", NONE);
     BAD(f, roundel_guidance_set_constraints(g, 2, NULL, angles), null, "faces", NONE);
     BAD(f, roundel_guidance_set_constraints(g, 2, good, NULL), null, "angles", NONE);
@@ -25,14 +28,13 @@ static void settings(fixture* f) {
     BAD(f, roundel_guidance_set_indices(g, 2, good, NULL), null, "steps", NONE);
     BAD(f, roundel_guidance_set_indices(g, 2, negative, good), range, "vertices", 1);
     BAD(f, roundel_guidance_clear_indices(NULL), null, "guidance", NONE);
-    BAD(f, roundel_guidance_set_curvature(NULL, 0.0, 0.0), null, "guidance", NONE);
-    BAD(f, roundel_guidance_set_curvature(g, 1.5, 0.0), invalid, "1.5", NONE);
-    BAD(f, roundel_guidance_set_curvature(g, 0.0, -1.0), invalid, "-1", NONE);
-    BAD(f, roundel_guidance_set_curvature(g, (double)NAN, 0.0), invalid, "NaN", NONE);
-    BAD(f, roundel_guidance_set_curvature(g, 0.0, (double)INFINITY), invalid, "inf", NONE);
-    BAD(f, roundel_guidance_set_feature_angle(NULL, 1.0), null, "guidance", NONE);
-    BAD(f, roundel_guidance_set_feature_angle(g, 4.0), invalid, "pi", NONE);
-    BAD(f, roundel_guidance_set_feature_angle(g, (double)NAN), invalid, "pi", NONE);
+    BAD(f, roundel_guidance_set_real(NULL, "detail", 0.0), null, "guidance", NONE);
+    BAD(f, roundel_guidance_set_real(g, "constrain_curvature", 1.5), beyond, "1.5", NONE);
+    BAD(f, roundel_guidance_set_real(g, "curvature_weight", -1.0), beyond, "-1", NONE);
+    BAD(f, roundel_guidance_set_real(g, "constrain_curvature", (double)NAN), beyond, "NaN", NONE);
+    BAD(f, roundel_guidance_set_real(g, "curvature_weight", (double)INFINITY), beyond, "inf", NONE);
+    BAD(f, roundel_guidance_set_real(g, "feature_angle", 4.0), beyond, "3.14", NONE);
+    BAD(f, roundel_guidance_set_real(g, "feature_angle", (double)NAN), beyond, "NaN", NONE);
     BAD(f, roundel_guidance_set_feature_edges(NULL, 0, NULL), null, "guidance", NONE);
     BAD(f, roundel_guidance_set_feature_edges(g, 2, NULL), null, "edges", NONE);
     BAD(f, roundel_guidance_set_feature_edges(g, 2, negative), range, "feature edges", 1);
@@ -41,12 +43,14 @@ static void settings(fixture* f) {
     BAD(f, roundel_guidance_set_feature_lines(g, 1, negative), range, "lines", 1);
     BAD(f, roundel_guidance_set_feature_lines(g, (size_t)-1, good), ROUNDEL_ERROR_OVERFLOW,
         "memory", NONE);
-    BAD(f, roundel_guidance_set_align_boundary(NULL, 1), null, "guidance", NONE);
-    BAD(f, roundel_guidance_set_align_boundary(g, 2), invalid, "not 2", NONE);
-    BAD(f, roundel_guidance_set_detail(NULL, 1.0), null, "guidance", NONE);
-    BAD(f, roundel_guidance_set_detail(g, -1.0), invalid, "-1", NONE);
-    BAD(f, roundel_guidance_set_detail(g, (double)NAN), invalid, "NaN", NONE);
-    GOOD(roundel_guidance_set_detail(g, 0.0));
+    BAD(f, roundel_guidance_set_int(g, "align_boundary", 2), beyond, "2", NONE);
+    BAD(f, roundel_guidance_set_real(g, "detail", -1.0), beyond, "-1", NONE);
+    BAD(f, roundel_guidance_set_real(g, "detail", (double)NAN), beyond, "NaN", NONE);
+    BAD(f, roundel_guidance_set_text(g, "detail", "all"), ROUNDEL_ERROR_OPTION_TYPE, "real", NONE);
+    BAD(f, roundel_guidance_set_text(g, "detail", NULL), null, "option value", NONE);
+    GOOD(roundel_guidance_set_int(g, "detail", 1));
+    GOOD(roundel_guidance_set_text(g, "detail", "unset"));
+    GOOD(roundel_guidance_set_real(g, "detail", 0.0));
     GOOD(roundel_guidance_free(g));
     GOOD(roundel_guidance_free(NULL));
 }
@@ -120,7 +124,7 @@ static void maps(fixture* f, const roundel_mesh* disk) {
     size_t count = 7;
     GOOD(roundel_mesh_make_shape("sphere", 200, &other));
     GOOD(roundel_guidance_new(&lines));
-    GOOD(roundel_guidance_set_symmetry(lines, 2));
+    GOOD(roundel_guidance_set_int(lines, "symmetry", 2));
     GOOD(roundel_field_solve(disk, NULL, NULL, NULL, &field));
     GOOD(roundel_field_solve(disk, lines, NULL, NULL, &two));
     BAD(f, roundel_field_symmetry(NULL, &arms), null, "field", NONE);

@@ -9,10 +9,6 @@
 
 namespace {
 
-} // namespace
-
-namespace {
-
 /// Whether two quad meshes are equal to the last bit.
 bool same(const roundel::Quads& one, const roundel::Quads& other) {
     const auto a = one.vertices(), b = other.vertices();
@@ -70,7 +66,7 @@ void meshes_become_quads_of_their_topology() {
     roundel_quad_options* options = nullptr;
     roundel_quads* plain = nullptr;
     CHECK(roundel_quad_options_new(&options) == ROUNDEL_OK);
-    CHECK(roundel_quad_options_set_quads(options, 300) == ROUNDEL_OK);
+    CHECK(roundel_quad_options_set_int(options, "quads", 300) == ROUNDEL_OK);
     CHECK(roundel_quads_make(mesh.get(), options, nullptr, &plain) == ROUNDEL_OK);
     CHECK(roundel_quad_options_free(options) == ROUNDEL_OK);
     const roundel::Quads same(plain);

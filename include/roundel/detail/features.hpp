@@ -64,13 +64,14 @@ inline bool set(roundel_guidance* guidance, const Features& features, Status* st
     for (const auto& line : features.lines) {
         ends.insert(ends.end(), line.begin(), line.end());
     }
-    return check(roundel_guidance_set_feature_angle(guidance, features.angle), status) &&
+    return check(roundel_guidance_set_real(guidance, "feature_angle", features.angle), status) &&
            check(roundel_guidance_set_feature_edges(guidance, features.edges.size(),
                                                     features.edges.data()),
                  status) &&
            check(roundel_guidance_set_feature_lines(guidance, features.lines.size(), ends.data()),
                  status) &&
-           check(roundel_guidance_set_align_boundary(guidance, features.boundary ? 1 : 0), status);
+           check(roundel_guidance_set_int(guidance, "align_boundary", features.boundary ? 1 : 0),
+                 status);
 }
 
 /// A guidance of the C interface with these features and nothing else; empty after a failure.

@@ -33,32 +33,31 @@ struct VertexIndex {
 struct FieldOptions {
     /// Faces whose direction is given, each at most once.
     std::vector<FieldConstraint> constraints = {};
-    /// The fraction of the faces, from 0 to 1, that follow the curvature of the surface: those
-    /// where it is most reliable. Faces in `constraints` or beside features keep the direction
-    /// given there.
-    double constrain_curvature = 0.0;
-    /// Edges that the field follows: by default the boundary.
+    /// Edges that the field lies along: by default the boundary.
     Features features = {};
     /// Directions that faces should have, each face at most once.
     std::vector<FieldGuide> guides = {};
-    /// The weight with which all other faces follow the curvature; 0 for none.
-    double curvature_weight = 0.0;
-    /// Details smaller than this length attract no irregular vertices. For a map, use the length of
-    /// its quads' edges. 0 keeps all details.
-    double detail = 0.0;
-    /// The index of every irregular vertex. If not set, the energy decides.
+    /// All irregular vertices; where nothing is said the energy decides.
     std::optional<std::vector<VertexIndex>> indices = std::nullopt;
-    /// N, the number of arms in a face: 1, 2, 4 (crosses) or 6.
-    std::int32_t symmetry = 4;
+    // Table of options: members.
+    /// Arms of a direction, evenly around: 4 for crosses; a map needs crosses. In 1, 2, 4, 6; 4 by
+    /// default.
+    std::optional<std::int64_t> symmetry = std::nullopt;
+    /// The part of the faces, those with the most reliable curvature, that have the direction of
+    /// least absolute curvature. In [0, 1]; 0 by default.
+    std::optional<double> constrain_curvature = std::nullopt;
+    /// How strongly all other faces are drawn to the direction of least absolute curvature, for an
+    /// area and a difference of absolute curvatures of 1. In [0, inf); 0 by default.
+    std::optional<double> curvature_weight = std::nullopt;
+    /// Details smaller than this length attract no irregular vertices; unset: 0 for a field, the
+    /// length of quads' edges for a map, a quarter of it for quads. In [0, inf).
+    std::optional<double> detail = std::nullopt;
+    // End of the table.
     /// How the problem is solved.
     Options solve = {};
 
     FieldOptions& set_constraints(std::vector<FieldConstraint> value) {
         constraints = std::move(value);
-        return *this;
-    }
-    FieldOptions& set_constrain_curvature(double fraction) {
-        constrain_curvature = fraction;
         return *this;
     }
     FieldOptions& set_features(Features value) {
@@ -69,22 +68,28 @@ struct FieldOptions {
         guides = std::move(value);
         return *this;
     }
-    FieldOptions& set_curvature_weight(double value) {
-        curvature_weight = value;
-        return *this;
-    }
-    FieldOptions& set_detail(double length) {
-        detail = length;
-        return *this;
-    }
     FieldOptions& set_indices(std::vector<VertexIndex> value) {
         indices = std::move(value);
         return *this;
     }
-    FieldOptions& set_symmetry(std::int32_t arms) {
-        symmetry = arms;
+    // Table of options: setters.
+    FieldOptions& set_symmetry(std::int64_t value) {
+        symmetry = value;
         return *this;
     }
+    FieldOptions& set_constrain_curvature(double value) {
+        constrain_curvature = value;
+        return *this;
+    }
+    FieldOptions& set_curvature_weight(double value) {
+        curvature_weight = value;
+        return *this;
+    }
+    FieldOptions& set_detail(double value) {
+        detail = value;
+        return *this;
+    }
+    // End of the table.
     FieldOptions& set_solve(Options value) {
         solve = std::move(value);
         return *this;
@@ -187,7 +192,25 @@ class Field {
 
 namespace detail {
 
-/// The guidance of the C interface for `options`; empty after a failure.
+// Table of options: lists.
+template <class Tell> bool each_guidance_option(const FieldOptions& options, const Tell& tell) {
+    if (options.symmetry && !tell("symmetry", *options.symmetry)) {
+        return false;
+    }
+    if (options.constrain_curvature && !tell("constrain_curvature", *options.constrain_curvature)) {
+        return false;
+    }
+    if (options.curvature_weight && !tell("curvature_weight", *options.curvature_weight)) {
+        return false;
+    }
+    if (options.detail && !tell("detail", *options.detail)) {
+        return false;
+    }
+    return true;
+}
+// End of the table.
+
+/// The guidance of the C interface for `options`; none after a failure.
 inline GuidanceHandle guidance_of(const FieldOptions& options, Status* status) {
     GuidanceHandle handle = guidance_with(options.features, status);
     if (!handle) {
@@ -212,16 +235,17 @@ inline GuidanceHandle guidance_of(const FieldOptions& options, Status* status) {
     }
     roundel_guidance* to = handle.get();
     const auto told = [status](roundel_status code) { return check(code, status); };
+    const auto set_guidance =
+        by_name(roundel_guidance_set_int, roundel_guidance_set_real, roundel_guidance_set_text);
     const bool all =
         told(roundel_guidance_set_constraints(to, faces.size(), faces.data(), angles.data())) &&
         told(roundel_guidance_set_guides(to, guided.size(), guided.data(), guiding.data(),
                                          weights.data())) &&
         (!options.indices ||
          told(roundel_guidance_set_indices(to, vertices.size(), vertices.data(), steps.data()))) &&
-        told(roundel_guidance_set_curvature(to, options.constrain_curvature,
-                                            options.curvature_weight)) &&
-        told(roundel_guidance_set_detail(to, options.detail)) &&
-        told(roundel_guidance_set_symmetry(to, options.symmetry));
+        each_guidance_option(options, [&](const char* name, const auto& value) {
+            return told(set_guidance(to, name, value));
+        });
     return all ? std::move(handle) : nullptr;
 }
 

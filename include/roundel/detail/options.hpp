@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -94,48 +95,59 @@ struct Event {
 struct Options {
     /// The name of a set of options, "orientation_field" or "parametrization". It is applied first.
     std::optional<std::string> preset = std::nullopt;
-    /// How integers are decided: "relax", "direct", "greedy", "adaptive",
-    /// "multiple", "lattice", "exact", "auto".
+    // Table of options: members.
+    /// How integers are decided. One of relax, direct, greedy, adaptive, multiple, lattice, exact,
+    /// auto; auto by default.
     std::optional<std::string> strategy = std::nullopt;
-    /// Seconds after which the best solution so far is returned.
+    /// Seconds after which the best solution so far is returned. In [0, inf]; inf by default.
     std::optional<double> time_limit = std::nullopt;
-    /// The largest number of threads; 0 for as many as there are cores.
+    /// Threads that may be used at most; 0: as many as there are cores. In [0, 1024]; 1 by default.
     std::optional<std::int64_t> threads = std::nullopt;
-    /// adaptive, multiple: integers are rounded together while the sum of their deviations is at
-    /// most this.
+    /// Adaptive, multiple: integers are rounded together while their deviations sum up to at most
+    /// this. In [0, inf]; 0.5 by default.
     std::optional<double> rounding_threshold = std::nullopt;
-    /// adaptive: up to this many integers are decided exactly, one at a time.
+    /// Adaptive: up to this many integers are decided exactly, one at a time. In [0, 2147483647];
+    /// 1000 by default.
     std::optional<std::int64_t> exact_integers = std::nullopt;
-    /// adaptive, multiple: Gauss-Seidel updates in a pass before conjugate gradients take over.
+    /// Adaptive, multiple: Gauss-Seidel updates a pass, after which conjugate gradients take over.
+    /// In [0, 2147483647]; 100000 by default.
     std::optional<std::int64_t> gauss_seidel_updates = std::nullopt;
-    /// adaptive, multiple: Gauss-Seidel does not update an unknown that would change by less.
+    /// Adaptive, multiple: Gauss-Seidel does not push on where an unknown would move by less. In
+    /// [0, inf]; 0.001 by default.
     std::optional<double> gauss_seidel_tolerance = std::nullopt;
-    /// adaptive, multiple: conjugate-gradient iterations in a pass before a factorization takes
-    /// over.
+    /// Adaptive, multiple: conjugate-gradient iterations a pass, after which a factorization takes
+    /// over. In [0, 2147483647]; 50 by default.
     std::optional<std::int64_t> cg_iterations = std::nullopt;
-    /// The tolerance of conjugate gradients. adaptive: the distance of every unknown from the
-    /// minimum; multiple: the length of the residual.
+    /// Adaptive: conjugate gradients end where no unknown is estimated further from the minimum;
+    /// multiple: where the residual is shorter. In [0, inf]; 0.001 by default.
     std::optional<double> cg_tolerance = std::nullopt;
-    /// adaptive, multiple: 1 if a pass may factorize when conjugate gradients fail.
-    std::optional<std::int64_t> exact_steps = std::nullopt;
-    /// The use of earlier integers: "off", "offer" (before the search begins) or "keep" (no
-    /// search).
+    /// Adaptive, multiple: 1 if a pass may factor when conjugate gradients fail. In [0, 1]; 1 by
+    /// default.
+    std::optional<bool> exact_steps = std::nullopt;
+    /// Earlier integers: ignored, offered before the search begins, or kept as they are. One of
+    /// off, offer, keep; off by default.
     std::optional<std::string> warm_start = std::nullopt;
-    /// The elimination order: "fill_reducing", "largest_pivot" (as in Bommes' thesis), or
-    /// "natural", for comparison only.
+    /// Order of eliminations and factorizations; largest_pivot solves constraints for their largest
+    /// coefficient (Bommes' thesis), natural only shows what an order is worth. One of
+    /// fill_reducing, natural, largest_pivot; fill_reducing by default.
     std::optional<std::string> ordering = std::nullopt;
-    /// lattice, exact, auto: up to this many integers are decided in a dense lattice.
+    /// Lattice, exact, auto: up to this many integers are decided in a dense lattice. In [0,
+    /// 20000]; 1000 by default.
     std::optional<std::int64_t> dense_integers = std::nullopt;
-    /// lattice, exact, auto: the number of partial solutions that nearest plane keeps.
+    /// Lattice, exact, auto: beginnings that nearest plane keeps at a time. In [1, 1000000]; 256 by
+    /// default.
     std::optional<std::int64_t> beam_width = std::nullopt;
-    /// lattice, exact, auto: perturbation rounds after the blocks.
+    /// Lattice, exact, auto: perturbation rounds after the blocks. In [0, 2147483647]; 1 by
+    /// default.
     std::optional<std::int64_t> lattice_rounds = std::nullopt;
-    /// exact, auto: the number of nodes that the proof may visit.
+    /// Exact, auto: nodes that the proof may visit. In [0, 9007199254740992]; 10000000000 by
+    /// default.
     std::optional<std::int64_t> nodes = std::nullopt;
-    /// exact, auto: the relative gap at which the proof stops.
+    /// Exact, auto: relative gap that ends the proof. In [0, inf]; 0 by default.
     std::optional<double> gap = std::nullopt;
-    /// Called for every event, on the thread that called solve. An exception from it ends the
-    /// solve, and solve throws it again.
+    // End of the table.
+    /// Called for every event, on the thread that called solve. What it throws ends the solve and
+    /// is thrown again by solve.
     std::function<Flow(const Event&)> on_event = nullptr;
     /// A token that ends the solve when it is set.
     const CancelToken* cancel = nullptr;
@@ -146,12 +158,13 @@ struct Options {
         preset = std::move(value);
         return *this;
     }
+    // Table of options: setters.
     Options& set_strategy(std::string value) {
         strategy = std::move(value);
         return *this;
     }
-    Options& set_time_limit(double seconds) {
-        time_limit = seconds;
+    Options& set_time_limit(double value) {
+        time_limit = value;
         return *this;
     }
     Options& set_threads(std::int64_t value) {
@@ -182,7 +195,7 @@ struct Options {
         cg_tolerance = value;
         return *this;
     }
-    Options& set_exact_steps(std::int64_t value) {
+    Options& set_exact_steps(bool value) {
         exact_steps = value;
         return *this;
     }
@@ -214,6 +227,7 @@ struct Options {
         gap = value;
         return *this;
     }
+    // End of the table.
     Options& set_on_event(std::function<Flow(const Event&)> value) {
         on_event = std::move(value);
         return *this;
@@ -228,6 +242,84 @@ struct Options {
         return *this;
     }
 };
+
+namespace detail {
+
+/// What sets an option by name, by the type of its value.
+template <class Int, class Real, class Text>
+auto by_name(Int set_int, Real set_real, Text set_text) {
+    return [=](auto* to, const char* name, const auto& value) -> roundel_status {
+        using Value = std::decay_t<decltype(value)>;
+        if constexpr (std::is_integral_v<Value>) {
+            return set_int(to, name, static_cast<std::int64_t>(value));
+        } else if constexpr (std::is_floating_point_v<Value>) {
+            return set_real(to, name, value);
+        } else {
+            return set_text(to, name, value.c_str());
+        }
+    };
+}
+
+// Table of options: lists.
+template <class Tell> bool each_option(const Options& options, const Tell& tell) {
+    if (options.strategy && !tell("strategy", *options.strategy)) {
+        return false;
+    }
+    if (options.time_limit && !tell("time_limit", *options.time_limit)) {
+        return false;
+    }
+    if (options.threads && !tell("threads", *options.threads)) {
+        return false;
+    }
+    if (options.rounding_threshold && !tell("rounding_threshold", *options.rounding_threshold)) {
+        return false;
+    }
+    if (options.exact_integers && !tell("exact_integers", *options.exact_integers)) {
+        return false;
+    }
+    if (options.gauss_seidel_updates &&
+        !tell("gauss_seidel_updates", *options.gauss_seidel_updates)) {
+        return false;
+    }
+    if (options.gauss_seidel_tolerance &&
+        !tell("gauss_seidel_tolerance", *options.gauss_seidel_tolerance)) {
+        return false;
+    }
+    if (options.cg_iterations && !tell("cg_iterations", *options.cg_iterations)) {
+        return false;
+    }
+    if (options.cg_tolerance && !tell("cg_tolerance", *options.cg_tolerance)) {
+        return false;
+    }
+    if (options.exact_steps && !tell("exact_steps", *options.exact_steps)) {
+        return false;
+    }
+    if (options.warm_start && !tell("warm_start", *options.warm_start)) {
+        return false;
+    }
+    if (options.ordering && !tell("ordering", *options.ordering)) {
+        return false;
+    }
+    if (options.dense_integers && !tell("dense_integers", *options.dense_integers)) {
+        return false;
+    }
+    if (options.beam_width && !tell("beam_width", *options.beam_width)) {
+        return false;
+    }
+    if (options.lattice_rounds && !tell("lattice_rounds", *options.lattice_rounds)) {
+        return false;
+    }
+    if (options.nodes && !tell("nodes", *options.nodes)) {
+        return false;
+    }
+    if (options.gap && !tell("gap", *options.gap)) {
+        return false;
+    }
+    return true;
+}
+// End of the table.
+
+} // namespace detail
 
 ROUNDEL_NAMESPACE_END
 

@@ -18,38 +18,45 @@
 
 ROUNDEL_NAMESPACE_BEGIN
 
-/// Options of quads: their size, the guidance of the field, and how field and map are solved.
-/// Options that are not set have the defaults of the program `roundel quad`.
+/// What quads should be like, and how they are solved for. What is not set is as the program
+/// `roundel quad` has it. Where the curvature's fraction or its weight is set, the other is 0 if it
+/// is not.
 struct QuadOptions {
-    /// The approximate number of quads. The default is 1000 if no length is given either.
-    std::optional<std::size_t> quads = std::nullopt;
-    /// Instead, the edge length, in units of the mesh.
-    std::optional<double> edge_length = std::nullopt;
-    /// Instead, two edge lengths for each face: along the arm that the field stores there, and
-    /// across it.
+    /// Edges of two lengths a face instead: along the arm that the field stores there, and across.
     std::vector<double> edge_lengths = {};
     /// Edges that become chains of edges of the quads, instead of the boundary alone.
     std::optional<Features> features = std::nullopt;
-    /// The fraction of the faces that follow the curvature, as in FieldOptions. If neither this nor
-    /// the weight is given, both have values that suit quads, or smaller ones where these give
-    /// better quads.
-    std::optional<double> constrain_curvature = std::nullopt;
-    /// The weight with which all other faces follow the curvature.
-    std::optional<double> curvature_weight = std::nullopt;
-    /// Details smaller than this length attract no irregular vertices. The default is a quarter of
-    /// an edge.
-    std::optional<double> detail = std::nullopt;
-    /// How the map and, except for the strategy, the field are solved. If no strategy or preset is
-    /// given, the map is solved by lattice decoding.
-    std::optional<Options> solve = std::nullopt;
-    /// The strategy for the integers of the field, instead of adaptive rounding.
+    // Table of options: members.
+    /// About how many quads. In [1, 2147483647]; 1000 by default.
+    std::optional<std::int64_t> quads = std::nullopt;
+    /// Edges of this length, in units of the mesh, instead of a number of quads. In (0, inf).
+    std::optional<double> edge_length = std::nullopt;
+    /// How the field's integers are decided. One of relax, direct, greedy, adaptive, multiple,
+    /// lattice, exact, auto; adaptive by default.
     std::optional<std::string> field_strategy = std::nullopt;
-    /// Whether to untangle a map whose folds keep extraction from making quads.
-    bool untangle = true;
-    /// Whether vertices are moved on the surface to make the quads more like squares of one size.
-    bool smooth = true;
+    /// 1 if vertices move over the surface towards squares of one size. In [0, 1]; 1 by default.
+    std::optional<bool> smooth = std::nullopt;
+    /// 1 if curvature may count for less than the guidance has it, where the map is less distorted
+    /// then. In [0, 1]; 1 by default.
+    std::optional<bool> vary_curvature = std::nullopt;
+    /// 1 if a map is untangled whose folds extraction cannot cope with. In [0, 1]; 1 by default.
+    std::optional<bool> untangle = std::nullopt;
+    /// The part of the faces, those with the most reliable curvature, that have the direction of
+    /// least absolute curvature. In [0, 1]; 0.005 by default.
+    std::optional<double> constrain_curvature = std::nullopt;
+    /// How strongly all other faces are drawn to the direction of least absolute curvature, for an
+    /// area and a difference of absolute curvatures of 1. In [0, inf); 0.07 by default.
+    std::optional<double> curvature_weight = std::nullopt;
+    /// Details smaller than this length attract no irregular vertices; unset: 0 for a field, the
+    /// length of quads' edges for a map, a quarter of it for quads. In [0, inf).
+    std::optional<double> detail = std::nullopt;
+    // End of the table.
+    /// How the map is solved, by lattice decoding where no strategy or preset is given; and, but
+    /// for the strategy, the field.
+    std::optional<Options> solve = std::nullopt;
 
-    QuadOptions& set_quads(std::size_t value) {
+    // Table of options: setters.
+    QuadOptions& set_quads(std::int64_t value) {
         quads = value;
         return *this;
     }
@@ -57,6 +64,35 @@ struct QuadOptions {
         edge_length = value;
         return *this;
     }
+    QuadOptions& set_field_strategy(std::string value) {
+        field_strategy = std::move(value);
+        return *this;
+    }
+    QuadOptions& set_smooth(bool value) {
+        smooth = value;
+        return *this;
+    }
+    QuadOptions& set_vary_curvature(bool value) {
+        vary_curvature = value;
+        return *this;
+    }
+    QuadOptions& set_untangle(bool value) {
+        untangle = value;
+        return *this;
+    }
+    QuadOptions& set_constrain_curvature(double value) {
+        constrain_curvature = value;
+        return *this;
+    }
+    QuadOptions& set_curvature_weight(double value) {
+        curvature_weight = value;
+        return *this;
+    }
+    QuadOptions& set_detail(double value) {
+        detail = value;
+        return *this;
+    }
+    // End of the table.
     QuadOptions& set_edge_lengths(std::vector<double> value) {
         edge_lengths = std::move(value);
         return *this;
@@ -65,32 +101,8 @@ struct QuadOptions {
         features = std::move(value);
         return *this;
     }
-    QuadOptions& set_constrain_curvature(double fraction) {
-        constrain_curvature = fraction;
-        return *this;
-    }
-    QuadOptions& set_curvature_weight(double value) {
-        curvature_weight = value;
-        return *this;
-    }
-    QuadOptions& set_detail(double length) {
-        detail = length;
-        return *this;
-    }
     QuadOptions& set_solve(Options value) {
         solve = std::move(value);
-        return *this;
-    }
-    QuadOptions& set_field_strategy(std::string value) {
-        field_strategy = std::move(value);
-        return *this;
-    }
-    QuadOptions& set_untangle(bool value) {
-        untangle = value;
-        return *this;
-    }
-    QuadOptions& set_smooth(bool value) {
-        smooth = value;
         return *this;
     }
 };
@@ -253,46 +265,72 @@ namespace detail {
 
 using QuadOptionsHandle = Handle<roundel_quad_options, roundel_quad_options_free>;
 
-/// The features, the curvature and the detail of the options; empty after a failure.
-inline GuidanceHandle guidance_of(const QuadOptions& options, Status* status) {
+// Table of options: lists.
+template <class Tell> bool each_quad_option(const QuadOptions& options, const Tell& tell) {
+    if (options.quads && !tell("quads", *options.quads)) {
+        return false;
+    }
+    if (options.edge_length && !tell("edge_length", *options.edge_length)) {
+        return false;
+    }
+    if (options.field_strategy && !tell("field_strategy", *options.field_strategy)) {
+        return false;
+    }
+    if (options.smooth && !tell("smooth", *options.smooth)) {
+        return false;
+    }
+    if (options.vary_curvature && !tell("vary_curvature", *options.vary_curvature)) {
+        return false;
+    }
+    if (options.untangle && !tell("untangle", *options.untangle)) {
+        return false;
+    }
+    return true;
+}
+template <class Tell> bool each_guidance_option(const QuadOptions& options, const Tell& tell) {
+    if (options.constrain_curvature && !tell("constrain_curvature", *options.constrain_curvature)) {
+        return false;
+    }
+    if (options.curvature_weight && !tell("curvature_weight", *options.curvature_weight)) {
+        return false;
+    }
+    if (options.detail && !tell("detail", *options.detail)) {
+        return false;
+    }
+    return true;
+}
+// End of the table.
+
+/// What the options say of features and of the guidance; none after a failure.
+inline GuidanceHandle guidance_of(const QuadOptions& options, bool curved, Status* status) {
     roundel_guidance* made = nullptr;
     if (!check(roundel_guidance_new_for_quads(&made), status)) {
         return nullptr;
     }
     GuidanceHandle guidance(made);
-    const bool curved = options.constrain_curvature || options.curvature_weight;
-    const bool told =
-        (!options.features || set(made, *options.features, status)) &&
-        (!curved ||
-         check(roundel_guidance_set_curvature(made, options.constrain_curvature.value_or(0.0),
-                                              options.curvature_weight.value_or(0.0)),
-               status)) &&
-        (!options.detail || check(roundel_guidance_set_detail(made, *options.detail), status));
+    const auto set_guidance =
+        by_name(roundel_guidance_set_int, roundel_guidance_set_real, roundel_guidance_set_text);
+    const auto tell = [&](const char* name, const auto& value) {
+        return check(set_guidance(made, name, value), status);
+    };
+    const bool told = (!options.features || set(made, *options.features, status)) &&
+                      (!curved || (tell("constrain_curvature", 0.0) && //
+                                   tell("curvature_weight", 0.0))) &&
+                      each_guidance_option(options, tell);
     return told ? std::move(guidance) : nullptr;
 }
 
-/// Sets the size in the options.
-inline roundel_status resize(roundel_quad_options* made, const QuadOptions& options) {
-    if (!options.edge_lengths.empty()) {
-        return roundel_quad_options_set_edge_lengths(made, options.edge_lengths.data(),
-                                                     options.edge_lengths.size());
-    }
-    if (options.edge_length) {
-        return roundel_quad_options_set_edge_length(made, *options.edge_length);
-    }
-    return options.quads ? roundel_quad_options_set_quads(made, *options.quads) : ROUNDEL_OK;
-}
-
-/// The C interface's options for `options`; empty after a failure.
+/// The C interface's options for `options`; none after a failure.
 inline QuadOptionsHandle handle_for(const QuadOptions& options, Status* status) {
     Options map = options.solve.value_or(Options());
     Options field = map;
     if (!map.strategy && !map.preset) {
         map.strategy = "lattice";
     }
-    field.strategy = options.field_strategy.value_or("adaptive");
-    const auto guidance = guidance_of(options, status);
+    field.strategy = "adaptive";
+    // Whoever says how curvature counts says all of it.
     const bool curved = options.constrain_curvature || options.curvature_weight;
+    const auto guidance = guidance_of(options, curved, status);
     const auto by = guidance ? handle_for(map, status) : nullptr;
     const auto field_by = by ? handle_for(field, status) : nullptr;
     roundel_quad_options* made = nullptr;
@@ -300,14 +338,20 @@ inline QuadOptionsHandle handle_for(const QuadOptions& options, Status* status) 
         return nullptr;
     }
     QuadOptionsHandle handle(made);
+    const auto set_option = by_name(roundel_quad_options_set_int, roundel_quad_options_set_real,
+                                    roundel_quad_options_set_text);
+    const auto tell = [&](const char* name, const auto& value) {
+        return check(set_option(made, name, value), status);
+    };
+    const auto& lengths = options.edge_lengths;
     const bool told =
-        check(resize(made, options), status) &&
         check(roundel_quad_options_set_guidance(made, guidance.get()), status) &&
-        check(roundel_quad_options_set_vary_curvature(made, curved ? 0 : 1), status) &&
         check(roundel_quad_options_set_map_options(made, by.get()), status) &&
         check(roundel_quad_options_set_field_options(made, field_by.get()), status) &&
-        check(roundel_quad_options_set_untangle(made, options.untangle ? 1 : 0), status) &&
-        check(roundel_quad_options_set_smooth(made, options.smooth ? 1 : 0), status);
+        (!curved || tell("vary_curvature", false)) && each_quad_option(options, tell) &&
+        (lengths.empty() ||
+         check(roundel_quad_options_set_edge_lengths(made, lengths.data(), lengths.size()),
+               status));
     return told ? std::move(handle) : nullptr;
 }
 

@@ -49,16 +49,6 @@ struct Watcher {
     }
 };
 
-inline roundel_status set(roundel_options* options, const char* name, const std::string& value) {
-    return roundel_options_set_text(options, name, value.c_str());
-}
-inline roundel_status set(roundel_options* options, const char* name, double value) {
-    return roundel_options_set_real(options, name, value);
-}
-inline roundel_status set(roundel_options* options, const char* name, std::int64_t value) {
-    return roundel_options_set_int(options, name, value);
-}
-
 using OptionsHandle = Handle<roundel_options, roundel_options_free>;
 
 /// The C interface's options for `options`; empty after a failure.
@@ -72,26 +62,17 @@ inline OptionsHandle handle_for(const Options& options, Status* status) {
         !check(roundel_options_set_preset(made, options.preset->c_str()), status)) {
         return nullptr;
     }
-    const auto one = [&](const char* name, const auto& value) {
-        return !value || check(set(made, name, *value), status);
+    const auto set =
+        by_name(roundel_options_set_int, roundel_options_set_real, roundel_options_set_text);
+    const auto tell = [&](const char* name, const auto& value) {
+        return check(set(made, name, value), status);
     };
-    if (!one("strategy", options.strategy) || !one("time_limit", options.time_limit) ||
-        !one("threads", options.threads) ||
-        !one("rounding_threshold", options.rounding_threshold) ||
-        !one("exact_integers", options.exact_integers) ||
-        !one("gauss_seidel_updates", options.gauss_seidel_updates) ||
-        !one("gauss_seidel_tolerance", options.gauss_seidel_tolerance) ||
-        !one("cg_iterations", options.cg_iterations) ||
-        !one("cg_tolerance", options.cg_tolerance) || !one("exact_steps", options.exact_steps) ||
-        !one("warm_start", options.warm_start) || !one("ordering", options.ordering) ||
-        !one("dense_integers", options.dense_integers) || !one("beam_width", options.beam_width) ||
-        !one("lattice_rounds", options.lattice_rounds) || !one("nodes", options.nodes) ||
-        !one("gap", options.gap)) {
+    if (!each_option(options, tell)) {
         return nullptr;
     }
     for (const auto& [name, value] : options.more) {
-        const auto code = std::visit(
-            [made, key = name.c_str()](const auto& v) { return set(made, key, v); }, value);
+        const auto code =
+            std::visit([&, key = name.c_str()](const auto& v) { return set(made, key, v); }, value);
         if (!check(code, status)) {
             return nullptr;
         }

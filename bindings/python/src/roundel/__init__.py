@@ -17,7 +17,7 @@ from .map import Map
 # Not in __all__, because a star import must not hide Python's own name.
 from .map import map as map
 from .mesh import Mesh
-from .options import Option, options, presets
+from .options import Option, guidance_options, options, presets, quad_options
 from .problem import Problem
 from .quads import Quads, extract, quad
 from .solution import Solution
@@ -40,9 +40,11 @@ __all__ = [
     "Solver",
     "extract",
     "field",
+    "guidance_options",
     "options",
     "presets",
     "quad",
+    "quad_options",
     "solve",
     *_errors.__all__,
 ]

@@ -10,9 +10,9 @@ from ._handle import Handle, number
 from ._library import ffi, lib
 from .arrays import pointer
 from .errors import check
-from .guidance import guidance_handle, split
+from .guidance import OPTIONS, guidance_handle, split
 from .mesh import Mesh, as_mesh, pointer_of
-from .options import options_handle
+from .options import options, options_handle, with_options
 from .solution import Solution, taken
 from .watch import CancelToken, Progress, Watch
 
@@ -93,6 +93,7 @@ class Field:
         return taken(Handle.made("roundel_solution", call, self._handle.pointer).pointer)
 
 
+@with_options(OPTIONS, options())
 def field(
     V: Any,
     F: Any = None,
@@ -103,9 +104,10 @@ def field(
 ) -> Field:
     """The smoothest field of a mesh: a cross field, unless `symmetry` is given.
 
-    Keywords are those of the guidance (`features`, `align_boundary`, `curvature`, `constraints`,
-    `guides`, `indices`, `symmetry`, `guide_file`: see docs/fields.md) and the library's options;
-    `progress` and `cancel` as in `solve`. Without any the field follows the boundary.
+    Keywords are the options below, and `features`, an angle in degrees from which on an edge is sharp
+    or pairs of vertices; `curvature`, (constrain_curvature, curvature_weight); `constraints`, (faces,
+    angles); `guides`, (faces, angles, weights); `indices`, (vertices, steps); and `guide_file`.
+    `progress` and `cancel` are as in `solve`. Without any the field follows the boundary.
 
     >>> import roundel
     >>> cube = roundel.Mesh.shape("rounded-cube", 600)

@@ -1,4 +1,4 @@
-"""The guidance of fields and maps: features, curvature, directions and indices."""
+"""What fields and maps follow."""
 
 from __future__ import annotations
 
@@ -11,64 +11,57 @@ from ._handle import Handle
 from ._library import lib, path
 from .arrays import indices32, pointer, reals
 from .errors import check
+from .options import guidance_options, set_option
 
-#: The keywords that `field`, `map` and `quad` take besides the library's options:
-#:
-#: - `features`: an angle in degrees, at which and above which edges are features, or pairs of
-#:   vertices whose edges are features;
-#: - `align_boundary`: whether the boundary is a feature (True);
-#: - `curvature`: (fraction, weight), the fraction of the faces that have the direction of least
-#:   curvature, and the weight with which all others follow it;
-#: - `constraints`: (faces, angles), directions that a field must have;
-#: - `guides`: (faces, angles, weights), directions that it should have;
-#: - `indices`: (vertices, steps), all irregular vertices, with their index in steps of 1/4;
-#: - `symmetry`: the number of arms of the field, 1, 2, 4 or 6;
-#: - `detail`: the length below which details attract no irregular vertices;
-#: - `guide_file`: a file with such guidance.
-KEYWORDS = (
-    "features",
-    "align_boundary",
-    "curvature",
-    "constraints",
-    "guides",
-    "indices",
-    "symmetry",
-    "detail",
-    "guide_file",
-)
+#: The options of the library's guidance, which `field`, `map` and `quad` take as keywords. Beside them
+#: they take `features`: an angle in degrees, from which on an edge is sharp, or pairs of vertices
+#: whose edges are; `curvature`: (constrain_curvature, curvature_weight) in one; `constraints`: (faces,
+#: angles) that a field must have; `guides`: (faces, angles, weights) that it should have; `indices`:
+#: (vertices, steps), all irregular vertices with their index in steps of 1/4; `guide_file`: a file of
+#: guidance.
+OPTIONS = guidance_options()
 
 
 def split(keywords: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]:
-    """Splits keywords into those of the guidance and the others, which are options."""
-    mine = {k: v for k, v in keywords.items() if k in KEYWORDS and v is not None}
-    return mine, {k: v for k, v in keywords.items() if k not in KEYWORDS}
+    """The keywords of the guidance, and the others, which are options."""
+    mine = {k: v for k, v in keywords.items() if k in _KEYWORDS and v is not None}
+    return mine, {k: v for k, v in keywords.items() if k not in _KEYWORDS}
 
 
-def guidance_handle(mesh: Any, given: Mapping[str, Any]) -> Optional[Handle]:
-    """The library's guidance for the keywords; None without keywords."""
+def guidance_handle(mesh: Any, given: Mapping[str, Any], of_quads: bool = False) -> Optional[Handle]:
+    """The keywords as the library's guidance; None where there are none."""
     if not given:
         return None
-    handle = Handle.made("roundel_guidance", lib.roundel_guidance_new)
+    new = lib.roundel_guidance_new_for_quads if of_quads else lib.roundel_guidance_new
+    handle = Handle.made("roundel_guidance", new)
+    # Whoever says how curvature counts says all of it, and where indices are given it does not.
+    if says_curvature(given) or "indices" in given:
+        _curvature(handle.pointer, mesh, (0.0, 0.0))
     for name, value in given.items():
-        _SETTERS[name](handle.pointer, mesh, value)
+        if name in OPTIONS:
+            set_option(handle.pointer, "guidance", name, value)
+        else:
+            _SETTERS[name](handle.pointer, mesh, value)
     return handle
+
+
+def says_curvature(given: Mapping[str, Any]) -> bool:
+    """Whether the keywords say how curvature counts."""
+    return not given.keys().isdisjoint(("curvature", "constrain_curvature", "curvature_weight"))
 
 
 def _features(guidance: Any, _mesh: Any, value: Any) -> None:
     if np.ndim(value) == 0:
-        check(lib.roundel_guidance_set_feature_angle(guidance, math.radians(float(value))))
+        set_option(guidance, "guidance", "feature_angle", math.radians(float(value)))
         return
     pairs = indices32(value, "features", (-1, 2))
     check(lib.roundel_guidance_set_feature_lines(guidance, len(pairs), pointer(pairs)))
 
 
-def _align_boundary(guidance: Any, _mesh: Any, value: Any) -> None:
-    check(lib.roundel_guidance_set_align_boundary(guidance, int(bool(value))))
-
-
 def _curvature(guidance: Any, _mesh: Any, value: Any) -> None:
     fraction, weight = value
-    check(lib.roundel_guidance_set_curvature(guidance, fraction, weight))
+    set_option(guidance, "guidance", "constrain_curvature", fraction)
+    set_option(guidance, "guidance", "curvature_weight", weight)
 
 
 def _constraints(guidance: Any, _mesh: Any, value: Any) -> None:
@@ -93,14 +86,6 @@ def _indices(guidance: Any, _mesh: Any, value: Any) -> None:
     check(call(guidance, len(vertices), pointer(vertices), pointer(steps)))
 
 
-def _symmetry(guidance: Any, _mesh: Any, value: Any) -> None:
-    check(lib.roundel_guidance_set_symmetry(guidance, value))
-
-
-def _detail(guidance: Any, _mesh: Any, value: Any) -> None:
-    check(lib.roundel_guidance_set_detail(guidance, float(value)))
-
-
 def _guide_file(guidance: Any, mesh: Any, value: Any) -> None:
     check(lib.roundel_guidance_read(guidance, mesh._handle.pointer, path(value)))
 
@@ -110,4 +95,12 @@ def _same(*arrays: np.ndarray) -> None:
         raise ValueError("arrays that belong together differ in length")
 
 
-_SETTERS = {name: globals()[f"_{name}"] for name in KEYWORDS}
+_SETTERS = {
+    "features": _features,
+    "curvature": _curvature,
+    "constraints": _constraints,
+    "guides": _guides,
+    "indices": _indices,
+    "guide_file": _guide_file,
+}
+_KEYWORDS = OPTIONS.keys() | _SETTERS.keys()

@@ -11,9 +11,9 @@ from ._library import lib, path
 from .arrays import pointer, reals
 from .errors import check
 from .field import Field, field
-from .guidance import split
+from .guidance import OPTIONS, split
 from .mesh import pointer_of
-from .options import options_handle
+from .options import options as solve_options, options_handle, with_options
 from .quads import Quads, extracted
 from .solution import Solution, taken
 from .watch import CancelToken, Progress, Watch
@@ -150,6 +150,7 @@ class Map:
         return found
 
 
+@with_options(OPTIONS, solve_options())
 def map(
     V: Any,
     F: Any = None,

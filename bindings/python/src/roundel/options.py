@@ -2,23 +2,29 @@
 
 from __future__ import annotations
 
+import inspect
 from dataclasses import dataclass
-from typing import Any, Mapping, Union
+from typing import Any, Callable, Mapping, Optional, TypeVar, Union
+
+import numpy as np
 
 from ._handle import Handle
 from ._library import ffi, lib, text
 from .errors import check
 
+_Function = TypeVar("_Function", bound=Callable[..., Any])
+
 
 @dataclass(frozen=True)
 class Option:
-    """One option of the solver."""
+    """One option of the library."""
 
     name: str
     #: int, float or str.
     type: type
-    default: Union[int, float, str]
-    #: The allowed values: an interval, or words separated by bars.
+    #: None where it has none.
+    default: Union[int, float, str, None]
+    #: The values allowed: an interval, or words with a bar between them.
     range: str
     #: Its description.
     text: str
@@ -27,21 +33,65 @@ class Option:
 _TYPES = {lib.ROUNDEL_OPTION_INT: int, lib.ROUNDEL_OPTION_REAL: float, lib.ROUNDEL_OPTION_TEXT: str}
 
 
+def _listed(kind: str) -> dict[str, Option]:
+    found = {}
+    info = ffi.new("roundel_option *")
+    for index in range(getattr(lib, f"roundel_{kind}_count")()):
+        check(getattr(lib, f"roundel_{kind}_info")(index, info))
+        of, name, said = _TYPES[info.value_type], text(info.name), text(info.default_value)
+        default = None if said == "unset" else of(said)
+        found[name] = Option(name, of, default, text(info.range), text(info.text))
+    return found
+
+
 def options() -> dict[str, Option]:
-    """Every option that `solve` and the other functions take as a keyword, by name.
+    """Every option of a solve that `solve` and the others take as a keyword, by name.
 
     >>> import roundel
     >>> roundel.options()["strategy"].default
     'auto'
     """
-    found = {}
-    info = ffi.new("roundel_option *")
-    for index in range(lib.roundel_option_count()):
-        check(lib.roundel_option_info(index, info))
-        kind = _TYPES[info.value_type]
-        name = text(info.name)
-        found[name] = Option(name, kind, kind(text(info.default_value)), text(info.range), text(info.text))
-    return found
+    return _listed("option")
+
+
+def guidance_options() -> dict[str, Option]:
+    """Every option of the guidance that `field`, `map` and `quad` take as a keyword, by name.
+
+    >>> import roundel
+    >>> roundel.guidance_options()["symmetry"].range
+    '1|2|4|6'
+    """
+    return _listed("guidance_option")
+
+
+def quad_options() -> dict[str, Option]:
+    """Every option of its own that `quad` takes as a keyword, by name.
+
+    >>> import roundel
+    >>> roundel.quad_options()["quads"].default
+    1000
+    """
+    return _listed("quad_option")
+
+
+def with_options(*tables: Mapping[str, Option]) -> Callable[[_Function], _Function]:
+    """Gives a function that takes any keyword the signature and the documentation of these."""
+
+    def told(function: _Function) -> _Function:
+        signature = inspect.signature(function)
+        kept = [p for p in signature.parameters.values() if p.kind is not p.VAR_KEYWORD]
+        lines = []
+        for option in (option for table in tables for option in table.values()):
+            of = Optional[option.type]
+            kind = inspect.Parameter.KEYWORD_ONLY
+            kept.append(inspect.Parameter(option.name, kind, default=None, annotation=of))
+            lines.append(f"    {option.name}: {option.text}; {option.range}")
+        function.__signature__ = signature.replace(parameters=kept)  # type: ignore[attr-defined]
+        listed = "\n".join(lines)
+        function.__doc__ = f"{(function.__doc__ or '').rstrip()}\n\n    Options, with their values:\n\n{listed}\n"
+        return function
+
+    return told
 
 
 def presets() -> dict[str, str]:
@@ -66,13 +116,18 @@ def options_handle(given: Mapping[str, Any]) -> Handle:
         check(lib.roundel_options_set_preset(handle.pointer, str(given["preset"]).encode()))
     for name, value in given.items():
         if name != "preset":
-            check(_set(handle.pointer, name.encode(), value))
+            set_option(handle.pointer, "options", name, value)
     return handle
 
 
-def _set(pointer: Any, name: bytes, value: Any) -> int:
+def set_option(pointer: Any, kind: str, name: str, value: Any) -> None:
+    """Sets an option of a handle, `roundel_<kind>`, by the type of the value."""
     if isinstance(value, str):
-        return lib.roundel_options_set_text(pointer, name, value.encode())
-    if hasattr(value, "__index__"):
-        return lib.roundel_options_set_int(pointer, name, value.__index__())
-    return lib.roundel_options_set_real(pointer, name, float(value))
+        setter, given = "text", value.encode()
+    elif isinstance(value, np.bool_):
+        setter, given = "int", int(value)
+    elif hasattr(value, "__index__"):
+        setter, given = "int", value.__index__()
+    else:
+        setter, given = "real", float(value)
+    check(getattr(lib, f"roundel_{kind}_set_{setter}")(pointer, name.encode(), given))

@@ -10,13 +10,13 @@ from ._handle import Handle, number
 from ._library import ffi, lib, path
 from .arrays import pointer, reals
 from .errors import check
-from .guidance import guidance_handle, split
+from .guidance import OPTIONS as GUIDANCE, guidance_handle, says_curvature, split
 from .mesh import Mesh, as_mesh, pointer_of
-from .options import options_handle
+from .options import options, options_handle, quad_options, set_option, with_options
 from .watch import CancelToken, Progress, Watch
 
-#: The guidance by curvature of a quadrangulation without keywords: (fraction, weight).
-CURVATURE = (0.005, 0.07)
+#: The options that quads have beside those of their guidance and of the solves.
+OPTIONS = quad_options()
 
 
 class Quads:
@@ -107,27 +107,21 @@ def extract(V: Any, F: Any, uvs: Any) -> Quads:
     return Quads(Handle.made("roundel_quads", lib.roundel_quads_extract_from_uvs, *arguments))
 
 
+@with_options(OPTIONS, GUIDANCE, options())
 def quad(
     V: Any,
     F: Any = None,
     *,
-    quads: Optional[int] = None,
-    edge_length: Optional[float] = None,
-    field_strategy: Optional[str] = None,
-    untangle: bool = True,
-    smooth: bool = True,
     progress: Progress = None,
     cancel: Optional[CancelToken] = None,
     **keywords: Any,
 ) -> Quads:
     """Quadrangulates a mesh with about `quads` quads (1000 by default) or edges of about `edge_length`.
 
-    This computes field, map, extraction and smoothing in one call, as the program `roundel quad` does.
-    Keywords are those of `field`. By default, quads follow the boundary and the curvature. The options
-    apply to the solves of the map and of the field, except for the strategy: `strategy` is that of the
-    map (by default `lattice`), `field_strategy` that of the field (by default `adaptive`). `untangle`
-    turns back faces that the map flips, where quads need it. `smooth` moves vertices on the surface to
-    make the quads more like squares of one size.
+    Field, map, extraction and smoothing in one call, as the program `roundel quad` does it. Keywords
+    are those of `field`; quads follow the boundary and the curvature unless these say otherwise.
+    Options are those of the map's solve, `lattice` without a strategy; and but for the strategy of the
+    field's, which is `field_strategy`.
 
     >>> import roundel
     >>> cube = roundel.Mesh.shape("rounded-cube", 600)
@@ -136,28 +130,23 @@ def quad(
     (True, 2)
     """
     mesh = as_mesh(V, F)
-    if quads is not None and edge_length is not None:
+    own = {name: keywords.pop(name) for name in OPTIONS if name in keywords}
+    own = {name: value for name, value in own.items() if value is not None}
+    if {"quads", "edge_length"} <= own.keys():
         raise TypeError("quads and edge_length are two ways to say one thing")
-    wishes, options = split(keywords)
+    wishes, solve = split(keywords)
+    guidance = guidance_handle(mesh, wishes, of_quads=True)
+    own.setdefault("vary_curvature", not says_curvature(wishes))
+    by = solve if {"strategy", "preset"} & solve.keys() else {"strategy": "lattice", **solve}
     how = Handle.made("roundel_quad_options", lib.roundel_quad_options_new)
-    if quads is not None:
-        check(lib.roundel_quad_options_set_quads(how.pointer, quads))
-    if edge_length is not None:
-        check(lib.roundel_quad_options_set_edge_length(how.pointer, edge_length))
-    if wishes:
-        wishes.setdefault("curvature", None if "indices" in wishes else CURVATURE)
-        wishes = {name: wish for name, wish in wishes.items() if wish is not None}
-    guidance = guidance_handle(mesh, wishes)
-    check(lib.roundel_quad_options_set_vary_curvature(how.pointer, int(keywords.get("curvature") is None)))
     check(lib.roundel_quad_options_set_guidance(how.pointer, pointer_of(guidance)))
-    by = options if {"strategy", "preset"} & options.keys() else {"strategy": "lattice", **options}
     for call, given in (
         (lib.roundel_quad_options_set_map_options, by),
-        (lib.roundel_quad_options_set_field_options, {**options, "strategy": field_strategy or "adaptive"}),
+        (lib.roundel_quad_options_set_field_options, {**solve, "strategy": "adaptive"}),
     ):
         check(call(how.pointer, options_handle(given).pointer))
-    check(lib.roundel_quad_options_set_untangle(how.pointer, int(untangle)))
-    check(lib.roundel_quad_options_set_smooth(how.pointer, int(smooth)))
+    for name, value in own.items():
+        set_option(how.pointer, "quad_options", name, value)
     watch = Watch(progress, cancel)
     place = ffi.new("roundel_quads **")
     watch.check(lib.roundel_quads_make(mesh._handle.pointer, how.pointer, watch.pointer, place))

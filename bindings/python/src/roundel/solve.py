@@ -7,12 +7,13 @@ from typing import Any, Mapping, Optional, Union
 from ._handle import Handle
 from ._library import ffi, lib
 from .arrays import compressed
-from .options import options_handle
+from .options import options as solve_options, options_handle, with_options
 from .problem import Problem
 from .solution import Solution, taken
 from .watch import CancelToken, Progress, Watch
 
 
+@with_options(solve_options())
 def solve(
     Q: Union[Problem, Any] = None,
     q: Any = None,

@@ -263,15 +263,15 @@ enum roundel_option_type
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
 {
     /**
-     * A whole number: roundel_options_set_int.
+     * A whole number, set by a function whose name ends in set_int.
      */
     ROUNDEL_OPTION_INT = 1,
     /**
-     * A real number: roundel_options_set_real.
+     * A real number, set by one that ends in set_real.
      */
     ROUNDEL_OPTION_REAL = 2,
     /**
-     * One of several words: roundel_options_set_text.
+     * One of several words, set by one that ends in set_text.
      */
     ROUNDEL_OPTION_TEXT = 3,
 };
@@ -370,13 +370,13 @@ typedef struct roundel_cancel_token roundel_cancel_token;
 typedef struct roundel_field roundel_field;
 
 /**
- * What a field shall follow, and which edges become isolines of its map: features, boundary, given
- * directions, curvature, given indices. Where several ask for the direction of one face, the first
- * of these decides: a direction that is given, a feature or the boundary, a reliable curvature.
+ * What a field follows, and which edges become isolines of its map: features, the boundary, given
+ * directions, the curvature, given indices. Where several state the direction of one face, the
+ * first of these decides: a given direction, a feature or the boundary, a reliable curvature.
  *
- * A new one asks for crosses that follow the boundary, and for nothing else; where a function
- * takes a guidance, NULL stands for that. Numbers of faces, edges and vertices are those of the
- * mesh that it is used with, and are checked there.
+ * roundel_guidance_option_info lists its options. A new guidance asks for crosses that follow the
+ * boundary, and for nothing else; where a function takes a guidance, NULL stands for that. Numbers
+ * of faces, edges and vertices are those of the mesh that it is used with, and are checked there.
  */
 typedef struct roundel_guidance roundel_guidance;
 
@@ -418,9 +418,10 @@ typedef struct roundel_problem roundel_problem;
 
 /**
  * How to make quads: their size, what they follow, how field and map are solved, untangling and
- * smoothing. A new one is what the program `roundel quad` does without flags: 1000 quads along the
- * boundary and the curvature, the field's integers decided adaptively and the map's by lattice
- * decoding. Sizes and guidance are checked when quads are made.
+ * smoothing. roundel_quad_option_info lists what is set by name. New quad options are those of the
+ * program `roundel quad` without flags: 1000 quads along the boundary and the curvature, the
+ * field's integers decided adaptively and the map's by lattice decoding. Guidance is checked when
+ * quads are made. Where vary_curvature is 1, curvature may count for less than the guidance has it.
  */
 typedef struct roundel_quad_options roundel_quad_options;
 
@@ -476,11 +477,12 @@ typedef struct roundel_option {
      */
     const char* name;
     /**
-     * Its default value.
+     * Its default value; "unset" where it has none.
      */
     const char* default_value;
     /**
-     * The values allowed: an interval, or words with a bar between them.
+     * The values allowed: an interval, whose end does not belong to it where the bracket is round,
+     * or words or numbers with a bar between them.
      */
     const char* range;
     /**
@@ -1029,14 +1031,35 @@ roundel_status roundel_preset_info(size_t index, struct roundel_preset* preset);
 roundel_status roundel_options_set_preset(struct roundel_options* options, const char* name);
 
 /**
- * How many options there are.
+ * Gives the number of options of a solve.
  */
 size_t roundel_option_count(void);
 
 /**
- * Describes option number `index`, from 0 to below roundel_option_count.
+ * Describes one of the options of a solve: number `index`, from 0 to below roundel_option_count.
  */
 roundel_status roundel_option_info(size_t index, struct roundel_option* option);
+
+/**
+ * Gives the number of options of a guidance.
+ */
+size_t roundel_guidance_option_count(void);
+
+/**
+ * Describes one of the options of a guidance: number `index`, from 0 to below
+ * roundel_guidance_option_count.
+ */
+roundel_status roundel_guidance_option_info(size_t index, struct roundel_option* option);
+
+/**
+ * Gives the number of quad options.
+ */
+size_t roundel_quad_option_count(void);
+
+/**
+ * Describes one of the quad options: number `index`, from 0 to below roundel_quad_option_count.
+ */
+roundel_status roundel_quad_option_info(size_t index, struct roundel_option* option);
 
 /**
  * Makes a token that is not set.
@@ -1365,12 +1388,24 @@ roundel_status roundel_guidance_new_for_quads(struct roundel_guidance** guidance
 roundel_status roundel_guidance_free(struct roundel_guidance* guidance);
 
 /**
- * Sets N, the number of arms in a face, evenly around: 4 for crosses (the default), and 1, 2 or 6
- * for fields alone. A map needs crosses.
- *
- * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for another number.
+ * Sets an option of a guidance, which roundel_guidance_option_info lists, to a whole number; one
+ * that takes a real number takes this too.
  */
-roundel_status roundel_guidance_set_symmetry(struct roundel_guidance* guidance, int32_t arms);
+roundel_status roundel_guidance_set_int(struct roundel_guidance* guidance, const char* name,
+                                        int64_t value);
+
+/**
+ * Sets an option of a guidance, which roundel_guidance_option_info lists, to a real number.
+ */
+roundel_status roundel_guidance_set_real(struct roundel_guidance* guidance, const char* name,
+                                         double value);
+
+/**
+ * Sets an option of a guidance, which roundel_guidance_option_info lists, to a text: one of its
+ * words, or "unset" where it may be without a value.
+ */
+roundel_status roundel_guidance_set_text(struct roundel_guidance* guidance, const char* name,
+                                         const char* value);
 
 /**
  * Sets the directions that `count` faces have: `angles` of one arm, in radians, counter-clockwise
@@ -1392,34 +1427,15 @@ roundel_status roundel_guidance_set_guides(struct roundel_guidance* guidance, si
  * Prescribes all irregular vertices: `count` vertices of the interior, each once, and their
  * indices in `steps` of 1/N; all others become regular. On closed meshes the indices must sum to
  * the Euler characteristic, which shows when the field is made. roundel_guidance_clear_indices
- * takes it back.
+ * undoes this.
  */
 roundel_status roundel_guidance_set_indices(struct roundel_guidance* guidance, size_t count,
                                             const int32_t* vertices, const int32_t* steps);
 
 /**
- * Leaves indices to the energy, as at first.
+ * Leaves indices to the energy again.
  */
 roundel_status roundel_guidance_clear_indices(struct roundel_guidance* guidance);
-
-/**
- * Sets how curvature counts. `fraction` of the faces, 0 to 1, those whose direction of least
- * absolute curvature is most reliable, have that direction; all others are pulled towards theirs
- * with weight `weight` * area * (|k1| - |k2|)^2. Both are 0 at first.
- *
- * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for a fraction outside of 0 to 1 and for a weight that
- * is negative or not finite.
- */
-roundel_status roundel_guidance_set_curvature(struct roundel_guidance* guidance, double fraction,
-                                              double weight);
-
-/**
- * Makes edges features at which the normals of the two faces differ by `angle` radians or more; 0
- * makes none.
- *
- * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for an angle outside of 0 to pi.
- */
-roundel_status roundel_guidance_set_feature_angle(struct roundel_guidance* guidance, double angle);
 
 /**
  * Makes `count` edges features, by number; they take the place of those that were set before.
@@ -1435,29 +1451,12 @@ roundel_status roundel_guidance_set_feature_lines(struct roundel_guidance* guida
                                                   const int32_t* vertices);
 
 /**
- * Sets whether edges of the boundary are features: 1, as at first, or 0.
- *
- * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for another number.
- */
-roundel_status roundel_guidance_set_align_boundary(struct roundel_guidance* guidance,
-                                                   int32_t align);
-
-/**
- * Sets the length, in units of the mesh, of details that attract no irregular vertices; their
- * curvature is smoothed away before indices are decided. 0 is none. As long as it is not set, a
- * field sees all details, and quads those as long as a quarter of their edges.
- *
- * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for a length that is negative or not finite.
- */
-roundel_status roundel_guidance_set_detail(struct roundel_guidance* guidance, double length);
-
-/**
- * Adds what a text file asks for, one wish a line: "direction FACE X Y Z [WEIGHT]" (one that the
- * face has, or with a weight should have), "edge VERTEX VERTEX" (a feature), "index VERTEX STEPS".
- * What follows a # is a comment.
+ * Reads guidance from a text file, one request a line, and adds it: "direction FACE X Y Z" for a
+ * direction that the face has, the same with a weight for one that it should have, "edge VERTEX
+ * VERTEX" for a feature, "index VERTEX STEPS" for an irregular vertex. A comment begins with #.
  *
  * Fails with ROUNDEL_ERROR_IO, and with ROUNDEL_ERROR_PARSE and the line for what is none of these
- * or not on the mesh; nothing is added then.
+ * or not on the mesh. After a failure the guidance is what it was.
  */
 roundel_status roundel_guidance_read(struct roundel_guidance* guidance,
                                      const struct roundel_mesh* mesh, const char* file);
@@ -1825,19 +1824,28 @@ roundel_status roundel_quad_options_new(struct roundel_quad_options** options);
 roundel_status roundel_quad_options_free(struct roundel_quad_options* options);
 
 /**
- * Aims at a number of quads.
+ * Sets a quad option, which roundel_quad_option_info lists, to a whole number; one that takes a
+ * real number takes this too.
  */
-roundel_status roundel_quad_options_set_quads(struct roundel_quad_options* options, size_t quads);
+roundel_status roundel_quad_options_set_int(struct roundel_quad_options* options, const char* name,
+                                            int64_t value);
 
 /**
- * Aims at edges of one length instead, in units of the mesh.
+ * Sets a quad option, which roundel_quad_option_info lists, to a real number.
  */
-roundel_status roundel_quad_options_set_edge_length(struct roundel_quad_options* options,
-                                                    double edge_length);
+roundel_status roundel_quad_options_set_real(struct roundel_quad_options* options, const char* name,
+                                             double value);
 
 /**
- * Aims at edges of two lengths a face instead: along the arm that the field stores there, and
- * across it. `length` is twice the number of faces.
+ * Sets a quad option, which roundel_quad_option_info lists, to a text: one of its words, or "unset"
+ * where it may be without a value.
+ */
+roundel_status roundel_quad_options_set_text(struct roundel_quad_options* options, const char* name,
+                                             const char* value);
+
+/**
+ * Sets two lengths of edges a face, instead of a number of quads: along the arm that the field
+ * stores there, and across it. `length` is twice the number of faces.
  */
 roundel_status roundel_quad_options_set_edge_lengths(struct roundel_quad_options* options,
                                                      const double* edge_lengths, size_t length);
@@ -1850,15 +1858,6 @@ roundel_status roundel_quad_options_set_guidance(struct roundel_quad_options* op
                                                  const struct roundel_guidance* guidance);
 
 /**
- * Sets whether curvature may count for less than the guidance has it, where the map is less
- * distorted then: 1, as at first, or 0. On meshes that are not large a few fields are tried.
- *
- * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for another number.
- */
-roundel_status roundel_quad_options_set_vary_curvature(struct roundel_quad_options* options,
-                                                       int32_t vary);
-
-/**
  * Sets how the field is solved for, by a copy of `solve`; NULL stands for adaptive rounding.
  */
 roundel_status roundel_quad_options_set_field_options(struct roundel_quad_options* options,
@@ -1869,23 +1868,6 @@ roundel_status roundel_quad_options_set_field_options(struct roundel_quad_option
  */
 roundel_status roundel_quad_options_set_map_options(struct roundel_quad_options* options,
                                                     const struct roundel_options* solve);
-
-/**
- * Sets whether a map is untangled whose folds extraction cannot cope with: 1, as at first, or 0.
- *
- * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for another number.
- */
-roundel_status roundel_quad_options_set_untangle(struct roundel_quad_options* options,
-                                                 int32_t untangle);
-
-/**
- * Sets whether quads are smoothed: 1, as at first, or 0, which leaves vertices where the map has
- * them.
- *
- * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for another number.
- */
-roundel_status roundel_quad_options_set_smooth(struct roundel_quad_options* options,
-                                               int32_t smooth);
 
 /**
  * Makes quads of a mesh: field, map, extraction and smoothing in one call. `options` may be NULL
