@@ -1,5 +1,7 @@
 """Fields, maps and quads, from arrays and from the meshes of other packages."""
 
+import inspect
+
 import numpy as np
 import pytest
 
@@ -44,7 +46,7 @@ def test_details_attract_no_irregular_vertices(cube):
     seen, unseen = roundel.field(rough), roundel.field(rough, detail=length)
     assert len(unseen.irregular) <= len(seen.irregular)
     assert not np.array_equal(unseen.irregular, seen.irregular)
-    with pytest.raises(roundel.InvalidArgumentError):
+    with pytest.raises(roundel.OptionRangeError):
         roundel.field(rough, detail=-1.0)
 
 
@@ -84,8 +86,17 @@ def test_quads_have_the_requested_number_and_are_closed(cube):
 def test_edges_of_half_the_length_make_four_times_the_quads(cube):
     coarse, fine = (len(roundel.quad(cube, edge_length=length)) for length in (0.4, 0.2))
     assert 3 < fine / coarse < 5
-    with pytest.raises(roundel.InvalidArgumentError):
+    with pytest.raises(roundel.OptionRangeError):
         roundel.quad(cube, edge_length=0.0)
+
+
+def test_every_option_is_in_the_signature_and_the_help_of_what_takes_it():
+    tables = {**roundel.quad_options(), **roundel.guidance_options(), **roundel.options()}
+    told = inspect.signature(roundel.quad).parameters
+    for name, option in tables.items():
+        assert name in told and f"{name}: {option.text}" in roundel.quad.__doc__
+    with pytest.raises(roundel.OptionRangeError):
+        roundel.field(roundel.Mesh.shape("disk", 100), symmetry=3)
 
 
 def test_defaults_are_those_of_the_library(cube):

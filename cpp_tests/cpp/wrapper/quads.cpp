@@ -102,7 +102,7 @@ void meshes_become_quads_of_their_topology() {
 
     roundel::Status status;
     CHECK(!roundel::quadrangulate(mesh, roundel::QuadOptions().set_quads(0), &status));
-    CHECK(status.code == ROUNDEL_ERROR_INVALID_ARGUMENT);
+    CHECK(status.code == ROUNDEL_ERROR_OPTION_RANGE);
     std::vector<double> short_of(6);
     CHECK(!roundel::quads(mesh, {short_of.data(), short_of.size()}, &status));
     CHECK(status.code == ROUNDEL_ERROR_LENGTH_MISMATCH);
