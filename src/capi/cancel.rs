@@ -3,7 +3,7 @@
 use super::guard::{self, Guarded, boundary, object};
 use super::output::Out;
 use super::status::roundel_status;
-use crate::CancelToken;
+use crate::monitor::CancelToken;
 
 /// A flag by which any thread may cancel a solve. Unlike other objects it may be set while other
 /// threads use it; only free it when nobody does.

@@ -5,7 +5,7 @@ use super::input::{Index, indices, slice};
 use super::matrix::{Compressed, add_rows};
 use super::problem::roundel_problem;
 use super::status::roundel_status;
-use crate::Problem;
+use crate::problem::Problem;
 
 /// Adds the constraint sum_k coefficients[k] x[indices[k]] = rhs. Constraints are numbered from 0
 /// in the order given, and errors name them by that number. Duplicate indices are summed.

@@ -5,7 +5,7 @@ use super::input::slice_mut;
 use super::mesh::roundel_mesh;
 use super::output::Out;
 use super::status::roundel_status;
-use crate::Error;
+use crate::error::Error;
 use crate::field::curvature_constraints;
 use crate::mesh::TriangleMesh;
 

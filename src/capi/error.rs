@@ -7,7 +7,7 @@ use super::guard::boundary;
 use super::input::slice_mut;
 use super::output::copy_truncated;
 use super::status::roundel_status;
-use crate::Error;
+use crate::error::Error;
 
 fn number(n: Option<usize>) -> i64 {
     n.and_then(|n| i64::try_from(n).ok()).unwrap_or(-1)

@@ -7,8 +7,9 @@ use super::cancel::roundel_cancel_token;
 use super::failure::{Failure, Outcome};
 use super::guard;
 use super::input::{aligned, slice};
+use crate::error::Error;
+use crate::monitor::{Event, Flow, Monitor};
 use crate::monitor::{EventKind, Phase};
-use crate::{Error, Event, Flow, Monitor};
 
 /// What an event tells.
 #[repr(i32)]

@@ -3,7 +3,7 @@
 use std::cell::RefCell;
 
 use super::status::roundel_status::{self, *};
-use crate::Error;
+use crate::error::Error;
 
 /// Why a call failed: what the library says, or what only the C interface can get wrong.
 #[derive(Debug)]

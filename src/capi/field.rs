@@ -5,10 +5,10 @@ use super::guard::{self, Guarded, object};
 use super::output::{Out, copy_numbers};
 use super::solution::roundel_solution;
 use super::status::roundel_status;
-use crate::Solution;
 use crate::field::OrientationField;
 use crate::mesh::TriangleMesh;
 use crate::mesh::features::FeatureGraph;
+use crate::solve::Solution;
 
 /// All that can be asked of a field, so that the mesh need not live as long.
 pub(super) struct Found {

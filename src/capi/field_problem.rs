@@ -10,10 +10,12 @@ use super::output::Out;
 use super::problem::roundel_problem;
 use super::solution::roundel_solution;
 use super::status::roundel_status;
+use crate::error::Result;
 use crate::field::{FieldProblem, Guidance, smoothest_field};
 use crate::mesh::TriangleMesh;
 use crate::mesh::features::FeatureGraph;
-use crate::{Options, Result, Solution};
+use crate::search::Options;
+use crate::solve::Solution;
 
 /// The problem of the field that follows a guidance, and the features.
 fn stated(mesh: &TriangleMesh, guidance: &Guidance) -> Result<(FieldProblem, FeatureGraph)> {

@@ -8,9 +8,10 @@ use super::options::roundel_options;
 use super::output::Out;
 use super::problem::roundel_problem;
 use super::status::roundel_status;
+use crate::problem::Problem;
 use crate::problem::mps::{self, MpsProblem};
+use crate::search::Options;
 use crate::solve::replay;
-use crate::{Options, Problem};
 
 /// Makes a problem from a file in free-format MPS, gzipped or not. Variables and constraints are
 /// numbered in the order of the file; their names are not kept.

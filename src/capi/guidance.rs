@@ -9,7 +9,7 @@ use super::input::{indices, path, slice, text};
 use super::mesh::roundel_mesh;
 use super::output::{Out, copy_numbers};
 use super::status::roundel_status;
-use crate::Error;
+use crate::error::Error;
 use crate::field::{Constraint, Guidance, Guide, PrescribedIndex};
 use crate::mesh::TriangleMesh;
 use crate::quad::QuadOptions;

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::Result;
+use crate::error::Result;
 use crate::mesh::TriangleMesh;
 
 #[cfg(feature = "mesh-io")]

@@ -5,7 +5,7 @@ use super::guard;
 use super::input::{Index, indices, slice};
 use super::problem::roundel_problem;
 use super::status::roundel_status;
-use crate::Problem;
+use crate::problem::Problem;
 
 /// # Safety
 /// The arrays are as the caller of the entry says.

@@ -4,7 +4,7 @@ use std::ffi::{CStr, c_char};
 use std::path::Path;
 
 use super::failure::{Failure, Outcome};
-use crate::Error;
+use crate::error::Error;
 
 /// That a pointer is neither NULL nor misaligned.
 pub(super) fn aligned<T>(what: &'static str, pointer: *const T) -> Outcome {

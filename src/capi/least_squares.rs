@@ -6,8 +6,8 @@ use super::matrix::{Compressed, add_rows};
 use super::output::optional;
 use super::problem::roundel_problem;
 use super::status::roundel_status;
-use crate::Problem;
 use crate::problem::MatrixRef;
+use crate::problem::Problem;
 
 /// Adds weight * (sum_k coefficients[k] x[indices[k]] - rhs)^2 to the objective, without a factor
 /// of 1/2. The row itself is kept, and its number goes to `row`, which may be NULL.

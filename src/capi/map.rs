@@ -12,11 +12,13 @@ use super::output::Out;
 use super::problem::roundel_problem;
 use super::solution::roundel_solution;
 use super::status::roundel_status;
+use crate::error::{Error, Result};
 use crate::map::{SeamlessMap, SeamlessOptions, SeamlessProblem, Sizing};
 use crate::mesh::TriangleMesh;
 use crate::quad::FoldFreeMap;
+use crate::search::{Options, SolveStatus};
+use crate::solve::{Solution, Solver};
 use crate::untangle::UntangleOptions;
-use crate::{Error, Options, Result, Solution, SolveStatus, Solver};
 
 /// All that a solve at another size needs again, and what the last one found.
 pub(super) struct Mapped {

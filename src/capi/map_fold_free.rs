@@ -8,9 +8,10 @@ use super::map_results::give;
 use super::options::roundel_options;
 use super::output::{Out, copy_numbers};
 use super::status::roundel_status;
+use crate::error::Error;
 use crate::quad::solve_fold_free;
+use crate::search::{Options, SolveStatus};
 use crate::untangle::{UntangleOptions, untangle};
-use crate::{Error, Options, SolveStatus};
 
 /// Solves for a map without folds, as the program `roundel parametrize` does: integers that collapse
 /// cones are decided anew, faces that are turned over are untangled, vertices that the map goes around

@@ -9,7 +9,7 @@ use super::map::{Found, Mapped, roundel_map};
 use super::output::{Out, copy_numbers};
 use super::solution::roundel_solution;
 use super::status::roundel_status;
-use crate::Error;
+use crate::error::Error;
 use crate::map::SeamlessMap;
 
 /// An entry that gives one number of a map.

@@ -6,8 +6,9 @@ use super::input::{Index, indices, slice};
 use super::output::optional;
 use super::problem::roundel_problem;
 use super::status::roundel_status;
+use crate::error::Error;
 use crate::problem::MatrixRef;
-use crate::{Error, Layout, Problem};
+use crate::problem::{Layout, Problem};
 
 /// What errors call the entries of a matrix.
 const INDICES: &str = "matrix indices";

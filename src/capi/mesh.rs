@@ -7,8 +7,8 @@ use super::guard::{self, Guarded, boundary, object};
 use super::input::{Index, indices, slice, text};
 use super::output::{Out, copy_numbers};
 use super::status::roundel_status;
+use crate::error::{Error, Result};
 use crate::mesh::{TriangleMesh, jitter, shape};
-use crate::{Error, Result};
 
 /// An oriented triangle mesh, with or without boundary, of any genus and any number of components.
 /// It does not change once made.

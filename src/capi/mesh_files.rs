@@ -8,8 +8,8 @@ use super::input::path;
 use super::mesh::roundel_mesh;
 use super::output::Out;
 use super::status::roundel_status;
+use crate::error::{Error, Result};
 use crate::mesh::TriangleMesh;
-use crate::{Error, Result};
 
 #[cfg(feature = "mesh-io")]
 fn read(file: &Path) -> Result<TriangleMesh> {

@@ -6,7 +6,8 @@ use super::input::{Index, index, indices, slice};
 use super::matrix::Compressed;
 use super::problem::roundel_problem;
 use super::status::roundel_status;
-use crate::{Error, Problem, Triangle};
+use crate::error::Error;
+use crate::problem::{Problem, Triangle};
 
 /// Which entries of a symmetric matrix are given.
 #[repr(i32)]

@@ -6,7 +6,7 @@ use std::sync::OnceLock;
 use super::guard::boundary;
 use super::output::Out;
 use super::status::roundel_status;
-use crate::Error;
+use crate::error::Error;
 use crate::field::GUIDANCE_OPTIONS;
 use crate::quad::QUAD_OPTIONS;
 use crate::search::{OPTIONS, OptionInfo, OptionKind};

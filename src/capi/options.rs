@@ -7,8 +7,9 @@ use super::guard::{self, Guarded, boundary, object};
 use super::input::text;
 use super::output::{Out, copy_whole};
 use super::status::roundel_status;
+use crate::error::Error;
 use crate::search::OptionValue;
-use crate::{Error, Options};
+use crate::search::Options;
 
 /// How to solve. roundel_option_info lists the options that there are.
 ///

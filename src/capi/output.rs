@@ -5,7 +5,7 @@ use std::ptr;
 
 use super::failure::{Failure, Outcome};
 use super::input::{aligned, slice_mut};
-use crate::Error;
+use crate::error::Error;
 
 /// A place for one result, which must be there.
 #[derive(Clone, Copy)]

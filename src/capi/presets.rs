@@ -8,7 +8,7 @@ use super::input::text;
 use super::options::roundel_options;
 use super::output::Out;
 use super::status::roundel_status;
-use crate::Error;
+use crate::error::Error;
 use crate::search::PRESETS;
 
 /// What there is to know about one preset. The texts live as long as the library is loaded.

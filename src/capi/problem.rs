@@ -4,7 +4,7 @@ use super::failure::Failure;
 use super::guard::{self, Guarded, boundary, object};
 use super::output::Out;
 use super::status::roundel_status;
-use crate::Problem;
+use crate::problem::Problem;
 
 /// A mixed-integer quadratic problem under construction: minimise
 /// 1/2 x'Qx + q'x + c + sum_k w_k (a_k . x - r_k)^2 subject to C x = d, x_i integer for i in I.

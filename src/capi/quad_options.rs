@@ -9,7 +9,7 @@ use super::input::{slice, text};
 use super::options::roundel_options;
 use super::output::Out;
 use super::status::roundel_status;
-use crate::Error;
+use crate::error::Error;
 use crate::map::Sizing;
 use crate::quad::QuadOptions;
 use crate::search::OptionValue;

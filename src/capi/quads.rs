@@ -9,12 +9,13 @@ use super::mesh::roundel_mesh;
 use super::output::Out;
 use super::quad_options::roundel_quad_options;
 use super::status::roundel_status;
+use crate::error::Error;
 use crate::extract::{IntegerGridMap, QuadMesh, extract};
 use crate::field::Guidance;
 use crate::mesh::TriangleMesh;
+use crate::monitor::Monitor;
 use crate::quad::{QuadOptions, quadrangulate};
 use crate::smooth::{SmoothOptions, smooth};
-use crate::{Error, Monitor};
 
 /// A mesh of quads with shared vertices. Where a map leaves no quads to be made, other polygons are
 /// kept beside them. It does not need the mesh and the map that it is from any more.

@@ -6,7 +6,8 @@ use super::guard::{self, Guarded, object};
 use super::input::slice_mut;
 use super::output::Out;
 use super::status::{roundel_solve_status, roundel_status};
-use crate::{Error, Solution};
+use crate::error::Error;
+use crate::solve::Solution;
 
 /// A solution. Energy and violations are recomputed from the problem's own arrays.
 pub struct roundel_solution(Guarded<Solution>);

@@ -7,7 +7,8 @@ use super::output::Out;
 use super::problem::roundel_problem;
 use super::solution::roundel_solution;
 use super::status::roundel_status;
-use crate::{Options, Problem};
+use crate::problem::Problem;
+use crate::search::Options;
 
 /// Solves a problem. `options` may be NULL for the default options. `monitor` hears of progress and
 /// of every better solution, and may cancel; it may be NULL. On success `solution` is a new handle,

@@ -9,7 +9,10 @@ use super::output::Out;
 use super::problem::roundel_problem;
 use super::solution::roundel_solution;
 use super::status::roundel_status;
-use crate::{Options, Problem, Result, Solver};
+use crate::error::Result;
+use crate::problem::Problem;
+use crate::search::Options;
+use crate::solve::Solver;
 
 /// A problem whose matrices and integers are fixed, for many solves.
 ///

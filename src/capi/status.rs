@@ -2,7 +2,8 @@
 
 use std::ffi::{CStr, c_char};
 
-use crate::{Error, SolveStatus};
+use crate::error::Error;
+use crate::search::SolveStatus;
 
 /// How a call went. The numbers never change; new ones may be added, so treat every number other
 /// than ROUNDEL_OK as a failure.

@@ -4,7 +4,7 @@ use super::guard;
 use super::input::{index, indices, slice};
 use super::problem::roundel_problem;
 use super::status::roundel_status;
-use crate::Problem;
+use crate::problem::Problem;
 
 /// Makes variables integer. Naming one twice is no error.
 #[unsafe(no_mangle)]

@@ -22,9 +22,9 @@ pub use isolines::feature_edges;
 use orientation::orientation;
 pub use singular::Singularity;
 
+use crate::error::{Error, Result};
 use crate::mesh::TriangleMesh;
 use crate::mesh::features::check_edges;
-use crate::{Error, Result};
 use isolines::distance_to_isoline;
 use singular::singularities;
 use transitions::seen;

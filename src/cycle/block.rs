@@ -1,7 +1,7 @@
 //! Which charges to decide together: those around an edge.
 
 use super::space::CycleSpace;
-use crate::Result;
+use crate::error::Result;
 use crate::linalg::Sparse;
 
 /// How a block grows from the cycles through its edge.

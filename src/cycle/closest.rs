@@ -4,7 +4,7 @@
 //! without reduction before it: in short cycles the basis is nearly reduced, and a reduction would
 //! cost several times what it saves.
 
-use crate::Result;
+use crate::error::Result;
 use crate::lattice::{Basis, Gram, Limits, Target, enumerate};
 
 /// Integers t for which `t'Gt + 2 h't` is least, if that is less than zero by more than rounding

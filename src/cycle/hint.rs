@@ -7,8 +7,8 @@
 use super::cycles::Cycles;
 use super::detect::AngleSystem;
 use super::graph::NONE;
-use crate::Model;
 use crate::eliminate::ReducedModel;
+use crate::problem::Model;
 
 /// What a caller's unknown became.
 #[derive(Clone, Copy)]

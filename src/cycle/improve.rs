@@ -11,7 +11,7 @@ use super::block::{Blocks, Growth};
 use super::closest::decide;
 use super::laplacian::LONG;
 use super::space::CycleSpace;
-use crate::Result;
+use crate::error::Result;
 use crate::linalg::PathSolve;
 use crate::monitor::{Monitor, Phase};
 

@@ -2,7 +2,7 @@
 
 use super::cycles::Cycles;
 use super::graph::Graph;
-use crate::Result;
+use crate::error::Result;
 use crate::linalg::{Ldl, Sparse, minimum_degree};
 
 /// Cycles of more edges are eliminated last, so that nearest plane decides them when all others

@@ -16,7 +16,7 @@ use super::cycles::Cycles;
 use super::detect::AngleSystem;
 use super::graph::NONE;
 use super::laplacian::{factor, incidence, laplacian};
-use crate::Result;
+use crate::error::Result;
 use crate::linalg::{Ldl, Sparse};
 use crate::round::nearest;
 

@@ -10,8 +10,10 @@ use super::hint::hinted_cycles;
 use super::improve::{Effort, Improvement};
 use super::space::CycleSpace;
 use crate::eliminate::ReducedModel;
+use crate::error::Result;
+use crate::problem::Model;
+use crate::round;
 use crate::search::{Factors, Options, Search};
-use crate::{Model, Result, round};
 
 /// Multiplications of `lattice` for each entry of the factor.
 const QUICK_WORK: usize = 1_000;

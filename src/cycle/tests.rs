@@ -9,9 +9,11 @@ use super::hint::hinted_cycles;
 use super::improve::{Effort, Improvement};
 use super::space::CycleSpace;
 use crate::eliminate::{ReducedModel, eliminate};
+use crate::monitor::Monitor;
+use crate::problem::{Model, Problem};
+use crate::search::{Options, SolveStatus, Strategy};
 use crate::solve::solve;
 use crate::test_random::Random;
-use crate::{Model, Monitor, Options, Problem, SolveStatus, Strategy};
 
 /// Rows `(i, j, has an integer)`; unknown `n` stands for a pinned one.
 struct Sketch {

@@ -5,10 +5,10 @@ use super::row::{TooLarge, add_product};
 use super::tableau::Tableau;
 use super::tolerance::NOISE;
 use super::unknowns::Unknowns;
+use crate::error::{Error, Result};
 use crate::linalg::sparse::reserve;
 use crate::linalg::{Accumulator, Sparse};
 use crate::monitor::Monitor;
-use crate::{Error, Result};
 
 /// T, and the unknowns that are left, in their order.
 pub(super) fn substitute_back(

@@ -6,7 +6,7 @@
 //! unknowns in place of averages, which keeps it sparse.
 
 use super::unknowns::Unknowns;
-use crate::Result;
+use crate::error::Result;
 use crate::linalg::Sparse;
 use crate::monitor::Monitor;
 

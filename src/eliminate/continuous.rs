@@ -1,7 +1,7 @@
 //! Rows with a continuous unknown are solved for one.
 
 use super::tableau::Tableau;
-use crate::Result;
+use crate::error::Result;
 
 /// Solves row `r`, which has a continuous unknown, for the one that fewest other rows have, among
 /// those whose coefficient is not small (threshold pivoting; ties to the lowest unknown).

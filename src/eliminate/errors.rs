@@ -1,7 +1,8 @@
 //! The errors of the elimination. Each quotes the constraint at fault as the caller gave it.
 
+use crate::error::Error;
+use crate::problem::Model;
 use crate::problem::row_text;
-use crate::{Error, Model};
 
 pub(super) fn overflow(model: &Model, r: usize) -> Error {
     Error::Overflow {

@@ -1,6 +1,6 @@
 //! Reduced unknowns held at a value: their columns leave the reduced model.
 
-use crate::Result;
+use crate::error::Result;
 use crate::linalg::{NO_PLACE, Sparse, places};
 
 /// The reduced unknowns that are not held, increasing.

@@ -18,7 +18,7 @@ use super::steps::Step;
 use super::substitution::Substitution;
 use super::tableau::Tableau;
 use super::unknowns::Unknowns;
-use crate::Result;
+use crate::error::Result;
 
 /// Solves the integral row `r`.
 pub(super) fn eliminate(tableau: &mut Tableau, r: usize) -> Result<()> {

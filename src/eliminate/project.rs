@@ -7,10 +7,11 @@
 //! ```
 
 use super::Expansion;
+use crate::error::{Error, Result};
 use crate::linalg::sparse::reserve;
 use crate::linalg::{Accumulator, CompensatedSum, Sparse};
 use crate::monitor::Monitor;
-use crate::{Error, Model, Result};
+use crate::problem::Model;
 
 /// The lower triangle of `T'QT` with every diagonal entry stored, by rows (`gustavson1978`): first
 /// `W = QT`, then row `a` of the result as the sum of the rows of `W` that column `a` of `T` names.

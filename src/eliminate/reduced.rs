@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use super::{Expansion, project};
-use crate::Model;
 use crate::linalg::{CANCELLED, CompensatedSum, Sparse};
+use crate::problem::Model;
 
 /// `minimise 1/2 y'Hy + g'y + c`, some entries of `y` integer, nothing else.
 ///

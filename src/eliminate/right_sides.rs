@@ -10,9 +10,10 @@ use super::row::{TooLarge, add_product};
 use super::steps::Step;
 use super::tolerance::{CONSISTENT, LARGEST, NOISE, near_integer};
 use super::unknowns::Unknowns;
+use crate::error::Result;
 use crate::linalg::CompensatedSum;
 use crate::monitor::Monitor;
-use crate::{Model, Result};
+use crate::problem::Model;
 
 /// A number and the largest number that took part in making it: what noise is measured against.
 #[derive(Debug, Clone, Copy, Default)]

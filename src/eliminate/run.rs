@@ -8,9 +8,10 @@ use super::tableau::Tableau;
 use super::{
     Expansion, ReducedModel, back, continuous, hold, integral, project, right_sides, subtree, sweep,
 };
+use crate::error::Result;
 use crate::linalg::{Ordering, Sparse, principal_submatrix};
 use crate::monitor::{Monitor, Phase};
-use crate::{Model, Result};
+use crate::problem::Model;
 
 /// Removes the equality constraints and the pinned unknowns of `model`, in the order that keeps
 /// the rest sparse.

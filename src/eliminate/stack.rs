@@ -2,7 +2,7 @@
 
 use super::row::Row;
 use super::substitution::Substitution;
-use crate::Error;
+use crate::error::Error;
 
 /// A list of substitutions; later ones never mention an unknown that an earlier one replaced.
 #[derive(Debug, Default)]

@@ -26,7 +26,7 @@ use super::substitution::Substitution;
 use super::tableau::Tableau;
 use super::tolerance::LONG;
 use super::unknowns::Unknowns;
-use crate::Result;
+use crate::error::Result;
 use crate::monitor::Monitor;
 
 /// A level of sums of sums costs this factor in the length that is tolerated.

@@ -14,7 +14,7 @@ use super::steps::Step;
 use super::tableau::Tableau;
 use super::tolerance::NOISE;
 use super::unknowns::Unknowns;
-use crate::Result;
+use crate::error::Result;
 use crate::linalg::Accumulator;
 use crate::monitor::Monitor;
 

@@ -15,8 +15,9 @@ use super::steps::{Definitions, Step};
 use super::substitution::Substitution;
 use super::tolerance::{LARGEST, LARGEST_PIVOT, LONG, PIVOT};
 use super::unknowns::Unknowns;
+use crate::error::{Error, Result};
 use crate::linalg::Ordering;
-use crate::{Error, Model, Result};
+use crate::problem::Model;
 
 /// Everything that the elimination works on.
 pub(super) struct Tableau<'a> {

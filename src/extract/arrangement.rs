@@ -5,7 +5,7 @@ use super::cones::Ray;
 use super::crossings::Crossings;
 use super::graph::{Graph, Place};
 use super::refined::{NONE, Refined};
-use crate::Result;
+use crate::error::Result;
 
 /// Set in the end of a chord that is not a crossing of an edge but a ray's start.
 pub(super) const RAY: u32 = 1 << 31;

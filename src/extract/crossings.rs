@@ -8,8 +8,8 @@ use std::cmp::Ordering;
 
 use super::grid_map::ONE;
 use super::refined::{NONE, Refined, next};
+use crate::error::{Error, Result};
 use crate::mesh::turned;
-use crate::{Error, Result};
 
 /// An integer line through an edge, in the coordinates of one of its faces.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

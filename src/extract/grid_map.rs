@@ -11,9 +11,9 @@
 //! vertex ever lies on an integer line, and lines need no rule for passing through a vertex.
 
 use super::place::doubled_area;
+use crate::error::{Error, Result};
 use crate::map::SeamlessMap;
 use crate::mesh::{TriangleMesh, angle_at, turned};
-use crate::{Error, Result};
 
 /// The largest absolute value of a coordinate: products of differences then fit 128 bits.
 pub const RANGE: f64 = (1u64 << 28) as f64;

@@ -34,9 +34,10 @@ pub use figures::QuadFigures;
 pub use grid_map::{IntegerGridMap, RANGE, SEAM_TOLERANCE};
 pub use quad_mesh::{Origin, QuadMesh};
 
+use crate::error::Result;
 use crate::mesh::TriangleMesh;
+use crate::monitor::Monitor;
 use crate::monitor::Phase;
-use crate::{Monitor, Result};
 use arrangement::Arrangement;
 use refined::Refined;
 

@@ -5,7 +5,7 @@ use std::io::{self, BufWriter, Write};
 use std::path::Path;
 
 use super::QuadMesh;
-use crate::Result;
+use crate::error::Result;
 use crate::mesh::MeshError;
 
 impl QuadMesh {

@@ -2,9 +2,9 @@
 //! reliable and as soft guides for all faces.
 
 use super::{Constraint, Guide};
+use crate::error::{Error, Result};
 use crate::mesh::TriangleMesh;
 use crate::mesh::curvature::{Curvature, SMOOTHING_ROUNDS, smoothed_curvature};
-use crate::{Error, Result};
 
 /// Constrains `fraction` of the faces (rounded to the nearest count), those with the largest
 /// difference between the absolute principal curvatures, to the direction of least absolute

@@ -7,10 +7,10 @@
 //! curvature flows along each edge, and the transport over the edge turns by as much more.
 
 use super::FieldOptions;
+use crate::error::{Error, Result};
 use crate::linalg::{Cholesky, Sparse};
 use crate::mesh::vector::{cotangent, norm, sub};
 use crate::mesh::{Edge, TriangleMesh};
-use crate::{Error, Result};
 
 /// Steps of diffusion: a single one leaves a peak where all curvature was at one vertex.
 const STEPS: usize = 2;
@@ -138,7 +138,8 @@ mod tests {
     use super::*;
     use crate::field::{Constraint, solve_field};
     use crate::mesh::shape;
-    use crate::{Monitor, Options};
+    use crate::monitor::Monitor;
+    use crate::search::Options;
 
     fn of(detail: f64) -> FieldOptions {
         FieldOptions {

@@ -5,9 +5,9 @@
 //! the matched arms, at most an eighth of a turn for crosses (`ray2008`, section 3).
 
 use super::OrientationField;
+use crate::error::{Error, Result};
 use crate::mesh::TriangleMesh;
 use crate::mesh::vector::{Vec3, add, dot, scale};
-use crate::{Error, Result};
 
 impl OrientationField {
     /// The field of crosses with this direction in every face, matched by the nearest arms over

@@ -10,9 +10,9 @@
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
 use super::Constraint;
+use crate::error::{Error, Result};
 use crate::mesh::TriangleMesh;
 use crate::mesh::features::FeatureGraph;
-use crate::{Error, Result};
 
 /// The directions of all faces at feature edges, in increasing order of faces.
 ///

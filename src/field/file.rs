@@ -13,9 +13,9 @@ use std::path::Path;
 
 use super::OrientationField;
 use super::directions::angle;
+use crate::error::{Error, Result};
 use crate::mesh::vector::Vec3;
 use crate::mesh::{MeshError, TriangleMesh};
-use crate::{Error, Result};
 
 impl OrientationField {
     /// Reads the field of a mesh from a text file.
@@ -182,7 +182,8 @@ mod tests {
     use super::*;
     use crate::field::{FieldOptions, FieldProblem, curvature_constraints};
     use crate::mesh::shape;
-    use crate::{Options, Strategy, solve};
+    use crate::search::{Options, Strategy};
+    use crate::solve::solve;
 
     /// A field by direct rounding, with one edge matched by other than the nearest arms.
     fn rounded(name: &str) -> (TriangleMesh, OrientationField) {

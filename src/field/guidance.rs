@@ -8,11 +8,11 @@ use super::feature_alignment::edge_constraints;
 use super::{
     Constraint, FieldOptions, Guide, PrescribedIndex, curvature_guidance, feature_constraints,
 };
+use crate::error::{Error, Result};
 use crate::mesh::TriangleMesh;
 use crate::mesh::curvature::{SMOOTHING_ROUNDS, smoothed_curvature};
 use crate::mesh::features::FeatureGraph;
 use crate::search::table::options;
-use crate::{Error, Result};
 
 options! {
     /// What a field follows, and which edges become isolines of its map. The default is crosses that

@@ -15,9 +15,9 @@ use std::path::Path;
 
 use super::directions::angle;
 use super::{Constraint, Guidance, Guide, PrescribedIndex};
+use crate::error::{Error, Result};
 use crate::mesh::features::edge_between;
 use crate::mesh::{MeshError, TriangleMesh};
-use crate::{Error, Result};
 
 impl Guidance {
     /// Adds what a file asks for.

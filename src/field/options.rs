@@ -2,8 +2,8 @@
 
 use std::f64::consts::TAU;
 
+use crate::error::{Error, Result};
 use crate::mesh::TriangleMesh;
-use crate::{Error, Result};
 
 /// A face whose direction is given: one arm of its cross, as an angle in radians in the face's
 /// frame (counter-clockwise about the normal from the first edge).

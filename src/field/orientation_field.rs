@@ -3,9 +3,9 @@
 use std::f64::consts::TAU;
 
 use super::Guide;
+use crate::error::{Error, Result};
 use crate::linalg::CompensatedSum;
 use crate::mesh::TriangleMesh;
-use crate::{Error, Result};
 
 /// An N-symmetric direction field: N arms evenly around in every face, a cross for N = 4, and how
 /// they match over edges.

@@ -13,8 +13,8 @@
 use std::f64::consts::TAU;
 
 use super::PrescribedIndex;
+use crate::error::{Error, Result};
 use crate::mesh::TriangleMesh;
-use crate::{Error, Result};
 
 /// The steps of every vertex: those of `given`, and zero.
 ///

@@ -15,8 +15,10 @@ use super::detail::detail;
 use super::prescribed_indices::{ring_sum, steps};
 use super::spanning_forest::spanning_forest;
 use super::{Constraint, FieldOptions, Guide, OrientationField};
+use crate::error::{Error, Result};
 use crate::mesh::TriangleMesh;
-use crate::{Error, Problem, Result, Solution};
+use crate::problem::Problem;
+use crate::solve::Solution;
 
 /// What is known of one interior edge.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -6,8 +6,11 @@
 
 use super::feasible_indices::feasible_indices;
 use super::{Constraint, FieldOptions, FieldProblem, OrientationField, PrescribedIndex};
+use crate::error::{Error, Result};
 use crate::mesh::TriangleMesh;
-use crate::{Error, Monitor, Options, Result, Solution, Solver, WarmStart, solve_with};
+use crate::monitor::Monitor;
+use crate::search::{Options, WarmStart};
+use crate::solve::{Solution, Solver, solve_with};
 
 /// The smoothest field, whether a map can follow it or not, and the solution that it was read from.
 ///

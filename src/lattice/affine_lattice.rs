@@ -7,7 +7,7 @@
 //! nothing gets shorter. So each round recovers the digits that the one before lost.
 
 use super::{Basis, Transform, lll};
-use crate::{Error, Result};
+use crate::error::{Error, Result};
 
 /// At most so many rounds of reduction, or of steps towards a point.
 const ROUNDS: usize = 20;

@@ -16,7 +16,7 @@
 use faer::{Mat, MatRef};
 
 use super::{Gram, Transform};
-use crate::Result;
+use crate::error::Result;
 use crate::linalg::CompensatedSum;
 
 /// Length that is appended to dependent vectors, relative to their own.

@@ -6,7 +6,7 @@
 //! closest-vector problem again, solved by the same reduction and enumeration.
 
 use super::{Basis, Gram, Target, closest};
-use crate::Result;
+use crate::error::Result;
 
 /// Coordinates of a block.
 const SIZE: usize = 30;

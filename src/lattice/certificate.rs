@@ -18,8 +18,8 @@
 //! [`NEARER`](super::NEARER), by which the enumeration's bound is smaller already.
 
 use super::Piece;
-use crate::Result;
 use crate::eliminate::ReducedModel;
+use crate::error::Result;
 use crate::search::{Factors, Search};
 
 /// Random vectors that the factor is tried on.

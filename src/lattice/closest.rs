@@ -1,7 +1,7 @@
 //! The closest lattice point of a small dense lattice: reduce, nearest plane, enumerate.
 
 use super::{Basis, Gram, Limits, Target, enumerate, lll, nearest_plane};
-use crate::Result;
+use crate::error::Result;
 
 /// Places by which a vector may move forward at a time in a deep insertion.
 pub const DEPTH: usize = 20;

@@ -5,7 +5,7 @@
 //! the vector depends on those before it. Rounding leaves about 1e-15 of a pivot that cancels, and
 //! a condition number of 1e8 leaves 1e-8 of one that does not.
 
-use crate::{Error, Result};
+use crate::error::{Error, Result};
 
 /// A pivot at or below this part of its diagonal entry counts as zero.
 pub const RANK_TOLERANCE: f64 = 1e-12;

@@ -5,7 +5,7 @@
 //! transformation.
 
 use super::Basis;
-use crate::Result;
+use crate::error::Result;
 
 /// The Lovasz condition holds where a vector is not shorter than this part of the square of the
 /// one that it would replace.

@@ -4,7 +4,7 @@
 //! apart: the squared distances of the parts add up.
 
 use super::{Basis, DEPTH, Diagonals, Target, lll, nearest_plane, predicted_nodes};
-use crate::Result;
+use crate::error::Result;
 use crate::linalg::DisjointSets;
 
 /// One part: the best point so far, and what is proved about all points.

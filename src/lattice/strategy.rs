@@ -8,10 +8,10 @@ use super::certificate::Certificate;
 use super::prove::{FIRST, GROWTH, radius_for};
 use super::{Diagonals, Limits, Piece, assemble, beam, enumerate, improve_blocks, pieces};
 use crate::eliminate::ReducedModel;
+use crate::error::{Error, Result};
 use crate::monitor::Phase;
 use crate::round;
 use crate::search::{Factors, Options, Search};
-use crate::{Error, Result};
 
 /// A proof is not tried if its predicted nodes exceed the budget by more than this factor.
 const HOPELESS: f64 = 4.0;

@@ -1,7 +1,7 @@
 //! The target of a closest-vector problem, in coordinates of a reduced basis.
 
 use super::Basis;
-use crate::{Error, Result};
+use crate::error::{Error, Result};
 
 /// Coordinates are rounded in floating point, which is exact up to here.
 const LARGEST: f64 = 9_007_199_254_740_992.0;

@@ -3,7 +3,7 @@
 //! Exact: 64-bit entries, promoted to 128 bits when a column could leave them, and a typed error
 //! when one would leave those. A bound on each column's entries makes most checks free.
 
-use crate::{Error, Result};
+use crate::error::{Error, Result};
 
 /// Entries of a column stay below this, so that no step overflows before it is checked.
 const SMALL: f64 = (1u64 << 62) as f64;

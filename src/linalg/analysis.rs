@@ -11,7 +11,7 @@ use faer::sparse::linalg::cholesky::{
 };
 
 use super::Sparse;
-use crate::{Error, Result};
+use crate::error::{Error, Result};
 
 /// The order of elimination and the pattern of the factor, for all matrices of one pattern.
 #[derive(Debug, Clone)]

@@ -25,7 +25,7 @@ use super::Sparse;
 use super::analysis::{Analysis, offsets_u32, pattern};
 use super::ordering::Ordering;
 use super::scaling::equilibrate;
-use crate::{Error, Result};
+use crate::error::{Error, Result};
 
 /// A pivot of the scaled matrix (diagonal in [1/2, 2)) at or below this counts as zero.
 ///

@@ -5,7 +5,7 @@
 //! held unknowns, so that few of them cost few iterations.
 
 use super::{RelaxedFactor, Sparse};
-use crate::Result;
+use crate::error::Result;
 
 /// When conjugate gradients end.
 #[derive(Debug, Clone, Copy, PartialEq)]

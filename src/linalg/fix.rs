@@ -16,7 +16,7 @@
 use super::Ldl;
 use super::cholesky::PIVOT_TOLERANCE;
 use super::ordering::NONE;
-use crate::Result;
+use crate::error::Result;
 
 /// Changes below this, in units of the integers that are watched, are not carried further down.
 /// The sum over 10,000 fixings stays far below the 1e-9 within which deviations tie.

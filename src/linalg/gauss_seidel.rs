@@ -11,7 +11,7 @@ use std::collections::VecDeque;
 
 use super::Sparse;
 use super::static_condensation::{Entry, StaticCondensation};
-use crate::Result;
+use crate::error::Result;
 
 /// Among 1.0, 1.4, 1.6 and 1.8, the factor that left the least error for the least updates.
 const OVERRELAXATION: f64 = 1.6;

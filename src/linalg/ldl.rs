@@ -8,7 +8,7 @@ use super::cholesky::PIVOT_TOLERANCE;
 use super::ordering::{EliminationTree, NONE};
 use super::scaling::{equilibrate, unit_scale};
 use super::{Sparse, sparse::reserve};
-use crate::Result;
+use crate::error::Result;
 
 /// Multiplications between two questions whether to go on: some milliseconds.
 const STEPS_AT_A_TIME: usize = 1_000_000;

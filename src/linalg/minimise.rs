@@ -1,7 +1,7 @@
 //! A minimiser of a convex quadratic, or the direction that shows that there is none.
 
 use super::{Cholesky, Sparse};
-use crate::Result;
+use crate::error::Result;
 
 /// Curvature along a direction (scaled to a largest entry of one, in the scaled unknowns) below
 /// minus this proves that the quadratic is not convex.

@@ -1,7 +1,7 @@
 //! Exact minimisation with some unknowns held, by a factorization of what is left.
 
 use super::{Cholesky, Sparse, minimise_bounded, principal_submatrix};
-use crate::Result;
+use crate::error::Result;
 
 /// Minimises `1/2 x'Ax + g'x` over the unknowns that are not `held`, from `point`; the held ones
 /// keep their values there. As `minimise_bounded`, for an objective known to have a minimum.

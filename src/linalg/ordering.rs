@@ -9,7 +9,7 @@ use faer::sparse::SymbolicSparseColMatRef;
 use faer::sparse::linalg::amd;
 
 use super::Sparse;
-use crate::{Error, Result};
+use crate::error::{Error, Result};
 
 /// No parent: a root.
 pub const NONE: u32 = u32::MAX;

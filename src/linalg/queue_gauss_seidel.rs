@@ -9,7 +9,7 @@
 use std::collections::VecDeque;
 
 use super::Sparse;
-use crate::Result;
+use crate::error::Result;
 
 /// A queue of this length means that Gauss-Seidel does not converge: it counts as out of budget, and
 /// memory stays bounded.

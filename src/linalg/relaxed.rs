@@ -7,7 +7,7 @@
 use super::local_integers::local_integers;
 use super::minimise::{CANCELLED, Lowest, Minimum, minimise};
 use super::{Cholesky, NO_PLACE, Ordering, Sparse, coupling, places};
-use crate::Result;
+use crate::error::Result;
 
 /// A factor of `A` in two steps: local integers, then the rest.
 #[derive(Debug)]

@@ -10,7 +10,7 @@
 //! integers are few.
 
 use super::{Cholesky, EliminationTree, Sparse, minimum_degree, principal_submatrix};
-use crate::Result;
+use crate::error::Result;
 
 /// The factor and its trailing block.
 #[derive(Debug)]

@@ -5,7 +5,7 @@
 //! enough here only in that its constructors sort through 128-bit keys, several times slower
 //! than the counting sort below on mesh-like matrices.
 
-use crate::{Error, Result};
+use crate::error::{Error, Result};
 
 /// A sparse matrix by rows: row `i` has columns `indices[offsets[i]..offsets[i + 1]]`,
 /// increasing, each once.

@@ -7,7 +7,7 @@
 
 use super::Sparse;
 use super::local_integers::local_integers;
-use crate::{Error, Result};
+use crate::error::{Error, Result};
 
 /// A difference this small, relative to its terms, has cancelled and counts as zero.
 const CANCELLED: f64 = 1e-12;

@@ -1,7 +1,7 @@
 //! Parts of a symmetric matrix, which is given by its lower triangle.
 
 use super::Sparse;
-use crate::Result;
+use crate::error::Result;
 
 /// The place of an unknown that is not a member.
 pub const NO_PLACE: u32 = u32::MAX;

@@ -8,7 +8,7 @@ use std::collections::VecDeque;
 use std::f64::consts::FRAC_PI_2;
 
 use super::CutGraph;
-use crate::Result;
+use crate::error::Result;
 use crate::field::OrientationField;
 use crate::mesh::TriangleMesh;
 use crate::mesh::vector::{Vec3, add, cross, scale};

@@ -8,8 +8,8 @@
 use std::collections::VecDeque;
 
 use super::cone_paths::join_cones;
+use crate::error::{Error, Result};
 use crate::mesh::TriangleMesh;
-use crate::{Error, Result};
 
 /// A set of interior edges that cuts each component into one disk without a cone in its interior.
 ///

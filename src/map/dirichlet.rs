@@ -13,9 +13,10 @@
 
 use super::CutGraph;
 use super::sectors::Sectors;
+use crate::error::Result;
 use crate::mesh::TriangleMesh;
 use crate::mesh::vector::{Vec3, cotangent, dot, sub};
-use crate::{Problem, Result, Triangle};
+use crate::problem::{Problem, Triangle};
 
 /// Matrix, linear term and constant for the two coordinates of all copies.
 pub(super) struct Dirichlet {

@@ -2,10 +2,11 @@
 //! its energy, measured on the mesh.
 
 use super::{SeamlessMap, SeamlessProblem, Transition};
+use crate::error::{Error, Result};
 use crate::linalg::CompensatedSum;
 use crate::mesh::vector::{Vec3, add, cross, dot, scale, sub};
 use crate::mesh::{TriangleMesh, orientation};
-use crate::{Error, Result, Solution};
+use crate::solve::Solution;
 
 impl SeamlessProblem {
     /// The map that belongs to a solution of the problem.

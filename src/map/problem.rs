@@ -23,10 +23,12 @@ use super::seams::{Seam, seams};
 use super::sectors::Sectors;
 use super::sizing::Density;
 use super::{Combing, CutGraph, Sizing};
+use crate::error::{Error, Result};
 use crate::field::OrientationField;
 use crate::mesh::features::FeatureGraph;
 use crate::mesh::{TriangleMesh, turned};
-use crate::{Error, Problem, Result, Solver, Triangle};
+use crate::problem::{Problem, Triangle};
+use crate::solve::Solver;
 
 /// The weight of the square of an integer translation: enough to decide translations that nothing else
 /// decides, too little to change any other.

@@ -3,8 +3,12 @@
 
 use super::SeamlessMap;
 use crate::eliminate::eliminate;
+use crate::error::{Error, Result};
+use crate::monitor::Monitor;
 use crate::problem::RowList;
-use crate::{Error, Model, Monitor, Options, Problem, Result, Solution, Solver, solve_with};
+use crate::problem::{Model, Problem};
+use crate::search::Options;
+use crate::solve::{Solution, Solver, solve_with};
 
 /// `b - a = by` for two unknowns `[a, b]` of a map that integers decide, `by` a whole number.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,7 +1,7 @@
 //! The size of the quads of a map.
 
+use crate::error::{Error, Result};
 use crate::mesh::TriangleMesh;
-use crate::{Error, Result};
 
 /// The size of quads, as a number of them or as lengths of their edges in units of the mesh.
 #[derive(Debug, Clone, PartialEq)]

@@ -8,8 +8,8 @@ use std::io::{self, BufWriter, Write};
 use std::path::Path;
 
 use super::SeamlessMap;
+use crate::error::{Error, Result};
 use crate::mesh::{MeshError, TriangleMesh};
-use crate::{Error, Result};
 
 impl SeamlessMap {
     /// Writes the mesh with the coordinates of its corners. Numbers are written so that reading

@@ -7,7 +7,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use super::{SeamlessMap, SeamlessProblem};
-use crate::Result;
+use crate::error::Result;
 use crate::mesh::{TriangleMesh, angle_at, orientation};
 
 impl SeamlessProblem {
@@ -70,7 +70,9 @@ mod tests {
     use super::*;
     use crate::field::{FieldOptions, solve_field};
     use crate::map::SeamlessOptions;
-    use crate::{Monitor, Options, solve};
+    use crate::monitor::Monitor;
+    use crate::search::Options;
+    use crate::solve::solve;
 
     /// A flat disk of eight triangles around vertex 0.
     fn fan() -> TriangleMesh {

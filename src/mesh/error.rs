@@ -188,12 +188,12 @@ impl MeshError {
     }
 }
 
-impl From<MeshError> for crate::Error {
+impl From<MeshError> for crate::error::Error {
     fn from(error: MeshError) -> Self {
         match error {
-            MeshError::Parse { line, message } => crate::Error::Parse { line, message },
-            MeshError::Io { message } => crate::Error::Io { message },
-            other => crate::Error::Input(InputError {
+            MeshError::Parse { line, message } => crate::error::Error::Parse { line, message },
+            MeshError::Io { message } => crate::error::Error::Io { message },
+            other => crate::error::Error::Input(InputError {
                 code: other.code(),
                 message: other.to_string(),
                 index: other.index(),

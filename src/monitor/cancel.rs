@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use crate::Error;
+use crate::error::Error;
 
 /// A flag by which any thread may cancel a solve.
 #[derive(Debug, Clone, Default)]

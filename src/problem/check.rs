@@ -1,6 +1,6 @@
 //! Validation of the caller's arrays: each failure names the entry.
 
-use crate::{Error, Result};
+use crate::error::{Error, Result};
 
 pub(super) fn same_length(what: &'static str, expected: usize, actual: usize) -> Result<()> {
     if expected == actual {

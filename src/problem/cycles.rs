@@ -2,7 +2,7 @@
 
 use super::RowList;
 use super::check::{in_range, same_length};
-use crate::{Error, Result};
+use crate::error::{Error, Result};
 
 /// An unknown has cancelled if its coefficient is at most this, relative to the coefficients summed.
 const CANCELLED: f64 = 1e-12;
@@ -81,7 +81,7 @@ impl CycleHint {
 
 #[cfg(test)]
 mod tests {
-    use crate::{Model, Problem};
+    use crate::problem::{Model, Problem};
 
     #[test]
     fn a_cycle_holds_when_its_angles_cancel() {

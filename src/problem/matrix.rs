@@ -1,9 +1,9 @@
 //! Matrices as callers have them: compressed columns or rows, one triangle or both.
 
 use super::check::{all_finite, same_length};
+use crate::error::{Error, Result};
 use crate::linalg::Sparse;
 use crate::linalg::sparse::reserve;
-use crate::{Error, Result};
 
 /// Two mirrored entries of a full symmetric matrix may differ by this, relative to the larger.
 pub(super) const SYMMETRY_TOLERANCE: f64 = 1e-9;

@@ -16,7 +16,7 @@ pub(crate) use text::row_text;
 
 use std::sync::Arc;
 
-use crate::{Error, Result};
+use crate::error::{Error, Result};
 use check::{all_finite, finite, in_range, same_length};
 use matrix::lower_triangle;
 

@@ -3,9 +3,9 @@
 use std::sync::Arc;
 
 use super::{CycleHint, Problem, RowList};
+use crate::error::{Error, Result};
 use crate::linalg::Sparse;
 use crate::linalg::sparse::reserve;
-use crate::{Error, Result};
 
 /// A problem that has been checked and assembled. It does not change once made.
 ///

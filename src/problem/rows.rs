@@ -2,9 +2,9 @@
 
 use super::check::{all_finite, finite, in_range, same_length};
 use super::{Layout, MatrixRef};
+use crate::error::{Error, Result};
 use crate::linalg::Sparse;
 use crate::linalg::sparse::reserve;
-use crate::{Error, Result};
 
 /// A growing list of sparse rows with a right side each. Indices within a row are as given:
 /// unsorted, duplicates not yet summed.

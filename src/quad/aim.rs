@@ -4,9 +4,12 @@
 //! squares shrink what they cannot fit. The relaxation is linear in the size asked for, so its area
 //! says by how much to ask for more; only linear terms change, and the solver keeps its factors.
 
+use crate::error::Result;
 use crate::map::{SeamlessMap, SeamlessProblem, Sizing};
 use crate::mesh::TriangleMesh;
-use crate::{Monitor, Options, Result, Solver, Strategy};
+use crate::monitor::Monitor;
+use crate::search::{Options, Strategy};
+use crate::solve::Solver;
 
 /// No more than so many times as many are asked for.
 const MOST: f64 = 2.0;

@@ -2,11 +2,13 @@
 
 use super::missed::missed;
 use super::outcome::Outcome;
+use crate::error::Result;
 use crate::extract::{IntegerGridMap, QuadMesh, extract};
 use crate::map::SeamlessMap;
 use crate::mesh::TriangleMesh;
+use crate::monitor::Monitor;
+use crate::solve::Solution;
 use crate::untangle::Untangled;
-use crate::{Monitor, Result, Solution};
 
 /// A map with more than one face in so many folded is not worked on.
 const FOLDED_PART: usize = 4;

@@ -1,6 +1,10 @@
 //! The same two problems, decided by several strategies.
 
-use crate::{Monitor, Options, Problem, Result, Solution, Strategy, solve_with};
+use crate::error::Result;
+use crate::monitor::Monitor;
+use crate::problem::Problem;
+use crate::search::{Options, Strategy};
+use crate::solve::{Solution, solve_with};
 
 /// What one strategy makes of the field's problem, and of the map's for the field that was taken.
 #[derive(Debug, Clone)]

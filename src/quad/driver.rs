@@ -23,12 +23,14 @@ use super::missed::missed;
 use super::options::QuadOptions;
 use super::quadrangulation::timed;
 use super::{QuadSeconds, Quadrangulation};
+use crate::error::Result;
 use crate::field::FieldProblem;
 use crate::mesh::TriangleMesh;
 use crate::mesh::features::FeatureGraph;
+use crate::monitor::Monitor;
 use crate::smooth::{SmoothOptions, smooth};
+use crate::solve::Solution;
 use crate::untangle::Untangled;
-use crate::{Monitor, Result, Solution};
 
 /// Which part of a quad's edge details attract no irregular vertices below, try after try, where nobody
 /// says. Extraction copes with folds, and where details have irregular vertices of their own quads are

@@ -7,11 +7,14 @@ use super::attempt::is_hopeless;
 use super::fields::choose_field;
 use super::map_solver::{MapSolver, Solved};
 use super::quadrangulation::timed;
+use crate::error::Result;
 use crate::field::{FieldOptions, Guidance, OrientationField};
 use crate::mesh::TriangleMesh;
 use crate::mesh::features::FeatureGraph;
+use crate::monitor::Monitor;
+use crate::search::Strategy;
+use crate::solve::Solution;
 use crate::untangle::{UntangleOptions, Untangled};
-use crate::{Monitor, Result, Solution, Strategy};
 
 /// How many passes over the mesh untangling may make where quads conform and lack features alone.
 const PASSES_FOR_FEATURES: usize = 10;

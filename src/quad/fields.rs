@@ -10,11 +10,13 @@ use super::QuadOptions;
 use super::aim::aim;
 use super::outcome::Outcome;
 use super::quadrangulation::timed;
+use crate::error::{Error, Result};
 use crate::field::{FieldOptions, Guidance, OrientationField, solve_field};
 use crate::map::SeamlessProblem;
 use crate::mesh::TriangleMesh;
 use crate::mesh::features::FeatureGraph;
-use crate::{Error, Monitor, Result, Solution, Solver};
+use crate::monitor::Monitor;
+use crate::solve::{Solution, Solver};
 
 /// Another use of curvature.
 struct Use {

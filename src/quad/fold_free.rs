@@ -14,10 +14,13 @@ use std::borrow::Cow;
 
 use super::map_solver::{MapSolver, Solved, without_long_proof};
 use super::outcome::Outcome;
+use crate::error::Result;
 use crate::map::{SeamlessMap, SeamlessProblem};
 use crate::mesh::TriangleMesh;
+use crate::monitor::Monitor;
+use crate::search::{Options, Strategy};
+use crate::solve::{Solution, Solver};
 use crate::untangle::{UntangleOptions, Untangled, grow_around};
-use crate::{Monitor, Options, Result, Solution, Solver, Strategy};
 
 /// By how much a refinement multiplies the lengths of the map: about twice as many quads.
 const REFINEMENT: f64 = std::f64::consts::SQRT_2;

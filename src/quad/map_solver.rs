@@ -5,10 +5,13 @@ use std::borrow::Cow;
 use std::rc::Rc;
 
 use super::outcome::Outcome;
+use crate::error::Result;
 use crate::map::{SeamlessMap, SeamlessProblem, SeparationConstraint, solve_separated};
 use crate::mesh::TriangleMesh;
+use crate::monitor::Monitor;
+use crate::search::{Options, Strategy};
+use crate::solve::{Solution, Solver};
 use crate::untangle::{Collapsed, Structure, UntangleOptions, Untangled};
-use crate::{Monitor, Options, Result, Solution, Solver, Strategy};
 
 /// How often integers that collapse strips between features are decided anew.
 const ROUNDS_FOR_FEATURES: usize = 3;

@@ -3,8 +3,8 @@
 use crate::field::Guidance;
 use crate::map::{SeamlessOptions, Sizing};
 use crate::search::table::options;
+use crate::search::{Options, Strategy};
 use crate::smooth::SmoothOptions;
-use crate::{Options, Strategy};
 
 options! {
     /// How to make quads. The default is as many as [`SeamlessOptions`] has, along the curvature

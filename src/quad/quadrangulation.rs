@@ -3,10 +3,11 @@
 use std::time::Instant;
 
 use super::Compared;
+use crate::error::Result;
 use crate::extract::QuadMesh;
 use crate::field::OrientationField;
+use crate::solve::Solution;
 use crate::untangle::Untangled;
-use crate::{Result, Solution};
 
 /// Quads, and how they were come by.
 #[derive(Debug)]

@@ -8,8 +8,8 @@
 
 use super::candidates::Candidates;
 use super::{greedy, nearest};
-use crate::Result;
 use crate::eliminate::ReducedModel;
+use crate::error::Result;
 use crate::linalg::{Effort, LocalSolve, conjugate_gradient, minimise_fixed};
 use crate::monitor::Phase;
 use crate::search::{Factors, Options, Search};

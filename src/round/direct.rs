@@ -3,8 +3,8 @@
 //! `bommes2012`, section 5.3, the first of the solvers compared: the fastest, with the highest energies.
 
 use super::nearest;
-use crate::Result;
 use crate::eliminate::ReducedModel;
+use crate::error::Result;
 use crate::search::{Factors, Search};
 
 /// Rounds the relaxation once.

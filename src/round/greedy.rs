@@ -6,8 +6,8 @@
 
 use super::direct::round_all;
 use super::nearest;
-use crate::Result;
 use crate::eliminate::ReducedModel;
+use crate::error::Result;
 use crate::linalg::FixedSolve;
 use crate::monitor::Phase;
 use crate::search::{Factors, Search};

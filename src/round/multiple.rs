@@ -13,8 +13,8 @@
 
 use super::candidates::Candidates;
 use super::nearest;
-use crate::Result;
 use crate::eliminate::ReducedModel;
+use crate::error::Result;
 use crate::linalg::{
     Effort, QueueGaussSeidel, minimise_fixed, unpreconditioned_conjugate_gradient,
 };

@@ -7,8 +7,8 @@
 use std::time::Instant;
 
 use super::Strategy;
-use crate::Result;
 use crate::eliminate::ReducedModel;
+use crate::error::Result;
 use crate::linalg::{
     Cholesky, Ldl, Minimum, Ordering, RelaxedFactor, SchurFactor, Sparse, coupling, minimise,
     minimise_bounded, principal_submatrix, residual,

@@ -25,8 +25,8 @@ pub(crate) use incumbent::Incumbent;
 pub(crate) use work::{Work, auto_limit, of_relaxation};
 
 use crate::eliminate::ReducedModel;
+use crate::error::{Error, Result};
 use crate::monitor::{Monitor, Phase, Stop, relative_gap};
-use crate::{Error, Result};
 
 /// Integers are kept as floats; beyond this they would no longer be exact.
 pub(crate) const LARGEST_INTEGER: f64 = 9_007_199_254_740_992.0;

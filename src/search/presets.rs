@@ -1,7 +1,7 @@
 //! Sets of options that belong together, by name.
 
 use super::{Options, Strategy};
-use crate::{Error, Result};
+use crate::error::{Error, Result};
 
 /// What there is to know about one preset.
 #[derive(Debug, Clone, Copy)]

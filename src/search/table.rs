@@ -1,7 +1,7 @@
 //! Options said once: [`options!`] makes the struct, its defaults, its setters by name and the list
 //! from which C, C++, Python, the program and the documentation take them.
 
-use crate::{Error, Result};
+use crate::error::{Error, Result};
 
 /// The type of an option's value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -148,7 +148,7 @@ macro_rules! word_option {
             fn read(
                 info: &'static $crate::search::OptionInfo,
                 value: &$crate::search::OptionValue,
-            ) -> $crate::Result<Self> {
+            ) -> $crate::error::Result<Self> {
                 $crate::search::table::word(info, value, <$type>::ALL, <$type>::name)
             }
 
@@ -271,7 +271,7 @@ macro_rules! options {
                 &mut self,
                 name: &str,
                 value: &$crate::search::OptionValue,
-            ) -> $crate::Result<()> {
+            ) -> $crate::error::Result<()> {
                 use $crate::search::table::{OptionType, info_of};
                 let info = info_of($table, name)?;
                 $(if name == stringify!($by) {
@@ -288,7 +288,7 @@ macro_rules! options {
             ///
             /// # Errors
             /// [`UnknownOption`](crate::Error::UnknownOption).
-            pub fn get(&self, name: &str) -> $crate::Result<$crate::search::OptionValue> {
+            pub fn get(&self, name: &str) -> $crate::error::Result<$crate::search::OptionValue> {
                 use $crate::search::table::OptionType;
                 $(if name == stringify!($by) {
                     let get: fn(&Self) -> $by_type = $get;
@@ -297,7 +297,7 @@ macro_rules! options {
                 $(if name == stringify!($option) {
                     return Ok(self.$option.value());
                 })*
-                Err($crate::Error::UnknownOption { name: name.into() })
+                Err($crate::error::Error::UnknownOption { name: name.into() })
             }
         }
     };

@@ -13,12 +13,13 @@ mod quality;
 mod square;
 mod surface;
 
+use crate::error::{Error, Result};
 use crate::extract::QuadMesh;
 use crate::mesh::TriangleMesh;
 use crate::mesh::features::FeatureGraph;
 use crate::mesh::vector::{add, scale, sub};
+use crate::monitor::Monitor;
 use crate::monitor::Phase;
-use crate::{Error, Monitor, Result};
 pub use quality::QuadQuality;
 use surface::Surface;
 

@@ -2,9 +2,10 @@
 
 use super::second_solve;
 use super::verify::{Verdict, verify};
+use crate::error::Result;
 use crate::monitor::relative_gap;
+use crate::problem::Problem;
 use crate::search::SolveStatus;
-use crate::{Problem, Result};
 
 /// A solution is not reported as optimal where its relative gap, verified from the caller's own numbers,
 /// is larger than this.

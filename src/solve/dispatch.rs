@@ -1,9 +1,11 @@
 //! The choice of method: which one a strategy uses on a given model.
 
 use crate::eliminate::ReducedModel;
+use crate::error::Result;
+use crate::problem::Model;
 use crate::search::{Factors, Options, Search, Strategy};
 use crate::search::{auto_limit, of_relaxation};
-use crate::{Model, Result, cycle, lattice, round};
+use crate::{cycle, lattice, round};
 
 /// `auto`: angle-difference systems of at most this many integers are tried to prove as well.
 const PROVABLE: usize = 60;

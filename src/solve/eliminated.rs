@@ -6,9 +6,11 @@ use super::expand::expand;
 use super::relax::{Relaxation, relax};
 use super::solution::{Counts, Seconds, Solution};
 use crate::eliminate::{Elimination, ReducedModel};
+use crate::error::{Error, Result};
 use crate::monitor::{Monitor, Phase};
+use crate::problem::{Model, Problem};
+use crate::round;
 use crate::search::{Factors, Options, Search, SolveStatus, Strategy, WarmStart, of_relaxation};
-use crate::{Error, Model, Problem, Result, round};
 
 /// A problem with everything that does not depend on its right sides.
 pub(super) struct EliminatedProblem<'a> {

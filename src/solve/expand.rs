@@ -1,7 +1,7 @@
 //! From the reduced unknowns back to the caller's.
 
-use crate::Model;
 use crate::eliminate::ReducedModel;
+use crate::problem::Model;
 use crate::search::Strategy;
 
 /// The caller's unknowns; pins and integers exact to the last bit.

@@ -11,12 +11,13 @@ use super::candidate::Candidate;
 use super::eliminated::EliminatedProblem;
 use super::{Counts, Seconds, Solution};
 use crate::eliminate::{Elimination, ReducedModel};
+use crate::error::{Error, Result};
 use crate::lattice::AffineLattice;
 use crate::linalg::CompensatedSum;
 use crate::monitor::Monitor;
+use crate::problem::{Model, Problem};
 use crate::search::LARGEST_INTEGER;
 use crate::search::{Factors, Options};
-use crate::{Error, Model, Problem, Result};
 
 /// Entries up to this size are harmless: their squares leave twelve digits.
 const HARMLESS: f64 = 1000.0;
@@ -304,7 +305,7 @@ impl Reformulation {
             .map(|((p, q), sum)| (p, (q, sum.value())))
             .unzip();
         let (cols, values): (Vec<usize>, Vec<f64>) = rest.into_iter().unzip();
-        problem.add_quadratic_triplets(crate::Triangle::Lower, &rows, &cols, &values)?;
+        problem.add_quadratic_triplets(crate::problem::Triangle::Lower, &rows, &cols, &values)?;
         problem.add_linear(&linear.iter().map(Sum::value).collect::<Vec<_>>())?;
         problem.add_constant(constant.value())
     }

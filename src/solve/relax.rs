@@ -1,9 +1,10 @@
 //! The relaxation: all integers real. Its minimum is a lower bound for every solution.
 
 use crate::eliminate::ReducedModel;
+use crate::error::{Error, Result};
 use crate::linalg::{Lowest, Minimum};
+use crate::problem::Model;
 use crate::search::{Factors, Strategy};
-use crate::{Error, Model, Result};
 
 /// Rounding errors of the energy's own evaluation, relative to the sum of its absolute terms:
 /// the terms were themselves rounded when the model was assembled.

@@ -4,9 +4,10 @@ use super::Solution;
 use super::eliminated::EliminatedProblem;
 use super::reformulate::solve_reformulated;
 use crate::eliminate::Elimination;
+use crate::error::Result;
 use crate::monitor::Monitor;
+use crate::problem::{Model, Problem};
 use crate::search::{Factors, Options};
-use crate::{Model, Problem, Result};
 
 /// Solves `problem`, without a monitor.
 ///

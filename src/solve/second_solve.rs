@@ -10,10 +10,11 @@ use super::expand::expand;
 use super::relax::relax;
 use super::verify::{Verdict, verify};
 use crate::eliminate::eliminate;
+use crate::error::Result;
 use crate::linalg::Ordering;
 use crate::monitor::Monitor;
+use crate::problem::{Model, Problem};
 use crate::search::{Factors, Strategy};
-use crate::{Model, Problem, Result};
 
 /// Violations up to this size may come from the rounding of the values themselves.
 const CLEAN: f64 = 1e-9;

@@ -9,11 +9,12 @@ use super::eliminated::EliminatedProblem;
 use super::run::{solve_eliminated, tell_of_ignored_hint};
 use super::subject_to::solve_subject_to;
 use crate::eliminate::Elimination;
+use crate::error::Result;
 use crate::linalg::Ordering;
 use crate::monitor::Monitor;
 use crate::problem::RowList;
+use crate::problem::{Model, Problem};
 use crate::search::{Factors, Options, SolveStatus};
-use crate::{Model, Problem, Result};
 
 /// A problem of fixed structure, with its elimination and factors kept from solve to solve.
 ///

@@ -11,10 +11,11 @@ use super::eliminated::{EliminatedProblem, SearchResult};
 use super::relax::{Relaxation, relax};
 use super::run::solve_eliminated;
 use crate::eliminate::{Elimination, ReducedModel};
+use crate::error::Result;
 use crate::monitor::Monitor;
 use crate::problem::RowList;
+use crate::problem::{Model, Problem};
 use crate::search::{Factors, Options, Search, SolveStatus, Strategy, WarmStart, of_relaxation};
-use crate::{Model, Problem, Result};
 
 /// Solves under further constraints. None where that needs a solve from the start: if unknowns in the
 /// constraints are not integer, if integers are many, with a warm start, or for a strategy that proves, since
@@ -131,7 +132,8 @@ fn of_integers(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Error, Solver, solve};
+    use crate::error::Error;
+    use crate::solve::{Solver, solve};
 
     /// A ring of springs, each third node integer, two nodes tied by a seam of an integer step.
     fn ring(seed: u32) -> Problem {

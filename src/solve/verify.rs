@@ -3,8 +3,9 @@
 //! This shares nothing with the solver: it reads the problem as it was given, term by term and
 //! row by row, before duplicates are summed or rows squared into Q.
 
+use crate::error::{Error, Result};
 use crate::linalg::CompensatedSum;
-use crate::{Error, Problem, Result};
+use crate::problem::Problem;
 
 /// What a point is worth, measured on the problem as given.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -98,7 +99,7 @@ mod tests {
     fn problem() -> Result<Problem> {
         let mut problem = Problem::new(3)?;
         problem.add_least_squares(&[0, 1], &[1.0, -1.0], 0.0, 1.0)?;
-        problem.add_quadratic_triplets(crate::Triangle::Lower, &[1], &[1], &[1.0])?;
+        problem.add_quadratic_triplets(crate::problem::Triangle::Lower, &[1], &[1], &[1.0])?;
         problem.add_linear(&[-1.0, 0.0, 0.0])?;
         problem.add_constant(1.0)?;
         problem.add_constraint(&[0, 1], &[1.0, 2.0], 3.0)?;

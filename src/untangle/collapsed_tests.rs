@@ -7,7 +7,8 @@ use super::*;
 use crate::field::{Constraint, FieldProblem};
 use crate::map::Sizing;
 use crate::mesh::features::FeatureGraph;
-use crate::{Options, solve};
+use crate::search::Options;
+use crate::solve::solve;
 
 /// A mesh and the problem of its map along x and y.
 struct Flat {

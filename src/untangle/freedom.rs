@@ -7,10 +7,12 @@
 use std::ops::Range;
 
 use crate::eliminate::eliminate;
+use crate::error::Result;
 use crate::linalg::Sparse;
 use crate::map::SeamlessProblem;
 use crate::map::constraints_of;
-use crate::{Model, Monitor, Result};
+use crate::monitor::Monitor;
+use crate::problem::Model;
 
 /// The coordinates and the faces that each free unknown moves.
 pub(super) struct Freedom {

@@ -74,7 +74,9 @@ mod tests {
     use crate::field::{FieldOptions, solve_field};
     use crate::map::SeamlessOptions;
     use crate::mesh::shape;
-    use crate::{Monitor, Options, Solver};
+    use crate::monitor::Monitor;
+    use crate::search::Options;
+    use crate::solve::Solver;
 
     #[test]
     fn lengths_that_grow_alike_everywhere_are_a_finer_map() {

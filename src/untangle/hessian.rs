@@ -1,6 +1,6 @@
 //! The Hessian of a region: one pattern for all steps, analysed once and summed in place.
 
-use crate::Result;
+use crate::error::Result;
 use crate::linalg::{Analysis, Cholesky, Sparse};
 
 /// The sum of forms of three corners, each coordinate of which is affine in the unknowns.

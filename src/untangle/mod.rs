@@ -44,12 +44,13 @@ pub(crate) use collapsed::Collapsed;
 pub(crate) use grading::grow_around;
 pub(crate) use held_elements::HeldElements;
 
+use crate::error::Result;
 use crate::map::{SeamlessMap, SeamlessProblem};
 use crate::mesh::TriangleMesh;
 use crate::mesh::orientation;
 use crate::mesh::vector::{dot, sub};
+use crate::monitor::Monitor;
 use crate::monitor::Phase;
-use crate::{Monitor, Result};
 use energy::Rest;
 use freedom::Freedom;
 use region::{Region, regions};

@@ -9,7 +9,7 @@ use std::collections::{BTreeMap, VecDeque};
 use std::f64::consts::FRAC_PI_2;
 
 use super::disk::Disk;
-use crate::Result;
+use crate::error::Result;
 use crate::linalg::{Cholesky, Sparse};
 use crate::mesh::vector::{norm, sub};
 use crate::mesh::{TriangleMesh, angle_between, turned};

@@ -4,8 +4,9 @@
 //! gained and the less is folded.
 
 use super::system::System;
+use crate::error::Result;
+use crate::monitor::Monitor;
 use crate::monitor::Phase;
-use crate::{Monitor, Result};
 
 /// The first eps: the determinant at rest.
 pub(super) const FIRST_EPS: f64 = 1.0;

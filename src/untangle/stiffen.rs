@@ -15,10 +15,11 @@
 use super::Untangling;
 use super::energy::Quadratic;
 use super::region::{Region, regions};
+use crate::error::{Error, Result};
 use crate::map::gradient;
 use crate::mesh::vector::{dot, norm, sub};
+use crate::monitor::Monitor;
 use crate::monitor::Phase;
-use crate::{Error, Monitor, Result};
 
 /// The rings of faces around a fold whose weights grow and whose vertices move.
 const RINGS: usize = 6;
@@ -148,7 +149,8 @@ mod tests {
     use crate::field::{FieldOptions, solve_field};
     use crate::map::{SeamlessOptions, SeamlessProblem};
     use crate::mesh::{TriangleMesh, jitter, shape};
-    use crate::{Options, Strategy, solve};
+    use crate::search::{Options, Strategy};
+    use crate::solve::solve;
 
     /// Calls `look` with the work on a map of a shape, as it begins, the energy of the map included.
     fn with_work(name: &str, quads: usize, look: impl FnOnce(&mut Untangling, f64)) {

@@ -7,9 +7,9 @@ use super::energy::{Quadratic, Rest};
 use super::freedom::Freedom;
 use super::hessian::Hessian;
 use super::region::Region;
+use crate::error::{Error, Result};
 use crate::linalg::Sparse;
 use crate::mesh::orientation;
-use crate::{Error, Result};
 
 /// The most halvings of a step before it is given up.
 const HALVINGS: usize = 24;

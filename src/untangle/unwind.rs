@@ -11,9 +11,10 @@ use super::Untangling;
 use super::disk::Disk;
 use super::polar::{Layout, faces_within};
 use super::region::regions;
+use crate::error::Result;
 use crate::map::{has_winding_defect, winding_defects};
 use crate::mesh::orientation;
-use crate::{Monitor, Result};
+use crate::monitor::Monitor;
 
 /// The radii of the disks that are laid anew around a cone, in units of the map, in this order.
 const RADII: [f64; 12] = [0.5, 0.7, 1.0, 1.2, 1.4, 1.7, 2.0, 2.4, 2.8, 3.4, 4.0, 5.6];
@@ -190,8 +191,9 @@ mod tests {
     use crate::field::{FieldOptions, solve_field};
     use crate::map::{SeamlessOptions, SeamlessProblem};
     use crate::mesh::{jitter, shape};
+    use crate::search::Options;
+    use crate::solve::solve;
     use crate::untangle::{Structure, UntangleOptions, untangle};
-    use crate::{Options, solve};
 
     #[test]
     fn a_disk_around_a_cone_is_laid_as_often_as_the_cone_asks_for() {

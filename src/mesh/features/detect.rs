@@ -3,9 +3,9 @@
 use std::f64::consts::PI;
 
 use super::FeatureGraph;
+use crate::error::{Error, Result};
 use crate::mesh::TriangleMesh;
 use crate::mesh::vector::{cross, dot, norm};
-use crate::{Error, Result};
 
 impl FeatureGraph {
     /// The edges at which the normals of the two faces differ by `angle` radians or more; the

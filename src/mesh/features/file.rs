@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use super::FeatureGraph;
+use crate::error::{Error, Result};
 use crate::mesh::{MeshError, TriangleMesh};
-use crate::{Error, Result};
 
 impl FeatureGraph {
     /// The graph of a file's line elements, on the mesh of that file.

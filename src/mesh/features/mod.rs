@@ -10,7 +10,7 @@ mod detect;
 mod file;
 
 use super::TriangleMesh;
-use crate::{Error, Result};
+use crate::error::{Error, Result};
 
 /// Where exactly two feature edges meet, they form a corner if the curve turns by more than this: half
 /// of the right angle by which one quad more or less turns it.

@@ -3,7 +3,7 @@
 use super::lines::{Line, quoted, unsupported};
 use super::names::Names;
 use super::rows::{Row, Rows, VectorName};
-use crate::Result;
+use crate::error::Result;
 
 /// The columns read so far, and their entries by columns.
 pub(super) struct Columns {

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use super::content::parse_text;
 use super::{MpsProblem, io_error};
-use crate::{Error, Result};
+use crate::error::{Error, Result};
 
 /// The first bytes of every gzip file (`deutsch1996`, section 2.3.1).
 const MAGIC: [u8; 2] = [0x1f, 0x8b];

@@ -9,7 +9,8 @@ use super::quadratic::Quadratic;
 use super::rows::{RightSides, Rows};
 use super::sections::Section;
 use super::{MpsNames, MpsProblem};
-use crate::{Layout, Problem, Result, Triangle, problem::MatrixRef};
+use crate::error::Result;
+use crate::problem::{Layout, MatrixRef, Problem, Triangle};
 
 /// Reads plain text.
 pub(super) fn parse_text(reader: impl BufRead) -> Result<MpsProblem> {

@@ -5,7 +5,7 @@
 
 use std::io::{BufRead, Read};
 
-use crate::{Error, Result};
+use crate::error::{Error, Result};
 
 /// Longest line accepted, in bytes.
 pub(super) const MAX_LINE: usize = 1 << 16;

@@ -43,7 +43,7 @@ pub use named::MpsProblem;
 pub(crate) use write::{Pins, write_model};
 pub use write::{write, write_to};
 
-use crate::{Error, Result};
+use crate::error::{Error, Result};
 
 /// Reads the file at `path`.
 ///

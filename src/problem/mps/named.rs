@@ -2,7 +2,8 @@
 
 use super::lines::quoted;
 use super::names::{check_name, check_title};
-use crate::{Error, Problem, Result};
+use crate::error::{Error, Result};
+use crate::problem::Problem;
 
 /// A problem and its names. The names fit the problem: as many as there are variables and
 /// constraints, all such that a file can hold them.

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 
 use super::lines::{Line, quoted};
-use crate::{Error, Result};
+use crate::error::{Error, Result};
 
 /// Longest name, in bytes. Two of them and a number always fit on a line.
 const MAX_NAME: usize = 1 << 12;

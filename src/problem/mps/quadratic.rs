@@ -2,7 +2,7 @@
 
 use super::lines::{Line, fault};
 use super::names::Names;
-use crate::Result;
+use crate::error::Result;
 use crate::problem::matrix::SYMMETRY_TOLERANCE;
 
 struct Entry {

@@ -2,7 +2,7 @@
 
 use super::lines::{Line, quoted};
 use super::names::Names;
-use crate::Result;
+use crate::error::Result;
 
 /// What a row stands for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

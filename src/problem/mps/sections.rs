@@ -1,7 +1,7 @@
 //! The sections of an MPS file and the order in which they come.
 
 use super::lines::{Line, quoted};
-use crate::Result;
+use crate::error::Result;
 
 /// A section, or the state before the first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

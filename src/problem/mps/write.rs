@@ -9,7 +9,8 @@ use std::path::Path;
 
 use super::compression::create;
 use super::{MpsNames, MpsProblem};
-use crate::{Error, Model, Result};
+use crate::error::{Error, Result};
+use crate::problem::Model;
 
 /// Where the values of pinned variables go.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -7,8 +7,8 @@ use serde::ser::{SerializeMap, Serializer};
 use serde::{Deserialize, Serialize};
 
 use super::entries::Entries;
+use crate::error::{Error, Result};
 use crate::search::{OPTIONS, OptionInfo, OptionKind, OptionValue, Options};
-use crate::{Error, Result};
 
 /// The format written, and the only one read.
 const FORMAT: u64 = 1;

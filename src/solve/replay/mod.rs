@@ -13,9 +13,10 @@ mod format;
 
 use std::path::{Path, PathBuf};
 
+use crate::error::{Error, Result};
 use crate::problem::mps;
+use crate::problem::{Model, Problem};
 use crate::search::Options;
-use crate::{Error, Model, Problem, Result};
 
 use format::{Replay, Values};
 
