@@ -34,14 +34,13 @@ const LONGEST: usize = 600;
 
 #[test]
 fn every_file_names_only_its_own_layer_and_those_below() {
-    let at_root = names_at_root();
     for (path, text) in sources() {
         let own = module(&path);
         if own == "lib" || own == "internals" || is_test(&path) {
             continue;
         }
         let height = height(own).unwrap_or_else(|| panic!("{} is in no layer", path.display()));
-        for name in layers_named(&without_tests(&tokens(&text)), depth(&path), &at_root) {
+        for name in layers_named(&without_tests(&tokens(&text)), depth(&path)) {
             let below = self::height(&name).is_some_and(|other| other <= height);
             assert!(below, "{} names {name}", path.display());
         }
@@ -51,10 +50,9 @@ fn every_file_names_only_its_own_layer_and_those_below() {
 #[test]
 fn the_check_shares_no_code_with_the_construction_of_maps() {
     let makers = ["solve", "field", "map", "untangle"];
-    let at_root = names_at_root();
     for (path, text) in sources() {
         if module(&path) == "check" {
-            let named = layers_named(&without_tests(&tokens(&text)), depth(&path), &at_root);
+            let named = layers_named(&without_tests(&tokens(&text)), depth(&path));
             let shared: Vec<_> = named
                 .iter()
                 .filter(|n| makers.contains(&n.as_str()))
@@ -162,7 +160,6 @@ fn every_file_starts_with_a_heading() {
 
 #[test]
 fn every_way_to_name_a_layer_is_recognised() {
-    let at_root = [("Solver".to_string(), "solve".to_string())];
     for text in [
         "use crate::solve::Thing;",
         "use crate::{solve};",
@@ -170,11 +167,8 @@ fn every_way_to_name_a_layer_is_recognised() {
         "use crate::{self as root, solve as s};",
         "use super::super::solve::Thing;",
         "fn f(s: &crate::solve::Thing) {}",
-        "use crate::Solver;",
-        "use crate::{Solver as S};",
-        "fn f(s: crate::Solver) {}",
     ] {
-        let named = layers_named(&tokens(text), 2, &at_root);
+        let named = layers_named(&tokens(text), 2);
         assert_eq!(named, ["solve"], "{text}");
     }
 }
@@ -190,7 +184,7 @@ fn words_in_comments_strings_and_inner_paths_name_no_layer() {
         "use std::{mesh, quad};",
     ] {
         let tokens = tokens(text);
-        assert!(layers_named(&tokens, 2, &[]).is_empty(), "{text}");
+        assert!(layers_named(&tokens, 2).is_empty(), "{text}");
         assert!(macros_called(&tokens, &["println"]).is_empty(), "{text}");
     }
 }
@@ -374,24 +368,9 @@ fn without_tests(tokens: &[String]) -> Vec<String> {
     kept
 }
 
-/// The names that `lib.rs` re-exports at the root of the crate, each with its layer.
-fn names_at_root() -> Vec<(String, String)> {
-    let text = fs::read_to_string(root().join("lib.rs")).unwrap();
-    let tokens = tokens(&text);
-    let mut found = Vec::new();
-    for (i, _) in tokens.iter().enumerate().filter(|(_, t)| *t == "use") {
-        let layer = &tokens[i + 1];
-        let names = tokens[i + 2..].iter().take_while(|t| *t != ";");
-        let names = names.filter(|t| t.chars().all(|c| c.is_alphanumeric() || c == '_'));
-        found.extend(names.map(|name| (name.clone(), layer.clone())));
-    }
-    assert!(found.iter().any(|(name, _)| name == "Problem"), "{found:?}");
-    found
-}
-
 /// The layers that a file names by paths from the root of the crate, one entry a path. `depth` is the
-/// number of modules between the file and the root. A re-exported name counts as its layer.
-fn layers_named(tokens: &[String], depth: usize, at_root: &[(String, String)]) -> Vec<String> {
+/// number of modules between the file and the root.
+fn layers_named(tokens: &[String], depth: usize) -> Vec<String> {
     let mut found = Vec::new();
     let mut i = 0;
     while i < tokens.len() {
@@ -407,12 +386,8 @@ fn layers_named(tokens: &[String], depth: usize, at_root: &[(String, String)]) -
             i += (2 * climbs).max(1);
         }
     }
-    let layer_of = |name: String| {
-        let known = at_root.iter().find(|(known, _)| *known == name);
-        known.map_or(name, |(_, layer)| layer.clone())
-    };
-    let found = found.into_iter().filter(|name| name != "self");
-    found.map(layer_of).collect()
+    found.retain(|name| name != "self");
+    found
 }
 
 /// The first segment of a path, or those of each path of a group in braces.

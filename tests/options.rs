@@ -1,6 +1,6 @@
-//! The options of the C++ headers are those of the library's tables.
+//! The options of the C++ headers and of the book are those of the library's tables.
 //!
-//! `ROUNDEL_BLESS=1 cargo test --test options` writes them anew, between the marks in the headers.
+//! `ROUNDEL_BLESS=1 cargo test --test options` writes them anew, between the marks in these files.
 
 use std::fmt::Write;
 use std::fs;
@@ -32,6 +32,52 @@ fn the_options_of_quads_are_in_cpp() {
     hold("quads.hpp", "QuadOptions", &tables);
 }
 
+#[test]
+fn the_options_of_the_book_are_the_librarys() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/options.md");
+    let committed = fs::read_to_string(&path).unwrap();
+    let mut fresh = committed.clone();
+    for (heading, table) in [
+        ("All options of a solve", OPTIONS),
+        ("Options of the guidance", GUIDANCE_OPTIONS),
+        ("Options of quads", QUAD_OPTIONS),
+    ] {
+        fresh = with_rows(&fresh, heading, table);
+    }
+    bless(&path, &committed, &fresh);
+}
+
+/// The page with one row an option in the table below a heading.
+fn with_rows(page: &str, heading: &str, options: &[OptionInfo]) -> String {
+    let head = "| --- | --- | --- | --- |\n";
+    let heading = format!("## {heading}\n");
+    let at = page.find(&heading).expect(&heading);
+    let begin = at + page[at..].find(head).expect(&heading) + head.len();
+    let end = begin + page[begin..].find("\n\n").expect(&heading) + 1;
+    let rows = options.iter().map(|info| {
+        let range = info.range.replace('|', ", ");
+        format!(
+            "| `{}` | {} | {range} | {} |\n",
+            info.name, info.default, info.text
+        )
+    });
+    let rows: String = rows.collect();
+    format!("{}{rows}{}", &page[..begin], &page[end..])
+}
+
+/// Writes the fresh text where that is asked for, and holds the committed one to it elsewhere.
+fn bless(path: &Path, committed: &str, fresh: &str) {
+    if std::env::var_os("ROUNDEL_BLESS").is_some_and(|v| v == "1") {
+        fs::write(path, fresh).unwrap();
+    } else {
+        let file = path.display();
+        assert!(
+            committed == fresh,
+            "{file} has drifted: ROUNDEL_BLESS=1 cargo test --test options"
+        );
+    }
+}
+
 /// A table, what one of its entries is called, and those that stand elsewhere.
 type Part = (&'static str, &'static [OptionInfo], &'static [&'static str]);
 
@@ -53,13 +99,7 @@ fn hold(file: &str, name: &str, parts: &[Part]) {
     let mut fresh = between(&committed, "members", &members);
     fresh = between(&fresh, "setters", &setters);
     fresh = between(&fresh, "lists", &lists);
-    if std::env::var_os("ROUNDEL_BLESS").is_some_and(|v| v == "1") {
-        fs::write(&path, &fresh).unwrap();
-    }
-    assert!(
-        fresh == fs::read_to_string(&path).unwrap(),
-        "include/roundel/detail/{file} has drifted: ROUNDEL_BLESS=1 cargo test --test options"
-    );
+    bless(&path, &committed, &fresh);
 }
 
 /// What an option is where nobody sets it: quads have a guidance of their own.

@@ -1,12 +1,14 @@
-//! The solver's options as flags, made from the library's own table.
+//! Options as flags, made from the library's own tables.
 //!
-//! An option added to [`OPTIONS`] is a flag of every command that flattens [`SolverOptions`],
-//! with its range, default and text, and nothing is to be written here.
+//! An option added to [`OPTIONS`] is a flag of every command that flattens [`SolverOptions`], and one
+//! added to [`QUAD_OPTIONS`] a flag of `roundel quad`, with range, default and text. Nothing is to be
+//! written here.
 
 use clap::builder::{PossibleValuesParser, TypedValueParser, ValueParser};
 use clap::parser::ValueSource;
-use clap::{Arg, ArgMatches, Args, Command, FromArgMatches};
+use clap::{Arg, ArgAction, ArgMatches, Args, Command, FromArgMatches};
 use roundel::Options;
+use roundel::quad::{QUAD_OPTIONS, QuadOptions};
 use roundel::search::{OPTIONS, OptionInfo, OptionKind, OptionValue, PRESETS};
 
 /// Options of the solver, from flags named as the options are, `-` for `_`.
@@ -33,10 +35,7 @@ impl SolverOptions {
 
 impl Args for SolverOptions {
     fn augment_args(command: Command) -> Command {
-        let command = command.arg(preset());
-        OPTIONS
-            .iter()
-            .fold(command, |command, info| command.arg(flag(info)))
+        SOLVER.flags(command.arg(preset()))
     }
 
     fn augment_args_for_update(command: Command) -> Command {
@@ -53,15 +52,109 @@ impl FromArgMatches for SolverOptions {
 
     fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), clap::Error> {
         self.preset = matches.get_one::<String>(PRESET).cloned();
-        for info in OPTIONS {
-            let is_given = matches.value_source(info.name) == Some(ValueSource::CommandLine);
-            if let Some(value) = matches.get_one::<OptionValue>(info.name)
-                && is_given
-            {
-                self.given.push((info.name, value.clone()));
-            }
-        }
+        self.given = SOLVER.given(matches);
         Ok(())
+    }
+}
+
+/// Options of `roundel quad` beside its sizes, its guidance and the strategy of its field, which have
+/// flags of their own.
+#[derive(Debug, Clone, Default)]
+pub struct QuadFlags {
+    given: Vec<(&'static str, OptionValue)>,
+}
+
+impl QuadFlags {
+    /// `options` with what the command line says put over them.
+    pub fn over(&self, mut options: QuadOptions) -> roundel::Result<QuadOptions> {
+        for (name, value) in &self.given {
+            options.set(name, value)?;
+        }
+        Ok(options)
+    }
+}
+
+impl Args for QuadFlags {
+    fn augment_args(command: Command) -> Command {
+        QUADS.flags(command)
+    }
+
+    fn augment_args_for_update(command: Command) -> Command {
+        Self::augment_args(command)
+    }
+}
+
+impl FromArgMatches for QuadFlags {
+    fn from_arg_matches(matches: &ArgMatches) -> Result<Self, clap::Error> {
+        let given = QUADS.given(matches);
+        Ok(QuadFlags { given })
+    }
+
+    fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), clap::Error> {
+        self.given = QUADS.given(matches);
+        Ok(())
+    }
+}
+
+/// A table of options whose flags are made here.
+struct Table {
+    options: &'static [OptionInfo],
+    /// Those that have flags of their own.
+    elsewhere: &'static [&'static str],
+    heading: &'static str,
+    /// Whether a 0 or 1 that is 1 by default is turned off by a flag without a value.
+    has_switches: bool,
+    /// Whether an option takes a value.
+    accepts: fn(&str, &OptionValue) -> bool,
+}
+
+const SOLVER: Table = Table {
+    options: OPTIONS,
+    elsewhere: &[],
+    heading: "Solver options",
+    has_switches: false,
+    accepts: |name, value| Options::default().set(name, value).is_ok(),
+};
+
+const QUADS: Table = Table {
+    options: QUAD_OPTIONS,
+    elsewhere: &["quads", "edge_length", "field_strategy"],
+    heading: "Quad options",
+    has_switches: true,
+    accepts: |name, value| QuadOptions::default().set(name, value).is_ok(),
+};
+
+impl Table {
+    fn here(&self) -> impl Iterator<Item = &'static OptionInfo> {
+        let here = |info: &&OptionInfo| !self.elsewhere.contains(&info.name);
+        self.options.iter().filter(here)
+    }
+
+    fn is_switch(&self, info: &OptionInfo) -> bool {
+        self.has_switches && info.range == "[0, 1]" && info.default == "1"
+    }
+
+    fn flags(&self, command: Command) -> Command {
+        self.here().fold(command, |command, info| {
+            command.arg(match self.is_switch(info) {
+                true => switch(info).help_heading(self.heading),
+                false => flag(info, self.accepts).help_heading(self.heading),
+            })
+        })
+    }
+
+    /// What the command line says.
+    fn given(&self, matches: &ArgMatches) -> Vec<(&'static str, OptionValue)> {
+        let is_given =
+            |info: &&OptionInfo| matches.value_source(info.name) == Some(ValueSource::CommandLine);
+        let value = |info: &OptionInfo| match self.is_switch(info) {
+            true => Some(OptionValue::Integer(0)),
+            false => matches.get_one::<OptionValue>(info.name).cloned(),
+        };
+        let given = self.here().filter(is_given);
+        given
+            .filter_map(|info| Some((info.name, value(info)?)))
+            .collect()
     }
 }
 
@@ -78,11 +171,18 @@ fn preset() -> Arg {
         .value_parser(PossibleValuesParser::new(names))
 }
 
-fn flag(info: &'static OptionInfo) -> Arg {
+/// `--no-NAME` for an option that is 1 otherwise.
+fn switch(info: &'static OptionInfo) -> Arg {
+    Arg::new(info.name)
+        .long(format!("no-{}", info.name.replace('_', "-")))
+        .help(format!("Turn off {}: {}", info.name, info.text))
+        .action(ArgAction::SetTrue)
+}
+
+fn flag(info: &'static OptionInfo, accepts: fn(&str, &OptionValue) -> bool) -> Arg {
     let flag = Arg::new(info.name)
         .long(info.name.replace('_', "-"))
-        .default_value(info.default)
-        .help_heading("Solver options");
+        .default_value(info.default);
     match info.kind {
         // clap lists the words itself.
         OptionKind::Text => flag
@@ -92,7 +192,7 @@ fn flag(info: &'static OptionInfo) -> Arg {
         OptionKind::Integer | OptionKind::Real => flag
             .value_name("NUMBER")
             .help(format!("{}, in {}", info.text, info.range))
-            .value_parser(move |text: &str| number(info, text))
+            .value_parser(move |text: &str| number(info, text, accepts))
             .allow_negative_numbers(true),
     }
 }
@@ -104,15 +204,19 @@ fn words(info: &OptionInfo) -> ValueParser {
 }
 
 /// Reads a number of the option's kind and in its range.
-fn number(info: &OptionInfo, text: &str) -> Result<OptionValue, String> {
+fn number(
+    info: &OptionInfo,
+    text: &str,
+    accepts: fn(&str, &OptionValue) -> bool,
+) -> Result<OptionValue, String> {
     let value = match info.kind {
         OptionKind::Integer => text.parse().map(OptionValue::Integer).ok(),
         _ => text.parse().map(OptionValue::Real).ok(),
     };
     let value = value.ok_or("not a number of this kind")?;
-    match Options::default().set(info.name, &value) {
-        Ok(()) => Ok(value),
-        Err(_) => Err(format!("outside {}", info.range)),
+    match accepts(info.name, &value) {
+        true => Ok(value),
+        false => Err(format!("outside {}", info.range)),
     }
 }
 
@@ -160,7 +264,7 @@ mod tests {
         for info in OPTIONS {
             let value = match info.kind {
                 OptionKind::Text => OptionValue::Text(info.default.into()),
-                _ => number(info, info.default).unwrap(),
+                _ => number(info, info.default, SOLVER.accepts).unwrap(),
             };
             options.set(info.name, &value).unwrap();
         }
@@ -183,6 +287,29 @@ mod tests {
             ..base
         };
         assert_eq!(two, expected);
+    }
+
+    #[test]
+    fn every_option_of_quads_is_a_flag_of_its_command() {
+        let command = crate::quad::Arguments::augment_args(Command::new("quad"));
+        for info in QUAD_OPTIONS {
+            let mut flags = command.get_arguments();
+            let flag = flags.find(|a| a.get_id() == info.name);
+            assert!(flag.is_some(), "no flag for {}", info.name);
+        }
+    }
+
+    #[test]
+    fn a_switch_turns_its_option_off_and_no_other() {
+        let line = ["quad", "--no-smooth"];
+        let command = QuadFlags::augment_args(Command::new("quad"));
+        let matches = command.try_get_matches_from(line).unwrap();
+        let flags = QuadFlags::from_arg_matches(&matches).unwrap();
+        let expected = QuadOptions {
+            smooth: None,
+            ..QuadOptions::default()
+        };
+        assert_eq!(flags.over(QuadOptions::default()).unwrap(), expected);
     }
 
     #[test]

@@ -38,7 +38,7 @@ pub unsafe extern "C" fn roundel_problem_solve(
                 Out::new("solution", solution)?,
             )
         };
-        let found = crate::solve_with(problem, options, monitor)?;
+        let found = crate::solve::solve_with(problem, options, monitor)?;
         out.set(guard::handle(found));
         Ok(())
     };

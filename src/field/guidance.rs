@@ -23,25 +23,25 @@ options! {
     GUIDANCE_OPTIONS {
         /// See [`FieldOptions::symmetry`].
         symmetry: u8 = 4, "4" in "1|2|4|6",
-            "arms of a direction, evenly around: 4 for crosses; a map needs crosses";
+            "the number of arms of a direction: 4 for crosses, which a map needs";
         /// See [`curvature_constraints`](super::curvature_constraints).
         constrain_curvature: f64 = 0.0, "0" in "[0, 1]",
-            "the part of the faces, those with the most reliable curvature, that have the direction of least absolute curvature";
+            "the fraction of the faces that take the direction of least absolute curvature: those where it is most reliable";
         /// See [`curvature_guides`](super::curvature_guides).
         curvature_weight: f64 = 0.0, "0" in "[0, inf)",
-            "how strongly all other faces are drawn to the direction of least absolute curvature, for an area and a difference of absolute curvatures of 1";
+            "the weight with which all other faces follow the direction of least absolute curvature, for an area of 1 and absolute curvatures that differ by 1";
         /// For crosses at most two edges of a face become features.
         feature_angle: Option<f64> = None, "unset" in "[0, 3.141592653589793]",
-            "edges at which the normals of the two faces differ by this many radians or more are features; 0: none";
-        /// A field of single directions, N = 1, does not follow them: on which side of an edge it
-        /// should lie nobody says.
+            "an edge is a feature if the normals of its faces differ by this many radians or more; 0: none is";
+        /// A field of single directions, N = 1, does not follow them: the side of an edge on which it should
+        /// lie is undefined.
         align_boundary: bool = true, "1" in "[0, 1]",
-            "1 if edges of the boundary are features";
+            "1: the edges of the boundary are features";
         /// Directions of curvature are those at this scale; see [`FieldOptions::detail`],
         /// [`map_options`](Self::map_options) and
         /// [`quadrangulate`](crate::quad::quadrangulate).
         detail: Option<f64> = None, "unset" in "[0, inf)",
-            "details smaller than this length attract no irregular vertices; unset: 0 for a field, the length of quads' edges for a map, a quarter of it for quads";
+            "details smaller than this length attract no irregular vertices; unset: 0 for a field, an edge of the quads for a map, a quarter of an edge for quads";
     }
     and {
         /// Directions that faces have, each face at most once.

@@ -18,9 +18,9 @@ options! {
         /// On meshes that are not large a few fields are tried. Never where curvature counts for
         /// nothing, or indices are given.
         vary_curvature: bool = true, "1" in "[0, 1]",
-            "1 if curvature may count for less than the guidance has it, where the map is less distorted then";
+            "1: also try fields that follow curvature less than the guidance says, and keep the field whose map is least distorted";
         untangle: bool = true, "1" in "[0, 1]",
-            "1 if a map is untangled whose folds extraction cannot cope with";
+            "1: untangle the map if its folds keep extraction from making quads";
     }
     and {
         /// How large quads shall be.
@@ -43,25 +43,25 @@ options! {
     }
     by {
         quads: Option<usize>, "1000" in "[1, 2147483647]",
-            "about how many quads",
+            "the approximate number of quads",
             |options| match options.sizing {
                 Sizing::Quads(count) => Some(count),
                 _ => None,
             },
             |options, quads| options.size(quads.map(Sizing::Quads));
         edge_length: Option<f64>, "unset" in "(0, inf)",
-            "edges of this length, in units of the mesh, instead of a number of quads",
+            "the length of the edges of quads, in units of the mesh, instead of their number",
             |options| match options.sizing {
                 Sizing::EdgeLength(length) => Some(length),
                 _ => None,
             },
             |options, length| options.size(length.map(Sizing::EdgeLength));
         field_strategy: Strategy, "adaptive" in Strategy::WORDS,
-            "how the field's integers are decided",
+            "the strategy that decides the integers of the field",
             |options| options.field.strategy,
             |options, strategy| options.field.strategy = strategy;
         smooth: bool, "1" in "[0, 1]",
-            "1 if vertices move over the surface towards squares of one size",
+            "1: move vertices over the surface to make the quads more like squares of one size",
             |options| options.smooth.is_some(),
             |options, smooth| options.smooth = smooth.then(SmoothOptions::default);
     }

@@ -13,25 +13,25 @@ options! {
     /// All options of a solve.
     OPTIONS {
         strategy: Strategy = Strategy::Auto, "auto" in Strategy::WORDS,
-            "how integers are decided";
+            "the strategy that decides the integers";
         time_limit: f64 = f64::INFINITY, "inf" in "[0, inf]",
-            "seconds after which the best solution so far is returned";
+            "the seconds after which the best solution so far is returned";
         /// The result does not depend on it.
         threads: usize = 1, "1" in "[0, 1024]",
-            "threads that may be used at most; 0: as many as there are cores";
+            "the largest number of threads, of which one is used so far; 0: one for each core";
         rounding_threshold: f64 = 0.5, "0.5" in "[0, inf]",
-            "adaptive, multiple: integers are rounded together while their deviations sum up to at most this";
+            "adaptive, multiple: integers are rounded together while the sum of their deviations is at most this";
         exact_integers: usize = 1000, "1000" in "[0, 2147483647]",
             "adaptive: up to this many integers are decided exactly, one at a time";
         gauss_seidel_updates: usize = 100_000, "100000" in "[0, 2147483647]",
-            "adaptive, multiple: Gauss-Seidel updates a pass, after which conjugate gradients take over";
+            "adaptive, multiple: the number of Gauss-Seidel updates in a pass before conjugate gradients take over";
         gauss_seidel_tolerance: f64 = 1e-3, "0.001" in "[0, inf]",
-            "adaptive, multiple: Gauss-Seidel does not push on where an unknown would move by less";
+            "adaptive, multiple: Gauss-Seidel leaves an unknown that would move by less than this";
         cg_iterations: usize = 50, "50" in "[0, 2147483647]",
-            "adaptive, multiple: conjugate-gradient iterations a pass, after which a factorization takes over";
+            "adaptive, multiple: the number of conjugate-gradient iterations in a pass before a factorization takes over";
         /// The estimate is the preconditioner's; the residual is that of `Q/2 x = -q/2`.
         cg_tolerance: f64 = 1e-3, "0.001" in "[0, inf]",
-            "adaptive: conjugate gradients end where no unknown is estimated further from the minimum; multiple: where the residual is shorter";
+            "adaptive: conjugate gradients end when every unknown is estimated to be closer than this to the minimum; multiple: when the residual is shorter than this";
         exact_steps: bool = true, "1" in "[0, 1]",
             "adaptive, multiple: 1 if a pass may factor when conjugate gradients fail";
         /// They are those of the solver's last solution, or those that the initial guess rounds
@@ -39,17 +39,17 @@ options! {
         warm_start: WarmStart = WarmStart::Off, "off" in WarmStart::WORDS,
             "earlier integers: ignored, offered before the search begins, or kept as they are";
         ordering: Ordering = Ordering::FillReducing, "fill_reducing" in "fill_reducing|natural|largest_pivot",
-            "order of eliminations and factorizations; largest_pivot solves constraints for their largest coefficient (Bommes' thesis), natural only shows what an order is worth";
+            "the order of eliminations and factorizations; largest_pivot solves constraints for their largest coefficient (Bommes' thesis), natural keeps the given order, for comparison";
         dense_integers: usize = 1000, "1000" in "[0, 20000]",
             "lattice, exact, auto: up to this many integers are decided in a dense lattice";
         beam_width: usize = 256, "256" in "[1, 1000000]",
-            "lattice, exact, auto: beginnings that nearest plane keeps at a time";
+            "lattice, exact, auto: the number of partial solutions that the beam of nearest plane keeps";
         lattice_rounds: usize = 1, "1" in "[0, 2147483647]",
-            "lattice, exact, auto: perturbation rounds after the blocks";
+            "lattice, exact, auto: the number of perturbation rounds after the blocks";
         nodes: usize = 10_000_000_000, "10000000000" in "[0, 9007199254740992]",
-            "exact, auto: nodes that the proof may visit";
+            "exact, auto: the number of nodes that the proof may visit";
         gap: f64 = 0.0, "0" in "[0, inf]",
-            "exact, auto: relative gap that ends the proof";
+            "exact, auto: the relative gap that ends the proof";
     }
     and {}
     by {}

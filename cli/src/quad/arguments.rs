@@ -6,7 +6,7 @@ use roundel::Strategy;
 
 use crate::exit;
 use crate::field::Directions;
-use crate::options::SolverOptions;
+use crate::options::{QuadFlags, SolverOptions};
 use crate::parametrize::SizingFlags;
 
 /// Turn a triangle mesh into quads: field, map and extraction in one.
@@ -36,13 +36,8 @@ pub struct Arguments {
     #[arg(long, value_name = "WORD", default_value = "adaptive", value_parser = deciding)]
     pub field_strategy: Strategy,
 
-    /// Do not untangle: leave the faces that the map folds
-    #[arg(long)]
-    pub no_untangle: bool,
-
-    /// Do not smooth the quads
-    #[arg(long)]
-    pub no_smooth: bool,
+    #[command(flatten)]
+    pub flags: QuadFlags,
 
     /// Write a page for a browser with all figures and an interactive view of field, map and quads
     #[arg(long, value_name = "REPORT.html")]

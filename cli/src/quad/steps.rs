@@ -38,10 +38,10 @@ pub(super) fn solve(arguments: &Arguments) -> Result<Solved> {
             ..map.clone()
         },
         map,
-        untangle: !arguments.no_untangle,
-        smooth: default.smooth.filter(|_| !arguments.no_smooth),
         compare: arguments.compare_strategies.clone(),
+        ..default
     };
+    let options = arguments.flags.over(options)?;
     let monitor = || progress.monitor().cancel_token(token.clone());
     let made = quadrangulate(&mesh, &options, monitor)?;
     if let Some(path) = &arguments.out {

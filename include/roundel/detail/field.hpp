@@ -40,17 +40,17 @@ struct FieldOptions {
     /// All irregular vertices; where nothing is said the energy decides.
     std::optional<std::vector<VertexIndex>> indices = std::nullopt;
     // Table of options: members.
-    /// Arms of a direction, evenly around: 4 for crosses; a map needs crosses. In 1, 2, 4, 6; 4 by
+    /// The number of arms of a direction: 4 for crosses, which a map needs. In 1, 2, 4, 6; 4 by
     /// default.
     std::optional<std::int64_t> symmetry = std::nullopt;
-    /// The part of the faces, those with the most reliable curvature, that have the direction of
-    /// least absolute curvature. In [0, 1]; 0 by default.
+    /// The fraction of the faces that take the direction of least absolute curvature: those where
+    /// it is most reliable. In [0, 1]; 0 by default.
     std::optional<double> constrain_curvature = std::nullopt;
-    /// How strongly all other faces are drawn to the direction of least absolute curvature, for an
-    /// area and a difference of absolute curvatures of 1. In [0, inf); 0 by default.
+    /// The weight with which all other faces follow the direction of least absolute curvature, for
+    /// an area of 1 and absolute curvatures that differ by 1. In [0, inf); 0 by default.
     std::optional<double> curvature_weight = std::nullopt;
-    /// Details smaller than this length attract no irregular vertices; unset: 0 for a field, the
-    /// length of quads' edges for a map, a quarter of it for quads. In [0, inf).
+    /// Details smaller than this length attract no irregular vertices; unset: 0 for a field, an
+    /// edge of the quads for a map, a quarter of an edge for quads. In [0, inf).
     std::optional<double> detail = std::nullopt;
     // End of the table.
     /// How the problem is solved.

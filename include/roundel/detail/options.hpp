@@ -96,30 +96,32 @@ struct Options {
     /// The name of a set of options, "orientation_field" or "parametrization". It is applied first.
     std::optional<std::string> preset = std::nullopt;
     // Table of options: members.
-    /// How integers are decided. One of relax, direct, greedy, adaptive, multiple, lattice, exact,
-    /// auto; auto by default.
+    /// The strategy that decides the integers. One of relax, direct, greedy, adaptive, multiple,
+    /// lattice, exact, auto; auto by default.
     std::optional<std::string> strategy = std::nullopt;
-    /// Seconds after which the best solution so far is returned. In [0, inf]; inf by default.
+    /// The seconds after which the best solution so far is returned. In [0, inf]; inf by default.
     std::optional<double> time_limit = std::nullopt;
-    /// Threads that may be used at most; 0: as many as there are cores. In [0, 1024]; 1 by default.
+    /// The largest number of threads, of which one is used so far; 0: one for each core. In [0,
+    /// 1024]; 1 by default.
     std::optional<std::int64_t> threads = std::nullopt;
-    /// Adaptive, multiple: integers are rounded together while their deviations sum up to at most
-    /// this. In [0, inf]; 0.5 by default.
+    /// Adaptive, multiple: integers are rounded together while the sum of their deviations is at
+    /// most this. In [0, inf]; 0.5 by default.
     std::optional<double> rounding_threshold = std::nullopt;
     /// Adaptive: up to this many integers are decided exactly, one at a time. In [0, 2147483647];
     /// 1000 by default.
     std::optional<std::int64_t> exact_integers = std::nullopt;
-    /// Adaptive, multiple: Gauss-Seidel updates a pass, after which conjugate gradients take over.
-    /// In [0, 2147483647]; 100000 by default.
+    /// Adaptive, multiple: the number of Gauss-Seidel updates in a pass before conjugate gradients
+    /// take over. In [0, 2147483647]; 100000 by default.
     std::optional<std::int64_t> gauss_seidel_updates = std::nullopt;
-    /// Adaptive, multiple: Gauss-Seidel does not push on where an unknown would move by less. In
-    /// [0, inf]; 0.001 by default.
+    /// Adaptive, multiple: Gauss-Seidel leaves an unknown that would move by less than this. In [0,
+    /// inf]; 0.001 by default.
     std::optional<double> gauss_seidel_tolerance = std::nullopt;
-    /// Adaptive, multiple: conjugate-gradient iterations a pass, after which a factorization takes
-    /// over. In [0, 2147483647]; 50 by default.
+    /// Adaptive, multiple: the number of conjugate-gradient iterations in a pass before a
+    /// factorization takes over. In [0, 2147483647]; 50 by default.
     std::optional<std::int64_t> cg_iterations = std::nullopt;
-    /// Adaptive: conjugate gradients end where no unknown is estimated further from the minimum;
-    /// multiple: where the residual is shorter. In [0, inf]; 0.001 by default.
+    /// Adaptive: conjugate gradients end when every unknown is estimated to be closer than this to
+    /// the minimum; multiple: when the residual is shorter than this. In [0, inf]; 0.001 by
+    /// default.
     std::optional<double> cg_tolerance = std::nullopt;
     /// Adaptive, multiple: 1 if a pass may factor when conjugate gradients fail. In [0, 1]; 1 by
     /// default.
@@ -127,23 +129,23 @@ struct Options {
     /// Earlier integers: ignored, offered before the search begins, or kept as they are. One of
     /// off, offer, keep; off by default.
     std::optional<std::string> warm_start = std::nullopt;
-    /// Order of eliminations and factorizations; largest_pivot solves constraints for their largest
-    /// coefficient (Bommes' thesis), natural only shows what an order is worth. One of
+    /// The order of eliminations and factorizations; largest_pivot solves constraints for their
+    /// largest coefficient (Bommes' thesis), natural keeps the given order, for comparison. One of
     /// fill_reducing, natural, largest_pivot; fill_reducing by default.
     std::optional<std::string> ordering = std::nullopt;
     /// Lattice, exact, auto: up to this many integers are decided in a dense lattice. In [0,
     /// 20000]; 1000 by default.
     std::optional<std::int64_t> dense_integers = std::nullopt;
-    /// Lattice, exact, auto: beginnings that nearest plane keeps at a time. In [1, 1000000]; 256 by
-    /// default.
+    /// Lattice, exact, auto: the number of partial solutions that the beam of nearest plane keeps.
+    /// In [1, 1000000]; 256 by default.
     std::optional<std::int64_t> beam_width = std::nullopt;
-    /// Lattice, exact, auto: perturbation rounds after the blocks. In [0, 2147483647]; 1 by
-    /// default.
+    /// Lattice, exact, auto: the number of perturbation rounds after the blocks. In [0,
+    /// 2147483647]; 1 by default.
     std::optional<std::int64_t> lattice_rounds = std::nullopt;
-    /// Exact, auto: nodes that the proof may visit. In [0, 9007199254740992]; 10000000000 by
-    /// default.
+    /// Exact, auto: the number of nodes that the proof may visit. In [0, 9007199254740992];
+    /// 10000000000 by default.
     std::optional<std::int64_t> nodes = std::nullopt;
-    /// Exact, auto: relative gap that ends the proof. In [0, inf]; 0 by default.
+    /// Exact, auto: the relative gap that ends the proof. In [0, inf]; 0 by default.
     std::optional<double> gap = std::nullopt;
     // End of the table.
     /// Called for every event, on the thread that called solve. What it throws ends the solve and

@@ -27,28 +27,30 @@ struct QuadOptions {
     /// Edges that become chains of edges of the quads, instead of the boundary alone.
     std::optional<Features> features = std::nullopt;
     // Table of options: members.
-    /// About how many quads. In [1, 2147483647]; 1000 by default.
+    /// The approximate number of quads. In [1, 2147483647]; 1000 by default.
     std::optional<std::int64_t> quads = std::nullopt;
-    /// Edges of this length, in units of the mesh, instead of a number of quads. In (0, inf).
+    /// The length of the edges of quads, in units of the mesh, instead of their number. In (0,
+    /// inf).
     std::optional<double> edge_length = std::nullopt;
-    /// How the field's integers are decided. One of relax, direct, greedy, adaptive, multiple,
-    /// lattice, exact, auto; adaptive by default.
+    /// The strategy that decides the integers of the field. One of relax, direct, greedy, adaptive,
+    /// multiple, lattice, exact, auto; adaptive by default.
     std::optional<std::string> field_strategy = std::nullopt;
-    /// 1 if vertices move over the surface towards squares of one size. In [0, 1]; 1 by default.
+    /// 1: move vertices over the surface to make the quads more like squares of one size. In [0,
+    /// 1]; 1 by default.
     std::optional<bool> smooth = std::nullopt;
-    /// 1 if curvature may count for less than the guidance has it, where the map is less distorted
-    /// then. In [0, 1]; 1 by default.
+    /// 1: also try fields that follow curvature less than the guidance says, and keep the field
+    /// whose map is least distorted. In [0, 1]; 1 by default.
     std::optional<bool> vary_curvature = std::nullopt;
-    /// 1 if a map is untangled whose folds extraction cannot cope with. In [0, 1]; 1 by default.
+    /// 1: untangle the map if its folds keep extraction from making quads. In [0, 1]; 1 by default.
     std::optional<bool> untangle = std::nullopt;
-    /// The part of the faces, those with the most reliable curvature, that have the direction of
-    /// least absolute curvature. In [0, 1]; 0.005 by default.
+    /// The fraction of the faces that take the direction of least absolute curvature: those where
+    /// it is most reliable. In [0, 1]; 0.005 by default.
     std::optional<double> constrain_curvature = std::nullopt;
-    /// How strongly all other faces are drawn to the direction of least absolute curvature, for an
-    /// area and a difference of absolute curvatures of 1. In [0, inf); 0.07 by default.
+    /// The weight with which all other faces follow the direction of least absolute curvature, for
+    /// an area of 1 and absolute curvatures that differ by 1. In [0, inf); 0.07 by default.
     std::optional<double> curvature_weight = std::nullopt;
-    /// Details smaller than this length attract no irregular vertices; unset: 0 for a field, the
-    /// length of quads' edges for a map, a quarter of it for quads. In [0, inf).
+    /// Details smaller than this length attract no irregular vertices; unset: 0 for a field, an
+    /// edge of the quads for a map, a quarter of an edge for quads. In [0, inf).
     std::optional<double> detail = std::nullopt;
     // End of the table.
     /// How the map is solved, by lattice decoding where no strategy or preset is given; and, but
