@@ -79,7 +79,10 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> FieldMap<'a, M> {
             maps,
             at_hand,
             features_as_rounded,
-            effort: UntangleOptions::default(),
+            effort: UntangleOptions {
+                stiffenings: given.stiffenings,
+                ..UntangleOptions::default()
+            },
             is_relaxed: given.map.strategy == Strategy::Relax,
         })
     }

@@ -5,6 +5,7 @@ use crate::map::{SeamlessOptions, Sizing};
 use crate::search::table::options;
 use crate::search::{Options, Strategy};
 use crate::smooth::SmoothOptions;
+use crate::untangle::UntangleOptions;
 
 options! {
     /// How to make quads. The default is as many as [`SeamlessOptions`] has, along the curvature
@@ -21,6 +22,8 @@ options! {
             "1: also try fields that follow curvature less than the guidance says, and keep the field whose map is least distorted";
         untangle: bool = true, "1" in "[0, 1]",
             "1: untangle the map if its folds keep extraction from making quads";
+        stiffenings: usize = UntangleOptions::default().stiffenings, "5" in "[0, 1000]",
+            "the number of times that untangling first stiffens the surroundings of folded triangles";
     }
     and {
         /// How large quads shall be.

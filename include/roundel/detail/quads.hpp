@@ -43,6 +43,9 @@ struct QuadOptions {
     std::optional<bool> vary_curvature = std::nullopt;
     /// 1: untangle the map if its folds keep extraction from making quads. In [0, 1]; 1 by default.
     std::optional<bool> untangle = std::nullopt;
+    /// The number of times that untangling first stiffens the surroundings of folded triangles. In
+    /// [0, 1000]; 5 by default.
+    std::optional<std::int64_t> stiffenings = std::nullopt;
     /// The fraction of the faces that take the direction of least absolute curvature: those where
     /// it is most reliable. In [0, 1]; 0.005 by default.
     std::optional<double> constrain_curvature = std::nullopt;
@@ -80,6 +83,10 @@ struct QuadOptions {
     }
     QuadOptions& set_untangle(bool value) {
         untangle = value;
+        return *this;
+    }
+    QuadOptions& set_stiffenings(std::int64_t value) {
+        stiffenings = value;
         return *this;
     }
     QuadOptions& set_constrain_curvature(double value) {
@@ -285,6 +292,9 @@ template <class Tell> bool each_quad_option(const QuadOptions& options, const Te
         return false;
     }
     if (options.untangle && !tell("untangle", *options.untangle)) {
+        return false;
+    }
+    if (options.stiffenings && !tell("stiffenings", *options.stiffenings)) {
         return false;
     }
     return true;
