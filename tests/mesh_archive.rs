@@ -198,17 +198,17 @@ fn fold_free_map(mesh: &TriangleMesh) -> (FoldFreeMap, bool) {
     let (field, _) = solve_field(mesh, &follow, &adaptive, monitor).unwrap();
     let problem = SeamlessProblem::with_features(mesh, &field, &sizing, &features).unwrap();
     let effort = UntangleOptions::default();
-    let unfolded = solve_fold_free(mesh, &problem, &solver, &effort, monitor).unwrap();
-    let map = &unfolded.untangled.map;
+    let found = solve_fold_free(mesh, &problem, &solver, &effort, monitor).unwrap();
+    let map = &found.untangled.map;
     let options = CheckOptions {
         boundary: false,
         ..CheckOptions::default()
     };
-    let found = check_map(mesh, &map.corner_uvs(), &options).unwrap();
-    let steps = [&found.rotations, &found.translations];
-    assert!(steps.iter().all(|faults| faults.is_empty()), "{found:?}");
-    assert_eq!(found.is_fold_free(), unfolded.untangled.flipped_after == 0);
-    (unfolded, found.is_valid())
+    let check = check_map(mesh, &map.corner_uvs(), &options).unwrap();
+    let steps = [&check.rotations, &check.translations];
+    assert!(steps.iter().all(|faults| faults.is_empty()), "{check:?}");
+    assert_eq!(check.is_fold_free(), found.untangled.flipped_after == 0);
+    (found, check.is_valid())
 }
 
 #[test]
@@ -219,13 +219,9 @@ fn small_meshes_get_valid_maps() {
     for name in [
         "part", "eight", "spool", "cactus", "knot", "plane", "cylinder",
     ] {
-        let (unfolded, is_valid) = fold_free_map(&load(&folder, name).unwrap());
+        let (found, is_valid) = fold_free_map(&load(&folder, name).unwrap());
         assert!(is_valid, "{name}");
-        assert!(
-            unfolded.refinements <= 1,
-            "{name}: {}",
-            unfolded.refinements
-        );
+        assert!(found.refinements <= 1, "{name}: {}", found.refinements);
     }
 }
 
@@ -242,9 +238,9 @@ fn nearly_all_sound_meshes_get_maps_without_folds() {
         let (mut unfolded_maps, mut valid) = (0, 0);
         for &&(name, faces, _) in &meshes {
             let started = std::time::Instant::now();
-            let (unfolded, is_valid) = fold_free_map(&load(&folder, name).unwrap());
+            let (found, is_valid) = fold_free_map(&load(&folder, name).unwrap());
             let seconds = started.elapsed().as_secs_f64();
-            let untangled = &unfolded.untangled;
+            let untangled = &found.untangled;
             unfolded_maps += usize::from(untangled.flipped_after == 0);
             valid += usize::from(is_valid);
             println!(
@@ -252,8 +248,8 @@ fn nearly_all_sound_meshes_get_maps_without_folds() {
                 untangled.map.cones().len(),
                 untangled.flipped_before,
                 untangled.flipped_after,
-                unfolded.refinements,
-                unfolded.gradings,
+                found.refinements,
+                found.gradings,
             );
         }
         let count = meshes.len();

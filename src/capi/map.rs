@@ -40,7 +40,7 @@ pub(super) struct Found {
     /// How often the map was made finer.
     pub(super) refinements: usize,
     /// Whether it was untangled as it was solved for, in the size that it then had.
-    pub(super) unfolded: bool,
+    pub(super) is_untangled: bool,
 }
 
 impl Mapped {
@@ -53,17 +53,17 @@ impl Mapped {
     }
 
     /// Takes what became of a solve of this problem, or of a finer one.
-    pub(super) fn unfold(
+    pub(super) fn take_fold_free(
         &mut self,
         how: impl FnOnce(&TriangleMesh, &SeamlessProblem) -> Result<FoldFreeMap>,
     ) -> Outcome {
-        let unfolded = how(&self.mesh, &self.problem)?;
+        let found = how(&self.mesh, &self.problem)?;
         self.found = Some(Found {
-            map: unfolded.untangled.map,
-            unfolded: unfolded.solution.status() != SolveStatus::Relaxed,
-            solution: unfolded.solution,
-            rounds: unfolded.rounds,
-            refinements: unfolded.refinements,
+            map: found.untangled.map,
+            is_untangled: found.solution.status() != SolveStatus::Relaxed,
+            solution: found.solution,
+            rounds: found.rounds,
+            refinements: found.refinements,
         });
         Ok(())
     }
@@ -94,7 +94,7 @@ impl Mapped {
             solution,
             rounds: 0,
             refinements: 0,
-            unfolded: false,
+            is_untangled: false,
         });
         Ok(())
     }

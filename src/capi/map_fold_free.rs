@@ -37,7 +37,9 @@ pub unsafe extern "C" fn roundel_map_solve_fold_free(
         let (options, monitor) =
             unsafe { (guard::value_or(options, &default)?, watchers(monitor)?) };
         let effort = effort(map);
-        map.unfold(|mesh, problem| solve_fold_free(mesh, problem, options, &effort, monitor))
+        map.take_fold_free(|mesh, problem| {
+            solve_fold_free(mesh, problem, options, &effort, monitor)
+        })
     };
     // SAFETY: the caller gives a live handle, or NULL.
     unsafe { guard::write(map, body) }
@@ -82,7 +84,7 @@ pub unsafe extern "C" fn roundel_map_untangle(
         // SAFETY: the caller gives a monitor as its members say, or NULL.
         let mut monitor = unsafe { watched_by(monitor) }?;
         let found = map.found()?;
-        if found.unfolded {
+        if found.is_untangled {
             return Ok(());
         }
         if found.solution.status() == SolveStatus::Relaxed {

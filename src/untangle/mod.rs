@@ -218,7 +218,7 @@ impl Structure {
                 break;
             }
             for region in regions(work.freedom, &folded, rings) {
-                work.unfold(&region, schedule::FIRST_EPS, monitor)?;
+                work.undo_folds(&region, schedule::FIRST_EPS, monitor)?;
             }
         }
         if work.folded().is_empty() {
@@ -305,7 +305,7 @@ impl<'a> Untangling<'a> {
     }
 
     /// Works on one region, and keeps what comes out if it has fewer folds.
-    fn unfold(&mut self, region: &Region, first_eps: f64, monitor: &mut Monitor) -> Result<()> {
+    fn undo_folds(&mut self, region: &Region, first_eps: f64, monitor: &mut Monitor) -> Result<()> {
         let mut system = self.system(region)?;
         let before = system.folded(&self.values);
         if before == 0 {
@@ -316,7 +316,7 @@ impl<'a> Untangling<'a> {
             return Ok(());
         }
         let saved = system.save(&self.values);
-        let outcome = schedule::unfold(
+        let outcome = schedule::close_barrier(
             &mut system,
             &mut self.values,
             most_steps,

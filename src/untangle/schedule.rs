@@ -35,7 +35,7 @@ pub(super) struct Outcome {
 }
 
 /// Works on a region until nothing is folded, for at most `most_steps` steps.
-pub(super) fn unfold(
+pub(super) fn close_barrier(
     system: &mut System,
     x: &mut [f64],
     most_steps: usize,

@@ -178,7 +178,7 @@ impl Untangling<'_> {
                 break;
             }
             for region in regions(self.freedom, &folded, rings) {
-                self.unfold(&region, first_eps, monitor)?;
+                self.undo_folds(&region, first_eps, monitor)?;
             }
         }
         Ok(())

@@ -73,7 +73,7 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
         mps::write(path, &MpsProblem::new(problem.problem().clone()))?;
     }
     let started = Instant::now();
-    let unfolded = match arguments.no_untangle {
+    let fold_free = match arguments.no_untangle {
         true => {
             let solution = roundel::solve_with(problem.problem(), &options, monitor())?;
             let map = problem.map(&mesh, &solution)?;
@@ -95,7 +95,7 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
         refinements,
         gradings,
         ..
-    } = unfolded;
+    } = fold_free;
     let untangle_seconds = solved - solution.seconds().total;
     if let Some(path) = &arguments.out {
         untangled.map.write_obj(&mesh, path)?;

@@ -51,7 +51,7 @@ impl fmt::Display for MapSummary<'_> {
         let found = format!("{}, {}", energy(solution.energy()), verdict(solution));
         let search = seconds.factor + seconds.round;
         line(f, options.strategy.name(), &found, search)?;
-        let mut unfolded = format!(
+        let mut told = format!(
             "{} flipped, {} stiffened, {}, {}, {}",
             counted(untangled.flipped_before, "face"),
             thousands(untangled.flipped_stiffened),
@@ -60,9 +60,9 @@ impl fmt::Display for MapSummary<'_> {
             counted(untangled.steps, "step")
         );
         if *gradings > 0 {
-            unfolded += &format!(", {} around faults", counted(*gradings, "grading"));
+            told += &format!(", {} around faults", counted(*gradings, "grading"));
         }
-        line(f, "untangle", &unfolded, *untangle_seconds)?;
+        line(f, "untangle", &told, *untangle_seconds)?;
         let mut flipped = format!("{} flipped", counted(map.flipped().len(), "face"));
         if !untangled.winding_defects.is_empty() {
             flipped += &format!(

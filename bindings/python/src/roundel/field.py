@@ -116,8 +116,8 @@ def field(
     (8, 2.0)
     """
     mesh = as_mesh(V, F)
-    wishes, options = split(keywords)
-    guidance = guidance_handle(mesh, wishes)
+    given, options = split(keywords)
+    guidance = guidance_handle(mesh, given)
     handle, watch = options_handle(options), Watch(progress, cancel)
     place = ffi.new("roundel_field **")
     call, of = lib.roundel_field_solve, mesh._handle.pointer

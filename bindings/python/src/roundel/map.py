@@ -173,14 +173,14 @@ def map(
     >>> map.uvs.shape == (len(cube.faces), 3, 2), map.valid
     (True, True)
     """
-    wishes, options = split(keywords)
+    given, options = split(keywords)
     watched: dict[str, Any] = {"progress": progress, "cancel": cancel, **options}
     if isinstance(V, Field):
-        if F is not None or wishes:
+        if F is not None or given:
             raise TypeError("a field has its mesh and its guidance: give them to the field")
         made = Map(V)
     else:
-        made = Map(field(V, F, **watched, **wishes))
+        made = Map(field(V, F, **watched, **given))
     remedies: dict[str, Any] = {"untangle": untangle, "stiffenings": stiffenings}
     made.solve(quads=quads, edge_length=edge_length, **remedies, **watched)
     return made

@@ -75,9 +75,9 @@ class Quads:
         call = lib.roundel_quads_is_conforming
         return bool(number(call, self._handle.pointer, kind="int32_t"))
 
-    def smooth(self, mesh: Mesh, **wishes: Any) -> None:
+    def smooth(self, mesh: Mesh, **keywords: Any) -> None:
         """Moves the vertices on `mesh` to make the quads more like squares of one size."""
-        guidance = guidance_handle(mesh, wishes)
+        guidance = guidance_handle(mesh, keywords)
         arguments = (mesh._handle.pointer, pointer_of(guidance), ffi.NULL)
         check(lib.roundel_quads_smooth(self._handle.pointer, *arguments))
 
@@ -134,9 +134,9 @@ def quad(
     own = {name: value for name, value in own.items() if value is not None}
     if {"quads", "edge_length"} <= own.keys():
         raise TypeError("quads and edge_length are two ways to say one thing")
-    wishes, solve = split(keywords)
-    guidance = guidance_handle(mesh, wishes, of_quads=True)
-    own.setdefault("vary_curvature", not says_curvature(wishes))
+    given, solve = split(keywords)
+    guidance = guidance_handle(mesh, given, of_quads=True)
+    own.setdefault("vary_curvature", not says_curvature(given))
     by = solve if {"strategy", "preset"} & solve.keys() else {"strategy": "lattice", **solve}
     how = Handle.made("roundel_quad_options", lib.roundel_quad_options_new)
     check(lib.roundel_quad_options_set_guidance(how.pointer, pointer_of(guidance)))
