@@ -13,10 +13,10 @@ use crate::mesh::TriangleMesh;
 /// The factor by which lengths grow at a fault, each time.
 const FINER: f64 = 1.5;
 
-/// The distance in quads beyond which lengths do not grow,
+/// The distance in quads beyond which lengths do not grow.
 const REACH: f64 = 3.0;
 
-/// if it is at least this many edges of triangles.
+/// The least distance beyond which lengths do not grow, in edges of triangles.
 const LEAST_EDGES: f64 = 4.0;
 
 /// Multiplies the lengths of faces, one a face, around the faults of a map.

@@ -12,10 +12,10 @@ use crate::map::SeamlessProblem;
 use crate::mesh::TriangleMesh;
 use crate::mesh::vector::{dot, sub};
 
-/// The most edges of a path between two cones,
+/// The most edges of a path between two cones, unless [`LONGEST_REACH`] allows more.
 const LONGEST_PATH: usize = 4;
 
-/// and the length in quads up to which a path may have more edges than that.
+/// The length in quads up to which a path between two cones may have any number of edges.
 const LONGEST_REACH: f64 = 2.0;
 
 /// The elements that integers may collapse, the same for all maps of one problem.

@@ -15,7 +15,7 @@ pub(super) const FIRST_EPS: f64 = 1.0;
 /// The last eps: a smaller one changes nothing in double precision.
 const LAST_EPS: f64 = 1e-9;
 
-/// The least part by which eps falls: the proof in the paper needs 1/10.
+/// The least part by which eps falls: the value 1/10 for which the paper has its proof.
 const LEAST_GAIN: f64 = 0.1;
 
 /// A minimisation at fixed eps ends when a step gains less than this part of the energy.
