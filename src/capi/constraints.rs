@@ -50,11 +50,10 @@ unsafe fn add_matrix<I: Index>(
     }
 }
 
-/// Adds the constraints C x = rhs, one a row of C, which is given in compressed rows: the
-/// entries of row k are those from offsets[k] to before offsets[k + 1]. `offset_count` is one more
-/// than the number of constraints, `count` the number of entries. Entries of a row may be in any
-/// order, duplicates are summed. The number of the first new constraint goes to `first`, which may
-/// be NULL.
+/// Adds the constraints C x = rhs, one for each row of C. C is given in compressed rows: the entries of
+/// row k are those from offsets[k] to before offsets[k + 1]. `offset_count` is one more than the number
+/// of constraints, and `count` is the number of entries. Entries of a row may be in any order; duplicates
+/// are summed. The number of the first new constraint is written to `first`, which may be NULL.
 ///
 /// Errors give a position in the array at fault as their index.
 #[unsafe(no_mangle)]
@@ -92,11 +91,11 @@ pub unsafe extern "C" fn roundel_problem_add_constraints_csr_i64(
     unsafe { add_matrix(problem, matrix, constraint_count, rhs, first) }
 }
 
-/// Adds the constraints C x = rhs, one a row of C, which is given in compressed columns: the
-/// entries of column k are those from offsets[k] to before offsets[k + 1]. `offset_count` is one more
-/// than the number of variables, `count` the number of entries. Entries of a column may be in any
-/// order, duplicates are summed. The number of the first new constraint goes to `first`, which may
-/// be NULL.
+/// Adds the constraints C x = rhs, one for each row of C. C is given in compressed columns: the entries
+/// of column k are those from offsets[k] to before offsets[k + 1]. `offset_count` is one more than the
+/// number of variables, and `count` is the number of entries. Entries of a column may be in any order;
+/// duplicates are summed. The number of the first new constraint is written to `first`, which may be
+/// NULL.
 ///
 /// Errors give a position in the array at fault as their index.
 #[unsafe(no_mangle)]

@@ -9,12 +9,13 @@ use crate::error::Error;
 use crate::field::curvature_constraints;
 use crate::mesh::TriangleMesh;
 
-/// Gives the directions of least absolute curvature of the faces where they are most reliable:
-/// `fraction` of all faces, rounded to the nearest count, in increasing order. `faces` and `angles` have room for `capacity` entries, and as many as the mesh
-/// has faces are always enough; `count` tells how many were written.
+/// Gives the directions of least absolute curvature of the faces where they are most reliable: `fraction`
+/// of all faces, rounded to the nearest count, in increasing order. `faces` and `angles` have room for
+/// `capacity` entries; the number of faces of the mesh always suffices. The number of entries written
+/// goes to `count`.
 ///
-/// Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for a fraction outside of 0 to 1,
-/// ROUNDEL_ERROR_LENGTH_MISMATCH where the room is too small.
+/// Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for a fraction outside of 0 to 1, and with
+/// ROUNDEL_ERROR_LENGTH_MISMATCH if the room is too small.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_mesh_curvature_constraints(
     mesh: *const roundel_mesh,

@@ -13,11 +13,11 @@ fn number(n: Option<usize>) -> i64 {
     n.and_then(|n| i64::try_from(n).ok()).unwrap_or(-1)
 }
 
-/// Copies the message of the last call that failed on this thread, which names the element at
-/// fault, to `buffer`: at most `capacity` bytes with the NUL that ends it, cut if need be. UTF-8.
+/// Copies the message of the last call that failed on this thread to `buffer`: at most `capacity` bytes
+/// of UTF-8 with the terminating NUL, truncated if necessary. The message names the element at fault.
 ///
-/// Returns the length of the whole message without its NUL, as snprintf does; 0 if no call has
-/// failed. `buffer` may be NULL if `capacity` is 0. Calls that succeed leave the message alone.
+/// Returns the length of the whole message without its NUL, as snprintf does, or 0 if no call has failed.
+/// `buffer` may be NULL if `capacity` is 0. Calls that succeed leave the message unchanged.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_last_error_message(buffer: *mut c_char, capacity: usize) -> usize {
     last(|error| {
@@ -42,11 +42,11 @@ pub extern "C" fn roundel_last_error_line() -> i64 {
     number(last(|error| error.line).flatten())
 }
 
-/// Copies the direction that goes with ROUNDEL_ERROR_UNBOUNDED and ROUNDEL_ERROR_NOT_CONVEX: one
-/// number a variable, largest entry 1 in absolute value. `length` must be the number of variables.
+/// Copies the direction that belongs to ROUNDEL_ERROR_UNBOUNDED and ROUNDEL_ERROR_NOT_CONVEX: one number
+/// for each variable, the largest with absolute value 1. `length` must be the number of variables.
 ///
-/// Fails with ROUNDEL_ERROR_LENGTH_MISMATCH if the last error had no direction, or one of another
-/// length. Being a failure, that takes the place of the last error.
+/// Fails with ROUNDEL_ERROR_LENGTH_MISMATCH if the last error had no direction, or one of another length.
+/// This failure then replaces the last error.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_last_error_direction(
     direction: *mut f64,

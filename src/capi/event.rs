@@ -1,4 +1,4 @@
-//! Who watches a solve: one callback for everything, and a cancel token.
+//! The monitor of a solve: one callback for all events, and a cancel token.
 
 use std::ffi::{CString, c_char, c_void};
 use std::mem::offset_of;
@@ -11,17 +11,17 @@ use crate::error::Error;
 use crate::monitor::{Event, Flow, Monitor};
 use crate::monitor::{EventKind, Phase};
 
-/// What an event tells.
+/// The kind of an event.
 #[repr(i32)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum roundel_event_kind {
-    /// A part of the solve has got so far: see `phase` and `fraction`.
+    /// A part of the solve has progressed: see `phase` and `fraction`.
     ROUNDEL_EVENT_PROGRESS = 1,
-    /// Something worth a line in a log: see `text`.
+    /// A line for a log: see `text`.
     ROUNDEL_EVENT_LOG = 2,
-    /// A better solution than any before: see `energy`.
+    /// A better solution than all before: see `energy`.
     ROUNDEL_EVENT_IMPROVED = 3,
-    /// A better lower bound than any before: see `lower_bound` and `gap`.
+    /// A better lower bound than all before: see `lower_bound` and `gap`.
     ROUNDEL_EVENT_RAISED = 4,
 }
 
@@ -37,17 +37,17 @@ pub enum roundel_phase {
     ROUNDEL_PHASE_FACTOR = 2,
     /// The search for integers.
     ROUNDEL_PHASE_ROUND = 3,
-    /// Motion of what is continuous around integers that are held.
+    /// Motion of the continuous unknowns while the integers are fixed.
     ROUNDEL_PHASE_UNTANGLE = 4,
     /// Extraction of quads from a map, and their smoothing.
     ROUNDEL_PHASE_QUADS = 5,
 }
 
-/// One message to the callback, with where the solve stands. It lives as long as the callback runs.
+/// One event for the callback, with the state of the solve. It is valid until the callback returns.
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub struct roundel_event {
-    /// Bytes of this struct in the library that is linked: later versions add members at its end.
+    /// Size of this struct in the linked library, in bytes: later versions add members at its end.
     pub size: usize,
     /// What happened, a roundel_event_kind.
     pub kind: i32,
@@ -67,27 +67,27 @@ pub struct roundel_event {
     pub gap: f64,
 }
 
-/// Hears of progress, log lines and better solutions, on the thread that called solve. 0 goes on;
-/// anything else ends the solve and keeps the best solution. It must return: no exception and no
+/// Receives progress, log lines and better solutions, on the thread that called solve. It returns 0 to go
+/// on; any other value ends the solve, which keeps the best solution. It must return: no exception and no
 /// longjmp may leave it.
 pub type roundel_callback =
     Option<unsafe extern "C" fn(event: *const roundel_event, user_data: *mut c_void) -> i32>;
 
-/// Who watches a solve.
+/// The monitor of a solve.
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub struct roundel_monitor {
-    /// sizeof(roundel_monitor), by which a later library knows the members that you know.
+    /// sizeof(roundel_monitor), which tells a later library which members the caller knows.
     pub size: usize,
     /// Called for every event; may be NULL.
     pub callback: roundel_callback,
-    /// Handed to the callback as it is.
+    /// Passed to the callback unchanged.
     pub user_data: *mut c_void,
     /// Ends the solve when it is set; may be NULL.
     pub cancel_token: *const roundel_cancel_token,
 }
 
-/// A struct longer than this is taken for one whose size was never set.
+/// A longer struct is taken for one whose size was never set.
 const LARGEST: usize = 4096;
 
 const _: () = {
@@ -103,7 +103,7 @@ const _: () = {
     assert!(size_of::<roundel_event>() == if word == 8 { 64 } else { 56 });
 };
 
-/// The library's monitor for the caller's, which may be NULL: nobody watches then.
+/// The library's monitor for the caller's. The caller's may be NULL: then nobody watches.
 ///
 /// # Safety
 /// `monitor` is NULL or points to a struct of the size that its first member says, whose token is
@@ -157,7 +157,7 @@ pub(super) unsafe fn monitor<'a>(monitor: *const roundel_monitor) -> Outcome<Mon
 /// The text of an event with the NUL that C wants.
 fn text_of(event: &Event) -> CString {
     match event.kind {
-        // A NUL inside a line, as a variable's name might hold, must not cut it.
+        // A NUL inside a line, for example in a variable's name, must not truncate it.
         EventKind::Log(line) => CString::new(line.replace('\0', " ")).unwrap_or_default(),
         _ => CString::default(),
     }
@@ -207,7 +207,7 @@ impl From<Phase> for roundel_phase {
 pub(super) unsafe fn watchers<'a>(
     monitor: *const roundel_monitor,
 ) -> Outcome<impl Fn() -> Monitor<'a>> {
-    // What is wrong with it is told before anything is done.
+    // Errors in the monitor are reported before any work is done.
     // SAFETY: handed on.
     unsafe { self::monitor(monitor) }?;
     // SAFETY: handed on.

@@ -5,11 +5,11 @@ use std::cell::RefCell;
 use super::status::roundel_status::{self, *};
 use crate::error::Error;
 
-/// Why a call failed: what the library says, or what only the C interface can get wrong.
+/// The reason of a failure: an error of the library, or one that only the C interface can have.
 #[derive(Debug)]
 pub(super) enum Failure {
     Library(Error),
-    /// What the library says of an entry of a matrix, and the row that it is in.
+    /// An error of the library at an entry of a matrix, and the row of the entry.
     InRow {
         row: usize,
         error: Error,
@@ -19,7 +19,7 @@ pub(super) enum Failure {
     Unusable,
 }
 
-/// What the body of an entry gives back.
+/// The result of the body of an entry.
 pub(super) type Outcome<T = ()> = Result<T, Failure>;
 
 impl From<Error> for Failure {
@@ -28,7 +28,7 @@ impl From<Error> for Failure {
     }
 }
 
-/// What a thread remembers of its last call that failed.
+/// The record of a thread's last call that failed.
 #[derive(Default)]
 pub(super) struct LastError {
     pub(super) message: String,
@@ -72,7 +72,7 @@ impl Failure {
                 _ => Vec::new(),
             },
         };
-        // Fails only while the thread ends, when nobody can ask any more.
+        // This fails only while the thread ends, when nobody can read the error any more.
         let _ = LAST.try_with(|slot| slot.replace(last));
         status
     }

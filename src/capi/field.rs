@@ -1,4 +1,4 @@
-//! The field handle: what can be asked of an orientation field.
+//! The field handle: queries of an orientation field.
 
 use super::failure::Outcome;
 use super::guard::{self, Guarded, object};
@@ -10,7 +10,7 @@ use crate::mesh::TriangleMesh;
 use crate::mesh::features::FeatureGraph;
 use crate::solve::Solution;
 
-/// All that can be asked of a field, so that the mesh need not live as long.
+/// The results of a field, copied so that the mesh need not live as long.
 pub(super) struct Found {
     field: OrientationField,
     /// The edges that the field was told to follow.
@@ -51,8 +51,8 @@ impl Found {
     }
 }
 
-/// An N-symmetric direction field of a mesh: N arms in every face, a cross for N = 4, and how they
-/// match over edges. It does not need the mesh any more.
+/// An N-symmetric direction field of a mesh: N arms in every face, a cross for N = 4, and their matching
+/// across edges. The mesh may be freed before the field.
 pub struct roundel_field(Guarded<Found>);
 
 object!(roundel_field, Found, "field");
@@ -83,9 +83,9 @@ unsafe fn copy<T: Copy>(
     unsafe { guard::read(field, body) }
 }
 
-/// Copies the angle of one arm of every face: radians, counter-clockwise about the normal
-/// from the face's first edge. Not reduced to the angle between arms: the period jumps belong to
-/// these very angles. `length` is the number of faces.
+/// Copies the angle of one arm of every face, in radians, counter-clockwise about the normal from the
+/// face's first edge. The angle is not reduced modulo the angle between arms, because the period jumps
+/// belong to these values. `length` is the number of faces.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_field_angles(
     field: *const roundel_field,
@@ -149,8 +149,8 @@ pub unsafe extern "C" fn roundel_field_vertex_indices(
     }
 }
 
-/// roundel_field_vertex_indices found another way: by following an arm of the cross in space around
-/// each vertex.
+/// Copies the same indices as roundel_field_vertex_indices, computed in another way: by following an arm
+/// of the cross in space around each vertex.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_field_traced_indices(
     field: *const roundel_field,

@@ -1,4 +1,4 @@
-//! How fields are made: solved for, or stated as a plain problem and read back.
+//! Making fields: by a solve, or from the solution of a plain problem.
 
 use super::event::{roundel_monitor, watchers};
 use super::field::{Found, roundel_field};
@@ -27,12 +27,12 @@ fn stated(mesh: &TriangleMesh, guidance: &Guidance) -> Result<(FieldProblem, Fea
 /// Finds the smoothest field of a mesh that follows a guidance. `guidance`, `options` and `monitor`
 /// may be NULL.
 ///
-/// With the position in the list at fault, fails with ROUNDEL_ERROR_INDEX_OUT_OF_RANGE for an
-/// element that the mesh does not have, ROUNDEL_ERROR_NOT_FINITE, and
-/// ROUNDEL_ERROR_INVALID_ARGUMENT for one that is named twice, two vertices that no edge joins, a
-/// negative weight or an index at the boundary. ROUNDEL_ERROR_INVALID_ARGUMENT also for indices that
-/// do not sum to the Euler characteristic, and with the face for one whose three edges are features.
-/// Else as roundel_problem_solve does.
+/// Fails with ROUNDEL_ERROR_INDEX_OUT_OF_RANGE for an element that the mesh does not have,
+/// ROUNDEL_ERROR_NOT_FINITE, and ROUNDEL_ERROR_INVALID_ARGUMENT for an element that is named twice, two
+/// vertices that no edge joins, a negative weight or an index at the boundary. The error's index is then
+/// the position in the list. Also fails with ROUNDEL_ERROR_INVALID_ARGUMENT for indices that do not sum
+/// to the Euler characteristic, and, with the face, for a face whose three edges are features. Other
+/// failures are those of roundel_problem_solve.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_field_solve(
     mesh: *const roundel_mesh,
@@ -66,10 +66,10 @@ pub unsafe extern "C" fn roundel_field_solve(
 /// Makes the mixed-integer problem of the field that roundel_field_solve finds. `guidance` may be
 /// NULL.
 ///
-/// Variable f is the angle of face f. Period jumps follow in the order of the edges, without those
-/// of the boundary, between two constrained faces, and of a spanning forest, where they are zero:
-/// breadth-first from the constrained faces (else the lowest face of a component) in increasing
-/// number, neighbours in increasing number.
+/// Variable f is the angle of face f. The period jumps follow in the order of the edges. Edges of the
+/// boundary, edges between two constrained faces and edges of a spanning forest have no variable: their
+/// period jump is zero. The forest grows breadth-first from the constrained faces (in a component without
+/// any, from its lowest face) in increasing number, and to neighbours in increasing number.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_field_make_problem(
     mesh: *const roundel_mesh,

@@ -13,10 +13,10 @@ use crate::problem::mps::{self, MpsProblem};
 use crate::search::Options;
 use crate::solve::replay;
 
-/// Makes a problem from a file in free-format MPS, gzipped or not. Variables and constraints are
-/// numbered in the order of the file; their names are not kept.
+/// Makes a problem from a file in free-format MPS, gzipped or not. Variables and constraints are numbered
+/// in the order of the file; their names are not kept.
 ///
-/// Fails with ROUNDEL_ERROR_PARSE and ROUNDEL_ERROR_NOT_SUPPORTED with the line at fault,
+/// Fails with ROUNDEL_ERROR_PARSE or ROUNDEL_ERROR_NOT_SUPPORTED and the line at fault, and with
 /// ROUNDEL_ERROR_IO.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_problem_read_mps(
@@ -50,9 +50,9 @@ pub unsafe extern "C" fn roundel_problem_write_mps(
     unsafe { guard::read(problem, body) }
 }
 
-/// Writes a problem and how to solve it, so that the solve can be repeated elsewhere: `file`, which
-/// ends in ".mps" or ".mps.gz", and beside it a file that ends in ".replay.json" for options, pins
-/// and guess. `options` may be NULL for the default options.
+/// Writes a problem and its options, so that the solve can be repeated elsewhere. The problem is written
+/// to `file`, which ends in ".mps" or ".mps.gz". The options, pins and guess are written to a file beside
+/// it that ends in ".replay.json". `options` may be NULL for the default options.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_problem_save_replay(
     problem: *const roundel_problem,

@@ -1,5 +1,5 @@
-//! The boundary: no panic leaves the library, none prints, and a handle that one passed through
-//! is given up.
+//! The boundary of the library: no panic leaves it or prints, and a handle that was in use during a panic
+//! becomes unusable.
 
 use std::any::Any;
 use std::cell::Cell;
@@ -12,7 +12,7 @@ use super::input::aligned;
 use super::status::roundel_status;
 
 thread_local! {
-    /// How many entries of the library this thread is inside of: more than one in a callback.
+    /// The number of entries of the library that this thread is in: more than one inside a callback.
     static DEPTH: Cell<usize> = const { Cell::new(0) };
 }
 
@@ -47,7 +47,7 @@ pub(super) fn boundary(
     unusable: Option<&AtomicBool>,
     body: impl FnOnce() -> Outcome,
 ) -> roundel_status {
-    // Outermost: recording a failure allocates, and may itself fail.
+    // This catch is the outermost: recording a failure allocates, and may itself fail.
     let recorded = panic::catch_unwind(AssertUnwindSafe(|| {
         let _inside = Inside::enter();
         let outcome = panic::catch_unwind(AssertUnwindSafe(body)).unwrap_or_else(|payload| {
@@ -70,7 +70,7 @@ fn text_of(payload: &(dyn Any + Send)) -> String {
     text.unwrap_or("unknown").into()
 }
 
-/// What stands behind every handle.
+/// The content of every handle.
 pub(super) struct Guarded<T> {
     value: T,
     /// Set through `const` handles too, which several threads may hold.
@@ -80,7 +80,7 @@ pub(super) struct Guarded<T> {
 /// A type that C holds by pointer.
 pub(super) trait Object: Sized {
     type Value;
-    /// What messages call it.
+    /// The name of the type in messages.
     const NAME: &'static str;
     fn new(guarded: Guarded<Self::Value>) -> Self;
     fn guarded(&self) -> &Guarded<Self::Value>;

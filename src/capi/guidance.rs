@@ -1,4 +1,4 @@
-//! The guidance handle: what a field and the map that follows it keep to.
+//! The guidance handle: the requirements of a field and of the map that follows it.
 
 use std::ffi::c_char;
 
@@ -15,13 +15,14 @@ use crate::mesh::TriangleMesh;
 use crate::quad::QuadOptions;
 use crate::search::OptionValue;
 
-/// What a field follows, and which edges become isolines of its map: features, the boundary, given
-/// directions, the curvature, given indices. Where several state the direction of one face, the first
-/// of these decides: a given direction, a feature or the boundary, a reliable curvature.
+/// The requirements of a field, and the edges that become isolines of its map: features, the boundary,
+/// given directions, the curvature, given indices. If several give a direction for one face, the first of
+/// these decides: a given direction, a feature or the boundary, a reliable curvature.
 ///
 /// roundel_guidance_option_info lists its options. A new guidance asks for crosses that follow the
-/// boundary, and for nothing else; where a function takes a guidance, NULL stands for that. Numbers of faces, edges and vertices are those of the
-/// mesh that it is used with, and are checked there.
+/// boundary, and for nothing else; NULL stands for the same wherever a function takes a guidance. Numbers
+/// of faces, edges and vertices are those of the mesh that the guidance is used with, and are checked
+/// when it is used.
 pub struct roundel_guidance(Guarded<Guidance>);
 
 object!(roundel_guidance, Guidance, "guidance");
@@ -39,8 +40,8 @@ pub unsafe extern "C" fn roundel_guidance_new(
     })
 }
 
-/// Makes the guidance that quads have where none is given: crosses that follow the boundary and the
-/// curvature. To be freed with roundel_guidance_free.
+/// Makes the default guidance of quads: crosses that follow the boundary and the curvature. To be freed
+/// with roundel_guidance_free.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_guidance_new_for_quads(
     guidance: *mut *mut roundel_guidance,
@@ -72,7 +73,8 @@ unsafe fn change(
     unsafe { guard::write(guidance, change) }
 }
 
-/// Sets an option of a guidance, which roundel_guidance_option_info lists, to a whole number; one that takes a real number takes this too.
+/// Sets an option of a guidance, which roundel_guidance_option_info lists, to a whole number. Options of
+/// type real take whole numbers too.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_guidance_set_int(
     guidance: *mut roundel_guidance,
@@ -104,7 +106,8 @@ pub unsafe extern "C" fn roundel_guidance_set_real(
     }
 }
 
-/// Sets an option of a guidance, which roundel_guidance_option_info lists, to a text: one of its words, or "unset" where it may be without a value.
+/// Sets an option of a guidance, which roundel_guidance_option_info lists, to a text: one of its words,
+/// or "unset" if the option may have no value.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_guidance_set_text(
     guidance: *mut roundel_guidance,
@@ -129,8 +132,8 @@ unsafe fn elements(what: &'static str, values: *const i32, count: usize) -> Outc
     unsafe { indices(what, values, count, i32::MAX as usize + 1) }
 }
 
-/// Sets the directions that `count` faces have: `angles` of one arm, in radians, counter-clockwise
-/// about the normal from the face's first edge. Each face at most once.
+/// Fixes the directions of `count` faces. `angles` are those of one arm, in radians, counter-clockwise
+/// about the normal from the face's first edge. Each face may be named at most once.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_guidance_set_constraints(
     guidance: *mut roundel_guidance,
@@ -155,9 +158,9 @@ pub unsafe extern "C" fn roundel_guidance_set_constraints(
     unsafe { change(guidance, body) }
 }
 
-/// Sets the directions that `count` faces should have, each at most once: a deviation costs its
-/// square times the weight, where one between neighbours costs its square. A face with a direction
-/// that it must have keeps that.
+/// Sets the preferred directions of `count` faces, each named at most once. A deviation costs its square
+/// times the weight; a deviation between neighbouring faces costs its square. A face with a fixed
+/// direction keeps it.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_guidance_set_guides(
     guidance: *mut roundel_guidance,
@@ -188,10 +191,9 @@ pub unsafe extern "C" fn roundel_guidance_set_guides(
     unsafe { change(guidance, body) }
 }
 
-/// Prescribes all irregular vertices: `count` vertices of the interior, each once, and their
-/// indices in `steps` of 1/N; all others become regular. On closed meshes the indices must sum to
-/// the Euler characteristic, which shows when the field is made. roundel_guidance_clear_indices undoes
-/// this.
+/// Prescribes all irregular vertices: `count` vertices of the interior, each once, and their indices in
+/// `steps` of 1/N; all others become regular. On closed meshes the indices must sum to the Euler
+/// characteristic, which is checked when the field is made. roundel_guidance_clear_indices undoes this.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_guidance_set_indices(
     guidance: *mut roundel_guidance,
@@ -216,7 +218,7 @@ pub unsafe extern "C" fn roundel_guidance_set_indices(
     unsafe { change(guidance, body) }
 }
 
-/// Leaves indices to the energy again.
+/// Drops prescribed indices, so that the energy decides them.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_guidance_clear_indices(
     guidance: *mut roundel_guidance,
@@ -229,7 +231,7 @@ pub unsafe extern "C" fn roundel_guidance_clear_indices(
     unsafe { change(guidance, body) }
 }
 
-/// Makes `count` edges features, by number; they take the place of those that were set before.
+/// Makes `count` edges features, by number. They replace the features that were set before.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_guidance_set_feature_edges(
     guidance: *mut roundel_guidance,
@@ -245,8 +247,8 @@ pub unsafe extern "C" fn roundel_guidance_set_feature_edges(
     unsafe { change(guidance, body) }
 }
 
-/// Makes the edges between `count` pairs of vertices features; they take the place of those that
-/// were set before. `vertices` has twice as many entries.
+/// Makes the edges between `count` pairs of vertices features. They replace the features that were set
+/// before. `vertices` has twice as many entries.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_guidance_set_feature_lines(
     guidance: *mut roundel_guidance,
@@ -271,8 +273,8 @@ pub unsafe extern "C" fn roundel_guidance_set_feature_lines(
 /// direction that the face has, the same with a weight for one that it should have, "edge VERTEX
 /// VERTEX" for a feature, "index VERTEX STEPS" for an irregular vertex. A comment begins with #.
 ///
-/// Fails with ROUNDEL_ERROR_IO, and with ROUNDEL_ERROR_PARSE and the line for what is none of these
-/// or not on the mesh. After a failure the guidance is what it was.
+/// Fails with ROUNDEL_ERROR_IO, and with ROUNDEL_ERROR_PARSE and the line for a line that is none of
+/// these or names an element that the mesh does not have. A failure leaves the guidance unchanged.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_guidance_read(
     guidance: *mut roundel_guidance,
@@ -291,8 +293,8 @@ pub unsafe extern "C" fn roundel_guidance_read(
 
 /// Adds the line elements of an OBJ file, which has the vertices of the mesh, to the feature edges.
 ///
-/// Fails with ROUNDEL_ERROR_IO, and with ROUNDEL_ERROR_PARSE and the line for what is no line
-/// between vertices that an edge joins; nothing is added then.
+/// Fails with ROUNDEL_ERROR_IO, and with ROUNDEL_ERROR_PARSE and the line for a line between vertices
+/// that no edge joins. A failure leaves the guidance unchanged.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_guidance_read_features(
     guidance: *mut roundel_guidance,
@@ -310,8 +312,8 @@ pub unsafe extern "C" fn roundel_guidance_read_features(
     unsafe { change(guidance, body) }
 }
 
-/// Marks the edges of a mesh that a guidance makes features: 1 for each, 0 for all others.
-/// `length` is the number of edges. `guidance` may be NULL.
+/// Marks the feature edges of a guidance on a mesh: 1 for each, 0 for all others. `length` is the number
+/// of edges. `guidance` may be NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_mesh_mark_features(
     mesh: *const roundel_mesh,

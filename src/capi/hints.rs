@@ -1,4 +1,4 @@
-//! What the caller knows of a problem's structure, in the solver's own words.
+//! Hints about a problem's structure that only the caller knows.
 
 use super::failure::Outcome;
 use super::guard;
@@ -28,13 +28,13 @@ unsafe fn hint<I: Index>(
     Ok(problem.hint_cycles(&offsets, &rows, signs)?)
 }
 
-/// Hands over short cycles that the caller knows: sums of least-squares rows, each with sign 1 or
-/// -1, in which all continuous variables cancel, such as the rings around the vertices of a mesh.
-/// Cycle k has the entries from offsets[k] to before offsets[k + 1]; `offset_count` is one more
-/// than the number of cycles, `count` the number of entries.
+/// Passes known short cycles to the solver. A cycle is a sum of least-squares rows, each with sign 1 or
+/// -1, in which all continuous variables cancel, such as the ring around a vertex of a mesh. Cycle k has
+/// the entries from offsets[k] to before offsets[k + 1]. `offset_count` is one more than the number of
+/// cycles, and `count` is the number of entries.
 ///
-/// A hint never changes what is solved. One that does not hold is ignored by the solve, which says
-/// so in a log event. A later hint replaces an earlier one.
+/// A hint never changes the problem. The solve ignores a wrong hint and reports it in a log event. A
+/// later hint replaces an earlier one.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_problem_hint_cycles(
     problem: *mut roundel_problem,

@@ -1,4 +1,4 @@
-//! What comes in from C: pointers, lengths, indices and texts, checked before they are trusted.
+//! Input from C: pointers, lengths, indices and texts, checked before use.
 
 use std::ffi::{CStr, c_char};
 use std::path::Path;
@@ -6,7 +6,7 @@ use std::path::Path;
 use super::failure::{Failure, Outcome};
 use crate::error::Error;
 
-/// That a pointer is neither NULL nor misaligned.
+/// Checks that a pointer is neither NULL nor misaligned.
 pub(super) fn aligned<T>(what: &'static str, pointer: *const T) -> Outcome {
     if pointer.is_null() {
         return Err(Failure::Null(what));
@@ -20,8 +20,7 @@ pub(super) fn aligned<T>(what: &'static str, pointer: *const T) -> Outcome {
     Ok(())
 }
 
-/// That `len` values of type `T` at `pointer` can be an array. No entries need no array: NULL
-/// stands for one.
+/// Checks that `len` values of type `T` at `pointer` can be an array. NULL may stand for an empty array.
 fn array<T>(what: &'static str, pointer: *const T, len: usize) -> Outcome {
     aligned(what, pointer)?;
     let fits = |bytes: usize| isize::try_from(bytes).is_ok();

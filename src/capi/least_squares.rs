@@ -64,13 +64,13 @@ unsafe fn add_matrix<I: Index>(
     unsafe { add_rows(problem, matrix, rhs, first, add) }
 }
 
-/// Adds sum_i weights[i] ((A x)_i - rhs[i])^2 to the objective, one term a row of A, which is given
-/// in compressed rows: the entries of row i are those from offsets[i] to before offsets[i + 1].
-/// `offset_count` is one more than `row_count`, `count` the number of entries. Entries of a row may
-/// be in any order, duplicates are summed. `weights` may be NULL: all are 1 then. The number of the
-/// first new row goes to `first`, which may be NULL. After an error nothing has been added.
+/// Adds sum_i weights[i] ((A x)_i - rhs[i])^2 to the objective, one term for each row of A. A is given in
+/// compressed rows: the entries of row i are those from offsets[i] to before offsets[i + 1].
+/// `offset_count` is one more than `row_count`, and `count` is the number of entries. Entries of a row
+/// may be in any order; duplicates are summed. `weights` may be NULL: then all are 1. The number of the
+/// first new row is written to `first`, which may be NULL. A failure adds nothing.
 ///
-/// Errors give a position in the array at fault as their index; the message names the row too.
+/// Errors give a position in the array at fault as their index; the message also names the row.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_problem_add_least_squares_csr(
     problem: *mut roundel_problem,

@@ -1,4 +1,4 @@
-//! The map handle: a seamless map of a mesh, solved for at one density after the other.
+//! The map handle: a seamless map of a mesh, solved for at one size after another.
 
 use super::event::{monitor as watched_by, roundel_monitor};
 use super::failure::Outcome;
@@ -20,26 +20,26 @@ use crate::search::{Options, SolveStatus};
 use crate::solve::{Solution, Solver};
 use crate::untangle::UntangleOptions;
 
-/// All that a solve at another size needs again, and what the last one found.
+/// The data that a solve at another size needs again, and the results of the last solve.
 pub(super) struct Mapped {
     mesh: TriangleMesh,
     problem: SeamlessProblem,
     solver: Solver,
     found: Option<Found>,
-    /// How often the surroundings of folds are made stiffer before anything else is done for them.
+    /// The number of times that the surroundings of folds are stiffened before they are untangled.
     pub(super) stiffenings: usize,
 }
 
-/// What a solve found.
+/// The results of a solve.
 pub(super) struct Found {
     pub(super) map: SeamlessMap,
-    /// That which the integers are from.
+    /// The solution that the integers are from.
     pub(super) solution: Solution,
-    /// How often integers were decided anew.
+    /// How often the integers were decided anew.
     pub(super) rounds: usize,
     /// How often the map was made finer.
     pub(super) refinements: usize,
-    /// Whether it was untangled as it was solved for, in the size that it then had.
+    /// Whether the solve untangled the map, at the size that it then had.
     pub(super) is_untangled: bool,
 }
 
@@ -52,7 +52,7 @@ impl Mapped {
         &self.problem
     }
 
-    /// Takes what became of a solve of this problem, or of a finer one.
+    /// Takes the result of a solve of this problem, or of a finer one.
     pub(super) fn take_fold_free(
         &mut self,
         how: impl FnOnce(&TriangleMesh, &SeamlessProblem) -> Result<FoldFreeMap>,
@@ -68,7 +68,7 @@ impl Mapped {
         Ok(())
     }
 
-    /// Takes another map of the same integers.
+    /// Takes another map with the same integers.
     pub(super) fn replace(&mut self, map: SeamlessMap) {
         if let Some(found) = &mut self.found {
             found.map = map;
@@ -100,18 +100,18 @@ impl Mapped {
     }
 }
 
-/// A seamless map of a mesh: coordinates (u, v) on the surface cut open, whose gradients follow a
-/// field of crosses, which turn by quarters and shift by integers over the cut. Cones are integer
-/// points, features isolines of integer value. It keeps what it needs of mesh and field.
+/// A seamless map of a mesh: coordinates (u, v) on the cut surface, whose gradients follow a field of
+/// crosses. Across the cut they turn by quarter turns and shift by integers. Cones are integer points,
+/// and features are isolines of integer value. The mesh and the field may be freed before the map.
 ///
-/// It is made for a size of quads, solved, and solved again for other sizes, from what was kept of
-/// the first solve. What it tells is of the last solve.
+/// A map is made for a size of quads and solved. It can be solved again for other sizes, which reuses
+/// data of the first solve. The results are those of the last solve.
 pub struct roundel_map(Guarded<Mapped>);
 
 object!(roundel_map, Mapped, "map");
 
-/// Makes a map, not yet solved for, of a mesh and a field on it, with 1000 quads aimed at. Features
-/// are those of `guidance`, or of that of the field where it is NULL. To be freed with
+/// Makes a map of a mesh and a field on it, not yet solved for, with the size of 1000 quads. The features
+/// are those of `guidance`, or, if it is NULL, those that the field follows. To be freed with
 /// roundel_map_free.
 ///
 /// Fails with ROUNDEL_ERROR_LENGTH_MISMATCH for the field of another mesh,
@@ -158,9 +158,9 @@ pub unsafe extern "C" fn roundel_map_free(map: *mut roundel_map) -> roundel_stat
     unsafe { guard::free(map) }
 }
 
-/// Aims at a number of quads.
+/// Sets the size by the number of quads.
 ///
-/// Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for none.
+/// Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for zero.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_map_set_quads(
     map: *mut roundel_map,
@@ -170,9 +170,9 @@ pub unsafe extern "C" fn roundel_map_set_quads(
     unsafe { guard::write(map, |map: &mut Mapped| map.resize(&Sizing::Quads(quads))) }
 }
 
-/// Aims at quads with edges of one length, in units of the mesh.
+/// Sets the size by one edge length of quads, in units of the mesh.
 ///
-/// Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for one that is not above zero,
+/// Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for a length that is not above zero, and with
 /// ROUNDEL_ERROR_NOT_FINITE.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_map_set_edge_length(
@@ -184,11 +184,11 @@ pub unsafe extern "C" fn roundel_map_set_edge_length(
     unsafe { guard::write(map, body) }
 }
 
-/// Aims at quads with edges of two lengths a face: along the arm that the field stores there (its
-/// angle), and across it. `length` is twice the number of faces.
+/// Sets the size by two edge lengths of quads for each face: along the arm that the field stores there
+/// (its angle), and across it. `length` is twice the number of faces.
 ///
-/// Fails with ROUNDEL_ERROR_INVALID_ARGUMENT and the face for one that is not above zero,
-/// ROUNDEL_ERROR_NOT_FINITE, ROUNDEL_ERROR_LENGTH_MISMATCH.
+/// Fails with ROUNDEL_ERROR_INVALID_ARGUMENT and the face for a length that is not above zero, and with
+/// ROUNDEL_ERROR_NOT_FINITE and ROUNDEL_ERROR_LENGTH_MISMATCH.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_map_set_edge_lengths(
     map: *mut roundel_map,
@@ -212,11 +212,11 @@ pub unsafe extern "C" fn roundel_map_set_edge_lengths(
     unsafe { guard::write(map, body) }
 }
 
-/// Solves for the map under the eyes of `monitor`, which may cancel. `options` and `monitor` may be
-/// NULL. A later call after another size was set skips elimination, orderings and factorizations.
+/// Solves for the map. `monitor` receives progress and may cancel. `options` and `monitor` may be NULL. A
+/// later call at another size skips elimination, orderings and factorizations.
 ///
-/// Fails as roundel_problem_solve does, and leaves what an earlier solve found. The callback must not use
-/// the map.
+/// Fails as roundel_problem_solve does, and keeps the results of an earlier solve. The callback must not
+/// use the map.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_map_solve(
     map: *mut roundel_map,
@@ -235,9 +235,9 @@ pub unsafe extern "C" fn roundel_map_solve(
     unsafe { guard::write(map, body) }
 }
 
-/// Makes a copy of the mixed-integer problem of a map at its present size, to be kept or solved in
-/// another way. Variables 2 c and 2 c + 1 are u and v of vertex c of the cut surface; the
-/// translations of the seams follow.
+/// Makes a copy of the mixed-integer problem of a map at its current size, to be saved or solved in
+/// another way. Variables 2 c and 2 c + 1 are u and v of vertex c of the cut surface. The translations of
+/// the seams follow.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_map_make_problem(
     map: *const roundel_map,
@@ -253,7 +253,7 @@ pub unsafe extern "C" fn roundel_map_make_problem(
     unsafe { guard::read(map, body) }
 }
 
-/// Takes any solution of roundel_map_make_problem's problem in place of a solve.
+/// Takes a solution of roundel_map_make_problem's problem as the result of a solve.
 ///
 /// Fails with ROUNDEL_ERROR_LENGTH_MISMATCH for the solution of another problem.
 #[unsafe(no_mangle)]

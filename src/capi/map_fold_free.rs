@@ -1,4 +1,4 @@
-//! Maps without folds: solved for as a whole, or untangled afterwards, and what that left and took.
+//! Maps without folds: solved for in one call, or untangled afterwards, and the remaining faults.
 
 use super::event::{monitor as watched_by, roundel_monitor, watchers};
 use super::failure::Outcome;
@@ -13,18 +13,18 @@ use crate::quad::solve_fold_free;
 use crate::search::{Options, SolveStatus};
 use crate::untangle::{UntangleOptions, untangle};
 
-/// Solves for a map without folds, as the program `roundel parametrize` does: integers that collapse
-/// cones are decided anew, faces that are turned over are untangled, vertices that the map goes around
-/// once too often are laid anew, and where folds are left all that is done for a finer map.
-/// Of all maps that with the fewest folds is kept. `options` are those of every solve, `monitor`
-/// watches each; both may be NULL. Every solve starts from nothing. A relaxation is not untangled.
+/// Solves for a map without folds, as the program `roundel parametrize` does. Integers that collapse
+/// cones are decided anew, flipped faces are untangled, and disks around winding defects are laid out
+/// anew. If folds remain, the same is done for a finer map. The map with the fewest folds is kept.
+/// `options` apply to every solve, and `monitor` watches each; both may be NULL. No solve reuses data of
+/// an earlier one. A relaxation is not untangled.
 ///
-/// roundel_map_flipped_face_count and roundel_map_winding_defect_count tell what is left, roundel_map_round_count and
-/// roundel_map_refinement_count what it took. A map that was made finer keeps the size asked for
-/// in mind, for the next solve.
+/// roundel_map_flipped_face_count and roundel_map_winding_defect_count give the remaining faults.
+/// roundel_map_round_count and roundel_map_refinement_count give the work that was done. The next solve
+/// uses the size that was asked for, even if this map was made finer.
 ///
-/// Fails as roundel_problem_solve does for the first solve, with ROUNDEL_ERROR_CANCELLED also later, and
-/// leaves what an earlier solve found. The callback must not use the map.
+/// Fails as roundel_problem_solve does for the first solve, and with ROUNDEL_ERROR_CANCELLED also later.
+/// A failure keeps the results of an earlier solve. The callback must not use the map.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_map_solve_fold_free(
     map: *mut roundel_map,
@@ -52,8 +52,8 @@ fn effort(map: &Mapped) -> UntangleOptions {
     }
 }
 
-/// Sets how often the surroundings of faces that are turned over are made stiffer before these are
-/// untangled, the classical remedy, with the integers kept: at most 5 times unless told otherwise.
+/// Sets how often the surroundings of flipped faces are stiffened before the faces are untangled, with
+/// the integers kept: at most 5 times by default.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_map_set_stiffening_count(
     map: *mut roundel_map,
@@ -67,14 +67,13 @@ pub unsafe extern "C" fn roundel_map_set_stiffening_count(
     unsafe { guard::write(map, body) }
 }
 
-/// Moves the vertices that integers do not hold until as few faces as can be are turned over or
-/// collapsed, under the eyes of `monitor`, which may be NULL. Seams, cones and isolines stay what
-/// they are. roundel_map_flipped_face_count tells what is left; the solution stays that of the solve. After
-/// roundel_map_solve_fold_free there is nothing left to do.
+/// Moves the vertices that integers do not fix until as few faces as possible are flipped or collapsed.
+/// `monitor` may be NULL. Seams, cones and isolines stay what they are. roundel_map_flipped_face_count
+/// gives the remaining faces; the solution stays that of the solve. A map of roundel_map_solve_fold_free
+/// is already untangled.
 ///
-/// Fails with ROUNDEL_ERROR_INVALID_ARGUMENT where nothing has been solved for, and after a
-/// relaxation, which has no integers to hold; ROUNDEL_ERROR_CANCELLED, which leaves the map as it
-/// was.
+/// Fails with ROUNDEL_ERROR_INVALID_ARGUMENT before a solve, and after a relaxation, which has no
+/// integers to keep. Fails with ROUNDEL_ERROR_CANCELLED, which leaves the map unchanged.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_map_untangle(
     map: *mut roundel_map,
@@ -103,10 +102,10 @@ pub unsafe extern "C" fn roundel_map_untangle(
     unsafe { guard::write(map, body) }
 }
 
-/// Gives the number of inner vertices around which the map turns another number of times than the
-/// field, faces that are turned over left aside: a ring of faces may go around its vertex twice
-/// without a fold. Recomputed from the mesh. With none of these and no flipped faces, a map is
-/// one to one around every inner point.
+/// Gives the number of inner vertices around which the map turns another number of times than the field
+/// does. A ring of faces may go around its vertex twice without a flipped face; vertices of flipped faces
+/// are not counted. The number is recomputed from the mesh. A map without winding defects and flipped
+/// faces is one to one around every inner point.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_map_winding_defect_count(
     map: *const roundel_map,
@@ -154,9 +153,9 @@ pub unsafe extern "C" fn roundel_map_round_count(
     unsafe { give(map, "round count", count, |found| found.rounds) }
 }
 
-/// Gives how often roundel_map_solve_fold_free made the map finer than asked for, each time by the
-/// square root of two in length; 0 after any other solve. Smaller quads around what folds were left
-/// after that are not counted.
+/// Gives how often roundel_map_solve_fold_free made the map finer than asked for, each time by the square
+/// root of two in length; 0 after any other solve. Later refinements around the remaining folds alone are
+/// not counted.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_map_refinement_count(
     map: *const roundel_map,

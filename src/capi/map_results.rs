@@ -1,4 +1,4 @@
-//! What a map tells of its last solve.
+//! The results of a map's last solve.
 
 use std::ffi::c_char;
 
@@ -67,8 +67,8 @@ pub unsafe extern "C" fn roundel_map_corner_uvs(
     unsafe { copy(map, "coordinates of corners", values, uvs, length) }
 }
 
-/// Gives the number of vertices of the cut surface: a vertex has one for each sector between cut
-/// edges.
+/// Gives the number of vertices of the cut surface. A vertex of the mesh has one copy for each sector
+/// between cut edges.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_map_vertex_count(
     map: *const roundel_map,
@@ -187,7 +187,7 @@ pub unsafe extern "C" fn roundel_map_cones(
     unsafe { copy(map, "cones", values, vertices, length) }
 }
 
-/// Gives the number of faces that the map turns over or collapses.
+/// Gives the number of faces that the map flips or collapses.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_map_flipped_face_count(
     map: *const roundel_map,
@@ -214,8 +214,8 @@ pub unsafe extern "C" fn roundel_map_flipped_faces(
     unsafe { copy(map, "flipped faces", values, faces, length) }
 }
 
-/// Gives how far the gradients of u and v are from the arms of the field, as long as they should
-/// be: the sum over triangles of area times the squares of both differences, recomputed from the
+/// Gives the energy of the map: the sum over triangles of area times the squared differences between the
+/// gradients of u and v and the arms of the field, scaled to the size asked for. Recomputed from the
 /// mesh.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_map_energy(

@@ -87,7 +87,8 @@ unsafe fn triangles<I: Index>(
 /// `face_count` triangles, whose `corners` are three vertices each, counter-clockwise seen from
 /// outside.
 ///
-/// What is not an oriented manifold fails, the whole mesh being looked at for each reason in turn:
+/// Fails for a mesh that is not an oriented manifold. The reasons are checked one after the other, each
+/// on the whole mesh:
 /// ROUNDEL_ERROR_INDEX_OUT_OF_RANGE with the position in `corners`, ROUNDEL_ERROR_EMPTY,
 /// ROUNDEL_ERROR_NOT_FINITE with the vertex, ROUNDEL_ERROR_REPEATED_VERTEX,
 /// ROUNDEL_ERROR_ZERO_AREA, ROUNDEL_ERROR_NON_MANIFOLD_EDGE,
@@ -141,8 +142,8 @@ pub unsafe extern "C" fn roundel_mesh_make_shape(
     })
 }
 
-/// Makes a copy whose vertices are moved by a reproducible noise, uniform in +-`amplitude` times
-/// the shortest edge of each vertex, so that nothing in a symmetric mesh is equal any more.
+/// Makes a copy whose vertices are moved by a reproducible noise, uniform in +-`amplitude` times the
+/// shortest edge of each vertex. This breaks all symmetries of a mesh.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_mesh_jitter(
     mesh: *const roundel_mesh,

@@ -41,11 +41,11 @@ fn write(file: &Path, _: &TriangleMesh) -> Result<()> {
     without_files(file)
 }
 
-/// Makes a mesh from a file in OBJ, OFF or PLY, told apart by extension. Only triangles are read.
+/// Makes a mesh from a file in OBJ, OFF or PLY, according to its extension. Only triangles are read.
 ///
-/// Apart from what roundel_mesh_new refuses, fails with ROUNDEL_ERROR_IO, ROUNDEL_ERROR_PARSE with
-/// the line at fault, ROUNDEL_ERROR_NOT_A_TRIANGLE and ROUNDEL_ERROR_INDEX_OUT_OF_RANGE with the
-/// face, ROUNDEL_ERROR_NOT_SUPPORTED for another extension.
+/// Fails as roundel_mesh_new does, and with ROUNDEL_ERROR_IO, ROUNDEL_ERROR_PARSE with the line at fault,
+/// ROUNDEL_ERROR_NOT_A_TRIANGLE and ROUNDEL_ERROR_INDEX_OUT_OF_RANGE with the face,
+/// ROUNDEL_ERROR_NOT_SUPPORTED for another extension.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_mesh_read(
     file: *const c_char,

@@ -76,8 +76,8 @@ unsafe fn add_matrix<I: Index>(
     unsafe { guard::write(problem, body) }
 }
 
-/// Adds `count` entries to Q, which stands in the objective as 1/2 x'Qx, in any order, duplicates
-/// summed. `triangle` is a roundel_triangle.
+/// Adds `count` entries to Q; the objective contains 1/2 x'Qx. The entries may be in any order;
+/// duplicates are summed. `triangle` is a roundel_triangle.
 ///
 /// Errors give the position of the entry at fault as their index.
 #[unsafe(no_mangle)]

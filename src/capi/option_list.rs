@@ -1,4 +1,4 @@
-//! The options that there are, listed for C.
+//! The table of options, for C.
 
 use std::ffi::{CString, c_char};
 use std::sync::OnceLock;
@@ -23,7 +23,7 @@ pub enum roundel_option_type {
     ROUNDEL_OPTION_TEXT = 3,
 }
 
-/// What there is to know about one option. The texts live as long as the library is loaded.
+/// The description of one option. The texts live as long as the library is loaded.
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub struct roundel_option {
@@ -31,20 +31,20 @@ pub struct roundel_option {
     pub name: *const c_char,
     /// Its default value; "unset" where it has none.
     pub default_value: *const c_char,
-    /// The values allowed: an interval, whose end does not belong to it where the bracket is round,
-    /// or words or numbers with a bar between them.
+    /// The values allowed: an interval, which excludes its end at a round bracket, or words or numbers
+    /// separated by bars.
     pub range: *const c_char,
     /// What it does.
     pub text: *const c_char,
     /// The type of its value, a roundel_option_type.
     pub value_type: i32,
-    /// Zero, for later use.
+    /// Zero; reserved.
     pub reserved: [i32; 7],
 }
 
 const _: () = assert!(size_of::<roundel_option>() == 4 * size_of::<usize>() + 32);
 
-/// A table's texts with the NUL that C wants: name, default, range, text.
+/// A table's texts with a terminating NUL: name, default, range, text.
 type Texts = OnceLock<Vec<[CString; 4]>>;
 
 /// Describes entry number `index` of a table, whose texts are kept in `texts`.

@@ -11,7 +11,7 @@ use crate::error::Error;
 use crate::search::OptionValue;
 use crate::search::Options;
 
-/// How to solve. roundel_option_info lists the options that there are.
+/// The options of a solve. roundel_option_info lists them.
 ///
 /// An unknown name, a value of the wrong type and a value out of range are three different errors.
 pub struct roundel_options(Guarded<Options>);
@@ -51,7 +51,7 @@ unsafe fn set(
     }
 }
 
-/// Sets an option to a whole number; one that takes a real number takes this too.
+/// Sets an option to a whole number. Options of type real take whole numbers too.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_options_set_int(
     options: *mut roundel_options,
@@ -88,7 +88,7 @@ pub unsafe extern "C" fn roundel_options_set_text(
     }
 }
 
-/// The value of an option, as `pick` finds it to be of the type asked for.
+/// The value of an option. `pick` checks that it has the type asked for.
 ///
 /// # Safety
 /// `name` is NULL or a text.
@@ -159,9 +159,9 @@ pub unsafe extern "C" fn roundel_options_get_real(
     }
 }
 
-/// Reads an option whose value is a text: into `buffer`, which has `capacity` bytes, with the NUL
-/// that ends it. Its length without the NUL goes to `length`, which may be NULL. With `buffer`
-/// NULL and `capacity` 0, only the length is told.
+/// Reads an option whose value is a text into `buffer`, which has `capacity` bytes, with the terminating
+/// NUL. Its length without the NUL is written to `length`, which may be NULL. If `buffer` is NULL and
+/// `capacity` 0, only the length is written.
 ///
 /// Fails with ROUNDEL_ERROR_LENGTH_MISMATCH if the buffer is too small.
 #[unsafe(no_mangle)]

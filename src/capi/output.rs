@@ -1,4 +1,4 @@
-//! What goes out to C: results and texts, written only when all is known to be well.
+//! Output to C: results and texts, written only after everything has succeeded.
 
 use std::ffi::c_char;
 use std::ptr;
@@ -7,7 +7,7 @@ use super::failure::{Failure, Outcome};
 use super::input::{aligned, slice_mut};
 use crate::error::Error;
 
-/// A place for one result, which must be there.
+/// The place of one required result.
 #[derive(Clone, Copy)]
 pub(super) struct Out<T>(*mut T);
 
@@ -25,7 +25,7 @@ impl<T> Out<T> {
     }
 }
 
-/// A place for a result that the caller may not want: NULL then.
+/// The place of an optional result, which may be NULL.
 ///
 /// # Safety
 /// As [`Out::new`].

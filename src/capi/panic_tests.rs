@@ -1,7 +1,7 @@
-//! A panic inside of the library becomes a status, prints nothing, and gives up the handle.
+//! A panic inside the library becomes a status, prints nothing, and makes the handle unusable.
 //!
-//! Needs the feature `test-panic`, which adds the one function that panics. Stands here since who
-//! calls C functions writes `unsafe`.
+//! This needs the feature `test-panic`, which adds the one function that panics. The tests are in this
+//! layer because calls of C functions need `unsafe`.
 
 use std::ffi::c_char;
 use std::process::Command;

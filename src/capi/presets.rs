@@ -11,15 +11,15 @@ use super::status::roundel_status;
 use crate::error::Error;
 use crate::search::PRESETS;
 
-/// What there is to know about one preset. The texts live as long as the library is loaded.
+/// The description of one preset. The texts live as long as the library is loaded.
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub struct roundel_preset {
     /// Its name.
     pub name: *const c_char,
-    /// What it is for.
+    /// Its purpose.
     pub text: *const c_char,
-    /// Zero, for later use.
+    /// Zero; reserved.
     pub reserved: [i64; 6],
 }
 
@@ -37,7 +37,7 @@ fn texts() -> &'static [[CString; 2]] {
     })
 }
 
-/// How many presets there are.
+/// The number of presets.
 #[unsafe(no_mangle)]
 pub extern "C" fn roundel_preset_count() -> usize {
     PRESETS.len()
@@ -70,9 +70,9 @@ pub unsafe extern "C" fn roundel_preset_info(
     })
 }
 
-/// Sets all options that the preset of this name is about; others, such as the time limit, stay.
+/// Sets all options of the preset of this name; others, such as the time limit, stay.
 ///
-/// Fails with ROUNDEL_ERROR_OPTION_RANGE where there is no such preset.
+/// Fails with ROUNDEL_ERROR_OPTION_RANGE if there is no such preset.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_options_set_preset(
     options: *mut roundel_options,

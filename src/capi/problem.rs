@@ -39,7 +39,7 @@ pub unsafe extern "C" fn roundel_problem_free(problem: *mut roundel_problem) -> 
     unsafe { guard::free(problem) }
 }
 
-/// Makes a copy of a problem, which then lives on its own.
+/// Makes an independent copy of a problem.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_problem_clone(
     problem: *const roundel_problem,

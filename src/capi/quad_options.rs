@@ -1,4 +1,4 @@
-//! The handle of quad options: all that can be decided on the way from a mesh to quads.
+//! The handle of quad options: all options of the steps from a mesh to quads.
 
 use std::ffi::c_char;
 
@@ -14,11 +14,11 @@ use crate::map::Sizing;
 use crate::quad::QuadOptions;
 use crate::search::OptionValue;
 
-/// How to make quads: their size, what they follow, how field and map are solved, untangling and
-/// smoothing. roundel_quad_option_info lists what is set by name. New quad options are those of the
-/// program `roundel quad` without flags: 1000 quads along the boundary and the curvature, the field's
-/// integers decided adaptively and the map's by lattice decoding. Guidance is checked when quads are
-/// made. Where vary_curvature is 1, curvature may count for less than the guidance has it.
+/// The options of quads: their size, their guidance, the solves of field and map, untangling and
+/// smoothing. roundel_quad_option_info lists those that are set by name. New quad options are those of
+/// the program `roundel quad` without flags: 1000 quads along the boundary and the curvature, adaptive
+/// rounding for the field and lattice decoding for the map. The guidance is checked when quads are made.
+/// If vary_curvature is 1, curvature may have less weight than the guidance gives it.
 pub struct roundel_quad_options(Guarded<QuadOptions>);
 
 object!(roundel_quad_options, QuadOptions, "quad options");
@@ -57,8 +57,8 @@ unsafe fn change(
     unsafe { guard::write(options, change) }
 }
 
-/// An entry that puts a copy of another handle's value in its place; NULL stands for what new quad
-/// options have there.
+/// An entry that copies another handle's value into quad options; NULL stands for the value in new quad
+/// options.
 ///
 /// # Safety
 /// As [`change`]; `given` is NULL or a live handle.
@@ -78,7 +78,8 @@ unsafe fn put<H: Object<Value: Clone>>(
     unsafe { change(options, body) }
 }
 
-/// Sets a quad option, which roundel_quad_option_info lists, to a whole number; one that takes a real number takes this too.
+/// Sets a quad option, which roundel_quad_option_info lists, to a whole number. Options of type real take
+/// whole numbers too.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_quad_options_set_int(
     options: *mut roundel_quad_options,
@@ -110,7 +111,8 @@ pub unsafe extern "C" fn roundel_quad_options_set_real(
     }
 }
 
-/// Sets a quad option, which roundel_quad_option_info lists, to a text: one of its words, or "unset" where it may be without a value.
+/// Sets a quad option, which roundel_quad_option_info lists, to a text: one of its words, or "unset" if
+/// the option may have no value.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_quad_options_set_text(
     options: *mut roundel_quad_options,
@@ -126,8 +128,8 @@ pub unsafe extern "C" fn roundel_quad_options_set_text(
     }
 }
 
-/// Sets two lengths of edges a face, instead of a number of quads: along the arm that the field stores there, and
-/// across it. `length` is twice the number of faces.
+/// Sets two edge lengths for each face, instead of a number of quads: along the arm that the field stores
+/// there, and across it. `length` is twice the number of faces.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_quad_options_set_edge_lengths(
     options: *mut roundel_quad_options,
@@ -151,8 +153,8 @@ pub unsafe extern "C" fn roundel_quad_options_set_edge_lengths(
     unsafe { change(options, body) }
 }
 
-/// Sets what quads follow, by a copy of `guidance`; NULL stands for the boundary and the curvature,
-/// which is what roundel_guidance_new_for_quads makes.
+/// Sets the guidance of the quads to a copy of `guidance`. NULL stands for the boundary and the
+/// curvature, as roundel_guidance_new_for_quads makes it.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_quad_options_set_guidance(
     options: *mut roundel_quad_options,
@@ -162,7 +164,7 @@ pub unsafe extern "C" fn roundel_quad_options_set_guidance(
     unsafe { put(options, guidance, |options| &mut options.guidance) }
 }
 
-/// Sets how the field is solved for, by a copy of `solve`; NULL stands for adaptive rounding.
+/// Sets the options of the field's solve to a copy of `solve`; NULL stands for adaptive rounding.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_quad_options_set_field_options(
     options: *mut roundel_quad_options,
@@ -172,7 +174,7 @@ pub unsafe extern "C" fn roundel_quad_options_set_field_options(
     unsafe { put(options, solve, |options| &mut options.field) }
 }
 
-/// Sets how the map is solved for, by a copy of `solve`; NULL stands for lattice decoding.
+/// Sets the options of the map's solve to a copy of `solve`; NULL stands for lattice decoding.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_quad_options_set_map_options(
     options: *mut roundel_quad_options,

@@ -17,8 +17,8 @@ use crate::monitor::Monitor;
 use crate::quad::{QuadOptions, quadrangulate};
 use crate::smooth::{SmoothOptions, smooth};
 
-/// A mesh of quads with shared vertices. Where a map leaves no quads to be made, other polygons are
-/// kept beside them. It does not need the mesh and the map that it is from any more.
+/// A mesh of quads with shared vertices. Where a map gives no quads, other polygons are kept beside them.
+/// The mesh and the map may be freed before the quads.
 pub struct roundel_quads(Guarded<QuadMesh>);
 
 object!(roundel_quads, QuadMesh, "quads");
@@ -28,7 +28,7 @@ object!(roundel_quads, QuadMesh, "quads");
 /// chains of the quads' edges. roundel_quads_is_conforming tells whether all faces are quads.
 ///
 /// Fails as roundel_field_solve and roundel_map_solve do, and with ROUNDEL_ERROR_INVALID_ARGUMENT,
-/// ROUNDEL_ERROR_NOT_FINITE or ROUNDEL_ERROR_LENGTH_MISMATCH for a size that is none.
+/// ROUNDEL_ERROR_NOT_FINITE or ROUNDEL_ERROR_LENGTH_MISMATCH for an invalid size.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_quads_make(
     mesh: *const roundel_mesh,
@@ -53,7 +53,7 @@ pub unsafe extern "C" fn roundel_quads_make(
     unsafe { guard::read(mesh, body) }
 }
 
-/// Extracts the quads of the last solve of a map. Faces that the map turns over are coped with.
+/// Extracts the quads of the last solve of a map, which may have flipped faces.
 ///
 /// Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for a map that has not been solved for, or whose
 /// integers were not decided.
@@ -74,12 +74,12 @@ pub unsafe extern "C" fn roundel_quads_extract(
     unsafe { guard::read(map, body) }
 }
 
-/// Extracts the quads of an integer-grid map from anywhere: u, v of the three corners of every face.
-/// Over seams coordinates turn by quarters and shift by integers, and irregular vertices lie on
-/// integers. `length` is six times the number of faces.
+/// Extracts the quads of any integer-grid map, given by u, v of the three corners of every face. Across
+/// seams coordinates turn by quarter turns and shift by integers, and irregular vertices lie on integers.
+/// `length` is six times the number of faces.
 ///
-/// Fails with ROUNDEL_ERROR_NOT_FINITE and ROUNDEL_ERROR_OVERFLOW with the face,
-/// ROUNDEL_ERROR_INVALID_ARGUMENT with the edge that is no such seam or the vertex around which
+/// Fails with ROUNDEL_ERROR_NOT_FINITE and ROUNDEL_ERROR_OVERFLOW with the face, and with
+/// ROUNDEL_ERROR_INVALID_ARGUMENT with the edge that is no such seam, or with the vertex around which
 /// coordinates close at no integer point.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_quads_extract_from_uvs(
@@ -116,9 +116,9 @@ pub unsafe extern "C" fn roundel_quads_extract_from_uvs(
     unsafe { guard::read(mesh, body) }
 }
 
-/// Moves the vertices of quads over the mesh that they were extracted from, towards squares of one
-/// size. They stay on the features of `guidance` and on the boundary; NULL stands for no features.
-/// After a failure the quads are what they were.
+/// Moves the vertices of quads over the mesh that they were extracted from, so that the quads become
+/// squares of one size. Vertices stay on the features of `guidance` and on the boundary; NULL stands for
+/// no features. A failure leaves the quads unchanged.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_quads_smooth(
     quads: *mut roundel_quads,

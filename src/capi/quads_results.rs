@@ -1,4 +1,4 @@
-//! What quads tell: vertices, faces, counts.
+//! The results of quads: vertices, faces, counts.
 
 use std::ffi::c_char;
 
@@ -97,8 +97,8 @@ pub unsafe extern "C" fn roundel_quads_corners(
     unsafe { copy(quads, "corners", values, corners, length) }
 }
 
-/// Gives the number of faces that are no quads, and of all their corners together. Either place may
-/// not be NULL.
+/// Gives the number of faces that are not quads, and the number of all their corners. Neither place may
+/// be NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_quads_other_face_counts(
     quads: *const roundel_quads,
@@ -164,9 +164,9 @@ pub unsafe extern "C" fn roundel_quads_euler_characteristic(
     unsafe { give(quads, "Euler characteristic", euler, |q| q.figures().euler) }
 }
 
-/// Gives 1 if there is nothing but quads, each edge has two faces, or one at the boundary, and the
-/// Euler characteristic is that of the triangle mesh; 0 otherwise: roundel_quads_faults names the
-/// elements at fault.
+/// Gives 1 if all faces are quads, each edge has two faces, or one at the boundary, and the Euler
+/// characteristic is that of the triangle mesh; 0 otherwise. roundel_quads_faults then names the elements
+/// at fault.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_quads_is_conforming(
     quads: *const roundel_quads,
@@ -177,10 +177,10 @@ pub unsafe extern "C" fn roundel_quads_is_conforming(
     unsafe { give(quads, "conforming", is_conforming, read) }
 }
 
-/// Gives the numbers of elements that keep quads from conforming: faces that are no quads or have a
-/// vertex twice, edges with more than two faces or two that run the same way, and vertices whose
-/// faces are more than one fan; and of triangles that the map folds, which is where faults come
-/// from. No place may be NULL.
+/// Gives the numbers of elements that keep quads from conforming: faces that are not quads or have a
+/// vertex twice, edges with more than two faces or two that run the same way, and vertices whose faces
+/// form more than one fan. Also gives the number of triangles that the map folds, which cause these
+/// faults. No place may be NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_quads_fault_counts(
     quads: *const roundel_quads,

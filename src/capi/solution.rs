@@ -1,4 +1,4 @@
-//! The solution handle: values, what they cost, and how far from the best they can be.
+//! The solution handle: values, energy, bound and violations.
 
 use std::mem::offset_of;
 
@@ -30,7 +30,7 @@ pub struct roundel_counts {
     pub reduced_continuous: i64,
     /// Entries below the diagonal of the factor that the relaxation was solved with.
     pub factor_nonzeros: i64,
-    /// Zero, for later use.
+    /// Zero; reserved.
     pub reserved: [i64; 10],
 }
 
@@ -46,7 +46,7 @@ pub struct roundel_seconds {
     pub round: f64,
     /// All of the solve, verification included.
     pub total: f64,
-    /// Zero, for later use.
+    /// Zero; reserved.
     pub reserved: [f64; 12],
 }
 
@@ -128,7 +128,7 @@ pub unsafe extern "C" fn roundel_solution_energy(
     unsafe { give(solution, "energy", energy, Solution::energy) }
 }
 
-/// An entry that gives a number that may not be known, and whether it is.
+/// An entry that gives a number that may be unknown, and whether it is known.
 ///
 /// # Safety
 /// As [`give`].
@@ -152,8 +152,8 @@ unsafe fn give_known(
     }
 }
 
-/// Gives a bound that no integer solution's energy is below. `known` becomes 1, or 0 where there
-/// is no bound, which is minus infinity then.
+/// Gives a lower bound on the energy of every integer solution. `known` becomes 1, or 0 if there is no
+/// bound; the bound is then minus infinity.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_solution_lower_bound(
     solution: *const roundel_solution,
@@ -174,8 +174,8 @@ pub unsafe extern "C" fn roundel_solution_lower_bound(
     }
 }
 
-/// Gives (energy - lower_bound) / max(1, |energy|). `known` becomes 1, or 0 where there is no
-/// bound, and the gap infinite then.
+/// Gives (energy - lower_bound) / max(1, |energy|). `known` becomes 1, or 0 if there is no bound; the gap
+/// is then infinite.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_solution_gap(
     solution: *const roundel_solution,

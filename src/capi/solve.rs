@@ -10,16 +10,16 @@ use super::status::roundel_status;
 use crate::problem::Problem;
 use crate::search::Options;
 
-/// Solves a problem. `options` may be NULL for the default options. `monitor` hears of progress and
-/// of every better solution, and may cancel; it may be NULL. On success `solution` is a new handle,
-/// to be freed with roundel_solution_free.
+/// Solves a problem. `options` may be NULL for the default options. `monitor` receives progress and every
+/// better solution, and may cancel; it may be NULL. On success `solution` is a new handle, to be freed
+/// with roundel_solution_free.
 ///
 /// The problem is not changed. It may be solved again, as it is or after changes: a pinned variable,
 /// another guess, more terms or constraints. Several threads may solve it at once.
 ///
 /// Apart from bad input, fails with ROUNDEL_ERROR_INFEASIBLE, ROUNDEL_ERROR_NO_INTEGER_SOLUTION,
-/// ROUNDEL_ERROR_UNBOUNDED, ROUNDEL_ERROR_NOT_CONVEX, and ROUNDEL_ERROR_CANCELLED or
-/// ROUNDEL_ERROR_TIME_LIMIT when ended before a first solution was found.
+/// ROUNDEL_ERROR_UNBOUNDED and ROUNDEL_ERROR_NOT_CONVEX. Fails with ROUNDEL_ERROR_CANCELLED or
+/// ROUNDEL_ERROR_TIME_LIMIT if it ends before a first solution is found.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_problem_solve(
     problem: *const roundel_problem,

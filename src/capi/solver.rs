@@ -16,11 +16,11 @@ use crate::solve::Solver;
 
 /// A problem whose matrices and integers are fixed, for many solves.
 ///
-/// Elimination, orderings and factors are kept: the first solve costs what roundel_problem_solve costs, one
-/// with other linear terms, right sides or pinned values a fraction. Pinning or releasing a variable
-/// that is in no constraint keeps the elimination; one that is in a constraint calls for another. The
-/// solution is that of roundel_problem_solve for the same data, except that a warm start (option
-/// "warm_start") may improve it.
+/// Elimination, orderings and factors are kept. The first solve costs as much as roundel_problem_solve; a
+/// solve with other linear terms, right sides or pinned values costs a fraction of that. Pinning or
+/// releasing a variable that is in no constraint keeps the elimination; otherwise the elimination is
+/// repeated. The solution is that of roundel_problem_solve for the same data, except that a warm start
+/// (option "warm_start") may improve it.
 ///
 /// A solve that fails changes nothing: the data stay as they were set, and the solver can be used
 /// with them or with others.
@@ -28,10 +28,10 @@ pub struct roundel_solver(Guarded<Solver>);
 
 object!(roundel_solver, Solver, "solver");
 
-/// Makes a solver for a problem, of which it keeps a copy. To be freed with roundel_solver_free.
+/// Makes a solver for a copy of a problem. To be freed with roundel_solver_free.
 ///
 /// Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for an integer variable pinned to a fraction,
-/// ROUNDEL_ERROR_OVERFLOW, ROUNDEL_ERROR_OUT_OF_MEMORY. All else shows in the first solve.
+/// ROUNDEL_ERROR_OVERFLOW, ROUNDEL_ERROR_OUT_OF_MEMORY. The first solve reports all other errors.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_solver_new(
     problem: *const roundel_problem,
@@ -85,8 +85,8 @@ pub unsafe extern "C" fn roundel_solver_set_linear(
     unsafe { set(solver, "linear terms", values, length, Solver::set_linear) }
 }
 
-/// Replaces the right sides of the constraints, one a constraint, in the order in which they were
-/// added. Whether they can hold shows in the next solve.
+/// Replaces the right sides of the constraints, one for each constraint, in the order in which they were
+/// added. The next solve checks whether they are feasible.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_solver_set_constraint_right_sides(
     solver: *mut roundel_solver,

@@ -1,20 +1,20 @@
-//! The numbers by which calls say how they went, and solves how they ended.
+//! The status of a call, and the way in which a solve ended.
 
 use std::ffi::{CStr, c_char};
 
 use crate::error::Error;
 use crate::search::SolveStatus;
 
-/// How a call went. The numbers never change; new ones may be added, so treat every number other
+/// The status of a call. The numbers never change; new ones may be added, so treat every number other
 /// than ROUNDEL_OK as a failure.
 #[repr(i32)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum roundel_status {
-    /// The call did what it says.
+    /// The call succeeded.
     ROUNDEL_OK = 0,
-    /// A pointer is NULL that must not be.
+    /// A pointer that must not be NULL is NULL.
     ROUNDEL_ERROR_NULL_POINTER = 1,
-    /// A value that is not allowed in itself; the index is its position, where it has one.
+    /// A value that is never allowed; the index is its position, if it has one.
     ROUNDEL_ERROR_INVALID_ARGUMENT = 2,
     /// A length does not fit the problem, or two arrays that belong together differ in length.
     ROUNDEL_ERROR_LENGTH_MISMATCH = 3,
@@ -26,7 +26,7 @@ pub enum roundel_status {
     ROUNDEL_ERROR_EMPTY = 6,
     /// A count or a sum is beyond what can be represented.
     ROUNDEL_ERROR_OVERFLOW = 7,
-    /// Memory for a large array could not be had.
+    /// Memory for a large array was not available.
     ROUNDEL_ERROR_OUT_OF_MEMORY = 8,
     /// There is no option of this name.
     ROUNDEL_ERROR_UNKNOWN_OPTION = 20,
@@ -74,7 +74,7 @@ pub enum roundel_status {
     ROUNDEL_ERROR_UNUSABLE = 91,
 }
 
-/// How a solve ended that gave a solution. The numbers never change; new ones may be added.
+/// How a solve with a solution ended. The numbers never change; new ones may be added.
 #[repr(i32)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum roundel_solve_status {

@@ -1,4 +1,4 @@
-//! The unknowns: which are integer, which are pinned, where they stay when nothing decides them.
+//! The unknowns: integer variables, pinned variables, and the point where undecided ones stay.
 
 use super::guard;
 use super::input::{index, indices, slice};

@@ -1,23 +1,22 @@
-//! Indices that no map can have, spread over vertices nearby.
+//! Indices that no map can have, spread over nearby vertices.
 //!
-//! The smoothest field may turn at one vertex as often as the surface does: the tip of a horn gets
-//! index 1, around which no angle is left for a map, as `2 pi (1 - I)` is what its triangles have to
-//! share. Where that is too little or more than they can hold, quarters move to the nearest vertices
-//! that can take them.
+//! The smoothest field may turn as much around a vertex as the surface does. The tip of a horn then gets
+//! index 1. A map has the angle `2 pi (1 - I)` around a vertex of index I, so that none is left for the
+//! triangles there. If the angle is too small or too large for its triangles, quarters of the index move
+//! to the nearest vertices that can take them.
 
 use std::collections::{BTreeSet, VecDeque};
 
 use crate::mesh::TriangleMesh;
 
-/// Quarters of the largest index that a vertex keeps: half a turn is left, as at the end of a
-/// pillow.
+/// The largest index that a vertex keeps, in quarters: half a turn remains, as at the end of a pillow.
 pub(super) const MOST: i32 = 2;
 
-/// Quarters of the least index that a vertex keeps: six quads meet.
+/// The least index that a vertex keeps, in quarters: six quads meet there.
 const LEAST: i32 = -2;
 
-/// The same indices, in quarters, none beyond what a map can have, as long as there is where to put the
-/// rest.
+/// The indices in quarters, changed so that a map can have each of them, as long as other vertices can
+/// take the rest.
 pub(super) fn feasible_indices(mesh: &TriangleMesh, mut steps: Vec<i32>) -> Vec<i32> {
     for v in 0..steps.len() {
         while steps[v] > MOST {
@@ -38,12 +37,12 @@ pub(super) fn feasible_indices(mesh: &TriangleMesh, mut steps: Vec<i32>) -> Vec<
     steps
 }
 
-/// The least quarters for a vertex: its triangles share less than half a turn each.
+/// The least index of a vertex in quarters: each of its triangles takes less than half a turn.
 fn least(mesh: &TriangleMesh, vertex: usize) -> i32 {
     LEAST.max(5 - 2 * mesh.face_degree(vertex) as i32)
 }
 
-/// The first interior vertex breadth-first from one, itself excepted, that will do.
+/// The first interior vertex that satisfies `will_do`, breadth-first from another one.
 fn nearest(mesh: &TriangleMesh, from: usize, will_do: impl Fn(usize) -> bool) -> Option<usize> {
     let mut is_seen = BTreeSet::from([from]);
     let mut queue = VecDeque::from([from]);

@@ -1,7 +1,7 @@
-//! The field of a mesh: its problem stated and solved, with indices that a map can have.
+//! The field of a mesh: its problem is stated and solved, with indices that a map can have.
 //!
-//! A first solve decides the indices. Where no map can have these, the field is solved for again with
-//! feasible ones prescribed ([`super::feasible_indices`]). So it is where indices are decided without the
+//! A first solve decides the indices. If no map can have them, a second solve prescribes feasible indices
+//! ([`super::feasible_indices`]). A second solve also follows when the indices are decided without the
 //! details of the surface ([`super::detail`]).
 
 use super::feasible_indices::feasible_indices;
@@ -12,10 +12,10 @@ use crate::monitor::Monitor;
 use crate::search::{Options, WarmStart};
 use crate::solve::{Solution, Solver, solve_with};
 
-/// The smoothest field, whether a map can follow it or not, and the solution that it was read from.
+/// The smoothest field, whether or not a map can follow it, and the solution that it was read from.
 ///
-/// With a length of [details](FieldOptions::detail) this is [`solve_field`], as all who want none of
-/// the details want quads.
+/// With a length of [details](FieldOptions::detail) this is [`solve_field`], because callers who exclude
+/// details want quads.
 ///
 /// # Errors
 /// Those of [`solve_field`].
@@ -43,8 +43,8 @@ fn solve_stated(
     Ok((problem.field(mesh, &solution)?, solution))
 }
 
-/// The smoothest field, all details seen, with the period jumps of the solver's last solution, which
-/// did not see them.
+/// The smoothest field for the surface with all details, with the period jumps of the solver's last
+/// solution, which was found without them.
 fn smoothest_with(
     mesh: &TriangleMesh,
     problem: &FieldProblem,
@@ -63,12 +63,12 @@ fn smoothest_with(
 
 /// The smoothest field among those that a map can follow, and the solution that it was read from.
 ///
-/// With a length of [details](FieldOptions::detail) a first field, which does not see them, decides
-/// the indices; the field is the smoothest with these.
+/// With a length of [details](FieldOptions::detail) a first field, solved for without the details,
+/// decides the indices. The result is the smoothest field with these indices.
 ///
-/// Indices that the caller prescribes are kept whatever they are, and so are the
-/// [firm](FieldOptions::firm) constraints. Other directions of faces around a vertex give way where
-/// they alone decide an index that no map can have.
+/// Indices that the caller prescribes are kept in any case, and so are the [firm](FieldOptions::firm)
+/// constraints. Other directions of faces around a vertex are dropped if they alone decide an index that
+/// no map can have.
 ///
 /// # Errors
 /// Those of [`FieldProblem::with_options`], of [`solve`](crate::solve()) and of
@@ -118,7 +118,7 @@ pub fn solve_field<'a>(
     Ok((field, solution))
 }
 
-/// Takes the directions away of faces around vertices whose index is another than the field's.
+/// Removes the directions of faces around vertices whose prescribed index differs from that of the field.
 fn give_way(mesh: &TriangleMesh, field: &OrientationField, options: &mut FieldOptions) {
     let mut steps = steps(mesh, field);
     for given in options.indices.iter().flatten() {
@@ -142,7 +142,7 @@ mod tests {
     use super::super::feasible_indices::MOST;
     use super::*;
 
-    /// A cone so steep that the smoothest field turns as it does: more than half a turn at the tip.
+    /// A cone so steep that the smoothest field turns with it: more than half a turn at the tip.
     fn horn(sides: u32) -> TriangleMesh {
         let at = |ring: u32, k: u32| 1 + (ring - 1) * sides + k % sides;
         let mut points = vec![[0.0, 0.0, 20.0]];

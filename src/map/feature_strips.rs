@@ -1,8 +1,8 @@
-//! Strips between features that rounding may put on one line.
+//! Strips between features that rounding may collapse to one line.
 //!
-//! Two feature curves side by side, closer than a quad is wide, round to the same integer more often
-//! than not: the strip between them is collapsed, and one of the curves is lost to the quads. Such
-//! curves are to be held one unit apart, across as the strip is.
+//! Two feature curves that are closer together than the width of a quad often round to the same integer.
+//! The strip between them then collapses, and the quads lose one of the curves. The constraints found
+//! here keep such curves one unit apart, across the strip.
 
 use std::collections::{BTreeSet, VecDeque};
 
@@ -12,18 +12,18 @@ use crate::linalg::DisjointSets;
 use crate::mesh::TriangleMesh;
 use crate::mesh::vector::{dot, sub};
 
-/// Strips narrower than this part of a quad are left collapsed: quads in them would be slivers.
+/// Strips narrower than this part of a quad stay collapsed: quads in them would be slivers.
 const NARROWEST: f64 = 0.2;
 
-/// Curves farther apart than this, in quads, are not looked at: they do not round to one line.
+/// Curves farther apart than this, in quads, are not considered: they do not round to one line.
 const WIDEST: f64 = 1.5;
 
-/// Across a strip must be at least this part of along it: at the corner of a curve the field turns on
-/// the way to the next, and the shortest way goes along as much as across.
+/// The least ratio of the distance across a strip to that along it. At the corner of a curve the field
+/// turns on the way to the next curve, and the shortest path goes along the strip as far as across it.
 const LEVEL: f64 = 0.5;
 
 impl SeamlessProblem {
-    /// What holds curves side by side apart, each pair once a chart.
+    /// The constraints that keep neighbouring curves apart, one for each pair and chart.
     pub(crate) fn feature_strips(&self, mesh: &TriangleMesh) -> Vec<SeparationConstraint> {
         let lines = Lines::new(self);
         let mut found = Vec::new();
@@ -44,7 +44,7 @@ impl SeamlessProblem {
         found
     }
 
-    /// Breadth-first from a vertex on a curve across to other curves of the same coordinate.
+    /// Searches breadth-first from a vertex on a curve across to other curves of the same coordinate.
     fn strips_from(
         &self,
         mesh: &TriangleMesh,
@@ -88,9 +88,9 @@ impl SeamlessProblem {
     }
 }
 
-/// Which unknowns the isolines make equal.
+/// The unknowns that isolines make equal.
 struct Lines {
-    /// For each unknown the least of those that equal it.
+    /// For each unknown, the least unknown that is equal to it.
     root: Vec<u32>,
     is_on_line: Vec<bool>,
 }
@@ -114,7 +114,7 @@ impl Lines {
         }
     }
 
-    /// The curve on which a copy's coordinate is held, if it is.
+    /// The curve that fixes a copy's coordinate, if there is one.
     fn of(&self, copy: u32, axis: usize) -> Option<u32> {
         let unknown = 2 * copy as usize + axis;
         self.is_on_line[unknown].then(|| self.root[unknown])

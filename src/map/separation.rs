@@ -1,5 +1,5 @@
-//! Separation constraints: what keeps two cones, two corners of a triangle or two feature curves apart
-//! that the integers of a map have put on top of each other.
+//! Separation constraints. They separate two cones, two corners of a triangle or two feature curves that
+//! the integers of a map have collapsed.
 
 use super::SeamlessMap;
 use crate::eliminate::eliminate;
@@ -10,7 +10,7 @@ use crate::problem::{Model, Problem};
 use crate::search::Options;
 use crate::solve::{Solution, Solver, solve_with};
 
-/// `b - a = by` for two unknowns `[a, b]` of a map that integers decide, `by` a whole number.
+/// `b - a = by` for two unknowns `[a, b]` of a map, both decided by integers; `by` is a whole number.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct SeparationConstraint {
     pub(crate) unknowns: [usize; 2],
@@ -18,13 +18,13 @@ pub(crate) struct SeparationConstraint {
 }
 
 impl SeparationConstraint {
-    /// Between the same coordinate, 0 for u and 1 for v, of two copies of vertices.
+    /// Constrains one coordinate, 0 for u and 1 for v, of two copies of vertices.
     pub(crate) fn new(copies: [u32; 2], axis: usize, by: f64) -> Self {
         let unknowns = copies.map(|copy| 2 * copy as usize + axis);
         SeparationConstraint { unknowns, by }
     }
 
-    /// Whether a map has both at one value, or the wrong way round.
+    /// Whether a map gives both unknowns one value, or puts them in the wrong order.
     pub(crate) fn is_collapsed(&self, map: &SeamlessMap) -> bool {
         let [a, b] = self.unknowns.map(|unknown| map.values()[unknown].round());
         (b - a) * self.by <= 0.0
@@ -36,11 +36,10 @@ impl SeparationConstraint {
     }
 }
 
-/// Solves under these constraints as well. Those are left out that contradict the problem or the
-/// constraints before them; none if none is left.
+/// Solves with these constraints added. A constraint that contradicts the problem or the constraints
+/// before it is left out; `None` if no constraint remains.
 ///
-/// # Errors
-/// Those of [`solve_with`], but for constraints that contradict each other.
+/// # Errors Those of [`solve_with`], except for constraints that contradict each other.
 pub(crate) fn solve_separated<'a>(
     solver: &mut Solver,
     constraints: &mut Vec<SeparationConstraint>,
@@ -70,17 +69,16 @@ pub(crate) fn solve_separated<'a>(
     Ok(None)
 }
 
-/// The problem with these constraints stated, but for those that contradict it or the constraints before
-/// them; none if none is left.
+/// The problem with these constraints added. A constraint that contradicts the problem or the constraints
+/// before it is left out; `None` if no constraint remains.
 ///
-/// # Errors
-/// Those of [`eliminate`], but for constraints that contradict each other.
+/// # Errors Those of [`eliminate`], except for constraints that contradict each other.
 fn with_separation<'a>(
     stated: &Problem,
     constraints: &mut Vec<SeparationConstraint>,
     monitor: &impl Fn() -> Monitor<'a>,
 ) -> Result<Option<Problem>> {
-    // Whether constraints can hold does not depend on the objective, and is told faster without.
+    // Feasibility does not depend on the objective, and is decided faster without it.
     let bare = without_objective(stated)?;
     while !constraints.is_empty() {
         let row = match eliminate(&Model::new(&with(&bare, constraints)?)?, &mut monitor()) {
@@ -104,7 +102,7 @@ fn with(stated: &Problem, constraints: &[SeparationConstraint]) -> Result<Proble
     Ok(problem)
 }
 
-/// The constraints, integers and pins of a problem alone.
+/// A problem with the constraints, integers and pins of another, and without its objective.
 fn without_objective(stated: &Problem) -> Result<Problem> {
     let mut bare = constraints_of(stated)?;
     let integers = stated.integers().iter().enumerate();
@@ -118,7 +116,7 @@ fn without_objective(stated: &Problem) -> Result<Problem> {
     Ok(bare)
 }
 
-/// The constraints of a problem alone.
+/// A problem with only the constraints of another.
 pub(crate) fn constraints_of(stated: &Problem) -> Result<Problem> {
     let mut bare = Problem::new(stated.variables())?;
     let rows = stated.constraint_rows();

@@ -1,8 +1,8 @@
-//! Aiming at a number of quads.
+//! The map size for a wanted number of quads.
 //!
-//! A map whose gradients cannot all be what they are asked to be covers less than it should: least
-//! squares shrink what they cannot fit. The relaxation is linear in the size asked for, so its area
-//! says by how much to ask for more; only linear terms change, and the solver keeps its factors.
+//! A map whose gradients cannot all be as asked covers less area than it should, because least squares
+//! shrink what they cannot fit. The relaxation is linear in the size that is asked for, so its area tells
+//! how much more to ask for. Only linear terms change, and the solver keeps its factors.
 
 use crate::error::Result;
 use crate::map::{SeamlessMap, SeamlessProblem, Sizing};
@@ -11,11 +11,11 @@ use crate::monitor::Monitor;
 use crate::search::{Options, Strategy};
 use crate::solve::Solver;
 
-/// No more than so many times as many are asked for.
+/// The most quads to ask for, as a multiple of the wanted number.
 const MOST: f64 = 2.0;
 
-/// Asks for so many quads that the relaxation covers as many as were wanted, and gives the energy of that
-/// many unit squares. Other sizes stay.
+/// Asks for a number of quads for which the relaxation covers as many unit squares as quads are wanted,
+/// and returns the energy of a map of that many squares. Sizes other than a number of quads stay.
 pub(super) fn aim(
     mesh: &TriangleMesh,
     problem: &mut SeamlessProblem,
@@ -40,7 +40,7 @@ pub(super) fn aim(
     Ok(solution.energy() / squares * wanted as f64)
 }
 
-/// How many unit squares a map covers.
+/// The area of a map in unit squares.
 fn area(mesh: &TriangleMesh, map: &SeamlessMap) -> f64 {
     let area = |face: usize| {
         let [a, b, c] = map.uv(face);

@@ -1,4 +1,4 @@
-//! The quads of one map, and how well that went.
+//! The quads of one map, and their quality.
 
 use super::missed::missed;
 use super::outcome::Outcome;
@@ -10,7 +10,7 @@ use crate::monitor::Monitor;
 use crate::solve::Solution;
 use crate::untangle::Untangled;
 
-/// A map with more than one face in so many folded is not worked on.
+/// A map is given up if more than one face in this many is folded.
 const FOLDED_PART: usize = 4;
 
 /// A map and its quads.
@@ -20,7 +20,7 @@ pub(super) struct Attempt {
     pub(super) solution: Solution,
     pub(super) map: Untangled,
     pub(super) quads: QuadMesh,
-    /// Features that no edge of a quad runs along.
+    /// Features that no edge of a quad follows.
     pub(super) missed: Vec<usize>,
     pub(super) outcome: Outcome,
 }
@@ -49,8 +49,8 @@ impl Attempt {
     }
 }
 
-/// Whether so much of a map is folded that neither untangling nor other integers help: there is more
-/// to be followed than quads of this size can.
+/// Whether so much of a map is folded that neither untangling nor other integers help: quads of this size
+/// are too large for the details of the surface.
 pub(super) fn is_hopeless(mesh: &TriangleMesh, map: &SeamlessMap) -> bool {
     FOLDED_PART * map.flipped().len() > mesh.face_count()
 }

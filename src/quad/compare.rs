@@ -1,4 +1,4 @@
-//! The same two problems, decided by several strategies.
+//! The problems of one field and one map, solved by several strategies.
 
 use crate::error::Result;
 use crate::monitor::Monitor;
@@ -6,18 +6,18 @@ use crate::problem::Problem;
 use crate::search::{Options, Strategy};
 use crate::solve::{Solution, solve_with};
 
-/// What one strategy makes of the field's problem, and of the map's for the field that was taken.
+/// The solutions of one strategy: of the field's problem, and of the map's problem for the chosen field.
 #[derive(Debug, Clone)]
 pub struct Compared {
-    /// How the integers were decided.
+    /// The strategy that decided the integers.
     pub strategy: Strategy,
-    /// The field's problem solved.
+    /// The solution of the field's problem.
     pub field: Solution,
-    /// The map's problem solved.
+    /// The solution of the map's problem.
     pub map: Solution,
 }
 
-/// Solves both problems by every strategy, each from the start.
+/// Solves both problems by every strategy, each time from the start.
 pub(super) fn compare<'a>(
     [field, map]: [(&Problem, &Options); 2],
     strategies: &[Strategy],

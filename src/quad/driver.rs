@@ -2,17 +2,18 @@
 //!
 //! ```text
 //! size, features
-//! field       of several uses of curvature that whose map's relaxation is least distorted
-//! map         its integers decided, feature curves that they put on one line held apart
-//! quads       extracted from the map
-//! next try    while quads have holes or lack features: the map untangled; cones held apart that its
-//!             integers collapse; feature curves left where they were; a field that sees fewer details
+//! field       the one of several whose map has the least distorted relaxation
+//! map         integers are decided; feature curves that they put on one line are separated
+//! quads       are extracted from the map
+//! next try    while quads have holes or miss features: untangle the map; separate collapsed cones;
+//!             do not separate feature curves; use a field that sees fewer details
 //! smoothing
 //! ```
 //!
-//! Each try starts from what the last one kept: [`MapSolver`](super::map_solver::MapSolver) holds the solver of the map's problem, the
-//! separation constraints and the structure of its maps. [`Driver::next`] alone decides what is tried
-//! next, and of all quads the first with the best [`Outcome`](super::outcome::Outcome) are kept.
+//! Each try starts from what the last one kept: [`MapSolver`](super::map_solver::MapSolver) holds the
+//! solver of the map's problem, the separation constraints and the structure of its maps.
+//! [`Driver::next`] alone decides what is tried next. Among all quads with the best
+//! [`Outcome`](super::outcome::Outcome) the first are kept.
 
 use std::time::Instant;
 
@@ -32,19 +33,18 @@ use crate::smooth::{SmoothOptions, smooth};
 use crate::solve::Solution;
 use crate::untangle::Untangled;
 
-/// Which part of a quad's edge details attract no irregular vertices below, try after try, where nobody
-/// says. Extraction copes with folds, and where details have irregular vertices of their own quads are
-/// more even; fewer irregular vertices leave less to fold.
+/// The default size of details, as a part of a quad's edge, try after try: smaller details attract no
+/// irregular vertices. Extraction copes with folds, and quads are more even where details have irregular
+/// vertices of their own; fewer irregular vertices cause fewer folds.
 const DETAILS: [f64; 3] = [0.25, 1.0, 2.0];
 
 /// Turns a mesh into quads. `monitor` makes one watcher for each step.
 ///
-/// Whether the result is made of nothing but quads it tells itself
-/// ([`is_conforming`](crate::extract::QuadMesh::is_conforming)).
-/// Features so close that rounding puts them on one line are held apart where the quads conform then.
-/// Extraction copes with nearly all folds; untangling is tried only if its quads do not conform, and
-/// kept if they do then, or there is less to repair. Where they still do not, and nobody says how
-/// large details are, the field is decided anew for larger ones.
+/// [`is_conforming`](crate::extract::QuadMesh::is_conforming) tells whether the result consists of quads
+/// only. Features that rounding puts on one line are separated if the quads then conform. Extraction
+/// copes with nearly all folds. Untangling is tried only if its quads do not conform, and the result is
+/// kept if its quads conform or need fewer repairs. If the quads still do not conform, and the options
+/// give no size of details, the field is solved for again with larger details excluded.
 ///
 /// # Errors
 /// Those of [`solve_field`](crate::field::solve_field), [`solve`](crate::solve()),
@@ -93,20 +93,20 @@ pub fn quadrangulate<'a>(
     driver.finish(best)
 }
 
-/// What may be tried, in this order; the last two are followed by the first two again.
+/// The tries, in this order; the first two follow again after each of the last two.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Try {
-    /// The map at hand, its folds undone with the integers held.
+    /// Untangle the current map, with the integers fixed.
     Untangled,
-    /// The map at hand, its cones held apart and then untangled.
+    /// Separate the cones of the current map and untangle it.
     ConesApart,
-    /// The map whose feature curves are not held apart.
+    /// Use the map whose feature curves are not separated.
     FeaturesAsRounded,
-    /// Another field, which sees fewer details, and its map.
+    /// Use another field, which sees fewer details, and its map.
     LessDetail,
 }
 
-/// What all tries share.
+/// The data that all tries share.
 struct Driver<'a, M> {
     mesh: &'a TriangleMesh,
     options: &'a QuadOptions,
@@ -119,7 +119,7 @@ struct Driver<'a, M> {
 }
 
 impl<'a, 'm, M: Fn() -> Monitor<'m>> Driver<'a, M> {
-    /// What is tried after this, if anything.
+    /// The next try, if there is one.
     fn next(&self, last: Try, best: &Attempt) -> Option<Try> {
         let at_hand = self.fields.last()?;
         match last {
@@ -151,7 +151,7 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Driver<'a, M> {
         self.as_solved()
     }
 
-    /// The quads of the map at hand, nothing done to it.
+    /// The quads of the current map as it is.
     fn as_solved(&mut self) -> Result<Attempt> {
         let map = self.at_hand().as_solved()?;
         let found = self.quads(map)?;
@@ -172,7 +172,7 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Driver<'a, M> {
         &mut self.fields[last]
     }
 
-    /// Smooths the quads, and compares strategies where that is asked for.
+    /// Smooths the quads, and compares strategies if the options ask for it.
     fn finish(mut self, best: Attempt) -> Result<Quadrangulation> {
         let (mesh, options, monitor) = (self.mesh, self.options, self.monitor);
         let mut seconds = self.seconds;

@@ -1,4 +1,4 @@
-//! A field that sees details of one size, and the map at hand of those that follow it.
+//! A field that sees details of one size, and the current map of it.
 
 use std::borrow::Cow;
 
@@ -16,31 +16,32 @@ use crate::search::Strategy;
 use crate::solve::Solution;
 use crate::untangle::{UntangleOptions, Untangled};
 
-/// How many passes over the mesh untangling may make where quads conform and lack features alone.
+/// The most passes of untangling over the mesh if the quads conform and only miss features.
 const PASSES_FOR_FEATURES: usize = 10;
 
-/// Maps of more integers are not decided anew for their cones: that takes minutes and helps none of them.
+/// The most integers of a map that are decided anew for its cones: for more it takes minutes and does not
+/// help.
 const INTEGERS_TO_DECIDE_ANEW: usize = 600;
 
 /// A field and its map.
 pub(super) struct FieldMap<'a, M> {
-    /// What the field follows.
+    /// The guidance of the field.
     pub(super) options: FieldOptions,
     pub(super) field: OrientationField,
     pub(super) solution: Solution,
     pub(super) maps: MapSolver<'a, M>,
-    /// The map at hand, as its integers have it.
+    /// The current map, as its integers give it.
     at_hand: Solved,
-    /// The map whose feature curves were not held apart, until it is tried.
+    /// The map whose feature curves were not separated, until it is tried.
     features_as_rounded: Option<Solved>,
-    /// What untangling may spend.
+    /// The limits of untangling.
     effort: UntangleOptions,
     is_relaxed: bool,
 }
 
 impl<'a, 'm, M: Fn() -> Monitor<'m>> FieldMap<'a, M> {
     /// The field that sees no details smaller than this, unless the guidance says otherwise, and its map
-    /// with feature curves held apart. `seconds` are those of fields and of maps.
+    /// with feature curves separated. The times of fields and maps are added to `seconds`.
     pub(super) fn new(
         mesh: &'a TriangleMesh,
         given: &'a QuadOptions,
@@ -87,23 +88,23 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> FieldMap<'a, M> {
         })
     }
 
-    /// Whether so much of the map at hand is folded that it is not worked on.
+    /// Whether so much of the current map is folded that it is given up.
     pub(super) fn is_hopeless(&self, mesh: &TriangleMesh) -> bool {
         is_hopeless(mesh, &self.at_hand.map)
     }
 
-    /// Whether there are integers that may be decided anew.
+    /// Whether the map has integers that may be decided anew.
     pub(super) fn may_decide_anew(&self) -> bool {
         let integers = self.at_hand.solution.counts().reduced_integers;
         !self.is_relaxed && integers <= INTEGERS_TO_DECIDE_ANEW
     }
 
-    /// Whether feature curves are held apart.
+    /// Whether feature curves are separated.
     pub(super) fn holds_features_apart(&self) -> bool {
         self.features_as_rounded.is_some()
     }
 
-    /// Goes back to the map whose feature curves were not held apart.
+    /// Returns to the map whose feature curves were not separated.
     pub(super) fn forget_separation(&mut self) {
         self.maps.forget_separation();
         if let Some(solved) = self.features_as_rounded.take() {
@@ -111,7 +112,7 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> FieldMap<'a, M> {
         }
     }
 
-    /// Untangling is to spend less where the quads of the map at hand conform.
+    /// Lowers the limits of untangling if the quads of the current map conform.
     pub(super) fn limit_effort(&mut self, conforms: bool) {
         let most = UntangleOptions::default();
         self.effort.passes = match conforms {
@@ -120,21 +121,21 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> FieldMap<'a, M> {
         };
     }
 
-    /// The map at hand, nothing done to it.
+    /// The current map as it is.
     pub(super) fn as_solved(&self) -> Result<(Solution, Untangled)> {
         let Solved { solution, map } = &self.at_hand;
         let map = self.maps.untouched(map.clone())?;
         Ok((solution.clone(), map))
     }
 
-    /// The map at hand, its folds undone with the integers held.
+    /// The current map untangled, with the integers fixed.
     pub(super) fn untangled(&mut self) -> Result<(Solution, Untangled)> {
         let Solved { solution, map } = &self.at_hand;
         let map = self.maps.untangle(map, &self.effort)?;
         Ok((solution.clone(), map))
     }
 
-    /// The map at hand, its cones held apart and then untangled; none where nothing holds them apart.
+    /// The current map with its cones separated, then untangled; `None` if no constraints separate them.
     pub(super) fn cones_apart(&mut self) -> Result<Option<(Solution, Untangled)>> {
         let rounds = self.effort.rounds;
         let separated = self.maps.separate_cones(&self.at_hand, rounds)?;

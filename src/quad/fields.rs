@@ -1,10 +1,10 @@
-//! Which field the map follows: of several, the one whose map is least distorted.
+//! The choice among several fields: the one whose map is least distorted.
 //!
-//! How much curvature should count depends on the shape: where it is clear everywhere, directions that
-//! are given keep irregular vertices from where the map would need them, and a field that follows
-//! nothing is often the better. The relaxation of the map's problem tells before any integer is
-//! decided: its energy is how far quads are from squares of one size. So on meshes that are not large
-//! several fields are tried.
+//! The best weight of curvature depends on the shape. Where curvature is clear everywhere, given
+//! directions keep irregular vertices away from where the map would need them, and a field without any
+//! guidance is often better. The relaxation of the map's problem shows this before any integer is
+//! decided: its energy measures how far quads are from squares of one size. So several fields are tried
+//! on meshes that are not large.
 
 use super::QuadOptions;
 use super::aim::aim;
@@ -20,13 +20,13 @@ use crate::solve::{Solution, Solver};
 
 /// Another use of curvature.
 struct Use {
-    /// How many faces have a direction, for each quad.
+    /// The number of faces with a fixed direction, for each quad.
     constrained_per_quad: f64,
-    /// What the weight of all others is multiplied by.
+    /// The factor of the weight of all other faces.
     weight: f64,
 }
 
-/// What is tried beside the guidance, in this order.
+/// The uses that are tried besides that of the guidance, in this order.
 const OTHERS: [Use; 4] = [
     Use {
         constrained_per_quad: 0.0,
@@ -46,13 +46,13 @@ const OTHERS: [Use; 4] = [
     },
 ];
 
-/// All fields together may have so many faces, but the first has what it has: a mesh of 10,000 faces
-/// takes no longer than one of 40,000.
+/// The most faces of all fields together; the first field has no limit. A mesh of 10,000 faces takes no
+/// longer than one of 40,000.
 const FACES: usize = 39_000;
 
 /// A field, and the problem of the map that follows it.
 pub(super) struct ChosenField {
-    /// What the field follows.
+    /// The guidance of the field.
     pub(super) options: FieldOptions,
     pub(super) field: OrientationField,
     pub(super) solution: Solution,
@@ -61,7 +61,7 @@ pub(super) struct ChosenField {
     outcome: Outcome,
 }
 
-/// The best of the fields that may be tried. `seconds` are those of fields and of maps.
+/// The best of the fields that may be tried. The times of fields and maps are added to `seconds`.
 pub(super) fn choose_field<'a>(
     mesh: &TriangleMesh,
     options: &QuadOptions,
@@ -73,7 +73,7 @@ pub(super) fn choose_field<'a>(
     for other in others(mesh, options) {
         match follow(mesh, &other, features, monitor, [of_field, of_map]) {
             Ok(found) if found.outcome < best.outcome => best = found,
-            // What the caller asks for can be had, and so that is no error.
+            // The guidance that the caller asked for works, so a failure of another one is no error.
             Ok(_) | Err(Error::Infeasible { .. } | Error::NoIntegerSolution { .. }) => {}
             Err(error) => return Err(error),
         }
@@ -81,7 +81,7 @@ pub(super) fn choose_field<'a>(
     Ok(best)
 }
 
-/// The same with other uses of curvature, as many as the mesh is small enough for.
+/// The same guidance with other uses of curvature, as many as the size of the mesh allows.
 fn others(mesh: &TriangleMesh, options: &QuadOptions) -> impl Iterator<Item = QuadOptions> {
     let given = &options.guidance;
     let follows = given.constrain_curvature > 0.0 || given.curvature_weight > 0.0;

@@ -1,14 +1,14 @@
 //! From a map's problem to a map without folds: [`solve_fold_free`], step by step.
 //!
 //! ```text
-//! map         its integers decided
-//! separation  cones that they collapse held apart, integers decided anew
-//! untangling  folds and winding defects undone, the integers held
-//! next try    a finer map, and then one that is finer around the faults of the last alone
+//! map         integers are decided
+//! separation  cones that they collapse are separated, and integers are decided anew
+//! untangling  folds and winding defects are removed, with the integers fixed
+//! next try    a finer map, and then one that is finer only around the faults of the last
 //! ```
 //!
-//! [`MapSolver`] keeps what is learned on the way, [`Driver::next`] decides what is tried next, and of all
-//! maps the first with the best [`Outcome`] is kept.
+//! [`MapSolver`] keeps what later tries use again, and [`Driver::next`] decides what is tried next. Among
+//! all maps with the best [`Outcome`] the first is kept.
 
 use std::borrow::Cow;
 
@@ -22,44 +22,43 @@ use crate::search::{Options, Strategy};
 use crate::solve::{Solution, Solver};
 use crate::untangle::{UntangleOptions, Untangled, grow_around};
 
-/// By how much a refinement multiplies the lengths of the map: about twice as many quads.
+/// The factor of a refinement in the lengths of the map: about twice as many quads.
 const REFINEMENT: f64 = std::f64::consts::SQRT_2;
 
-/// How often a map without folds is made finer for vertices that it goes around too often.
+/// The number of times that a map without folds is made finer because of winding defects.
 const REFINEMENTS_TO_UNWIND: usize = 2;
 
-/// How often a map that keeps folds is made finer around them alone.
+/// The number of times that a map with folds is made finer around them alone.
 const GRADINGS: usize = 4;
 
-/// Where integers still collapse cones and a finer map may be made, untangling gets this part of its
-/// passes: it seldom helps.
+/// Untangling gets this part of its passes while integers still collapse cones and a finer map may be
+/// made, because it seldom helps then.
 const PART_OF_PASSES: usize = 8;
 
-/// Where a finer map may be made, untangling may look at so many faces,
+/// The most faces that untangling may visit while a finer map may be made.
 const FACES_BEFORE_REFINING: usize = 500_000;
 
-/// and at so many times those of the mesh: what small regions do not unfold large ones seldom do, and
-/// a finer map costs less than they.
+/// The same limit as a multiple of the mesh's faces. Large regions seldom unfold what small regions do
+/// not, and a finer map costs less than they do.
 const PASSES_BEFORE_REFINING: usize = 5;
 
-/// A map, the solution that its integers are from, and what became of it.
+/// A map, the solution that its integers are from, and the result of its untangling.
 #[derive(Debug)]
 pub struct FoldFreeMap {
-    /// The solution: of the problem with the constraints that were added. Its bound may be that without
-    /// them.
+    /// The solution of the problem with the separation constraints. Its bound may be that without them.
     pub solution: Solution,
     /// The map after untangling.
     pub untangled: Untangled,
-    /// How often integers were decided anew.
+    /// How often the integers were decided anew.
     pub rounds: usize,
     /// How often the map was made finer, each time by the square root of two in length.
     pub refinements: usize,
-    /// How often, after that, it was made finer around its faults alone.
+    /// How often, after that, the map was made finer around its faults alone.
     pub gradings: usize,
 }
 
 impl FoldFreeMap {
-    /// A map that nothing was done to.
+    /// A map that is left as it is.
     ///
     /// # Errors
     /// [`LengthMismatch`](crate::Error::LengthMismatch) for the map of another problem or mesh.
@@ -79,19 +78,19 @@ impl FoldFreeMap {
     }
 }
 
-/// Solves the problem, holds apart the cones that its integers collapse and solves again, at most
-/// `effort.rounds` times, and untangles the map. Where folds are left, or vertices that the map goes
-/// around too often, the same is done for a finer map, at most `effort.refinements` times, and then with
-/// smaller quads around them alone; of all maps the first with the fewest of these is kept.
-/// `monitor` watches each solve and each untangling.
+/// Solves the problem, separates the cones that the integers collapse and solves again, at most
+/// `effort.rounds` times, and untangles the map. If folds or winding defects remain, the same is done for
+/// a finer map, at most `effort.refinements` times, and then with smaller quads around the faults alone.
+/// Among all maps with the fewest faults the first is kept. `monitor` watches each solve and each
+/// untangling.
 ///
-/// With [`Strategy::Auto`] a proof is tried only where the map need not wait for it long: up to fifty
-/// thousand unknowns, for at most thirty million nodes; [`Strategy::Exact`] is there for more. With
-/// [`Strategy::Relax`] there are no integers to speak of, and the map is that of the relaxation.
+/// With [`Strategy::Auto`] a proof of optimality is tried only if it does not take long: for at most
+/// fifty thousand unknowns and thirty million nodes. [`Strategy::Exact`] has no such limits. With
+/// [`Strategy::Relax`] no integers are decided, and the map is that of the relaxation.
 ///
-/// # Errors
-/// Those of [`solve`](crate::solve()) for the first solve and of [`untangle`](crate::untangle::untangle);
-/// a later solve that fails for constraints that contradict each other ends the rounds.
+/// # Errors Those of [`solve`](crate::solve()) for the first solve and of
+/// [`untangle`](crate::untangle::untangle); a later solve that fails because constraints contradict each
+/// other ends the rounds.
 pub fn solve_fold_free<'a>(
     mesh: &TriangleMesh,
     problem: &SeamlessProblem,
@@ -126,26 +125,27 @@ pub fn solve_fold_free<'a>(
     Ok(best)
 }
 
-/// How much finer a map is than asked for: so often as a whole, and then so often around its faults.
+/// How much finer a map is than asked for: first the refinements as a whole, then those around its
+/// faults.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 struct Size {
     refinements: usize,
     gradings: usize,
 }
 
-/// What all tries share.
+/// The data that all tries share.
 struct Driver<'a, M> {
     mesh: &'a TriangleMesh,
-    /// For the size that is asked for.
+    /// The problem for the size that is asked for.
     problem: &'a SeamlessProblem,
     effort: &'a UntangleOptions,
     maps: MapSolver<'a, M>,
-    /// How many times as fine each face is, once maps are finer around faults.
+    /// The factor of each face's size, once maps are made finer around faults.
     lengths: Vec<f64>,
 }
 
 impl<'m, M: Fn() -> Monitor<'m>> Driver<'_, M> {
-    /// The size that is tried after this one, if any.
+    /// The next size to try, if there is one.
     fn next(&self, last: Size, best: &FoldFreeMap) -> Option<Size> {
         if best.untangled.faults() == 0 || self.effort.refinements == 0 {
             return None;
@@ -166,7 +166,7 @@ impl<'m, M: Fn() -> Monitor<'m>> Driver<'_, M> {
         })
     }
 
-    /// Goes over to a size.
+    /// Changes to another size.
     fn resize(&mut self, size: Size, best: &FoldFreeMap) -> Result<()> {
         let (mesh, problem) = (self.mesh, self.problem);
         let factor = REFINEMENT.powi(size.refinements as i32);
@@ -180,7 +180,7 @@ impl<'m, M: Fn() -> Monitor<'m>> Driver<'_, M> {
         })
     }
 
-    /// A map of the size at hand.
+    /// A map of the current size.
     fn attempt(&mut self, size: Size) -> Result<FoldFreeMap> {
         let first = self.maps.solve()?;
         let separated = self.maps.separate_cones(&first, self.effort.rounds)?;
@@ -196,7 +196,7 @@ impl<'m, M: Fn() -> Monitor<'m>> Driver<'_, M> {
         let Solved { solution, map } = separated.better.unwrap_or(first);
         let untangled = self.maps.untangle(&map, &effort)?;
         if size.gradings > 0 {
-            // The next is to be finer around what this one has left.
+            // The next map is finer around the faults of this one.
             grow_around(self.mesh, self.problem, &untangled, &mut self.lengths);
         }
         Ok(FoldFreeMap {

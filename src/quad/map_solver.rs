@@ -1,5 +1,5 @@
-//! A map's problem with all that is kept while it is solved again and again: its solver, the separation
-//! constraints found so far, and what untangling knows of its structure.
+//! A map's problem and the data that repeated solves share: its solver, the separation constraints found
+//! so far, and the structure that untangling uses.
 
 use std::borrow::Cow;
 use std::rc::Rc;
@@ -13,16 +13,16 @@ use crate::search::{Options, Strategy};
 use crate::solve::{Solution, Solver};
 use crate::untangle::{Collapsed, Structure, UntangleOptions, Untangled};
 
-/// How often integers that collapse strips between features are decided anew.
+/// The most times that integers are decided anew because they collapse strips between features.
 const ROUNDS_FOR_FEATURES: usize = 3;
 
-/// With [`Strategy::Auto`] a proof is tried for maps of at most so many unknowns,
+/// The most unknowns for which a proof is tried with [`Strategy::Auto`].
 const PROVED: usize = 50_000;
 
-/// and may visit so many nodes: a map shall not wait for it.
+/// The most nodes that this proof may visit, so that a map does not wait for it.
 const NODES: usize = 30_000_000;
 
-/// These options, but that with [`Strategy::Auto`] a map does not wait for a proof.
+/// These options, changed so that a map does not wait for a proof with [`Strategy::Auto`].
 pub(super) fn without_long_proof(options: &Options, variables: usize) -> Options {
     let mut options = options.clone();
     if options.strategy == Strategy::Auto {
@@ -40,32 +40,32 @@ pub(super) struct Solved {
     pub(super) map: SeamlessMap,
 }
 
-/// What holding apart came to.
+/// The result of a separation.
 pub(super) struct Separated {
-    /// The best solution, if it is better than that without separation.
+    /// The best solution, if it is better than the one without separation.
     pub(super) better: Option<Solved>,
-    /// What the integers of the best still collapse.
+    /// The elements that the integers of the best solution still collapse.
     pub(super) outcome: Outcome,
-    /// How often integers were decided anew.
+    /// How often the integers were decided anew.
     pub(super) rounds: usize,
 }
 
-/// The problem of a map, and what was learned of it.
+/// The problem of a map, and what earlier solves found out about it.
 pub(super) struct MapSolver<'a, M> {
     mesh: &'a TriangleMesh,
-    /// For the size at hand.
+    /// The problem at the current size.
     problem: Cow<'a, SeamlessProblem>,
     solver: Solver,
     options: &'a Options,
     monitor: &'a M,
-    /// What later solves hold apart.
+    /// The separation constraints of later solves.
     separation: Vec<SeparationConstraint>,
     /// Known once there is a map; the same for every size.
     structure: Option<Rc<Structure>>,
 }
 
 impl<'a, 'm, M: Fn() -> Monitor<'m>> MapSolver<'a, M> {
-    /// For a problem and a solver of it.
+    /// The state for a problem and its solver.
     pub(super) fn new(
         mesh: &'a TriangleMesh,
         problem: Cow<'a, SeamlessProblem>,
@@ -88,7 +88,7 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> MapSolver<'a, M> {
         &self.problem
     }
 
-    /// Goes over to the same problem for another size, which is made of the solver.
+    /// Changes to the same problem at another size, which was made from the solver.
     pub(super) fn resize(
         &mut self,
         of: impl FnOnce(&mut Solver) -> Result<SeamlessProblem>,
@@ -97,12 +97,12 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> MapSolver<'a, M> {
         Ok(())
     }
 
-    /// Holds nothing apart any more.
+    /// Drops all separation constraints.
     pub(super) fn forget_separation(&mut self) {
         self.separation.clear();
     }
 
-    /// Solves with nothing held apart.
+    /// Solves without separation constraints.
     pub(super) fn solve(&mut self) -> Result<Solved> {
         self.forget_separation();
         let solution = self.solver.solve_with(self.options, (self.monitor)())?;
@@ -114,7 +114,7 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> MapSolver<'a, M> {
         Ok(Solved { solution, map })
     }
 
-    /// Holds feature curves apart that integers put on one line.
+    /// Separates feature curves that the integers put on one line.
     pub(super) fn separate_features(&mut self, first: &Solved) -> Result<Separated> {
         let strips = self.problem.feature_strips(self.mesh);
         self.separate(first, ROUNDS_FOR_FEATURES, |_, map| {
@@ -124,7 +124,7 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> MapSolver<'a, M> {
         })
     }
 
-    /// Holds cones and corners apart that integers collapse, in at most so many rounds.
+    /// Separates cones and corners that the integers collapse, in at most this many rounds.
     pub(super) fn separate_cones(&mut self, first: &Solved, rounds: usize) -> Result<Separated> {
         let structure = self.structure(&first.map)?;
         let elements = structure.held_elements(self.mesh, &self.problem);
@@ -135,8 +135,8 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> MapSolver<'a, M> {
         })
     }
 
-    /// Decides integers anew, at most so many times, until `find` names no further constraints: of a map
-    /// it tells the outcome, and what should be held apart.
+    /// Decides the integers anew, at most this many times, until `find` returns no further constraints.
+    /// For a map, `find` returns its outcome and the constraints that should be added.
     fn separate(
         &mut self,
         first: &Solved,
@@ -177,12 +177,12 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> MapSolver<'a, M> {
         })
     }
 
-    /// A map that nothing is done to.
+    /// A map that is left as it is.
     pub(super) fn untouched(&self, map: SeamlessMap) -> Result<Untangled> {
         Untangled::untouched(self.mesh, &self.problem, map)
     }
 
-    /// Undoes folds and winding defects, the integers held.
+    /// Removes folds and winding defects, with the integers fixed.
     pub(super) fn untangle(
         &mut self,
         map: &SeamlessMap,
@@ -193,7 +193,7 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> MapSolver<'a, M> {
         structure.untangle(self.mesh, &self.problem, map, effort, &mut monitor)
     }
 
-    /// What all maps of the problem share, of which this is one.
+    /// The structure that all maps of the problem share; `map` is one of them.
     fn structure(&mut self, map: &SeamlessMap) -> Result<Rc<Structure>> {
         let known = match self.structure.take() {
             Some(known) => known,

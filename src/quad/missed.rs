@@ -1,14 +1,14 @@
-//! Features that quads have lost.
+//! Features that the quads miss.
 
 use crate::extract::QuadMesh;
 use crate::mesh::vector::{add, dot, norm, scale, sub};
 use crate::mesh::{ClosestPoint, TriangleMesh};
 
-/// How far the middle of a feature may be from the edges of quads, in mean lengths of those: more
-/// than an arc of one quad is off its chord, less than the next line is away.
+/// The largest distance of a feature's middle from the edges of quads, in their mean length. It is more
+/// than the distance of an arc of one quad from its chord, and less than that of the next line.
 const FAR: f64 = 0.25;
 
-/// The features, by number of the edge, whose middle is far from all edges of quads.
+/// The features, by edge number, whose middle is farther than that from all edges of quads.
 pub(super) fn missed(mesh: &TriangleMesh, quads: &QuadMesh, features: &[usize]) -> Vec<usize> {
     if features.is_empty() {
         return Vec::new();

@@ -1,14 +1,14 @@
 //! From a triangle mesh to quads: the drivers of all steps.
 //!
-//! | what | file |
+//! | idea | file |
 //! | --- | --- |
-//! | quads, from the mesh on | `driver` |
-//! | a map without folds, from its problem on | `fold_free` |
-//! | a field and the map at hand | `field_map` |
-//! | which field is followed | `fields`, `aim` |
-//! | a map's problem solved again and again | `map_solver` |
-//! | quads of one map | `attempt`, `missed` |
-//! | what is better | `outcome` |
+//! | quads, from a mesh | `driver` |
+//! | a map without folds, from its problem | `fold_free` |
+//! | a field and its current map | `field_map` |
+//! | the choice of the field | `fields`, `aim` |
+//! | repeated solves of a map's problem | `map_solver` |
+//! | the quads of one map | `attempt`, `missed` |
+//! | the ordering of results | `outcome` |
 
 mod aim;
 mod attempt;

@@ -1,4 +1,4 @@
-//! What is to be decided on the way from a mesh to quads, in one table.
+//! All options from a mesh to quads, in one table.
 
 use crate::field::Guidance;
 use crate::map::{SeamlessOptions, Sizing};
@@ -8,16 +8,16 @@ use crate::smooth::SmoothOptions;
 use crate::untangle::UntangleOptions;
 
 options! {
-    /// How to make quads. The default is as many as [`SeamlessOptions`] has, along the curvature
-    /// where it is clear. The integers of the map are decided by lattice decoding, those of the field
-    /// adaptively: guided by curvature, it is no problem of short cycles, and rounding one by one is
-    /// lower and faster.
+    /// How to make quads. By default, [`SeamlessOptions`] gives their number, and they follow the
+    /// curvature where it is clear. Lattice decoding decides the integers of the map. Adaptive rounding
+    /// decides those of the field: guided by curvature, its integers are not tied by short cycles, and
+    /// rounding one by one is faster and gives a lower energy.
     pub struct QuadOptions,
 
-    /// The options of quads, beside those of the guidance and of the two solves.
+    /// The options of quads, besides those of the guidance and of the two solves.
     QUAD_OPTIONS {
-        /// On meshes that are not large a few fields are tried. Never where curvature counts for
-        /// nothing, or indices are given.
+        /// Several fields are tried on meshes that are not large, unless curvature has no weight or
+        /// indices are prescribed.
         vary_curvature: bool = true, "1" in "[0, 1]",
             "1: also try fields that follow curvature less than the guidance says, and keep the field whose map is least distorted";
         untangle: bool = true, "1" in "[0, 1]",
@@ -26,22 +26,22 @@ options! {
             "the number of times that untangling first stiffens the surroundings of folded triangles";
     }
     and {
-        /// How large quads shall be.
+        /// The size of the quads.
         sizing: Sizing = Sizing::Quads(SeamlessOptions::default().quads);
-        /// What they follow. Features, and the boundary where it is aligned, become chains of edges.
+        /// The guidance. Features, and the boundary where it is aligned, become chains of edges.
         guidance: Guidance = Guidance {
             constrain_curvature: 0.005,
             curvature_weight: 0.07,
             ..Guidance::default()
         };
-        /// How the field is solved for.
+        /// The options of the field's solve.
         field: Options = by(Strategy::Adaptive);
-        /// How the map is solved for.
+        /// The options of the map's solve.
         map: Options = by(Strategy::Lattice);
-        /// How quads are smoothed; its features are added to those of the guidance. None leaves
+        /// The options of smoothing; its features are added to those of the guidance. `None` leaves
         /// vertices where the map has them.
         smooth: Option<SmoothOptions> = Some(SmoothOptions::default());
-        /// Strategies that both problems are solved with as well, to be compared.
+        /// Further strategies that solve both problems, for comparison.
         compare: Vec<Strategy> = Vec::new();
     }
     by {

@@ -1,37 +1,38 @@
-//! What is better: one ordering of whatever was found on the way from a mesh to quads.
+//! The one ordering of all results on the way from a mesh to quads.
 //!
-//! The members are compared from the first to the last, and less is better. Each step fills in what it
-//! can tell: the relaxation of a map its distortion, integers the elements that they collapse, a map its
-//! folds and winding defects, quads what these have left in them. Only outcomes of one step are compared.
+//! The members are compared from first to last, and less is better. Each step fills in the members that
+//! it knows: the relaxation of a map its distortion, integers the elements that they collapse, a map its
+//! folds and winding defects, quads their remaining faults. Only outcomes of one step are compared.
 //!
-//! Missed features come before faults: extraction mends nearly all folds of a map, a lost feature nothing.
+//! Missed features count more than faults, because extraction repairs nearly all folds of a map, but
+//! cannot restore a missed feature.
 
 use crate::extract::QuadMesh;
 use crate::untangle::Untangled;
 
-/// What a field costs for each of its cones, in the energy of a map of unit squares. A few more are
-/// worth it where they make all quads more even, many are not.
+/// The cost of each cone of a field, in the energy of a map of unit squares. A few more cones are worth
+/// it if they make all quads more even; many are not.
 const CONE_COST: f64 = 2.0;
 
 /// How far a result is from a good one.
 #[derive(Debug, Clone, Copy, PartialEq, PartialOrd, Default)]
 pub(super) struct Outcome {
-    /// Whether quads have holes, or faces are among them that are no quads.
+    /// Whether quads have holes, or some faces are not quads.
     does_not_conform: bool,
-    /// Features that no edge of a quad runs along.
+    /// Features that no edge of a quad follows.
     missed_features: usize,
-    /// Elements that integers collapse, folds and winding defects of a map, or what extraction had to
-    /// repair of these.
+    /// Elements that integers collapse, folds and winding defects of a map, or the repairs that
+    /// extraction made because of them.
     faults: usize,
-    /// Vertices of other than four quads.
+    /// Vertices with other than four quads.
     irregular_vertices: usize,
     /// How far quads are from squares of one size.
     distortion: f64,
 }
 
 impl Outcome {
-    /// Of a field, by the relaxation of its map: its energy, for a map of as many unit squares as every
-    /// field is to have, and its cones.
+    /// The outcome of a field, from the relaxation of its map: its energy, scaled to the number of unit
+    /// squares that all fields are compared at, and its number of cones.
     pub(super) fn of_relaxation(energy: f64, cones: usize) -> Self {
         Outcome {
             distortion: energy + CONE_COST * cones as f64,
@@ -39,7 +40,7 @@ impl Outcome {
         }
     }
 
-    /// Of integers that collapse so many elements.
+    /// The outcome of integers that collapse this many elements.
     pub(super) fn of_integers(collapsed: usize) -> Self {
         Outcome {
             faults: collapsed,
@@ -47,7 +48,7 @@ impl Outcome {
         }
     }
 
-    /// Of a map.
+    /// The outcome of a map.
     pub(super) fn of_map(map: &Untangled) -> Self {
         Outcome {
             faults: map.faults(),
@@ -55,7 +56,7 @@ impl Outcome {
         }
     }
 
-    /// Of quads that miss so many features.
+    /// The outcome of quads that miss this many features.
     pub(super) fn of_quads(quads: &QuadMesh, missed_features: usize) -> Self {
         Outcome {
             does_not_conform: !quads.is_conforming(),
@@ -71,7 +72,7 @@ impl Outcome {
         !self.does_not_conform
     }
 
-    /// Whether quads conform and have all features: folds that cost neither do not matter.
+    /// Whether quads conform and miss no features: other faults of the map do not matter then.
     pub(super) fn is_whole(&self) -> bool {
         self.conforms() && self.missed_features == 0
     }
@@ -81,7 +82,7 @@ impl Outcome {
 mod tests {
     use super::*;
 
-    /// The members in the order in which they count.
+    /// The members in the order of their comparison.
     fn of(members: [usize; 5]) -> Outcome {
         Outcome {
             does_not_conform: members[0] > 0,
@@ -92,7 +93,8 @@ mod tests {
         }
     }
 
-    /// Every combination of nothing and something, the something larger the less it counts.
+    /// All combinations of zero and nonzero members; the nonzero values are larger for members that count
+    /// less.
     fn all() -> impl Iterator<Item = [usize; 5]> {
         let member = |n: usize, k: usize| if n >> k & 1 == 1 { 1 + k } else { 0 };
         (0..32).map(move |n| [0, 1, 2, 3, 4].map(|k| member(n, k)))

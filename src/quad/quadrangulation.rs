@@ -1,4 +1,4 @@
-//! What comes of a mesh: quads, the field and the map that they are from, and what each step took.
+//! The result for a mesh: quads, the field and map that they are from, and the time of each step.
 
 use std::time::Instant;
 
@@ -9,10 +9,10 @@ use crate::field::OrientationField;
 use crate::solve::Solution;
 use crate::untangle::Untangled;
 
-/// Quads, and how they were come by.
+/// Quads, and the results of the steps before them.
 #[derive(Debug)]
 pub struct Quadrangulation {
-    /// The quads, smoothed if that was asked for.
+    /// The quads, smoothed if the options ask for it.
     pub quads: QuadMesh,
     /// The field that they follow.
     pub field: OrientationField,
@@ -24,15 +24,15 @@ pub struct Quadrangulation {
     pub solution: Solution,
     /// Edges of the mesh that edges of quads follow, in increasing order.
     pub features: Vec<usize>,
-    /// Those of them that no edge of a quad runs along: collapsed or folded by the map.
+    /// Those of these edges that no edge of a quad follows, because the map collapses or folds them.
     pub missed_features: Vec<usize>,
-    /// What other strategies make of both problems, where that was asked for.
+    /// The solutions of other strategies for both problems, if the options ask for them.
     pub compared: Vec<Compared>,
-    /// What each step took.
+    /// The time of each step.
     pub seconds: QuadSeconds,
 }
 
-/// Wall-clock seconds a step.
+/// Wall-clock seconds of each step.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct QuadSeconds {
     /// The field's problem and its solution.
@@ -43,7 +43,7 @@ pub struct QuadSeconds {
     pub extract: f64,
     /// Smoothing.
     pub smooth: f64,
-    /// The solves that are compared.
+    /// The solves for comparison.
     pub compare: f64,
 }
 

@@ -1,9 +1,10 @@
-//! What rounding has put on top of each other, or on the wrong side, and how to hold it apart.
+//! Elements that rounding has collapsed or turned over, and the constraints that separate them.
 //!
 //! Integers that collapse an element ([`super::held_elements`]) are decided anew under separation
-//! constraints: along the coordinate in which the path between two cones should be longest by its rounded
-//! length, one unit at least, or, for a face, by the nearest triangle of units that is the right way
-//! round. Corners of a face between isolines are held one unit apart.
+//! constraints. For two cones the constraint applies to the coordinate in which the path between them
+//! should be longest. It asks for the rounded length of the path, and for one unit at least. For a face
+//! the constraints ask for the nearest counter-clockwise triangle whose sides have coordinates -1, 0 and
+//! 1. Corners of a face between isolines are kept one unit apart.
 
 use super::held_elements::{HeldElements, NearCones};
 use super::isoline_triangles::IsolineTriangle;
@@ -12,18 +13,18 @@ use crate::map::{SeamlessMap, SeamlessProblem, SeparationConstraint};
 use crate::mesh::TriangleMesh;
 use crate::mesh::orientation;
 
-/// What the integers of a map collapse.
+/// The elements that the integers of a map collapse.
 pub(crate) struct Collapsed {
-    /// Pairs of cones at one point or the wrong way round.
+    /// Pairs of cones that lie at one point or are in the wrong order.
     pairs: Vec<NearCones>,
     /// Faces of three cones or corners, no two at one point, that are collinear or clockwise.
     faces: Vec<usize>,
-    /// Faces between isolines that these leave no area, or turn over.
+    /// Faces between isolines that the integers collapse or turn over.
     isoline_triangles: Vec<IsolineTriangle>,
 }
 
 impl Collapsed {
-    /// What is collapsed in a map.
+    /// Finds the collapsed elements of a map.
     pub(crate) fn find(elements: &HeldElements, map: &SeamlessMap) -> Self {
         let uv = map.vertex_uvs();
         let is_collapsed = |pair: &&NearCones| {
@@ -50,15 +51,15 @@ impl Collapsed {
         }
     }
 
-    /// How many elements.
+    /// The number of collapsed elements.
     pub(crate) fn count(&self) -> usize {
         self.pairs.len() + self.faces.len() + self.isoline_triangles.len()
     }
 
-    /// The constraints that hold them apart.
+    /// The constraints that separate them.
     ///
-    /// No two vertices are joined twice, so that these seldom contradict each other; those of earlier
-    /// rounds they may.
+    /// No two vertices are joined twice, so that these constraints seldom contradict each other. They may
+    /// contradict those of earlier rounds.
     pub(crate) fn separation(
         &self,
         mesh: &TriangleMesh,
@@ -103,8 +104,8 @@ impl Collapsed {
     }
 }
 
-/// The two vectors of entries -1, 0 and 1, the second to the left of the first, that are nearest to
-/// these.
+/// The two vectors nearest to the given ones whose entries are -1, 0 or 1, with the second to the left of
+/// the first.
 fn units(first: [f64; 2], second: [f64; 2]) -> [[f64; 2]; 2] {
     let entries =
         (0..81).map(|n: i32| [n / 27, n / 9 % 3, n / 3 % 3, n % 3].map(|e| f64::from(e - 1)));

@@ -1,6 +1,6 @@
-//! Cones that fall together, on flat meshes of a few faces, where coordinates are positions.
+//! Cones that collapse, on flat meshes of a few faces, where coordinates are positions.
 //!
-//! Which vertices are cones is said by hand: a flat field has none.
+//! The tests name the cones, because a flat field has none.
 
 use super::super::held_elements::{HeldElements, NearCones};
 use super::*;
@@ -31,7 +31,8 @@ impl Flat {
         Flat { mesh, problem }
     }
 
-    /// Unit squares, each of two triangles, so many along x and y. Vertex (i, j) is (rows + 1) i + j.
+    /// Unit squares of two triangles each, `columns` along x and `rows` along y. Vertex (i, j) is (rows +
+    /// 1) i + j.
     fn grid(columns: usize, rows: usize, length: f64, lines: &[[usize; 2]]) -> Self {
         let at = |i: usize, j: usize| (i * (rows + 1) + j) as u32;
         let points = (0..=columns).flat_map(|i| (0..=rows).map(move |j| [i as f64, j as f64, 0.0]));
@@ -47,18 +48,18 @@ impl Flat {
         flat
     }
 
-    /// Both coordinates of these copies held by integers, and of no other.
+    /// Which coordinates integers hold: both of these copies, and of no other copy.
     fn held(&self, copies: &[usize]) -> Vec<[bool; 2]> {
         let copy = 0..self.problem.sectors.count();
         copy.map(|copy| [copies.contains(&copy); 2]).collect()
     }
 
-    /// What integers may collapse where they hold these coordinates.
+    /// The elements that integers may collapse where they hold these coordinates.
     fn elements(&self, held: &[[bool; 2]]) -> HeldElements {
         HeldElements::new(&self.problem, &self.mesh, held)
     }
 
-    /// Near cones where these vertices are cones: each pair from its lower vertex, in order.
+    /// The pairs of near cones if these vertices are cones: each pair starts at its lower vertex.
     fn near(&self, cones: &[usize]) -> Vec<([u32; 2], [f64; 2])> {
         let found = self.elements(&self.held(cones)).pairs;
         let mut pairs = Vec::new();
@@ -79,14 +80,14 @@ impl Flat {
         pairs
     }
 
-    /// The map that has its vertices there.
+    /// The map that places each vertex at `at` of its position.
     fn map(&self, at: impl Fn([f64; 2]) -> [f64; 2]) -> SeamlessMap {
         let points = self.mesh.vertices().iter();
         let values: Vec<f64> = points.flat_map(|&[x, y, _]| at([x, y])).collect();
         SeamlessMap::new(&self.problem, &self.mesh, &values).unwrap()
     }
 
-    /// What of these cones is collapsed in a map.
+    /// The elements of these cones that a map collapses.
     fn collapsed(&self, cones: &[usize], at: impl Fn([f64; 2]) -> [f64; 2]) -> Collapsed {
         let elements = HeldElements {
             isoline_triangles: Vec::new(),
@@ -101,7 +102,7 @@ fn assert_near(found: [f64; 2], expected: [f64; 2]) {
     assert!(off[0].max(off[1]) < 1e-9, "{found:?} for {expected:?}");
 }
 
-/// How two vertices are joined in the list, and by how much their coordinates should differ.
+/// Checks which pairs of vertices are joined, and by how much their coordinates should differ.
 fn assert_pairs(found: &[([u32; 2], [f64; 2])], expected: &[([u32; 2], [f64; 2])]) {
     let vertices = |pairs: &[([u32; 2], [f64; 2])]| pairs.iter().map(|p| p.0).collect::<Vec<_>>();
     assert_eq!(vertices(found), vertices(expected));

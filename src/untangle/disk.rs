@@ -14,14 +14,14 @@ pub(super) struct Disk {
     pub inside: Vec<usize>,
     /// The edges (face, local edge) of the boundary, counter-clockwise. The path crosses the last.
     pub boundary: Vec<(usize, usize)>,
-    /// The edges that a path from the center outwards crosses, each as its vertex clockwise of the
-    /// path and the other.
+    /// The edges that a path from the center to the boundary crosses. Each is given by its vertex
+    /// clockwise of the path and then the other.
     pub path: Vec<[usize; 2]>,
 }
 
 impl Disk {
-    /// The largest disk around the center of its own faces and those that `may_be_in` it; none if the
-    /// faces found form no disk.
+    /// The largest disk around the center that consists of its own faces and of faces for which
+    /// `may_be_in` holds; `None` if these faces form no disk.
     pub fn around(
         mesh: &TriangleMesh,
         center: usize,
@@ -50,7 +50,7 @@ impl Disk {
     }
 }
 
-/// Faces added one by one, those fewer steps away first, as long as they leave a disk.
+/// Adds faces one by one, nearest first, as long as the set remains a disk.
 fn grow(
     mesh: &TriangleMesh,
     center: usize,
@@ -64,7 +64,7 @@ fn grow(
         return None;
     }
     let mut front = faces.clone();
-    // Faces that would close a ring or touch at a vertex wait until more is there.
+    // Faces that would close a ring or touch at a vertex wait until more faces are in the set.
     let mut waiting: BTreeSet<usize> = BTreeSet::new();
     while !front.is_empty() {
         for &face in &front {
@@ -129,7 +129,7 @@ fn path(mesh: &TriangleMesh, center: usize, is_in: &BTreeSet<usize>) -> Option<V
     Some(half_edges.iter().map(ends).collect())
 }
 
-/// The boundary as one loop, which ends with the edge between these vertices.
+/// The boundary as one loop that ends with the edge between these two vertices.
 fn boundary(
     mesh: &TriangleMesh,
     is_in: &BTreeSet<usize>,

@@ -19,7 +19,7 @@ use crate::mesh::turned;
 /// lambda, the weight of the area relative to the angles. The paper's examples have 1/128 to 1.
 const AREA_WEIGHT: f64 = 1.0;
 
-/// The least eigenvalue that a projected Hessian keeps, so that no direction is free of cost.
+/// The least eigenvalue of a projected Hessian: every direction has a cost.
 const LEAST_CURVATURE: f64 = 1e-6;
 
 /// The triangle in the plane that is the target of a face.
@@ -27,8 +27,8 @@ const LEAST_CURVATURE: f64 = 1e-6;
 pub(super) struct Rest {
     /// Gradients of the three hat functions.
     pub gradients: [[f64; 2]; 3],
-    /// The weight of the triangle, the root of its area. Weighted by area, small triangles would stay
-    /// folded until eps is small; with equal weights, fine parts of a mesh would dominate.
+    /// The weight of the triangle: the square root of its area. With the area as weight, small triangles
+    /// would stay folded until eps is small. With equal weights, fine parts of a mesh would dominate.
     pub weight: f64,
 }
 
@@ -71,7 +71,8 @@ impl Rest {
         parts.map(|x| FRAC_1_SQRT_2 * x)
     }
 
-    /// How many times the area at rest the area is; negative where the triangle is folded.
+    /// The signed area of the triangle in the map, relative to its area at rest; negative where it is
+    /// folded.
     pub fn determinant(&self, uv: &[[f64; 2]; 3]) -> f64 {
         determinant(&self.parts(uv))
     }

@@ -1,7 +1,7 @@
-//! The degrees of freedom that are left when the integers are held.
+//! The degrees of freedom that remain when the integers of a map are fixed.
 //!
-//! The constraints of the parametrization, with every integer unknown pinned, are eliminated, which
-//! leaves `x = T y + t` with `y` free and continuous. Only T is needed, because steps start from a
+//! The constraints of the parametrization are eliminated with every integer unknown pinned. This leaves
+//! `x = T y + t` with `y` free and continuous. Only `T` is needed, because Newton steps start from a
 //! solution: if x satisfies the constraints, so does `x + T dy`.
 
 use std::ops::Range;
@@ -18,7 +18,7 @@ use crate::problem::Model;
 pub(super) struct Freedom {
     /// `T`: one row a coordinate (u of copy c is 2 c, v is 2 c + 1).
     pub moves: Sparse,
-    /// The same by free unknowns.
+    /// The transpose: one row a free unknown.
     pub moved: Sparse,
     /// The first entry of `faces` of each copy, and their number.
     start: Vec<u32>,
@@ -28,11 +28,10 @@ pub(super) struct Freedom {
 }
 
 impl Freedom {
-    /// Of the map with these values of the problem's unknowns.
+    /// The freedom of the map with these values of the problem's unknowns.
     ///
-    /// # Errors
-    /// [`Infeasible`](crate::Error::Infeasible) for integers that contradict the constraints, and
-    /// what `monitor` asks for.
+    /// # Errors [`Infeasible`](crate::Error::Infeasible) for integers that contradict the constraints,
+    /// and the errors by which `monitor` ends the work.
     pub fn new(
         map: &SeamlessProblem,
         copies: &[[u32; 3]],
@@ -68,14 +67,14 @@ impl Freedom {
         self.moved.rows()
     }
 
-    /// The free unknowns that move a face, some more than once.
+    /// The free unknowns that move a face; some are repeated.
     pub fn of_face(&self, face: usize) -> impl Iterator<Item = usize> + '_ {
         let copies = self.copies[face].iter();
         let coordinates = copies.flat_map(|&c| [2 * c as usize, 2 * c as usize + 1]);
         coordinates.flat_map(|i| self.moves.row(i).map(|(y, _)| y))
     }
 
-    /// The faces that a free unknown moves, some more than once.
+    /// The faces that a free unknown moves; some are repeated.
     pub fn faces_of(&self, unknown: usize) -> impl Iterator<Item = usize> + '_ {
         let copies = self.moved.row(unknown).map(|(i, _)| i / 2);
         copies.flat_map(|c| self.around(c))
@@ -87,8 +86,8 @@ impl Freedom {
         self.faces[range].iter().map(|&f| f as usize)
     }
 
-    /// The two free unknowns that move the copies of one vertex and no other vertex; none if there are
-    /// fewer or more.
+    /// The two free unknowns that move the copies of one vertex and no other vertex; `None` if their
+    /// number is not two.
     pub fn of_copies(&self, copies: Range<u32>) -> Option<[usize; 2]> {
         let rows = 2 * copies.start as usize..2 * copies.end as usize;
         let mut unknowns: Vec<usize> = rows

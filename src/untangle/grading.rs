@@ -1,8 +1,8 @@
-//! Smaller quads around what a map keeps of folds and winding defects, and nowhere else.
+//! Smaller quads around the folds and winding defects that remain in a map, and nowhere else.
 //!
-//! A few faults in one place seldom need a finer map as a whole: with smaller quads around them their
-//! integers fall otherwise, and the surface has room. Lengths grow by [`FINER`] at a fault and fall back
-//! within [`REACH`] quads.
+//! A few faults in one place seldom need a finer map as a whole. With smaller quads around them the
+//! integers change and the map has more room there. Lengths in the map grow by [`FINER`] at a fault. The
+//! factor falls back to 1 within [`REACH`] quads.
 
 use std::collections::VecDeque;
 
@@ -10,13 +10,13 @@ use super::Untangled;
 use crate::map::SeamlessProblem;
 use crate::mesh::TriangleMesh;
 
-/// By how much lengths grow at a fault, each time.
+/// The factor by which lengths grow at a fault, each time.
 const FINER: f64 = 1.5;
 
-/// How many quads away lengths do not grow any more,
+/// The distance in quads beyond which lengths do not grow.
 const REACH: f64 = 3.0;
 
-/// unless fewer edges of triangles span these.
+/// The least distance beyond which lengths do not grow, in edges of triangles.
 const LEAST_EDGES: f64 = 4.0;
 
 /// Multiplies the lengths of faces, one a face, around the faults of a map.
@@ -46,7 +46,7 @@ pub(crate) fn grow_around(
     }
 }
 
-/// How many edges each vertex is from the next of some, as far as that is at most so many.
+/// The number of edges from each vertex to the nearest of the given vertices, up to a largest number.
 fn edges_from(
     mesh: &TriangleMesh,
     from: impl Iterator<Item = usize>,

@@ -1,8 +1,9 @@
-//! Elements of a map whose shape integers alone decide: cones, and corners of features and boundary,
-//! where both coordinates are integers as well.
+//! Elements of a map whose shape the integers alone decide. Their vertices are cones, or those corners of
+//! features and of the boundary both of whose coordinates are integers.
 //!
-//! Two cones that a short path joins, or an isoline, cannot lie at one point, nor all three corners of a
-//! face on one line: whatever else moves, the faces between them stay without area.
+//! Two cones that are joined by a short path or by an isoline must not lie at one point, and the three
+//! corners of a face must not be collinear. Otherwise the faces between them have no area, wherever the
+//! other vertices move.
 
 use std::collections::{BTreeSet, VecDeque};
 
@@ -11,13 +12,13 @@ use crate::map::SeamlessProblem;
 use crate::mesh::TriangleMesh;
 use crate::mesh::vector::{dot, sub};
 
-/// How many edges a path between two cones has at most,
+/// The most edges of a path between two cones, unless [`LONGEST_REACH`] allows more.
 const LONGEST_PATH: usize = 4;
 
-/// unless edges are so short that more of them span so many quads.
+/// The length in quads up to which a path between two cones may have any number of edges.
 const LONGEST_REACH: f64 = 2.0;
 
-/// What integers may collapse, in all maps of one problem.
+/// The elements that integers may collapse, the same for all maps of one problem.
 pub(crate) struct HeldElements {
     pub(super) pairs: Vec<NearCones>,
     /// Faces of three cones or corners.
@@ -25,8 +26,8 @@ pub(crate) struct HeldElements {
     pub(super) isoline_triangles: Vec<IsolineTriangle>,
 }
 
-/// Two copies of cones in one chart, and by how much the coordinates should differ from the first
-/// to the second: along a shortest path between them.
+/// Two copies of cones in one chart, and the difference that their coordinates should have, second minus
+/// first, along a shortest path between them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct NearCones {
     pub copies: [u32; 2],
@@ -35,7 +36,7 @@ pub(super) struct NearCones {
 }
 
 impl HeldElements {
-    /// Those of a problem of which integers hold these coordinates of every copy.
+    /// The elements of a problem in which integers hold these coordinates of every copy.
     pub(super) fn new(problem: &SeamlessProblem, mesh: &TriangleMesh, held: &[[bool; 2]]) -> Self {
         let is_point: Vec<bool> = held.iter().map(|axes| *axes == [true; 2]).collect();
         let copies = &problem.sectors.copy;
@@ -49,8 +50,8 @@ impl HeldElements {
 }
 
 impl SeamlessProblem {
-    /// Pairs of cones and corners that a path of a few edges or an isoline joins, no other on it and
-    /// no cut across it.
+    /// Pairs of cones and corners that are joined by an isoline or by a path of a few edges. The path
+    /// passes through no other cone and crosses no cut.
     fn near_cones(&self, mesh: &TriangleMesh, held: &[bool]) -> Vec<NearCones> {
         let longest = LONGEST_PATH.max((LONGEST_REACH / self.mean_aim(mesh)) as usize);
         let mut found = Vec::new();
@@ -65,7 +66,7 @@ impl SeamlessProblem {
         found
     }
 
-    /// The mean length of edges in the map as it should be.
+    /// The mean length of an edge in the map if the map had the gradients that are asked for.
     pub(super) fn mean_aim(&self, mesh: &TriangleMesh) -> f64 {
         let faces = 0..mesh.face_count();
         let length = |face: usize| {
@@ -83,7 +84,8 @@ impl SeamlessProblem {
                 vertex_of[copy as usize] = v as u32;
             }
         }
-        // Where a run began, how far it should have come, and where it is.
+        // The copy where a run began, the difference that its ends should have, and the copy that it has
+        // reached.
         let mut run: Option<(u32, [f64; 2], u32)> = None;
         for isoline in &self.isolines {
             let [from, to] = isoline.ends;
@@ -109,7 +111,7 @@ impl SeamlessProblem {
         }
     }
 
-    /// By how much the coordinates should differ along an edge in the chart of its first face.
+    /// The difference that the coordinates should have along an edge, in the chart of its first face.
     fn aim_along(&self, mesh: &TriangleMesh, edge: usize, [from, to]: [u32; 2]) -> [f64; 2] {
         let (face, _) = mesh.edge(edge).first;
         let copies = self.sectors.copy[face];
@@ -117,7 +119,7 @@ impl SeamlessProblem {
         self.aim(mesh, face, corner(from), corner(to))
     }
 
-    /// Breadth-first from a copy of a cone; each pair is found from its lower cone.
+    /// Searches breadth-first from a copy of a cone. Each pair is found from its lower cone.
     fn paths_from(
         &self,
         mesh: &TriangleMesh,
@@ -157,7 +159,7 @@ impl SeamlessProblem {
         }
     }
 
-    /// By how much the coordinates of two corners of a face should differ.
+    /// The difference that the coordinates of two corners of a face should have.
     pub(super) fn aim(&self, mesh: &TriangleMesh, face: usize, from: usize, to: usize) -> [f64; 2] {
         let corners = mesh.corner_positions(face);
         let step = sub(corners[to], corners[from]);

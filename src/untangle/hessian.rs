@@ -1,19 +1,19 @@
-//! The Hessian of a region: one pattern for all steps, analysed once and summed in place.
+//! The Hessian of a region: one sparsity pattern for all steps, analysed once and summed in place.
 
 use crate::error::Result;
 use crate::linalg::{Analysis, Cholesky, Sparse};
 
-/// The sum of forms of three corners, each coordinate of which is affine in the unknowns.
+/// The sum of quadratic forms of three corners, whose coordinates are affine in the unknowns.
 pub(super) struct Hessian {
     /// The lower triangle.
     sum: Sparse,
-    /// Where the terms stand in it, in the order of [`each_term`].
+    /// The entry of the sum that each term belongs to, in the order of [`each_term`].
     places: Vec<u32>,
     analysis: Analysis,
 }
 
 impl Hessian {
-    /// Of faces whose corners' coordinates are six rows of `corners` each.
+    /// The Hessian of faces. The coordinates of each face's corners are six rows of `corners`.
     pub fn new(corners: &Sparse) -> Result<Self> {
         let dim = corners.cols();
         let faces = corners.rows() / 6;
@@ -36,7 +36,7 @@ impl Hessian {
         })
     }
 
-    /// Sums the form of each face anew, which `of_face` gives in the order of faces.
+    /// Sums the forms of all faces anew. `of_face` gives them in the order of the faces.
     pub fn sum(&mut self, corners: &Sparse, of_face: impl Iterator<Item = [[f64; 6]; 6]>) {
         let values = self.sum.values_mut();
         values.fill(0.0);
@@ -56,7 +56,7 @@ impl Hessian {
     }
 }
 
-/// Calls `term` with two coordinates a and b of a face, unknowns `i >= j` that move them, and the
+/// Calls `term` with two coordinates a and b of a face, the unknowns `i >= j` that move them, and the
 /// product of the two coefficients.
 fn each_term(corners: &Sparse, face: usize, mut term: impl FnMut(usize, usize, usize, usize, f64)) {
     for a in 0..6 {

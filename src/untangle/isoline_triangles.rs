@@ -1,13 +1,15 @@
-//! Faces between isolines: all corners on features or the boundary, of integer value in one coordinate.
+//! Faces between isolines: all three corners lie on features or the boundary, with an integer value in
+//! one coordinate.
 //!
-//! Two corners of such a face are mostly on one isoline and the third is on another. Which side of the
-//! first the other is on is for the integers alone: on the wrong one, or on the same isoline, the face is
-//! turned over or flat whatever else moves.
+//! In most of these faces two corners lie on one isoline and the third lies on another. The integers
+//! alone decide on which side of the first isoline the other one is. If it is on the wrong side, or if
+//! both are the same isoline, the face is turned over or flat wherever the other vertices move.
 
 use crate::map::{SeamlessMap, SeamlessProblem};
 use crate::mesh::TriangleMesh;
 
-/// Such a face, its coordinate, and by how much that should differ from each corner to the next.
+/// A face between isolines, the coordinate, and the difference that it should have from each corner to
+/// the next.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct IsolineTriangle {
     pub face: usize,
@@ -16,9 +18,9 @@ pub(super) struct IsolineTriangle {
 }
 
 impl IsolineTriangle {
-    /// The two corners, if any, between which integers must differ otherwise than in this map, and
-    /// by how much they should: of a face on one isoline the two that should be farthest apart, and
-    /// else an end of the edge on an isoline and the corner on the wrong side of it.
+    /// Two corners whose integers must differ by another amount than in this map, and that amount; `None`
+    /// if the face is right. If all corners are on one isoline, they are the two that should be farthest
+    /// apart. Otherwise they are an end of the edge on an isoline and the corner on the wrong side of it.
     pub fn wrong(&self, map: &SeamlessMap) -> Option<([usize; 2], f64)> {
         self.wrong_at(map.uv(self.face).map(|p| p[self.axis].round()))
     }
@@ -38,8 +40,8 @@ impl IsolineTriangle {
 }
 
 impl SeamlessProblem {
-    /// All such faces, once per coordinate, in increasing order; `held` says which coordinates of every
-    /// copy integers hold.
+    /// All faces between isolines, once per coordinate, in increasing order. `held` says which
+    /// coordinates of every copy integers hold.
     pub(super) fn isoline_triangles(
         &self,
         mesh: &TriangleMesh,
@@ -63,7 +65,7 @@ impl SeamlessProblem {
 mod tests {
     use super::*;
 
-    /// The first edge should be an isoline nearly, the third corner 1.5 beyond it.
+    /// The first edge should nearly be an isoline, and the third corner 1.5 beyond it.
     const TRIANGLE: IsolineTriangle = IsolineTriangle {
         face: 0,
         axis: 0,

@@ -1,28 +1,27 @@
-//! Maps without folds: the same integers, the same seams, every triangle the right way round.
+//! Maps without folds: the integers and the seams stay, and every triangle becomes counter-clockwise.
 //!
-//! Garanzha, Kaporin, Kudryavtseva, Protais, Ray, Sokolov 2021, "Foldover-free maps in 50 lines of
-//! code", on the unknowns that the constraints leave free once the integers are held. Folds are few
-//! and sit at cones, so that only what is within some rings of one moves at first, and more of the
-//! surface only where that is not enough.
+//! The method is that of `garanzha2021`, applied to the unknowns that the constraints leave free once the
+//! integers are fixed. Folds are few and lie near cones. Therefore only the faces within a few rings of a
+//! fold move at first, and more of the surface moves only if that does not suffice.
 //!
 //! | step | file |
 //! | --- | --- |
-//! | what may move | `freedom` |
-//! | folds made stiffer | `stiffen` |
-//! | which part of it is worked on | `region` |
+//! | the unknowns that may move | `freedom` |
+//! | local stiffening around folds | `stiffen` |
+//! | the regions that may move | `region` |
 //! | the energy of a triangle, to second order | `energy` |
 //! | the Hessian of a region | `hessian` |
 //! | Newton steps of a region | `system` |
 //! | the schedule that closes the barrier | `schedule` |
-//! | what no motion can unfold | `stuck` |
+//! | folds that no motion can remove | `stuck` |
 //! | a disk around a vertex | `disk` |
 //! | a disk around a cone, in polar coordinates | `polar` |
-//! | vertices gone around twice | `unwind` |
-//! | what integers alone may collapse | `held_elements`, `isoline_triangles` |
-//! | what they do collapse, and how to hold it apart | `collapsed` |
-//! | smaller quads around what is left | `grading` |
+//! | vertices with a wrong winding number | `unwind` |
+//! | elements whose shape integers alone decide | `held_elements`, `isoline_triangles` |
+//! | collapsed elements, and their separation | `collapsed` |
+//! | smaller quads around the remaining faults | `grading` |
 //!
-//! What is tried when, [`solve_fold_free`](crate::quad::solve_fold_free) decides.
+//! [`solve_fold_free`](crate::quad::solve_fold_free) decides which of these is tried when.
 
 mod collapsed;
 mod disk;
@@ -57,29 +56,29 @@ use region::{Region, regions};
 use stuck::Stuck;
 use system::System;
 
-/// Not in the region at hand.
+/// The place of a free unknown that is not in the current region.
 const NONE: u32 = u32::MAX;
 
-/// How far around a fold is worked on, attempt after attempt.
+/// The numbers of rings around a fold that may move, attempt after attempt.
 const RINGS: [usize; 6] = [3, 8, 20, 50, 120, usize::MAX];
 
-/// A region that the budget allows fewer steps is left as it is.
+/// A region is left as it is if the budget allows it fewer steps than this.
 const LEAST_STEPS: usize = 10;
 
-/// How much work to spend.
+/// The limits of the work.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct UntangleOptions {
-    /// Newton steps a region may take.
+    /// The most Newton steps of a region.
     pub steps: usize,
-    /// How many faces all steps together may look at, as a multiple of the mesh's faces.
+    /// The most faces that all steps together may visit, as a multiple of the mesh's faces.
     pub passes: usize,
-    /// How often the surroundings of a fold are made stiffer where the map distorts them, before anything
-    /// else is done: the classical remedy, here with the integers kept.
+    /// The number of times that the surroundings of a fold are stiffened where the map distorts them,
+    /// before anything else is tried. The integers are kept.
     pub stiffenings: usize,
-    /// How often the integers of collapsed cones are decided anew.
+    /// The number of times that the integers of collapsed cones are decided anew.
     pub rounds: usize,
-    /// How often a map that keeps folds is made finer as a whole. Where that is allowed at all, what is
-    /// left of folds afterwards gets smaller quads around it a few times.
+    /// The number of times that a map with folds is made finer as a whole. If this is not zero, the map
+    /// is afterwards made finer a few times around the remaining folds alone.
     pub refinements: usize,
 }
 
@@ -95,34 +94,34 @@ impl Default for UntangleOptions {
     }
 }
 
-/// A map after untangling, and what it took.
+/// A map after untangling, and the work that was done.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Untangled {
     /// The map.
     pub map: SeamlessMap,
-    /// Faces folded or collapsed before.
+    /// Number of folded or collapsed faces before untangling.
     pub flipped_before: usize,
-    /// What local stiffening left of them.
+    /// Number of folded or collapsed faces after local stiffening.
     pub flipped_stiffened: usize,
-    /// Faces folded or collapsed after: [`SeamlessMap::flipped`] names them.
+    /// Number of folded or collapsed faces after untangling: [`SeamlessMap::flipped`] names them.
     pub flipped_after: usize,
-    /// Vertices that the map goes around another number of times than the field, afterwards.
+    /// Vertices that the map winds around another number of times than the field does, after untangling.
     pub winding_defects: Vec<usize>,
     /// Newton steps, over all regions.
     pub steps: usize,
-    /// Flipped faces that nothing can unfold, as all their corners are held by integers.
+    /// Flipped faces that no motion can unfold, because integers fix all their corners.
     pub stuck_faces: Vec<usize>,
-    /// Edges of flipped faces that integers collapse: their two ends, cones, are at one point.
+    /// Edges of flipped faces that integers collapse: both ends are cones at one point.
     pub collapsed_edges: Vec<usize>,
 }
 
 impl Untangled {
-    /// How many faces and vertices keep the map from being locally injective: none in a good one.
+    /// The number of faces and vertices where the map is not locally injective; zero for a good map.
     pub fn faults(&self) -> usize {
         self.flipped_after + self.winding_defects.len()
     }
 
-    /// A map that nothing was done to.
+    /// The outcome for a map that is left as it is.
     ///
     /// # Errors
     /// [`LengthMismatch`](crate::Error::LengthMismatch) for the map of another problem or mesh.
@@ -145,10 +144,10 @@ impl Untangled {
     }
 }
 
-/// Moves the vertices of a map that the integers do not hold until no triangle is folded.
+/// Moves the vertices of a map that the integers do not fix until no triangle is folded.
 ///
-/// A map without folds comes back as it is. Where not all folds can be undone, the map has as few as
-/// were found.
+/// A map without folds is returned unchanged. If some folds cannot be removed, the map with the fewest
+/// folds found is returned.
 ///
 /// # Errors
 /// [`LengthMismatch`](crate::Error::LengthMismatch) for the map of another problem or mesh,
@@ -166,7 +165,7 @@ pub fn untangle(
     structure.untangle(mesh, problem, map, options, monitor)
 }
 
-/// What integers and size of a map do not change.
+/// The data of a map that depend on neither its integers nor its size.
 pub(crate) struct Structure {
     freedom: Freedom,
     /// How many quarter turns there should be around each vertex.
@@ -174,7 +173,7 @@ pub(crate) struct Structure {
 }
 
 impl Structure {
-    /// Of all maps of this problem, whatever their size: of which this is one.
+    /// The structure of all maps of this problem, whatever their size; `map` is one of them.
     pub(crate) fn new(
         mesh: &TriangleMesh,
         problem: &SeamlessProblem,
@@ -187,7 +186,7 @@ impl Structure {
         })
     }
 
-    /// What integers alone may collapse in maps of this problem.
+    /// The elements that integers alone may collapse in maps of this problem.
     pub(crate) fn held_elements(
         &self,
         mesh: &TriangleMesh,
@@ -240,20 +239,20 @@ impl Structure {
     }
 }
 
-/// The state of the work.
+/// The state of an untangling.
 struct Untangling<'a> {
     mesh: &'a TriangleMesh,
     problem: &'a SeamlessProblem,
     freedom: &'a Freedom,
     quarters: &'a [Option<i32>],
     values: Vec<f64>,
-    /// Where in the region at hand each free unknown is.
+    /// The place of each free unknown in the current region.
     place: Vec<u32>,
-    /// Newton steps made.
+    /// Newton steps made so far.
     steps: usize,
-    /// Newton steps a region may take.
+    /// The most Newton steps of a region.
     most_steps: usize,
-    /// How many faces steps may still look at.
+    /// The number of faces that steps may still visit.
     budget: usize,
 }
 
@@ -304,7 +303,7 @@ impl<'a> Untangling<'a> {
         system
     }
 
-    /// Works on one region, and keeps what comes out if it has fewer folds.
+    /// Works on one region, and keeps the result if it has fewer folds.
     fn undo_folds(&mut self, region: &Region, first_eps: f64, monitor: &mut Monitor) -> Result<()> {
         let mut system = self.system(region)?;
         let before = system.folded(&self.values);
@@ -333,7 +332,7 @@ impl<'a> Untangling<'a> {
     }
 }
 
-/// A face laid into the plane as the field has it, as large as it should be.
+/// A face laid into the plane in the directions of the field and at the size that is asked for.
 fn at_rest(mesh: &TriangleMesh, problem: &SeamlessProblem, face: usize) -> Rest {
     let corners = mesh.corner_positions(face);
     let targets = problem.targets(mesh, face);

@@ -1,9 +1,9 @@
-//! A disk around a cone laid anew in polar coordinates.
+//! A disk around a cone, laid out anew in polar coordinates.
 //!
 //! Around a cone of q quarter turns a map looks like `z^(q/4)`: the angle and the logarithm of the
-//! distance from the cone are both harmonic. They are computed with the boundary of the disk where
-//! it is and the angle growing by q quarter turns around the cone. The map then covers the disk as
-//! often as the cone requires, whatever it did before.
+//! distance from the cone are both harmonic. Both are solved for with the boundary of the disk fixed and
+//! the angle growing by q quarter turns around the cone. The new map covers the disk as often as the cone
+//! requires, whatever the old map did.
 
 use std::collections::{BTreeMap, VecDeque};
 use std::f64::consts::FRAC_PI_2;
@@ -17,7 +17,7 @@ use crate::mesh::{TriangleMesh, angle_between, turned};
 /// Corner coordinates of a face.
 type Shape = [[f64; 2]; 3];
 
-/// Where the vertices inside a disk go: the coordinates of each at one of its corners.
+/// The new places of the vertices inside a disk: the coordinates of each at one of its corners.
 pub(super) struct Layout {
     /// Vertex, face, corner, coordinates.
     pub places: Vec<(usize, usize, usize, [f64; 2])>,
@@ -27,12 +27,12 @@ pub(super) struct Layout {
 struct Charts {
     /// The center in the chart of each face.
     center: BTreeMap<usize, [f64; 2]>,
-    /// What is added to the angle of each corner to get its direction in the chart of the face.
+    /// The angle added to that of each corner to get its direction in the chart of the face.
     turn: BTreeMap<usize, [f64; 3]>,
 }
 
 impl Layout {
-    /// The layout with `quarters` around the center; none if the boundary makes another number of
+    /// The layout with `quarters` around the center; `None` if the boundary makes another number of
     /// turns.
     ///
     /// # Errors
@@ -84,8 +84,8 @@ impl Layout {
     }
 }
 
-/// The faces that reach within `radius` of a vertex, and its place in the chart of each, from its own
-/// faces outwards.
+/// The faces that reach within `radius` of a vertex, and the vertex's place in the chart of each,
+/// starting from its own faces.
 pub(super) fn faces_within(
     mesh: &TriangleMesh,
     center: usize,
@@ -119,7 +119,7 @@ pub(super) fn faces_within(
     found
 }
 
-/// The center's place in the chart of every face, from its own faces outwards.
+/// The center's place in the chart of every face, starting from its own faces.
 fn centers(
     mesh: &TriangleMesh,
     disk: &Disk,
@@ -144,7 +144,8 @@ fn centers(
     found
 }
 
-/// What turns the angle of each corner into its direction, starting from the direction of one corner.
+/// The angle that turns each corner's angle into its direction, starting from the direction of one
+/// corner.
 fn turns(
     mesh: &TriangleMesh,
     disk: &Disk,
@@ -176,7 +177,7 @@ fn turns(
     found
 }
 
-/// Tries every step across an edge inside the disk until none is taken any more.
+/// Steps across edges inside the disk until no face is left to reach.
 fn spread(
     mesh: &TriangleMesh,
     disk: &Disk,
@@ -201,7 +202,7 @@ fn spread(
     }
 }
 
-/// Solves for angle and logarithm of the distance inside, given those on the boundary.
+/// Solves for the angle and the logarithm of the distance inside, given their values on the boundary.
 fn harmonic(
     mesh: &TriangleMesh,
     disk: &Disk,
@@ -241,7 +242,7 @@ fn harmonic(
                     continue;
                 }
                 entries.push((i, i, 1.0));
-                // The angle of v is that of w less what it grows by from v to w.
+                // The angle of v is that of w minus its growth from v to w.
                 let grows = if is_distance { 0.0 } else { jump(v, w) };
                 rhs[i as usize] += grows;
                 match known(w) {

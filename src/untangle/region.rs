@@ -1,6 +1,6 @@
 //! Regions that may move: everything within a number of rings around folded faces.
 //!
-//! A fold concerns its neighbourhood, and a small system costs little. Regions that touch are merged.
+//! A fold only affects its neighbourhood, and a small system is cheap. Regions that touch are merged.
 
 use super::freedom::Freedom;
 
@@ -12,7 +12,7 @@ pub(super) struct Region {
 
 /// The regions within `rings` of these faces (increasing), in the order of their lowest such face.
 ///
-/// Faces that cannot move are in none.
+/// Faces that cannot move belong to no region.
 pub(super) fn regions(freedom: &Freedom, folded: &[usize], rings: usize) -> Vec<Region> {
     let faces = freedom.copies.len();
     let mut is_free = vec![false; freedom.dim()];
@@ -44,7 +44,7 @@ pub(super) fn regions(freedom: &Freedom, folded: &[usize], rings: usize) -> Vec<
     found
 }
 
-/// The region of a free unknown, which is taken out of `is_free`.
+/// The region of a free unknown; its unknowns are removed from `is_free`.
 fn connected(
     freedom: &Freedom,
     first: usize,

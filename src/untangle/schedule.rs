@@ -1,7 +1,8 @@
-//! The schedule that closes the barrier: from a smooth energy to one that no fold can pass.
+//! The schedule that closes the barrier: the energy changes from a smooth one to one that no fold can
+//! pass.
 //!
-//! `garanzha2021`, section 3.2, equation (7): eps falls the faster, the more the last minimisation
-//! gained and the less is folded.
+//! `garanzha2021`, section 3.2, equation (7): eps falls faster when the last minimisation gained more and
+//! when fewer faces are folded.
 
 use super::system::System;
 use crate::error::Result;
@@ -11,22 +12,22 @@ use crate::monitor::Phase;
 /// The first eps: the determinant at rest.
 pub(super) const FIRST_EPS: f64 = 1.0;
 
-/// The last eps: a smaller one makes no difference in double precision.
+/// The last eps: a smaller one changes nothing in double precision.
 const LAST_EPS: f64 = 1e-9;
 
-/// The least part by which eps falls: the paper proves its 1/10.
+/// The least part by which eps falls: the value 1/10 for which the paper has its proof.
 const LEAST_GAIN: f64 = 0.1;
 
-/// A minimisation at fixed eps is over when a step gains less than this part of the energy.
+/// A minimisation at fixed eps ends when a step gains less than this part of the energy.
 const CONVERGED: f64 = 1e-3;
 
-/// Steps at one eps.
+/// The most steps at one eps.
 const INNER_STEPS: usize = 6;
 
-/// Steps after the last fold is removed, away from degenerate triangles.
+/// Steps after the last fold is removed, which move triangles away from degenerate ones.
 const POLISHING_STEPS: usize = 3;
 
-/// How the work on a region ended.
+/// The result of the work on a region.
 pub(super) struct Outcome {
     /// Faces still folded.
     pub folded: usize,
@@ -66,7 +67,7 @@ pub(super) fn close_barrier(
     Ok(Outcome { folded, steps })
 }
 
-/// The next eps, after a minimisation that gained this part of the energy.
+/// The next eps, after a minimisation that gained the part `gain` of the energy.
 fn narrowed(eps: f64, gain: f64, least: f64) -> f64 {
     let gain = gain.max(LEAST_GAIN);
     if least >= 0.0 {
@@ -76,7 +77,7 @@ fn narrowed(eps: f64, gain: f64, least: f64) -> f64 {
     (1.0 - gain * root / (root - least)) * eps
 }
 
-/// Makes steps that fold nothing.
+/// Makes steps that fold no face.
 fn polish(system: &mut System, x: &mut [f64], eps: f64) -> Result<usize> {
     let eps = eps.min(system.least_determinant(x)).max(LAST_EPS);
     for step in 0..POLISHING_STEPS {

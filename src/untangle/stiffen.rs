@@ -8,9 +8,9 @@
 //! ```
 //!
 //! where lap is the uniform Laplacian over neighbouring triangles. Weights are smoothed afterwards,
-//! as a single triangle resists little. The paper solves for the whole surface each time, with the
-//! integers. Here the integers and everything far from a fold stay: a step costs one linear solve
-//! of a small region, and the barrier removes the folds that are left.
+//! because a single triangle resists little. The paper solves for the whole surface and the integers each
+//! time. Here the integers and everything far from a fold stay fixed: a step costs one linear solve of a
+//! small region, and the barrier removes the remaining folds.
 
 use super::Untangling;
 use super::energy::Quadratic;
@@ -30,7 +30,7 @@ const BY_LAPLACIAN: f64 = 1.0;
 /// `d`.
 const MOST: f64 = 5.0;
 
-/// Rounds of averaging with the neighbours.
+/// Rounds of averaging with the neighbouring faces.
 const SMOOTHING: usize = 3;
 
 impl Untangling<'_> {
@@ -58,7 +58,7 @@ impl Untangling<'_> {
             let faces = region.faces.iter().zip(&weights);
             let forms: Vec<_> = faces.map(|(&f, &w)| self.misfit(f as usize, w)).collect();
             match system.minimise(&mut self.values, &forms) {
-                // Next to a triangle without area weights are beyond doubles.
+                // Next to a triangle without area the weights overflow.
                 Err(Error::Overflow { .. }) => break,
                 other => other?,
             }
@@ -72,7 +72,7 @@ impl Untangling<'_> {
         Ok(())
     }
 
-    /// For each face of a region its neighbours there, by their places in it.
+    /// For each face of a region, the places of its neighbours in the region.
     fn neighbors_in(&self, region: &Region) -> Vec<[Option<usize>; 3]> {
         let place = |face: usize| region.faces.binary_search(&(face as u32)).ok();
         let across = |f: u32| [0, 1, 2].map(|k| place(self.mesh.neighbor(f as usize, k)?.0));
@@ -152,7 +152,7 @@ mod tests {
     use crate::search::{Options, Strategy};
     use crate::solve::solve;
 
-    /// Calls `look` with the work on a map of a shape, as it begins, the energy of the map included.
+    /// Calls `look` with the untangling of a shape's map at its start, and with the energy of the map.
     fn with_work(name: &str, quads: usize, look: impl FnOnce(&mut Untangling, f64)) {
         let mesh: TriangleMesh = jitter(&shape::by_name(name, 2000).unwrap(), 1e-3, 7).unwrap();
         let (options, field) = (Options::default(), FieldOptions::default());

@@ -1,7 +1,7 @@
 //! Folds that no motion can remove, because the integers alone collapse a triangle.
 //!
-//! Two causes can be told from one element: a face without positive area whose corners are all
-//! held, and an edge whose two ends are held at one point.
+//! Two causes are visible in one element: a face without positive area whose corners are all fixed by
+//! integers, and an edge whose two ends are fixed at one point.
 
 use super::freedom::Freedom;
 use crate::mesh::TriangleMesh;
@@ -10,14 +10,14 @@ use crate::mesh::orientation;
 /// Why faces stay folded.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub(super) struct Stuck {
-    /// Faces with all corners held that are not positively oriented.
+    /// Faces that are not positively oriented and whose corners are all fixed.
     pub faces: Vec<usize>,
-    /// Edges with both ends held at the same point.
+    /// Edges with both ends fixed at the same point.
     pub edges: Vec<usize>,
 }
 
 impl Stuck {
-    /// The reasons among these faces, which are folded.
+    /// The causes among these folded faces.
     pub fn find(mesh: &TriangleMesh, freedom: &Freedom, values: &[f64], folded: &[usize]) -> Self {
         let mut stuck = Stuck::default();
         for &face in folded {
@@ -29,7 +29,7 @@ impl Stuck {
             }
             for k in 0..3 {
                 let next = (k + 1) % 3;
-                // Both at integers, which are equal or far apart.
+                // Both points have integer coordinates, so they are equal or far apart.
                 let apart = (uv[k][0] - uv[next][0]).hypot(uv[k][1] - uv[next][1]);
                 if is_held[k] && is_held[next] && apart < 0.5 {
                     stuck.edges.push(mesh.edge_of(face, k));

@@ -1,7 +1,7 @@
 //! The energy of one region and its Newton steps.
 //!
-//! Coordinates of the region are affine in its unknowns; slope and Hessian of each face go through
-//! that map, and the sum is factored by sparse Cholesky.
+//! The region's coordinates are affine in its unknowns. This affine map carries the slope and Hessian of
+//! each face to the unknowns, and sparse Cholesky factors the sum of the Hessians.
 
 use super::energy::{Quadratic, Rest};
 use super::freedom::Freedom;
@@ -28,12 +28,13 @@ pub(super) struct System<'a> {
     corners: Sparse,
     /// One row a coordinate of the region.
     moves: Sparse,
-    /// From the first step on.
+    /// Made in the first step.
     hessian: Option<Hessian>,
 }
 
 impl<'a> System<'a> {
-    /// `place` gives the position of each free unknown in the region, or more than there are.
+    /// `place` gives the position of each free unknown in the region; unknowns outside have a larger
+    /// number.
     pub fn new(
         freedom: &'a Freedom,
         region: &'a Region,
@@ -95,7 +96,7 @@ impl<'a> System<'a> {
         all.filter(|(_, uv)| orientation(*uv) <= 0.0).count()
     }
 
-    /// One step of Newton's method with line search; gives the energy after it.
+    /// Makes one step of Newton's method with line search and returns the energy after it.
     pub fn step(&mut self, x: &mut [f64], eps: f64) -> Result<f64> {
         let mut hessian = match self.hessian.take() {
             Some(hessian) => hessian,
@@ -107,7 +108,7 @@ impl<'a> System<'a> {
         self.hessian = Some(hessian);
         match factor {
             Ok(factor) => factor.solve(&mut step)?,
-            // Next to a triangle without area the barrier is too steep for doubles.
+            // Next to a triangle without area the barrier overflows.
             Err(Error::Overflow { .. }) => return Ok(before),
             Err(error) => return Err(error),
         }
@@ -127,7 +128,7 @@ impl<'a> System<'a> {
         Ok(before)
     }
 
-    /// Moves to the minimum of the sum of these forms, one for each face, with their slopes at `x`.
+    /// Moves to the minimum of the sum of the given forms, one for each face, with their slopes at `x`.
     pub fn minimise(&mut self, x: &mut [f64], forms: &[Quadratic]) -> Result<()> {
         let hessian = match &mut self.hessian {
             Some(hessian) => hessian,

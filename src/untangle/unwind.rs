@@ -1,8 +1,8 @@
-//! Vertices around which a map without folds winds once too often, corrected.
+//! Correction of vertices that a map without folds winds around once too often.
 //!
-//! Removing folds may leave a cone of -1/4 that is a quarter turn wide and beside it a vertex with two
-//! whole turns. No motion without folds leads out of that state. A disk around both is therefore laid
-//! anew in polar coordinates, with larger and larger radii, and the folds that this makes are untangled
+//! Removing folds may leave a cone of -1/4 with a total angle of one quarter turn, next to a vertex with
+//! two full turns. No motion without folds leads out of that state. A disk around both is therefore laid
+//! out anew in polar coordinates, with larger and larger radii. The folds that this causes are untangled
 //! again.
 
 use std::collections::BTreeSet;
@@ -16,20 +16,20 @@ use crate::map::{has_winding_defect, winding_defects};
 use crate::mesh::orientation;
 use crate::monitor::Monitor;
 
-/// The radii of the disks that are laid anew around a cone, in units of the map, in this order.
+/// The radii of the disks that are laid out anew around a cone, in units of the map, in this order.
 const RADII: [f64; 12] = [0.5, 0.7, 1.0, 1.2, 1.4, 1.7, 2.0, 2.4, 2.8, 3.4, 4.0, 5.6];
 
 /// Larger disks are not tried: they cost more than they gain.
 const MOST_FACES: usize = 4000;
 
-/// Passes over all winding defects: removing one may cause another.
+/// Passes over all winding defects: removing one defect may cause another.
 const ROUNDS: usize = 8;
 
-/// The work budget: how many faces all steps together may visit, as a multiple of the mesh's faces.
+/// The work limit: how many faces all steps together may visit, as a multiple of the mesh's faces.
 const PASSES: usize = 20;
 
-/// The first eps of the barrier. A large one removes more folds; a small one keeps the winding that
-/// the layout has corrected.
+/// The first eps of the barrier, attempt after attempt. A large eps removes more folds. A small one keeps
+/// the winding that the layout has corrected.
 const FIRST_EPS: [f64; 3] = [1.0, 0.1, 0.01];
 
 /// How many rings of faces around the new folds may move, attempt after attempt.
@@ -41,7 +41,7 @@ impl Untangling<'_> {
         winding_defects(self.mesh, self.quarters, |face| self.uv(face))
     }
 
-    /// Removes winding defects of cones, as far as it can, in a map without folds.
+    /// Removes as many winding defects of cones as it can from a map without folds.
     pub(super) fn unwind(&mut self, monitor: &mut Monitor) -> Result<()> {
         self.budget = self
             .budget
@@ -62,7 +62,7 @@ impl Untangling<'_> {
         Ok(())
     }
 
-    /// Lays larger and larger disks around a cone anew until fewer winding defects are left.
+    /// Lays larger and larger disks around a cone out anew until fewer winding defects remain.
     ///
     /// If no disk reduces their number, the first one is kept that moves the defect to a cone that
     /// was not `left_behind` before: that cone may have more room around it.
@@ -113,8 +113,8 @@ impl Untangling<'_> {
         Ok(())
     }
 
-    /// The winding defects after a move, given the values and the defects before it; none where a
-    /// face that moved is folded.
+    /// The winding defects after a move, given the values and the defects before it; `None` if a face
+    /// that moved is folded.
     fn defects_after_move(&self, before: &[f64], defects: &[usize]) -> Option<Vec<usize>> {
         let first = &self.problem.sectors.first;
         let vertex = |i: usize| first.partition_point(|&copy| copy as usize <= i / 2) - 1;
@@ -139,8 +139,8 @@ impl Untangling<'_> {
         Some(left)
     }
 
-    /// The disk within `radius` of a cone in the map, without vertices that cannot move freely: cones
-    /// and vertices on the boundary or on features.
+    /// The disk within `radius` of a cone in the map, without vertices that cannot move freely. Those are
+    /// cones and vertices on the boundary or on features.
     fn disk(&self, cone: usize, radius: f64) -> Option<Disk> {
         let near = faces_within(self.mesh, cone, radius, &|face| self.uv(face));
         let is_fixed = |v: usize| {
@@ -223,7 +223,7 @@ mod tests {
             };
             let layout = work.layout(&disk).unwrap().unwrap();
             let (before, winding_defects) = (work.values.clone(), work.winding_defects());
-            // Nothing is left of what was there: all inside is put beside one point.
+            // This removes the old shape: all inner vertices are put beside one point.
             let center = faces_within(&mesh, cone, 9.0, &|face| work.uv(face));
             let beside = |face: usize, v: usize| center[&face].map(|x| x + 1e-6 * v as f64);
             let places = layout.places.iter();
@@ -245,7 +245,7 @@ mod tests {
                 work.folded().is_empty() && work.winding_defects().is_empty(),
                 "{cone}"
             );
-            // What moved alone tells what a look at everything tells.
+            // The update from the moved faces alone agrees with a full computation.
             assert_eq!(
                 work.defects_after_move(&before, &winding_defects),
                 Some(Vec::new())
