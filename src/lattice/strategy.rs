@@ -22,10 +22,10 @@ const DIAGONALS_PER_NODE: u64 = 100;
 /// The largest dimension with diagonals. In more dimensions no proof ends, with or without them.
 const WIDEST: usize = 160;
 
-/// The largest predicted number of nodes of a proof.
+/// Enumerations with more predicted nodes than this are not started.
 const LAST: f64 = 1e30;
 
-/// The part of the budget for the bound where no proof is tried. The bound rises with the logarithm of the
+/// Without a proof, the budget for the bound is divided by this. The bound rises with the logarithm of the
 /// nodes.
 const BOUND_SHARE: u64 = 1_000;
 
