@@ -1,4 +1,4 @@
-//! Lists of cycles.
+//! Lists of cycles as signed edges, and sums around them.
 
 /// Cycles as signed edges: 1 where the cycle runs through an edge from tail to head, -1 where it runs
 /// backwards.

@@ -1,4 +1,4 @@
-//! The fundamental cycles of a spanning forest.
+//! The fundamental cycles of a spanning forest: the third step of the cycle method.
 
 use super::forest::Forest;
 use super::graph::Graph;

@@ -1,4 +1,4 @@
-//! Cycle space: the closest-vector problem of an angle-difference system in the charges of its cycles.
+//! Cycle space, the fifth step of the cycle method: a closest-vector problem in the charges of the cycles.
 //!
 //! Around a cycle the angles cancel. Let M be the signed incidence of basis cycles and edges, W the weights
 //! and rho the residuals. The only condition on the residuals is `M rho = c`, so

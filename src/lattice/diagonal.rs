@@ -141,8 +141,7 @@ impl<'a> Barrier<'a> {
                 break;
             };
             let trace: f64 = d.iter().sum();
-            // A central point has `m_ii = 1 / share`. The next share is half the share of the current
-            // point.
+            // A central point has `m_ii = 1 / share`. The next share is a part of the current point's.
             let here = n as f64 / (0..n).map(|i| m[i * n + i]).sum::<f64>();
             let least = SHARE * trace / n as f64;
             let share = (0.3 * here).max(least);

@@ -132,7 +132,7 @@ mod tests {
     /// The ratio of actual to predicted nodes, on average over targets.
     fn ratio(basis: &Basis, diagonals: Option<&Diagonals>, predicted: f64) -> f64 {
         let radius = radius_for(basis, diagonals, predicted, f64::MAX);
-        // The points found are too few to shrink the ball.
+        // With this margin the points found do not shrink the ball, while they are few.
         let limits = Limits {
             radius,
             margin: radius,

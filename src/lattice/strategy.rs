@@ -25,8 +25,8 @@ const WIDEST: usize = 160;
 /// Enumerations with more predicted nodes than this are not started.
 const LAST: f64 = 1e30;
 
-/// Without a proof, the budget for the bound is divided by this. The bound rises with the logarithm of the
-/// nodes.
+/// If no proof is tried, the node budget is divided by this and spent on the bound, which
+/// rises with the logarithm of the nodes.
 const BOUND_SHARE: u64 = 1_000;
 
 /// Finds good integers for `model` without a proof.
