@@ -1,12 +1,12 @@
 //! The error type of the library. Each variant names the element at fault.
 
-/// What every fallible function of the library returns.
+/// The result of every fallible function of the library.
 pub type Result<T> = std::result::Result<T, Error>;
 
-/// Why a call failed. A call that fails changes nothing.
+/// The reason why a call failed. A call that fails changes nothing.
 ///
-/// The text names the element at fault in words; [`Error::index`] and [`Error::line`] give it as
-/// a number. Elements are counted from 0, lines of a file from 1.
+/// The text names the element at fault in words; [`Error::index`] and [`Error::line`] return it as a
+/// number. Elements are counted from 0, lines of a file from 1.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
@@ -23,9 +23,9 @@ pub enum Error {
     LengthMismatch {
         /// The array.
         what: &'static str,
-        /// The length that it should have.
+        /// The expected length.
         expected: usize,
-        /// The length that it has.
+        /// The actual length.
         actual: usize,
     },
     /// An index that is negative or too large.
@@ -51,10 +51,10 @@ pub enum Error {
     /// A problem without unknowns.
     #[error("the problem has no variables")]
     Empty,
-    /// A count, or an integer that the solution needs, is beyond what can be represented.
+    /// A count, or an integer of the solution, is too large to be represented.
     #[error("{what}")]
     Overflow {
-        /// What overflows, in words.
+        /// The quantity that overflows, in words.
         what: String,
         /// The element at fault, where there is one.
         index: Option<usize>,
@@ -79,7 +79,7 @@ pub enum Error {
         /// The type that it takes.
         expected: &'static str,
     },
-    /// The option exists and has this type, but not this value.
+    /// The option exists and has this type, but does not allow this value.
     #[error("option '{name}': {value} is outside {range}")]
     OptionRange {
         /// The option.
@@ -92,7 +92,7 @@ pub enum Error {
     /// The constraints contradict each other.
     #[error("constraint {constraint}: {row} contradicts the other constraints")]
     Infeasible {
-        /// The row that cannot hold when the others do.
+        /// The row that contradicts the others.
         constraint: usize,
         /// The row as the caller gave it.
         row: String,
@@ -105,27 +105,27 @@ pub enum Error {
         /// The row as the caller gave it.
         row: String,
     },
-    /// The objective falls without limit.
+    /// The objective decreases without limit.
     #[error(
         "the objective is unbounded below: it falls forever along a direction that moves variable {variable}"
     )]
     Unbounded {
         /// A variable that the direction moves (the one it moves most).
         variable: usize,
-        /// The direction, one number a variable, largest entry 1 in absolute value.
+        /// The direction, one number for each variable, with largest absolute value 1.
         direction: Vec<f64>,
     },
-    /// The objective curves downwards: Q is not positive semi-definite where the constraints hold.
+    /// The objective curves downwards: Q is not positive semi-definite on the solutions of the constraints.
     #[error(
         "the objective is not convex: it curves downwards along a direction that moves variable {variable}"
     )]
     NotConvex {
         /// A variable that the direction moves (the one it moves most).
         variable: usize,
-        /// The direction, one number a variable, largest entry 1 in absolute value.
+        /// The direction, one number for each variable, with largest absolute value 1.
         direction: Vec<f64>,
     },
-    /// Something that the library does not solve.
+    /// The library does not solve problems of this kind.
     #[error("not supported: {what}")]
     NotSupported {
         /// What is not supported.
@@ -149,7 +149,7 @@ pub enum Error {
         /// The system's reason, with the file's name.
         message: String,
     },
-    /// Input of a client of the solver, such as a mesh, that is refused.
+    /// A client of the solver refuses its input, such as a mesh.
     #[error(transparent)]
     Input(#[from] InputError),
     /// Cancelled by the caller before a first solution was found.
@@ -160,9 +160,9 @@ pub enum Error {
     TimeLimit,
 }
 
-/// Why a client of the solver refuses its input, in a form that every layer can pass on.
+/// The reason why a client of the solver refuses its input, in a form that every layer can pass on.
 ///
-/// The client has an error type of its own, which converts into this one.
+/// The client has its own error type, which converts into this one.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error("{message}")]
 pub struct InputError {
@@ -230,7 +230,7 @@ impl Error {
         }
     }
 
-    /// For [`Error::Unbounded`] and [`Error::NotConvex`], the direction that proves it.
+    /// The direction that proves [`Error::Unbounded`] or [`Error::NotConvex`].
     pub fn direction(&self) -> Option<&[f64]> {
         match self {
             Error::Unbounded { direction, .. } | Error::NotConvex { direction, .. } => {

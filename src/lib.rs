@@ -6,8 +6,8 @@
 //!            x_i integer for i in I
 //! ```
 //!
-//! `Q` is symmetric positive semi-definite and sparse; the constraints may be redundant. These
-//! are the signs of MPS, OSQP and Clarabel. A problem flows through the library one way:
+//! `Q` is symmetric positive semi-definite and sparse. The constraints may be redundant. The signs are
+//! those of MPS, OSQP and Clarabel. A problem passes through these stages:
 //!
 //! ```text
 //! Problem --validate--> Model --eliminate--> ReducedModel --(strategy, Search)--> Solution
@@ -75,7 +75,7 @@ pub use problem::{Layout, Model, Problem, Triangle};
 pub use search::{Options, SolveStatus, Strategy, WarmStart};
 pub use solve::{Seconds, Solution, Solver, solve, solve_with};
 
-/// The Rust examples of the README and of the book are among the tests.
+/// The Rust examples of the README and of the book are run as tests.
 #[cfg(doctest)]
 mod book {
     #[doc = include_str!("../README.md")]

@@ -1,12 +1,14 @@
 //! A unimodular basis of short cycles.
 //!
-//! An independent set of cycles may generate a sublattice only. So candidates are taken shortest
-//! first (`horton1987`), and each is reduced by those before it, in the coordinates of the
-//! fundamental cycles of a spanning forest (one coordinate a chord), with pivots of 1 and -1 only:
-//! integer row operations of determinant one. What reduces to nothing depends on the others; what
-//! has no such entry left is refused. The fundamental cycles are candidates where they are short; of
-//! the others, those of the chords that no candidate was solved for complete the basis. They are
-//! unit rows there, so that its determinant is 1 or -1: it is *integral* (`liebchen2007`).
+//! The fourth step of the cycle method. An independent set of cycles may generate only a sublattice of all
+//! cycles, so independence is not enough. The candidates are taken in order of length (`horton1987`). Each
+//! candidate is written in the fundamental cycles of a spanning forest, with one coordinate for each chord,
+//! and reduced by the cycles accepted before it. The pivots are 1 or -1 only, so the reduction consists of
+//! integer row operations of determinant one. A candidate that reduces to zero depends on the accepted
+//! cycles. A candidate without an entry of 1 or -1 after its reduction is refused. The short fundamental
+//! cycles are candidates as well. The fundamental cycles of the chords that are no pivot complete the
+//! basis; they are unit rows. So the determinant of the basis is 1 or -1: the basis is *integral*
+//! (`liebchen2007`).
 
 use super::cycles::Cycles;
 use super::forest::Forest;
@@ -15,14 +17,15 @@ use super::graph::{Graph, NONE};
 use super::short::{LONGEST, short_cycles};
 use crate::linalg::Accumulator;
 
-/// A candidate whose reduction takes more additions is refused; there are enough others.
+/// A candidate whose reduction takes more additions is refused. There are enough other candidates.
 const PATIENCE: usize = 20_000;
 
-/// So is one whose coefficients grow beyond this: products of two still fit.
+/// A candidate whose coefficients grow beyond this is refused. Products of two smaller coefficients do not
+/// overflow.
 const LARGEST: i64 = 1 << 20;
 
-/// An integral basis of the cycles of `graph`, the shortest first, `hinted` ones among them where
-/// they fit.
+/// An integral basis of the cycles of `graph`, with the shortest cycles first. The `hinted` cycles are
+/// among its candidates.
 pub(super) fn cycle_basis(graph: &Graph, hinted: Cycles) -> Cycles {
     let forest = Forest::shortest(graph);
     let mut candidates = short_cycles(graph, hinted);
@@ -53,12 +56,12 @@ pub(super) fn cycle_basis(graph: &Graph, hinted: Cycles) -> Cycles {
     basis
 }
 
-/// Cycles accepted so far, each solved for a chord of its own.
+/// The accepted cycles, each with a pivot chord of its own.
 struct Reduction {
     is_chord: Vec<bool>,
-    /// By edge: the row that is solved for it, or [`NONE`].
+    /// By edge: the row whose pivot it is, or [`NONE`].
     solved: Vec<u32>,
-    /// What the chord of each row is, in others.
+    /// By row: its pivot chord as a combination of other chords.
     rows: Vec<Vec<(u32, i64)>>,
     /// The cycle being reduced.
     coefficients: Accumulator<i64>,
@@ -77,12 +80,12 @@ impl Reduction {
         }
     }
 
-    /// Whether `e` is a chord that no row is solved for.
+    /// Whether `e` is a chord that is not a pivot.
     fn is_missing(&self, e: u32) -> bool {
         self.is_chord[e as usize] && self.solved[e as usize] == NONE
     }
 
-    /// Takes a cycle if it extends the lattice of those before it by a unit.
+    /// Accepts a cycle if it has a pivot of 1 or -1 after its reduction by the accepted cycles.
     fn accepts(&mut self, cycle: &[(u32, i8)]) -> bool {
         let chords = cycle.iter().filter(|&&(e, _)| self.is_chord[e as usize]);
         self.open
@@ -105,7 +108,7 @@ impl Reduction {
         true
     }
 
-    /// Replaces what is solved for until nothing is; whether patience lasted.
+    /// Eliminates all pivot chords from the current cycle. Returns false if this takes too many additions.
     fn reduce(&mut self) -> bool {
         for _ in 0..PATIENCE {
             let Some((e, v)) = self.open.pop() else {

@@ -1,4 +1,4 @@
-//! Which charges to decide together: those around an edge.
+//! Selection of the charges of a block, around a given edge, for block improvement.
 
 use super::space::CycleSpace;
 use crate::error::Result;
@@ -7,9 +7,9 @@ use crate::linalg::Sparse;
 /// How a block grows from the cycles through its edge.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Growth {
-    /// By the nearest neighbours: the blocks are round.
+    /// By the nearest neighbours. Such blocks are round.
     Near,
-    /// By the neighbours across the greatest residuals: the blocks follow them.
+    /// By the neighbours across the greatest residuals. Such blocks follow the residuals.
     Steep,
 }
 
@@ -76,7 +76,7 @@ impl Blocks {
         block
     }
 
-    /// Marks the cycles of a block and those so many edges from it.
+    /// Marks the cycles of a block and the cycles within the given number of edges of it.
     pub fn mark_near(&self, block: &[u32], edges: usize, near: &mut [bool]) {
         let mut ring = block.to_vec();
         for &k in block {

@@ -1,14 +1,14 @@
-//! A few charges decided exactly.
+//! Exact optimisation of the charges of one block.
 //!
-//! A closest-vector problem of few dimensions, by enumeration (see [`crate::lattice::enumerate`])
-//! without reduction before it: in short cycles the basis is nearly reduced, and a reduction would
-//! cost several times what it saves.
+//! This is a closest-vector problem of few dimensions. It is solved by enumeration (see
+//! [`crate::lattice::enumerate`]) without a reduction first. A basis of short cycles is nearly reduced
+//! already, and a reduction would cost several times what it saves.
 
 use crate::error::Result;
 use crate::lattice::{Basis, Gram, Limits, Target, enumerate};
 
-/// Integers t for which `t'Gt + 2 h't` is least, if that is less than zero by more than rounding
-/// errors explain; what `nodes` nodes find.
+/// Integers t that minimise `t'Gt + 2 h't`, as far as an enumeration of `nodes` nodes finds them. None
+/// unless the minimum is below zero by more than the rounding errors.
 ///
 /// `gram` is G by rows, `pull` is h.
 ///
@@ -34,10 +34,10 @@ pub(super) fn decide(gram: Vec<f64>, pull: &[f64], nodes: u64) -> Result<Option<
     }
 }
 
-/// No improvement is this small, relative to what the block could gain at most.
+/// A gain below this does not count. It is relative to the largest possible gain of the block.
 const TOLERANCE: f64 = 1e-9;
 
-/// Where the quadratic is least for real t: `R'R t = -h`.
+/// The minimiser of the quadratic over real t: `R'R t = -h`.
 fn minimiser(basis: &Basis, pull: &[f64]) -> Vec<f64> {
     let m = pull.len();
     let mut t = vec![0.0; m];

@@ -1,6 +1,7 @@
-//! Lists of cycles.
+//! Lists of cycles as signed edges, and sums around them.
 
-/// Cycles as signed edges: 1 where an edge is run through from tail to head, -1 backwards.
+/// Cycles as signed edges: 1 where the cycle runs through an edge from tail to head, -1 where it runs
+/// backwards.
 #[derive(Debug, Clone)]
 pub(super) struct Cycles {
     offsets: Vec<usize>,
@@ -32,7 +33,7 @@ impl Cycles {
         self.offsets.push(self.edges.len());
     }
 
-    /// What every cycle collects of `values`, which count an edge from tail to head.
+    /// The signed sum of `values` around each cycle. Each value belongs to an edge from tail to head.
     pub fn collect(&self, values: &[f64]) -> Vec<f64> {
         let sum = |k: usize| {
             let edges = self.get(k).iter();

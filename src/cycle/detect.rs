@@ -1,42 +1,42 @@
-//! Recognising an angle-difference system in a reduced Hessian.
+//! Detection of an angle-difference system in a reduced Hessian: the first step of the cycle method.
 //!
-//! A local integer p with the rank-one part `w (a (x_i - x_j) + b p + r)^2` shows in its row of
-//! the Hessian alone: `H_pp = 2 w b^2`, `H_pi = -H_pj = 2 w a b`. So the edge has the weight
-//! `w a^2 = H_pi^2 / (2 H_pp)` and the step `b / a = H_pp / H_pi`. What is left of the continuous
-//! block when all these parts are taken off must be the Laplacian of a weighted graph, ties to the
-//! ground included. The offsets r need not be known: at the relaxation's minimiser every residual
-//! vanishes, if the edges without an integer form a forest.
+//! A local integer p in the term `w (a (x_i - x_j) + b p + r)^2` determines the term by its row of the
+//! Hessian: `H_pp = 2 w b^2`, `H_pi = -H_pj = 2 w a b`. So the edge has the weight `w a^2 = H_pi^2 / (2
+//! H_pp)` and the step `b / a = H_pp / H_pi`. All these terms are subtracted from the continuous block. The
+//! remainder must be the Laplacian of a weighted graph, edges to the ground included. The offsets r need
+//! not be known. If the edges without an integer form a forest, every residual vanishes at the relaxation's
+//! minimiser.
 
 use super::graph::{Edge, Graph, NONE};
 use crate::eliminate::ReducedModel;
 use crate::linalg::Sparse;
 
-/// Two entries agree, and a difference vanishes, up to this, relative to the terms: a hundred
-/// times what assembling rows of unit size loses.
+/// Relative to the terms, two entries that differ by less than this are equal, and a smaller difference is
+/// zero. This is a hundred times the rounding error of assembling rows of unit size.
 const TOLERANCE: f64 = 1e-10;
 
 /// An angle-difference system whose edges without an integer form a forest.
 #[derive(Debug, Clone)]
 pub(crate) struct AngleSystem {
     pub(super) graph: Graph,
-    /// What an integer turns its edge by; the same for all.
+    /// The step: one integer turns its edge by this. It is the same for all integers.
     pub(super) step: f64,
-    /// By place among the model's integers: 1 or -1 as the edge's own integer has the same sign or
-    /// the opposite one, 0 where the integer couples to nothing.
+    /// By place among the model's integers: 1 if the edge's integer has the same sign, -1 if it has the
+    /// opposite sign, 0 if the integer couples to nothing.
     pub(super) sign: Vec<i8>,
 }
 
-/// What is left of the continuous block, one row a continuous unknown.
+/// The remainder of the continuous block, with one row for each continuous unknown.
 struct Rest {
     diagonal: Vec<f64>,
-    /// The diagonal as it was.
+    /// The original diagonal.
     size: Vec<f64>,
     /// Entries to be summed, `row > column`.
     off: Vec<(u32, u32, f64)>,
 }
 
 impl AngleSystem {
-    /// The system that `model` is, if it is one.
+    /// The angle-difference system of `model`, if `model` is one.
     pub fn detect(model: &ReducedModel) -> Option<Self> {
         let ground = model.continuous().len() as u32;
         let (mut rest, rows) = split(model)?;
@@ -82,7 +82,7 @@ struct IntegerRow {
     count: usize,
 }
 
-/// The continuous block and the rows of the integers; none where an integer is not local.
+/// The continuous block and the rows of the integers. None if an integer is not local.
 fn split(model: &ReducedModel) -> Option<(Rest, Vec<IntegerRow>)> {
     let n = model.continuous().len();
     let place = places(model);
@@ -112,7 +112,7 @@ fn split(model: &ReducedModel) -> Option<(Rest, Vec<IntegerRow>)> {
     Some((rest, rows))
 }
 
-/// By reduced unknown: its place among the continuous, or (`Err`) among the integers.
+/// By reduced unknown: its place among the continuous unknowns, or (`Err`) among the integers.
 fn places(model: &ReducedModel) -> Vec<Result<u32, u32>> {
     let mut place = vec![Ok(0); model.dim()];
     for (k, &i) in model.continuous().iter().enumerate() {
@@ -125,7 +125,7 @@ fn places(model: &ReducedModel) -> Vec<Result<u32, u32>> {
 }
 
 impl Rest {
-    /// Takes off an edge with an integer.
+    /// Subtracts an edge with an integer.
     fn take(&mut self, tail: u32, head: u32, weight: f64, ground: u32) {
         self.diagonal[tail as usize] -= 2.0 * weight;
         if head != ground {
@@ -135,7 +135,7 @@ impl Rest {
         }
     }
 
-    /// Adds the edges without an integer; whether the rest is a Laplacian.
+    /// Adds the edges without an integer. Returns whether the remainder is a Laplacian.
     fn into_edges(mut self, ground: u32, edges: &mut Vec<Edge>) -> bool {
         let n = self.diagonal.len();
         let Ok(off) = Sparse::from_triplets(n, n, self.off.iter().copied()) else {
@@ -174,7 +174,7 @@ impl Rest {
     }
 }
 
-/// Whether the edges without an integer close no cycle.
+/// Whether the edges without an integer form a forest.
 fn is_forest(graph: &Graph) -> bool {
     let mut root: Vec<u32> = (0..graph.nodes() as u32).collect();
     let find = |root: &mut Vec<u32>, mut i: u32| {

@@ -1,10 +1,10 @@
-//! Spanning forests, breadth first.
+//! Spanning forests by breadth-first search.
 
 use std::collections::VecDeque;
 
 use super::graph::{Edge, Graph, NONE};
 
-/// One tree a component, the first rooted at the ground.
+/// One tree for each component. The first tree is rooted at the ground.
 #[derive(Debug, Clone)]
 pub(super) struct Forest {
     /// Nodes, every parent before its children.
@@ -16,12 +16,12 @@ pub(super) struct Forest {
 }
 
 impl Forest {
-    /// Shortest paths to the roots.
+    /// A forest of shortest paths to the roots.
     pub fn shortest(graph: &Graph) -> Self {
         Self::grow(graph, |_| false)
     }
 
-    /// A forest that has every edge without an integer in it, where these close no cycle.
+    /// A forest that contains every edge without an integer, provided that these edges close no cycle.
     pub fn through_fixed(graph: &Graph) -> Self {
         Self::grow(graph, |e| e.integer == NONE)
     }
@@ -32,7 +32,7 @@ impl Forest {
         self.parent[edge.tail as usize] == e || self.parent[edge.head as usize] == e
     }
 
-    /// Takes edges that are `urgent` before any other.
+    /// Takes `urgent` edges before all others.
     fn grow(graph: &Graph, urgent: impl Fn(&Edge) -> bool) -> Self {
         let n = graph.nodes();
         let mut forest = Forest {

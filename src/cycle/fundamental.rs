@@ -1,9 +1,9 @@
-//! The fundamental cycles of a spanning forest.
+//! The fundamental cycles of a spanning forest: the third step of the cycle method.
 
 use super::forest::Forest;
 use super::graph::Graph;
 
-/// The cycle that edge `e`, which the forest does not hold (a *chord*), closes with it; it runs
+/// The cycle of the forest and edge `e`, where `e` is a *chord*: an edge outside the forest. The cycle runs
 /// through `e` from tail to head. None if it is longer than `longest`.
 pub(super) fn fundamental_cycle(
     graph: &Graph,

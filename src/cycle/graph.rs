@@ -1,15 +1,15 @@
 //! The graph of an angle-difference system.
 //!
-//! Nodes are angles, and one more: the *ground*, into which everything that is known is merged. An
-//! edge is a squared difference,
+//! The nodes are the unknown angles and the *ground*, one node for all known angles. An edge is a squared
+//! difference,
 //!
 //! ```text
 //! weight * (x_tail - x_head + step * p + offset)^2,        x_ground = 0,
 //! ```
 //!
-//! with an integer p that no other edge has, or without one.
+//! where p is an integer of this edge alone. Some edges have no integer.
 
-/// Stands for no integer, no edge.
+/// The index for no integer or no edge.
 pub(super) const NONE: u32 = u32::MAX;
 
 /// One squared difference.
@@ -23,7 +23,7 @@ pub(super) struct Edge {
 }
 
 impl Edge {
-    /// The end that is not `node`.
+    /// The other end than `node`.
     pub fn other(&self, node: u32) -> u32 {
         self.tail ^ self.head ^ node
     }

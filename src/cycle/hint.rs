@@ -1,8 +1,8 @@
-//! The caller's cycles of least-squares rows as cycles of edges.
+//! Conversion of the caller's hinted cycles, which are lists of least-squares rows, to cycles of edges.
 //!
-//! A row with a local integer is that integer's edge, and any other row the edge without an
-//! integer between the same two nodes. Rows between known angles have no edge. A cycle with a row
-//! that is no edge, or that comes by the ground more than once, is passed over.
+//! A row with a local integer corresponds to that integer's edge. Any other row corresponds to the edge
+//! without an integer between the same two nodes. A row between known angles has no edge. A hinted cycle is
+//! ignored if one of its rows corresponds to no edge, or if it passes the ground more than once.
 
 use super::cycles::Cycles;
 use super::detect::AngleSystem;
@@ -10,7 +10,7 @@ use super::graph::NONE;
 use crate::eliminate::ReducedModel;
 use crate::problem::Model;
 
-/// What a caller's unknown became.
+/// The reduced form of one of the caller's unknowns.
 #[derive(Clone, Copy)]
 enum Became {
     Known,
@@ -19,7 +19,7 @@ enum Became {
     Other,
 }
 
-/// The cycles of `model`'s hint in the edges of `system`.
+/// The hinted cycles of `model`, in the edges of `system`.
 pub(super) fn hinted_cycles(model: &Model, reduced: &ReducedModel, system: &AngleSystem) -> Cycles {
     let mut cycles = Cycles::new();
     if model.cycles().is_empty() {
@@ -70,9 +70,9 @@ fn became(reduced: &ReducedModel) -> Vec<Became> {
     (0..expansion.rows()).map(row).collect()
 }
 
-/// What a least-squares row is.
+/// The role of a least-squares row.
 enum Row {
-    /// An edge, and whether it is given from tail to head (1) or backwards (-1).
+    /// An edge, with 1 if the row runs from tail to head and -1 if it runs backwards.
     Edge(u32, i8),
     Known,
     Other,
@@ -149,7 +149,7 @@ impl<'s> Lookup<'s> {
     }
 }
 
-/// Whether edges make a closed walk that comes by the ground at most once.
+/// Whether the edges form a closed walk that passes the ground at most once.
 fn closes(system: &AngleSystem, cycle: &[(u32, i8)], closing: &mut [i32]) -> bool {
     let graph = &system.graph;
     let mut grounded = 0;

@@ -1,11 +1,12 @@
-//! Block improvement: charges around the greatest residuals decided anew, exactly.
+//! Block improvement: exact optimisation of the charges around the greatest residuals.
 //!
-//! A block B of charges moved by integers t changes the energy by `step^2 t'Gt + 2 step t'x_B`,
-//! with G the block of `A^-1` and x the potentials: a closest-vector problem of few dimensions.
-//! Blocks are tried around the edges with the greatest residuals first; these are where charges
-//! sit that might sit better elsewhere. One that improved nothing is not tried again until the
-//! potentials near it change. Where potentials cost much more than a block, in spaces of many
-//! cycles, moves of blocks that are far apart are made together, and one by one if that is no better.
+//! The last step of the cycle method on charges. If the charges of a block B change by integers t, the
+//! energy changes by `step^2 t'Gt + 2 step t'x_B`. Here G is the block of `A^-1`, and x are the potentials.
+//! This is a closest-vector problem of few dimensions. Blocks around the edges with the greatest residuals
+//! come first, since a better place for a charge is most likely there. A block without an improvement is
+//! tried again only after the potentials near it have changed. In spaces of many cycles, potentials cost
+//! much more than a block. There, the changes of several distant blocks are applied together. If that does
+//! not lower the energy, they are applied one by one.
 
 use super::block::{Blocks, Growth};
 use super::closest::decide;
@@ -15,28 +16,29 @@ use crate::error::Result;
 use crate::linalg::PathSolve;
 use crate::monitor::{Monitor, Phase};
 
-/// Potentials count as changed from here on, in units of the step.
+/// A potential counts as changed from this difference on, in units of the step.
 const CHANGED: f64 = 0.02;
 
-/// No improvement is this small, relative to the energy.
+/// A gain below this, relative to the energy, does not count.
 const TOLERANCE: f64 = 1e-9;
 
-/// Nodes of one enumeration, at most.
+/// The largest number of nodes of one enumeration.
 const NODES: u64 = 20_000;
 
-/// Potentials are recomputed after one move for each this many cycles of the space; until then moves wait.
+/// Moves wait until there is one for each this many cycles of the space. Then the potentials are
+/// recomputed.
 const CYCLES_A_MOVE: usize = 16_384;
 
-/// Blocks within so many edges of a move that waits are not far apart from it.
+/// A block within this many edges of a waiting move is near it.
 const FAR: usize = 8;
 
-/// How hard to try.
+/// The effort of block improvement.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Effort {
     pub growth: Growth,
-    /// Charges of a block, at most [`WIDEST`](crate::linalg::WIDEST).
+    /// The number of charges of a block, at most [`WIDEST`](crate::linalg::WIDEST).
     pub size: usize,
-    /// Edges are tried down to this residual, in units of the step.
+    /// The least residual of an edge that is tried, in units of the step.
     pub residual: f64,
 }
 
@@ -48,12 +50,12 @@ pub(super) struct Improvement<'a> {
     pub charges: Vec<f64>,
     x: Vec<f64>,
     pub energy: f64,
-    /// By cycle: the failed block that it was last part of, 0 if its potential changed since.
+    /// By cycle: the last failed block that contains it. It is 0 if the potential has changed since.
     failed: Vec<u32>,
     failures: u32,
-    /// Moves of charges that are decided but not made, a list a block.
+    /// The waiting moves of charges, one list for each block.
     waiting: Vec<Vec<(u32, f64)>>,
-    /// By cycle: whether it is not far from a move that waits.
+    /// By cycle: whether it is near a waiting move.
     near: Vec<bool>,
     work: usize,
 }
@@ -77,13 +79,13 @@ impl<'a> Improvement<'a> {
         })
     }
 
-    /// Multiplications so far.
+    /// The multiplications so far.
     pub fn work(&self) -> usize {
         self.work + self.paths.work()
     }
 
-    /// Improves until no block does, or until `work` multiplications are spent since the start, or
-    /// until the monitor ends it.
+    /// Tries blocks until no block improves, until `work` multiplications are spent since the start, or
+    /// until the monitor stops the search.
     ///
     /// # Errors
     /// For charges too large to be exact.
@@ -109,7 +111,7 @@ impl<'a> Improvement<'a> {
                 }
             }
             self.make_waiting();
-            // Not a number compares with nothing: there is no improving what overflows.
+            // Every comparison with NaN is false, so an energy that overflows is not improved.
             let improved = self.energy < before;
             if !improved {
                 return Ok(());
@@ -117,7 +119,7 @@ impl<'a> Improvement<'a> {
         }
     }
 
-    /// Edges with at least this residual, the greatest first.
+    /// The edges with at least this residual, the greatest residual first.
     fn seeds(&mut self, residual: f64) -> Vec<usize> {
         let edges = 0..self.space.system.graph.edges.len();
         let least = residual * self.space.system.step;
@@ -130,7 +132,7 @@ impl<'a> Improvement<'a> {
         seeds.into_iter().map(|(_, e)| e).collect()
     }
 
-    /// Whether an edge still has its residual, and not all its cycles were in one failed block.
+    /// Whether an edge still has its residual, and its cycles were not all in the same failed block.
     fn promises(&self, e: usize, residual: f64) -> bool {
         let mut failed = self.space.through.row(e).map(|(k, _)| self.failed[k]);
         let Some(first) = failed.next() else {
@@ -140,7 +142,7 @@ impl<'a> Improvement<'a> {
         !tried && self.space.residual(&self.x, e).abs() >= residual * self.space.system.step
     }
 
-    /// The cycles around handles and boundaries all at once, as far as they fit into one block.
+    /// Optimises all cycles around handles and boundaries together, as many as fit into one block.
     fn decide_long_cycles(&mut self, size: usize) -> Result<()> {
         let basis = &self.space.basis;
         let long = (0..basis.len() as u32).rev();
@@ -151,7 +153,7 @@ impl<'a> Improvement<'a> {
         self.decide_block(&block)
     }
 
-    /// Decides the charges of a block exactly.
+    /// Finds the best charges of a block by enumeration.
     fn decide_block(&mut self, block: &[u32]) -> Result<()> {
         if block.iter().any(|&k| self.near[k as usize]) {
             self.make_waiting();
@@ -175,13 +177,13 @@ impl<'a> Improvement<'a> {
         Ok(())
     }
 
-    /// Whether a move that waits is not far from an edge.
+    /// Whether an edge is near a waiting move.
     fn is_near(&self, e: usize) -> bool {
         let mut cycles = self.space.through.row(e);
         cycles.any(|(k, _)| self.near[k])
     }
 
-    /// Makes the moves that wait: together, or one by one where that is no better.
+    /// Applies the waiting moves together, or one by one if that does not lower the energy.
     fn make_waiting(&mut self) {
         let waiting = std::mem::take(&mut self.waiting);
         if !waiting.is_empty() {
@@ -194,7 +196,7 @@ impl<'a> Improvement<'a> {
         }
     }
 
-    /// Moves charges if the energy is lower then. Whether it is.
+    /// Moves charges if that lowers the energy. Returns whether it does.
     fn make(&mut self, moves: &[(u32, f64)]) -> bool {
         let mut charges = self.charges.clone();
         for &(k, t) in moves {
@@ -210,7 +212,7 @@ impl<'a> Improvement<'a> {
         is_lower
     }
 
-    /// Blocks where the potentials change are worth another try.
+    /// Allows another try for the blocks whose potentials have changed.
     fn note_changes(&mut self, x: &[f64]) {
         let changed = CHANGED * self.space.system.step;
         for (k, (new, old)) in x.iter().zip(&self.x).enumerate() {

@@ -5,12 +5,12 @@ use super::graph::Graph;
 use crate::error::Result;
 use crate::linalg::{Ldl, Sparse, minimum_degree};
 
-/// Cycles of more edges are eliminated last, so that nearest plane decides them when all others
-/// are settled. Rings of meshes and arcs through the ground are shorter; cycles around handles of
-/// any but the smallest meshes are longer.
+/// Cycles of more edges are eliminated last, so that nearest plane rounds them after all others. Rings of
+/// meshes and arcs through the ground are shorter. Cycles around handles are longer, except on the smallest
+/// meshes.
 pub(super) const LONG: usize = 24;
 
-/// By edge: the basis cycles through it, with their signs. This is `M'`.
+/// By edge: the basis cycles through it, with their signs. This matrix is `M'`.
 pub(super) fn incidence(graph: &Graph, basis: &Cycles) -> Result<Sparse> {
     let entries = (0..basis.len()).flat_map(|k| {
         let cycle = basis.get(k).iter();
@@ -31,7 +31,7 @@ pub(super) fn laplacian(graph: &Graph, through: &Sparse) -> Result<Sparse> {
     Sparse::from_triplets(through.cols(), through.cols(), entries)
 }
 
-/// The factor of A in an order of minimum degree, long cycles last.
+/// The factor of A in a minimum-degree order with the long cycles last.
 pub(super) fn factor(laplacian: &Sparse, basis: &Cycles) -> Result<Ldl> {
     let mut order = minimum_degree(laplacian)?;
     order.sort_by_key(|&k| basis.get(k as usize).len() > LONG);

@@ -1,8 +1,9 @@
-//! Charges from integers, and integers from charges.
+//! Conversion between charges and integers: the final step of the cycle method.
 //!
-//! The basis is integral, so all integer charges are those of some integers, and these are unique
-//! up to the gauge: along a spanning forest they may be anything. Given charges, the angles follow
-//! the residuals along the forest, and every other edge closes to an integer up to rounding.
+//! The basis is integral, so any integer charges are the charges of some integers. These integers are
+//! unique up to the gauge: the integers along a spanning forest are arbitrary. Given the charges, the
+//! residuals determine the angles along the forest. Then each other edge determines its integer, up to
+//! rounding.
 
 use super::forest::Forest;
 use super::graph::NONE;
@@ -25,8 +26,8 @@ impl CycleSpace {
         self.basis.collect(&jumps)
     }
 
-    /// Integers whose charges are `charges`; those that no cycle reaches are at the origin. None
-    /// where rounding errors are too large to tell them, which is checked without any.
+    /// Integers whose charges are `charges`. Integers that no cycle contains keep the origin's values. None
+    /// if the rounding errors are too large to determine the integers. The check for that is exact.
     pub fn integers(&self, charges: &[f64]) -> Option<Vec<f64>> {
         let graph = &self.system.graph;
         let (x, _) = self.potentials(charges);

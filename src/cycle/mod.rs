@@ -1,19 +1,19 @@
 //! Angle-difference systems in the space of their cycles: orientation fields, phase unwrapping,
 //! angular synchronisation, with any number of integers.
 //!
-//! A problem whose terms are `w (x_i - x_j + step p + r)^2`, each with an integer p of its own,
-//! lives on a graph. Around its cycles the angles cancel, and what is left is a closest-vector
-//! problem in the integer *charges* of a basis of cycles, whose matrix is the inverse of a sparse
-//! Laplacian ([`space`]). The way through this module:
+//! Each term `w (x_i - x_j + step p + r)^2` of such a problem has an integer p of its own and is an edge of
+//! a graph. Around the cycles of the graph the angles cancel. The remaining unknowns are the integer
+//! *charges* of a basis of cycles. They are the solution of a closest-vector problem whose matrix is the
+//! inverse of a sparse Laplacian ([`space`]). The steps are:
 //!
 //! ```text
 //! ReducedModel --detect--> AngleSystem --short, fundamental, basis--> CycleSpace (laplacian)
 //!     --plane--> charges --block, decide, improve--> charges --lift--> integers
 //! ```
 //!
-//! Known angles are merged into one node, the *ground*. Measured on orientation fields with a
-//! tenth of the faces known: the basis stays as short as that of rings (5 to 6 edges on average),
-//! since most of what it adds are arcs through the ground, and sparse with it.
+//! All known angles are one node, the *ground*. On orientation fields with a tenth of the faces known, the
+//! basis cycles have 5 to 6 edges on average, as many as without known faces. Most of the additional cycles
+//! are arcs through the ground, so the Laplacian stays sparse.
 
 mod basis;
 mod block;

@@ -1,16 +1,16 @@
 //! Nearest plane in cycle space: one forward substitution.
 //!
-//! With `A = L D L'`, the energy is the sum of `w_k^2 / d_k` over `w = L^-1 c`. Going through the
-//! substitution in order of elimination, and rounding every charge where its pivot is reached so
-//! that |w_k| is least, is Babai's algorithm (`babai1986`, section 3) on the basis whose coordinates the
-//! charges are; on the dual of a mesh it is nearly reduced. The long cycles come last and see all
-//! others settled.
+//! With `A = L D L'`, the energy is the sum of `w_k^2 / d_k` over `w = L^-1 c`. The substitution runs in
+//! the order of elimination and rounds each charge at its pivot, so that |w_k| is least. This is Babai's
+//! nearest plane (`babai1986`, section 3) in the lattice basis whose coordinates are the charges. On the
+//! dual of a mesh this basis is nearly reduced. The long cycles come last, when all others have their
+//! charges.
 
 use super::space::CycleSpace;
 use crate::round::nearest;
 
 impl CycleSpace {
-    /// The charges that nearest plane reaches.
+    /// The charges of the nearest-plane point.
     pub fn nearest_plane(&self) -> Vec<f64> {
         let (order, scale) = (&self.factor.tree().order, self.factor.scale());
         let scaled = |&k: &u32| self.holonomy[k as usize] * scale[k as usize];

@@ -1,20 +1,20 @@
 //! Short cycles: for every two edges that meet in a node, the shortest cycle through both.
 //!
-//! On the dual of a mesh these are the rings around vertices, found without knowing the mesh: two
-//! edges of a triangle meet at one corner. Cycles through the ground are found as well; there they
-//! are what is left of rings that pass known nodes. Pairs that a hinted cycle runs through are not
-//! searched.
+//! The second step of the cycle method: candidates for the basis. On the dual of a mesh these cycles are
+//! the rings around the vertices, since two edges of a triangle meet at one corner. The mesh itself is not
+//! needed. Cycles through the ground are candidates as well; they are the unknown parts of rings that
+//! contain known nodes. Pairs of edges on a hinted cycle are skipped.
 
 use super::cycles::Cycles;
 use super::graph::{Graph, NONE};
 
-/// A cycle of more edges is not looked for.
+/// The largest number of edges of a short cycle.
 pub(super) const LONGEST: usize = 12;
 
-/// At nodes of a higher degree only the first edges are paired.
+/// At a node of higher degree, only this many edges are paired.
 const PAIRED: usize = 8;
 
-/// `hinted`, and the shortest cycles through pairs of edges that none of these runs through.
+/// The `hinted` cycles, and the shortest cycles through the pairs of edges that no cycle contains yet.
 pub(super) fn short_cycles(graph: &Graph, hinted: Cycles) -> Cycles {
     let mut search = Search {
         graph,
@@ -49,13 +49,13 @@ fn bit(p: usize, q: usize) -> u64 {
 struct Search<'g> {
     graph: &'g Graph,
     cycles: Cycles,
-    /// By node: the pairs of its edges that a cycle already runs through.
+    /// By node: the pairs of its edges that are on a cycle already.
     covered: Vec<u64>,
-    /// By node: the last round that reached it, and by which edge.
+    /// By node: the last round that reached it, and the edge from which it did.
     seen: Vec<u32>,
     came_by: Vec<u32>,
     round: u32,
-    /// Nodes reached, with their distance.
+    /// The nodes reached, with their distances.
     queue: Vec<(u32, u32)>,
 }
 
@@ -64,7 +64,7 @@ impl Search<'_> {
     fn corner(&mut self, node: u32, out: u32, back: u32) {
         let graph = self.graph;
         let far = |e: u32| graph.edges[e as usize].other(node);
-        // Everything is near the ground: walk towards it, not from it.
+        // Every node is near the ground, so the walk goes towards the ground and not away from it.
         let (out, back) = match far(out) == graph.ground() {
             true => (back, out),
             false => (out, back),
@@ -87,7 +87,7 @@ impl Search<'_> {
         self.cover(self.cycles.len() - 1);
     }
 
-    /// Breadth first from `start` to `target` without `node`; whether it got there.
+    /// Breadth-first search from `start` to `target` without `node`. Returns whether it reached `target`.
     fn walk(&mut self, node: u32, start: u32, target: u32) -> bool {
         let graph = self.graph;
         self.round += 1;
@@ -120,7 +120,7 @@ impl Search<'_> {
         false
     }
 
-    /// Marks the pairs of edges that a cycle runs through.
+    /// Marks the pairs of consecutive edges of a cycle.
     fn cover(&mut self, k: usize) {
         let graph = self.graph;
         self.round += 1;

@@ -1,15 +1,15 @@
-//! An angle-difference system seen from its cycles.
+//! Cycle space, the fifth step of the cycle method: a closest-vector problem in the charges of the cycles.
 //!
-//! Around a cycle the angles cancel. With M the signed incidence of basis cycles and edges, W the
-//! weights and rho the residuals, `M rho = c` is all that the angles leave to be met, and
+//! Around a cycle the angles cancel. Let M be the signed incidence of basis cycles and edges, W the weights
+//! and rho the residuals. The only condition on the residuals is `M rho = c`, so
 //!
 //! ```text
 //! min over angles of rho' W rho  =  c' A^-1 c,    A = M W^-1 M',    c = holonomy + step n,    n = M p.
 //! ```
 //!
-//! A is sparse: on the dual of a mesh it is the graph Laplacian of the vertices. Its potentials
-//! `x = A^-1 c` give the residuals back, `rho = W^-1 M' x`. At the relaxation's minimiser all
-//! residuals vanish, so energies here are those above the relaxation's.
+//! A is sparse: on the dual of a mesh it is the graph Laplacian of the vertices. The potentials `x = A^-1
+//! c` determine the residuals, `rho = W^-1 M' x`. At the relaxation's minimiser all residuals vanish. So
+//! the energies here are differences from the relaxation's energy.
 
 use super::basis::cycle_basis;
 use super::cycles::Cycles;
@@ -30,17 +30,17 @@ pub(crate) struct CycleSpace {
     /// The lower triangle of A.
     pub(super) laplacian: Sparse,
     pub(super) factor: Ldl,
-    /// The integers that charges count from: the nearest to the relaxation's.
+    /// The origin of the charges: the integers nearest to the relaxation's.
     pub(super) origin: Vec<f64>,
-    /// By edge: the residual at the relaxation's angles and the origin's integers.
+    /// By edge: the residual at the relaxation's angles and the integers of the origin.
     pub(super) kappa: Vec<f64>,
     /// By cycle: the sum of `kappa` around it.
     pub(super) holonomy: Vec<f64>,
 }
 
 impl CycleSpace {
-    /// The space of a system whose relaxation has the integers `relaxed`, with a basis that takes
-    /// `hinted` cycles where they fit.
+    /// The space of a system whose relaxation has the integers `relaxed`. The `hinted` cycles are
+    /// candidates for the basis.
     ///
     /// # Errors
     /// For lack of memory.
@@ -74,7 +74,7 @@ impl CycleSpace {
         })
     }
 
-    /// The potentials that belong to `charges`, and the energy.
+    /// The potentials for `charges`, and the energy.
     pub fn potentials(&self, charges: &[f64]) -> (Vec<f64>, f64) {
         let pairs = self.holonomy.iter().zip(charges);
         let c: Vec<f64> = pairs.map(|(h, n)| h + self.system.step * n).collect();

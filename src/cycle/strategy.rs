@@ -1,8 +1,8 @@
 //! The strategies for angle-difference systems.
 //!
-//! Both start from nearest plane, whose price is that of one triangular solve, and improve blocks
-//! within a budget of multiplications for each entry of the factor of A. `auto` also improves what
-//! adaptive greedy rounding finds, which is the better start where much is known.
+//! Both strategies start from nearest plane, which costs one triangular solve. Then they improve blocks.
+//! The budget of multiplications is proportional to the entries of the factor of A. `auto` also improves
+//! the result of adaptive greedy rounding, which is the better start where many angles are known.
 
 use super::block::Growth;
 use super::detect::AngleSystem;
@@ -15,13 +15,13 @@ use crate::problem::Model;
 use crate::round;
 use crate::search::{Factors, Options, Search};
 
-/// Multiplications of `lattice` for each entry of the factor.
+/// Multiplications of `lattice`, for each entry of the factor.
 const QUICK_WORK: usize = 1_000;
 
-/// Multiplications of `auto` for each entry of the factor, from each of its two starts.
+/// Multiplications of `auto` from each of its two starts, for each entry of the factor.
 const THOROUGH_WORK: usize = 10_000;
 
-/// Multiplications that are always granted.
+/// Multiplications that the budget grants in any case, besides these.
 const LEAST_WORK: usize = 500_000;
 
 const fn effort(growth: Growth, size: usize, residual: f64) -> Effort {
@@ -32,8 +32,8 @@ const fn effort(growth: Growth, size: usize, residual: f64) -> Effort {
     }
 }
 
-/// Around irregular vertices of a field residuals are a sixth to a quarter of the step; further
-/// down less and less is found.
+/// Around the irregular vertices of a field, residuals are a sixth to a quarter of the step. Smaller
+/// residuals lead to fewer and fewer improvements.
 const QUICK: [Effort; 2] = [
     effort(Growth::Near, 16, 0.1),
     effort(Growth::Near, 24, 0.05),
@@ -46,8 +46,8 @@ const THOROUGH: [Effort; 4] = [
     effort(Growth::Near, 32, 0.04),
 ];
 
-/// Nearest plane and block improvement, if `reduced` is an angle-difference system; otherwise
-/// nothing is done and the answer is no.
+/// Nearest plane and block improvement. Returns false, and does nothing, if `reduced` is not an
+/// angle-difference system.
 ///
 /// # Errors
 /// For lack of memory, and those of the evaluation of its offers.
@@ -66,7 +66,7 @@ pub(crate) fn lattice(
     Ok(true)
 }
 
-/// The same with more patience, and once more from the answer of adaptive greedy rounding.
+/// The same with a larger budget, and once more from the result of adaptive greedy rounding.
 ///
 /// # Errors
 /// For lack of memory, and those of the evaluation of its offers.
@@ -112,7 +112,7 @@ fn space(model: &Model, reduced: &ReducedModel, search: &Search) -> Result<Optio
     CycleSpace::new(system, &relaxed, hinted).map(Some)
 }
 
-/// Improves `start` and offers what comes of it, with at most one `share`-th of the work that is left.
+/// Improves `start` and offers the result. It spends at most one `share`-th of the remaining work.
 fn improve(
     space: &CycleSpace,
     start: Vec<f64>,

@@ -1,4 +1,4 @@
-//! Properties of the whole way from a problem to its charges and back, on small random graphs.
+//! Properties of the cycle method from a problem to its charges and back, on small random graphs.
 
 use super::basis::cycle_basis;
 use super::block::Growth;
@@ -23,7 +23,7 @@ struct Sketch {
 }
 
 impl Sketch {
-    /// A grid on a torus, a spanning forest of rows without integers.
+    /// A grid on a torus. The rows without integers form a spanning forest.
     fn torus(side: usize, pinned: &[usize]) -> Self {
         let at = |r: usize, c: usize| (r % side) * side + c % side;
         let mut links = Vec::new();
@@ -36,7 +36,7 @@ impl Sketch {
         Sketch::of(side * side, links, pinned, true)
     }
 
-    /// Links between random nodes, parallel ones too, in several components.
+    /// Edges between random nodes, parallel edges included, in several components.
     fn random(random: &mut Random, fixed_forest: bool) -> Self {
         let nodes = 3 + random.below(10);
         let links = (0..nodes + random.below(8))
@@ -55,7 +55,7 @@ impl Sketch {
             }
             i
         };
-        // All pinned nodes are one.
+        // All pinned nodes are one node.
         for pair in pinned.windows(2) {
             root[pair[1]] = root[pair[0]];
         }
@@ -114,12 +114,12 @@ fn options(strategy: Strategy) -> Options {
     }
 }
 
-/// The space of a problem, hints followed.
+/// The cycle space of a problem, with its hints.
 fn space(problem: &Problem) -> Option<(ReducedModel, CycleSpace)> {
     let (model, reduced) = reduced(problem);
     let system = AngleSystem::detect(&reduced)?;
     let relaxed = solve(problem, &options(Strategy::Relax)).unwrap();
-    // Integers are never replaced in these problems: the reduced ones are the caller's.
+    // The elimination replaces no integer in these problems, so the reduced integers are the caller's.
     let integers = model.integer().iter().zip(relaxed.values());
     let relaxed: Vec<f64> = integers.filter(|(i, _)| **i).map(|(_, &x)| x).collect();
     assert_eq!(relaxed.len(), reduced.integers().len());
@@ -128,7 +128,7 @@ fn space(problem: &Problem) -> Option<(ReducedModel, CycleSpace)> {
     Some((reduced, space))
 }
 
-/// The energy with these integers, by a solve of its own with all of them pinned.
+/// The energy with these integers, by a separate solve with all of them pinned.
 fn energy(problem: &Problem, integers: &[f64]) -> f64 {
     let mut problem = problem.clone();
     let (model, _) = reduced(&problem);
@@ -139,7 +139,7 @@ fn energy(problem: &Problem, integers: &[f64]) -> f64 {
     solve(&problem, &options(Strategy::Relax)).unwrap().energy()
 }
 
-/// Determinant of an integer matrix, exactly (`bareiss1968`).
+/// The exact determinant of an integer matrix (`bareiss1968`).
 fn determinant(mut a: Vec<Vec<i128>>) -> i128 {
     let n = a.len();
     let (mut sign, mut previous) = (1, 1);
@@ -173,7 +173,7 @@ fn the_basis_is_unimodular_in_the_integers() {
         let Some((_, space)) = space(&sketch.problem(&mut random)) else {
             continue;
         };
-        // The rows without integers are a spanning forest, so the integers are the chords, but for
+        // The rows without integers form a spanning forest. So the integers belong to the chords, except
         // those between known angles.
         let chords: Vec<usize> = (0..space.system.graph.edges.len())
             .filter(|&e| space.system.graph.edges[e].integer != NONE)
@@ -236,7 +236,7 @@ fn energies_of_charges_are_those_of_their_integers() {
             assert_eq!(space.charges(&integers), charges);
             (expected, energy(&problem, &integers))
         });
-        // Integers between known angles add the same to both.
+        // Integers between known angles add the same energy to both.
         let (expected, actual) = (some.0 - plane.0, some.1 - plane.1);
         assert!(
             (actual - expected).abs() < 1e-8 * (1.0 + some.1),
@@ -271,7 +271,7 @@ fn improvement_is_never_worse_and_finds_the_optimum_of_what_fits_into_a_block() 
         assert!(improvement.energy <= before);
         let integers = space.integers(&improvement.charges).unwrap();
         let exact = solve(&problem, &options(Strategy::Exact)).unwrap();
-        // Components are apart, so that each of them is a block.
+        // The components are far apart, so each of them is a block.
         let actual = energy(&problem, &integers);
         let least = exact.energy();
         let tolerance = 1e-7 * (1.0 + actual);
@@ -369,7 +369,7 @@ fn a_hinted_cycle_is_taken_and_a_wrong_one_is_not() {
     let side = 5;
     let sketch = Sketch::torus(side, &[]);
     let mut problem = sketch.problem(&mut random);
-    // A detour around two squares, as short as a cycle around the torus but no ring.
+    // A detour around two squares. It is as short as a cycle around the torus, but it is not a ring.
     let at = |r: usize, c: usize| (r % side) * side + c % side;
     let row = |i: usize, j: usize| {
         let found = sketch.rows.iter().position(|r| (r.0, r.1) == (i, j));
@@ -393,7 +393,7 @@ fn a_hinted_cycle_is_taken_and_a_wrong_one_is_not() {
     let (_, hinted) = space(&problem).unwrap();
     problem.hint_cycles(&[0, 2], &rows[..2], &[1, 1]).unwrap();
     let (_, unhinted) = space(&problem).unwrap();
-    // Every square but one is shorter, so the detour changes nothing in the end.
+    // All squares but one are shorter, so the detour does not change the result.
     let lengths = |s: &CycleSpace| {
         (0..s.basis.len())
             .map(|k| s.basis.get(k).len())
@@ -404,7 +404,7 @@ fn a_hinted_cycle_is_taken_and_a_wrong_one_is_not() {
 
 #[test]
 fn a_long_hinted_cycle_saves_a_longer_one() {
-    // A ring of 20 nodes, too long to be looked for, with a chord that makes two of 14 and 8.
+    // A ring of 20 nodes is too long for the search. A chord splits it into rings of 14 and 8 nodes.
     let edge = |tail: u32, head: u32, integer: u32| Edge {
         tail,
         head,

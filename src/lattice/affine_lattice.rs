@@ -1,21 +1,22 @@
 //! A short basis and a near point of an affine lattice `{ x0 + K z : z integer }`, in exact integers.
 //!
-//! Eliminating equations between integers gives a basis of their solutions. Its entries may be as large as
-//! the products of all coefficients. `aardal2000`, sections 2 and 3, reduce the basis by LLL, after which
-//! its vectors and the nearest solution are close to the shortest possible. K and x0 stay exact. Only the
-//! multiples are computed in floating point, in rounds that start from the exact vectors and end when
-//! nothing gets shorter. So each round recovers the digits that the one before lost.
+//! Eliminating equations between integers gives a basis of their solutions, whose entries may be as large
+//! as the products of all coefficients. `aardal2000`, sections 2 and 3, reduce this basis by LLL. After
+//! that, its vectors and the nearest solution are close to the shortest possible. K and x0 stay exact; only
+//! the multiples are computed in floating point. Each round of the reduction starts from the exact vectors
+//! and recovers the digits that the round before lost. The rounds end when nothing gets shorter.
 
 use super::{Basis, Transform, lll};
 use crate::error::{Error, Result};
 
-/// At most so many rounds of reduction, or of steps towards a point.
+/// The largest number of rounds of reduction, or of steps towards a point.
 const ROUNDS: usize = 20;
 
-/// Multiplications of a round of reduction, more than any lattice of tens of dimensions takes.
+/// The largest number of multiplications in a round of reduction. No lattice of tens of dimensions needs as
+/// many.
 const PATIENCE: u64 = 100_000_000;
 
-/// The least part of a vector that counts as leaving the span of those before it.
+/// A vector leaves the span of the vectors before it if at least this part of it is orthogonal to them.
 const LEAVES: f64 = f64::EPSILON;
 
 /// `x0 + K z`.
@@ -27,7 +28,7 @@ pub struct AffineLattice {
 }
 
 impl AffineLattice {
-    /// The lattice with this origin and these basis vectors, all of whole numbers.
+    /// The lattice with this origin and these basis vectors. All entries are whole numbers.
     pub fn new(origin: &[f64], basis: &[Vec<f64>]) -> Self {
         let whole = |v: &[f64]| v.iter().map(|&v| v as i128).collect();
         AffineLattice {
@@ -36,13 +37,13 @@ impl AffineLattice {
         }
     }
 
-    /// The largest number in it.
+    /// The largest absolute value of an entry.
     pub fn size(&self) -> f64 {
         let all = self.basis.iter().flatten().chain(&self.origin);
         all.map(|v| v.unsigned_abs()).max().unwrap_or(0) as f64
     }
 
-    /// Number of coordinates z.
+    /// The number of coordinates z.
     pub fn dim(&self) -> usize {
         self.basis.len()
     }
@@ -57,10 +58,10 @@ impl AffineLattice {
         self.basis[k][i] as f64
     }
 
-    /// Makes the basis short.
+    /// Reduces the basis.
     ///
     /// # Errors
-    /// [`Error::Overflow`] where numbers leave 126 bits.
+    /// [`Error::Overflow`] if a number exceeds 126 bits.
     pub fn shorten(&mut self) -> Result<()> {
         let m = self.dim();
         for _ in 0..ROUNDS {
@@ -86,7 +87,7 @@ impl AffineLattice {
     /// Moves the origin to a point of the lattice near `target`.
     ///
     /// # Errors
-    /// [`Error::Overflow`] where numbers leave 126 bits.
+    /// [`Error::Overflow`] if a number exceeds 126 bits.
     pub fn approach(&mut self, target: &[f64]) -> Result<()> {
         let (directions, factor) = self.orthogonal();
         for _ in 0..ROUNDS {
@@ -103,7 +104,7 @@ impl AffineLattice {
         Ok(())
     }
 
-    /// The real coordinates of the point of the lattice's span that is next to `x`.
+    /// The real coordinates of the point nearest to `x` in the span of the lattice.
     pub fn coordinates(&self, x: &[f64]) -> Vec<f64> {
         let (directions, factor) = self.orthogonal();
         self.steps(x, &directions, &factor, |z| z)
@@ -130,7 +131,7 @@ impl AffineLattice {
         (0..self.origin.len()).map(entry).collect()
     }
 
-    /// Nearest plane from the origin towards `target`, by multiples that are made `whole` or not.
+    /// Nearest plane from the origin towards `target`. The multiples are rounded if `whole`.
     fn steps(
         &self,
         target: &[f64],
@@ -151,8 +152,8 @@ impl AffineLattice {
         steps
     }
 
-    /// Orthonormal directions, and the basis in them: column `k` down to the diagonal (Gram and Schmidt,
-    /// each step twice, as Kahan's rule says is enough).
+    /// Orthonormal directions, and the columns of the basis in these directions down to the diagonal. This
+    /// is the Gram-Schmidt process with each step done twice, which is enough.
     fn orthogonal(&self) -> (Vec<Vec<f64>>, Vec<Vec<f64>>) {
         let mut directions: Vec<Vec<f64>> = Vec::with_capacity(self.dim());
         let mut factor = Vec::with_capacity(self.dim());
@@ -223,11 +224,11 @@ fn add(a: i128, b: i128, c: i128) -> Result<i128> {
 mod tests {
     use super::*;
 
-    /// The solutions of `3 x0 + 5 x1 - 7 x2 = 4`, in a basis and from a point that could hardly be worse.
+    /// The solutions of `3 x0 + 5 x1 - 7 x2 = 4`, with a very long basis and a distant origin.
     fn far_and_long() -> AffineLattice {
         let (a, b) = ([5.0, -3.0, 0.0], [4.0, -1.0, 1.0]);
         let mix = |p: f64, q: f64| (0..3).map(|i| p * a[i] + q * b[i]).collect::<Vec<f64>>();
-        // Neighbours in Fibonacci's sequence: the determinant is 1.
+        // Consecutive Fibonacci numbers, so the determinant is 1.
         let basis = [mix(832_040.0, 514_229.0), mix(514_229.0, 317_811.0)];
         let far = mix(1e12, -7e11);
         AffineLattice::new(&[far[0] + 3.0, far[1] - 1.0, far[2]], &basis)
@@ -242,7 +243,7 @@ mod tests {
         let value = |x: &[i128]| 3 * x[0] + 5 * x[1] - 7 * x[2];
         assert_eq!(value(&affine.origin), 4);
         assert!(affine.basis.iter().all(|v| value(v) == 0));
-        // The lattice is the same: its cell is as large as the row is long.
+        // The lattice is the same: the volume of its cell is the length of the row.
         let (a, b) = (&affine.basis[0], &affine.basis[1]);
         let cross = |i: usize, j: usize| a[i] * b[j] - a[j] * b[i];
         let cell = [cross(1, 2), cross(2, 0), cross(0, 1)];

@@ -1,17 +1,17 @@
-//! A lattice basis as its triangular factor, with the exact way back to the caller's integers.
+//! A lattice basis as its triangular factor, with the exact transformation to the caller's integers.
 //!
-//! The lattice is `{ R0 z : z integer }`, R0 a factor of the caller's Gram matrix. A basis of it
-//! is `R0 U` with U unimodular, kept as the triangular R of `R0 U = Q R`: rotations change no
-//! distance. Each step changes U exactly and R in floating point (rows are rotated back to
-//! triangular form by Givens rotations, which lose nothing that grows); [`Basis::refresh`]
-//! computes R anew from R0 and U, so that errors of many steps never add up.
+//! The lattice is `{ R0 z : z integer }`, where R0 is a factor of the caller's Gram matrix. Every basis of
+//! it is `R0 U` with a unimodular U. It is kept as the triangular R of `R0 U = Q R`, since rotations change
+//! no distance. Each step changes U exactly and R in floating point. Givens rotations, which are stable,
+//! make R triangular again. [`Basis::refresh`] computes R again from R0 and U, so the errors of many steps
+//! do not accumulate.
 //!
-//! Dependent vectors (a semi-definite Gram matrix) generate the lattice together with their
-//! integer relations. While it is reduced, `REGULAR` of each vector's length is appended to it in
-//! a direction of its own, which makes the vectors independent and the relations the shortest of
-//! all. `refresh` then finds them by their length, and puts them last as *free* coordinates: any
-//! integer there has the same distance. (`pohst1987` reduces dependent vectors directly, which
-//! needs exact zeros.)
+//! If the Gram matrix is semi-definite, the vectors are dependent. They still generate the lattice,
+//! together with their integer relations. During the reduction each vector gets an additional coordinate of
+//! its own, of `REGULAR` times its length. This makes the vectors independent, and the relations become the
+//! shortest vectors. `refresh` finds the relations by their length and puts them last as *free*
+//! coordinates, whose integers do not change the distance. (`pohst1987` reduces dependent vectors directly,
+//! which needs exact zeros.)
 
 use faer::{Mat, MatRef};
 
@@ -19,15 +19,15 @@ use super::{Gram, Transform};
 use crate::error::Result;
 use crate::linalg::CompensatedSum;
 
-/// Length that is appended to dependent vectors, relative to their own.
+/// The additional coordinate of a dependent vector, relative to its length.
 const REGULAR: f64 = 1e-6;
 
-/// A combination of dependent vectors that is shorter than this, relative to the sum of the
-/// lengths that it combines, is a relation between them.
+/// A combination of dependent vectors is a relation between them if it is shorter than this, relative to
+/// the sum of the combined lengths.
 const NULL_LENGTH: f64 = 1e-8;
 
-/// Diagonal entries of R below this part of their column mean that the vectors depend without
-/// being a lattice: relations exist, but not between integers.
+/// If a diagonal entry of R is below this part of its column, the vectors are dependent but do not generate
+/// a lattice: the relations are not between integers.
 const DENSE: f64 = 1e-7;
 
 /// `R`, `R0` and `U` with `R0 U = Q R`.
@@ -36,7 +36,7 @@ pub struct Basis {
     dim: usize,
     rank: usize,
     discrete: bool,
-    /// Whether free coordinates have been put last.
+    /// Whether the free coordinates are last.
     settled: bool,
     pub(super) r: Vec<f64>,
     original: Vec<f64>,
@@ -53,7 +53,7 @@ impl Basis {
         Self::from_factor(gram.dim(), factor, full)
     }
 
-    /// The basis with this upper triangular factor by columns; `full` if no diagonal entry is zero.
+    /// The basis with this upper triangular factor by columns. `full` says that no diagonal entry is zero.
     pub fn from_factor(dim: usize, factor: Vec<f64>, full: bool) -> Self {
         let mut basis = Basis {
             dim,
@@ -72,24 +72,24 @@ impl Basis {
         basis
     }
 
-    /// Number of coordinates.
+    /// The number of coordinates.
     pub fn dim(&self) -> usize {
         self.dim
     }
 
-    /// Number of coordinates that matter: those from here on are free.
+    /// The number of coordinates that are not free. The free ones come last.
     pub fn rank(&self) -> usize {
         self.rank
     }
 
-    /// Whether these are distances from a lattice: false if vectors depend in a way that no integer
-    /// relation explains. Then the least distance is not attained, and distances measured here
-    /// prove nothing.
+    /// Whether the vectors generate a lattice. If not, no integer relation explains their dependence. Then
+    /// no point attains the least distance, and the distances in this basis prove nothing.
     pub fn is_discrete(&self) -> bool {
         self.discrete
     }
 
-    /// Whether vector `k` leaves the span of those before it: its multiple can be told from distances.
+    /// Whether vector `k` leaves the span of the vectors before it. Only then do distances determine its
+    /// coordinate.
     pub fn decides(&self, k: usize) -> bool {
         let column = self.column(k);
         column[k] > DENSE * column.iter().map(|v| v * v).sum::<f64>().sqrt()
@@ -105,12 +105,12 @@ impl Basis {
         &self.r[j * self.dim..][..=j]
     }
 
-    /// The way back to the caller's integers.
+    /// The exact transformation to the caller's integers.
     pub fn transform(&self) -> &Transform {
         &self.transform
     }
 
-    /// The coordinates `y` of a point `p` of the caller's: `U y = p`.
+    /// The coordinates `y` of the point `p`, which is given in the caller's coordinates: `U y = p`.
     pub fn coordinates(&self, p: &[f64]) -> Vec<f64> {
         let row = |j: usize| {
             let mut sum = CompensatedSum::new(0.0);
@@ -122,10 +122,10 @@ impl Basis {
         (0..self.dim).map(row).collect()
     }
 
-    /// The coordinates of a lattice point, by the caller's integers.
+    /// The coordinates of the lattice point with these integers of the caller.
     ///
     /// # Errors
-    /// [`Error::Overflow`](crate::Error::Overflow) beyond 64 bits.
+    /// [`Error::Overflow`](crate::Error::Overflow) if a coordinate exceeds 64 bits.
     pub fn whole_coordinates(&self, integers: &[i64]) -> Result<Vec<i64>> {
         self.inverse.apply_transposed(integers)
     }
@@ -165,8 +165,9 @@ impl Basis {
         h
     }
 
-    /// Rounds column `k` to within half a basis vector before it, all of them; repeated until
-    /// nothing changes, since large multiples lose digits (`nguyen2009`, figure 5).
+    /// Reduces the size of column `k`: subtracts multiples of all vectors before it until each of its
+    /// entries is at most half a diagonal entry. This is repeated until nothing changes, since large
+    /// multiples lose digits (`nguyen2009`, figure 5).
     pub(super) fn size_reduce(&mut self, k: usize) -> Result<()> {
         let n = self.dim;
         loop {
@@ -192,7 +193,7 @@ impl Basis {
         }
     }
 
-    /// Moves vector `k` before vector `i < k`, and rotates R back to triangular form.
+    /// Moves vector `k` before vector `i < k`, and makes R triangular again by rotations.
     pub(super) fn insert(&mut self, k: usize, i: usize) {
         let n = self.dim;
         self.r[i * n..(k + 1) * n].rotate_right(n);
@@ -213,7 +214,7 @@ impl Basis {
         }
     }
 
-    /// Turns rows `row - 1` and `row` by the angle with this cosine and sine, from column `row` on.
+    /// Rotates rows `row - 1` and `row` by the angle with this cosine and sine, from column `row` on.
     fn rotate(&mut self, row: usize, cos: f64, sin: f64) {
         let n = self.dim;
         for column in self.r[row * n..self.rank * n].chunks_exact_mut(n) {
@@ -223,7 +224,7 @@ impl Basis {
         }
     }
 
-    /// Turns the sign of a row whose diagonal entry is negative.
+    /// Changes the sign of a row whose diagonal entry is negative.
     fn make_positive(&mut self, row: usize) {
         let n = self.dim;
         if self.r[row * n + row] < 0.0 {
@@ -233,13 +234,13 @@ impl Basis {
         }
     }
 
-    /// Computes R anew from R0 and U.
+    /// Computes R again from R0 and U.
     pub(super) fn refresh(&mut self) {
         self.r = self.triangular(!self.full && !self.settled);
     }
 
-    /// Puts the relations between dependent vectors last, as free coordinates, and computes R
-    /// anew from what is left.
+    /// Puts the relations between dependent vectors last, as free coordinates, and computes R again from
+    /// the other vectors.
     pub(super) fn settle(&mut self) {
         if self.full || self.settled {
             return;
@@ -279,8 +280,8 @@ impl Basis {
         MatRef::from_column_major_slice(&self.original, n, n) * u
     }
 
-    /// The triangular factor of the first `rank` columns of `R0 U`, the lengths that keep
-    /// dependent vectors apart appended if `apart`.
+    /// The triangular factor of the first `rank` columns of `R0 U`. If `apart`, the columns have the
+    /// additional coordinates that make dependent vectors independent.
     fn triangular(&self, apart: bool) -> Vec<f64> {
         let n = self.dim;
         let product = self.product();
@@ -309,8 +310,8 @@ impl Basis {
     }
 }
 
-/// The length of each column, and of the longest where one is zero: relations with a vector of
-/// no length are wanted too.
+/// The length of each column, or the greatest length for a column of zeros, since the relations with a zero
+/// vector are needed too.
 fn column_lengths(r: &[f64], n: usize) -> Vec<f64> {
     let length = |c: &[f64]| c.iter().map(|v| v * v).sum::<f64>().sqrt();
     let mut lengths: Vec<f64> = r.chunks_exact(n.max(1)).map(length).collect();

@@ -1,25 +1,25 @@
-//! Beam search: nearest plane that keeps the best `width` beginnings instead of one.
+//! Beam search: nearest plane that keeps the best `width` partial points instead of one.
 //!
-//! The K-best decoder of communication theory (`guo2006`, section III). Level by level
-//! from the last coordinate to the first, all beginnings are extended by their nearest integers,
-//! and of the extensions those with the least distances so far are kept. Width 1 is nearest
-//! plane. The work is `width * m^2 / 2` multiplications, whatever the lattice.
+//! This is the K-best decoder of communication theory (`guo2006`, section III). It works level by level
+//! from the last coordinate to the first. On each level, all partial points are extended by their nearest
+//! integers, and the `width` extensions with the least distances are kept. With width 1 this is nearest
+//! plane. The work is `width * m^2 / 2` multiplications for every lattice.
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
 use super::{Basis, Target};
 
-/// A beginning: the coordinates from some level on.
+/// A partial point: its coordinates from some level on.
 #[derive(Clone)]
 struct Beginning {
     distance: f64,
     z: Vec<i64>,
-    /// What the decided coordinates add up to, in the rows before.
+    /// The contribution of the decided coordinates to each row above.
     settled: Vec<f64>,
 }
 
-/// The nearest integer of a beginning at the next level that was not taken yet.
+/// The nearest integer of a partial point at the next level that has not been used yet.
 struct Extension {
     distance: f64,
     parent: usize,
@@ -28,7 +28,8 @@ struct Extension {
 }
 
 impl Ord for Extension {
-    /// The heap gives its greatest first: the least distance, and the first parent of equals.
+    /// The heap returns its greatest element first: the least distance, and among equal distances the first
+    /// parent.
     fn cmp(&self, other: &Self) -> Ordering {
         let by_distance = other.distance.total_cmp(&self.distance);
         by_distance.then(other.parent.cmp(&self.parent))
@@ -49,8 +50,8 @@ impl PartialEq for Extension {
 
 impl Eq for Extension {}
 
-/// The steps from the whole part of `target` to the best point that `width` beginnings reach, or
-/// nothing if `stop` says so, which is asked once a level, with the multiplications since it was last.
+/// The steps from the whole part of `target` to the best point of a beam search of this `width`. None if
+/// `stop` ends the search. It is called once a level, with the multiplications since its last call.
 pub fn beam(
     basis: &Basis,
     target: &Target,

@@ -1,24 +1,24 @@
-//! Block improvement: a few coordinates of the reduced basis at a time are decided anew, exactly,
-//! while the others stay, until no block improves.
+//! Block improvement: exact optimisation of a few coordinates of the reduced basis at a time, while the
+//! others stay fixed, until no block improves.
 //!
-//! Blocks are chosen where they promise most: around each vector, those that it is least
-//! orthogonal to, since they can give each other's rounding back. For the block, the problem is a
-//! closest-vector problem again, solved by the same reduction and enumeration.
+//! The block of a vector consists of the vectors that are least orthogonal to it, since these can
+//! compensate each other's rounding. The block is a smaller closest-vector problem, solved by the same
+//! reduction and enumeration.
 
 use super::{Basis, Gram, Target, closest};
 use crate::error::Result;
 
-/// Coordinates of a block.
+/// The number of coordinates of a block.
 const SIZE: usize = 30;
 
-/// Nodes of a block's enumeration at most.
+/// The largest number of nodes in the enumeration of a block.
 const NODES: u64 = 100_000;
 
-/// Improves `z`, whose squared distance is `value`; returns the new one. `stop` is asked before
-/// each block whether to end, with the multiplications since it was last.
+/// Improves `z`, whose squared distance is `value`, and returns the new squared distance. Before each
+/// block, `stop` says whether to end. Its argument is the number of multiplications since its last call.
 ///
 /// # Errors
-/// [`Error::Overflow`](crate::Error::Overflow), as [`closest`].
+/// [`Error::Overflow`](crate::Error::Overflow), as in [`closest`].
 pub fn improve_blocks(
     basis: &Basis,
     target: &Target,
@@ -27,7 +27,7 @@ pub fn improve_blocks(
     stop: &mut dyn FnMut(u64) -> bool,
 ) -> Result<f64> {
     let m = basis.rank();
-    // Blocks since the last improvement that did not improve.
+    // The number of blocks since the last improvement.
     let mut idle = 0;
     let mut seed = 0;
     let mut work = 0;
@@ -40,8 +40,9 @@ pub fn improve_blocks(
         idle += 1;
         if better {
             let now = target.distance(basis, z);
-            // Of a lattice that is nearly singular a block may see less than the whole: what is no
-            // better is taken back, or two points could take turns forever.
+            // In a nearly singular lattice, the distance in a block may be less accurate than that in the
+            // whole lattice. A step without improvement is undone; otherwise two points could alternate
+            // forever.
             if now < value {
                 (idle, value) = (0, now);
             } else {
@@ -53,7 +54,7 @@ pub fn improve_blocks(
     Ok(value)
 }
 
-/// `seed` and the vectors least orthogonal to it, increasing.
+/// `seed` and the vectors least orthogonal to it, in increasing order.
 fn around(basis: &Basis, seed: usize) -> Vec<usize> {
     let own = basis.column(seed);
     let coupling = |j: usize| {
@@ -69,7 +70,7 @@ fn around(basis: &Basis, seed: usize) -> Vec<usize> {
     block
 }
 
-/// Decides the coordinates of `block` anew; whether that changed any, and the nodes it took.
+/// Optimises the coordinates of `block`. Returns whether any changed, and the nodes of the enumeration.
 fn redecide(basis: &Basis, target: &Target, z: &mut [i64], block: &[usize]) -> Result<(bool, u64)> {
     let m = basis.rank();
     let mut left = vec![0.0; m];

@@ -1,7 +1,7 @@
 //! A lower bound on the energy from a distance in the reduced lattice, rounding errors included.
 //!
-//! With the exact Schur complement S and the exact relaxation's integers z*, every solution has
-//! `E(z) = E* + (z - z*)' S (z - z*) / 2`. What was computed differs in three ways:
+//! Let S be the exact Schur complement and z* the integers of the exact relaxation. Every solution has
+//! `E(z) = E* + (z - z*)' S (z - z*) / 2`. The computed numbers differ from the exact ones in three ways:
 //!
 //! 1. E*: the relaxation's bound already lies below it.
 //! 2. S: the factor R in which distances are measured is that of another matrix. In coordinates
@@ -13,33 +13,33 @@
 //!    (`halko2011`, lemma 4.1).
 //! 3. z*: the target is off by the gradient that is left there, which is measured too.
 //!
-//! So no solution that was not evaluated and is beyond computed distance d has less energy than
-//! `E* + (d (1 - |F|) - shift)^2 / 2`. The rounding of d itself is below
-//! [`NEARER`](super::NEARER), by which the enumeration's bound is smaller already.
+//! So every solution that was not evaluated and lies beyond the computed distance d has at least the energy
+//! `E* + (d (1 - |F|) - shift)^2 / 2`. The rounding error of d itself is smaller than
+//! [`NEARER`](super::NEARER), which the bound of the enumeration already subtracts.
 
 use super::Piece;
 use crate::eliminate::ReducedModel;
 use crate::error::Result;
 use crate::search::{Factors, Search};
 
-/// Random vectors that the factor is tried on.
+/// The number of random vectors in the measurement of the factor's error.
 const PROBES: usize = 8;
 
 /// The errors of a reduced lattice.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Certificate {
     relaxation: f64,
-    /// Relative error of distances.
+    /// The relative error of distances.
     relative: f64,
-    /// How far the target is off.
+    /// The error of the target, as a distance.
     shift: f64,
-    /// Whether distances prove anything.
+    /// Whether distances prove a bound.
     valid: bool,
 }
 
 impl Certificate {
-    /// Measures the errors of `pieces`, which are those of `model` around the minimiser of its
-    /// relaxation. The bound of `search` is still the relaxation's.
+    /// Measures the errors of `pieces`, the lattice of `model` around the minimiser of its relaxation. The
+    /// bound of `search` must still be the relaxation's.
     ///
     /// # Errors
     /// For lack of memory.
@@ -106,7 +106,7 @@ impl Certificate {
         self.relaxation + 0.5 * distance.max(0.0).powi(2)
     }
 
-    /// The squared distance from which on `energy_bound` is at least `energy`.
+    /// The least squared distance for which `energy_bound` is at least `energy`.
     pub fn square_for(&self, energy: f64) -> f64 {
         let distance = (2.0 * (energy - self.relaxation).max(0.0)).sqrt();
         ((distance + self.shift) / (1.0 - self.relative)).powi(2)
@@ -114,16 +114,16 @@ impl Certificate {
 }
 
 impl Piece {
-    /// The derivative with respect to the orthonormal coordinates, from that with respect to all
-    /// integers: `R^-T U' force`.
+    /// The derivative with respect to the orthonormal coordinates, computed from the derivative with
+    /// respect to all integers: `R^-T U' force`.
     fn dual(&self, force: &[f64]) -> Vec<f64> {
         let own: Vec<f64> = self.places.iter().map(|&i| force[i]).collect();
         self.basis.to_orthonormal(&own)
     }
 }
 
-/// What a force on all unknowns comes to on the integers when the continuous ones give way, with
-/// one step of refinement.
+/// The force on the integers that a force on all unknowns causes, when the continuous unknowns are at their
+/// minimum. The solve has one step of refinement.
 fn condensed(model: &ReducedModel, factors: &mut Factors, mut force: Vec<f64>) -> Result<Vec<f64>> {
     if !model.continuous().is_empty() {
         for _ in 0..2 {
@@ -142,7 +142,7 @@ fn condensed(model: &ReducedModel, factors: &mut Factors, mut force: Vec<f64>) -
         .collect())
 }
 
-/// Normally distributed numbers (`box1958`; uniform ones by xorshift, `marsaglia2003`).
+/// Normally distributed numbers (`box1958`), made from the uniform numbers of xorshift (`marsaglia2003`).
 struct Gaussian(u64);
 
 impl Gaussian {

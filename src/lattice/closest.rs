@@ -1,12 +1,12 @@
-//! The closest lattice point of a small dense lattice: reduce, nearest plane, enumerate.
+//! The closest lattice point of a small dense lattice: reduction, nearest plane and enumeration.
 
 use super::{Basis, Gram, Limits, Target, enumerate, lll, nearest_plane};
 use crate::error::Result;
 
-/// Places by which a vector may move forward at a time in a deep insertion.
+/// The largest number of places by which a deep insertion moves a vector forward.
 pub const DEPTH: usize = 20;
 
-/// The best lattice point that was found.
+/// The best lattice point of the search.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Closest {
     /// Its integers.
@@ -15,12 +15,12 @@ pub struct Closest {
     pub value: f64,
     /// Nodes of the enumeration.
     pub nodes: u64,
-    /// Whether no point is closer (up to [`NEARER`](super::NEARER)).
+    /// Whether it is proved that no point is closer (up to [`NEARER`](super::NEARER)).
     pub complete: bool,
 }
 
-/// Minimises `(z - target)' G (z - target)` over integer z, with at most `nodes` nodes; the answer
-/// is never worse than `start`.
+/// Minimises `(z - target)' G (z - target)` over integer z, with at most `nodes` nodes. The result is never
+/// worse than `start`.
 ///
 /// # Errors
 /// [`Error::Overflow`](crate::Error::Overflow) for coordinates too large to be exact.
@@ -33,7 +33,7 @@ pub fn closest(gram: &Gram, target: &[f64], start: Option<&[i64]>, nodes: u64) -
     if let Some(start) = start {
         let other = target.steps(&basis, start)?;
         let distance = target.distance(&basis, &other);
-        // Where nothing is gained the caller's point stays.
+        // Without an improvement, the caller's point stays.
         if distance <= value * (1.0 + super::NEARER) {
             (z, value) = (other, distance);
         }

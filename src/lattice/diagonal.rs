@@ -1,41 +1,43 @@
-//! A lower bound on what the undecided coordinates add to a distance, whatever integers they take.
+//! A lower bound on the contribution of the undecided coordinates to a distance, whatever their integers
+//! are.
 //!
-//! With the first k coordinates undecided and c their real minimiser, a point z adds
-//! `|R_k (z - c)|^2`, R_k the leading block of R. For a diagonal `D <= R_k' R_k` (the difference
-//! positive semi-definite) that is at least `sum_i D_i (z_i - c_i)^2`, and over all integers at
-//! least `sum_i D_i |c_i - round(c_i)|^2` (`buchheim2015`, section 3; for sphere decoders `stojnic2008`,
-//! section IV). Fractional parts are spread evenly, so the D with the largest trace gives the best bound
-//! on average. Finding it is a semi-definite program, solved by a barrier with Newton steps (`boyd2004`,
-//! section 11.3).
+//! Let the first k coordinates be undecided, let c be their real minimiser, and let R_k be the leading
+//! block of R. A point z contributes `|R_k (z - c)|^2`. Let D be a diagonal matrix with `D <= R_k' R_k`,
+//! which means that the difference is positive semi-definite. Then the contribution is at least `sum_i D_i
+//! (z_i - c_i)^2`, and over all integers at least `sum_i D_i |c_i - round(c_i)|^2` (`buchheim2015`, section
+//! 3; for sphere decoders `stojnic2008`, section IV). The fractional parts are uniformly distributed, so
+//! the D with the largest trace gives the best bound on average. It is the solution of a semi-definite
+//! program, computed by a barrier method with Newton steps (`boyd2004`, section 11.3).
 //!
-//! Where lattices are nearly orthogonal, as those of seamless maps are, this cuts the nodes of a
-//! proof in 100 dimensions by a factor of several hundred.
+//! On nearly orthogonal lattices, such as those of seamless maps, this reduces the nodes of a proof in 100
+//! dimensions by a factor of several hundred.
 //!
-//! A D is accepted if `R_k'R_k - D`, with more than its rounding errors subtracted from the diagonal, has a
-//! Cholesky factor (`rump2006`, theorem 2.3). The rounding errors of the coordinates are bounded in advance
-//! and subtracted from each bound.
+//! A matrix D is accepted if `R_k'R_k - D` has a Cholesky factor after more than its rounding errors are
+//! subtracted from the diagonal (`rump2006`, theorem 2.3). The rounding errors of the coordinates are
+//! bounded in advance and subtracted from each bound.
 
 use super::Basis;
 
-/// The barrier's share of the trace where it ends: that much of the trace is given away.
+/// The barrier parameter at the end, relative to the trace. The result's trace is below the optimum by
+/// about this part.
 const SHARE: f64 = 0.01;
 
-/// Newton steps for the first D, which starts far off.
+/// Newton steps for the first D, whose start is far from the optimum.
 const FIRST_STEPS: usize = 60;
 
-/// Newton steps for each of the others, which start at the one before.
+/// Newton steps for each other D, which starts from the D before it.
 const STEPS: usize = 3;
 
-/// Diagonals for every number of undecided coordinates.
+/// One diagonal matrix for each number of undecided coordinates.
 #[derive(Debug, Clone)]
 pub struct Diagonals {
-    /// By number of undecided coordinates, from 0 on.
+    /// By the number of undecided coordinates, from 0 on.
     levels: Vec<Vec<f64>>,
 }
 
 impl Diagonals {
-    /// Diagonals below the scalar products of the first basis vectors, or nothing if `stop` says so,
-    /// which is asked before each Newton step.
+    /// Diagonal matrices below the leading blocks of the Gram matrix. None if `stop` ends the computation;
+    /// it is called before each Newton step.
     pub fn new(basis: &Basis, stop: &mut dyn FnMut() -> bool) -> Option<Self> {
         let m = basis.rank();
         let mut levels = vec![Vec::new(); m + 1];
@@ -57,13 +59,13 @@ impl Diagonals {
         Some(Diagonals { levels })
     }
 
-    /// The diagonal over the first `k` coordinates; all zero where none was found.
+    /// The diagonal for the first `k` coordinates. It is zero if none was found.
     pub fn level(&self, k: usize) -> &[f64] {
         &self.levels[k]
     }
 
-    /// Mean and variance of the bound over `k` undecided coordinates whose fractional parts are
-    /// spread evenly.
+    /// The mean and variance of the bound for `k` undecided coordinates with uniformly distributed
+    /// fractional parts.
     pub fn moments(&self, k: usize) -> (f64, f64) {
         let level = self.levels[k].iter();
         let sum = level.clone().sum::<f64>();
@@ -86,7 +88,8 @@ fn leading_gram(basis: &Basis) -> Vec<f64> {
     gram
 }
 
-/// Maximise the trace of D with `G - D` positive definite, G the leading block of a matrix.
+/// The semi-definite program: maximise the trace of D with `G - D` positive definite, where G is the
+/// leading block of a matrix.
 struct Barrier<'a> {
     gram: &'a [f64],
     stride: usize,
@@ -102,8 +105,8 @@ impl<'a> Barrier<'a> {
         }
     }
 
-    /// `d_i = 1 / (2 n inverse(G)_ii)`: each `e_i e_i' / inverse(G)_ii` is below G, and so is half
-    /// their mean.
+    /// The start `d_i = 1 / (2 n inverse(G)_ii)`. Each `e_i e_i' / inverse(G)_ii` is below G, so half their
+    /// mean is below G as well.
     fn start(&self) -> Vec<f64> {
         let n = self.size;
         match inverse(self.without(&vec![0.0; n]), n) {
@@ -114,7 +117,7 @@ impl<'a> Barrier<'a> {
         }
     }
 
-    /// The leading block with `d` taken off its diagonal, by columns.
+    /// The leading block minus `d` on its diagonal, by columns.
     fn without(&self, d: &[f64]) -> Vec<f64> {
         let n = self.size;
         let mut a = Vec::with_capacity(n * n);
@@ -125,9 +128,9 @@ impl<'a> Barrier<'a> {
         a
     }
 
-    /// Newton steps on `trace(D) / share + log det (G - D)`, the share falling to its end. The
-    /// steps' lengths keep `G - D` positive definite (the barrier is self-concordant). Whether `stop`
-    /// let it go on.
+    /// Newton steps on `trace(D) / share + log det (G - D)`, while the share decreases to its end. The step
+    /// lengths keep `G - D` positive definite, since the barrier is self-concordant. Returns false if
+    /// `stop` ended it.
     fn improve(&self, d: &mut [f64], steps: usize, stop: &mut dyn FnMut() -> bool) -> bool {
         let n = self.size;
         for _ in 0..steps {
@@ -138,7 +141,7 @@ impl<'a> Barrier<'a> {
                 break;
             };
             let trace: f64 = d.iter().sum();
-            // Central points have `m_ii = 1 / share`: aim at half of where this one is.
+            // A central point has `m_ii = 1 / share`. The next share is a part of the current point's.
             let here = n as f64 / (0..n).map(|i| m[i * n + i]).sum::<f64>();
             let least = SHARE * trace / n as f64;
             let share = (0.3 * here).max(least);
@@ -160,11 +163,11 @@ impl<'a> Barrier<'a> {
         true
     }
 
-    /// `d` without negative entries, made smaller until it is below G beyond doubt.
+    /// `d` without negative entries, scaled down until it is proved to be below G.
     fn certain(&self, d: &[f64]) -> Vec<f64> {
         let n = self.size;
         let largest = (0..n).fold(0.0, |m: f64, i| m.max(self.gram[i * self.stride + i]));
-        // Rump's bound, and as much again for the scalar products' own rounding.
+        // Twice Rump's bound, to cover the rounding of the scalar products as well.
         let margin = 4.0 * (n + 2) as f64 * f64::EPSILON * largest * n as f64;
         let mut d: Vec<f64> = d.iter().map(|v| v.max(0.0)).collect();
         for _ in 0..8 {
@@ -199,7 +202,7 @@ fn cholesky(mut a: Vec<f64>, n: usize) -> Option<Vec<f64>> {
     Some(a)
 }
 
-/// `L L' x = b`.
+/// Solves `L L' x = b`.
 fn solve(lower: &[f64], n: usize, b: &[f64]) -> Vec<f64> {
     let mut x = b.to_vec();
     for j in 0..n {
@@ -224,7 +227,7 @@ fn solve(lower: &[f64], n: usize, b: &[f64]) -> Vec<f64> {
 /// The inverse of a symmetric positive definite matrix.
 fn inverse(a: Vec<f64>, n: usize) -> Option<Vec<f64>> {
     let lower = cholesky(a, n)?;
-    // Columns of the inverse of L, then their products.
+    // First the columns of the inverse of L, then their products.
     let mut columns = vec![0.0; n * n];
     for j in 0..n {
         let x = &mut columns[j * n..(j + 1) * n];

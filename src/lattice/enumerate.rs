@@ -1,49 +1,50 @@
-//! Enumeration: every lattice point closer to the target than a radius, or the closest of all.
+//! Enumeration of the lattice points within a radius of the target, or of the closest point alone.
 //!
-//! `schnorr1994`, section 2, with the zig-zag order from the centre of each level and
-//! the distance of the best point found as the new radius. The tree itself is in [`super::tree`].
+//! This is the algorithm of `schnorr1994`, section 2, with the zig-zag order from the centre of each level.
+//! The distance of the best point found becomes the new radius. The tree itself is in [`super::tree`].
 //!
-//! Why this is a proof: the candidates of a level come in order of their distance. Once one is outside the
-//! radius, all later ones are. A candidate is also skipped, alone, if the lower bound for its undecided
-//! coordinates takes it outside (see [`super::Diagonals`]). Distances are sums of squares and cannot
-//! cancel; offsets are computed near the target, where all numbers are small.
+//! This is a proof for the following reasons. The candidates of a level come in order of their distance.
+//! Once one is outside the radius, all later ones are outside too. A single candidate is also skipped if
+//! the lower bound for its undecided coordinates exceeds the radius (see [`super::Diagonals`]). Distances
+//! are sums of squares, so they do not cancel. Offsets are computed near the target, where all numbers are
+//! small.
 
 use super::near_points::NearPoints;
 use super::tree::Tree;
 use super::{Basis, Diagonals, Target};
 
-/// Nodes between two looks at who may stop the enumeration.
+/// The number of nodes between two calls of `stop`.
 const WATCH: u64 = 1 << 14;
 
-/// How far an enumeration may go.
+/// The limits of an enumeration.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Limits {
-    /// Squared distance from which on points are not wanted.
+    /// The squared radius. Points at this distance or beyond are ignored.
     pub radius: f64,
-    /// Squared distance beyond the best point's up to which points are kept as well: 0 where
-    /// only the best one is wanted.
+    /// Points are kept if their squared distance exceeds the best one's by at most this. With 0, only the
+    /// best point is kept.
     pub margin: f64,
-    /// Nodes to visit at most.
+    /// The largest number of nodes.
     pub nodes: u64,
 }
 
-/// What an enumeration found out.
+/// The result of an enumeration.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Enumerated {
-    /// Steps to the points within the radius that are the closest or within the margin of it, with their
-    /// squared distances, nearest first. Were they more than [`MOST`](super::near_points::MOST), only
-    /// the closest.
+    /// The steps to the closest point within the radius and to the points within the margin of it, with
+    /// their squared distances, the nearest first. If there are more than
+    /// [`MOST`](super::near_points::MOST), only the closest one.
     pub near: Vec<(Vec<i64>, f64)>,
-    /// Nodes visited.
+    /// The number of nodes visited.
     pub nodes: u64,
     /// Whether the whole ball was searched.
     pub complete: bool,
-    /// No lattice point but those in `near` has a smaller squared distance (up to [`NEARER`](super::NEARER)).
+    /// No lattice point outside `near` has a smaller squared distance (up to [`NEARER`](super::NEARER)).
     pub bound: f64,
 }
 
-/// Searches the ball around `target` for its closest lattice point, with the help of `diagonals`
-/// where there are any. `stop` is asked now and then, with the nodes so far, whether to end.
+/// Searches the ball around `target` for its closest lattice point, with bounds from `diagonals` if they
+/// exist. From time to time, `stop` gets the number of nodes so far and says whether to end.
 pub fn enumerate(
     basis: &Basis,
     target: &Target,

@@ -1,16 +1,16 @@
 //! A symmetric positive semi-definite matrix of scalar products, and its triangular factor.
 //!
-//! The factor's columns are a basis of the lattice, up to a rotation that changes no distance.
-//! A pivot that vanishes (at or below [`RANK_TOLERANCE`] of its diagonal entry) leaves a zero row:
-//! the vector depends on those before it. Rounding leaves about 1e-15 of a pivot that cancels, and
-//! a condition number of 1e8 leaves 1e-8 of one that does not.
+//! The columns of the factor are a basis of the lattice, up to a rotation, which changes no distance. A
+//! pivot at or below [`RANK_TOLERANCE`] times its diagonal entry counts as zero, and its row is set to
+//! zero: the vector depends on the vectors before it. A pivot that cancels is about 1e-15 of its diagonal
+//! entry, from rounding. At a condition number of 1e8, a pivot that does not cancel is about 1e-8 of it.
 
 use crate::error::{Error, Result};
 
 /// A pivot at or below this part of its diagonal entry counts as zero.
 pub const RANK_TOLERANCE: f64 = 1e-12;
 
-/// Dense, symmetric, by columns (or rows).
+/// A dense symmetric matrix by columns, which are also its rows.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Gram {
     dim: usize,
@@ -18,7 +18,7 @@ pub struct Gram {
 }
 
 impl Gram {
-    /// The matrix with these `dim * dim` entries, of which the lower triangle is read.
+    /// The matrix with these `dim * dim` entries. Only the lower triangle is read.
     ///
     /// # Errors
     /// [`Error::LengthMismatch`], [`Error::NotFinite`].
@@ -78,9 +78,9 @@ impl Gram {
         x
     }
 
-    /// The upper triangular factor by columns, `R'R = G`, and whether no pivot vanished.
+    /// The upper triangular factor R by columns, with `R'R = G`, and whether all pivots are nonzero.
     ///
-    /// Cholesky by rows of R; a vanished pivot makes its row zero.
+    /// This is Cholesky by rows of R. A zero pivot makes its row zero.
     pub fn factor(&self) -> (Vec<f64>, bool) {
         let n = self.dim;
         let mut r = vec![0.0; n * n];
@@ -104,7 +104,7 @@ impl Gram {
     }
 }
 
-/// The quotient, zero where the pivot vanished.
+/// The quotient, or zero if the pivot is zero.
 fn divide(value: f64, pivot: f64) -> f64 {
     if pivot == 0.0 { 0.0 } else { value / pivot }
 }

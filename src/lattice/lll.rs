@@ -1,29 +1,30 @@
-//! LLL reduction with deep insertion, in floating point, the transformation exact.
+//! LLL reduction with deep insertion, in floating point with an exact transformation.
 //!
-//! `lenstra1982`; deep insertion by `schnorr1994`, section 3. R is updated by rotations, which are stable. A
-//! result is accepted only if the Lovasz conditions still hold after R was computed again from the exact
-//! transformation.
+//! The reduction is that of `lenstra1982`, with the deep insertion of `schnorr1994`, section 3. Rotations,
+//! which are stable, update R. A result is accepted only if the Lovasz conditions still hold for the R that
+//! is computed again from the exact transformation.
 
 use super::Basis;
 use crate::error::Result;
 
-/// The Lovasz condition holds where a vector is not shorter than this part of the square of the
-/// one that it would replace.
+/// The factor delta of the Lovasz condition: the squared length of a vector must be at least this part of
+/// the squared length of the one that it would replace.
 pub const LOVASZ: f64 = 0.99;
 
-/// What the conditions may lack after R was computed anew.
+/// The tolerance of the conditions after R was computed again.
 const SLACK: f64 = 1e-3;
 
-/// At most so many rounds of reduction and renewal.
+/// The largest number of rounds. A round is a reduction and a new computation of R.
 const ROUNDS: usize = 20;
 
-/// Reduces `basis`. A vector may move forward by up to `depth` places at a time: 1 is plain LLL.
+/// Reduces `basis`. A deep insertion moves a vector forward by at most `depth` places; a `depth` of 1 is
+/// plain LLL.
 ///
-/// `stop` is asked before each vector whether to end, with the multiplications that it will take. A basis
+/// Before each vector, `stop` gets the multiplications that it will take and says whether to end. A basis
 /// that is not fully reduced generates the same lattice and can be used, with a worse result.
 ///
 /// # Errors
-/// [`Error::Overflow`](crate::Error::Overflow) where the transformation leaves 126 bits.
+/// [`Error::Overflow`](crate::Error::Overflow) if an entry of the transformation exceeds 126 bits.
 pub fn lll(basis: &mut Basis, depth: usize, stop: &mut dyn FnMut(u64) -> bool) -> Result<()> {
     for _ in 0..ROUNDS {
         let mut ended = pass(basis, 1, stop)?;
@@ -42,7 +43,7 @@ pub fn lll(basis: &mut Basis, depth: usize, stop: &mut dyn FnMut(u64) -> bool) -
     Ok(())
 }
 
-/// One sweep to the end, as long as it takes; whether it came there.
+/// One full sweep. Returns false if it was stopped.
 fn pass(basis: &mut Basis, depth: usize, stop: &mut dyn FnMut(u64) -> bool) -> Result<bool> {
     let mut k = 0;
     while k < basis.rank() {
@@ -61,7 +62,7 @@ fn pass(basis: &mut Basis, depth: usize, stop: &mut dyn FnMut(u64) -> bool) -> R
     Ok(true)
 }
 
-/// The first place, at most `depth` before `k`, where vector `k` would be short enough.
+/// The first place, at most `depth` before `k`, where vector `k` is short enough to be inserted.
 fn place(basis: &Basis, k: usize, depth: usize) -> Option<usize> {
     let from = k.saturating_sub(depth);
     let mut left: f64 = (from..=k).map(|i| basis.r(i, k).powi(2)).sum();
@@ -74,7 +75,7 @@ fn place(basis: &Basis, k: usize, depth: usize) -> Option<usize> {
     None
 }
 
-/// Whether the Lovasz conditions hold with `delta`, and all vectors are rounded.
+/// Whether the Lovasz conditions hold with `delta`, and all vectors are size-reduced.
 pub fn is_reduced(basis: &Basis, delta: f64) -> bool {
     (0..basis.rank()).all(|k| {
         let rounded = (0..k).all(|j| basis.r(j, k).abs() <= (0.5 + SLACK) * basis.r(j, j));

@@ -1,4 +1,4 @@
-//! The points that an enumeration has found, and the radius that shrinks with them.
+//! The points found by an enumeration, and its radius, which shrinks with each closer point.
 
 /// A point counts as closer than the best one if its squared distance is smaller by at least this part. That
 /// is far above the rounding errors of a sum of squares, and far below the gap at which a solution counts
@@ -24,7 +24,7 @@ impl NearPoints {
         }
     }
 
-    /// Takes a point within the radius, which shrinks with it.
+    /// Adds a point within the radius and shrinks the radius to it.
     #[cold]
     pub fn take(&mut self, z: &[f64], distance: f64) {
         if self.margin > 0.0 {
@@ -39,7 +39,7 @@ impl NearPoints {
         } else {
             self.near.push((z.to_vec(), distance));
         }
-        // Only the closest, the first of equals.
+        // Keeps only the closest point, and the first of several at the same distance.
         let closest = self.near.iter().map(|n| n.1).fold(f64::INFINITY, f64::min);
         self.near.retain(|n| n.1 == closest);
         self.near.truncate(1);

@@ -1,20 +1,20 @@
 //! Nearest plane: the lattice point that successive rounding reaches in a reduced basis.
 //!
-//! `babai1986`, section 3. Coordinates are decided from the last to the first, each rounded where
-//! the later ones already are. On an LLL-reduced basis the distance is within 2^(m/2) of the
-//! least, and in practice within a few per cent of the energy.
+//! The method is that of `babai1986`, section 3. It decides the coordinates from the last to the first and
+//! rounds each one, given the later ones. On an LLL-reduced basis the distance is at most 2^(m/2) times the
+//! least distance. In practice the energy is within a few per cent of the least.
 
 use super::{Basis, Target};
 use crate::round::nearest;
 
-/// The steps from the whole part of `target` to the lattice point that nearest plane reaches.
+/// The steps from the whole part of `target` to the nearest-plane point.
 ///
-/// Ties go away from zero, as everywhere in the library. What distances do not decide
-/// ([`Basis::decides`]) stays at the whole part.
+/// Halves are rounded away from zero, as everywhere in the library. A coordinate that distances do not
+/// determine ([`Basis::decides`]) keeps its whole part.
 pub fn nearest_plane(basis: &Basis, target: &Target) -> Vec<i64> {
     let m = basis.rank();
     let mut z = vec![0i64; m];
-    // What the decided coordinates add up to, in each row.
+    // The contribution of the decided coordinates to each row.
     let mut settled = vec![0.0; m];
     for k in (0..m).rev() {
         if basis.is_discrete() || basis.decides(k) {

@@ -1,35 +1,36 @@
 //! The independent parts of the closest-vector problem, each with its own reduced basis.
 //!
-//! Integers that the Schur complement does not couple, not even through others, are decided
-//! apart: the squared distances of the parts add up.
+//! Integers that the Schur complement does not couple, directly or through others, belong to different
+//! pieces. The squared distances of the pieces add up, so each piece is solved separately.
 
 use super::{Basis, DEPTH, Diagonals, Target, lll, nearest_plane, predicted_nodes};
 use crate::error::Result;
 use crate::linalg::DisjointSets;
 
-/// One part: the best point so far, and what is proved about all points.
+/// One piece: its best point so far, and the bound that is proved for all of its points.
 #[derive(Debug, Clone)]
 pub struct Piece {
-    /// Its integers, by their places among all.
+    /// The places of its integers among all integers.
     pub places: Vec<usize>,
     /// The reduced basis.
     pub basis: Basis,
-    /// Below the scalar products of the basis; only made where a proof needs many nodes.
+    /// Diagonal matrices below the Gram matrix of the basis. They are computed only if a proof needs many
+    /// nodes.
     pub diagonals: Option<Diagonals>,
     /// The relaxation's integers.
     pub target: Target,
-    /// Steps from the target's whole part to the best point so far.
+    /// The steps from the target's whole part to the best point so far.
     pub z: Vec<i64>,
-    /// The squared distance there.
+    /// The squared distance of the best point.
     pub value: f64,
-    /// No point that was not evaluated has a smaller squared distance.
+    /// Every point that was not evaluated has at least this squared distance.
     pub bound: f64,
-    /// Whether every point that may be better than the best one was evaluated.
+    /// Whether every point that may be better than the best one has been evaluated.
     pub proved: bool,
 }
 
 impl Piece {
-    /// The nodes to expect of an enumeration of all that is closer than the best point.
+    /// The predicted number of nodes in an enumeration of the ball of the best point.
     pub fn predicted_nodes(&self) -> f64 {
         predicted_nodes(&self.basis, self.diagonals.as_ref(), self.value)
     }
@@ -39,7 +40,7 @@ impl Piece {
         self.basis.is_discrete() && self.basis.rank() == self.basis.dim()
     }
 
-    /// Takes `z` if it is closer to the target.
+    /// Replaces the best point by `z` if `z` is closer to the target.
     pub fn take(&mut self, z: Vec<i64>) -> bool {
         let value = self.target.distance(&self.basis, &z);
         let better = value < self.value * (1.0 - super::NEARER);
@@ -50,9 +51,9 @@ impl Piece {
     }
 }
 
-/// Splits the lattice with upper triangular factor `r` of `m` columns (`full`: no zero on the
-/// diagonal), reduces each part, and decides it by nearest plane from `point`. Where `stop` ends a
-/// reduction the parts are worse, and right all the same.
+/// Splits the lattice with the upper triangular factor `r` of `m` columns into pieces (`full`: no diagonal
+/// entry is zero). It reduces each piece and finds its nearest-plane point from `point`. If `stop` ends a
+/// reduction, the points are still valid but farther away.
 ///
 /// # Errors
 /// [`Error::Overflow`](crate::Error::Overflow) for integers too large to be exact.
@@ -90,7 +91,8 @@ pub fn pieces(
     components(m, r).into_iter().map(make).collect()
 }
 
-/// The columns that share rows, directly or through others; both orders increase.
+/// The groups of columns that share rows, directly or through others. The groups and the columns in them
+/// are in increasing order.
 fn components(m: usize, r: &[f64]) -> Vec<Vec<usize>> {
     let mut sets = DisjointSets::new(m);
     for j in 0..m {
@@ -101,7 +103,7 @@ fn components(m: usize, r: &[f64]) -> Vec<Vec<usize>> {
     sets.sets()
 }
 
-/// The integers of all pieces in their best points.
+/// The integers of the best points of all pieces.
 ///
 /// # Errors
 /// [`Error::Overflow`](crate::Error::Overflow) beyond 64 bits.
@@ -122,7 +124,7 @@ mod tests {
 
     #[test]
     fn uncoupled_integers_are_decided_apart() {
-        // 0 and 2 are coupled, 1 stands alone.
+        // Columns 0 and 2 are coupled; column 1 is not.
         let r = [2.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.5, 0.0, 3.0];
         let parts = pieces(3, &r, true, &[0.2, 1.7, -4.1], &mut |_| false).unwrap();
         let places: Vec<_> = parts.iter().map(|p| p.places.clone()).collect();

@@ -1,33 +1,33 @@
-//! A schedule of enumerations whose radii grow up to the distance of the best point, so that there is a bound
-//! at any time.
+//! A schedule of enumerations whose radii grow up to the distance of the best point. It yields a bound at
+//! any time.
 //!
-//! If a ball contains no point, its radius is a bound. The nodes of
-//! an enumeration are predicted by the volumes of balls over those of the projected lattices
-//! (`hanrot2007`, section 4; `gama2010`, section 2). Where a lower
-//! bound is known for the undecided coordinates of a level, the decided ones are left with a smaller ball,
-//! whose average volume is used ([`Diagonals::moments`]). Radii are chosen so that each enumeration costs
-//! sixteen times as much as the one before. All smaller balls together then cost a fifteenth of the last.
+//! If a ball contains no point, its radius is a bound. The nodes of an enumeration are predicted by the
+//! volumes of balls divided by those of the projected lattices (`hanrot2007`, section 4; `gama2010`,
+//! section 2). A known lower bound for the undecided coordinates of a level leaves a smaller ball for the
+//! decided ones. The prediction uses the average volume of that ball ([`Diagonals::moments`]). Each
+//! enumeration should cost sixteen times as much as the one before. So all smaller balls together cost a
+//! fifteenth of the last.
 
 use super::{Basis, Diagonals};
 
-/// Nodes of the first enumeration.
+/// The nodes of the first enumeration.
 pub const FIRST: f64 = 1e4;
 
-/// The factor between one enumeration's nodes and the next one's.
+/// The ratio of the nodes of an enumeration to those of the one before.
 pub const GROWTH: f64 = 16.0;
 
-/// The nodes to expect of an enumeration within squared distance `square`.
+/// The predicted nodes of an enumeration within squared distance `square`.
 pub fn predicted_nodes(basis: &Basis, diagonals: Option<&Diagonals>, square: f64) -> f64 {
     sum_of_levels(&levels(basis, diagonals), square)
 }
 
-/// The squared radius whose enumeration should take so many nodes, but at most `largest`.
+/// The squared radius, at most `largest`, for which this number of nodes is predicted.
 pub fn radius_for(basis: &Basis, diagonals: Option<&Diagonals>, nodes: f64, largest: f64) -> f64 {
     let levels = levels(basis, diagonals);
     if sum_of_levels(&levels, largest) <= nodes {
         return largest;
     }
-    // By halving the exponent's range: radii may be of any size.
+    // Bisection on the exponent, since a radius may have any magnitude.
     let (mut low, mut high) = (f64::MIN_POSITIVE.ln(), largest.ln());
     for _ in 0..80 {
         let middle = 0.5 * (low + high);
@@ -40,13 +40,14 @@ pub fn radius_for(basis: &Basis, diagonals: Option<&Diagonals>, nodes: f64, larg
     low.exp()
 }
 
-/// What decides how many nodes a level has.
+/// The data that predict the nodes of a level.
 struct Level {
-    /// Coordinates decided there.
+    /// The number of coordinates decided on this level.
     decided: f64,
-    /// The logarithm of the volume of the unit ball over that of the lattice projected to them.
+    /// The logarithm of the unit ball's volume divided by the volume of the lattice projected to these
+    /// coordinates.
     log_volume: f64,
-    /// Mean and variance of what the undecided coordinates add.
+    /// The mean and variance of the bound for the undecided coordinates.
     added: (f64, f64),
 }
 
@@ -64,14 +65,14 @@ fn levels(basis: &Basis, diagonals: Option<&Diagonals>) -> Vec<Level> {
     (1..=m).map(level).collect()
 }
 
-/// The nodes on all levels of a ball.
+/// The predicted nodes of a ball on all levels.
 fn sum_of_levels(levels: &[Level], square: f64) -> f64 {
     levels.iter().map(|level| level.nodes(square)).sum()
 }
 
 impl Level {
-    /// The expected volume of the ball that is left, by the greatest term of its integral
-    /// (Laplace's method): what is added is taken for normally distributed, and is not negative.
+    /// The expected volume of the remaining ball, from the greatest term of its integral (Laplace's
+    /// method). The bound is assumed to be normally distributed and is not negative.
     fn nodes(&self, square: f64) -> f64 {
         let half = 0.5 * self.decided;
         let (mean, variance) = self.added;
@@ -116,7 +117,7 @@ mod tests {
         }
     }
 
-    /// Scalar products of `n` vectors that are nearly orthogonal.
+    /// The Gram matrix of `n` vectors that are nearly orthogonal.
     fn reduced(n: usize) -> Basis {
         let entry = |i: usize, j: usize| match i == j {
             true => 2.0,
@@ -128,10 +129,10 @@ mod tests {
         basis
     }
 
-    /// Nodes of an enumeration by nodes predicted, on average over targets.
+    /// The ratio of actual to predicted nodes, on average over targets.
     fn ratio(basis: &Basis, diagonals: Option<&Diagonals>, predicted: f64) -> f64 {
         let radius = radius_for(basis, diagonals, predicted, f64::MAX);
-        // Points that are found do not make the ball smaller while they are few.
+        // With this margin the points found do not shrink the ball, while they are few.
         let limits = Limits {
             radius,
             margin: radius,
@@ -152,7 +153,7 @@ mod tests {
 
     #[test]
     fn predictions_come_true() {
-        // Each visited node is looked at once more when its level ends.
+        // Each visited node is visited once more when its level ends.
         let basis = reduced(60);
         let plain = ratio(&basis, None, 1000.0);
         assert!((1.8..2.2).contains(&plain), "{plain}");
@@ -162,13 +163,13 @@ mod tests {
         assert!((1.8..2.2).contains(&cut), "{cut}");
     }
 
-    /// How likely it is that the diagonal over undecided coordinates, their fractional parts spread
-    /// evenly, adds so many steps of this length: by one coordinate after the other.
+    /// The probability that the bound is this number of steps of this length, for uniformly distributed
+    /// fractional parts. The coordinates are added one by one.
     fn spread(diagonal: &[f64], step: f64, steps: usize) -> Vec<f64> {
         let mut likely = vec![0.0; steps];
         likely[0] = 1.0;
         for d in diagonal {
-            // d x^2 with x even in (-1/2, 1/2) is below y with this probability.
+            // If x is uniform in (-1/2, 1/2), d x^2 is below y with this probability.
             let below = |y: f64| (2.0 * (y.max(0.0) / d).sqrt()).min(1.0);
             let adds = |j: usize| {
                 let at = j as f64;
@@ -183,7 +184,7 @@ mod tests {
 
     #[test]
     fn predictions_with_diagonals_are_the_volumes_of_what_is_left() {
-        // Edges of unlike lengths, at right angles.
+        // Orthogonal edges of different lengths.
         let (n, steps) = (12, 1000);
         let square_of = |i: usize| 1.0 + (5 * i % n) as f64 / 6.0;
         let entry = |k: usize| match k / n == k % n {

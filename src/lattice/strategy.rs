@@ -1,8 +1,8 @@
-//! The strategies `lattice` (reduce, nearest plane, beam, blocks; no proof) and `exact` (the same,
-//! then enumeration until the optimum is proved or the budget ends).
+//! The strategies `lattice` (reduction, nearest plane, beam search and block improvement, without a proof)
+//! and `exact` (the same, then enumeration until the optimum is proved or the budget is spent).
 //!
-//! Every improvement is offered to the search as soon as it is known, and every proved bound
-//! raised, so that both can be stopped at any time. Budgets count nodes, never seconds.
+//! Each improvement is offered to the search and each proved bound raises the search's bound as soon as it
+//! is known. So both strategies can be stopped at any time. Budgets count nodes, not seconds.
 
 use super::certificate::Certificate;
 use super::prove::{FIRST, GROWTH, radius_for};
@@ -16,18 +16,17 @@ use crate::search::{Factors, Options, Search};
 /// A proof is not tried if its predicted nodes exceed the budget by more than this factor.
 const HOPELESS: f64 = 4.0;
 
-/// Diagonals in m dimensions take `m^4` steps. So many of these steps take as long as one node.
+/// Diagonals in m dimensions take `m^4` steps. This number of steps takes as long as one node.
 const DIAGONALS_PER_NODE: u64 = 100;
 
-/// Diagonals are made in at most so many dimensions: no proof comes to an end in more, with them or
-/// without.
+/// The largest dimension with diagonals. In more dimensions no proof ends, with or without them.
 const WIDEST: usize = 160;
 
-/// No proof needs enumerations of more nodes.
+/// Enumerations with more predicted nodes than this are not started.
 const LAST: f64 = 1e30;
 
-/// Of the budget, what is spent on the bound where a proof is not tried: it rises with the logarithm
-/// of the nodes.
+/// If no proof is tried, the node budget is divided by this and spent on the bound, which
+/// rises with the logarithm of the nodes.
 const BOUND_SHARE: u64 = 1_000;
 
 /// Finds good integers for `model` without a proof.
@@ -44,11 +43,11 @@ pub(crate) fn lattice(
     or_rounded(found.map(drop), model, options, factors, search)
 }
 
-/// Falls back to adaptive rounding where the lattice method fails: where its integers are too large to
-/// be exact, or its basis vectors too short to divide by.
+/// Uses adaptive rounding instead if the lattice method fails because its integers are too large to be
+/// exact, or because its basis vectors are too short to divide by.
 ///
-/// An objective may be nearly flat along a direction that no integer point lies on. Then larger and larger
-/// integers come closer and closer to its minimum, and no caller wants those.
+/// An objective may be nearly flat along a direction that contains no integer point. Then larger and larger
+/// integers come closer and closer to its minimum. Such integers are useless to the caller.
 fn or_rounded(
     found: Result<()>,
     model: &ReducedModel,
@@ -64,8 +63,8 @@ fn or_rounded(
     }
 }
 
-/// Decides the integers of `model` and proves that nothing is better, as far as the budgets of
-/// `options` and `search` last.
+/// Finds good integers for `model` and proves that none are better, within the budgets of `options` and
+/// `search`.
 ///
 /// # Errors
 /// As [`lattice`].
@@ -86,7 +85,7 @@ fn prove(
     search: &mut Search,
 ) -> Result<()> {
     let mut pieces = decode(model, options, factors, search)?;
-    // Where distances are not those of a lattice they prove nothing.
+    // If the vectors generate no lattice, distances prove nothing.
     if search.ends(0) || pieces.iter().any(|p| !p.basis.is_discrete()) {
         return Ok(());
     }
@@ -148,8 +147,8 @@ fn prove(
     Ok(())
 }
 
-/// Makes the diagonals of `piece` where its proof is worth their price; returns that price, in nodes
-/// of which `left` may be spent.
+/// Makes the diagonals of `piece` if they are worth their price for its proof. Returns the price in nodes,
+/// of which at most `left` may be spent.
 fn bound_undecided(piece: &mut Piece, left: u64, stop: &mut dyn FnMut() -> bool) -> u64 {
     let m = piece.basis.rank();
     let price = (m as u64).pow(4) / DIAGONALS_PER_NODE;
@@ -160,10 +159,10 @@ fn bound_undecided(piece: &mut Piece, left: u64, stop: &mut dyn FnMut() -> bool)
     price
 }
 
-/// The ball to search next for piece `at`, and whether that is all that a proof needs.
+/// The next ball to search for piece `at`, and whether it completes the proof.
 ///
-/// The proof needs the ball of the best point, enlarged by all that distances may be off: every
-/// solution that could have less energy lies in it, and is evaluated by the search itself.
+/// The proof needs the ball of the best point, enlarged by the largest error of distances. Every solution
+/// that could have less energy lies in this ball and is evaluated by the search itself.
 fn ball(
     pieces: &[Piece],
     at: usize,
@@ -193,7 +192,7 @@ fn ball(
     (limits, radius >= full)
 }
 
-/// Offers the solution that has `z` in piece `at`, and keeps it if its energy is the least.
+/// Offers the solution with `z` in piece `at`, and keeps `z` if the energy is the least so far.
 fn try_point(
     model: &ReducedModel,
     factors: &mut Factors,
@@ -216,7 +215,7 @@ fn try_point(
     Ok(())
 }
 
-/// Raises the bound to what the balls prove that have been searched.
+/// Raises the bound to the one that the searched balls prove.
 fn raise(pieces: &[Piece], certificate: &Certificate, search: &mut Search) {
     let least = |p: &Piece| {
         if p.proved {
@@ -226,7 +225,7 @@ fn raise(pieces: &[Piece], certificate: &Certificate, search: &mut Search) {
         }
     };
     let square = if pieces.iter().all(|p| p.proved) {
-        // A solution that was not evaluated lies beyond the ball of some piece.
+        // A solution that was not evaluated lies outside the ball of some piece.
         let values: f64 = pieces.iter().map(|p| p.value).sum();
         let beyond = pieces
             .iter()
@@ -242,10 +241,11 @@ fn raise(pieces: &[Piece], certificate: &Certificate, search: &mut Search) {
     }
 }
 
-/// Direct rounding, nearest plane, beam and blocks, each offered; then perturbation rounds.
+/// Direct rounding, nearest plane, beam search and block improvement, then perturbation rounds. Each result
+/// is offered.
 ///
-/// Where vectors are dependent, the reduction depends on tolerances, so adaptive rounding is offered as well.
-/// Pieces that are not lattices are not improved further.
+/// With dependent vectors the reduction depends on tolerances, so adaptive rounding is offered as well.
+/// Pieces whose vectors generate no lattice are not improved further.
 fn decode(
     model: &ReducedModel,
     options: &Options,
@@ -269,8 +269,8 @@ fn decode(
     if let Some(best) = search.incumbent_integers() {
         start_from(&mut pieces, &best)?;
     }
-    // Where distances are not those of a lattice, ever larger integers improve them, in the end by
-    // rounding errors.
+    // If the vectors generate no lattice, larger and larger integers reduce the distance, in the end by
+    // rounding errors alone.
     let discrete: Vec<usize> = (0..pieces.len())
         .filter(|&at| pieces[at].basis.is_discrete())
         .collect();
@@ -300,7 +300,7 @@ fn decode(
     Ok(pieces)
 }
 
-/// Takes the integers that are known already where they are better.
+/// Takes the known integers of the pieces where they are better.
 fn start_from(pieces: &mut [Piece], integers: &[f64]) -> Result<()> {
     for piece in pieces {
         let own: Vec<i64> = piece.places.iter().map(|&i| integers[i] as i64).collect();
@@ -310,15 +310,15 @@ fn start_from(pieces: &mut [Piece], integers: &[f64]) -> Result<()> {
     Ok(())
 }
 
-/// Block improvement from `z`; whether it ended better than the best point.
+/// Block improvement from `z`. Returns whether the result is better than the best point.
 fn improve(piece: &mut Piece, mut z: Vec<i64>, stop: &mut dyn FnMut(u64) -> bool) -> Result<bool> {
     let value = piece.target.distance(&piece.basis, &z);
     improve_blocks(&piece.basis, &piece.target, &mut z, value, stop)?;
     Ok(piece.take(z))
 }
 
-/// The best point with every eighth coordinate or so moved by one: by Weyl's sequence, which
-/// `shaken` counts.
+/// The best point with about every eighth coordinate moved by one. Weyl's sequence, at the position
+/// `shaken`, selects the coordinates.
 fn perturbed(piece: &Piece, shaken: &mut u64) -> Vec<i64> {
     let mut step = |z: &i64| {
         *shaken += 1;

@@ -3,23 +3,23 @@
 use super::Basis;
 use crate::error::{Error, Result};
 
-/// Coordinates are rounded in floating point, which is exact up to here.
+/// Coordinates are rounded in floating point, which is exact up to this size.
 const LARGEST: f64 = 9_007_199_254_740_992.0;
 
-/// A point by its coordinates, split into whole numbers and rests of at most one half.
+/// A point by its coordinates, each split into a whole number and a remainder of at most one half.
 ///
 /// All further computations are relative to the whole part, where numbers are small. So no digits are lost
-/// where the caller's coordinates are large.
+/// if the caller's coordinates are large.
 #[derive(Debug, Clone)]
 pub struct Target {
-    /// The nearest whole coordinates, free ones included.
+    /// The nearest whole coordinates, including the free ones.
     pub whole: Vec<i64>,
-    /// What is left, of the coordinates that matter.
+    /// The remainders of the coordinates that are not free.
     pub rest: Vec<f64>,
 }
 
 impl Target {
-    /// The point with the caller's coordinates `point`: `y` with `U y = point`.
+    /// The point that has `point` as its coordinates in the caller's basis: `y` with `U y = point`.
     ///
     /// # Errors
     /// [`Error::Overflow`](crate::Error::Overflow) for coordinates beyond 2^53.
@@ -32,7 +32,7 @@ impl Target {
             });
         }
         let whole: Vec<i64> = y.iter().map(|v| v.round() as i64).collect();
-        // From the whole part on anew: what is left of the point is small.
+        // Computed again relative to the whole part, where the remainder of the point is small.
         let reached = basis.transform().apply(&whole)?;
         let left: Vec<f64> = point
             .iter()
@@ -44,7 +44,7 @@ impl Target {
         Ok(Target { whole, rest })
     }
 
-    /// The caller's integers of the point that lies `z` from the whole part.
+    /// The caller's integers of the lattice point at `z` from the whole part.
     ///
     /// # Errors
     /// [`Error::Overflow`] beyond 64 bits.
@@ -56,7 +56,7 @@ impl Target {
         basis.transform().apply(&all)
     }
 
-    /// How far the lattice point with these integers lies from the whole part.
+    /// The steps from the whole part to the lattice point with these integers.
     ///
     /// # Errors
     /// [`Error::Overflow`] beyond 64 bits.
@@ -66,7 +66,7 @@ impl Target {
         Ok(steps.take(basis.rank()).collect())
     }
 
-    /// The square of the distance to the point that lies `z` from the whole part.
+    /// The squared distance of the target from the lattice point at `z` from the whole part.
     pub fn distance(&self, basis: &Basis, z: &[i64]) -> f64 {
         let m = basis.rank();
         let offset = |j: usize| self.rest[j] - z[j] as f64;

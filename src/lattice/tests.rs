@@ -1,12 +1,12 @@
-//! What holds of every reduction and every enumeration, on random lattices.
+//! Properties of every reduction and every enumeration, on random lattices.
 
 use super::lll::{LOVASZ, is_reduced};
 use super::*;
 use crate::test_random::Random;
 
 impl Random {
-    /// Scalar products of `n` vectors whose lengths fall to `least`, then sheared by a random
-    /// unimodular matrix, so that the condition number is large.
+    /// The Gram matrix of `n` vectors whose lengths decrease to `least`. A random unimodular matrix shears
+    /// them, so that the condition number is large.
     fn gram(&mut self, n: usize, least: f64) -> Gram {
         let mut b: Vec<Vec<f64>> = (0..n)
             .map(|i| {
@@ -96,7 +96,7 @@ fn reduction_is_unimodular_and_keeps_every_distance() {
             let vector = basis.transform().column(k);
             let length: f64 = (0..=k).map(|i| basis.r(i, k).powi(2)).sum();
             let square = gram.square(&vector);
-            // Where large vectors cancel, so do the digits of their scalar products.
+            // Where large vectors cancel, their scalar products lose digits.
             let combined: f64 = (0..n).map(|i| vector[i].abs() * gram.at(i, i).sqrt()).sum();
             let error = 1e-6 * square + 1e-13 * combined * combined;
             assert!((length - square).abs() < error, "{n}: {length} {square}");
@@ -130,8 +130,8 @@ fn an_orthogonal_basis_is_rounded_and_proved_at_once() {
     assert!((found.value - (0.64 + 0.16 + 0.0025)).abs() < 1e-12);
 }
 
-/// The least distance, over a box that the ellipsoid of nearest plane's distance fits in: the
-/// i-th integer is within `sqrt(value * inverse(G)_ii)` of the target.
+/// The least distance by brute force. The search box contains the ellipsoid of nearest plane's distance:
+/// the i-th integer is within `sqrt(value * inverse(G)_ii)` of the target.
 fn brute_force(gram: &Gram, target: &[f64], value: f64) -> f64 {
     let n = gram.dim();
     let basis = Basis::new(gram);
@@ -218,7 +218,7 @@ fn a_stopped_enumeration_bounds_what_it_did_not_see() {
 
 #[test]
 fn relations_between_vectors_are_free_coordinates() {
-    // (1, 0), (1/2, 0), (0, 1) and a vector of no length: generates (1/2, 0), (0, 1).
+    // (1, 0), (1/2, 0), (0, 1) and a zero vector. They generate the lattice of (1/2, 0) and (0, 1).
     let b = [
         vec![1.0, 0.0],
         vec![0.5, 0.0],
@@ -228,7 +228,7 @@ fn relations_between_vectors_are_free_coordinates() {
     let gram = gram_of(&b);
     let basis = reduced(&gram);
     assert_eq!((basis.rank(), basis.is_discrete()), (2, true));
-    // (1.7, 0.3): (1.5, 0) is closest.
+    // The point closest to (1.7, 0.3) is (1.5, 0).
     let found = closest(&gram, &[1.7, 0.0, 0.3, 9.0], None, 100).unwrap();
     assert!(found.complete);
     assert!((found.value - (0.04 + 0.09)).abs() < 1e-12);
@@ -275,7 +275,7 @@ fn diagonals_are_below_the_scalar_products() {
                 .sum();
             best = best.max(d.iter().sum::<f64>() / lengths);
         }
-        // One vector alone has its whole length below itself.
+        // For one vector alone, the diagonal is its whole squared length.
         assert!(best > 0.9, "{n}: {best}");
     }
 }
@@ -308,7 +308,7 @@ fn an_enumeration_with_diagonals_finds_the_same_with_fewer_nodes() {
     assert!(3 * bounded < plain, "{bounded} {plain}");
 }
 
-/// Scalar products with eigenvalues from 1 to `1 / condition`, turned by reflections.
+/// A Gram matrix with eigenvalues from 1 to `1 / condition`, rotated by reflections.
 fn conditioned(n: usize, condition: f64, random: &mut Random) -> Gram {
     let mut a = vec![0.0; n * n];
     for i in 0..n {
@@ -343,7 +343,7 @@ fn a_condition_of_1e8_is_reduced_and_stays_unimodular() {
         assert_eq!(basis.rank(), n);
         assert!(is_reduced(&basis, LOVASZ - 1e-3), "{n}");
         assert_eq!(determinant(basis.transform()).abs(), 1, "{n}");
-        // Lengths of 1e-4 to 1 come close to each other's geometric mean.
+        // LLL brings lengths from 1e-4 to 1 close to their geometric mean.
         let longest = (0..n).fold(0.0, |m: f64, k| m.max(basis.r(k, k)));
         let first = basis.r(0, 0);
         assert!(first < 0.1 && longest < 1.0, "{n}: {first} {longest}");

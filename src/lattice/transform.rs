@@ -1,11 +1,11 @@
-//! The unimodular matrix that takes coordinates in the reduced basis to the caller's integers.
+//! The unimodular matrix that transforms coordinates in the reduced basis to the caller's integers.
 //!
-//! Exact: 64-bit entries, promoted to 128 bits when a column could leave them, and a typed error
-//! when one would leave those. A bound on each column's entries makes most checks free.
+//! The matrix is exact. Its entries have 64 bits, and 128 bits in a column that could exceed 64. An entry
+//! that could exceed 128 bits is a typed error. A bound on the entries of each column avoids most checks.
 
 use crate::error::{Error, Result};
 
-/// Entries of a column stay below this, so that no step overflows before it is checked.
+/// The entries of a column stay below this, so no step overflows before the check.
 const SMALL: f64 = (1u64 << 62) as f64;
 const LARGE: f64 = (1u128 << 126) as f64;
 
@@ -14,7 +14,7 @@ const LARGE: f64 = (1u128 << 126) as f64;
 pub struct Transform {
     dim: usize,
     entries: Entries,
-    /// No entry of the column is larger in absolute value.
+    /// A bound on the absolute values of the column's entries.
     bound: Vec<f64>,
 }
 
@@ -25,7 +25,7 @@ enum Entries {
 }
 
 impl Transform {
-    /// The identity.
+    /// The identity matrix.
     pub fn identity(dim: usize) -> Self {
         let mut entries = vec![0; dim * dim];
         entries.iter_mut().step_by(dim + 1).for_each(|e| *e = 1);
@@ -36,7 +36,7 @@ impl Transform {
         }
     }
 
-    /// Number of columns.
+    /// The number of columns.
     #[cfg(test)]
     pub fn dim(&self) -> usize {
         self.dim
@@ -50,10 +50,10 @@ impl Transform {
         }
     }
 
-    /// Subtracts `q` times column `j` from column `k`, `q` a whole number.
+    /// Subtracts `q` times column `j` from column `k`, where `q` is a whole number.
     ///
     /// # Errors
-    /// [`Error::Overflow`] beyond 126 bits.
+    /// [`Error::Overflow`] if an entry exceeds 126 bits.
     pub fn subtract(&mut self, k: usize, j: usize, q: f64) -> Result<()> {
         let n = self.dim;
         let reach = |bound: &[f64]| (q.abs() * bound[j] + bound[k]) * (1.0 + 1e-9);
@@ -102,10 +102,10 @@ impl Transform {
         }
     }
 
-    /// The product with the column `z`.
+    /// The product of the matrix with the column `z`.
     ///
     /// # Errors
-    /// [`Error::Overflow`] beyond 64 bits.
+    /// [`Error::Overflow`] if an entry exceeds 64 bits.
     pub fn apply(&self, z: &[i64]) -> Result<Vec<i64>> {
         (0..self.dim)
             .map(|i| exact_sum(i, (0..self.dim).map(|j| (self.at(i, j), z[j]))))
@@ -115,14 +115,14 @@ impl Transform {
     /// The product of the row `z` with the matrix.
     ///
     /// # Errors
-    /// [`Error::Overflow`] beyond 64 bits.
+    /// [`Error::Overflow`] if an entry exceeds 64 bits.
     pub fn apply_transposed(&self, z: &[i64]) -> Result<Vec<i64>> {
         (0..self.dim)
             .map(|j| exact_sum(j, (0..self.dim).map(|i| (self.at(i, j), z[i]))))
             .collect()
     }
 
-    /// Makes the bound of column `j` its largest entry.
+    /// Sets the bound of column `j` to its largest entry.
     fn tighten(&mut self, j: usize) {
         let column = self.column(j);
         self.bound[j] = column.iter().fold(1.0, |m, v| m.max(v.abs()));
@@ -142,7 +142,7 @@ fn overflow(i: usize) -> Error {
     }
 }
 
-/// The sum of products, entry `i` of a result.
+/// Entry `i` of a product, as a sum of products.
 fn exact_sum(i: usize, terms: impl Iterator<Item = (i128, i64)>) -> Result<i64> {
     let mut sum = 0i128;
     for (a, b) in terms {
@@ -153,7 +153,7 @@ fn exact_sum(i: usize, terms: impl Iterator<Item = (i128, i64)>) -> Result<i64> 
     i64::try_from(sum).map_err(|_| overflow(i))
 }
 
-/// Column `k` to write to, and column `j` to read.
+/// Column `k` for writing, and column `j` for reading.
 fn two_columns<T>(entries: &mut [T], n: usize, k: usize, j: usize) -> (&mut [T], &[T]) {
     let (low, high) = entries.split_at_mut(k.max(j) * n);
     let (a, b) = (&mut low[k.min(j) * n..][..n], &mut high[..n]);

@@ -1,36 +1,36 @@
 //! The search tree of an enumeration, stored as the path from the root to the current node.
 //!
-//! Each level keeps the real minimiser of the coordinates that are undecided there. Deciding one coordinate
-//! moves the others along a fixed direction, so a node costs one multiplication for each of them. The same
-//! sweep computes a lower bound on what they add to the distance (see [`super::Diagonals`]).
+//! Each level keeps the real minimiser of the coordinates that are undecided there. A decision moves the
+//! other coordinates along a fixed direction, so a node costs one multiplication for each of them. The same
+//! loop computes a lower bound on their contribution to the distance (see [`super::Diagonals`]).
 
 use super::near_points::NearPoints;
 use super::{Basis, Diagonals, Target};
 
-/// Rows are padded to whole vectors of this many numbers.
+/// Rows are padded to whole vectors of this length.
 const LANES: usize = 8;
 
-/// Adding and taking away 1.5 * 2^52 rounds to the nearest integer without a call.
+/// Adding and subtracting 1.5 * 2^52 rounds to the nearest integer without a function call.
 const ROUND: f64 = 6_755_399_441_055_744.0;
 
-/// A path from the root.
+/// A path from the root of the tree.
 pub(super) struct Tree {
     m: usize,
     stride: usize,
-    /// Where the path ends: candidate `z[k]` has not been looked at yet.
+    /// The level at the end of the path. Its candidate `z[k]` has not been visited yet.
     k: usize,
     square: Vec<f64>,
     z: Vec<f64>,
     step: Vec<f64>,
-    /// Squared distance of the levels from here up; one more entry than levels.
+    /// The squared distance of the levels from this one up. There is one entry more than levels.
     distance: Vec<f64>,
-    /// Row `k`: where coordinates 0 to k are least, those above being decided.
+    /// Row `k`: the minimiser of coordinates 0 to k, given the decided coordinates above.
     minimiser: Vec<f64>,
-    /// Row `k`: how those of 0 to k - 1 move with coordinate k.
+    /// Row `k`: the direction in which coordinates 0 to k - 1 move with coordinate k.
     direction: Vec<f64>,
-    /// Row `k`: the diagonal over coordinates 0 to k - 1; nothing where there is none.
+    /// Row `k`: the diagonal for coordinates 0 to k - 1, or nothing if there is none.
     diagonal: Vec<f64>,
-    /// By level: what rounding may have added to the bound.
+    /// By level: the largest rounding error of the bound.
     slack: Vec<f64>,
 }
 
@@ -74,11 +74,11 @@ impl Tree {
         tree
     }
 
-    /// Bounds in advance what rounding may add to the bound of each level.
+    /// Computes the largest rounding error of the bound on each level, in advance.
     ///
-    /// A coordinate's error grows with each decision above it: by the error of the direction
-    /// (`higham2002`, theorem 8.5, with the growth of the triangular solve), that of the offset which
-    /// it is multiplied by, and the rounding of the sum.
+    /// The error of a coordinate grows with each decision above it. It grows by the error of the direction
+    /// (`higham2002`, theorem 8.5, with the growth of the triangular solve), by the error of the offset
+    /// that multiplies the direction, and by the rounding of the sum.
     fn rounding(&self, basis: &Basis, radius: f64) -> Vec<f64> {
         let (m, stride) = (self.m, self.stride);
         let growth = solve_growth(basis);
@@ -110,7 +110,7 @@ impl Tree {
         self.step[k] = if centre < z { -1.0 } else { 1.0 };
     }
 
-    /// The next nearest integer of level `k`.
+    /// Goes to the next nearest integer of level `k`.
     #[inline(always)]
     fn next(&mut self, k: usize) {
         let step = self.step[k];
@@ -118,7 +118,7 @@ impl Tree {
         self.step[k] = -step - step.signum();
     }
 
-    /// Visits up to `nodes` nodes; returns how many, and whether the tree ended.
+    /// Visits up to `nodes` nodes. Returns the number of nodes visited and whether the tree is finished.
     pub fn walk(&mut self, found: &mut NearPoints, nodes: u64) -> (u64, bool) {
         let mut k = self.k;
         for node in 0..nodes {
@@ -155,7 +155,7 @@ impl Tree {
         (nodes, false)
     }
 
-    /// Moves the minimiser of the coordinates below `k` to where coordinate k is `off` from its own.
+    /// Moves the minimiser of the coordinates below `k` for coordinate k at `off` from its own minimiser.
     #[inline(always)]
     fn descend(&mut self, k: usize, off: f64) {
         let (below, here) = self.minimiser.split_at_mut(k * self.stride);
@@ -166,7 +166,7 @@ impl Tree {
         }
     }
 
-    /// The same; returns the bound on what the coordinates below add.
+    /// The same, and returns the bound on the contribution of the coordinates below.
     #[inline(always)]
     fn descend_bounded(&mut self, k: usize, off: f64) -> f64 {
         let stride = self.stride;
@@ -191,8 +191,8 @@ impl Tree {
         sums.iter().sum()
     }
 
-    /// A lower bound on the distance of all points that were not reached: the least distance of a
-    /// candidate not looked at, on any level of the path.
+    /// A lower bound on the distance of all points that were not reached: the least distance of an
+    /// unvisited candidate on any level of the path.
     pub fn unexplored(&self) -> f64 {
         let here = |k: usize, z: f64| {
             let off = self.minimiser[k * self.stride + k] - z;
@@ -203,10 +203,10 @@ impl Tree {
     }
 }
 
-/// The largest row sum of `|R^-1| |R|`: how much a triangular solve can magnify rounding errors.
+/// The largest row sum of `|R^-1| |R|`, which bounds the growth of rounding errors in a triangular solve.
 fn solve_growth(basis: &Basis) -> f64 {
     let m = basis.rank();
-    // x = |R^-1| |R| 1, the inverse bounded by that of the comparison matrix.
+    // x = |R^-1| |R| 1, where the inverse is bounded by that of the comparison matrix.
     let mut x = vec![0.0; m];
     for j in 0..m {
         for (x, r) in x.iter_mut().zip(basis.column(j)) {
@@ -216,7 +216,7 @@ fn solve_growth(basis: &Basis) -> f64 {
     let mut inverse = vec![0.0; m];
     let mut growth: f64 = 0.0;
     for i in 0..m {
-        // Row i of R^-1, from the diagonal on.
+        // Row i of R^-1, starting at the diagonal.
         inverse[i] = 1.0 / basis.r(i, i);
         for j in i + 1..m {
             let column = basis.column(j);

@@ -1,4 +1,4 @@
-//! Why a loop has to stop: a cancel token that any thread may set, or the time limit.
+//! The reasons to stop a loop: a cancel token, which any thread may set, and the time limit.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -15,12 +15,12 @@ impl CancelToken {
         Self::default()
     }
 
-    /// Asks every solve that holds this token to end.
+    /// Asks every solve with this token to end.
     pub fn cancel(&self) {
         self.0.store(true, Ordering::Relaxed);
     }
 
-    /// Takes the request back, so that the token can be used again.
+    /// Clears the token, so that it can be used again.
     pub fn reset(&self) {
         self.0.store(false, Ordering::Relaxed);
     }
@@ -31,7 +31,7 @@ impl CancelToken {
     }
 }
 
-/// Why a loop has to stop.
+/// The reason to stop a loop.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Stop {
     Cancelled,

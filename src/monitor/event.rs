@@ -1,6 +1,6 @@
-//! What the callback is told, and what it answers.
+//! The events for the callback, and its answers.
 
-/// What the callback answers.
+/// The callback's answer to an event.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Flow {
     /// Go on.
@@ -9,7 +9,7 @@ pub enum Flow {
     Cancel,
 }
 
-/// A part of the way from a problem, or a mesh, to its result.
+/// A phase of the computation from a problem or a mesh to its result.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Phase {
@@ -19,24 +19,24 @@ pub enum Phase {
     Factor,
     /// The search for integers.
     Round,
-    /// Motion of the continuous unknowns of a map while its integers are held.
+    /// Movement of the continuous unknowns of a map with its integers fixed.
     Untangle,
-    /// Extraction of quads from a map, and their smoothing.
+    /// Extraction of quads from a map, and smoothing of the quads.
     Quads,
 }
 
-/// What an event tells.
+/// The kind of an event.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum EventKind<'a> {
-    /// The progress of a part of the solve, from 0 to 1.
+    /// The progress of a phase, from 0 to 1.
     Progress {
-        /// The part.
+        /// The phase.
         phase: Phase,
-        /// How much of it is done.
+        /// The part of it that is done.
         fraction: f64,
     },
-    /// Something worth a line in a log.
+    /// A line for a log.
     Log(&'a str),
     /// A better solution than any before.
     Improved,
@@ -44,7 +44,7 @@ pub enum EventKind<'a> {
     Raised,
 }
 
-/// One message to the callback, with where the solve stands.
+/// An event for the callback, with the state of the solve.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Event<'a> {
     /// What happened.
@@ -55,6 +55,6 @@ pub struct Event<'a> {
     pub energy: f64,
     /// The best lower bound so far; minus infinity before the first.
     pub lower_bound: f64,
-    /// `(energy - lower_bound) / max(1, |energy|)`, infinite while either is.
+    /// `(energy - lower_bound) / max(1, |energy|)`, infinite while either of them is infinite.
     pub gap: f64,
 }

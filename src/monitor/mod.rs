@@ -1,4 +1,4 @@
-//! Progress, log lines, better solutions, cancel and time limit: one object for all loops.
+//! The monitor: progress, log lines, better solutions, cancellation and time limit for all loops.
 
 mod cancel;
 mod event;
@@ -11,9 +11,9 @@ pub use event::{Event, EventKind, Flow, Phase};
 
 type Callback<'a> = Box<dyn FnMut(&Event) -> Flow + 'a>;
 
-/// The observer of a solve: a callback, a cancel token, both, or none (the default).
+/// The observer of a solve: a callback, a cancel token, both, or neither (the default).
 ///
-/// The callback runs on the thread that called solve.
+/// The callback runs on the thread that called the solve.
 pub struct Monitor<'a> {
     callback: Option<Callback<'a>>,
     token: Option<CancelToken>,
@@ -40,7 +40,7 @@ impl Default for Monitor<'_> {
     }
 }
 
-/// Progress is reported at most this often, so that a callback never dominates a loop.
+/// The least time between two reports of progress, so that a callback never dominates a loop.
 const PROGRESS_INTERVAL: Duration = Duration::from_millis(20);
 
 impl<'a> Monitor<'a> {
@@ -58,10 +58,10 @@ impl<'a> Monitor<'a> {
         self
     }
 
-    /// Starts the clock of a solve that may take `limit` seconds.
+    /// Starts the clock of a solve that may take at most `limit` seconds.
     pub(crate) fn start(&mut self, limit: f64) {
         self.started = Instant::now();
-        // A limit beyond what a clock can hold is no limit.
+        // A limit that the clock cannot represent is no limit.
         self.limit = Duration::try_from_secs_f64(limit).ok();
     }
 
@@ -69,12 +69,12 @@ impl<'a> Monitor<'a> {
         self.started.elapsed().as_secs_f64()
     }
 
-    /// Why the solve was told to end, if it was.
+    /// The reason why the solve was told to end, if it was.
     pub(crate) fn stopped(&self) -> Option<Stop> {
         self.stopped
     }
 
-    /// Whether to go on. Every loop of the library that may run long asks this.
+    /// Whether to continue. Every loop of the library that may run long calls this.
     pub(crate) fn check(&mut self) -> Result<(), Stop> {
         if self.stopped.is_none() {
             if self.token.as_ref().is_some_and(CancelToken::is_cancelled) {
@@ -92,7 +92,7 @@ impl<'a> Monitor<'a> {
         }
     }
 
-    /// Reports the progress of `phase`; returns whether to go on.
+    /// Reports the progress of `phase`. Returns whether to continue.
     pub(crate) fn progress(&mut self, phase: Phase, fraction: f64) -> Result<(), Stop> {
         if self.callback.is_some() {
             let now = Instant::now();

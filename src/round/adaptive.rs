@@ -1,10 +1,11 @@
-//! Adaptive greedy rounding: several integers at a time, re-optimised only as far as needed.
+//! Adaptive greedy rounding: several integers at a time, with re-optimisation only as far as needed.
 //!
-//! `bommes2012`, chapter 5; `bommes2009`, section 3. Each pass rounds the integers with the least deviations,
-//! as many as sum up to at most a threshold. Then it re-optimises by Gauss-Seidel from their neighbours;
-//! where that exceeds its budget, by conjugate gradients; where these fail, by a factorization.
+//! The method is that of `bommes2012`, chapter 5, and `bommes2009`, section 3. Each pass rounds the
+//! integers with the least deviations. It takes as many as have a sum of at most a threshold. Then it
+//! re-optimises by Gauss-Seidel, starting from their neighbours. If that exceeds its budget, conjugate
+//! gradients follow, and if these fail, a factorization.
 //!
-//! With few integers, exact greedy rounding is faster too and is used instead.
+//! With few integers, exact greedy rounding is faster and is used instead.
 
 use super::candidates::Candidates;
 use super::{greedy, nearest};
@@ -70,7 +71,7 @@ pub(crate) fn adaptive(
     Ok(())
 }
 
-/// What the passes work on.
+/// The state of the passes.
 struct Passes<'a> {
     model: &'a ReducedModel,
     options: &'a Options,
@@ -80,7 +81,7 @@ struct Passes<'a> {
 }
 
 impl Passes<'_> {
-    /// The value of an integer that is not decided yet.
+    /// The value of an integer that has not been rounded yet.
     fn undecided(&self, unknown: u32) -> Option<f64> {
         let i = unknown as usize;
         (!self.fixed[i]).then(|| self.solve.value(unknown))
@@ -92,7 +93,7 @@ impl Passes<'_> {
         self.left -= 1;
     }
 
-    /// Local, then iterative, then exact.
+    /// Re-optimises locally, then iteratively, then exactly.
     fn reoptimise(&mut self, factors: &mut Factors, search: &mut Search) -> Result<()> {
         let options = self.options;
         let mut budget = options.gauss_seidel_updates;

@@ -1,5 +1,5 @@
-//! The integers to round next: a priority queue by the distance from the nearest integer. There is one heap for
-//! each range of distances, so that a heap fits the cache; stale entries are skipped.
+//! A priority queue of the integers to round next, ordered by the distance from the nearest integer. Each
+//! range of distances has its own heap, so that a heap fits into the cache. Outdated entries are skipped.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -7,25 +7,25 @@ use std::collections::BinaryHeap;
 use super::greedy::TIE;
 use super::nearest;
 
-/// Ranges of deviations.
+/// The number of ranges of distances.
 const RANGES: usize = 1024;
 
-/// The undecided integers, the closest to an integer first. Where deviations agree up to [`TIE`], the lowest
+/// The undecided integers, the closest to an integer first. If deviations agree up to [`TIE`], the lowest
 /// unknown comes first.
 ///
-/// The heaps hold a lower bound of each deviation. An unknown that moves closer to an integer is entered
-/// again; one that moves away is detected when its turn comes.
+/// The heaps contain a lower bound of each deviation. An unknown that moves closer to an integer is entered
+/// again. An unknown that moves away is detected when its entry is first.
 #[derive(Debug)]
 pub(crate) struct Candidates {
     heaps: Vec<BinaryHeap<Reverse<(u64, u32)>>>,
     /// All heaps before this one are empty.
     lowest: usize,
-    /// The least rank under which each unknown stands in the heap.
+    /// By unknown: the least rank among its entries in the heaps.
     entered: Vec<u64>,
 }
 
 impl Candidates {
-    /// None so far, of unknowns below `dim`.
+    /// An empty queue for unknowns below `dim`.
     pub fn new(dim: usize) -> Self {
         Candidates {
             heaps: vec![BinaryHeap::new(); RANGES],
@@ -34,7 +34,7 @@ impl Candidates {
         }
     }
 
-    /// Adds an unknown, or what became of one whose value changed.
+    /// Adds an unknown, or enters it again after its value has changed.
     pub fn push(&mut self, unknown: u32, value: f64) {
         self.enter(rank(value), unknown);
     }
@@ -49,7 +49,7 @@ impl Candidates {
         }
     }
 
-    /// The least entry, stale or not, and the heap that it is in.
+    /// The least entry, outdated or not, and its heap.
     fn least(&mut self) -> Option<(usize, u64, u32)> {
         let at = (self.lowest..RANGES).find(|&range| !self.heaps[range].is_empty())?;
         self.lowest = at;
@@ -57,7 +57,7 @@ impl Candidates {
         Some((at, rank, unknown))
     }
 
-    /// Takes the least deviations whose sum stays at or below `threshold`, at least one.
+    /// Takes the least deviations while their sum is at most `threshold`, but at least one.
     ///
     /// `value` gives the current value of an unknown, or none once it is decided.
     pub fn take(&mut self, threshold: f64, value: impl Fn(u32) -> Option<f64>) -> Vec<u32> {

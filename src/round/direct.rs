@@ -1,6 +1,7 @@
-//! Direct rounding: every integer to its nearest value in the relaxation, all at once.
+//! Direct rounding: each integer is rounded to its nearest value in the relaxation, all at once.
 //!
-//! `bommes2012`, section 5.3, the first of the solvers compared: the fastest, with the highest energies.
+//! This is the first of the solvers that `bommes2012`, section 5.3, compares: the fastest, with the highest
+//! energies.
 
 use super::nearest;
 use crate::eliminate::ReducedModel;
@@ -10,7 +11,7 @@ use crate::search::{Factors, Search};
 /// Rounds the relaxation once.
 ///
 /// # Errors
-/// Those of [`Search::prepare`] and of the evaluation of its one offer.
+/// The errors of [`Search::prepare`] and of the evaluation of its one offer.
 pub(crate) fn direct(
     model: &ReducedModel,
     factors: &mut Factors,
@@ -23,7 +24,7 @@ pub(crate) fn direct(
 /// Offers the relaxation rounded.
 ///
 /// # Errors
-/// Of the evaluation of the offer.
+/// The errors of the evaluation of the offer.
 pub(super) fn round_all(
     model: &ReducedModel,
     factors: &mut Factors,

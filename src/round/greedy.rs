@@ -1,7 +1,7 @@
-//! Exact greedy rounding: fix the integer that is closest to one, re-optimise, repeat.
+//! Exact greedy rounding: round the integer that is closest to a whole number, re-optimise, repeat.
 //!
-//! `bommes2012`, section 5.3 ("naive greedy rounding"). The re-optimisation is exact at every step, without a
-//! new factorization: see [`crate::linalg::FixedSolve`]. Where integers are few, it works on their Schur
+//! This is the "naive greedy rounding" of `bommes2012`, section 5.3. Each step re-optimises exactly without
+//! a new factorization: see [`crate::linalg::FixedSolve`]. With few integers it works on their Schur
 //! complement alone, otherwise on the sparse factor of the whole Hessian.
 
 use super::direct::round_all;
@@ -12,7 +12,7 @@ use crate::linalg::FixedSolve;
 use crate::monitor::Phase;
 use crate::search::{Factors, Search};
 
-/// Deviations this close to the least one are a tie, which the lowest variable wins.
+/// Deviations that exceed the least one by at most this are ties. The lowest variable wins a tie.
 pub const TIE: f64 = 1e-9;
 
 /// Rounds one integer at a time.

@@ -1,5 +1,5 @@
-//! Rounding: direct (once), greedy (one unknown, re-optimise, repeat), and adaptive greedy (several
-//! at a time, re-optimised as far as needed).
+//! The rounding strategies: direct (all at once), greedy (one unknown, re-optimise, repeat), adaptive
+//! greedy (several unknowns at a time, re-optimise as far as needed), and multiple (adaptive as published).
 
 mod adaptive;
 mod candidates;
@@ -12,7 +12,7 @@ pub(crate) use direct::direct;
 pub(crate) use greedy::greedy;
 pub(crate) use multiple::multiple;
 
-/// The integer nearest to `x`; exact halves go away from zero, as everywhere in the library.
+/// The integer nearest to `x`. Exact halves are rounded away from zero, as everywhere in the library.
 pub fn nearest(x: f64) -> f64 {
     x.round()
 }

@@ -1,13 +1,13 @@
-//! Multiple rounding as it was published, for programs that depend on its results.
+//! Multiple rounding in its published form, for programs that depend on its results.
 //!
-//! `bommes2009`, section 3; `bommes2012`, chapter 5. Each pass rounds the integers with the least deviations,
-//! as many as sum up to at most a threshold. Then it re-optimises by Gauss-Seidel from their neighbours;
-//! where that exceeds its budget, by conjugate gradients; where these fail, by a factorization, unless
-//! that is turned off.
+//! The method is that of `bommes2009`, section 3, and `bommes2012`, chapter 5. Each pass rounds the
+//! integers with the least deviations. It takes as many as have a sum of at most a threshold. Then it
+//! re-optimises by Gauss-Seidel, starting from their neighbours. If that exceeds its budget, conjugate
+//! gradients follow. If these fail, a factorization follows, unless the options turn it off.
 //!
-//! [`adaptive`](super::adaptive) follows the same plan, more accurately and faster. But where integers with
-//! wide influence are rounded after a few iterations, the decisions depend on the iterations. A program
-//! whose results must not change needs the same ones. Together with
+//! [`adaptive`](super::adaptive) follows the same plan and is more accurate and faster. But if integers
+//! with wide influence are rounded after a few iterations, the decisions depend on these iterations. A
+//! program whose results must not change needs the same iterations. Together with
 //! [`Ordering::LargestPivot`](crate::linalg::Ordering::LargestPivot), which keeps the same integers in the
 //! elimination, this reproduces the decisions of the thesis' program on its seamless parametrizations.
 
@@ -21,7 +21,7 @@ use crate::linalg::{
 use crate::monitor::Phase;
 use crate::search::{Factors, Options, Search};
 
-/// Gauss-Seidel looks between two looks at the clock.
+/// Gauss-Seidel updates between two checks of the monitor.
 const LOOKS_AT_A_TIME: usize = 10_000;
 
 /// Rounds by passes.
@@ -80,7 +80,7 @@ pub(crate) fn multiple(
     Ok(())
 }
 
-/// What the passes work on.
+/// The state of the passes.
 struct Passes<'a> {
     model: &'a ReducedModel,
     options: &'a Options,

@@ -1,8 +1,8 @@
 //! The factors of a reduced model, each made on first use and kept.
 //!
-//! Where integers are few, one [`SchurFactor`] serves every purpose. Otherwise the relaxation needs a
-//! supernodal factor, greedy rounding a simplicial one in which unknowns can be fixed, and an offer of
-//! integers one of the continuous block.
+//! If there are few integers, one [`SchurFactor`] serves every purpose. Otherwise there are three factors:
+//! a supernodal one for the relaxation, a simplicial one in which greedy rounding fixes unknowns, and one
+//! of the continuous block for offers of integers.
 
 use std::time::Instant;
 
@@ -19,7 +19,7 @@ use crate::linalg::{
 pub(crate) struct Factors {
     relaxed: Option<RelaxedFactor>,
     continuous: Option<ContinuousBlock>,
-    /// As it was made, if it is kept.
+    /// The factor in its original state, if it is kept.
     updatable: Option<Ldl>,
     ordering: Ordering,
     keep: bool,
@@ -27,29 +27,29 @@ pub(crate) struct Factors {
     seconds: f64,
 }
 
-/// A factor in which unknowns can be fixed: of the Schur complement of the integers where that is the
-/// cheapest, otherwise of the whole reduced Hessian.
+/// A factor in which unknowns can be fixed. It is that of the Schur complement of the integers if that is
+/// the cheapest, otherwise that of the whole reduced Hessian.
 #[derive(Debug)]
 pub(crate) struct UpdatableFactor {
     pub ldl: Ldl,
-    /// The reduced unknowns that it is a factor of.
+    /// The reduced unknowns of this factor.
     pub unknowns: Vec<u32>,
-    /// The places of the integers among these.
+    /// The places of the integers among these unknowns.
     pub integers: Vec<u32>,
 }
 
-/// The Hessian seen by the continuous unknowns when the integers are given.
+/// The block of the Hessian for the continuous unknowns, with the integers given.
 #[derive(Debug)]
 struct ContinuousBlock {
-    /// Lower triangle of the continuous block.
+    /// The lower triangle of the continuous block.
     hessian: Sparse,
-    /// One row a continuous unknown, one column an integer.
+    /// One row for each continuous unknown, one column for each integer.
     coupling: Sparse,
     factor: Cholesky,
 }
 
 impl Factors {
-    /// None yet, each to be made in this order.
+    /// No factor yet. Each one will be made in this order.
     pub fn new(ordering: Ordering) -> Self {
         Factors {
             ordering,
@@ -57,7 +57,7 @@ impl Factors {
         }
     }
 
-    /// As [`new`](Self::new), but what a solve uses up is kept as well, for the next one.
+    /// As [`new`](Self::new), but a copy of each factor that a solve uses up is kept for the next solve.
     pub fn kept(ordering: Ordering) -> Self {
         Factors {
             keep: true,
@@ -65,7 +65,7 @@ impl Factors {
         }
     }
 
-    /// Entries below the diagonal of the relaxation's factor; none before there is one.
+    /// The number of entries below the diagonal of the relaxation's factor, if it has been made.
     pub fn entries(&self) -> usize {
         let schur_factor = self
             .schur_factor
@@ -76,12 +76,12 @@ impl Factors {
             .map_or(schur_factor, RelaxedFactor::entries)
     }
 
-    /// Seconds spent in factorizations so far.
+    /// The seconds spent in factorizations so far.
     pub fn seconds(&self) -> f64 {
         self.seconds
     }
 
-    /// The factor of the whole reduced Hessian, all integers real.
+    /// The factor of the whole reduced Hessian, with all integers real.
     pub fn relaxed(&mut self, model: &ReducedModel) -> Result<&RelaxedFactor> {
         let factor = match self.relaxed.take() {
             Some(factor) => factor,
@@ -92,7 +92,7 @@ impl Factors {
         Ok(self.relaxed.insert(factor))
     }
 
-    /// Minimises the objective with all integers real, by the factor that `strategy` needs as well.
+    /// Minimises the objective with all integers real, with a factor that `strategy` needs as well.
     pub fn minimise(
         &mut self,
         model: &ReducedModel,
@@ -107,8 +107,8 @@ impl Factors {
         self.relaxed(model)?.minimise(gradient, rounding, guess)
     }
 
-    /// A factor in which unknowns can be fixed. It is the caller's own, since fixing uses it up. None if
-    /// `go_on` ended it.
+    /// A factor in which unknowns can be fixed. The caller owns it, since fixing unknowns uses it up. None
+    /// if `go_on` stopped the factorization.
     pub fn updatable(
         &mut self,
         model: &ReducedModel,
@@ -142,14 +142,14 @@ impl Factors {
         }))
     }
 
-    /// The Schur complement of the integers as `R'R`: the upper triangular `R` by columns, and whether
-    /// no pivot vanished. A vanished pivot leaves a zero row.
+    /// The Schur complement of the integers as `R'R`: the upper triangular `R` by columns, and whether all
+    /// pivots are nonzero. A zero pivot makes its row zero.
     pub fn schur_block(&mut self, model: &ReducedModel) -> Result<(&[f64], bool)> {
         Ok(self.schur_factor(model)?.schur())
     }
 
-    /// Whether one factor with the integers last is the cheapest that serves all: the block that it
-    /// fills has fewer entries than the model.
+    /// Whether a single factor with the integers last is the cheapest choice: the block of the integers has
+    /// fewer entries than the model.
     pub fn has_schur_factor(&self, model: &ReducedModel) -> bool {
         let m = model.integers().len();
         self.ordering == Ordering::FillReducing && m * m <= model.hessian().len()
@@ -166,8 +166,8 @@ impl Factors {
         Ok(self.schur_factor.insert(factor))
     }
 
-    /// The Schur factor, if it is the cheapest and no pivot vanished: then it solves for the continuous
-    /// unknowns as well.
+    /// The Schur factor, if it is the cheapest and all its pivots are nonzero. Then it solves for the
+    /// continuous unknowns as well.
     fn definite_schur_factor(&mut self, model: &ReducedModel) -> Result<Option<&SchurFactor>> {
         if !self.has_schur_factor(model) {
             return Ok(None);
@@ -176,7 +176,7 @@ impl Factors {
         Ok(factor.is_definite().then_some(factor))
     }
 
-    /// Makes what [`follow`](Self::follow) needs.
+    /// Makes the factor that [`follow`](Self::follow) needs.
     pub fn prepare(&mut self, model: &ReducedModel) -> Result<()> {
         if self.definite_schur_factor(model)?.is_none() {
             self.continuous(model)?;
@@ -184,7 +184,7 @@ impl Factors {
         Ok(())
     }
 
-    /// Solves `A_cc x_c = b_c` in place; entries of integers are left as they are.
+    /// Solves `A_cc x_c = b_c` in place. The entries of integers stay as they are.
     pub fn solve_continuous(&mut self, model: &ReducedModel, b: &mut [f64]) -> Result<()> {
         if let Some(schur_factor) = self.definite_schur_factor(model)? {
             schur_factor.solve_continuous(b);
@@ -200,8 +200,8 @@ impl Factors {
         Ok(())
     }
 
-    /// Minimises over the continuous unknowns, from `point` and with the integers as they are there.
-    /// The relaxation is known to have a minimum.
+    /// Minimises over the continuous unknowns, starting from `point`, with the integers of `point`. The
+    /// relaxation must have a minimum.
     pub fn follow(&mut self, model: &ReducedModel, point: &[f64]) -> Result<Vec<f64>> {
         if let Some(schur_factor) = self.definite_schur_factor(model)? {
             return Ok(follow_by_schur_factor(model, schur_factor, point));
@@ -252,7 +252,7 @@ impl ContinuousBlock {
     }
 }
 
-/// [`Factors::follow`] by the leading part of a definite factor, with one step of refinement as in
+/// [`Factors::follow`] with the leading part of a definite factor and one step of refinement, as in
 /// [`minimise_bounded`].
 fn follow_by_schur_factor(
     model: &ReducedModel,
@@ -270,7 +270,7 @@ fn follow_by_schur_factor(
     point
 }
 
-/// What `make` gives; the seconds it took are added to `seconds`.
+/// Calls `make` and adds its time to `seconds`.
 fn timed<T>(seconds: &mut f64, make: impl FnOnce() -> Result<T>) -> Result<T> {
     let started = Instant::now();
     let made = make();

@@ -1,7 +1,7 @@
-//! The interface of the strategies: a strategy offers integers, and the search does the rest.
+//! The interface of the strategies. A strategy offers integers, and the search evaluates them.
 //!
-//! The search re-optimises the continuous unknowns exactly for every offer and evaluates the energy
-//! itself. So energies never come from a strategy, and every strategy can be stopped at any time.
+//! For every offer, the search re-optimises the continuous unknowns exactly and evaluates the energy
+//! itself. So no energy comes from a strategy, and every strategy can be stopped at any time.
 
 mod factors;
 mod incumbent;
@@ -28,7 +28,7 @@ use crate::eliminate::ReducedModel;
 use crate::error::{Error, Result};
 use crate::monitor::{Monitor, Phase, Stop, relative_gap};
 
-/// Integers are kept as floats; beyond this they would no longer be exact.
+/// Integers are kept as floats, which are exact up to this size.
 pub(crate) const LARGEST_INTEGER: f64 = 9_007_199_254_740_992.0;
 
 /// The incumbent, the lower bound, the work spent and the monitor.
@@ -62,12 +62,12 @@ impl<'s, 'm> Search<'s, 'm> {
         }
     }
 
-    /// Counts so many multiplications; returns whether to end.
+    /// Counts this many multiplications. Returns whether to end.
     pub fn ends(&mut self, multiplications: u64) -> bool {
         self.work.ends(multiplications, self.monitor)
     }
 
-    /// The minimiser with all integers real.
+    /// The minimiser of the relaxation.
     pub fn relaxed(&self) -> &[f64] {
         &self.relaxed
     }
@@ -81,26 +81,27 @@ impl<'s, 'm> Search<'s, 'm> {
         self.incumbent.as_ref().map(of)
     }
 
-    /// No solution has less energy than this.
+    /// The lower bound: no solution has less energy.
     pub fn lower_bound(&self) -> f64 {
         self.lower_bound
     }
 
-    /// The best solution that was offered.
+    /// The best solution offered so far.
     ///
     /// # Errors
-    /// Why the search was stopped, if that was before the first offer.
+    /// The reason why the search was stopped, if there was no offer before.
     pub fn into_best(self) -> Result<Incumbent> {
         let stopped = self.monitor.stopped();
         self.incumbent
             .ok_or_else(|| stopped.map_or(Error::Cancelled, Error::from))
     }
 
-    /// Makes the factor that offers need. After that an offer costs two solves, also when a strategy has
-    /// to stop.
+    /// Makes the factor that offers need. After that an offer costs two solves. So a strategy that has to
+    /// stop can still make one.
     ///
     /// # Errors
-    /// For lack of memory, and why the search was stopped: there is no solution yet.
+    /// An error for lack of memory, and the reason why the search was stopped, since there is no solution
+    /// yet.
     pub fn prepare(&mut self, factors: &mut Factors) -> Result<()> {
         self.monitor.progress(Phase::Factor, 0.5)?;
         factors.prepare(self.model)?;
@@ -108,10 +109,11 @@ impl<'s, 'm> Search<'s, 'm> {
         Ok(())
     }
 
-    /// Offers one value an integer unknown, in their order; returns whether it is the best so far.
+    /// Offers one value for each integer unknown, in their order. Returns whether the offer is the best so
+    /// far.
     ///
     /// # Errors
-    /// [`Error::Overflow`] for integers beyond 2^53, and for lack of memory.
+    /// [`Error::Overflow`] for integers beyond 2^53, and an error for lack of memory.
     pub fn offer(&mut self, factors: &mut Factors, integers: &[f64]) -> Result<bool> {
         let model = self.model;
         let too_large = |z: &f64| z.abs().is_nan() || z.abs() > LARGEST_INTEGER;
@@ -143,10 +145,10 @@ impl<'s, 'm> Search<'s, 'm> {
         Ok(better)
     }
 
-    /// An upper bound on the exact energy of `point`, for which `energy` was computed from terms of this
-    /// `size`. It is `energy` itself unless rounding errors matter, as they do where integers are huge. A
-    /// computed energy below the lower bound is wrong by at least the difference; the same error is
-    /// assumed upwards.
+    /// An upper bound on the exact energy of `point`. Its computed energy is `energy`, a sum of terms of
+    /// this `size`. The bound is `energy` itself unless rounding errors matter, which they do if integers
+    /// are huge. A computed energy below the lower bound is wrong by at least the difference. The bound
+    /// allows for the same error upwards.
     fn at_most(&self, energy: f64, size: f64, point: &[f64]) -> f64 {
         let enough = GAP_TOLERANCE * energy.abs().max(1.0);
         let below = 2.0 * (self.lower_bound - energy);
@@ -164,9 +166,9 @@ impl<'s, 'm> Search<'s, 'm> {
 
     /// A bound on the error of the difference between the energies of two evaluated solutions.
     ///
-    /// Energies are summed with compensation. The error that remains is the rounding of the model's
-    /// entries. It counts only as far as solutions differ: a few units in the last place of each term of
-    /// the quadratic form of the step from the relaxation to `point`.
+    /// Energies are summed with compensation, so the remaining error comes from the rounding of the model's
+    /// entries. This error matters only for the difference of the solutions. It is a few units in the last
+    /// place of each term of the quadratic form of the step from the relaxation to `point`.
     pub fn evaluation_error(&self, point: &[f64]) -> f64 {
         let steps = point.iter().zip(&self.relaxed);
         let step: Vec<f64> = steps.map(|(p, r)| p - r).collect();
@@ -182,7 +184,7 @@ impl<'s, 'm> Search<'s, 'm> {
         self.incumbent.as_ref()
     }
 
-    /// Raises the lower bound to `bound`, if that is higher.
+    /// Raises the lower bound to `bound` if `bound` is higher.
     pub fn raise_bound(&mut self, bound: f64) {
         if bound > self.lower_bound {
             self.lower_bound = bound;
@@ -190,7 +192,7 @@ impl<'s, 'm> Search<'s, 'm> {
         }
     }
 
-    /// The bound that leaves the incumbent a relative gap of `gap`.
+    /// The lower bound at which the incumbent's relative gap is `gap`.
     pub fn wanted_bound(&self, gap: f64) -> f64 {
         let best = self.incumbent.as_ref();
         best.map_or(f64::INFINITY, |b| b.energy - gap * b.energy.abs().max(1.0))

@@ -1,19 +1,19 @@
-//! Sets of options that belong together, by name.
+//! Presets: named sets of options that belong together.
 
 use super::{Options, Strategy};
 use crate::error::{Error, Result};
 
-/// What there is to know about one preset.
+/// The description of a preset.
 #[derive(Debug, Clone, Copy)]
 pub struct Preset {
     /// Its name.
     pub name: &'static str,
-    /// What it is for.
+    /// Its purpose.
     pub text: &'static str,
     set: fn(&mut Options),
 }
 
-/// All presets there are.
+/// All presets.
 pub const PRESETS: &[Preset] = &[
     Preset {
         name: "orientation_field",
@@ -63,11 +63,11 @@ impl Options {
         options
     }
 
-    /// Sets all options that the preset of this name is about, which [`PRESETS`] lists; others, such
-    /// as the time limit, stay.
+    /// Sets all options of the preset with this name. [`PRESETS`] lists the names. Other options, such as
+    /// the time limit, stay.
     ///
     /// # Errors
-    /// [`Error::OptionRange`] where there is no such preset.
+    /// [`Error::OptionRange`] if there is no such preset.
     pub fn set_preset(&mut self, name: &str) -> Result<()> {
         let Some(preset) = PRESETS.iter().find(|p| p.name == name) else {
             return Err(Error::OptionRange {

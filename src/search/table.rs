@@ -1,5 +1,5 @@
-//! Options said once: [`options!`] makes the struct, its defaults, its setters by name and the list
-//! from which C, C++, Python, the program and the documentation take them.
+//! Tables of options. From one table, [`options!`] makes the struct, its defaults, its setters by name, and
+//! the list of options for C, C++, Python, the program and the documentation.
 
 use crate::error::{Error, Result};
 
@@ -21,26 +21,26 @@ pub enum OptionValue {
     Integer(i64),
     /// A real number.
     Real(f64),
-    /// One of several words; [`UNSET`] for an option that may be without a value.
+    /// One of several words, or [`UNSET`] for an option that may have no value.
     Text(String),
 }
 
 /// The word for an option without a value.
 pub const UNSET: &str = "unset";
 
-/// What there is to know about one option.
+/// The description of an option.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct OptionInfo {
     /// Its name.
     pub name: &'static str,
     /// The type of its value.
     pub kind: OptionKind,
-    /// Its default, as text; [`UNSET`] where it has none.
+    /// Its default as text, or [`UNSET`] if it has none.
     pub default: &'static str,
-    /// The values allowed, as text: an interval, whose end does not belong to it where the bracket
-    /// is round, or words or numbers with a bar between them.
+    /// The allowed values as text. They are an interval, whose end is excluded if its bracket is round, or
+    /// words or numbers with a bar between them.
     pub range: &'static str,
-    /// What it does, in one sentence without a capital and a full stop.
+    /// Its effect, in one sentence without a capital and a full stop.
     pub text: &'static str,
 }
 
@@ -48,7 +48,7 @@ pub struct OptionInfo {
 pub(crate) trait OptionType: Sized {
     const KIND: OptionKind;
 
-    /// The value, if it is of this type and in the range that `info` states.
+    /// Converts the value if it has this type and is in the range that `info` states.
     fn read(info: &'static OptionInfo, value: &OptionValue) -> Result<Self>;
 
     fn value(&self) -> OptionValue;
@@ -57,7 +57,7 @@ pub(crate) trait OptionType: Sized {
 impl OptionType for f64 {
     const KIND: OptionKind = OptionKind::Real;
 
-    /// A whole number is taken too.
+    /// A whole number is accepted as well.
     fn read(info: &'static OptionInfo, value: &OptionValue) -> Result<Self> {
         let number = match *value {
             OptionValue::Real(number) => number,
@@ -125,7 +125,7 @@ impl<T: OptionType> OptionType for Option<T> {
     }
 }
 
-/// The one of `all` whose name is given.
+/// The member of `all` with this name.
 pub(crate) fn word<T: Copy, const N: usize>(
     info: &'static OptionInfo,
     value: &OptionValue,
@@ -139,7 +139,7 @@ pub(crate) fn word<T: Copy, const N: usize>(
     found.ok_or_else(|| out_of_range(info, word))
 }
 
-/// Makes an enum with `ALL` and `name` a type of options.
+/// Makes an enum that has `ALL` and `name` a type of options.
 macro_rules! word_option {
     ($type:ty) => {
         impl $crate::search::table::OptionType for $type {
@@ -160,7 +160,7 @@ macro_rules! word_option {
 }
 pub(crate) use word_option;
 
-/// Whether a range, as [`OptionInfo::range`] writes it, holds a number.
+/// Whether a range, written as in [`OptionInfo::range`], contains a number.
 fn allows<N: std::str::FromStr + PartialOrd>(range: &str, number: N) -> bool {
     let Some((low, high)) = range.split_once(", ") else {
         let mut numbers = range.split('|').filter_map(|word| word.parse::<N>().ok());
@@ -198,14 +198,15 @@ fn out_of_range(info: &'static OptionInfo, value: impl ToString) -> Error {
     }
 }
 
-/// The entry of this name.
+/// The entry with this name.
 pub(crate) fn info_of(table: &'static [OptionInfo], name: &str) -> Result<&'static OptionInfo> {
     let found = table.iter().find(|info| info.name == name);
     found.ok_or_else(|| Error::UnknownOption { name: name.into() })
 }
 
-/// Makes a struct of options from one table: `name: Type = default, "default as text" in "range",
-/// "what it does";`. Members `and` are no options; options `by` two functions are no members.
+/// Makes a struct of options from one table of `name: Type = default, "default as text" in "range", "what
+/// it does";`. A member after `and` is not an option. An option with two functions after `by` is not a
+/// member.
 macro_rules! options {
     (
         $(#[$about:meta])*
@@ -304,7 +305,7 @@ macro_rules! options {
 }
 pub(crate) use options;
 
-/// Makes an enum of words from one table: `Variant = "word": "what it stands for",`.
+/// Makes an enum of words from one table of `Variant = "word": "what it stands for",`.
 macro_rules! words {
     (
         $(#[$about:meta])*
@@ -343,7 +344,7 @@ macro_rules! words {
 }
 pub(crate) use words;
 
-/// Holds a table to what its struct does.
+/// Tests that a table agrees with its struct.
 #[cfg(test)]
 pub(crate) fn hold<T: Default>(
     table: &'static [OptionInfo],

@@ -1,12 +1,12 @@
-//! Where a search begins: at nothing, or at the integers of an earlier solution.
+//! Warm starts: the use of the integers of an earlier solution.
 
 use super::table::words;
 
 words! {
-    /// What a search makes of earlier integers.
+    /// The use of earlier integers in a search.
     ///
-    /// Right sides may have changed since. What is taken over are the integers that the elimination of
-    /// the constraints left free; the others follow from these and the right sides as they are now.
+    /// Right sides may have changed since the earlier solution. Only the integers that are free after the
+    /// elimination of the constraints are used. They and the current right sides determine the others.
     #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
     pub enum WarmStart {
         #[default]

@@ -1,15 +1,15 @@
 //! Work, counted in multiplications: a budget that does not depend on the speed of the machine.
 //!
-//! The loops that may run long count their multiplications, to the leading order. Roundings (direct, greedy,
-//! adaptive) are not counted, since no budget limits them.
+//! Loops that may run long count their multiplications, to the leading order. Rounding strategies (direct,
+//! greedy, adaptive) do not count theirs, since no budget limits them.
 
 use crate::eliminate::ReducedModel;
 use crate::monitor::Monitor;
 
-/// `auto`: multiplications that are always granted, about a tenth of a second.
+/// `auto`: the multiplications of its budget on every problem, about a tenth of a second.
 const ALWAYS: u64 = 200_000_000;
 
-/// `auto`: relaxations whose work is granted beyond that.
+/// `auto`: the rest of its budget, in relaxations.
 const RELAXATIONS: u64 = 1_000;
 
 /// The multiplications spent, and their limit.
@@ -20,7 +20,7 @@ pub(crate) struct Work {
 }
 
 impl Work {
-    /// Nothing spent yet, and no limit.
+    /// No work spent, and no limit.
     pub fn unlimited() -> Self {
         Work {
             spent: 0,
@@ -33,7 +33,7 @@ impl Work {
         self.limit = limit;
     }
 
-    /// Takes note of so many multiplications.
+    /// Counts this many multiplications.
     pub fn spend(&mut self, multiplications: u64) {
         self.spent = self.spent.saturating_add(multiplications);
     }
@@ -48,16 +48,16 @@ impl Work {
         self.limit.saturating_sub(self.spent)
     }
 
-    /// Counts so many multiplications; returns whether to end, because the limit is reached or because the
-    /// monitor says so.
+    /// Counts this many multiplications. Returns whether to end, because of the limit or because of the
+    /// monitor.
     pub fn ends(&mut self, multiplications: u64, monitor: &mut Monitor) -> bool {
         self.spend(multiplications);
         self.left() == 0 || monitor.check().is_err()
     }
 }
 
-/// The multiplications counted for a relaxation, for each entry of the reduced Hessian. On mesh problems the
-/// real number is larger, whatever the order of elimination.
+/// A relaxation counts as this many multiplications for each entry of the reduced Hessian. On mesh problems
+/// the real number is larger for every order of elimination.
 const PER_ENTRY: u64 = 50;
 
 /// The work of a relaxation.
@@ -65,7 +65,7 @@ pub(crate) fn of_relaxation(model: &ReducedModel) -> u64 {
     PER_ENTRY * model.hessian().len() as u64
 }
 
-/// Multiplications that `auto` may spend beyond roundings.
+/// The budget of `auto` in multiplications, roundings not included.
 pub(crate) fn auto_limit(relaxation: u64) -> u64 {
     relaxation
         .saturating_mul(RELAXATIONS)

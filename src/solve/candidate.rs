@@ -1,4 +1,4 @@
-//! A candidate solution, verified on the problem as it was given.
+//! A candidate solution, verified on the caller's problem.
 
 use super::second_solve;
 use super::verify::{Verdict, verify};
@@ -21,9 +21,9 @@ pub(super) struct Candidate {
 }
 
 impl Candidate {
-    /// Measures the candidate on `problem` and corrects it. Where constraints are violated, a second solve
-    /// repairs them. The bound is lowered to the energy where it lies above. A solution whose verified
-    /// gap is too large is no longer called optimal.
+    /// Measures the candidate on `problem` and corrects it. If it violates constraints, a second solve
+    /// repairs them. A bound above the energy is lowered to the energy. A solution whose verified gap is
+    /// too large is no longer called optimal.
     pub fn verified(mut self, problem: &Problem) -> Result<(Self, Verdict)> {
         let mut verdict = verify(problem, &self.values)?;
         // A search that was stopped returns what it has found, without a second solve.

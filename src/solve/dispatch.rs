@@ -1,4 +1,4 @@
-//! The choice of method: which one a strategy uses on a given model.
+//! The choice of method for a strategy on a given model.
 
 use crate::eliminate::ReducedModel;
 use crate::error::Result;
@@ -7,18 +7,18 @@ use crate::search::{Factors, Options, Search, Strategy};
 use crate::search::{auto_limit, of_relaxation};
 use crate::{cycle, lattice, round};
 
-/// `auto`: angle-difference systems of at most this many integers are tried to prove as well.
+/// `auto` also tries a proof for angle-difference systems of at most this many integers.
 const PROVABLE: usize = 60;
 
-/// Multiplications of a lattice of m integers before the first one is decided, by `m^3`: its Schur
-/// complement, and the reduction with R computed anew.
+/// The multiplications of the lattice method before its first decision are this times `m^3`, for m
+/// integers: the Schur complement, the reduction, and the new computation of R.
 const DENSE: u64 = 12;
 
-/// Lets the strategy of `options` search.
+/// Runs the strategy of `options`.
 ///
-/// Angle-difference systems are decided in cycle space, whatever their size. For other problems the
-/// lattice strategies need a dense matrix of the integers; beyond `dense_integers` of them, `adaptive` is used
-/// instead.
+/// Angle-difference systems of any size are solved in cycle space. For other problems the lattice
+/// strategies need a dense matrix of the integers. With more than `dense_integers` integers, `adaptive` is
+/// used instead.
 ///
 /// # Errors
 /// Those of the method.

@@ -1,4 +1,4 @@
-//! A problem after elimination: right sides, relaxation, search, expansion, verification.
+//! The solve of a problem after elimination: right sides, relaxation, search, expansion, verification.
 
 use super::candidate::Candidate;
 use super::dispatch;
@@ -12,13 +12,13 @@ use crate::problem::{Model, Problem};
 use crate::round;
 use crate::search::{Factors, Options, Search, SolveStatus, Strategy, WarmStart, of_relaxation};
 
-/// A problem with everything that does not depend on its right sides.
+/// A problem with all results that do not depend on its right sides.
 pub(super) struct EliminatedProblem<'a> {
     pub problem: &'a Problem,
     pub model: &'a Model,
     pub elimination: &'a Elimination,
     pub factors: &'a mut Factors,
-    /// Where a warm start begins, in the caller's unknowns.
+    /// The start of a warm start, in the caller's unknowns.
     pub earlier: &'a [f64],
 }
 
@@ -47,7 +47,7 @@ impl EliminatedProblem<'_> {
         self.conclude(reduced, decided, options.strategy, clock, monitor)
     }
 
-    /// The reduced model for the right sides as they are, and when that was.
+    /// The reduced model for the current right sides, and the time when it was made.
     pub fn reduce(&mut self, monitor: &mut Monitor) -> Result<(ReducedModel, Clock)> {
         let reduced = self.elimination.reduce(self.model, monitor)?;
         let clock = Clock {
@@ -95,19 +95,19 @@ impl EliminatedProblem<'_> {
     }
 }
 
-/// The seconds spent before the search.
+/// The seconds before the search.
 pub(super) struct Clock {
     eliminated: f64,
     factored_before: f64,
 }
 
-/// How a search ended.
+/// The result of a search.
 pub(super) struct SearchResult {
     /// In reduced unknowns.
     pub point: Vec<f64>,
     pub lower_bound: f64,
     pub status: SolveStatus,
-    /// Multiplications, those of the relaxation included.
+    /// Multiplications, including those of the relaxation.
     pub work: u64,
 }
 
@@ -139,11 +139,11 @@ fn decide(
     if let Some(integers) = start {
         search.offer(factors, &integers)?;
     }
-    // Nothing is better than what is optimal already.
+    // An optimal solution cannot be improved.
     let done = search.status() == SolveStatus::Optimal || options.warm_start == WarmStart::Keep;
     if !done {
         match dispatch::search(model, reduced, options, factors, &mut search) {
-            // Whatever ended the search, what was found stays.
+            // If the search was stopped, the best solution so far is kept.
             Err(Error::Cancelled | Error::TimeLimit) if search.best().is_some() => {}
             other => other?,
         }

@@ -1,10 +1,10 @@
-//! From the reduced unknowns back to the caller's.
+//! Expansion of the reduced unknowns to the caller's unknowns.
 
 use crate::eliminate::ReducedModel;
 use crate::problem::Model;
 use crate::search::Strategy;
 
-/// The caller's unknowns; pins and integers exact to the last bit.
+/// The caller's unknowns. Pins and integers are exact to the last bit.
 pub(super) fn expand(
     reduced: &ReducedModel,
     model: &Model,
@@ -18,7 +18,7 @@ pub(super) fn expand(
         } else if model.integer()[i] && strategy != Strategy::Relax {
             *x = x.round();
         }
-        // No minus zero in anybody's output.
+        // The output contains no minus zero.
         *x += 0.0;
     }
     values

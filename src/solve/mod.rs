@@ -1,4 +1,4 @@
-//! Orchestration: validate, eliminate, relax, search, expand, verify.
+//! The solve from beginning to end: validation, elimination, relaxation, search, expansion, verification.
 
 mod candidate;
 mod dispatch;

@@ -1,11 +1,11 @@
 //! Reformulation of a problem with constraints between integers (`aardal2000`, sections 2 and 3).
 //!
-//! For integers the expansion `x = T y + t` of the elimination has integer entries, but these may be
-//! large. A chain of constraints with coefficients of one digit leads to entries of ten digits. The
-//! terms of the objective in y then reach 1e15 and cancel, and neither the bound nor the solution means
-//! anything. The same integers are `x0 + K z` with a short basis K and a nearby x0 ([`AffineLattice`]).
-//! The problem is stated again in z and the caller's continuous unknowns, from the caller's numbers, and
-//! solved like any other.
+//! The elimination's expansion `x = T y + t` has integer entries for integers, but these may be large. A
+//! chain of constraints with coefficients of one digit leads to entries of ten digits. The terms of the
+//! objective in y then reach 1e15 and cancel, so that the bound and the solution have no correct digits.
+//! The same integers are `x0 + K z` with a short basis K and a nearby x0 ([`AffineLattice`]). The problem
+//! is stated again in z and the caller's continuous unknowns, from the caller's numbers. It is then solved
+//! like any other problem.
 
 use super::candidate::Candidate;
 use super::eliminated::EliminatedProblem;
@@ -19,23 +19,23 @@ use crate::problem::{Model, Problem};
 use crate::search::LARGEST_INTEGER;
 use crate::search::{Factors, Options};
 
-/// Entries up to this size are harmless: their squares leave twelve digits.
+/// Entries up to this size are harmless: their squares leave twelve digits for the result.
 const HARMLESS: f64 = 1000.0;
 
-/// The reformulation is used if it makes the largest entry smaller by at least this factor.
+/// The reformulation is used if it reduces the largest entry by at least this factor.
 const WORTH_IT: f64 = 16.0;
 
 /// Larger bases are not reduced: in vectors, and in entries.
 const MOST: usize = 64;
 const MOST_NUMBERS: usize = 1 << 20;
 
-/// A sum this small, relative to its terms, has cancelled.
+/// A sum has cancelled if it is this small relative to its terms.
 const CANCELLED: f64 = 64.0 * f64::EPSILON;
 
-/// The problem in other unknowns: the continuous ones, then z.
+/// The problem in the continuous unknowns and, after these, z.
 struct Reformulation {
     affine: AffineLattice,
-    /// Of each unknown of the caller, the number among the integers, or among the continuous.
+    /// By unknown of the caller: its number among the integers or among the continuous unknowns.
     place: Vec<Place>,
     continuous: usize,
 }
@@ -46,17 +46,17 @@ enum Place {
     Continuous(usize),
 }
 
-/// A constant, and coefficients by unknown.
+/// A constant, and coefficients with their unknowns.
 struct Form {
     constant: f64,
     terms: Vec<(usize, f64)>,
 }
 
-/// Solves the reformulated problem. None if the numbers in the expansion of `reduced` are small enough, or if
-/// the reformulation does not make them much smaller.
+/// Solves the reformulated problem. None if the numbers in the expansion of `reduced` are small enough, or
+/// if the reformulation does not make them much smaller.
 ///
 /// # Errors
-/// Those of a solve, except those that may be due to the reformulation.
+/// The errors of a solve, except those that the reformulation may cause.
 pub(super) fn solve_reformulated(
     of: &EliminatedProblem,
     reduced: &ReducedModel,
@@ -148,7 +148,7 @@ fn solve(
 }
 
 impl Reformulation {
-    /// None where numbers are small already, or do not get smaller.
+    /// None if the numbers are small already, or if they do not become smaller.
     fn new(model: &Model, reduced: &ReducedModel) -> Option<Self> {
         let mut continuous = 0;
         let mut integers = Vec::new();
@@ -199,7 +199,7 @@ impl Reformulation {
         self.continuous + self.affine.dim()
     }
 
-    /// An unknown of the caller.
+    /// One of the caller's unknowns.
     fn form(&self, i: usize) -> Form {
         match self.place[i] {
             Place::Continuous(at) => Form {
@@ -217,7 +217,7 @@ impl Reformulation {
         }
     }
 
-    /// A row of the caller's: indices and coefficients of what is left, and the right side.
+    /// One of the caller's rows: indices and coefficients of the remaining unknowns, and the right side.
     fn row(
         &self,
         row: impl Iterator<Item = (usize, f64)>,
@@ -251,7 +251,7 @@ impl Reformulation {
         let rows = given.constraint_rows();
         for k in 0..rows.len() {
             let (indices, coefficients, rhs) = self.row(rows.row(k), rows.rhs()[k]);
-            // What is left of a constraint between integers holds for all z.
+            // The remainder of a constraint between integers holds for all z.
             if !indices.is_empty() {
                 problem.add_constraint(&indices, &coefficients, rhs)?;
             }
@@ -310,8 +310,8 @@ impl Reformulation {
         problem.add_constant(constant.value())
     }
 
-    /// The caller's unknowns in those of this problem; integers at the point of the lattice's span that is
-    /// next to them.
+    /// Converts the caller's unknowns to those of this problem. The integers become the nearest point in
+    /// the span of the lattice.
     fn restrict(&self, x: &[f64]) -> Vec<f64> {
         let (mut all, mut integers) = (Vec::with_capacity(self.variables()), Vec::new());
         for (place, &x) in self.place.iter().zip(x) {
@@ -324,12 +324,13 @@ impl Reformulation {
         all
     }
 
-    /// The caller's unknowns.
+    /// Converts the unknowns of this problem to the caller's.
     fn expand(&self, y: &[f64]) -> Vec<f64> {
         self.caller(y, &self.affine.point(&y[self.continuous..]))
     }
 
-    /// A direction in the caller's unknowns, scaled to a largest entry of one, and where that is.
+    /// Converts a direction to the caller's unknowns and scales it to a largest entry of one. Returns the
+    /// place of that entry as well.
     fn direction(&self, v: &[f64]) -> (usize, Vec<f64>) {
         let mut v = self.caller(v, &self.affine.direction(&v[self.continuous..]));
         let at = (0..v.len()).fold(0, |at, i| if v[i].abs() > v[at].abs() { i } else { at });
@@ -349,7 +350,7 @@ impl Reformulation {
     }
 }
 
-/// A sum that counts as zero once its terms have cancelled.
+/// The bound below which a sum is zero after its terms have cancelled.
 #[derive(Clone, Copy)]
 struct Sum {
     sum: CompensatedSum,

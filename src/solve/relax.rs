@@ -1,4 +1,4 @@
-//! The relaxation: all integers real. Its minimum is a lower bound for every solution.
+//! The relaxation, in which all integers are real. Its minimum is a lower bound for every solution.
 
 use crate::eliminate::ReducedModel;
 use crate::error::{Error, Result};
@@ -6,8 +6,8 @@ use crate::linalg::{Lowest, Minimum};
 use crate::problem::Model;
 use crate::search::{Factors, Strategy};
 
-/// Rounding errors of the energy's own evaluation, relative to the sum of its absolute terms:
-/// the terms were themselves rounded when the model was assembled.
+/// The rounding error of an energy, relative to the sum of the absolute values of its terms. It includes
+/// the rounding of the terms when the model was assembled.
 const EVALUATION_ERROR: f64 = 4.0 * f64::EPSILON;
 
 /// The relaxation's minimiser and the bound that it proves.
@@ -17,11 +17,11 @@ pub(crate) struct Relaxation {
     pub lower_bound: f64,
 }
 
-/// Minimises the reduced objective of `whole` over real unknowns, by the factor that `strategy`
-/// needs as well.
+/// Minimises the reduced objective of `whole` over real unknowns, with a factor that `strategy` needs as
+/// well.
 ///
 /// # Errors
-/// [`Error::Unbounded`] and [`Error::NotConvex`], each with a direction, and for lack of memory.
+/// [`Error::Unbounded`] and [`Error::NotConvex`], each with a direction, and an error for lack of memory.
 pub(crate) fn relax(
     whole: &Model,
     model: &ReducedModel,
@@ -47,7 +47,7 @@ pub(crate) fn relax(
     }
 }
 
-/// A diagonal entry that is negative beyond what the rounding of its row explains.
+/// A diagonal entry that is negative by more than the rounding errors of its row.
 fn negative_diagonal(model: &ReducedModel) -> Option<usize> {
     (0..model.dim()).find(|&i| {
         let row = model.hessian().row(i);
@@ -56,7 +56,7 @@ fn negative_diagonal(model: &ReducedModel) -> Option<usize> {
     })
 }
 
-/// The error for a reduced direction along which the objective falls forever.
+/// The error for a reduced direction along which the objective decreases without limit.
 fn unbounded(model: &ReducedModel, direction: &[f64]) -> Error {
     let (variable, direction) = in_callers_unknowns(model, direction);
     Error::Unbounded {
@@ -74,7 +74,7 @@ fn not_convex(model: &ReducedModel, direction: &[f64]) -> Error {
     }
 }
 
-/// The direction expanded and scaled to a largest entry of one, and where that is.
+/// The direction in the caller's unknowns, scaled to a largest entry of one, and the place of that entry.
 fn in_callers_unknowns(model: &ReducedModel, direction: &[f64]) -> (usize, Vec<f64>) {
     let mut v = model.expansion().expand_direction(direction);
     let mut at = 0;

@@ -1,4 +1,4 @@
-//! One solve from beginning to end: validation, elimination, and the solve of what is left.
+//! One solve from beginning to end: validation, elimination, and the solve of the reduced problem.
 
 use super::Solution;
 use super::eliminated::EliminatedProblem;
@@ -12,17 +12,18 @@ use crate::search::{Factors, Options};
 /// Solves `problem`, without a monitor.
 ///
 /// # Errors
-/// Everything that [`Error`](crate::Error) names: bad input, contradictory constraints, an
-/// objective that is unbounded or not convex, out of time before a first solution.
+/// Every kind of [`Error`](crate::Error): bad input, contradictory constraints, an objective that is
+/// unbounded or not convex, and the time limit before a first solution.
 pub fn solve(problem: &Problem, options: &Options) -> Result<Solution> {
     solve_with(problem, options, Monitor::default())
 }
 
-/// Solves `problem`. The `monitor` is told of progress and of every better solution, and may cancel.
+/// Solves `problem`. The `monitor` receives the progress and every better solution, and may cancel the
+/// solve.
 ///
 /// # Errors
-/// As [`solve`], and [`Error::Cancelled`](crate::Error::Cancelled) when cancelled before a first
-/// solution was found.
+/// The errors of [`solve`], and [`Error::Cancelled`](crate::Error::Cancelled) if the solve was cancelled
+/// before a first solution.
 pub fn solve_with(problem: &Problem, options: &Options, mut monitor: Monitor) -> Result<Solution> {
     monitor.start(options.time_limit);
     monitor.check()?;
@@ -46,7 +47,7 @@ pub(super) fn tell_of_ignored_hint(model: &Model, monitor: &mut Monitor) {
     }
 }
 
-/// Solves a problem whose constraints are eliminated, as it is or reformulated.
+/// Solves a problem after the elimination of its constraints, reformulated if that is better.
 pub(super) fn solve_eliminated(
     mut problem: EliminatedProblem,
     options: &Options,

@@ -1,10 +1,10 @@
-//! A second solve without the integer unknowns, where the first violates the constraints.
+//! A second solve without integer unknowns, if the first solution violates the constraints.
 //!
 //! A chain of constraints between integers may lead to an expansion `x = T y + t` whose numbers are far
-//! larger than those of the solution. The integers are exact where `y` is integer. Continuous unknowns in
+//! larger than those of the solution. For integer `y` the integers are exact, but continuous unknowns in
 //! the same constraints lose most of their digits to cancellation. In a relaxation `y` is not integer, and
-//! every unknown may lose them. The second solve pins the integers to the values found, or makes them
-//! real for a relaxation. Then there is no such chain, and pivots are chosen by size.
+//! every unknown may lose its digits. The second solve pins the integers to the values of the first, or
+//! makes them real for a relaxation. Then there is no such chain, and pivots are chosen by size.
 
 use super::expand::expand;
 use super::relax::relax;
@@ -16,19 +16,19 @@ use crate::monitor::Monitor;
 use crate::problem::{Model, Problem};
 use crate::search::{Factors, Strategy};
 
-/// Violations up to this size may come from the rounding of the values themselves.
+/// Violations up to this size may come from the rounding of the values alone.
 const CLEAN: f64 = 1e-9;
 
 /// The result of a second solve.
 pub(super) struct SecondSolve {
     pub values: Vec<f64>,
     pub verdict: Verdict,
-    /// The lower bound of the problem that was solved the second time.
+    /// The lower bound from the second solve.
     pub lower_bound: f64,
 }
 
 /// Solves for the continuous unknowns again, with the integers of `values`, if `verdict` says that these
-/// values violate the constraints. Returns only what is better.
+/// values violate the constraints. None unless the result is better.
 pub(super) fn with_integers_held(
     problem: &Problem,
     values: &[f64],
@@ -47,13 +47,13 @@ pub(super) fn with_integers_held(
 }
 
 /// Solves the relaxation again, with real unknowns for the integers, if `verdict` says that the first
-/// minimiser violates the constraints. Returns only what is better.
+/// minimiser violates the constraints. None unless the result is better.
 pub(super) fn with_integers_real(problem: &Problem, verdict: &Verdict) -> Option<SecondSolve> {
     better(problem, verdict, || again(problem, &problem.relaxed()))
 }
 
-/// The result of `solve`, if the constraints are violated and it violates them less. Without free integers
-/// the second problem would be the first one, so nothing is solved.
+/// The result of `solve`, if the constraints are violated and the result violates them less. Without free
+/// integers the second problem would be the first one, so there is no second solve.
 fn better(
     problem: &Problem,
     verdict: &Verdict,

@@ -1,4 +1,4 @@
-//! What a solve gives back.
+//! The result of a solve.
 
 use crate::monitor::relative_gap;
 use crate::search::SolveStatus;
@@ -6,17 +6,17 @@ use crate::search::SolveStatus;
 /// Sizes of a problem before and after elimination.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Counts {
-    /// Unknowns.
+    /// The number of unknowns.
     pub variables: usize,
-    /// Integer unknowns.
+    /// The number of integer unknowns.
     pub integers: usize,
-    /// Equality constraints.
+    /// The number of equality constraints.
     pub constraints: usize,
-    /// Integer unknowns left after elimination.
+    /// The number of integer unknowns after elimination.
     pub reduced_integers: usize,
-    /// Continuous unknowns left after elimination.
+    /// The number of continuous unknowns after elimination.
     pub reduced_continuous: usize,
-    /// Entries below the diagonal of the factor that the relaxation was solved with.
+    /// The number of entries below the diagonal of the relaxation's factor.
     pub factor_nonzeros: usize,
 }
 
@@ -29,14 +29,14 @@ pub struct Seconds {
     pub factor: f64,
     /// The search for integers.
     pub round: f64,
-    /// All of the solve, verification included.
+    /// The whole solve, including verification.
     pub total: f64,
 }
 
 /// A solution: values, their energy, and a lower bound on the energy of every solution.
 ///
-/// Energy and violations are recomputed from the caller's own arrays by code that shares nothing
-/// with the solver.
+/// Energy and violations are computed again from the caller's own arrays, by code that shares nothing with
+/// the solver.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Solution {
     pub(super) values: Vec<f64>,
@@ -51,7 +51,7 @@ pub struct Solution {
 }
 
 impl Solution {
-    /// One value an unknown. Integer unknowns hold exact integers, except after a relaxation.
+    /// One value for each unknown. Integer unknowns have exact integers, except after a relaxation.
     pub fn values(&self) -> &[f64] {
         &self.values
     }
@@ -61,12 +61,12 @@ impl Solution {
         self.energy
     }
 
-    /// No integer solution has less energy than this.
+    /// A lower bound: no integer solution has less energy.
     pub fn lower_bound(&self) -> Option<f64> {
         self.lower_bound
     }
 
-    /// `(energy - lower_bound) / max(1, |energy|)`, where there is a bound.
+    /// The relative gap `(energy - lower_bound) / max(1, |energy|)`, if there is a bound.
     pub fn gap(&self) -> Option<f64> {
         self.lower_bound
             .map(|bound| relative_gap(self.energy, bound))
@@ -77,8 +77,8 @@ impl Solution {
         self.status
     }
 
-    /// Multiplications of the relaxation and of the search, to their order: the relaxation counts as
-    /// 50 for each entry of the reduced Hessian, roundings are not counted. The same on every
+    /// The multiplications of the relaxation and of the search, approximately. The relaxation counts as 50
+    /// for each entry of the reduced Hessian; roundings do not count. The number is the same on every
     /// machine.
     pub fn work(&self) -> u64 {
         self.work

@@ -1,8 +1,8 @@
-//! A problem that is solved again and again, with other right sides, linear terms and pins.
+//! Repeated solves of one problem with other right sides, linear terms and pins.
 //!
-//! Elimination, orderings and factors depend on none of them and are kept. Right sides go through
-//! the recorded steps of the elimination ([`Elimination::reduce`]), which is what a first solve
-//! does as well: the same data give the same bits as a solve from the start.
+//! Elimination, orderings and factors depend on none of these and are kept. Every solve, also the first,
+//! passes its right sides through the recorded steps of the elimination ([`Elimination::reduce`]). So the
+//! result is the same bit for bit as that of a solve from the start.
 
 use super::Solution;
 use super::eliminated::EliminatedProblem;
@@ -18,31 +18,31 @@ use crate::search::{Factors, Options, SolveStatus};
 
 /// A problem of fixed structure, with its elimination and factors kept from solve to solve.
 ///
-/// The first solve costs what [`solve`](crate::solve()) costs. A later one with other linear terms,
-/// right sides or pinned values skips elimination, orderings and factorizations. Pinning or releasing
-/// an unknown that is in no constraint keeps the elimination; one that is in a constraint calls for
-/// another. The solution is always that of a solve from the start, bit for bit, except that a warm
-/// start may improve it.
+/// The first solve costs as much as [`solve`](crate::solve()). A later solve with other linear terms, right
+/// sides or pinned values skips elimination, orderings and factorizations. Pinning or releasing an unknown
+/// that is in no constraint keeps the elimination. If the unknown is in a constraint, the elimination is
+/// made again. The solution is always that of a solve from the start, bit for bit, except that a warm start
+/// may improve it.
 ///
-/// A solve that fails changes nothing: the data stay as they were set, and the next solve may use
-/// others.
+/// A solve that fails changes nothing. The data stay as they were set, and the next solve may use other
+/// data.
 #[derive(Debug)]
 pub struct Solver {
     problem: Problem,
     model: Model,
-    /// Whether the problem has changed since the model was made of it.
+    /// Whether the problem has changed since the model was made.
     stale: bool,
     cache: Option<Cache>,
-    /// The last integer solution, unless a guess was given since.
+    /// The last integer solution, unless the caller has set a guess since.
     earlier: Option<Vec<f64>>,
 }
 
-/// The elimination and the factors, which right sides do not change.
+/// The elimination and the factors, which do not depend on right sides.
 #[derive(Debug)]
 struct Cache {
     ordering: Ordering,
     elimination: Elimination,
-    /// The pinned unknowns that the factors leave out.
+    /// The pinned unknowns, which the factors do not contain.
     pinned: Vec<bool>,
     factors: Factors,
 }
@@ -51,7 +51,7 @@ impl Solver {
     /// A solver for a copy of `problem`.
     ///
     /// # Errors
-    /// As [`Model::new`]. All else shows in the first solve.
+    /// The errors of [`Model::new`]. All other errors come from the first solve.
     pub fn new(problem: &Problem) -> Result<Self> {
         Ok(Solver {
             model: Model::new(problem)?,
@@ -62,7 +62,7 @@ impl Solver {
         })
     }
 
-    /// The problem as it stands.
+    /// The problem in its current state.
     pub fn problem(&self) -> &Problem {
         &self.problem
     }
@@ -83,7 +83,7 @@ impl Solver {
         self.change(|problem| problem.set_constant(value))
     }
 
-    /// See [`Problem::set_constraint_right_sides`]. Whether they can hold shows in the next solve.
+    /// See [`Problem::set_constraint_right_sides`]. The next solve detects contradictions.
     ///
     /// # Errors
     /// Those of [`Problem::set_constraint_right_sides`].
@@ -115,7 +115,7 @@ impl Solver {
         self.change(|problem| problem.unpin(variable))
     }
 
-    /// See [`Problem::set_guess`]. A warm start begins there, until a solution is found.
+    /// See [`Problem::set_guess`]. A warm start begins there until a solution is found.
     ///
     /// # Errors
     /// Those of [`Problem::set_guess`].
@@ -131,7 +131,7 @@ impl Solver {
         Ok(())
     }
 
-    /// Solves the problem as it stands, without a monitor.
+    /// Solves the current problem without a monitor.
     ///
     /// # Errors
     /// As [`solve`](crate::solve()).
@@ -139,7 +139,7 @@ impl Solver {
         self.solve_with(options, Monitor::default())
     }
 
-    /// Solves the problem as it stands, with a `monitor`.
+    /// Solves the current problem with a `monitor`.
     ///
     /// # Errors
     /// As [`solve_with`](crate::solve_with).
@@ -152,12 +152,12 @@ impl Solver {
         Ok(solution)
     }
 
-    /// Solves the problem as it stands under further constraints between integers, which are forgotten
-    /// afterwards, with the elimination and the factors of the problem without them. None where that
-    /// cannot be: see [`subject_to`](super::subject_to).
+    /// Solves the current problem under further constraints between integers, which hold for this solve
+    /// only. It uses the elimination and the factors of the problem without them. None if that is
+    /// impossible: see [`subject_to`](super::subject_to).
     ///
     /// # Errors
-    /// As [`solve_with`](crate::solve_with); the constraint that an error names is the row.
+    /// The errors of [`solve_with`](crate::solve_with). The constraint that an error names is the row.
     pub(crate) fn solve_subject_to(
         &mut self,
         rows: &RowList,
@@ -168,7 +168,7 @@ impl Solver {
         solve_subject_to(eliminated, rows, options, &mut monitor)
     }
 
-    /// The problem as it stands with its elimination and factors, from the cache where they are still right.
+    /// The current problem with its elimination and factors, from the cache if they are still valid.
     fn prepare(
         &mut self,
         options: &Options,
@@ -207,7 +207,8 @@ impl Cache {
         })
     }
 
-    /// Whether the elimination is that of a solve of `model` from the start, but for columns.
+    /// Whether this elimination equals that of a solve of `model` from the start, except for the columns of
+    /// pinned unknowns.
     fn serves(&self, model: &Model, ordering: Ordering) -> bool {
         let fits = |(i, pinned): (usize, bool)| {
             pinned == self.elimination.was_pinned(i) || (pinned && self.elimination.can_hold(i))
@@ -215,7 +216,7 @@ impl Cache {
         ordering == self.ordering && pinned(model).enumerate().all(fits)
     }
 
-    /// Forgets the factors if they are those of other unknowns.
+    /// Discards the factors if other unknowns are pinned now.
     fn leave_out_pinned(&mut self, model: &Model) {
         if !pinned(model).eq(self.pinned.iter().copied()) {
             self.pinned = pinned(model).collect();

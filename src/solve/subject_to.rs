@@ -1,10 +1,10 @@
-//! Further constraints between integers, without another elimination and other factors.
+//! Solves under further constraints between integers, with the existing elimination and factors.
 //!
-//! Minimised over the continuous unknowns, the objective is `E* + 1/2 |R (z - z*)|^2` in the reduced
-//! integers z. Here `R` is the factor of their Schur complement, and `z*` and `E*` are the integers and
-//! the energy of the relaxation. Constraints between integers alone are rows in z. So the constrained
-//! problem in z is a small dense one. It is solved like any other, and its integers are offered to the
-//! whole problem.
+//! The minimum of the objective over the continuous unknowns is `E* + 1/2 |R (z - z*)|^2` in the reduced
+//! integers z. Here `R` is the factor of their Schur complement, and `z*` and `E*` are the integers and the
+//! energy of the relaxation. Constraints between integers alone are rows in z. So the constrained problem
+//! in z is small and dense. It is solved like any other problem, and its integers are offered to the search
+//! of the whole problem.
 
 use super::Solution;
 use super::eliminated::{EliminatedProblem, SearchResult};
@@ -17,11 +17,11 @@ use crate::problem::RowList;
 use crate::problem::{Model, Problem};
 use crate::search::{Factors, Options, Search, SolveStatus, Strategy, WarmStart, of_relaxation};
 
-/// Solves under further constraints. None where that needs a solve from the start: if unknowns in the
-/// constraints are not integer, if integers are many, with a warm start, or for a strategy that proves, since
-/// a proof must account for the rounding of all data.
+/// Solves under further constraints. None if a solve from the start is needed. That is so if the
+/// constraints contain unknowns that are not integer, if there are many integers, with a warm start, or for
+/// a strategy with a proof, since a proof must account for the rounding of all data.
 ///
-/// The bound is that of the relaxation without these constraints.
+/// The bound is that of the relaxation without the further constraints.
 ///
 /// # Errors
 /// As [`solve`](crate::solve()); [`Infeasible`](crate::Error::Infeasible) and
@@ -76,10 +76,12 @@ pub(super) fn solve_subject_to(
     concluded.map(Some)
 }
 
-/// A constraint in the reduced integers: their places among them, coefficients, right side.
+/// A constraint in the reduced integers: their places among all integers, the coefficients, and the right
+/// side.
 type Row = (Vec<usize>, Vec<f64>, f64);
 
-/// Rows in the caller's unknowns as rows in the reduced integers; none if there are others in them.
+/// Converts rows in the caller's unknowns to rows in the reduced integers. None if they contain other
+/// unknowns.
 fn between_integers(model: &ReducedModel, rows: &RowList) -> Option<Vec<Row>> {
     let mut place = vec![None; model.dim()];
     for (k, &i) in model.integers().iter().enumerate() {
@@ -101,7 +103,7 @@ fn between_integers(model: &ReducedModel, rows: &RowList) -> Option<Vec<Row>> {
     (0..rows.len()).map(of_row).collect()
 }
 
-/// The problem of the integers alone, all others following.
+/// The problem in the integers alone, with the continuous unknowns minimised out.
 fn of_integers(
     model: &ReducedModel,
     relaxation: &Relaxation,
@@ -135,7 +137,8 @@ mod tests {
     use crate::error::Error;
     use crate::solve::{Solver, solve};
 
-    /// A ring of springs, each third node integer, two nodes tied by a seam of an integer step.
+    /// A ring of springs. Each third node is an integer, and a seam with an integer step connects two
+    /// nodes.
     fn ring(seed: u32) -> Problem {
         let n = 24;
         let mut problem = Problem::new(n + 1).unwrap();
@@ -195,7 +198,7 @@ mod tests {
             assert_eq!(least.status(), SolveStatus::Optimal);
             assert!((found.energy() - least.energy()).abs() < 1e-9 * least.energy());
             assert!(found.lower_bound().unwrap() <= least.energy());
-            // What was asked for is forgotten.
+            // The further constraints do not affect the next solve.
             assert_eq!(solver.solve(&lattice()).unwrap().values(), free.values());
         }
     }

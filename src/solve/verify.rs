@@ -1,13 +1,13 @@
-//! Energy and violations from the caller's own arrays.
+//! Verification: energy and violations, computed from the caller's own arrays.
 //!
-//! This shares nothing with the solver: it reads the problem as it was given, term by term and
-//! row by row, before duplicates are summed or rows squared into Q.
+//! This shares nothing with the solver. It reads the caller's problem term by term and row by row, before
+//! duplicates are summed or rows are squared into Q.
 
 use crate::error::{Error, Result};
 use crate::linalg::CompensatedSum;
 use crate::problem::Problem;
 
-/// What a point is worth, measured on the problem as given.
+/// The energy and the violations of a point, measured on the caller's problem.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Verdict {
     /// The objective, in the caller's units.
@@ -18,10 +18,10 @@ pub struct Verdict {
     pub integrality_violation: f64,
 }
 
-/// Measures the point `x`, wherever it comes from: this library, another solver, a file.
+/// Measures the point `x`. It may come from this library, another solver or a file.
 ///
 /// # Errors
-/// [`Error::LengthMismatch`] for other than one value an unknown, [`Error::NotFinite`].
+/// [`Error::LengthMismatch`] unless there is one value for each unknown, and [`Error::NotFinite`].
 pub fn verify(problem: &Problem, x: &[f64]) -> Result<Verdict> {
     if x.len() != problem.variables() {
         return Err(Error::LengthMismatch {
@@ -112,7 +112,7 @@ mod tests {
     fn any_point_is_measured_on_the_problem_as_given() {
         let verdict = verify(&problem().unwrap(), &[2.0, 1.25, 3.0]).unwrap();
         assert_eq!(verdict.energy, 0.5625 + 0.78125 - 2.0 + 1.0);
-        // The row is off by 1.5 of 4.5, the pin by 1 of 4.
+        // The row is violated by 1.5 relative to 4.5, the pin by 1 relative to 4.
         assert!((verdict.constraint_violation - 1.5 / 4.5).abs() < 1e-15);
         assert_eq!(verdict.integrality_violation, 0.25);
     }

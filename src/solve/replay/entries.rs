@@ -1,8 +1,7 @@
-//! JSON objects from names to plain values, entry by entry.
+//! A parser for JSON objects of names and plain values, entry by entry.
 //!
-//! A map that serde derives takes the last of two equal names silently, and an error that is made
-//! after an entry was read gets the line of whatever comes next. Here each value is judged while
-//! the parser stands on it.
+//! A map that serde derives silently takes the last of two equal names. An error raised after an entry was
+//! read gets the line of the next token. So each value is checked while the parser is still on its line.
 
 use std::fmt;
 
@@ -10,10 +9,11 @@ use serde::de::{DeserializeSeed, Deserializer, Error, MapAccess, Visitor};
 
 use crate::search::OptionValue;
 
-/// Hands each entry of an object to a function, whose refusal is an error on that entry's line.
+/// Passes each entry of an object to a function. If the function refuses an entry, the error has that
+/// entry's line.
 pub(super) struct Entries<F>(pub F);
 
-/// What the function answers.
+/// The function's result.
 pub(super) type Verdict = std::result::Result<(), String>;
 
 impl<'de, F: FnMut(&str, OptionValue) -> Verdict> Visitor<'de> for Entries<F> {

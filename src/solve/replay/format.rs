@@ -1,4 +1,4 @@
-//! The replay file itself: JSON, with options by their names in the table of options.
+//! The format of the replay file: JSON, with the options under their names in the table of options.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -10,24 +10,24 @@ use super::entries::Entries;
 use crate::error::{Error, Result};
 use crate::search::{OPTIONS, OptionInfo, OptionKind, OptionValue, Options};
 
-/// The format written, and the only one read.
+/// The version of the format that is written. No other version can be read.
 const FORMAT: u64 = 1;
 
-/// What a replay file holds.
+/// The contents of a replay file.
 #[derive(Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Replay {
     pub format: u64,
-    /// Version of the library that wrote the file, for the reader of a bug report.
+    /// The version of the library that wrote the file. It is information for the reader of a bug report.
     pub library: String,
-    /// Sizes of the problem, which tell a file that stands beside another problem.
+    /// The sizes of the problem, which detect a replay file of another problem.
     pub variables: usize,
     pub constraints: usize,
     #[serde(serialize_with = "write_options", deserialize_with = "read_options")]
     pub options: Options,
     /// The pinned variables.
     pub pins: Values,
-    /// The variables whose guess is not zero.
+    /// The variables with a nonzero guess.
     pub guess: Values,
 }
 
@@ -59,7 +59,7 @@ impl Replay {
     }
 
     pub fn parse(bytes: &[u8]) -> Result<Self> {
-        /// The format comes first, since all else depends on it.
+        /// The format is read first, since the meaning of all other entries depends on it.
         #[derive(Deserialize)]
         struct Header {
             format: u64,
@@ -76,7 +76,7 @@ impl Replay {
     }
 }
 
-/// The line of the format: that on which it fails to be a word.
+/// The line of the format's entry. Reading the number as a string fails on that line.
 fn format_line(bytes: &[u8]) -> Option<usize> {
     #[derive(Deserialize)]
     struct Located {
@@ -89,7 +89,7 @@ fn format_line(bytes: &[u8]) -> Option<usize> {
 
 fn parse_error(error: serde_json::Error) -> Error {
     let text = error.to_string();
-    // Our own message starts with the line.
+    // The library's own message starts with the line, so serde's copy at the end is removed.
     let place = format!(" at line {} column {}", error.line(), error.column());
     Error::Parse {
         line: error.line().max(1),
@@ -105,7 +105,7 @@ fn write_options<S: Serializer>(
     for info in OPTIONS {
         match options.get(info.name).map_err(serde::ser::Error::custom)? {
             OptionValue::Integer(value) => map.serialize_entry(info.name, &value)?,
-            // JSON has no word for infinity.
+            // JSON has no literal for infinity.
             OptionValue::Real(f64::INFINITY) => map.serialize_entry(info.name, "inf")?,
             OptionValue::Real(value) => map.serialize_entry(info.name, &value)?,
             OptionValue::Text(value) => map.serialize_entry(info.name, &value)?,

@@ -1,12 +1,11 @@
-//! Replay files: a problem and how it was solved, so that the solve can be repeated elsewhere.
+//! Replay files: a problem with its options, from which a solve can be repeated elsewhere.
 //!
-//! The habit is Clarabel's, and the first thing to ask for in a bug report. The problem goes into
-//! an MPS file, `NAME.mps` or `NAME.mps.gz`, and what MPS cannot state into `NAME.replay.json`
-//! beside it: options, pins, initial guess. All numbers are written such that they read back as
-//! themselves, so that Q, q, c and the constraints of the [`Model`] are the same bit for bit, and
-//! with them the values of a solve. Least-squares rows come back as the part of Q, q and c that
-//! they are, without the cycles hinted at among them; an energy summed row by row may therefore
-//! differ in its last digits.
+//! Clarabel writes such files too; they belong in a bug report. The problem goes into an MPS file,
+//! `NAME.mps` or `NAME.mps.gz`. The data that MPS cannot express go into `NAME.replay.json` beside it:
+//! options, pins and initial guess. Every number is written with enough digits to be read back as itself.
+//! So Q, q, c and the constraints of the [`Model`] are the same bit for bit, and so are the values of a
+//! solve. Least-squares rows are read back as their part of Q, q and c, without the cycles hinted among
+//! them. So an energy that is summed row by row may differ in its last digits.
 
 mod entries;
 mod format;
@@ -20,7 +19,7 @@ use crate::search::Options;
 
 use format::{Replay, Values};
 
-/// Writes `problem` to the file at `path`, which ends in `.mps` or `.mps.gz`, and the replay file
+/// Writes `problem` to the file at `path`, which must end in `.mps` or `.mps.gz`, and the replay file
 /// beside it.
 ///
 /// # Errors
@@ -30,7 +29,7 @@ pub fn save(path: &Path, problem: &Problem, options: &Options) -> Result<()> {
     let replay_path = replay_path(path)?;
     let model = Model::new(problem)?;
     let pins = model.pinned().iter().enumerate();
-    // By bits, so that minus zero is kept.
+    // The comparison is bitwise, so that minus zero is kept.
     let guess = model.guess().iter().copied().enumerate();
     let guess = guess.filter(|(_, v)| v.to_bits() != 0);
     let replay = Replay {
@@ -47,7 +46,7 @@ pub fn save(path: &Path, problem: &Problem, options: &Options) -> Result<()> {
     std::fs::write(&replay_path, text).map_err(|e| mps::io_error(&replay_path, e))
 }
 
-/// Reads the problem at `path`, which ends in `.mps` or `.mps.gz`, and the replay file beside it.
+/// Reads the problem at `path`, which must end in `.mps` or `.mps.gz`, and the replay file beside it.
 ///
 /// # Errors
 /// As [`mps::read`]; for the replay file [`Error::Io`], [`Error::Parse`] with the line at fault,
@@ -89,7 +88,7 @@ pub fn load(path: &Path) -> Result<(Problem, Options)> {
     Ok((problem, replay.options))
 }
 
-/// The file that stands beside the problem at `path`.
+/// The replay file beside the problem at `path`.
 ///
 /// # Errors
 /// [`Error::InvalidArgument`] unless `path` ends in `.mps` or `.mps.gz`.
