@@ -20,11 +20,11 @@ pub(super) enum Place {
 /// The end of a walk around a cell.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Walk {
-    /// Where it began.
+    /// The walk returned to its start.
     Closed,
-    /// At a line that leaves the surface.
+    /// The walk came to a line that leaves the surface.
     Cut,
-    /// Where another walk had begun, in the middle of a cell that is not closed.
+    /// The walk came to the start of another walk, in the middle of a cell that is not closed.
     Met,
 }
 
