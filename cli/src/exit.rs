@@ -4,7 +4,7 @@ use std::process::ExitCode;
 
 use roundel::Error;
 
-/// How a run of the program ended.
+/// The outcome of a run of the program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Exit {
     /// There is a solution.
@@ -15,7 +15,7 @@ pub enum Exit {
     Infeasible = 3,
     /// The objective has no minimum.
     Unbounded = 4,
-    /// Out of time, or cancelled, before a first solution.
+    /// The run was cancelled or out of time before a first solution.
     Stopped = 5,
     /// A map was checked and is not valid.
     Invalid = 6,

@@ -2,7 +2,7 @@
 
 use roundel::{CancelToken, Error, Result};
 
-/// What a shell reports of a program that SIGINT killed: 128 and the number of the signal.
+/// The exit code that a shell reports for a program killed by SIGINT: 128 plus the number of the signal.
 const KILLED: i32 = 130;
 
 /// A token that Ctrl-C sets.

@@ -5,7 +5,7 @@ use std::path::Path;
 use roundel::{Error, Solution};
 use serde::Serialize;
 
-/// What `--json` prints of a solution.
+/// The output of `--json` for a solution.
 #[derive(Serialize)]
 pub struct Report<'a> {
     file: String,
@@ -48,7 +48,7 @@ pub struct Preparation {
 }
 
 impl<'a> Report<'a> {
-    /// The report of `solution`, found by `strategy` for what is in `file`.
+    /// The report of `solution`, which `strategy` found for the contents of `file`.
     pub fn new(
         file: &Path,
         strategy: &'a str,
@@ -86,7 +86,7 @@ impl<'a> Report<'a> {
     }
 }
 
-/// What `--json` prints of a run without a solution.
+/// The output of `--json` for a run without a solution.
 #[derive(Serialize)]
 pub struct Failure {
     file: String,

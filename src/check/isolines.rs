@@ -3,8 +3,8 @@
 use crate::mesh::TriangleMesh;
 use crate::mesh::vector::{cross, dot, norm};
 
-/// The distance of an edge from the nearest line u = integer or v = integer, the larger of those in its
-/// two faces. It is that of the farther end.
+/// The distance of an edge from the nearest line u = integer or v = integer: that of its farther end, in the
+/// face where it is larger.
 pub(super) fn distance_to_isoline(mesh: &TriangleMesh, uv: &[[[f64; 2]; 3]], edge: usize) -> f64 {
     let edge = mesh.edge(edge);
     let sides = std::iter::once(edge.first).chain(edge.second);

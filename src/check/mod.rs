@@ -1,8 +1,7 @@
-//! Whether coordinates on a surface are an integer-grid map, element by element.
+//! Checks element by element whether coordinates on a surface are an integer-grid map.
 //!
-//! `bommes2012`, chapter 6, equations (6.1) to (6.3), and `bommes2013`, section 3: the integer lines of
-//! the plane become a quad mesh on the surface if
-//!
+//! The conditions are those of `bommes2012`, chapter 6, equations (6.1) to (6.3), and `bommes2013`, section
+//! 3. The integer lines of the plane become a quad mesh on the surface if these hold:
 //! | condition | file |
 //! | --- | --- |
 //! | over every edge coordinates change by a quarter turn and integers | `transitions` |
@@ -10,8 +9,8 @@
 //! | every triangle is positively oriented | `orientation` |
 //! | features and boundary are on integer lines | `isolines` |
 //!
-//! The check uses nothing but the mesh and the coordinates of its corners, wherever they come from, and
-//! shares no code with what makes maps.
+//! The check uses only the mesh and the coordinates of its corners, whatever their source. It shares no code
+//! with the computation of maps.
 
 mod isolines;
 mod orientation;
@@ -29,16 +28,16 @@ use isolines::distance_to_isoline;
 use singular::singularities;
 use transitions::seen;
 
-/// How exact a map has to be, in units of the integer grid.
+/// The required accuracy of a map, in units of the integer grid.
 ///
-/// Coordinates with six decimals pass, and so does the residual that a solver leaves of a constraint. A
-/// wrong translation is hardly ever as near to an integer by chance.
+/// Coordinates with six decimals pass, and so does the residual of a constraint after a solve. A wrong
+/// translation is hardly ever this close to an integer by chance.
 pub const MAP_TOLERANCE: f64 = 1e-6;
 
-/// What to check beyond transitions, singular vertices and orientation.
+/// The tolerance, and the checks beyond transitions, singular vertices and orientation.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CheckOptions {
-    /// What counts as integer, and as the same point, in units of the grid.
+    /// The largest distance from an integer, or between equal points, in units of the grid.
     pub tolerance: f64,
     /// Edges of the mesh that must be on integer isolines.
     pub features: Vec<usize>,
@@ -56,7 +55,7 @@ impl Default for CheckOptions {
     }
 }
 
-/// An element that breaks a rule, and by how much in units of the grid.
+/// An element that breaks a rule, and the amount in units of the grid.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Defect {
     /// The edge, vertex or face.
@@ -65,7 +64,7 @@ pub struct Defect {
     pub amount: f64,
 }
 
-/// What is wrong with a map, rule by rule; elements in increasing order.
+/// The faults of a map for each rule, with elements in increasing order.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MapCheck {
     /// Edges over which coordinates do not change by a quarter turn, with the difference of the edge's
@@ -78,9 +77,9 @@ pub struct MapCheck {
     pub singularities: Vec<Singularity>,
     /// Singular vertices that are not at integer points.
     pub off_grid: Vec<Defect>,
-    /// Faces whose orientation, decided exactly, is negative, with their area in unit squares.
+    /// Faces with negative orientation, decided exactly, with their area in unit squares.
     pub flipped: Vec<Defect>,
-    /// Faces whose corners are collinear, exactly.
+    /// Faces whose corners are exactly collinear.
     pub degenerate: Vec<usize>,
     /// Boundary edges off the integer isolines.
     pub boundary: Vec<Defect>,
@@ -93,7 +92,7 @@ pub struct MapCheck {
 }
 
 impl MapCheck {
-    /// Whether nothing is wrong.
+    /// Whether there is no fault.
     pub fn is_valid(&self) -> bool {
         self.is_integer() && self.is_fold_free() && self.is_aligned()
     }
@@ -113,7 +112,7 @@ impl MapCheck {
         self.flipped.is_empty() && self.degenerate.is_empty()
     }
 
-    /// Whether the features and the boundary that were to be checked are on integer isolines.
+    /// Whether the features and the boundary that were checked are on integer isolines.
     pub fn is_aligned(&self) -> bool {
         self.boundary.is_empty() && self.features.is_empty()
     }
@@ -175,7 +174,7 @@ pub fn check_map(
     })
 }
 
-/// The singular vertices that some face around them does not have at an integer point.
+/// The singular vertices that are not at an integer point in some face around them.
 fn off_grid(
     mesh: &TriangleMesh,
     uv: &[[[f64; 2]; 3]],

@@ -1,12 +1,12 @@
 //! The orientation of a triangle in the plane (`bommes2012`, equation (6.3)), decided exactly.
 //!
-//! It is the sign of the area, computed in as many digits as it takes (`shewchuk1997`) by the crate
-//! `robust`; the plain formula has the wrong sign for needles.
+//! The orientation is the sign of the area, computed with as many digits as necessary (`shewchuk1997`) by the
+//! crate `robust`. The plain formula gives the wrong sign for needles.
 
 use robust::{Coord, orient2d};
 
-/// A number with the sign of the triangle's area: positive where its corners run
-/// counter-clockwise, zero exactly where they are collinear.
+/// A number with the sign of the triangle's area: positive if its corners run counter-clockwise, and zero
+/// exactly if they are collinear.
 pub fn orientation(uv: [[f64; 2]; 3]) -> f64 {
     let [a, b, c] = uv.map(|[x, y]| Coord { x, y });
     orient2d(a, b, c)

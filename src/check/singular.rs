@@ -1,8 +1,8 @@
-//! Singular vertices (`bommes2012`, equation (6.2)): those whose angles in the map do not sum to
-//! one turn.
+//! Singular vertices (`bommes2012`, equation (6.2)): the angles of the map around them do not sum to one
+//! turn.
 //!
-//! The composed quarter turns around a vertex give its index up to whole turns. The angles of the
-//! map tell the whole turns; they are trusted where all triangles around are positively oriented.
+//! The composed quarter turns around a vertex give its index up to whole turns. The angles of the map give
+//! the whole turns. The angles are used if all triangles around the vertex are positively oriented.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -51,14 +51,13 @@ fn interior_index(mesh: &TriangleMesh, uv: &[[[f64; 2]; 3]], quarters: &[u8], v:
     let holonomy = holonomy.rem_euclid(4);
     match turns_around(mesh, |f| uv[f], v).map(|angle| 4 - angle) {
         Some(index) if (index - holonomy).rem_euclid(4) == 0 => index,
-        // +3/4 and -1/4 cannot be told apart by turns; cones of -1/4 are the common ones.
+        // Quarter turns do not distinguish +3/4 from -1/4. Cones of -1/4 are the common ones.
         _ if holonomy == 3 => -1,
         _ => holonomy,
     }
 }
 
-/// The quarter turns to which the map's angles around a vertex sum; none if a triangle there is
-/// folded.
+/// The sum of the map's angles around a vertex, in quarter turns, or `None` if a triangle there is folded.
 pub(super) fn turns_around(
     mesh: &TriangleMesh,
     uv: impl Fn(usize) -> [[f64; 2]; 3],

@@ -1,12 +1,12 @@
-//! How coordinates change over an edge, read off the coordinates alone.
+//! The change of coordinates over an edge, computed from the coordinates alone.
 //!
-//! `bommes2012`, equation (6.1): the transition of an integer-grid map is a quarter turn and an
-//! integer translation. Both faces have coordinates of both ends of an edge, which a turn and a
-//! translation explain up to a residual. The turn with the least residual is taken.
+//! By `bommes2012`, equation (6.1), the transition of an integer-grid map is a quarter turn and an integer
+//! translation. Each of the two faces gives coordinates for both ends of the edge. A turn and a translation
+//! map one pair to the other up to a residual. The turn with the least residual is chosen.
 
 use crate::mesh::TriangleMesh;
 
-/// What carries the coordinates of an edge's first face to those of its second.
+/// The transition from the coordinates of an edge's first face to those of its second.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Seen {
     /// Quarter turns counter-clockwise, 0 to 3.
@@ -17,10 +17,10 @@ pub(super) struct Seen {
     pub translation_error: f64,
 }
 
-/// The transition of an interior edge; none at the boundary.
+/// The transition of an interior edge; `None` at the boundary.
 ///
-/// An edge without length does not determine the turn: of all turns that explain it, the one whose
-/// translation is nearest to integers is taken.
+/// An edge without length does not determine the turn. Of all turns that fit, the one with the translation
+/// nearest to integers is taken.
 pub(super) fn seen(
     mesh: &TriangleMesh,
     uv: &[[[f64; 2]; 3]],

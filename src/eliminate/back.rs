@@ -1,5 +1,5 @@
-//! Back substitution: the matrix of the expansion `x = T y + t` from the stack, last substitution
-//! first. The offset `t` is the business of `right_sides`.
+//! Back substitution through the stack, last substitution first. It yields the matrix T of the expansion `x =
+//! T y + t`; `right_sides` computes the offset `t`.
 
 use super::row::{TooLarge, add_product};
 use super::tableau::Tableau;
@@ -10,7 +10,7 @@ use crate::linalg::sparse::reserve;
 use crate::linalg::{Accumulator, Sparse};
 use crate::monitor::Monitor;
 
-/// T, and the unknowns that are left, in their order.
+/// Computes `T` and the list of remaining unknowns, in increasing order.
 pub(super) fn substitute_back(
     tableau: &Tableau,
     monitor: &mut Monitor,
@@ -54,7 +54,7 @@ impl From<TooLarge> for Trouble {
     }
 }
 
-/// Rows of `T` of the replaced unknowns, by substitution.
+/// The rows of `T` of the replaced unknowns, by substitution.
 struct Known {
     entries: Vec<(u32, f64)>,
     rows: Vec<(usize, usize)>,
@@ -117,7 +117,7 @@ impl Known {
     }
 }
 
-/// A sparse row being summed.
+/// A sparse row that is being summed.
 struct Sum {
     entries: Accumulator<Entry>,
     exact: bool,
@@ -144,7 +144,7 @@ impl Sum {
         Ok(())
     }
 
-    /// Appends the row, sorted and without what cancelled, and empties the sum.
+    /// Appends the row, sorted and without cancelled entries, and empties the sum.
     fn drain_into(&mut self, row: &mut Vec<(u32, f64)>) {
         let exact = self.exact;
         self.entries.sort();

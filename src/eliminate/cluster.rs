@@ -1,23 +1,23 @@
-//! A shallow tree of unknowns, in which neighbours hang below the heaviest among them.
+//! A shallow tree of unknowns, in which neighbours are children of the heaviest among them.
 //!
 //! The unknowns are listed so that neighbours follow each other. The list is cut into pieces of [`PIECE`],
-//! and the heaviest unknown of each piece becomes the parent of the others. The same is repeated with the
-//! parents until one is left. It is the hierarchy of a Haar basis (Haar 1910), but with single
-//! unknowns in place of averages, which keeps it sparse.
+//! and the heaviest unknown of each piece becomes the parent of the others. The step is repeated with the
+//! parents until one is left. This is the hierarchy of a Haar basis (`haar1910`), but with single unknowns in
+//! place of averages, which keeps it sparse.
 
 use super::unknowns::Unknowns;
 use crate::error::Result;
 use crate::linalg::Sparse;
 use crate::monitor::Monitor;
 
-/// Unknowns in a piece. Few make the tree deep, many couple more unknowns with each other.
+/// The number of unknowns in a piece. Small pieces make the tree deep; large ones couple more unknowns.
 const PIECE: usize = 4;
 
 const NONE: u32 = u32::MAX;
 
-/// A tree whose every unknown is at least as heavy as its children.
+/// A tree in which every unknown is at least as heavy as its children.
 pub(super) struct Tree {
-    /// Everyone, children before parents.
+    /// All unknowns, children before parents.
     pub order: Vec<usize>,
     pub root: usize,
     first_child: Vec<u32>,
@@ -25,8 +25,7 @@ pub(super) struct Tree {
 }
 
 impl Tree {
-    /// The tree of members with the given places in the Hessian's graph and weights, of which
-    /// there is at least one.
+    /// The tree of at least one member, from the members' places in the Hessian's graph and their weights.
     pub fn new(
         places: &[u32],
         weights: &[f64],
@@ -51,7 +50,7 @@ impl Tree {
         Ok(tree)
     }
 
-    /// Hangs `piece` below its heaviest member (ties to the first), which is returned.
+    /// Makes the heaviest member of `piece` (ties to the first) the parent of the others, and returns it.
     fn join(&mut self, piece: &[usize], weights: &[f64]) -> usize {
         let heavier = |a: usize, &b: &usize| if weights[b] > weights[a] { b } else { a };
         let head = piece.iter().fold(piece[0], heavier);
@@ -73,8 +72,8 @@ impl Tree {
     }
 }
 
-/// The members in an order in which near ones follow each other: the preorder of a breadth-first
-/// tree of the Hessian's graph, one component after the other.
+/// The members in an order in which near ones follow each other: the preorder of a breadth-first tree of the
+/// Hessian's graph, one component after the other.
 fn near_each_other(places: &[u32], lower: &Sparse, monitor: &mut Monitor) -> Result<Vec<usize>> {
     let upper = lower.transpose();
     let mut member = vec![NONE; lower.rows()];
@@ -110,7 +109,8 @@ fn near_each_other(places: &[u32], lower: &Sparse, monitor: &mut Monitor) -> Res
             }
         }
     }
-    // A member's place in the preorder is its parent's plus the sizes of the subtrees in between.
+    // The place of a member in the preorder is that of its parent plus the sizes of the subtrees between
+    // them.
     let mut size = vec![1usize; places.len()];
     for &v in queue.iter().rev() {
         if parent[v] != NONE {

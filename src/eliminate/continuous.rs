@@ -1,10 +1,11 @@
-//! Rows with a continuous unknown are solved for one.
+//! Solves a row with a continuous unknown for such an unknown.
 
 use super::tableau::Tableau;
 use crate::error::Result;
 
-/// Solves row `r`, which has a continuous unknown, for the one that fewest other rows have, among
-/// those whose coefficient is not small (threshold pivoting; ties to the lowest unknown).
+/// Solves row `r`, which has a continuous unknown, for one of them. Among those whose coefficient is not
+/// small (threshold pivoting) it takes the one that occurs in the fewest other rows; ties go to the lowest
+/// unknown.
 pub(super) fn eliminate(tableau: &mut Tableau, r: usize) -> Result<()> {
     let entries = &tableau.rows[r].entries;
     let integer = &tableau.unknowns.integer;

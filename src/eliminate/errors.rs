@@ -1,4 +1,4 @@
-//! The errors of the elimination. Each quotes the constraint at fault as the caller gave it.
+//! The errors of the elimination. Each quotes the faulty constraint as the caller gave it.
 
 use crate::error::Error;
 use crate::problem::Model;
@@ -28,7 +28,7 @@ pub(super) fn no_integer_solution(model: &Model, r: usize) -> Error {
     }
 }
 
-/// The integer relation that is left of row `r` has no integer coefficients.
+/// The integer relation that remains of row `r` has no integer coefficients.
 pub(super) fn incommensurable(model: &Model, r: usize) -> Error {
     Error::NotSupported {
         what: format!(

@@ -4,10 +4,9 @@ use std::sync::Arc;
 
 use crate::linalg::Sparse;
 
-/// `x = T y + t`: `y` ranges over everything that the constraints allow.
+/// The affine map `x = T y + t`, whose values are exactly the solutions of the constraints.
 ///
-/// Rows of `T` and `t` that belong to integer unknowns hold integers, and reach only integer
-/// entries of `y`.
+/// The rows of `T` and `t` of integer unknowns hold integers and refer to integer entries of `y` only.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Expansion {
     matrix: Arc<Sparse>,
@@ -20,12 +19,12 @@ impl Expansion {
         Expansion { matrix, offset }
     }
 
-    /// `T`, one row an unknown of the caller, one column a reduced unknown.
+    /// The matrix `T`: one row for each of the caller's unknowns, one column for each reduced unknown.
     pub fn matrix(&self) -> &Sparse {
         &self.matrix
     }
 
-    /// `t`, one number an unknown of the caller.
+    /// The offset `t`, one number for each of the caller's unknowns.
     pub fn offset(&self) -> &[f64] {
         &self.offset
     }

@@ -1,4 +1,4 @@
-//! Reduced unknowns held at a value: their columns leave the reduced model.
+//! Reduced unknowns held at a value: their columns are removed from the reduced model.
 
 use crate::error::Result;
 use crate::linalg::{NO_PLACE, Sparse, places};
@@ -10,7 +10,7 @@ pub(super) fn kept(dim: usize, held: &[(u32, f64)]) -> Vec<u32> {
     (0..dim as u32).filter(|&y| free[y as usize]).collect()
 }
 
-/// The expansion without the columns of held unknowns, which go into the offset.
+/// The expansion without the columns of held unknowns, whose values move into the offset.
 pub(super) fn expansion(
     matrix: &Sparse,
     mut offset: Vec<f64>,

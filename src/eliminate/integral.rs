@@ -1,16 +1,16 @@
-//! Rows of integer unknowns only: brought to integer coefficients, then solved by unimodular steps.
+//! Rows with integer unknowns only: they get integer coefficients and are solved by unimodular steps.
 //!
-//! A row with a coefficient of 1 or -1 is solved for that unknown. Any other gets, as in the
-//! equality step of the Omega test (`pugh1991`, section 2.2; the idea is Euclid's, and repeated to
-//! the end it is Hermite's normal form), a new integer
+//! A row with a coefficient of 1 or -1 is solved for that unknown. Any other row gets a new integer t, as in
+//! the equality step of the Omega test (`pugh1991`, section 2.2). The step is that of Euclid's algorithm; its
+//! repetition computes Hermite's normal form.
 //!
 //! ```text
 //! t = x_k + sum_i q_i x_i,    a_k the least coefficient,  q_i = a_i / a_k rounded,
 //! ```
 //!
-//! after which the row reads `a_k t + sum_i (a_i - q_i a_k) x_i = b`: its coefficients have at
-//! least halved but for one. Since `x_k` and `t` give each other with integer coefficients, no
-//! integer solution is lost and none is made up.
+//! The row then reads `a_k t + sum_i (a_i - q_i a_k) x_i = b`, where each coefficient but one is at most half
+//! of `a_k`. Since `x_k` and `t` determine each other with integer coefficients, the integer solutions stay
+//! the same.
 
 use super::ratio::gcd;
 use super::row::{Row, representable};
@@ -34,7 +34,7 @@ pub(super) fn eliminate(tableau: &mut Tableau, r: usize) -> Result<()> {
     }
 }
 
-/// Makes the coefficients coprime, and returns their common factor.
+/// Divides the coefficients by their greatest common divisor, and returns it.
 fn divide_by_common_factor(row: &mut Row) -> f64 {
     let factor = row.entries.iter().fold(0.0, |g, e| gcd(g, e.1));
     row.entries.iter_mut().for_each(|e| e.1 /= factor);
@@ -83,7 +83,7 @@ fn euclidean_step(tableau: &mut Tableau, r: usize) -> Result<()> {
     tableau.apply_last()
 }
 
-/// Quotient and remainder of least size.
+/// Quotient and remainder, with a remainder of least absolute value.
 fn divide(a: f64, by: f64) -> (f64, f64) {
     let (a, by) = (a as i64, by as i64);
     let (mut quotient, mut remainder) = (a / by, a % by);

@@ -1,11 +1,11 @@
-//! Equality constraints are eliminated before anything else: `x = T y + t`, with `y` free.
+//! The elimination of equality constraints, before everything else: `x = T y + t`, with `y` free.
 //!
-//! Continuous unknowns are eliminated by pivots, integer ones by unimodular steps only, so that
-//! the integer points of `y` are exactly the integer solutions of the constraints.
+//! Continuous unknowns are eliminated by pivots, integer ones by unimodular steps only. The integer points of
+//! `y` are therefore exactly the integer solutions of the constraints.
 //!
-//! The plan is that of `bommes2012`, chapter 5: Gaussian elimination that always takes the row with the
-//! fewest entries, and in that row a continuous unknown before an integer one. There, integer rows
-//! without a unit coefficient may fail; here Euclid's algorithm solves them.
+//! The method is that of `bommes2012`, chapter 5: Gaussian elimination that always takes the row with the
+//! fewest entries, and in it a continuous unknown before an integer one. In the thesis, integer rows without
+//! a unit coefficient may fail; here Euclid's algorithm solves them.
 //!
 //! | step | file |
 //! | --- | --- |
@@ -18,8 +18,8 @@
 //! | the objective in y | `project` |
 //! | unknowns pinned afterwards | `hold` |
 //!
-//! Only `t` and the linear part of the objective depend on the right sides. An [`Elimination`] keeps all
-//! the rest, so that other right sides need no other elimination.
+//! Only `t` and the linear part of the objective depend on the right sides. An [`Elimination`] keeps
+//! everything else, so that new right sides need no new elimination.
 
 mod back;
 mod cluster;

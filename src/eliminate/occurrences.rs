@@ -1,7 +1,7 @@
-//! In which waiting rows an unknown occurs.
+//! The waiting rows in which each unknown occurs.
 
-/// Linked lists in one array, one list for each unknown. A row that has lost the unknown stays in its list,
-/// so that no list is ever searched. The counts are exact.
+/// Linked lists in one array, one list for each unknown. A row that loses the unknown stays in its list, so
+/// that no list is ever searched. The counts are exact.
 #[derive(Debug)]
 pub(super) struct Occurrences {
     count: Vec<u32>,
@@ -20,7 +20,7 @@ impl Occurrences {
         }
     }
 
-    /// Makes room for unknowns introduced since.
+    /// Makes room for the unknowns introduced since the last call.
     pub fn resize(&mut self, unknowns: usize) {
         self.count.resize(unknowns, 0);
         self.head.resize(unknowns, END);
@@ -41,7 +41,7 @@ impl Occurrences {
         self.count[unknown as usize] -= 1;
     }
 
-    /// The rows that have or had the unknown, some perhaps twice.
+    /// The rows that have or had the unknown. A row may appear twice.
     pub fn rows(&self, unknown: u32) -> impl Iterator<Item = u32> + '_ {
         let mut at = self.head[unknown as usize];
         std::iter::from_fn(move || {

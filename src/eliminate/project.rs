@@ -13,8 +13,9 @@ use crate::linalg::{Accumulator, CompensatedSum, Sparse};
 use crate::monitor::Monitor;
 use crate::problem::Model;
 
-/// The lower triangle of `T'QT` with every diagonal entry stored, by rows (`gustavson1978`): first
-/// `W = QT`, then row `a` of the result as the sum of the rows of `W` that column `a` of `T` names.
+/// The lower triangle of `T'QT` by rows, with every diagonal entry stored (`gustavson1978`). It first
+/// computes `W = QT`. Row `a` of the result is the combination of the rows of `W` with the entries of column
+/// `a` of `T`.
 pub(super) fn hessian(lower: &Sparse, expansion: &Sparse, monitor: &mut Monitor) -> Result<Sparse> {
     let upper = lower.transpose();
     let by_unknown = expansion.transpose();
@@ -54,7 +55,7 @@ pub(super) fn hessian(lower: &Sparse, expansion: &Sparse, monitor: &mut Monitor)
     Ok(Sparse::from_parts(dim, h.offsets, h.indices, h.values))
 }
 
-/// The lower triangle as it is, but with every diagonal entry stored.
+/// The lower triangle with the same values, and with every diagonal entry stored.
 pub(super) fn with_diagonal(lower: &Sparse) -> Result<Sparse> {
     let n = lower.rows();
     let mut offsets = reserve(n + 1)?;
@@ -75,8 +76,7 @@ pub(super) fn with_diagonal(lower: &Sparse) -> Result<Sparse> {
     Ok(Sparse::from_parts(n, offsets, indices, values))
 }
 
-/// The linear term and the constant. Both cancel badly on real problems, so both are summed with
-/// compensation.
+/// The linear term and the constant. Both cancel badly on real problems, so both sums are compensated.
 pub(super) fn linear(model: &Model, expansion: &Expansion) -> Result<(Vec<f64>, f64)> {
     let offset = expansion.offset();
     let pulled = model.hessian().mul_symmetric(offset);
@@ -98,7 +98,7 @@ pub(super) fn linear(model: &Model, expansion: &Expansion) -> Result<(Vec<f64>, 
     Ok((gradient, constant))
 }
 
-/// The sums of the absolute values of all terms of [`linear`]'s first.
+/// The sums of the absolute values of all terms of the linear term in [`linear`].
 pub(super) fn linear_size(model: &Model, expansion: &Expansion) -> Vec<f64> {
     let offset = expansion.offset();
     let mut size = model.gradient_size();

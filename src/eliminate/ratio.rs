@@ -3,14 +3,14 @@
 use super::row::Row;
 use super::tolerance::{DENOMINATOR, LARGEST, RATIO, TELLING, near_integer};
 
-/// Replaces the coefficients of `row` by coprime integers in the same proportion, and returns what
-/// one of the new units was worth. `None`, and nothing changed, if there are no such integers.
+/// Replaces the coefficients of `row` by coprime integers in the same proportion, and returns the value of
+/// the new unit in the old one. If there are no such integers, returns `None` and changes nothing.
 ///
-/// Coefficients that are integers in the caller's own units are taken as they are, provided that
-/// this says something: after a computation, large numbers are integers by accident. Failing that,
-/// their ratios to the smallest one are developed in continued fractions (Khinchin 1935), whose
-/// convergents are the best approximations there are for their denominators. Last, integers in the
-/// caller's units up to noise will do.
+/// Coefficients that are integers in the caller's own units are taken unchanged, unless they are large
+/// numbers that were computed: those may be integers by accident. Otherwise the ratios to the smallest
+/// coefficient are expanded in continued fractions (`khinchin1935`), whose convergents are the best
+/// approximations among all fractions with denominators as small. The last resort is integers in the caller's
+/// units up to noise.
 pub(super) fn integer_multiples(row: &mut Row) -> Option<f64> {
     let limit = if row.touched { TELLING } else { LARGEST };
     let exact = |v: f64| (v.fract() == 0.0 && v.abs() < limit).then_some(v);
@@ -26,7 +26,7 @@ pub(super) fn integer_multiples(row: &mut Row) -> Option<f64> {
     Some(unit * factor)
 }
 
-/// All coefficients in the caller's units, if `integer` accepts them.
+/// All coefficients in the caller's units, if `integer` accepts each of them.
 fn as_given(row: &Row, integer: impl Fn(f64) -> Option<f64>) -> Option<(Vec<f64>, f64)> {
     let integers: Option<Vec<f64>> = row
         .entries
@@ -36,7 +36,7 @@ fn as_given(row: &Row, integer: impl Fn(f64) -> Option<f64>) -> Option<(Vec<f64>
     Some((integers?, row.scale))
 }
 
-/// Greatest common divisor of two integers, not negative. Remainders of doubles are exact.
+/// The non-negative greatest common divisor of two integers. Remainders of doubles are exact.
 pub(super) fn gcd(a: f64, b: f64) -> f64 {
     let (mut a, mut b) = (a.abs(), b.abs());
     while b != 0.0 {
@@ -59,7 +59,7 @@ fn from_ratios(row: &Row) -> Option<(Vec<f64>, f64)> {
     ))
 }
 
-/// The least denominator, up to `limit`, of a fraction that equals `ratio` up to rounding.
+/// The least denominator, at most `limit`, of a fraction that equals `ratio` up to rounding.
 fn denominator_of(ratio: f64, limit: f64) -> Option<f64> {
     let tolerance = RATIO * (1.0 + ratio.abs());
     let (mut denominator, mut previous) = (1.0, 0.0);

@@ -1,4 +1,4 @@
-//! What an elimination did, written down: all that right sides and pinned values need to follow it.
+//! The record of an elimination, which is all that new right sides and pinned values need.
 
 use super::stack::Stack;
 use super::steps::Step;
@@ -7,9 +7,9 @@ use super::unknowns::Unknowns;
 /// The steps of an elimination and the substitutions that they made.
 #[derive(Debug)]
 pub(super) struct Record {
-    /// The power of two that each constraint was multiplied by.
+    /// The power of two by which each constraint was multiplied.
     pub scales: Vec<f64>,
-    /// Which of the caller's unknowns were pinned.
+    /// Whether each of the caller's unknowns was pinned.
     pub pinned: Vec<bool>,
     pub unknowns: Unknowns,
     pub stack: Stack,

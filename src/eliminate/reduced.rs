@@ -6,10 +6,10 @@ use super::{Expansion, project};
 use crate::linalg::{CANCELLED, CompensatedSum, Sparse};
 use crate::problem::Model;
 
-/// `minimise 1/2 y'Hy + g'y + c`, some entries of `y` integer, nothing else.
+/// The problem `minimise 1/2 y'Hy + g'y + c`, where some entries of `y` are integer, without constraints.
 ///
-/// Reduced unknowns stand in the order of the caller's unknowns that they are; those that the
-/// elimination had to introduce, integer or not, follow at the end.
+/// First come the caller's unknowns that remain, in the caller's order. The unknowns that the elimination
+/// introduced, integer or not, follow them.
 #[derive(Debug, Clone)]
 pub struct ReducedModel {
     pub(crate) hessian: Arc<Sparse>,
@@ -18,7 +18,7 @@ pub struct ReducedModel {
     pub(crate) integers: Vec<u32>,
     pub(crate) continuous: Vec<u32>,
     pub(crate) guess: Vec<f64>,
-    /// Each reduced unknown's number among the caller's and the introduced ones.
+    /// The number of each reduced unknown among the caller's and the introduced ones.
     pub(super) free: Vec<u32>,
     pub(crate) expansion: Expansion,
 }
@@ -39,8 +39,8 @@ impl ReducedModel {
         &self.gradient
     }
 
-    /// An estimate of the rounding error of each entry of the linear term, from the sizes of all its terms
-    /// in `model`, which this was reduced from. Where large terms cancel, it may exceed the entry.
+    /// An estimate of the rounding error of each entry of the linear term. It is computed from the sizes of
+    /// all terms in `model`, the model that was reduced. Where large terms cancel, it may exceed the entry.
     pub fn gradient_rounding(&self, model: &Model) -> Vec<f64> {
         project::linear_size(model, &self.expansion)
             .into_iter()
@@ -63,20 +63,19 @@ impl ReducedModel {
         &self.continuous
     }
 
-    /// The values of reduced unknowns that the objective does not decide.
+    /// The values that reduced unknowns keep if the objective does not determine them.
     pub fn guess(&self) -> &[f64] {
         &self.guess
     }
 
-    /// The way back to the caller's unknowns.
+    /// The affine map back to the caller's unknowns.
     pub fn expansion(&self) -> &Expansion {
         &self.expansion
     }
 
-    /// The objective at `y`, and the sum of the absolute values of its terms.
+    /// The objective at `y` and the sum of the absolute values of its terms.
     ///
-    /// Terms are summed with compensation: on real problems the constant is a million times the
-    /// result.
+    /// The sum is compensated, because on real problems the constant is a million times the result.
     pub fn energy(&self, y: &[f64]) -> (f64, f64) {
         let mut sum = CompensatedSum::new(self.constant);
         let mut size = self.constant.abs();

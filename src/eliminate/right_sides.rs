@@ -1,8 +1,7 @@
-//! Right sides and pinned values, put through the steps of an record.
+//! Applies the steps of a record to right sides and pinned values.
 //!
-//! The result is the offset `t` of the expansion `x = T y + t`, or the row at which the right sides
-//! contradict each other. Plain solves and re-solves come through here alike, so that the same
-//! right sides give the same bits.
+//! The result is the offset `t` of the expansion `x = T y + t`, or the row that shows a contradiction. First
+//! solves and later ones with other data both use this code, so that the same right sides give the same bits.
 
 use super::errors::{infeasible, no_integer_solution, overflow};
 use super::record::Record;
@@ -15,14 +14,15 @@ use crate::linalg::CompensatedSum;
 use crate::monitor::Monitor;
 use crate::problem::Model;
 
-/// A number and the largest number that took part in making it: what noise is measured against.
+/// A number and the largest number used to compute it, to which noise is relative.
 #[derive(Debug, Clone, Copy, Default)]
 struct Side {
     value: f64,
     magnitude: f64,
 }
 
-/// `t`, one number a caller's unknown, for the right sides and pinned values of `model`.
+/// The offset `t`, one number for each of the caller's unknowns, for the right sides and pinned values of
+/// `model`.
 pub(super) fn offset(record: &Record, model: &Model, monitor: &mut Monitor) -> Result<Vec<f64>> {
     let constants = constants(record, model, monitor)?;
     substitute_back(record, model, &constants, monitor)
@@ -30,7 +30,7 @@ pub(super) fn offset(record: &Record, model: &Model, monitor: &mut Monitor) -> R
 
 /// The constant of every substitution.
 fn constants(record: &Record, model: &Model, monitor: &mut Monitor) -> Result<Vec<f64>> {
-    // Unknowns pinned since are in no row, and no substitution of theirs is on the stack.
+    // An unknown that was pinned after the elimination is in no row, and no substitution replaces it.
     let pins = model.pinned().iter().enumerate();
     let mut constants: Vec<Side> = pins
         .filter(|&(i, _)| record.pinned[i])
@@ -56,7 +56,7 @@ fn constants(record: &Record, model: &Model, monitor: &mut Monitor) -> Result<Ve
                 side.value = add_product(side.value, -factor, by.value, integral)
                     .map_err(|_| overflow(model, row as usize))?;
                 let factor = factor.abs();
-                // Magnitudes are handed on as those of coefficients are; see `Row::grow`.
+                // Magnitudes are passed on as those of coefficients are; see `Row::grow`.
                 let handed_on = (factor * by.value.abs()).max(factor.min(1.0) * by.magnitude);
                 side.magnitude = side.magnitude.max(handed_on);
             }
@@ -79,7 +79,7 @@ fn constants(record: &Record, model: &Model, monitor: &mut Monitor) -> Result<Ve
             }
             Step::Solve { row, pivot } => {
                 let side = sides[row as usize];
-                // A slope must not come of what is left where a right side cancels.
+                // Where a right side cancels, the rounding error that remains must not become a slope.
                 let cancelled = side.value.abs() <= NOISE * side.magnitude;
                 let value = if cancelled { 0.0 } else { side.value / pivot };
                 constants.push(Side { value, ..side });
@@ -102,7 +102,7 @@ fn constants(record: &Record, model: &Model, monitor: &mut Monitor) -> Result<Ve
     Ok(constants.iter().map(|side| side.value).collect())
 }
 
-/// The right side of row `r` as the elimination starts from it: scaled, pinned unknowns moved over.
+/// The right side of row `r` at the start of the elimination: scaled, with pinned unknowns moved to it.
 fn given(record: &Record, model: &Model, r: usize) -> Result<Side> {
     let scale = record.scales[r];
     let rhs = model.constraint_rhs()[r] * scale;
@@ -122,7 +122,7 @@ fn given(record: &Record, model: &Model, r: usize) -> Result<Side> {
     Ok(Side { value, magnitude })
 }
 
-/// Puts the constants of later substitutions into the earlier ones.
+/// Inserts the constants of later substitutions into the earlier ones.
 fn substitute_back(
     record: &Record,
     model: &Model,

@@ -1,49 +1,50 @@
-//! The coefficients of one equation while it is being worked on.
+//! The coefficients of an equation during the elimination.
 
 use super::substitution::Substitution;
 use super::tolerance::{LARGEST, NOISE, RANK};
 
-/// The left side of an equation; the right sides follow later, see `right_sides`.
+/// The left side of an equation. The right sides are computed afterwards; see `right_sides`.
 #[derive(Debug, Clone)]
 pub(super) struct Row {
-    /// Unknowns, increasing, with their coefficients, none of them zero.
+    /// The unknowns, increasing, with their coefficients. No coefficient is zero.
     pub entries: Vec<(u32, f64)>,
-    /// Largest coefficient that took part in making this row: what noise is measured against.
+    /// The largest coefficient used to compute this row, to which noise is relative.
     pub magnitude: f64,
-    /// The power of two that the caller's row was multiplied by.
+    /// The power of two by which the caller's row was multiplied.
     pub scale: f64,
-    /// How many of the unknowns are continuous.
+    /// The number of continuous unknowns.
     pub continuous: u32,
-    /// Whether anything was substituted.
+    /// Whether an unknown of the row was substituted.
     pub touched: bool,
-    /// Only integer unknowns, and only integers below 2^53 as numbers: nothing here is rounded.
+    /// Whether the row has only integer unknowns and only integers below 2^53 as coefficients: then no
+    /// operation on it has a rounding error.
     pub integral: bool,
     pub state: State,
 }
 
-/// Where a row is on its way.
+/// The state of a row.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum State {
-    /// Short, kept free of substituted unknowns at every step.
+    /// A short row. Every step removes substituted unknowns from it.
     Waiting,
-    /// Long, freed of substituted unknowns when its turn comes.
+    /// A long row. Substituted unknowns are removed when its turn comes.
     Long,
-    /// Used or dropped.
+    /// A row that was used or dropped.
     Done,
 }
 
-/// A number outgrew what can be represented: 2^53 among integers, infinity otherwise.
+/// A number exceeds its range: 2^53 for integers, the largest double otherwise.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct TooLarge;
 
-/// What a substitution did to the pattern of a row.
+/// How a substitution changed the pattern of a row.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Change {
     Appeared,
     Vanished,
 }
 
-/// `value` if it may stand in a row.
+/// Returns `value` if a row may hold it.
 pub(super) fn representable(value: f64, integral: bool) -> Result<f64, TooLarge> {
     let limit = if integral { LARGEST } else { f64::INFINITY };
     if value.abs() < limit {
@@ -53,32 +54,32 @@ pub(super) fn representable(value: f64, integral: bool) -> Result<f64, TooLarge>
     }
 }
 
-/// `a + b c`, exactly if all are integers.
+/// Computes `a + b c`, without rounding if all are integers.
 pub(super) fn add_product(a: f64, b: f64, c: f64, integral: bool) -> Result<f64, TooLarge> {
     let product = representable(b * c, integral)?;
     representable(a + product, integral)
 }
 
 impl Row {
-    /// Where the entry of `unknown` stands, if there is one.
+    /// The position of the entry of `unknown`, if there is one.
     pub fn position(&self, unknown: u32) -> Option<usize> {
         self.entries.binary_search_by_key(&unknown, |e| e.0).ok()
     }
 
-    /// Takes note that a substitution comes in, times `factor`.
+    /// Raises the magnitude for a substitution that enters the row times `factor`.
     pub fn grow(&mut self, factor: f64, by: &Substitution) {
         self.touched = true;
         let factor = factor.abs();
-        // As in Wilkinson's analysis (`wilkinson1961`), the noise is that of the largest numbers seen.
-        // Multiplying it up along chains of substitutions would be a bound too, but one that grows
-        // without any relation to the error, until everything passes for noise.
+        // As in Wilkinson's analysis (`wilkinson1961`), noise is relative to the largest numbers seen. The
+        // product of the factors along a chain of substitutions would be a bound too. But that bound grows
+        // without any relation to the error, until every coefficient counts as noise.
         let inherited = factor.min(1.0);
         let largest = (factor * by.largest).max(inherited * by.magnitude);
         self.magnitude = self.magnitude.max(largest);
     }
 
-    /// Drops what rounding left behind where it would decide something: continuous coefficients
-    /// when none of them is more than noise, and integer ones in a row of integers.
+    /// Drops rounding errors where they would decide the kind of the row: continuous coefficients if none of
+    /// them exceeds the noise, and integer ones in a row of integers.
     pub fn drop_noise(&mut self, integer: &[bool], mut dropped: impl FnMut(u32)) {
         let noise = RANK * self.magnitude;
         let decides = |e: &(u32, f64)| !integer[e.0 as usize] && e.1.abs() > noise;
@@ -94,8 +95,8 @@ impl Row {
         });
     }
 
-    /// Puts `terms` in the place of the unknown at position `at`, and tells which
-    /// unknowns came and went. `buffer` is scratch space.
+    /// Replaces the unknown at position `at` by `terms`, and reports which unknowns entered and left the row.
+    /// `buffer` is scratch space.
     pub fn substitute(
         &mut self,
         at: usize,
@@ -130,7 +131,7 @@ impl Row {
                 }
                 None => {
                     let product = representable(factor * term, integral)?;
-                    // Underflow is the only way to a zero here.
+                    // A product of nonzero numbers is zero only by underflow.
                     if product != 0.0 {
                         buffer.push((unknown, product));
                         changed(unknown, Change::Appeared);

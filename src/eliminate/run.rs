@@ -13,12 +13,12 @@ use crate::linalg::{Ordering, Sparse, principal_submatrix};
 use crate::monitor::{Monitor, Phase};
 use crate::problem::Model;
 
-/// Removes the equality constraints and the pinned unknowns of `model`, in the order that keeps
-/// the rest sparse.
+/// Eliminates the equality constraints and the pinned unknowns of `model`, in an order that keeps the reduced
+/// Hessian sparse.
 ///
-/// Reduced unknowns are the caller's unknowns that survive, in their order, and after them those
-/// that had to be introduced. Every solution of the constraints, with its integers integer, is
-/// `T y + t` for exactly one `y` with its integers integer, and every such `y` gives one.
+/// The reduced unknowns are the caller's unknowns that remain, in their order, followed by those that the
+/// elimination introduced. The map `T y + t` is one to one between the `y` with integer entries where
+/// required and the solutions of the constraints with integers where required.
 ///
 /// # Errors
 /// As [`Elimination::new`] and [`Elimination::reduce`].
@@ -26,8 +26,8 @@ pub fn eliminate(model: &Model, monitor: &mut Monitor) -> Result<ReducedModel> {
     Elimination::new(model, Ordering::FillReducing, monitor)?.reduce(model, monitor)
 }
 
-/// All of the reduced model but its linear part. It depends only on the coefficients of the constraints and
-/// of Q, and on which unknowns are pinned.
+/// Everything in the reduced model except its linear part. It depends only on the coefficients of the
+/// constraints and of Q, and on the set of pinned unknowns.
 #[derive(Debug)]
 pub struct Elimination {
     record: Record,

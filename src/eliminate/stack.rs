@@ -1,4 +1,4 @@
-//! The substitutions made so far, in the order made.
+//! The substitutions so far, in the order in which they were made.
 
 use super::row::Row;
 use super::substitution::Substitution;
@@ -22,7 +22,7 @@ impl Stack {
         (&self.list[k], &self.terms[start..self.ends[k]])
     }
 
-    /// Adds `x_pivot = constant + terms`. Terms are kept by increasing unknown.
+    /// Adds `x_pivot = constant + terms`. Sorts the terms by unknown.
     pub fn push(&mut self, by: Substitution, terms: impl IntoIterator<Item = (u32, f64)>) {
         let start = self.terms.len();
         self.terms.extend(terms);
@@ -31,7 +31,7 @@ impl Stack {
         self.ends.push(self.terms.len());
     }
 
-    /// The error for numbers too large in substitution `k`: `of_row` makes that of a constraint.
+    /// The error for too large a number in substitution `k`. `of_row` makes the error of a constraint.
     pub fn too_large(&self, k: usize, of_row: impl FnOnce(usize) -> Error) -> Error {
         let by = self.list[k];
         if by.constraint == Substitution::NO_CONSTRAINT {

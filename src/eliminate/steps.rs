@@ -1,28 +1,28 @@
-//! What an elimination did to its rows, written down.
+//! The list of steps by which an elimination changed its rows.
 //!
-//! Which row is solved for which unknown is decided by coefficients alone, never by a right side.
-//! So the elimination works on coefficients and keeps this list; right sides are put through it
-//! afterwards (see `right_sides`), by the first solve and by every later one with other data.
+//! Coefficients alone decide which row is solved for which unknown; right sides do not. The elimination
+//! therefore works on coefficients and keeps this list. `right_sides` applies the list to the right sides, in
+//! the first solve and in every later one with other data.
 
 /// One step on the right side of one row, or of the next substitution on the stack.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Step {
-    /// Substitution `by` came into the row, times `factor`; exactly, if the row is integral.
+    /// Substitution `by` enters the row times `factor`. This is exact if the row is integral.
     Substitute {
         row: u32,
         by: u32,
         factor: f64,
         integral: bool,
     },
-    /// From here on the row holds integers, in units of `unit`.
+    /// From this step on the row holds integers in units of `unit`.
     MakeIntegral { row: u32, unit: f64 },
     /// The row of integers was divided by the common factor of its coefficients.
     Divide { row: u32, factor: f64 },
-    /// The row was solved for an unknown with this coefficient: the next substitution.
+    /// The row is solved for an unknown with this coefficient, which gives the next substitution.
     Solve { row: u32, pivot: f64 },
     /// The next substitution introduces an unknown and has no constant.
     Introduce,
-    /// No unknown is left in the row, whose coefficients were as large as `magnitude`.
+    /// The row has no unknown left. Its coefficients were at most `magnitude`.
     Check {
         row: u32,
         magnitude: f64,
@@ -30,10 +30,10 @@ pub(super) enum Step {
     },
 }
 
-/// Introduced unknowns in terms of earlier ones, in an order in which they can be computed.
+/// The introduced unknowns in terms of earlier ones, in an order in which they can be computed.
 #[derive(Debug, Default)]
 pub(super) struct Definitions {
-    /// The unknown, and what the sum of its terms is divided by.
+    /// The unknown and the divisor of the sum of its terms.
     list: Vec<(u32, f64)>,
     ends: Vec<usize>,
     terms: Vec<(u32, f64)>,
@@ -52,7 +52,7 @@ impl Definitions {
         self.ends.push(self.terms.len());
     }
 
-    /// All unknowns where the caller's are `x`.
+    /// The values of all unknowns if the caller's unknowns are `x`.
     pub fn evaluate(&self, x: &[f64]) -> Vec<f64> {
         let mut all = x.to_vec();
         all.resize(x.len() + self.list.len(), 0.0);

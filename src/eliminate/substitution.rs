@@ -1,7 +1,7 @@
 //! An unknown expressed by others.
 
-/// The equation `x_pivot = constant + terms`. The terms are unknowns that were free when it was made.
-/// The constant depends on the right sides; `right_sides` computes it.
+/// The equation `x_pivot = constant + terms`. The terms contain unknowns that were free when it was made. The
+/// constant depends on the right sides; `right_sides` computes it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Substitution {
     pub pivot: u32,
@@ -14,6 +14,6 @@ pub(super) struct Substitution {
 }
 
 impl Substitution {
-    /// Where a pinned unknown says that it comes from.
+    /// The `constraint` of a pinned unknown.
     pub const NO_CONSTRAINT: u32 = u32::MAX;
 }

@@ -1,21 +1,21 @@
 //! Long rows are shortened by sums over the subtrees of a shallow tree.
 //!
-//! Solving a row `sum_v a_v x_v + (rest) = d` of thousands of unknowns for one of them would couple
-//! all the others: a dense Hessian. Its solutions have a sparse basis all the same, of pairs of
-//! unknowns that move against each other. Hang the unknowns into a tree, and take for each the sum
-//! over its subtree:
+//! A row `sum_v a_v x_v + (rest) = d` may have thousands of unknowns. If it is solved for one of them, all
+//! the others are coupled, and the Hessian becomes dense. The solutions of the row still have a sparse basis,
+//! of pairs of unknowns that move against each other. To find it, arrange the unknowns in a tree and
+//! introduce for each the sum over its subtree:
 //!
 //! ```text
 //! s_v = a_v x_v + sum of s_c over the children c of v,    so    x_v = (s_v - sum of s_c) / a_v,
 //! ```
 //!
-//! one to one, and the row becomes `s_root + (rest) = d`, which is short. The tree is that of
-//! `cluster`: a few near unknowns at a time hang below the heaviest of them, so that only near
-//! unknowns get coupled, the depth is logarithmic, and with `s_v` in units of |a_v| all
-//! coefficients are at most 1. Chains of partial sums would be as sparse, but their condition
-//! grows with the length, and with the ratio of neighbouring weights.
+//! This is one to one, and the row becomes `s_root + (rest) = d`, which is short. `cluster` builds the tree:
+//! in each group of a few near unknowns, the heaviest is the parent of the others. Hence only near unknowns
+//! are coupled, and the depth is logarithmic. With `s_v` in units of |a_v|, all coefficients are at most 1.
+//! Chains of partial sums would be as sparse, but their condition number grows with the length and with the
+//! ratio of neighbouring weights.
 //!
-//! Integers with equal |a_v| are shortened alike: `x_v = +-(s_v - sum of s_c)` is unimodular.
+//! Integers with equal |a_v| are treated in the same way: `x_v = +-(s_v - sum of s_c)` is unimodular.
 //!
 //! Sums of sums lose accuracy (the condition number multiplies), so the length that calls for
 //! them grows eightfold with each level.
@@ -29,17 +29,17 @@ use super::unknowns::Unknowns;
 use crate::error::Result;
 use crate::monitor::Monitor;
 
-/// A level of sums of sums costs this factor in the length that is tolerated.
+/// The factor by which the tolerated length grows with each level of sums.
 const LEVEL: usize = 8;
 
-/// Replaces each long group of like unknowns in row `r`, which must be free of replaced unknowns,
-/// by one.
+/// Replaces each long group of like unknowns in row `r` by one unknown. The row must hold no replaced
+/// unknown.
 pub(super) fn shorten(tableau: &mut Tableau, r: usize, monitor: &mut Monitor) -> Result<()> {
     let row = &tableau.rows[r];
     if row.entries.len() <= LONG {
         return Ok(());
     }
-    // Continuous unknowns are one group; each |coefficient| of integers is one.
+    // Continuous unknowns form one group. Integers form one group for each |coefficient|.
     let integer = &tableau.unknowns.integer;
     let key = |e: &(u32, f64)| match integer[e.0 as usize] {
         false => 0,
@@ -89,7 +89,7 @@ fn shorten_group(
         let unknowns = &mut tableau.unknowns;
         let integer = unknowns.integer[unknown as usize];
         let depth = unknowns.depth[unknown as usize].saturating_add(1);
-        // The root's sum is a number that the row gives, or nearly so: it has no place.
+        // The row determines the sum of the root, or nearly so. The sum therefore has no place.
         let place = if v == root {
             Unknowns::NOWHERE
         } else {

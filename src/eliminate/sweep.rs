@@ -1,10 +1,9 @@
-//! Long rows are freed of substituted unknowns in one go, when the short rows are gone.
+//! Substituted unknowns are removed from a long row in one pass, after the short rows.
 //!
-//! A row of thousands of entries that were kept up to date would be copied once for every short
-//! row that touches it. Instead all substitutions are put into it at the end, in the order in
-//! which they were made: the left-looking form of the elimination, as in `gilbert1988`,
-//! with a heap for the order in place of a search of the graph. Its cost is that of the entries
-//! touched.
+//! If a row of thousands of entries were kept up to date, every short row that touches it would copy it.
+//! Instead, all substitutions are applied to it at the end, in the order in which they were made. This is the
+//! left-looking form of the elimination, as in `gilbert1988`, with a heap for the order in place of a graph
+//! search. Its cost is proportional to the entries touched.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -18,7 +17,7 @@ use crate::error::Result;
 use crate::linalg::Accumulator;
 use crate::monitor::Monitor;
 
-/// Frees row `r` of all unknowns that have been replaced.
+/// Removes all replaced unknowns from row `r`.
 pub(super) fn sweep(tableau: &mut Tableau, r: usize, monitor: &mut Monitor) -> Result<()> {
     let Tableau {
         rows,
@@ -65,7 +64,7 @@ pub(super) fn sweep(tableau: &mut Tableau, r: usize, monitor: &mut Monitor) -> R
     Ok(())
 }
 
-/// A row spread over all unknowns, with the substitutions it calls for in order.
+/// A row in dense storage, with the substitutions that it needs in order.
 struct Scatter<'a> {
     replaced: &'a [u32],
     entries: Accumulator<Entry>,
@@ -78,7 +77,7 @@ struct Entry {
     terms: Terms,
 }
 
-/// How many terms an entry is the sum of. Several may have cancelled.
+/// The number of terms in the sum of an entry. Several terms may have cancelled.
 #[derive(Clone, Copy, Default, PartialEq, Eq)]
 enum Terms {
     #[default]
@@ -124,7 +123,7 @@ impl<'a> Scatter<'a> {
         Ok(())
     }
 
-    /// The earliest substitution still to be made, and the coefficient of what it replaces.
+    /// The earliest substitution that remains, and the coefficient of the unknown that it replaces.
     fn next_replaced(&mut self, noise: f64, exact: bool) -> Option<(usize, f64)> {
         while let Some(Reverse((k, unknown))) = self.order.pop() {
             let entry = self.entries.get(unknown);

@@ -1,5 +1,5 @@
-//! The constraints while they are being eliminated: the rows, where each unknown occurs, and which row is
-//! next.
+//! The constraints during the elimination: the rows, the occurrences of each unknown, and the choice of the
+//! next row.
 //!
 //! The row with the fewest entries comes first. For comparison, rows can be taken in the order given.
 
@@ -19,7 +19,7 @@ use crate::error::{Error, Result};
 use crate::linalg::Ordering;
 use crate::problem::Model;
 
-/// Everything that the elimination works on.
+/// The state of the elimination.
 pub(super) struct Tableau<'a> {
     pub model: &'a Model,
     pub rows: Vec<Row>,
@@ -97,7 +97,7 @@ impl<'a> Tableau<'a> {
         }
     }
 
-    /// Queues a row that has changed. A row of integers gets integer coefficients first; a long row is set
+    /// Queues a row that has changed. A row of integers first gets integer coefficients. A long row is set
     /// aside.
     fn settle(&mut self, r: usize) -> Result<()> {
         let row = &mut self.rows[r];
@@ -140,7 +140,7 @@ impl<'a> Tableau<'a> {
         }
     }
 
-    /// How small a coefficient may be, relative to the largest of its row, to be solved for.
+    /// The least size of a pivot, relative to the largest coefficient of its row.
     pub fn pivot_threshold(&self) -> f64 {
         match self.ordering {
             Ordering::FillReducing | Ordering::Natural => PIVOT,
@@ -148,7 +148,7 @@ impl<'a> Tableau<'a> {
         }
     }
 
-    /// The waiting row with the fewest entries, ties to the first, no longer counted among the
+    /// The waiting row with the fewest entries (ties to the first). It no longer counts among the
     /// occurrences.
     pub fn take_next(&mut self) -> Option<usize> {
         while let Some(Reverse((urgency, r))) = self.queue.pop() {
@@ -165,14 +165,14 @@ impl<'a> Tableau<'a> {
         None
     }
 
-    /// The long row that was the shortest when it was set aside.
+    /// The long row that had the fewest entries when it was set aside.
     pub fn take_long(&mut self) -> Option<usize> {
         let Reverse((_, r)) = self.waiting_long.pop()?;
         self.rows[r as usize].state = State::Done;
         Some(r as usize)
     }
 
-    /// Solves row `r` for its entry at position `at`, and puts the result into the waiting rows.
+    /// Solves row `r` for its entry at position `at`, and applies the substitution to the waiting rows.
     pub fn solve_for(&mut self, r: usize, at: usize) -> Result<()> {
         let (row, pivot) = (r as u32, self.rows[r].entries[at].1);
         self.stack.solve(r, &self.rows[r], at);
@@ -180,7 +180,7 @@ impl<'a> Tableau<'a> {
         self.apply_last()
     }
 
-    /// Puts the newest substitution into the waiting rows.
+    /// Applies the newest substitution to the waiting rows.
     pub fn apply_last(&mut self) -> Result<()> {
         let last = self.stack.len() - 1;
         let pivot = self.stack.get(last).0.pivot;
@@ -246,12 +246,12 @@ impl<'a> Tableau<'a> {
     }
 }
 
-/// The power of two that brings `largest` into [1, 2), as far as there is one.
+/// The power of two that brings `largest` into [1, 2), or the nearest that a double can hold.
 fn scale_of(largest: f64) -> f64 {
     if largest == 0.0 {
         return 1.0;
     }
-    // The biased exponent, straight from the bits: log2 may be off by one.
+    // The biased exponent is read from the bits, because log2 may be off by one.
     let exponent = ((largest.to_bits() >> 52) & 0x7ff) as i32 - 1023;
     2f64.powi(-exponent.clamp(-1022, 1022))
 }

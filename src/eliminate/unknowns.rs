@@ -1,22 +1,21 @@
-//! The caller's unknowns and those that the elimination introduces, under one numbering.
+//! The caller's unknowns and the introduced ones in one numbering.
 
-/// What is known of each unknown; the caller's come first.
+/// The data of each unknown. The caller's unknowns come first.
 #[derive(Debug)]
 pub(super) struct Unknowns {
     pub integer: Vec<bool>,
-    /// The substitution that replaced it, or [`FREE`](Self::FREE).
+    /// The substitution that replaced it, or [`FREE`](Self::FREE) if there is none.
     pub replaced: Vec<u32>,
-    /// The caller's unknown whose place it took, or [`NOWHERE`](Self::NOWHERE): neighbours are
-    /// looked up there.
+    /// The caller's unknown whose place in the Hessian's graph it has, or [`NOWHERE`](Self::NOWHERE).
     pub place: Vec<u32>,
-    /// How many sums of sums it is; see `subtree`.
+    /// The number of nested sums that it stands for; see `subtree`.
     pub depth: Vec<u8>,
 }
 
 impl Unknowns {
-    /// Not replaced.
+    /// The unknown is not replaced.
     pub const FREE: u32 = u32::MAX;
-    /// Without a place in the Hessian.
+    /// The unknown has no place in the Hessian's graph.
     pub const NOWHERE: u32 = u32::MAX;
 
     pub fn new(integer: &[bool]) -> Self {

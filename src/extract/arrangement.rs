@@ -1,4 +1,4 @@
-//! All integer lines of all triangles: chords joined over edges, and integer points where they cross.
+//! All integer lines of all triangles: chords are joined over edges and have integer points where they cross.
 
 use super::chords::{Chord, Triangle};
 use super::cones::Ray;
@@ -7,23 +7,23 @@ use super::graph::{Graph, Place};
 use super::refined::{NONE, Refined};
 use crate::error::Result;
 
-/// Set in the end of a chord that is not a crossing of an edge but a ray's start.
+/// Flag of a chord's end that is the start of a ray and not a crossing of an edge.
 pub(super) const RAY: u32 = 1 << 31;
 
-/// A chord as part of a line.
+/// A chord, which is one piece of a line.
 pub(super) struct Piece {
-    /// At each end the crossing that it passes, 2 c + side, or [`RAY`] and the number of the ray.
+    /// The crossing at each end, as 2 c + side, or [`RAY`] and the number of the ray.
     pub(super) ends: [u32; 2],
-    /// The port first met from each end; none if no line crosses the chord.
+    /// The first port from each end; `NONE` if no line crosses the chord.
     pub(super) ports: [u32; 2],
 }
 
-/// The lines in pieces, and the integer points within triangles with the ports between them.
+/// The pieces of lines, and the integer points within triangles with the ports between them.
 pub(super) struct Arrangement {
     pub(super) pieces: Vec<Piece>,
-    /// For each side of each crossing the end of the piece there: 2 piece + end.
+    /// The end of the piece on each side of each crossing, as 2 piece + end.
     pub(super) at_crossing: Vec<u32>,
-    /// The half-edge out of the face from which each side of each crossing is seen.
+    /// For each side of each crossing, the half-edge out of the face on that side.
     pub(super) half_edge: Vec<u32>,
     pub(super) rays: Vec<Ray>,
     pub(super) points: Graph,
@@ -63,7 +63,7 @@ impl Arrangement {
                 self.add_piece(face, triangle, chord);
             }
         }
-        // Rays of one corner, counter-clockwise around it.
+        // The rays of one corner, counter-clockwise around it.
         self.rays[rays..].sort_by_key(|ray| ray.towards);
         for ray in rays..self.rays.len() {
             let Ray { piece, end, .. } = self.rays[ray];
@@ -103,7 +103,7 @@ impl Arrangement {
         if us.is_empty() || vs.is_empty() {
             return;
         }
-        // (chord, place along it, ports towards its ends)
+        // A chord, a place along it, and the ports towards its ends.
         let mut along: [Vec<(usize, usize, [u32; 2])>; 2] = Default::default();
         for (i, u) in us.iter().enumerate() {
             for (j, v) in vs.iter().enumerate().filter(|(_, v)| u.crosses(v)) {
@@ -139,7 +139,7 @@ impl Arrangement {
     }
 }
 
-/// The direction in which a coordinate grows or falls.
+/// The direction in which a coordinate grows or decreases.
 fn direction(axis: usize, is_growing: bool) -> u8 {
     axis as u8 + if is_growing { 0 } else { 2 }
 }

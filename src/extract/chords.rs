@@ -1,10 +1,9 @@
 //! Integer lines within one triangle, and where they cross.
 //!
-//! A line is a chord of the triangle: it enters and leaves through the border, or starts at a
-//! corner that is an irregular vertex. Read off the border counter-clockwise, the ends of two
-//! chords alternate exactly if the chords cross, and the order of the ends is the order around the
-//! crossing. Nothing but the order of crossings along edges is used, so the triangle may be folded or
-//! have no area.
+//! A line is a chord of the triangle. It starts and ends on the border; one end may be a corner that is an
+//! irregular vertex. Two chords cross exactly if their ends alternate along the border. The counter-clockwise
+//! order of the ends is the order around the crossing. Only the order of crossings along edges is used, so
+//! the triangle may be folded or have no area.
 
 use super::crossings::{Crossings, Line};
 use super::grid_map::ONE;
@@ -14,7 +13,7 @@ use super::refined::{NONE, Refined};
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Chord {
     pub(super) line: Line,
-    /// Where on the border it ends.
+    /// The places of its ends on the border.
     pub(super) at: [usize; 2],
 }
 
@@ -23,8 +22,8 @@ pub(super) struct Chord {
 pub(super) struct Triangle {
     corners: [[i64; 2]; 3],
     corner_at: [usize; 3],
-    /// At every place of the border the crossing c and the side from which it is seen, as 2 c + side;
-    /// none at corners.
+    /// For every place of the border, the crossing c and the side from which it is seen, as 2 c + side;
+    /// `NONE` at corners.
     pub(super) border: Vec<u32>,
     /// Lines u, lines v.
     pub(super) chords: [Vec<Chord>; 2],
@@ -32,7 +31,7 @@ pub(super) struct Triangle {
 }
 
 impl Triangle {
-    /// Loads another triangle.
+    /// Loads a triangle.
     pub(super) fn load(&mut self, mesh: &Refined, crossings: &Crossings, face: usize) {
         self.corners = mesh.corners[face];
         self.border.clear();
@@ -50,12 +49,12 @@ impl Triangle {
         self.pair();
     }
 
-    /// The corner that a place of the border is, if it is one.
+    /// The corner at a place of the border, if there is one.
     pub(super) fn corner(&self, at: usize) -> Option<usize> {
         self.corner_at.iter().position(|&corner| corner == at)
     }
 
-    /// Joins the two places of every line.
+    /// Finds the two ends of every line.
     fn pair(&mut self) {
         self.chords.iter_mut().for_each(Vec::clear);
         let key = |&(line, at): &(Line, usize)| (line.axis, line.level, at);
@@ -63,7 +62,7 @@ impl Triangle {
         let mut rest = self.found.iter().copied().peekable();
         while let Some((line, at)) = rest.next() {
             let second = rest.next_if(|next| next.0 == line).map(|next| next.1);
-            // A line that comes through one edge only ends at a corner on it.
+            // A line that crosses only one edge ends at a corner on the line.
             let axis = usize::from(line.axis);
             let on_line = |k: &usize| self.corners[*k][axis] == line.level * ONE;
             let corner = || (0..3).find(on_line).map(|k| self.corner_at[k]);
@@ -85,8 +84,8 @@ impl Triangle {
             .is_some_and(|k| self.corners[k][axis] > chord.line.level * ONE)
     }
 
-    /// Whether the coordinate of this axis is above that of corner `k` at a place on the edge
-    /// opposite to it.
+    /// Whether the coordinate of this axis at a place on the edge opposite to corner `k` is above that of the
+    /// corner.
     pub(super) fn is_above_corner(&self, k: usize, axis: usize, at: usize) -> bool {
         let level = self.corners[k][axis];
         let from_here = |chord: &&Chord| chord.at.contains(&self.corner_at[k]);
@@ -98,7 +97,7 @@ impl Triangle {
 }
 
 impl Chord {
-    /// Whether two chords cross. Those from one corner do not.
+    /// Whether two chords cross. Chords that start at the same corner do not.
     pub(super) fn crosses(&self, other: &Chord) -> bool {
         let [a, b] = self.at;
         let inside = |place: usize| a < place && place < b;
@@ -106,7 +105,7 @@ impl Chord {
         !shares && inside(other.at[0]) != inside(other.at[1])
     }
 
-    /// Where the one end of a crossing chord lies that is between the ends of this.
+    /// The end of a crossing chord that lies between the ends of this chord.
     pub(super) fn between(&self, other: &Chord) -> usize {
         let [a, b] = self.at;
         let first = other.at[0];

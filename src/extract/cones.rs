@@ -8,7 +8,7 @@ use super::refined::{NONE, Refined};
 pub(super) struct Ray {
     /// The half-edge that starts at the corner.
     pub(super) corner: u32,
-    /// Where it leaves the triangle, along its border.
+    /// The place on the border where it leaves the triangle.
     pub(super) towards: usize,
     pub(super) piece: u32,
     pub(super) end: u8,
@@ -18,7 +18,7 @@ pub(super) struct Ray {
 /// Adds every irregular vertex with its rays to the graph. Returns the port of each ray.
 pub(super) fn add(mesh: &Refined, rays: &[Ray], graph: &mut Graph) -> Vec<u32> {
     let mut ports = vec![NONE; rays.len()];
-    // Rays come face by face.
+    // Rays are ordered by face.
     let of_face = |face: u32| {
         let start = rays.partition_point(|ray| ray.corner / 3 < face);
         let end = rays.partition_point(|ray| ray.corner / 3 <= face);
@@ -36,7 +36,7 @@ pub(super) fn add(mesh: &Refined, rays: &[Ray], graph: &mut Graph) -> Vec<u32> {
         let mut corner = h as u32;
         loop {
             found.extend(of_face(corner / 3).filter(|&ray| rays[ray].corner == corner));
-            // Counter-clockwise: over the edge that ends at the corner.
+            // Counter-clockwise around the corner means over the edge that ends at it.
             let before = if corner.is_multiple_of(3) {
                 corner + 2
             } else {

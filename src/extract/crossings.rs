@@ -1,8 +1,8 @@
-//! Where integer lines cross edges, in order along them.
+//! The crossings of integer lines with edges, in order along each edge.
 //!
-//! One comparison of exact products decides the order of a crossing with `u = i` and one with `v = j`
-//! on an edge. At a tie, an integer point on the edge, `u` comes first, as seen from the side that owns
-//! the edge. Both faces see the same order, and consistency needs no more.
+//! One comparison of exact products decides the order of a crossing with `u = i` and one with `v = j` on an
+//! edge. In a tie, at an integer point on the edge, `u` comes first, as seen from the side that owns the
+//! edge. Both faces see the same order, which suffices for consistency.
 
 use std::cmp::Ordering;
 
@@ -20,9 +20,9 @@ pub(super) struct Line {
     pub(super) level: i64,
 }
 
-/// The crossings of all edges, one list an edge, owned by its lower half-edge.
+/// The crossings of all edges, one list for each edge. The lower half-edge owns the list.
 pub(super) struct Crossings {
-    /// For every half-edge the start of the list of its edge.
+    /// For every half-edge, the start of the list of its edge.
     start: Vec<u32>,
     count: Vec<u32>,
     lines: Vec<Line>,
@@ -103,7 +103,7 @@ impl Line {
     }
 }
 
-/// Refuses maps with more crossings than numbers for them.
+/// Rejects maps with more crossings than there are 32-bit numbers.
 fn check_size(mesh: &Refined) -> Result<()> {
     let most = i128::from(1u32 << 24);
     let mut total = 0i128;
@@ -159,7 +159,7 @@ fn between(from: i64, to: i64) -> impl Iterator<Item = i64> {
     (0..count).map(move |i| if is_rising { low + i } else { high - i })
 }
 
-/// Which comes first on the way from `p` to `q`: the crossing with `u = i` or that with `v = j`.
+/// Compares the crossings with `u = i` and with `v = j` by their order on the way from `p` to `q`.
 fn compare(p: [i64; 2], q: [i64; 2], i: i64, j: i64) -> Ordering {
     let wide = |x: i64| i128::from(x);
     let reach = [i, j].map(|level| level * ONE);

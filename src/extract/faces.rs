@@ -1,4 +1,4 @@
-//! Faces of the graph, as walks along lines that keep to the left, and positions of their corners.
+//! The faces of the graph, found by walks along lines that keep to the left, and their corners' positions.
 
 use super::graph::{Graph, Place, Walk};
 use super::grid_map::ONE;

@@ -1,21 +1,21 @@
-//! The elements that keep a mesh from consisting of conforming quads alone.
+//! The elements that prevent a mesh from being a conforming mesh of quads.
 
 use super::QuadMesh;
 
-/// The elements at fault, each list in increasing order.
+/// The faulty elements, each list in increasing order.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct QuadFaults {
-    /// Faces that are not quads or have a vertex twice. The quads are numbered first, then the others,
-    /// as in files.
+    /// Faces that are not quads or contain a vertex twice. The quads are numbered first, then the others, as
+    /// in files.
     pub faces: Vec<usize>,
-    /// Edges, as pairs of vertices, with more than two faces or two that run the same way.
+    /// Edges, as pairs of vertices, with more than two faces or with two faces of the same direction.
     pub edges: Vec<[usize; 2]>,
     /// Vertices whose faces form more than one fan.
     pub vertices: Vec<usize>,
 }
 
 impl QuadFaults {
-    /// Whether there is nothing at fault.
+    /// Whether there is no faulty element.
     pub fn is_empty(&self) -> bool {
         self.faces.is_empty() && self.edges.is_empty() && self.vertices.is_empty()
     }
@@ -25,8 +25,8 @@ impl QuadFaults {
 pub(super) type Side = ([u32; 2], bool);
 
 impl QuadMesh {
-    /// The elements at fault. There are none if only the Euler characteristic is wrong, that is, if a
-    /// handle of the mesh was closed or a component lost.
+    /// The faulty elements. There may be none although the Euler characteristic is wrong: then a handle of
+    /// the mesh was closed or a component lost.
     pub fn faults(&self) -> QuadFaults {
         let is_at_fault = |face: &[u32]| face.len() != 4 || has_twice(face);
         let faces = self.faces().enumerate();
@@ -41,7 +41,7 @@ impl QuadMesh {
         }
     }
 
-    /// The sides of all faces, those of an edge next to each other.
+    /// The sides of all faces, sorted by edge.
     pub(super) fn sides(&self) -> Vec<Side> {
         let mut sides = Vec::with_capacity(4 * self.quads.len());
         for face in self.faces() {
@@ -69,7 +69,7 @@ impl QuadMesh {
     }
 }
 
-/// Whether a face has a vertex twice.
+/// Whether a face contains a vertex twice.
 pub(super) fn has_twice(face: &[u32]) -> bool {
     let mut corners = face.to_vec();
     corners.sort_unstable();
@@ -127,8 +127,8 @@ mod tests {
 
     #[test]
     fn elements_at_fault_are_named() {
-        // Quads that share a vertex alone, a pentagon, a quad with a vertex twice, and one edge of
-        // three faces.
+        // Two quads that share only a vertex, a pentagon, a quad with a vertex twice, and an edge of three
+        // faces.
         let pinch = mesh(&[[0, 1, 2, 3], [2, 4, 5, 6]], &[]).faults();
         assert_eq!((pinch.vertices, pinch.faces.len()), (vec![2], 0));
         let other = mesh(&[[0, 1, 2, 3], [4, 5, 4, 6]], &[&[1, 7, 8, 9, 2]]).faults();

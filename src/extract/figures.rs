@@ -3,18 +3,18 @@
 use super::QuadMesh;
 use super::faults::{has_twice, is_bad};
 
-/// Counts over a mesh of quads; edges are pairs of vertices.
+/// Counts over a mesh of quads. Edges are pairs of vertices.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct QuadFigures {
     /// Vertices minus edges plus faces.
     pub euler: i64,
-    /// Vertices with other than four edges, or three on the boundary.
+    /// Vertices with a number of edges other than four, or than three on the boundary.
     pub irregular: usize,
     /// Edges with one face.
     pub boundary_edges: usize,
-    /// Edges with more than two faces, or two that run the same way.
+    /// Edges with more than two faces, or with two faces of the same direction.
     pub bad_edges: usize,
-    /// Faces that have a vertex twice.
+    /// Faces that contain a vertex twice.
     pub degenerate: usize,
 }
 

@@ -1,18 +1,17 @@
-//! Folds removed: lines that cross twice in opposite directions are pulled apart.
+//! Removal of folds: lines that cross twice in opposite directions are pulled apart.
 //!
-//! Where the map folds, an integer point has several preimages, one more of positive than of
-//! negative orientation, and lines run back to the level they came from. `ebke2013`, section 6,
-//! joins such points by rules for each case. Here three moves of the drawing do it, none of which
-//! changes the surface that it is drawn on:
+//! Where the map folds, an integer point has several preimages, one more of positive than of negative
+//! orientation, and lines return to the level that they left. `ebke2013`, section 6, joins such points by
+//! rules for each case. This file needs only three moves of the drawing. None of them changes the surface:
 //!
 //! - two lines that bound an empty lens cross at two points of opposite orientation: both points are
 //!   removed, and the lines pass each other;
 //! - a line that leaves an irregular vertex and comes back at once is removed;
 //! - a line without length between an irregular vertex and a point is contracted to one point.
 //!
-//! On a disk two families of lines without lenses have the least number of crossings (the bigon
-//! criterion), so folds away from irregular vertices leave no trace. At an irregular vertex the
-//! moves leave as many lines as the quarter turns of the coordinates around everything that was
+//! On a disk, two families of lines without lenses have the least number of crossings (the bigon criterion),
+//! so folds away from irregular vertices leave no trace. At an irregular vertex, the number of lines that
+//! remain is the number of quarter turns of the coordinates around the whole fold.
 //! folded together.
 
 use std::collections::VecDeque;
@@ -109,7 +108,7 @@ fn is_crossing(graph: &Graph, port: u32) -> bool {
     is_face && around == port && graph.next(graph.next(port)) != port
 }
 
-/// The ports of these ports' vertices, and those next to their mates: a move may make another
+/// The ports of the vertices of these ports, and the neighbours of their mates. A move may make another move
 /// possible there.
 fn neighbours(graph: &Graph, ports: &[u32]) -> Vec<u32> {
     let mut found = Vec::new();

@@ -1,12 +1,12 @@
 //! The graph of integer points and the lines between them, drawn on the surface.
 //!
-//! A rotation system: every vertex has its ports, the ends of lines that leave it, in a
-//! counter-clockwise ring, and every port its mate at the other end of the line. Ports and mates
-//! determine the faces. All moves here keep a drawing on the same surface.
+//! The graph is a rotation system. Every vertex has a counter-clockwise ring of ports, the ends of the lines
+//! that leave it. Every port has a mate at the other end of its line. Ports and mates determine the faces.
+//! Every move here keeps the drawing on the same surface.
 
 use super::refined::NONE;
 
-/// What an integer point is on the mesh.
+/// The place of an integer point on the mesh.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) enum Place {
     /// In a refined face, with these levels.
@@ -17,14 +17,14 @@ pub(super) enum Place {
     Middle(Vec<u32>),
 }
 
-/// How a walk around a cell ended.
+/// The end of a walk around a cell.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Walk {
-    /// Where it began.
+    /// The walk returned to its start.
     Closed,
-    /// At a line that leaves the surface.
+    /// The walk came to a line that leaves the surface.
     Cut,
-    /// Where another walk had begun, in the middle of a cell that is not closed.
+    /// The walk came to the start of another walk, in the middle of a cell that is not closed.
     Met,
 }
 

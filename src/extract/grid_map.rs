@@ -1,10 +1,9 @@
-//! An integer-grid map made exact: transitions of quarter turns and integers that hold to the last bit.
+//! An integer-grid map made exact: the transitions are exact quarter turns and integer translations.
 //!
-//! This is the sanitization of `ebke2013`, section 4, with fixed-point numbers in place of
-//! truncated floating-point numbers: quarter turns and integer shifts of them are exact. Around a
-//! regular vertex one corner decides, and transitions carry its coordinates to the others. An
-//! irregular vertex lies at the fixed point of the transitions around it, which must be an integer
-//! point.
+//! This is the sanitization of `ebke2013`, section 4, but with fixed-point numbers in place of truncated
+//! floating-point numbers: quarter turns and integer shifts of fixed-point numbers are exact. At a regular
+//! vertex, one corner determines the coordinates, and transitions carry them to the other corners. An
+//! irregular vertex lies at the fixed point of the transitions around it, which must be an integer point.
 //!
 //! Coordinates are counted in units of 2^-32. Those of irregular vertices are integers, hence even
 //! counts; all others are made odd, and quarter turns and integer shifts keep them odd. No other
@@ -15,7 +14,7 @@ use crate::error::{Error, Result};
 use crate::map::SeamlessMap;
 use crate::mesh::{TriangleMesh, angle_at, turned};
 
-/// The largest absolute value of a coordinate: products of differences then fit 128 bits.
+/// The largest absolute value of a coordinate. Products of differences then fit into 128 bits.
 pub const RANGE: f64 = (1u64 << 28) as f64;
 
 /// The largest deviation of coordinates from a quarter turn and an integer shift across an edge.
@@ -31,7 +30,7 @@ const ON_LINE: f64 = 1e-6;
 #[derive(Debug, Clone, PartialEq)]
 pub struct IntegerGridMap {
     pub(super) corners: Vec<[[i64; 2]; 3]>,
-    /// Quarter turns from a face to that across each of its edges.
+    /// Quarter turns from each face to the face across each of its edges.
     pub(super) turns: Vec<[u8; 3]>,
     pub(super) is_irregular: Vec<bool>,
 }
@@ -123,7 +122,7 @@ impl IntegerGridMap {
         Ok(map)
     }
 
-    /// Decides one corner of a vertex and carries it around.
+    /// Chooses the coordinates of one corner of a vertex and carries them to the others.
     fn settle(
         &mut self,
         mesh: &TriangleMesh,
@@ -182,7 +181,7 @@ impl Step {
         }
     }
 
-    /// First this, then `next`.
+    /// The composition: first this step, then `next`.
     fn then(self, next: Step) -> Step {
         Step {
             quarters: (self.quarters + next.quarters) % 4,
@@ -260,7 +259,7 @@ fn nearest_quarters(uvs: &[[[f64; 2]; 3]], sides: [(usize, usize); 2]) -> u8 {
     })
 }
 
-/// The step over an edge with this turn; none if the coordinates contradict it.
+/// The step over an edge with this turn, or `None` if the coordinates contradict it.
 fn step(uvs: &[[[f64; 2]; 3]], sides: [(usize, usize); 2], quarters: u8) -> Option<Step> {
     let [p, q] = ends(uvs, sides);
     let shifts = [0, 1].map(|end| {
@@ -308,7 +307,7 @@ fn outward(mesh: &TriangleMesh, uvs: &[[[f64; 2]; 3]], steps: &[[Step; 3]], v: u
                 false => x.signum() as i64,
             });
             let right = turned((4 - quarters) % 4, right);
-            // An edge along neither axis lies on no line.
+            // An edge that is parallel to neither axis lies on no line.
             if let Some(axis) = (0..2).find(|&axis| right[1 - axis] == 0 && right[axis] != 0) {
                 sides[axis] = right[axis];
             }

@@ -1,14 +1,13 @@
-//! Quad extraction: from an integer-grid map to the quads that its integer lines bound.
+//! Quad extraction: the integer lines of an integer-grid map bound quads.
 //!
-//! The task and the order of the steps are those of `ebke2013`: make the map exact, find its
-//! integer points, trace the integer lines between them, and walk around faces. What differs is how
-//! the method becomes robust. Coordinates are fixed-point numbers, and parity keeps every vertex
-//! but the irregular ones off the integer lines (`grid_map`), so that a line meets triangles only
-//! through the interior of edges. The only decisions are the sign of a vertex and the order of two
-//! crossings along one edge. Everything else (`arrangement`) is the combinatorics of chords in a
-//! triangle, which is consistent for every map, also where triangles are folded or collapsed. Folds
-//! appear as lines that cross twice in opposite directions. Moves that keep the topology remove
-//! them (`fold_removal`) and make quads of what is left (`repair`).
+//! The task and the order of the steps are those of `ebke2013`: make the map exact, find its integer points,
+//! trace the integer lines between them, and walk around faces. The method differs in how it becomes robust.
+//! Coordinates are fixed-point numbers, and parity keeps every vertex but the irregular ones off the integer
+//! lines (`grid_map`), so that a line crosses edges only in their interior. The only geometric decisions are
+//! the side of a vertex and the order of two crossings along an edge. All other steps (`arrangement`) are the
+//! combinatorics of chords in a triangle, which is consistent for every map, even if triangles are folded or
+//! collapsed. Folds appear as lines that cross twice in opposite directions. Moves that keep the topology
+//! remove them (`fold_removal`) and turn the cells that remain into quads (`repair`).
 
 mod arrangement;
 mod chords;
@@ -43,8 +42,8 @@ use refined::Refined;
 
 /// The quads of an integer-grid map.
 ///
-/// The result has the orientation of the mesh. [`QuadMesh::is_conforming`] tells whether it consists of
-/// quads alone, and [`QuadMesh::faults`] where it does not. The monitor is asked between steps.
+/// The result has the orientation of the mesh. [`QuadMesh::is_conforming`] tells whether all its faces are
+/// conforming quads, and [`QuadMesh::faults`] lists the faulty elements. The monitor is asked between steps.
 ///
 /// # Errors
 /// [`Error::LengthMismatch`](crate::Error::LengthMismatch) for the map of another mesh,

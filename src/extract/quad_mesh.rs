@@ -1,8 +1,8 @@
-//! The quads, their origin on the triangle mesh, and what extraction did.
+//! The quads, their places on the triangle mesh, and the figures of the extraction.
 
 use crate::mesh::vector::Vec3;
 
-/// Where a vertex of the quads lies on the triangle mesh.
+/// The place of a vertex of the quads on the triangle mesh.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Origin {
     /// At an irregular vertex.
@@ -13,10 +13,10 @@ pub enum Origin {
     Middle,
 }
 
-/// Polygons with shared vertices; all of them quads where extraction succeeded.
+/// Polygons with shared vertices. If extraction succeeded, all of them are quads.
 #[derive(Debug, Clone, PartialEq)]
 pub struct QuadMesh {
-    /// Positions. Every vertex has a face.
+    /// Positions. Every vertex belongs to a face.
     pub vertices: Vec<Vec3>,
     /// The place of each vertex on the triangle mesh.
     pub origins: Vec<Origin>,
@@ -24,11 +24,11 @@ pub struct QuadMesh {
     pub quads: Vec<[u32; 4]>,
     /// Corners of the faces that are not quads.
     pub others: Vec<Vec<u32>>,
-    /// The number of cells that the boundary cuts through, which are left out.
+    /// The number of cells that the boundary cuts. They are left out.
     pub partial_cells: usize,
     /// The number of integer points, duplicated by folds of the map, that were removed or joined.
     pub folds_removed: usize,
-    /// The number of moves that made quads of the cells left by folds.
+    /// The number of moves that turned the cells left by folds into quads.
     pub repaired: usize,
     /// Triangles that the map folds or collapses, in increasing order: the cause of faults.
     pub folded: Vec<usize>,

@@ -1,4 +1,4 @@
-//! The mesh on which lines are traced: that of the map, with edges between irregular vertices split.
+//! The mesh on which lines are traced: the mesh of the map with edges between irregular vertices split.
 //!
 //! Irregular vertices are the only ones on integer lines, so an edge between two of them may lie
 //! along a line. A vertex in its middle, off the line, prevents that.
@@ -19,7 +19,7 @@ pub(super) struct Refined {
     /// Quarter turns over every half-edge, out of its face.
     pub(super) turn: Vec<u8>,
     pub(super) is_irregular: Vec<bool>,
-    /// For faces that are part of a split one: the face of the mesh, and where the corners are.
+    /// For a part of a split face: the face of the mesh, and the places of the part's corners in it.
     parts: BTreeMap<u32, (u32, [[f64; 3]; 3])>,
 }
 
@@ -58,7 +58,7 @@ impl Refined {
         self.corners[h / 3][h % 3]
     }
 
-    /// What transitions over `h` add after the turn.
+    /// The translation of the transition over `h`, which is applied after the turn.
     pub(super) fn shift(&self, h: usize) -> [i64; 2] {
         let turned = turned(self.turn[h], self.start(h));
         let there = self.start(next(self.twin[h] as usize));
@@ -78,7 +78,7 @@ impl Refined {
     fn split(&mut self, h: usize) {
         let g = self.twin[h] as usize;
         let (a, b) = (self.start(h), self.start(next(h)));
-        // Odd, so that it lies on no line.
+        // Odd, so that the vertex lies on no line.
         let middle = [0, 1].map(|axis| (a[axis] + (b[axis] - a[axis]) / 2) | 1);
         let shift = self.shift(h);
         let turned = turned(self.turn[h], middle);

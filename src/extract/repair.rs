@@ -1,4 +1,4 @@
-//! Cells that folds leave behind are made quads, by moves of the drawing alone.
+//! Moves of the drawing that turn the cells left by folds into quads.
 //!
 //! Where the map winds around a point more often than it should, removing folds leaves cells that
 //! are not squares: an irregular vertex with a single line, and near it a cell of eight sides. The
@@ -14,7 +14,7 @@
 use super::graph::{Graph, Place, Walk};
 use super::refined::NONE;
 
-/// No doublet is removed if so few vertices are left: a cube is the smallest closed surface of quads.
+/// Doublets stay if only this many vertices are left: a cube is the smallest closed surface of quads.
 const LEAST: usize = 8;
 
 /// Makes the moves until none is possible. Returns their number.

@@ -1,4 +1,4 @@
-//! Integer lines followed from point to point over edges; transitions turn their direction.
+//! Traces integer lines from point to point over edges. Transitions turn the direction of a line.
 
 use super::arrangement::{Arrangement, RAY};
 use super::cones;
@@ -23,7 +23,7 @@ pub(super) fn graph(mesh: &Refined, arrangement: &mut Arrangement) -> Graph {
         }
     }
     for (ray, &port) in arrangement.rays.iter().zip(&of_rays) {
-        // Where lines cross the ray in its first triangle, they have joined it.
+        // If lines cross the ray in its first triangle, it is already joined to them.
         let piece = ray.piece as usize;
         if arrangement.pieces[piece].ports[usize::from(ray.end)] == NONE {
             tracer.join(&mut graph, port, piece, 1 - usize::from(ray.end));
@@ -39,7 +39,7 @@ struct Tracer<'a> {
 }
 
 impl Tracer<'_> {
-    /// Joins a port to the one that its line reaches when it leaves a piece at an end.
+    /// Joins a port to the port that its line reaches after it leaves a piece at an end.
     fn join(&self, graph: &mut Graph, port: u32, piece: usize, end: usize) {
         if graph.mate[port as usize] != NONE {
             return;
@@ -49,7 +49,7 @@ impl Tracer<'_> {
         }
     }
 
-    /// The port reached, and the quarter turns on the way; none if the line leaves the surface.
+    /// The port reached and the quarter turns on the way, or `None` if the line leaves the surface.
     fn follow(&self, mut piece: usize, mut end: usize) -> Option<(u32, u8)> {
         let mut turn = 0;
         loop {

@@ -1,6 +1,6 @@
-//! A sparse vector while it is being summed: dense storage, and a list of the entries in use.
+//! A sparse vector that is being summed: dense storage, and a list of the entries in use (`gustavson1978`).
 
-/// One slot for each index. Slots that were never asked for hold the default and cost nothing.
+/// One slot for each index. A slot that was never used holds the default value.
 #[derive(Debug)]
 pub(crate) struct Accumulator<T> {
     slots: Vec<T>,
@@ -18,7 +18,7 @@ impl<T: Default + Clone> Accumulator<T> {
         }
     }
 
-    /// The slot of `index`, which is present from now on.
+    /// The slot of `index`. The entry counts as present from now on.
     #[inline]
     pub fn slot(&mut self, index: u32) -> &mut T {
         let i = index as usize;
@@ -38,12 +38,12 @@ impl<T: Default + Clone> Accumulator<T> {
         self.present.len()
     }
 
-    /// Sorts the entries by index. Otherwise they stand in the order in which they came.
+    /// Sorts the entries by index. Without this call they are in the order of their first use.
     pub fn sort(&mut self) {
         self.present.sort_unstable();
     }
 
-    /// Hands every entry to `take`, and empties the vector.
+    /// Passes every entry to `take` and empties the vector.
     pub fn drain(&mut self, mut take: impl FnMut(u32, T)) {
         for index in self.present.drain(..) {
             self.is_present[index as usize] = false;

@@ -1,5 +1,5 @@
-//! What a factorization does before it looks at numbers: the order of elimination and the pattern
-//! of the factor. Matrices of one pattern share it.
+//! The symbolic step of a factorization: the order of elimination and the pattern of the factor. Matrices
+//! with the same pattern share it.
 
 use std::sync::Arc;
 
@@ -20,10 +20,11 @@ pub struct Analysis {
 }
 
 impl Analysis {
-    /// Of matrices whose lower triangle has this pattern, in an order that keeps the factor sparse.
+    /// Analyses the pattern of `lower`, the lower triangle of a symmetric matrix, in an order that keeps the
+    /// factor sparse.
     ///
     /// # Errors
-    /// [`Error::Overflow`] where the factor would exceed 2^32 entries.
+    /// [`Error::Overflow`] if the factor would have more than 2^32 entries.
     pub fn new(lower: &Sparse) -> Result<Self> {
         Self::ordered(lower, SymmetricOrdering::Amd)
     }
@@ -45,7 +46,7 @@ impl Analysis {
     }
 }
 
-/// Rows of the lower triangle are columns of the upper one.
+/// The pattern as faer reads it: the rows of the lower triangle are the columns of the upper one.
 pub(super) fn pattern<'a>(
     lower: &'a Sparse,
     col_ptr: &'a [u32],

@@ -1,13 +1,13 @@
-//! The supernodal factor of a positive semi-definite matrix, by faer.
+//! The supernodal factor `A = L D L'` of a positive semi-definite matrix, computed by faer.
 //!
-//! A pivot that vanishes belongs to an unknown that the earlier ones already determine, so its
-//! whole column of the Schur complement vanishes with it. Such a pivot is replaced by
-//! [`NULL_PIVOT`], which is the factor of `A + sum_j NULL_PIVOT e_j e_j'` over these *null
-//! unknowns* j. As long as a system is consistent, its solution then has exactly 0 there, and
-//! solves the original system as well: a minimiser, chosen by the order of elimination.
+//! A pivot vanishes if the unknowns eliminated earlier determine its unknown. The whole column of the Schur
+//! complement then vanishes too. Each such pivot is replaced by [`NULL_PIVOT`]. The result is the factor of
+//! `A + sum_j NULL_PIVOT e_j e_j'`, where j runs over these *null unknowns*. If a system is consistent, the
+//! solution of the changed system is exactly 0 at the null unknowns, so it also solves the original system.
+//! It is one of the minimisers; the order of elimination decides which.
 //!
-//! This is L D L' and not L L' because faer 0.24 leaves the old value on the diagonal of a pivot that
-//! it replaces in the latter.
+//! The factor is L D L' and not L L', because in L L' faer 0.24 leaves the old value on the diagonal when it
+//! replaces a pivot.
 
 use std::sync::Arc;
 
@@ -29,15 +29,15 @@ use crate::error::{Error, Result};
 
 /// A pivot of the scaled matrix (diagonal in [1/2, 2)) at or below this counts as zero.
 ///
-/// Rounding leaves about 1e-15 of a pivot that cancels; the weakest honest pivots of mesh
-/// problems (the regularisation 1e-6 of seam translations) stay above 1e-7.
+/// A pivot that cancels leaves a rounding error of about 1e-15. The smallest true pivots of mesh problems
+/// (from the regularisation 1e-6 of seam translations) stay above 1e-7.
 pub const PIVOT_TOLERANCE: f64 = 1e-12;
 
-/// What a vanished pivot of the scaled matrix is replaced by. No honest pivot is as large.
+/// The value that replaces a vanished pivot of the scaled matrix. Every true pivot is smaller.
 pub const NULL_PIVOT: f64 = 9.0;
 
-/// Next to a pivot that counts as zero, a column of a semi-definite matrix has no entry beyond the root of
-/// twice [`PIVOT_TOLERANCE`]; with a margin of ten.
+/// If a pivot counts as zero, the entries of its column in a semi-definite matrix are at most the root of
+/// twice [`PIVOT_TOLERANCE`]. This bound is ten times as large.
 const COUPLED: f64 = 1.5e-5;
 
 /// `A = L D L'` of the scaled and permuted matrix.
@@ -51,15 +51,15 @@ pub struct Cholesky {
 }
 
 impl Cholesky {
-    /// Factors the symmetric matrix with lower triangle `lower`, every diagonal entry stored.
+    /// Factors the symmetric matrix with lower triangle `lower`. Every diagonal entry must be stored.
     ///
     /// # Errors
-    /// [`Error::OutOfMemory`], and [`Error::Overflow`] where the factor would exceed 2^32 entries.
+    /// [`Error::OutOfMemory`], and [`Error::Overflow`] if the factor would have more than 2^32 entries.
     pub fn new(lower: &Sparse) -> Result<Self> {
         Self::ordered(lower, Ordering::FillReducing)
     }
 
-    /// As [`new`](Self::new), with unknowns eliminated in another order.
+    /// As [`new`](Self::new), with another order of elimination.
     ///
     /// # Errors
     /// As [`new`](Self::new).
@@ -71,7 +71,7 @@ impl Cholesky {
         Self::with(&Analysis::ordered(lower, ordering)?, lower)
     }
 
-    /// As [`new`](Self::new), but eliminates unknown `order[k]` as the k-th.
+    /// As [`new`](Self::new), but the k-th unknown to be eliminated is `order[k]`.
     ///
     /// # Errors
     /// As [`new`](Self::new).
@@ -87,7 +87,7 @@ impl Cholesky {
         )
     }
 
-    /// As [`new`](Self::new), for a matrix that has the pattern of the one that was analysed.
+    /// As [`new`](Self::new), for a matrix with the pattern that was analysed.
     ///
     /// # Errors
     /// As [`new`](Self::new).
@@ -158,8 +158,8 @@ impl Cholesky {
         &self.scale
     }
 
-    /// Number of entries of L that are stored below the diagonal, those included that are kept for
-    /// the sake of larger blocks and are zero.
+    /// Number of stored entries of L below the diagonal. It includes zeros that are stored to make blocks
+    /// larger.
     pub fn entries(&self) -> usize {
         match self.symbolic.raw() {
             SymbolicCholeskyRaw::Supernodal(raw) => (0..raw.n_supernodes())
@@ -174,25 +174,26 @@ impl Cholesky {
         }
     }
 
-    /// Unknowns whose pivot vanished, in order of elimination.
+    /// The unknowns whose pivot vanished, in order of elimination.
     pub fn null_unknowns(&self) -> &[u32] {
         &self.null
     }
 
-    /// Those of them that others depend on nevertheless: the matrix is not semi-definite.
+    /// The null unknowns that other unknowns depend on all the same. If there are any, the matrix is not
+    /// semi-definite.
     pub fn coupled_unknowns(&self) -> &[u32] {
         &self.coupled
     }
 
-    /// The upper triangular factor `R'R = S` of what is left of A when all but the last `m`
-    /// unknowns are eliminated, dense and by columns, in the order of elimination; and whether no
-    /// pivot vanished. A vanished pivot leaves a zero row, and a zero column where nothing else is left
-    /// of that unknown but rounding errors: the others do not see it.
+    /// Eliminates all but the last `m` unknowns and returns the upper triangular factor `R'R = S` of the
+    /// Schur complement S, dense and by columns, in the order of elimination. The second result says whether
+    /// all pivots were positive. A vanished pivot leaves a zero row. Its column is zero as well if it holds
+    /// nothing but rounding errors.
     pub fn trailing_factor(&self, m: usize) -> (Vec<f64>, bool) {
         let first = self.dim() - m;
         let mut r = vec![0.0; m * m];
         let mut null = Vec::new();
-        // Each column's largest entry in the scaled complement.
+        // The largest entry of each column of the scaled complement.
         let mut size = vec![0.0f64; m];
         let mut set = |row: usize, pivot: f64, column: usize, entry: f64| {
             let value = entry * pivot.sqrt() / self.scale[self.unknown(column)];
@@ -219,7 +220,7 @@ impl Cholesky {
 
     /// The unknown that is eliminated as the `position`-th.
     pub(super) fn unknown(&self, position: usize) -> usize {
-        // None stands for the natural order.
+        // `None` is the natural order.
         let order = self.symbolic.perm().map(|perm| perm.arrays().0);
         order.map_or(position, |order| order[position] as usize)
     }
@@ -245,7 +246,7 @@ impl Cholesky {
                     }
                 }
             }
-            // What faer chooses for a diagonal matrix.
+            // For a diagonal matrix faer chooses the simplicial form.
             SymbolicCholeskyRaw::Simplicial(raw) => {
                 for k in 0..raw.nrows() {
                     let range = raw.col_ptr()[k] as usize..raw.col_ptr()[k + 1] as usize;
@@ -259,7 +260,7 @@ impl Cholesky {
         }
     }
 
-    /// Solves `A x = b` in place; null unknowns get 0 where `b` is consistent.
+    /// Solves `A x = b` in place. Null unknowns get 0 if the system is consistent.
     ///
     /// # Errors
     /// [`Error::OutOfMemory`].
@@ -294,8 +295,8 @@ fn out_of_memory() -> Error {
 mod tests {
     use super::*;
 
-    /// A ring of `n` springs with stiffness `k`, and a spring of 1 to the ground at unknown 0 if
-    /// `grounded`.
+    /// A ring of `n` springs with stiffness `k`. If `grounded`, a spring of stiffness 1 ties unknown 0 to the
+    /// ground.
     fn ring(n: u32, k: f64, grounded: bool) -> Sparse {
         let springs = (0..n).flat_map(move |i| {
             let j = (i + 1) % n;

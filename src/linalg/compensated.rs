@@ -1,8 +1,7 @@
-//! Sums of products whose terms cancel.
+//! Sums of products whose terms cancel (`neumaier1974`, `ogita2005`).
 
-/// A running sum that carries its own rounding error (`neumaier1974`; products by fused
-/// multiply-add as in `ogita2005`, algorithm Dot2): as if computed in twice the
-/// working precision.
+/// A running sum that carries its own rounding error (`neumaier1974`). Products use fused multiply-add as in
+/// algorithm Dot2 of `ogita2005`. The result is as accurate as if computed in twice the working precision.
 #[derive(Debug, Clone, Copy)]
 pub struct CompensatedSum {
     sum: f64,
@@ -29,7 +28,7 @@ impl CompensatedSum {
         self.sum = total;
     }
 
-    /// Adds `a * b`, the rounding error of the product included.
+    /// Adds `a * b` together with the rounding error of the product.
     pub fn add_product(&mut self, a: f64, b: f64) {
         let product = a * b;
         self.add(product);
@@ -54,7 +53,7 @@ mod tests {
 
     #[test]
     fn cancelling_terms_leave_the_small_ones() {
-        // Plain summation gives 0 each time; Kahan's the same for the last two.
+        // Plain summation gives 0 for all of them, Kahan's summation for the last two.
         assert_eq!(sum(&[1e16, 1.0, -1e16]), 1.0);
         assert_eq!(sum(&[1.0, 1e100, -1e100]), 1.0);
         assert_eq!(sum(&[1.0, 1e100, 1.0, -1e100]), 2.0);
@@ -62,7 +61,7 @@ mod tests {
 
     #[test]
     fn what_a_product_is_rounded_by_is_kept() {
-        // (1 + 2^-30)^2 = 1 + 2^-29 + 2^-60, of which a number holds the first two terms.
+        // (1 + 2^-30)^2 = 1 + 2^-29 + 2^-60. A double holds only the first two terms.
         let factor = 1.0 + 2f64.powi(-30);
         let mut sum = CompensatedSum::new(-1.0);
         sum.add_product(factor, factor);
@@ -70,8 +69,8 @@ mod tests {
         assert_eq!(sum.value(), 2f64.powi(-60));
     }
 
-    /// The bound of algorithm Dot2 (Ogita, Rump, Oishi 2005, proposition 5.5), against sums of whole
-    /// numbers in 128 bits that cancel nearly.
+    /// The sums satisfy the error bound of algorithm Dot2 (`ogita2005`, proposition 5.5). The oracle is
+    /// integer sums in 128 bits, which nearly cancel.
     #[test]
     fn scalar_products_are_those_of_twice_the_working_precision() {
         for round in 0..50i128 {
@@ -83,7 +82,8 @@ mod tests {
                 exact += a * b;
                 size += (a * b).abs() as f64;
             };
-            // Products of up to 84 bits; the same again with the other sign, one factor off by one.
+            // Products of up to 84 bits, then the same products with opposite sign and one factor changed by
+            // one.
             for k in 0..100 {
                 let (a, b) = (factor(3 * k) << 20, factor(3 * k + 1) * 2 + 1);
                 add(a, b);

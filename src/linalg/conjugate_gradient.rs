@@ -1,8 +1,8 @@
 //! Preconditioned conjugate gradients over the unknowns that are not held.
 //!
-//! `hestenes1952`. The preconditioner is a factor of the whole matrix, restricted to the
-//! free unknowns: exact while nothing is held, and off by a rank that grows with the number of
-//! held unknowns, so that few of them cost few iterations.
+//! The method of `hestenes1952`. The preconditioner is a factor of the whole matrix, restricted to the free
+//! unknowns. It is exact while no unknown is held. Its error has a rank that grows with the number of held
+//! unknowns, so a few held unknowns cost a few iterations.
 
 use super::{RelaxedFactor, Sparse};
 use crate::error::Result;
@@ -10,17 +10,17 @@ use crate::error::Result;
 /// When conjugate gradients end.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Effort {
-    /// At most so many iterations.
+    /// The largest number of iterations.
     pub iterations: usize,
-    /// The estimated distance of every unknown from the minimiser that is near enough.
+    /// The iteration ends when the estimated distance of every unknown from the minimiser is at most this.
     pub tolerance: f64,
 }
 
-/// Moves `point` towards the minimiser of `1/2 x'Ax + g'x` with the `held` unknowns kept, and
-/// returns whether that converged within the given effort.
+/// Moves `point` towards the minimiser of `1/2 x'Ax + g'x` with the `held` unknowns kept. Returns whether the
+/// iteration converged within its limits.
 ///
-/// `lower` is the lower triangle of A, `factor` belongs to it. Stops where it stands when `go_on`,
-/// asked before each iteration, says no.
+/// `lower` is the lower triangle of A, and `factor` is the factor of A. `go_on` is asked before each
+/// iteration; if it returns false, the iteration ends and `point` keeps its current value.
 ///
 /// # Errors
 /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).

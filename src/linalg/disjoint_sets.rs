@@ -1,14 +1,14 @@
 //! Disjoint sets (union-find with path halving): which elements have been joined, directly or through
 //! others.
 
-/// A partition of `0..len`. Every set is named by its least element.
+/// A partition of `0..len`. The least element of a set identifies the set.
 #[derive(Debug, Clone)]
 pub(crate) struct DisjointSets {
     parent: Vec<u32>,
 }
 
 impl DisjointSets {
-    /// Every element in a set of its own.
+    /// Puts every element into a set of its own.
     pub fn new(len: usize) -> Self {
         DisjointSets {
             parent: (0..len as u32).collect(),
@@ -25,14 +25,14 @@ impl DisjointSets {
         at
     }
 
-    /// Joins the sets of `a` and `b`; whether they were different.
+    /// Joins the sets of `a` and `b`. Returns whether they were different.
     pub fn join(&mut self, a: usize, b: usize) -> bool {
         let (a, b) = (self.root(a), self.root(b));
         self.parent[a.max(b)] = a.min(b) as u32;
         a != b
     }
 
-    /// The sets, by their least elements. The elements of each increase.
+    /// The sets, ordered by their least elements. The elements of each set increase.
     pub fn sets(mut self) -> Vec<Vec<usize>> {
         let mut sets = vec![Vec::new(); self.parent.len()];
         for element in 0..sets.len() {

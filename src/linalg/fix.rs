@@ -1,47 +1,47 @@
-//! Fixing unknowns one by one, the others following exactly, without refactoring.
+//! Fixes unknowns one by one. The other unknowns follow exactly, and nothing is factored again.
 //!
-//! In `A = L D L'`, taking unknown k out of the minimisation clears column k of L and leaves the Schur
-//! complement that was there before k was eliminated: a rank-one *update* of the columns on the path
-//! from k to the root, `L33 D33 L33' + d_k l_k l_k'` (`davis2005`, section 3). The row of k stays as it
-//! is: it tells the earlier unknowns how they follow k.
+//! In `A = L D L'`, fixing unknown k clears column k of L and restores the Schur complement from before the
+//! elimination of k. That is a rank-one *update* of the columns on the path from k to the root, `L33 D33 L33'
+//! + d_k l_k l_k'` (`davis2005`, section 3). Row k of L stays unchanged: it says how the unknowns before k
+//! follow k.
 //!
-//! The update (`gill1974`, method C1) also yields the solution for free.
-//! When k moves by delta, the later unknowns answer with `L33' dx = -delta * beta`, where `beta_j`
-//! are the update's own multipliers: for the updated factor,
-//! `(L33 D33 L33')^-1 l_k d_k = L33^-T beta`.
+//! The update (`gill1974`, method C1) also yields the new solution at no extra cost. When k moves by delta,
+//! the change dx of the later unknowns satisfies `L33' dx = -delta * beta`, where `beta_j` are the
+//! multipliers of the update. The reason is that the updated factor satisfies `(L33 D33 L33')^-1 l_k d_k =
+//! L33^-T beta`.
 //!
-//! Zero pivots need no care: the first update that reaches one makes it positive, takes the whole
-//! rest of the rank-one term into its column, and so frees the unknown.
+//! Zero pivots need no special case. The first update that reaches a zero pivot makes it positive and moves
+//! the rest of the rank-one term into its column. From then on the unknown is free.
 
 use super::Ldl;
 use super::cholesky::PIVOT_TOLERANCE;
 use super::ordering::NONE;
 use crate::error::Result;
 
-/// Changes below this, in units of the integers that are watched, are not carried further down.
-/// The sum over 10,000 fixings stays far below the 1e-9 within which deviations tie.
+/// Changes below this, in units of the watched integers, are not passed on. Over 10,000 fixings they add up
+/// to far less than 1e-9, the tolerance within which deviations count as equal.
 const CARRIED: f64 = 1e-14;
 
 /// A minimisation in which unknowns are being fixed.
 ///
-/// Only *watched* unknowns are kept current after each fixing; the others follow when they are
-/// needed to pass a change on.
+/// Only the *watched* unknowns are current after each fixing. Another unknown is computed when a change
+/// passes through it.
 #[derive(Debug)]
 pub struct FixedSolve<'a> {
     ldl: &'a mut Ldl,
-    /// Scaled value at each position, current for watched unknowns.
+    /// Scaled value at each position. It is current for watched unknowns.
     value: Vec<f64>,
-    /// Change by the last fixing at each position, where it was computed.
+    /// Change by the last fixing at each position where it was computed.
     change: Vec<f64>,
     update: Vec<f64>,
     on_path: Vec<bool>,
-    /// Watched unknowns in the subtree of each position.
+    /// Number of watched unknowns in the subtree of each position.
     watched: Vec<u32>,
     tolerance: f64,
 }
 
 impl<'a> FixedSolve<'a> {
-    /// Starts at `point`, the minimiser that belongs to `ldl`, watching the unknowns `watch`.
+    /// Starts at `point`, the minimiser that belongs to `ldl`, and watches the unknowns `watch`.
     ///
     /// # Errors
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
@@ -79,7 +79,7 @@ impl<'a> FixedSolve<'a> {
         self.value[self.ldl.tree.position[i] as usize] * self.ldl.scale[i]
     }
 
-    /// Fixes a watched unknown to `value` for good; the others that are watched follow.
+    /// Fixes a watched unknown to `value` for good. The other watched unknowns follow.
     pub fn fix(&mut self, unknown: u32, value: f64) {
         let i = unknown as usize;
         let k = self.ldl.tree.position[i] as usize;
@@ -110,13 +110,13 @@ impl<'a> FixedSolve<'a> {
         }
     }
 
-    /// The rank-one update along the path from `k`; leaves the forward part of the answer in
-    /// `change` on the path.
+    /// The rank-one update along the path from `k`. It leaves the result of forward substitution in `change`
+    /// on the path.
     fn take_out(&mut self, k: usize, delta: f64) {
         let ldl = &mut *self.ldl;
         let mut alpha = ldl.pivots[k];
         self.change[k] = delta;
-        // The column is cleared but its pattern is kept: it bounds what its subtree can see.
+        // The column is cleared but keeps its pattern, which bounds the unknowns that its subtree can reach.
         for p in ldl.offsets[k]..ldl.offsets[k + 1] {
             self.update[ldl.indices[p] as usize] = std::mem::take(&mut ldl.values[p]);
         }
@@ -147,7 +147,8 @@ impl<'a> FixedSolve<'a> {
         }
     }
 
-    /// Back substitution from the roots down, into subtrees where a watched unknown still moves.
+    /// Back substitution from the roots down, into the subtrees that hold a watched unknown which still
+    /// moves.
     fn carry_down(&mut self) {
         let ldl = &*self.ldl;
         let mut j = ldl.dim();
@@ -184,7 +185,7 @@ mod tests {
     use super::super::{Cholesky, Sparse, minimise_bounded, minimum_degree};
     use super::*;
 
-    /// A grid of springs, every fifth unknown also tied to the ground.
+    /// A grid of springs. Every fifth unknown is also tied to the ground.
     fn grid(side: u32, grounded: bool) -> Sparse {
         let at = move |r: u32, c: u32| r * side + c;
         let springs = (0..side).flat_map(move |r| {
@@ -205,7 +206,7 @@ mod tests {
         Sparse::from_triplets(n, n, entries.chain(ground)).unwrap()
     }
 
-    /// The same minimisation from scratch: fixed unknowns held by substitution.
+    /// The same minimisation from scratch, with fixed unknowns substituted.
     fn reference(a: &Sparse, gradient: &[f64], fixed: &[Option<f64>]) -> Vec<f64> {
         let n = a.rows();
         let mut g = gradient.to_vec();
@@ -267,8 +268,8 @@ mod tests {
 
     #[test]
     fn unknowns_that_nothing_decides_yet_are_freed_when_a_row_reaches_them() {
-        // (x0 - x1 + x2)^2 with x2 watched and free to absorb the row: x0 and x1 are null. Once x2
-        // is fixed they must follow each other.
+        // (x0 - x1 + x2)^2, where x2 is watched and can satisfy the row alone, so x0 and x1 are null
+        // unknowns. Once x2 is fixed, they must follow each other.
         let row = [(0u32, 1.0), (1, -1.0), (2, 1.0)];
         let entries = row.iter().flat_map(|&(i, u)| {
             let lower = row.iter().filter(move |&&(j, _)| j <= i);

@@ -1,11 +1,12 @@
-//! Local re-optimisation after unknowns were fixed: Gauss-Seidel from a queue. It spreads from the neighbours
-//! of the fixed unknowns and stops where changes fall below a tolerance.
+//! Local re-optimisation after unknowns were fixed: Gauss-Seidel with a queue. It starts at the neighbours of
+//! the fixed unknowns and stops where changes fall below a tolerance.
 //!
-//! `bommes2009`, section 3, with two changes that were measured on orientation fields of 20,000 faces:
+//! The method is that of `bommes2009`, section 3, with two changes. Both were measured on orientation fields
+//! of 20,000 faces:
 //!
-//! - *Local* integers, which couple to a few unknowns that are not integer, are not relaxed but
-//!   follow exactly: see [`super::static_condensation`].
-//! - Over-relaxation (`young1954`) by [`OVERRELAXATION`].
+//! - *Local* integers couple to a few unknowns, none of them integer. They are not relaxed; they follow
+//! exactly, see [`super::static_condensation`].
+//! - The updates are over-relaxed (`young1954`) by [`OVERRELAXATION`].
 
 use std::collections::VecDeque;
 
@@ -13,13 +14,14 @@ use super::Sparse;
 use super::static_condensation::{Entry, StaticCondensation};
 use crate::error::Result;
 
-/// Among 1.0, 1.4, 1.6 and 1.8, the factor that left the least error for the least updates.
+/// The over-relaxation factor. Of 1.0, 1.4, 1.6 and 1.8 it reached the smallest error with the fewest
+/// updates.
 const OVERRELAXATION: f64 = 1.6;
 
-/// An unknown whose remaining curvature is at most this part of its diagonal is not decided yet.
+/// An unknown whose remaining curvature is at most this share of its diagonal entry counts as undetermined.
 const UNDECIDED: f64 = 1e-10;
 
-/// A minimisation of `1/2 x'Ax + g'x` in which unknowns are being fixed, kept near its minimum.
+/// A minimisation of `1/2 x'Ax + g'x` that stays near its minimum while unknowns are being fixed.
 #[derive(Debug)]
 pub struct LocalSolve<'a> {
     gradient: &'a [f64],
@@ -30,12 +32,12 @@ pub struct LocalSolve<'a> {
     moved: Vec<u32>,
 }
 
-/// The data of one unknown that an update reads, stored side by side.
+/// The data of one unknown that an update reads, stored next to each other.
 #[derive(Debug, Clone, Copy)]
 struct Unknown {
-    /// Current, but of a free local integer, which follows on demand.
+    /// The current value, except for a free local integer, whose value is computed on demand.
     value: f64,
-    /// Slope of the condensed objective, unless it is a local integer.
+    /// The slope of the condensed objective. Unused for local integers.
     residual: f64,
     fixed: bool,
     queued: bool,
@@ -103,8 +105,8 @@ impl<'a> LocalSolve<'a> {
         }
     }
 
-    /// Relaxes the queued unknowns until no step exceeds `tolerance` or `updates` were made;
-    /// returns how many were.
+    /// Relaxes the queued unknowns until no step exceeds `tolerance` or `updates` updates were made. Returns
+    /// the number of updates.
     pub fn relax(&mut self, tolerance: f64, updates: usize) -> usize {
         let mut done = 0;
         while done < updates {
@@ -129,13 +131,12 @@ impl<'a> LocalSolve<'a> {
         done
     }
 
-    /// Whether nothing is left to relax.
+    /// Whether the queue is empty.
     pub fn is_settled(&self) -> bool {
         self.queue.is_empty()
     }
 
-    /// Takes over a point that was computed elsewhere as the minimiser for the unknowns fixed so
-    /// far.
+    /// Takes over `point`, which was computed elsewhere as the minimiser for the unknowns fixed so far.
     pub fn settle_at(&mut self, point: &[f64]) {
         for (i, &value) in point.iter().enumerate() {
             let unknown = &mut self.unknowns[i];
@@ -149,7 +150,7 @@ impl<'a> LocalSolve<'a> {
         self.queue.clear();
     }
 
-    /// Free integers that may have moved since the last call, each once.
+    /// The free integers that may have moved since the last call, without repetition.
     pub fn take_moved(&mut self) -> Vec<u32> {
         let mut integers = Vec::new();
         for i in std::mem::take(&mut self.moved) {
@@ -172,7 +173,7 @@ impl<'a> LocalSolve<'a> {
         integers
     }
 
-    /// Carries a step of unknown `i` to its neighbours.
+    /// Applies a step of unknown `i` to the slopes of its neighbours.
     fn spread(&mut self, i: usize, step: f64) {
         self.mark_moved(i);
         for entry in self.system.row(i).iter().filter(|e| e.value != 0.0) {
@@ -200,7 +201,7 @@ impl Unknown {
         }
     }
 
-    /// Feels the step of a neighbour through `entry`, whose column it is.
+    /// Applies the step of a neighbour to the unknown of `entry`.
     fn pull(&mut self, entry: &Entry, step: f64, queue: &mut VecDeque<u32>) {
         self.residual += entry.value * step;
         if !self.queued && !self.fixed {
@@ -215,7 +216,7 @@ mod tests {
     use super::super::{Cholesky, minimise_bounded};
     use super::*;
 
-    /// Angles on a ring with one local unknown a step, all tied weakly to the ground.
+    /// Angles on a ring with one local integer between neighbours, all tied weakly to the ground.
     fn ring(steps: u32) -> Sparse {
         let rows = (0..steps).map(move |k| [(k, 1.0), ((k + 1) % steps, -1.0), (steps + k, 1.5)]);
         let squares = rows.flat_map(|row| {
@@ -235,7 +236,7 @@ mod tests {
         let integers: Vec<u32> = (40..80).collect();
         let zero = vec![0.0; n];
         let mut local = LocalSolve::new(&a, &zero, &zero, &integers).unwrap();
-        // Fixing stiffly in the reference: a very large diagonal and a matching gradient.
+        // The reference fixes unknowns by a very large diagonal entry and a matching gradient.
         let (mut held, mut gradient) = (Vec::new(), vec![0.0; n]);
         for (k, &i) in integers.iter().step_by(3).enumerate() {
             let value = (k as f64).sin() * 4.0;

@@ -1,8 +1,8 @@
-//! A simplicial `A = L D L'` of a positive semi-definite matrix, kept open for changes.
+//! The simplicial factor `A = L D L'` of a positive semi-definite matrix, which can be updated.
 //!
-//! Up-looking, row by row along the elimination tree (`davis2006`,
-//! section 4.7). faer has this factorization too, but its values cannot be
-//! changed in place afterwards, and a vanished pivot must stay zero here: see [`super::fix`].
+//! The factorization is up-looking: row by row along the elimination tree (`davis2006`, section 4.7). faer
+//! has this factorization too, but does not let its values be changed in place, and [`super::fix`] needs
+//! vanished pivots to stay zero.
 
 use super::cholesky::PIVOT_TOLERANCE;
 use super::ordering::{EliminationTree, NONE};
@@ -10,14 +10,14 @@ use super::scaling::{equilibrate, unit_scale};
 use super::{Sparse, sparse::reserve};
 use crate::error::Result;
 
-/// Multiplications between two questions whether to go on: some milliseconds.
+/// Number of multiplications between two calls of `go_on`: a few milliseconds of work.
 const STEPS_AT_A_TIME: usize = 1_000_000;
 
 /// `P S A S P' = L D L'` with S a diagonal scaling and P an order of elimination.
 ///
-/// Everything inside is in scaled unknowns at their positions: unknown `i` stands at
-/// `tree.position[i]` and has the value `x_i / scale_i`. A pivot of zero marks an unknown that the
-/// others determine; its column is zero, and so is its part of every solution.
+/// All values inside are scaled and stored by position: unknown `i` is at `tree.position[i]` and has the
+/// value `x_i / scale_i`. A zero pivot marks an unknown that the others determine. Its column is zero, and so
+/// is its entry in every solution.
 #[derive(Debug, Clone)]
 pub struct Ldl {
     pub(super) tree: EliminationTree,
@@ -31,7 +31,7 @@ pub struct Ldl {
 }
 
 impl Ldl {
-    /// Factors the symmetric matrix with lower triangle `lower`, eliminating in `order`.
+    /// Factors the symmetric matrix with lower triangle `lower` and eliminates in `order`.
     ///
     /// # Errors
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
@@ -40,7 +40,7 @@ impl Ldl {
         Ok(factored.unwrap_or_else(|| unreachable!("nothing ends it")))
     }
 
-    /// As [`new`](Self::new), given up as soon as `go_on` says no, which is asked now and then.
+    /// As [`new`](Self::new), but stops early when `go_on`, which is asked now and then, returns false.
     ///
     /// # Errors
     /// As [`new`](Self::new).
@@ -70,8 +70,8 @@ impl Ldl {
         Ok(ldl.factor(&rows, go_on).then_some(ldl))
     }
 
-    /// The factor of `R'R` for the upper triangular `r` with `m` columns, dense and by columns; its
-    /// zero rows are vanished pivots.
+    /// The factor of `R'R` for the upper triangular `r` with `m` columns, dense and by columns. Zero rows of
+    /// `r` are vanished pivots.
     pub fn dense(r: &[f64], m: usize) -> Self {
         let at = |i: usize, j: usize| r[j * m + i];
         let diagonal = |j: usize| (0..=j).map(|i| at(i, j) * at(i, j)).sum();
@@ -102,7 +102,7 @@ impl Ldl {
         ldl
     }
 
-    /// Whether it came to the end.
+    /// Computes the factor. Returns whether the computation was completed.
     fn factor(&mut self, rows: &Sparse, mut go_on: impl FnMut() -> bool) -> bool {
         let n = rows.rows();
         let mut row = vec![0.0; n];
@@ -156,7 +156,7 @@ impl Ldl {
         &self.tree
     }
 
-    /// The value of a scaled unknown is its value times this, by unknown.
+    /// The scale of each unknown: its value is its scaled value times this.
     pub fn scale(&self) -> &[f64] {
         &self.scale
     }
@@ -172,7 +172,7 @@ impl Ldl {
     }
 }
 
-/// The scaled matrix in positions: row `k` has its entries at or before `k`.
+/// The scaled matrix by position. Row `k` holds the entries with column at most `k`.
 fn permuted_rows(lower: &Sparse, tree: &EliminationTree, scale: &[f64]) -> Result<Sparse> {
     let n = lower.rows();
     let entries = lower.entries().map(|(i, j, v)| {
@@ -183,7 +183,7 @@ fn permuted_rows(lower: &Sparse, tree: &EliminationTree, scale: &[f64]) -> Resul
     Sparse::from_triplets(n, n, entries)
 }
 
-/// The columns in which row `k` of L has an entry, in topological order: increasing, since
+/// The columns in which row `k` of L has an entry, in topological order. That order is increasing, because
 /// positions are post-ordered.
 fn row_reach(rows: &Sparse, parent: &[u32], k: usize, seen: &mut [u32], reach: &mut Vec<u32>) {
     reach.clear();
@@ -224,7 +224,7 @@ mod tests {
 
     #[test]
     fn a_dense_triangle_is_the_factor_of_its_square() {
-        // Columns (2), (1, 3), (5, 0, 0): the last pivot vanishes.
+        // The columns are (2), (1, 3), (5, 0, 0); the last pivot vanishes.
         let r = [2.0, 0.0, 0.0, 1.0, 3.0, 0.0, 5.0, 0.0, 0.0];
         let ldl = Ldl::dense(&r, 3);
         let l = |i: usize, j: usize| match i.cmp(&j) {

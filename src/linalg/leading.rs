@@ -1,16 +1,16 @@
-//! Solving with the leading block of a factor.
+//! Solves with the leading block of a factor.
 //!
-//! The leading block of L D L' is the factor of the leading block of A. faer solves with whole
-//! factors only, so the two substitutions are written out here, column by column.
+//! The leading block of L D L' is the factor of the leading block of A. faer solves with whole factors only,
+//! so this file has its own forward and back substitution, column by column.
 
 use faer::sparse::linalg::cholesky::{SymbolicCholeskyRaw, supernodal::SupernodalLdltRef};
 
 use super::Cholesky;
 
 impl Cholesky {
-    /// Solves in place with all but the last `m` unknowns to be eliminated: these are held at zero,
-    /// and their entries of `b` neither read nor changed. Only for a factor without
-    /// [null unknowns](Self::null_unknowns).
+    /// Solves in place for all but the last `m` unknowns in the order of elimination. These last unknowns are
+    /// held at zero, and their entries of `b` are neither read nor changed. The factor must have no [null
+    /// unknowns](Self::null_unknowns).
     pub fn solve_leading(&self, b: &mut [f64], m: usize) {
         let first = self.dim() - m;
         let scaled = |k: usize| b[self.unknown(k)] * self.scale[self.unknown(k)];
@@ -29,7 +29,7 @@ impl Cholesky {
                     });
                 }
             }
-            // What faer chooses for a diagonal matrix.
+            // For a diagonal matrix faer chooses the simplicial form.
             SymbolicCholeskyRaw::Simplicial(raw) => {
                 for (x, &at) in x.iter_mut().zip(raw.col_ptr()) {
                     *x /= self.values[at as usize];
@@ -45,9 +45,9 @@ impl Cholesky {
 /// A column of L within the leading block.
 struct Column<'a> {
     pivot: f64,
-    /// Entries of the rows right below the pivot.
+    /// The entries of the rows directly below the pivot.
     next: &'a [f64],
-    /// Other entries and their rows.
+    /// The other entries; their rows follow.
     values: &'a [f64],
     rows: &'a [u32],
 }
@@ -74,7 +74,7 @@ impl Column<'_> {
     }
 }
 
-/// Visits the columns of a supernode that are before position `first`, cut off there.
+/// Visits the columns of a supernode before position `first`, each cut off at that position.
 fn each_column(
     factor: &SupernodalLdltRef<'_, u32, f64>,
     supernode: usize,
@@ -85,7 +85,7 @@ fn each_column(
     let block = factor.supernode(supernode);
     let (start, val) = (block.start(), block.val());
     let columns = val.ncols().min(first.saturating_sub(start));
-    // Rows of a supernode increase.
+    // The rows of a supernode increase.
     let below = block.pattern().partition_point(|&i| (i as usize) < first);
     for c in 0..columns {
         let c = if backwards { columns - 1 - c } else { c };

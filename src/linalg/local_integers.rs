@@ -1,12 +1,12 @@
-//! *Local* integers: those that couple to few unknowns, none of them integer. The period jumps of an
+//! *Local* integers: integers that couple to few unknowns, none of them integer. The period jumps of an
 //! orientation field are local: each couples to two angles.
 //!
-//! While a local integer is free, it follows its unknowns exactly. In the Schur complement that remains,
-//! a least-squares row with a free local integer leaves no entry.
+//! While a local integer is free, it follows its unknowns exactly. A least-squares row with a free local
+//! integer therefore leaves no entry in the Schur complement.
 
 use super::Sparse;
 
-/// More couplings than this would fill the Schur complement.
+/// The largest number of couplings of a local integer. More would fill the Schur complement.
 const FEW: usize = 4;
 
 /// Which unknowns of the matrix with lower triangle `lower` are local integers.

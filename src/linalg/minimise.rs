@@ -1,10 +1,10 @@
-//! A minimiser of a convex quadratic, or the direction that shows that there is none.
+//! A minimiser of a convex quadratic, or a direction that proves that there is none.
 
 use super::{Cholesky, Sparse};
 use crate::error::Result;
 
-/// Curvature along a direction (scaled to a largest entry of one, in the scaled unknowns) below
-/// minus this proves that the quadratic is not convex.
+/// The quadratic is not convex if its curvature along some direction is below minus this. The direction is
+/// scaled to a largest entry of one in the scaled unknowns.
 pub const CURVATURE_TOLERANCE: f64 = 1e-9;
 
 /// A slope along a direction without curvature counts as zero up to this, relative to the sum of the
@@ -15,13 +15,13 @@ pub const SLOPE_TOLERANCE: f64 = 1e-9;
 /// errors.
 pub const CANCELLED: f64 = 1e-12;
 
-/// How many vanished pivots are examined for a bad direction, the most suspicious first.
+/// The number of vanished pivots that are examined for a bad direction, the most suspicious first.
 const EXAMINED: usize = 16;
 
-/// What minimisation of a quadratic ends in.
+/// The result of minimising a quadratic.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Minimum {
-    /// There is one, here.
+    /// A minimiser.
     At(Lowest),
     /// The quadratic falls without limit along this direction.
     Unbounded(Vec<f64>),
@@ -29,22 +29,22 @@ pub enum Minimum {
     NotConvex(Vec<f64>),
 }
 
-/// A minimiser. Unknowns that the objective does not decide stay at the guess.
+/// A minimiser. Unknowns that the objective does not determine keep the guess.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Lowest {
     /// The point.
     pub point: Vec<f64>,
-    /// At most this far (an estimate of `r' A^-1 r / 2` for the residual r) above the minimum.
+    /// An estimate, `r' A^-1 r / 2` for the residual r, of the objective's excess over the minimum.
     pub excess: f64,
 }
 
-/// Minimises `1/2 x'Ax + g'x` for the `A` with lower triangle `lower`, which `factor` belongs to.
+/// Minimises `1/2 x'Ax + g'x`, where `lower` is the lower triangle of `A` and `factor` its factor.
 ///
-/// `rounding` gives the rounding error of each entry of `g`. It is called only where the result depends on
-/// it: the noise that large terms leave when they cancel is not a slope.
+/// `rounding` gives the rounding error of each entry of `g`: where large terms cancel, their rounding error
+/// must not count as a slope. It is called only if the result depends on it.
 ///
 /// # Errors
-/// Only for lack of memory: everything else is a [`Minimum`].
+/// Only for lack of memory. Every other outcome is a [`Minimum`].
 pub fn minimise(
     lower: &Sparse,
     gradient: &[f64],
@@ -65,8 +65,8 @@ pub fn minimise(
     descend(lower, gradient, guess, &step, factor).map(Minimum::At)
 }
 
-/// [`minimise`] for what is known to be convex and bounded below: an objective that was so with
-/// all unknowns free stays so with some of them held, whatever values they are held at.
+/// As [`minimise`], for an objective that is known to be convex and bounded below. If it is so with all
+/// unknowns free, it stays so when some of them are held at any values.
 ///
 /// # Errors
 /// For lack of memory.
@@ -81,7 +81,7 @@ pub fn minimise_bounded(
     descend(lower, gradient, guess, &step, factor).map(|lowest| lowest.point)
 }
 
-/// Takes the first `step` from `guess` and refines it.
+/// Takes the first `step` from `guess` and refines the result.
 fn descend(
     lower: &Sparse,
     gradient: &[f64],
@@ -93,7 +93,7 @@ fn descend(
     for (x, s) in point.iter_mut().zip(step) {
         *x += s;
     }
-    // One step of refinement gains the digits that an ill-conditioned factor loses.
+    // One step of iterative refinement recovers the digits that an ill-conditioned factor loses.
     let r = residual(lower, gradient, &point);
     let mut step = r.clone();
     factor.solve(&mut step)?;
@@ -113,7 +113,7 @@ pub fn residual(lower: &Sparse, gradient: &[f64], x: &[f64]) -> Vec<f64> {
     r
 }
 
-/// The column of the inverse that belongs to null unknown `j`: where `A` is singular, a direction
+/// The column of the inverse that belongs to null unknown `j`. If `A` is singular, this is a direction
 /// without curvature.
 fn null_direction(factor: &Cholesky, j: u32) -> Result<Vec<f64>> {
     let mut v = vec![0.0; factor.dim()];
@@ -122,11 +122,11 @@ fn null_direction(factor: &Cholesky, j: u32) -> Result<Vec<f64>> {
     Ok(v)
 }
 
-/// A direction of negative curvature. There is one if a pivot that counted as zero is in fact negative, or is
-/// zero while its column is not.
+/// A direction of negative curvature, if there is one: then some pivot that counted as zero is in fact
+/// negative, or is zero with a column that is not zero.
 ///
-/// With negative pivots `p_j` the factor belongs to `A + sum_j (NULL_PIVOT - p_j) e_j e_j'`, so
-/// one solve with a random right side shows all `p_j` at once as residuals.
+/// With negative pivots `p_j` the factor is that of `A + sum_j (NULL_PIVOT - p_j) e_j e_j'`. The residual of
+/// one solve with a random right side therefore shows all `p_j` at once.
 fn downward_curvature(lower: &Sparse, factor: &Cholesky) -> Result<Option<Vec<f64>>> {
     let scale = factor.scale();
     let b: Vec<f64> = (0..factor.dim())
@@ -167,9 +167,9 @@ fn downward_curvature(lower: &Sparse, factor: &Cholesky) -> Result<Option<Vec<f6
     Ok(None)
 }
 
-/// The direction `v` of null unknown `j`, combined with that of the null unknown that it moves most. A
-/// product of two unknowns without squares curves down as much as up. Either direction alone shows only
-/// the square of the curvature that both together show.
+/// The direction `v` of null unknown `j`, combined with the direction of the null unknown that `v` moves
+/// most. A product of two unknowns without squares curves down as much as up. Either direction alone shows
+/// only the square of the curvature that both show together.
 fn with_partner(factor: &Cholesky, j: u32, mut v: Vec<f64>) -> Result<Vec<f64>> {
     let scale = factor.scale();
     v.iter_mut().for_each(|v| *v /= scale[j as usize]);
@@ -188,14 +188,14 @@ fn with_partner(factor: &Cholesky, j: u32, mut v: Vec<f64>) -> Result<Vec<f64>> 
     Ok(v)
 }
 
-/// The largest entry in the scaled unknowns.
+/// The largest absolute entry in the scaled unknowns.
 fn largest(v: &[f64], scale: &[f64]) -> f64 {
     let scaled = v.iter().zip(scale).map(|(v, s)| (v / s).abs());
     scaled.fold(0.0, f64::max)
 }
 
-/// A direction without curvature along which the objective falls, if there is one: then some null
-/// unknown was moved by the first step.
+/// A direction without curvature along which the objective falls, if there is one. In that case the first
+/// step has moved some null unknown.
 fn endless_slope(
     gradient: &[f64],
     rounding: impl FnOnce() -> Vec<f64>,
@@ -211,7 +211,7 @@ fn endless_slope(
         return Ok(None);
     }
     let rounding = rounding();
-    // What an error of each unknown, equal in the scaled ones, costs.
+    // The change of the objective when every scaled unknown has the same error.
     let steepest: f64 = gradient.iter().zip(scale).map(|(g, s)| (g * s).abs()).sum();
     for j in suspects.into_iter().take(EXAMINED) {
         let mut v = null_direction(factor, j)?;
@@ -230,7 +230,7 @@ fn endless_slope(
     Ok(None)
 }
 
-/// A fixed sequence in [1/2, 1) with random signs (Weyl's golden-ratio sequence).
+/// A fixed sequence of numbers of size [1/2, 1) with random signs (Weyl's sequence of the golden ratio).
 fn pseudo_random(i: usize) -> f64 {
     let bits = (i as u64 + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15);
     let size = 0.5 + (bits >> 12) as f64 / (1u64 << 53) as f64;
@@ -254,7 +254,7 @@ mod tests {
 
     #[test]
     fn unknowns_that_do_not_matter_stay_at_the_guess() {
-        // (x0 - x1 - 1)^2: only the difference is decided; x2 not at all.
+        // (x0 - x1 - 1)^2 determines only the difference of x0 and x1, and does not contain x2.
         let a = [(0, 0, 2.0), (1, 0, -2.0), (1, 1, 2.0), (2, 2, 0.0)];
         let Minimum::At(Lowest { point, .. }) = solve(&a, &[-2.0, 2.0, 0.0], &[5.0, 5.0, 7.0])
         else {

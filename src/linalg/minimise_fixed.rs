@@ -1,10 +1,10 @@
-//! Exact minimisation with some unknowns held, by a factorization of what is left.
+//! Exact minimisation with some unknowns held: the block of the free unknowns is factored.
 
 use super::{Cholesky, Sparse, minimise_bounded, principal_submatrix};
 use crate::error::Result;
 
-/// Minimises `1/2 x'Ax + g'x` over the unknowns that are not `held`, from `point`; the held ones
-/// keep their values there. As `minimise_bounded`, for an objective known to have a minimum.
+/// Minimises `1/2 x'Ax + g'x` over the unknowns that are not `held`. The held ones keep their values in
+/// `point`. As for `minimise_bounded`, the objective must be known to have a minimum.
 ///
 /// # Errors
 /// For lack of memory.

@@ -1,8 +1,8 @@
-//! The order of elimination, and the tree that it makes.
+//! The order of elimination and its elimination tree.
 //!
-//! Minimum degree (`amestoy1996`) is faer's. The elimination tree follows `liu1990`, section 4, and is
-//! post-ordered, so that every subtree is a contiguous range of positions. faer does not post-order a
-//! given order, and its trees cannot be walked from outside.
+//! The order is faer's minimum degree (`amestoy1996`). The elimination tree follows `liu1990`, section 4, and
+//! is post-ordered, so that every subtree is a contiguous range of positions. faer does not post-order an
+//! order that it is given, and does not expose its trees.
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::SymbolicSparseColMatRef;
@@ -11,19 +11,19 @@ use faer::sparse::linalg::amd;
 use super::Sparse;
 use crate::error::{Error, Result};
 
-/// No parent: a root.
+/// The parent of a root.
 pub const NONE: u32 = u32::MAX;
 
-/// In which order unknowns are eliminated.
+/// The order in which unknowns are eliminated.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Ordering {
-    /// In the order that keeps the rest sparse.
+    /// A fill-reducing order.
     #[default]
     FillReducing,
-    /// In the order given, for comparison.
+    /// The order given, for comparison.
     Natural,
-    /// Fill-reducing in factorizations. Constraints are solved for their largest coefficient, without
-    /// regard to the fill in other rows.
+    /// A fill-reducing order in factorizations. In the elimination of constraints, each row is solved for its
+    /// largest coefficient, whatever the fill in other rows.
     LargestPivot,
 }
 
@@ -35,7 +35,7 @@ impl Ordering {
         Ordering::LargestPivot,
     ];
 
-    /// The name by which options choose it.
+    /// The name of the ordering in options.
     pub fn name(self) -> &'static str {
         match self {
             Ordering::FillReducing => "fill_reducing",
@@ -89,18 +89,18 @@ pub fn minimum_degree(lower: &Sparse) -> Result<Vec<u32>> {
 /// The elimination tree of a permuted matrix, post-ordered.
 #[derive(Debug, Clone)]
 pub struct EliminationTree {
-    /// Unknown at each position.
+    /// The unknown at each position.
     pub order: Vec<u32>,
-    /// Position of each unknown.
+    /// The position of each unknown.
     pub position: Vec<u32>,
-    /// Parent position of each position, or `u32::MAX` for a root.
+    /// The parent of each position, or `u32::MAX` for a root.
     pub parent: Vec<u32>,
-    /// The lowest position in the subtree of each position: the subtree is `first[j]..=j`.
+    /// The lowest position in the subtree of each position. The subtree of `j` is `first[j]..=j`.
     pub first: Vec<u32>,
 }
 
 impl EliminationTree {
-    /// The tree of a dense matrix of `n` unknowns, eliminated as they come.
+    /// The tree of a dense matrix of `n` unknowns, which are eliminated in the order of their numbers.
     pub fn chain(n: usize) -> Self {
         let n = n as u32;
         EliminationTree {
@@ -111,8 +111,8 @@ impl EliminationTree {
         }
     }
 
-    /// The tree of the matrix with lower triangle `lower`, eliminated in `order` up to a
-    /// post-order of its tree, which changes neither fill nor work.
+    /// The tree of the matrix with lower triangle `lower`, eliminated in `order`. The positions are
+    /// post-ordered afterwards, which changes neither fill nor work.
     pub fn new(lower: &Sparse, order: &[u32]) -> Self {
         let position = inverse(order);
         let permuted = permute_pattern(lower, &position);
@@ -151,7 +151,7 @@ fn inverse(order: &[u32]) -> Vec<u32> {
     position
 }
 
-/// For each position, the lower positions that it shares an entry with.
+/// For each position, the lower positions with which it shares an entry.
 fn permute_pattern(lower: &Sparse, position: &[u32]) -> Vec<Vec<u32>> {
     let mut rows: Vec<Vec<u32>> = vec![Vec::new(); position.len()];
     for (i, j, _) in lower.entries() {
@@ -163,7 +163,7 @@ fn permute_pattern(lower: &Sparse, position: &[u32]) -> Vec<Vec<u32>> {
     rows
 }
 
-/// `liu1990`, algorithm 4.2: path compression through virtual ancestors.
+/// The parents of all positions by path compression through virtual ancestors (`liu1990`, algorithm 4.2).
 fn parents(rows: &[Vec<u32>]) -> Vec<u32> {
     let mut parent = vec![NONE; rows.len()];
     let mut ancestor = vec![NONE; rows.len()];

@@ -1,23 +1,23 @@
-//! Blocks of an inverse, by solves that follow the elimination tree.
+//! Blocks of an inverse, computed by solves along paths of the elimination tree.
 //!
-//! Forward substitution from one unknown touches only the path from its position to the root
-//! (`davis2006`, sections 3.2 and 4.1). With
-//! `V = L^-1 E_B` for a set B of unknowns, which lives on the union of their paths,
-//! `(A^-1)_BB = V' D^-1 V`. faer has neither sparse right-hand sides nor a way to walk its factors.
+//! Forward substitution from one unknown touches only the path from its position to the root (`davis2006`,
+//! sections 3.2 and 4.1). Let B be a set of unknowns and `V = L^-1 E_B`, whose rows outside the union of the
+//! paths are zero. Then `(A^-1)_BB = V' D^-1 V`. faer has no sparse right-hand sides and does not expose its
+//! factors.
 
 use super::Ldl;
 use super::ordering::NONE;
 
-/// The most unknowns of one block.
+/// The largest number of unknowns in one block.
 pub const WIDEST: usize = 32;
 
-/// Columns are substituted this many at a time.
+/// The number of columns that are substituted at a time.
 const LANES: usize = 8;
 
-/// Room for solves along paths, used again and again.
+/// Buffers for solves along paths, which every solve reuses.
 #[derive(Debug, Clone)]
 pub struct PathSolve {
-    /// By position: its place on the path, where `stamp` is that of the current round.
+    /// The place of each position on the path. It is valid if `stamp` is that of the current solve.
     place: Vec<u32>,
     stamp: Vec<u32>,
     round: u32,
@@ -27,7 +27,7 @@ pub struct PathSolve {
 }
 
 impl PathSolve {
-    /// For factors of dimension `n`.
+    /// Buffers for factors of dimension `n`.
     pub fn new(n: usize) -> Self {
         PathSolve {
             place: vec![0; n],
@@ -39,13 +39,13 @@ impl PathSolve {
         }
     }
 
-    /// Multiplications so far.
+    /// Number of multiplications so far.
     pub fn work(&self) -> usize {
         self.work
     }
 
-    /// The block of `A^-1` that belongs to `unknowns`, at most `WIDEST` different ones of a
-    /// definite A: entry `(i, j)` at `i * unknowns.len() + j`.
+    /// The block of `A^-1` that belongs to `unknowns`, at most `WIDEST` different ones. A must be definite.
+    /// Entry `(i, j)` is at `i * unknowns.len() + j`.
     pub fn inverse_block(&mut self, ldl: &Ldl, unknowns: &[u32]) -> Vec<f64> {
         let width = unknowns.len().div_ceil(LANES);
         self.collect(ldl, unknowns);
@@ -60,7 +60,7 @@ impl PathSolve {
         (0..m * m).map(entry).collect()
     }
 
-    /// The union of the paths from `unknowns` to the roots, increasing.
+    /// Collects the union of the paths from `unknowns` to the roots, in increasing order.
     fn collect(&mut self, ldl: &Ldl, unknowns: &[u32]) {
         self.round += 1;
         self.path.clear();
@@ -78,7 +78,7 @@ impl PathSolve {
         }
     }
 
-    /// `V' D^-1 V` with rows of `W`, those beyond the unknowns zero.
+    /// Computes `V' D^-1 V`, where V is padded with zeros to width `W`.
     fn substitute<const W: usize>(&mut self, ldl: &Ldl, unknowns: &[u32]) -> Vec<f64> {
         self.columns.clear();
         self.columns.resize(self.path.len() * W, 0.0);

@@ -1,21 +1,21 @@
-//! Local re-optimisation by Gauss-Seidel as it was published: a queue of unknowns, an update where
-//! the step exceeds a tolerance, and then its neighbours in turn.
+//! The published form of local re-optimisation by Gauss-Seidel: a queue of unknowns. If the step of an
+//! unknown exceeds a tolerance, the unknown is updated and its neighbours are queued.
 //!
-//! `bommes2009`, section 3. [`LocalSolve`](super::LocalSolve) is the improved form;
-//! this one leaves behind what the published method leaves behind. An unknown may stand in the
-//! queue more than once: on the orientation fields of a rocker arm (1,000 and 2,000 faces) and of a
-//! body with three holes that, of all variants tried, gave the energies of the thesis' program.
+//! The method is that of `bommes2009`, section 3. [`LocalSolve`](super::LocalSolve) is the improved form;
+//! this one reproduces the published results, with their errors. An unknown may be in the queue more than
+//! once. Of all variants tried, this one gave the energies of the thesis' program, on the orientation fields
+//! of a rocker arm (1,000 and 2,000 faces) and of a body with three holes.
 
 use std::collections::VecDeque;
 
 use super::Sparse;
 use crate::error::Result;
 
-/// A queue of this length means that Gauss-Seidel does not converge: it counts as out of budget, and
-/// memory stays bounded.
+/// The longest queue. A longer one means that Gauss-Seidel does not converge: it then counts as out of
+/// budget, which bounds the memory.
 const LONGEST_QUEUE: usize = 1 << 24;
 
-/// The whole of a symmetric matrix by rows, and a queue over its unknowns.
+/// A symmetric matrix with both triangles, by rows, and a queue of its unknowns.
 #[derive(Debug)]
 pub struct QueueGaussSeidel<'a> {
     rows: Sparse,
@@ -24,7 +24,7 @@ pub struct QueueGaussSeidel<'a> {
 }
 
 impl<'a> QueueGaussSeidel<'a> {
-    /// For `1/2 x'Hx + g'x`, with the lower triangle of H.
+    /// Prepares `1/2 x'Hx + g'x`, where `lower` is the lower triangle of H.
     ///
     /// # Errors
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
@@ -48,9 +48,8 @@ impl<'a> QueueGaussSeidel<'a> {
         }
     }
 
-    /// Looks at queued unknowns of `point`, at most `looks` of them, and moves each that is further
-    /// than `tolerance` from its own minimum there; returns how many looks were taken. What moved is
-    /// entered in `moved`.
+    /// Visits at most `looks` queued unknowns. Each that is further than `tolerance` from its own minimum
+    /// moves there in `point` and is entered in `moved`. Returns the number of visits.
     pub fn relax(
         &mut self,
         point: &mut [f64],
@@ -84,12 +83,12 @@ impl<'a> QueueGaussSeidel<'a> {
         looks
     }
 
-    /// Whether nothing is left to look at.
+    /// Whether the queue is empty.
     pub fn is_settled(&self) -> bool {
         self.queue.is_empty()
     }
 
-    /// Forgets what is left to look at: the point comes from elsewhere.
+    /// Empties the queue, for a point that was computed elsewhere.
     pub fn clear(&mut self) {
         self.queue.clear();
     }

@@ -1,9 +1,9 @@
 //! Random numbers from a seed: SplitMix64 (`steele2014`).
 //!
-//! Eight lines, and the same numbers on every machine and in every version, which no general generator
-//! promises.
+//! The generator takes eight lines and gives the same numbers on every machine and in every version. General
+//! libraries do not promise that.
 
-/// A sequence of random numbers; the state is a counter.
+/// A sequence of random numbers. The state is a counter.
 #[derive(Debug, Clone)]
 pub(crate) struct Random(u64);
 
@@ -12,7 +12,7 @@ impl Random {
         Random(seed)
     }
 
-    /// Uniform over all numbers of 64 bits.
+    /// A uniform random integer of 64 bits.
     pub fn next(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
@@ -21,7 +21,7 @@ impl Random {
         z ^ (z >> 31)
     }
 
-    /// Uniform in [-1, 1).
+    /// A uniform random number in [-1, 1).
     pub fn symmetric(&mut self) -> f64 {
         (self.next() >> 11) as f64 / (1u64 << 52) as f64 - 1.0
     }
@@ -53,7 +53,7 @@ mod tests {
         assert!(numbers.iter().all(|x| (-1.0..1.0).contains(x)));
         let mean = numbers.iter().sum::<f64>() / 1e4;
         let square = numbers.iter().map(|x| x * x).sum::<f64>() / 1e4;
-        // Four standard deviations of the two means.
+        // The bounds are four standard deviations of the two means.
         assert!(mean.abs() < 0.024 && (square - 1.0 / 3.0).abs() < 0.012);
     }
 }

@@ -1,32 +1,32 @@
-//! The factor of a whole reduced Hessian, all integers real.
+//! The factor of the whole reduced Hessian with all integers relaxed to reals.
 //!
-//! [Local](super::local_integers) integers are eliminated first, at one division each. Only their Schur
-//! complement is ordered and factored. On an orientation field that is the Laplacian of a forest, whose
-//! factor has no fill.
+//! [Local](super::local_integers) integers are eliminated first, with one division each. Only their Schur
+//! complement is ordered and factored. On an orientation field the complement is the Laplacian of a forest,
+//! whose factor has no fill.
 
 use super::local_integers::local_integers;
 use super::minimise::{CANCELLED, Lowest, Minimum, minimise};
 use super::{Cholesky, NO_PLACE, Ordering, Sparse, coupling, places};
 use crate::error::Result;
 
-/// A factor of `A` in two steps: local integers, then the rest.
+/// A factor of `A` in two steps: first the local integers, then the other unknowns.
 #[derive(Debug)]
 pub struct RelaxedFactor {
-    /// Place of every unknown among the rest; [`NO_PLACE`] for local integers.
+    /// The place of every unknown among the others; [`NO_PLACE`] for local integers.
     place: Vec<u32>,
     rest: Vec<u32>,
     local: Vec<u32>,
-    /// `A_pp` of each local integer.
+    /// The diagonal entry `A_pp` of each local integer.
     curvature: Vec<f64>,
-    /// One row a local integer: its couplings to the rest.
+    /// The couplings of the local integers to the others, one row for each local integer.
     coupling: Sparse,
-    /// Lower triangle of the Schur complement of the rest.
+    /// Lower triangle of the Schur complement on the other unknowns.
     schur: Sparse,
     factor: Cholesky,
 }
 
 impl RelaxedFactor {
-    /// Factors the matrix with lower triangle `lower`, of whose unknowns some are `integers`.
+    /// Factors the matrix with lower triangle `lower`, some of whose unknowns are `integers`.
     ///
     /// # Errors
     /// As [`Cholesky::new`].
@@ -34,7 +34,7 @@ impl RelaxedFactor {
         Self::ordered(lower, integers, Ordering::FillReducing)
     }
 
-    /// As [`new`](Self::new), in another order. In the natural one no integer comes first.
+    /// As [`new`](Self::new), in another order. In the natural order local integers do not come first.
     ///
     /// # Errors
     /// As [`Cholesky::new`].
@@ -72,7 +72,7 @@ impl RelaxedFactor {
         })
     }
 
-    /// Number of entries of the factor below the diagonal, the local integers' included.
+    /// Number of entries of the factor below the diagonal, including those of the local integers.
     pub fn entries(&self) -> usize {
         self.coupling.len() + self.factor.entries()
     }
@@ -118,7 +118,7 @@ impl RelaxedFactor {
         )
     }
 
-    /// The right side that the rest sees: `b_r - A_rp A_pp^-1 b_p`.
+    /// The right side of the Schur complement: `b_r - A_rp A_pp^-1 b_p`.
     fn condense(&self, b: &[f64]) -> Vec<f64> {
         let mut inner: Vec<f64> = self.rest.iter().map(|&i| b[i as usize]).collect();
         for (k, &p) in self.local.iter().enumerate() {
@@ -130,8 +130,8 @@ impl RelaxedFactor {
         inner
     }
 
-    /// The rounding error of the condensed gradient: that of `gradient` itself, and that of condensing. Where
-    /// the gradient vanishes, this error must not be taken for a slope.
+    /// The rounding error of the condensed gradient: that of `gradient` itself and that of the condensation.
+    /// Where the gradient vanishes, this error must not count as a slope.
     fn condensed_rounding(&self, gradient: &[f64], rounding: &[f64]) -> Vec<f64> {
         let noise = |i: u32| CANCELLED * gradient[i as usize].abs() + rounding[i as usize];
         let mut inner: Vec<f64> = self.rest.iter().map(|&i| noise(i)).collect();
@@ -144,7 +144,8 @@ impl RelaxedFactor {
         inner
     }
 
-    /// Puts the rest in place and lets the local integers follow, whose right sides are in `b`.
+    /// Copies the values of the other unknowns into `b` and computes the local integers from their right
+    /// sides in `b`.
     fn embed(&self, inner: &[f64], b: &mut [f64]) {
         for (k, &p) in self.local.iter().enumerate() {
             let pull: f64 = self.coupling.row(k).map(|(i, v)| v * inner[i]).sum();
@@ -158,7 +159,7 @@ impl RelaxedFactor {
     }
 }
 
-/// Lower triangle of `A_rr - A_rp A_pp^-1 A_pr`, entries that cancel left out.
+/// Lower triangle of `A_rr - A_rp A_pp^-1 A_pr`, without the entries that cancel.
 fn schur(
     lower: &Sparse,
     place: &[u32],
@@ -202,8 +203,8 @@ mod tests {
     use super::super::minimise_bounded;
     use super::*;
 
-    /// Squares of rows `x_i - x_(i+1) + 1.5 p_i` on a path, every third without its integer, and
-    /// weak ground at the angles.
+    /// Squares of rows `x_i - x_(i+1) + 1.5 p_i` on a path, where every third row has no integer. The angles
+    /// are tied weakly to the ground.
     fn path(n: u32) -> (Sparse, Vec<u32>) {
         let mut entries = Vec::new();
         let mut integers = Vec::new();
@@ -227,7 +228,7 @@ mod tests {
 
     #[test]
     fn an_angle_that_integers_follow_without_end_is_no_endless_slope() {
-        // w (x0 - x1 + 0.7 p + r)^2 for three rows with a local integer each.
+        // w (x0 - x1 + 0.7 p + r)^2 for three rows, each with its own local integer.
         let rows = [(0.37, 11.3, 1.03), (0.91, -7.7, 0.61), (0.13, 3.1, 1.47)];
         let (mut entries, mut gradient) = (Vec::new(), vec![0.0; 5]);
         for (p, (w, r, turn)) in (2u32..).zip(rows) {
@@ -253,7 +254,7 @@ mod tests {
         assert_eq!(two_steps.local.len(), integers.len());
         let gradient: Vec<f64> = (0..60)
             .map(|i| match i {
-                // An unknown without curvature must not have a slope either.
+                // An unknown without curvature must have no slope.
                 30.. if !integers.contains(&(i as u32)) => 0.0,
                 _ => f64::from(i).sin(),
             })
@@ -286,7 +287,7 @@ mod tests {
 
     #[test]
     fn directions_are_told_in_all_unknowns() {
-        // (x0 - x1 + p)^2 with a slope at x0 alone.
+        // (x0 - x1 + p)^2 and a slope at x0 alone.
         let row = [(0u32, 1.0), (1, -1.0), (2, 1.0)];
         let entries = row.iter().flat_map(|&(i, u)| {
             let lower = row.iter().filter(move |&&(j, _)| j <= i);

@@ -4,7 +4,7 @@ use super::Sparse;
 
 /// Powers of two `s` with `s_i^2 A_ii` in [1/2, 2), and 1 where the diagonal is not positive.
 ///
-/// Powers of two scale without rounding, so pivots that cancel exactly before still do.
+/// Scaling by powers of two has no rounding error, so pivots that cancel exactly still do so.
 pub fn equilibrate(lower: &Sparse) -> Vec<f64> {
     (0..lower.rows())
         .map(|i| match lower.row(i).last() {

@@ -1,13 +1,13 @@
-//! One factor for everything: continuous unknowns first, integers last.
+//! One factor of the whole matrix, with continuous unknowns first and integers last.
 //!
-//! The whole factor solves for all unknowns. Its leading part solves for the continuous unknowns while
-//! the integers are held. Its trailing block is the factor of the Schur complement of the integers: the
-//! quadratic form in the integers that remains when the continuous unknowns are minimised over
-//! (`golub2013`, section 4.2). The complement itself is never formed, so no digits are lost to squaring.
+//! The whole factor solves for all unknowns. Its leading part solves for the continuous unknowns while the
+//! integers are held. Its trailing block is the factor of the Schur complement on the integers: the quadratic
+//! form in the integers that remains after minimisation over the continuous unknowns (`golub2013`, section
+//! 4.2). The complement itself is never formed, so no accuracy is lost by squaring.
 //!
-//! The continuous unknowns come in a post-ordered minimum-degree order of their own block, which faer's
-//! supernodes need. The integers fill up to a dense block in any order. So this is the right factor where
-//! integers are few.
+//! The continuous unknowns are in a post-ordered minimum-degree order of their own block, as faer's
+//! supernodes require. The integers become a dense block in any order. This factor is therefore efficient if
+//! there are few integers.
 
 use super::{Cholesky, EliminationTree, Sparse, minimum_degree, principal_submatrix};
 use crate::error::Result;
@@ -22,8 +22,7 @@ pub struct SchurFactor {
 }
 
 impl SchurFactor {
-    /// Factors the matrix with lower triangle `lower`, of whose unknowns some are `continuous` and
-    /// all others `integers`.
+    /// Factors the matrix with lower triangle `lower`, whose unknowns are either `continuous` or `integers`.
     ///
     /// # Errors
     /// As [`Cholesky::new`].
@@ -42,24 +41,24 @@ impl SchurFactor {
         })
     }
 
-    /// The factor of the whole.
+    /// The factor of the whole matrix.
     pub fn whole(&self) -> &Cholesky {
         &self.factor
     }
 
-    /// The upper triangular `R`, by columns, with `R'R` the Schur complement of the integers, and
-    /// whether no pivot vanished: a vanished one leaves a zero row.
+    /// The upper triangular `R`, by columns, where `R'R` is the Schur complement on the integers, and whether
+    /// all pivots are positive. A vanished pivot leaves a zero row.
     pub fn schur(&self) -> (&[f64], bool) {
         (&self.trailing, self.full)
     }
 
-    /// Whether no pivot vanished anywhere.
+    /// Whether no pivot vanished.
     pub fn is_definite(&self) -> bool {
         self.factor.null_unknowns().is_empty()
     }
 
-    /// Solves `A_cc x_c = b_c` in place; entries of integers are neither read nor changed. Only for
-    /// a factor that is [definite](Self::is_definite).
+    /// Solves `A_cc x_c = b_c` in place. The entries of integers are neither read nor changed. The factor
+    /// must be [definite](Self::is_definite).
     pub fn solve_continuous(&self, b: &mut [f64]) {
         self.factor.solve_leading(b, self.integers);
     }
@@ -69,7 +68,7 @@ impl SchurFactor {
 mod tests {
     use super::*;
 
-    /// A grounded chain of springs with some longer ones.
+    /// A grounded chain of springs with some springs that span several unknowns.
     fn springs(n: u32) -> Sparse {
         let ends = (0..n).flat_map(|i| [(i, (i + 1) % n), (i, (i * 7 + 3) % n)]);
         let entries = ends.filter(|(i, j)| i != j).flat_map(|(i, j)| {
@@ -114,7 +113,7 @@ mod tests {
         assert!(full);
         let m = integers.len();
         for (k, &i) in integers.iter().enumerate() {
-            // Column k of the complement: the force at the integers when one of them moves by one.
+            // Column k of the complement is the force at the integers when integer k moves by one.
             let mut x = vec![0.0; 40];
             x[i as usize] = 1.0;
             let mut follow: Vec<f64> = a.mul_symmetric(&x).iter().map(|f| -f).collect();

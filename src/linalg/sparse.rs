@@ -1,14 +1,13 @@
-//! Compressed sparse rows, the one sparse matrix type of the library.
+//! Compressed sparse rows, the only sparse matrix type of the library.
 //!
-//! A symmetric matrix is kept as its lower triangle by rows, which is the same memory as its
-//! upper triangle by columns: what faer's factorizations read. faer's own `SparseColMat` was not
-//! enough here only in that its constructors sort through 128-bit keys, several times slower
-//! than the counting sort below on mesh-like matrices.
+//! A symmetric matrix is stored as its lower triangle by rows. In memory that is its upper triangle by
+//! columns, which is what faer's factorizations read. The constructors of faer's `SparseColMat` sort 128-bit
+//! keys; on matrices of meshes that is several times slower than the counting sort below.
 
 use crate::error::{Error, Result};
 
-/// A sparse matrix by rows: row `i` has columns `indices[offsets[i]..offsets[i + 1]]`,
-/// increasing, each once.
+/// A sparse matrix by rows. The columns of row `i` are `indices[offsets[i]..offsets[i + 1]]`, increasing and
+/// without repetition.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Sparse {
     cols: usize,
@@ -28,7 +27,7 @@ impl Sparse {
         }
     }
 
-    /// From its parts, which must already be compressed, sorted and within range.
+    /// A matrix from its parts, which must already be compressed, sorted and within range.
     pub(crate) fn from_parts(
         cols: usize,
         offsets: Vec<usize>,
@@ -45,16 +44,17 @@ impl Sparse {
         }
     }
 
-    /// From entries `(row, column, value)` in any order; duplicates are summed in the order given.
+    /// A matrix from entries `(row, column, value)` in any order. Duplicates are summed in the order given.
+    /// Indices must be in range.
     ///
     /// # Errors
-    /// [`Error::OutOfMemory`]. Indices must be in range.
+    /// [`Error::OutOfMemory`].
     pub fn from_triplets(
         rows: usize,
         cols: usize,
         entries: impl Iterator<Item = (u32, u32, f64)> + Clone,
     ) -> Result<Self> {
-        // Two stable counting sorts, by column and then by row, leave each row sorted.
+        // Two stable counting sorts, first by column and then by row, leave each row sorted.
         let mut by_col = vec![0usize; cols + 1];
         let mut count = 0usize;
         for (_, j, _) in entries.clone() {
@@ -139,7 +139,7 @@ impl Sparse {
         self.indices.is_empty()
     }
 
-    /// Where each row starts, and the end of the last.
+    /// The start of each row, and the end of the last row.
     pub fn offsets(&self) -> &[usize] {
         &self.offsets
     }
@@ -154,7 +154,7 @@ impl Sparse {
         &self.values
     }
 
-    /// Its entries' values, to be changed.
+    /// The values of all entries, for changes in place.
     pub fn values_mut(&mut self) -> &mut [f64] {
         &mut self.values
     }
@@ -224,7 +224,10 @@ impl Sparse {
     }
 }
 
-/// An empty vector with room for `len`, or the error that says there is none.
+/// An empty vector with room for `len` elements.
+///
+/// # Errors
+/// [`Error::OutOfMemory`].
 pub(crate) fn reserve<T>(len: usize) -> Result<Vec<T>> {
     let mut v = Vec::new();
     v.try_reserve_exact(len).map_err(|_| Error::OutOfMemory {

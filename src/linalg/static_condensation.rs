@@ -1,9 +1,9 @@
-//! Static condensation: a quadratic from which [local](super::local_integers) integers are eliminated
-//! while they are free.
+//! Static condensation: while [local](super::local_integers) integers are free, they are eliminated from the
+//! quadratic.
 //!
-//! Gauss-Seidel converges several times faster on the condensed system, and an update reads a third of
-//! the entries. Once a local integer is fixed, its part of the Schur complement is added back, which
-//! changes a few entries.
+//! Gauss-Seidel converges several times faster on the condensed system, and an update reads a third of the
+//! entries. When a local integer is fixed, its part of the Schur complement is added back, which changes a
+//! few entries.
 
 use super::Sparse;
 use super::local_integers::local_integers;
@@ -12,23 +12,23 @@ use crate::error::{Error, Result};
 /// A difference this small, relative to its terms, has cancelled and counts as zero.
 const CANCELLED: f64 = 1e-12;
 
-/// `A` with free local integers eliminated.
+/// The matrix `A` with its free local integers eliminated.
 #[derive(Debug)]
 pub(super) struct StaticCondensation {
-    /// All of A but its diagonal, both triangles.
+    /// The off-diagonal entries of A, both triangles.
     matrix: Sparse,
     diagonal: Vec<f64>,
     local: Vec<bool>,
     rows: Vec<Row>,
     entries: Vec<Entry>,
-    /// For each unknown the free local integers that couple to it: those of unknown `i` are the
-    /// first `followers_left[i]` from `followers_start[i]` on.
+    /// For each unknown, the free local integers that couple to it. Those of unknown `i` are the
+    /// `followers_left[i]` entries from `followers_start[i]` on.
     followers: Vec<u32>,
     followers_start: Vec<u32>,
     followers_left: Vec<u32>,
 }
 
-/// A row of the condensed matrix: its diagonal entry, and where the others stand.
+/// A row of the condensed matrix: its diagonal entry, and the range of its other entries.
 #[derive(Debug, Clone, Copy)]
 struct Row {
     curvature: f64,
@@ -36,7 +36,7 @@ struct Row {
     end: u32,
 }
 
-/// An entry off the diagonal, index and value side by side, since they are always read together.
+/// An off-diagonal entry. Index and value are next to each other, since they are always read together.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Entry {
     pub column: u32,
@@ -44,7 +44,7 @@ pub(super) struct Entry {
 }
 
 impl StaticCondensation {
-    /// The system of the `A` with lower triangle `lower`, all local integers free.
+    /// The system with all local integers free, where `lower` is the lower triangle of `A`.
     pub fn new(lower: &Sparse, integer: &[bool]) -> Result<Self> {
         let n = lower.rows();
         let mut diagonal = vec![0.0; n];
@@ -118,7 +118,7 @@ impl StaticCondensation {
         self.diagonal[i]
     }
 
-    /// Curvature along unknown `i` when the free local integers follow.
+    /// The curvature along unknown `i` if the free local integers follow.
     pub fn curvature(&self, i: usize) -> f64 {
         self.rows[i].curvature
     }
@@ -128,7 +128,7 @@ impl StaticCondensation {
         self.matrix.row(i)
     }
 
-    /// Where row `i` of A stands, for [`coupling`](Self::coupling).
+    /// The range of row `i` of A, for [`coupling`](Self::coupling).
     pub fn coupling_range(&self, i: usize) -> std::ops::Range<usize> {
         self.matrix.offsets()[i]..self.matrix.offsets()[i + 1]
     }
@@ -150,7 +150,7 @@ impl StaticCondensation {
         &self.followers[start..start + self.followers_left[i] as usize]
     }
 
-    /// Adds back the part of a local integer that is fixed from now on.
+    /// Adds back the part of a local integer in the Schur complement. The integer is fixed from now on.
     pub fn release(&mut self, p: usize) {
         self.change(p, 1.0);
         for a in self.coupling_range(p) {
@@ -165,7 +165,7 @@ impl StaticCondensation {
         }
     }
 
-    /// Adds `sign` times the part that local integer `p` has in the Schur complement.
+    /// Adds `sign` times the part of local integer `p` in the Schur complement.
     fn change(&mut self, p: usize, sign: f64) {
         let d = self.diagonal[p];
         for a in self.coupling_range(p) {

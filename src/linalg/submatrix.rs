@@ -1,12 +1,12 @@
-//! Parts of a symmetric matrix, which is given by its lower triangle.
+//! Submatrices of a symmetric matrix that is given by its lower triangle.
 
 use super::Sparse;
 use crate::error::Result;
 
-/// The place of an unknown that is not a member.
+/// The place of an unknown that is no member.
 pub const NO_PLACE: u32 = u32::MAX;
 
-/// The place of each of `dim` unknowns among `members`; [`NO_PLACE`] for all others.
+/// The place of each of `dim` unknowns in `members`; [`NO_PLACE`] for all other unknowns.
 pub fn places(dim: usize, members: &[u32]) -> Vec<u32> {
     let mut place = vec![NO_PLACE; dim];
     for (k, &i) in members.iter().enumerate() {
@@ -15,7 +15,7 @@ pub fn places(dim: usize, members: &[u32]) -> Vec<u32> {
     place
 }
 
-/// The lower triangle of the principal submatrix of `members`, which increase.
+/// The lower triangle of the principal submatrix of `members`, which must increase.
 ///
 /// # Errors
 /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
@@ -28,7 +28,7 @@ pub fn principal_submatrix(lower: &Sparse, members: &[u32]) -> Result<Sparse> {
     Sparse::from_triplets(members.len(), members.len(), entries)
 }
 
-/// The block with the rows `rows` and the columns `cols`, which have no member in common.
+/// The block with the rows `rows` and the columns `cols`, which must have no member in common.
 ///
 /// # Errors
 /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).

@@ -1,9 +1,9 @@
-//! Solves with the simplicial factor.
+//! Forward and back substitution with the simplicial factor (`davis2006`, chapter 3).
 
 use super::Ldl;
 
 impl Ldl {
-    /// Column `j` of L below the diagonal, by position: `(row, value)`.
+    /// The entries `(row, value)` of column `j` of L below the diagonal, by position.
     pub fn column(&self, j: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
         let range = self.offsets[j]..self.ends[j];
         let rows = self.indices[range.clone()].iter();
@@ -11,8 +11,7 @@ impl Ldl {
             .map(|(&i, &v)| (i as usize, v))
     }
 
-    /// Solves `A x = b`; where A is singular and the system consistent, unknowns whose pivot
-    /// vanished get 0.
+    /// Solves `A x = b`. If A is singular and the system consistent, unknowns with a vanished pivot get 0.
     pub fn solve(&self, b: &[f64]) -> Vec<f64> {
         let n = self.dim();
         let order = &self.tree.order;

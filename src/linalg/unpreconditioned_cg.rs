@@ -1,18 +1,19 @@
-//! Conjugate gradients without a preconditioner, ended by the residual.
+//! Conjugate gradients without a preconditioner, which stop at a tolerance of the residual.
 //!
-//! `hestenes1952`. [`conjugate_gradient`] needs fewer iterations. This one is what `bommes2012`, chapter 5,
-//! iterates between two roundings. That method stops before convergence, so its decisions depend on the
-//! intermediate points, which only the same iteration reproduces.
+//! The method of `hestenes1952`. [`conjugate_gradient`] needs fewer iterations, but `bommes2012`, chapter 5,
+//! iterates this method between two roundings and stops before convergence. Its decisions therefore depend on
+//! the intermediate points, which only the same iteration reproduces.
 //!
 //! [`conjugate_gradient`]: super::conjugate_gradient
 
 use super::{Effort, Sparse};
 
-/// Moves `point` towards the minimiser of `1/2 x'Hx + g'x` with the `held` unknowns kept, and
-/// returns whether the residual fell to the tolerance within the iterations given.
+/// Moves `point` towards the minimiser of `1/2 x'Hx + g'x` with the `held` unknowns kept. Returns whether the
+/// residual fell to the tolerance within the allowed number of iterations.
 ///
-/// `lower` is the lower triangle of H. The residual is that of `A x = b` with `A = H / 2`, in the
-/// Euclidean norm. Stops where it stands when `go_on`, asked before each iteration, says no.
+/// `lower` is the lower triangle of H. The residual is that of `A x = b` with `A = H / 2`, in the Euclidean
+/// norm. `go_on` is asked before each iteration; if it returns false, the iteration ends and `point` keeps
+/// its current value.
 pub fn unpreconditioned_conjugate_gradient(
     lower: &Sparse,
     gradient: &[f64],

@@ -4,10 +4,10 @@ use super::RowList;
 use super::check::{in_range, same_length};
 use crate::error::{Error, Result};
 
-/// An unknown has cancelled if its coefficient is at most this, relative to the coefficients summed.
+/// An unknown has cancelled if its coefficient is at most this, relative to the coefficients in the sum.
 const CANCELLED: f64 = 1e-12;
 
-/// Cycles as signed sums of least-squares rows in which all continuous unknowns cancel.
+/// Cycles, as signed sums of least-squares rows in which all continuous unknowns cancel.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct CycleHint {
     offsets: Vec<usize>,

@@ -1,14 +1,14 @@
-//! Matrices as callers have them: compressed columns or rows, one triangle or both.
+//! The caller's matrices: compressed columns or rows, one triangle or both.
 
 use super::check::{all_finite, same_length};
 use crate::error::{Error, Result};
 use crate::linalg::Sparse;
 use crate::linalg::sparse::reserve;
 
-/// Two mirrored entries of a full symmetric matrix may differ by this, relative to the larger.
+/// The largest difference of two mirrored entries of a full symmetric matrix, relative to the larger.
 pub(super) const SYMMETRY_TOLERANCE: f64 = 1e-9;
 
-/// Which entries of a symmetric matrix are given.
+/// The triangles of a symmetric matrix that are given.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Triangle {
     /// Both triangles, which must agree.
@@ -30,13 +30,13 @@ pub enum Layout {
 
 /// A compressed sparse matrix in the caller's arrays.
 ///
-/// Column (or row) `k` has the entries `offsets[k]..offsets[k + 1]` of `indices` and `values`.
-/// Indices within it need not be sorted, and duplicates are summed.
+/// The entries of column (or row) `k` are `offsets[k]..offsets[k + 1]` of `indices` and `values`. They may be
+/// in any order, and duplicates are summed.
 #[derive(Debug, Clone, Copy)]
 pub struct MatrixRef<'a> {
     /// Columns or rows.
     pub layout: Layout,
-    /// One more number than there are columns (or rows), from 0, not decreasing.
+    /// The start of each column (or row) and the end of the last. The first is 0, and they do not decrease.
     pub offsets: &'a [usize],
     /// Row (or column) of each entry.
     pub indices: &'a [usize],

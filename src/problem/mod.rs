@@ -1,4 +1,4 @@
-//! Stating a problem: the builder, its validation, and the model that the solver works on.
+//! The statement of a problem: the builder, its validation, and the model that the solver reads.
 
 mod check;
 mod cycles;
@@ -22,13 +22,13 @@ use matrix::lower_triangle;
 
 /// A mixed-integer quadratic problem under construction.
 ///
-/// Parts may be given in any order and any number of times: quadratic and linear terms add up.
-/// A call that fails changes nothing. Rows of least squares are shared with copies until one of them
-/// changes. See the [crate] for the problem and its signs.
+/// Parts may be added in any order and any number of times; quadratic and linear terms are summed. A call
+/// that fails changes nothing. Copies share the least-squares rows until one of them changes its rows. The
+/// [crate] page states the problem and its signs.
 #[derive(Debug, Clone)]
 pub struct Problem {
     variables: usize,
-    /// Entries of the lower triangle of Q, duplicates not yet summed.
+    /// Entries of the lower triangle of Q. Duplicates are not summed yet.
     quadratic: Vec<(u32, u32, f64)>,
     linear: Vec<f64>,
     constant: f64,
@@ -42,10 +42,10 @@ pub struct Problem {
 }
 
 impl Problem {
-    /// A problem of `variables` unknowns with objective zero, no constraint and no integers.
+    /// A problem with `variables` unknowns, objective zero, no constraints and no integers.
     ///
     /// # Errors
-    /// [`Error::Empty`] for no unknowns, [`Error::Overflow`] beyond 2^31 - 1 of them,
+    /// [`Error::Empty`] if there are no unknowns, [`Error::Overflow`] if there are more than 2^31 - 1,
     /// [`Error::OutOfMemory`].
     pub fn new(variables: usize) -> Result<Self> {
         if variables == 0 {
@@ -77,7 +77,7 @@ impl Problem {
         self.variables
     }
 
-    /// Entries of the lower triangle of Q as given, duplicates not summed.
+    /// Entries of the lower triangle of Q as given. Duplicates are not summed.
     pub(crate) fn quadratic(&self) -> &[(u32, u32, f64)] {
         &self.quadratic
     }
@@ -117,11 +117,10 @@ impl Problem {
         self.least_squares.len()
     }
 
-    /// Adds entries to Q (which stands in the objective as 1/2 x'Qx), in any order, duplicates
-    /// summed.
+    /// Adds entries to Q, in any order. Duplicates are summed. The objective contains 1/2 x'Qx.
     ///
-    /// With [`Triangle::Full`] both triangles must be given and agree; with the others the entry
-    /// of the given triangle stands for both.
+    /// With [`Triangle::Full`] both triangles must be given and agree. Otherwise each entry of the given
+    /// triangle also stands for its mirror image.
     ///
     /// # Errors
     /// [`Error::LengthMismatch`], [`Error::IndexOutOfRange`], [`Error::NotFinite`], and
@@ -169,7 +168,7 @@ impl Problem {
         Ok(())
     }
 
-    /// Adds `values` (one an unknown) to the linear term q.
+    /// Adds `values`, one for each unknown, to the linear term q.
     ///
     /// # Errors
     /// [`Error::LengthMismatch`], [`Error::NotFinite`].
@@ -193,8 +192,8 @@ impl Problem {
         Ok(())
     }
 
-    /// Replaces the linear term q by `values`, one an unknown. What least-squares rows add to it is
-    /// not touched.
+    /// Replaces the linear term q by `values`, one for each unknown. The contributions of least-squares rows
+    /// to q stay.
     ///
     /// # Errors
     /// [`Error::LengthMismatch`], [`Error::NotFinite`].
@@ -205,7 +204,7 @@ impl Problem {
         Ok(())
     }
 
-    /// Replaces the right sides d of the constraints, one a constraint, in their order.
+    /// Replaces the right sides d of the constraints, one for each constraint, in their order.
     ///
     /// # Errors
     /// [`Error::LengthMismatch`], [`Error::NotFinite`].
@@ -213,7 +212,7 @@ impl Problem {
         self.constraints.set_rhs("constraint right sides", rhs)
     }
 
-    /// Replaces the right sides r of the least-squares rows, one a row, in their order.
+    /// Replaces the right sides r of the least-squares rows, one for each row, in their order.
     ///
     /// # Errors
     /// [`Error::LengthMismatch`], [`Error::NotFinite`].
@@ -221,7 +220,7 @@ impl Problem {
         Arc::make_mut(&mut self.least_squares).set_rhs("least-squares right sides", rhs)
     }
 
-    /// Replaces the constant of the objective; those of least-squares rows stay.
+    /// Replaces the constant of the objective. The contributions of least-squares rows to it stay.
     ///
     /// # Errors
     /// [`Error::NotFinite`].
@@ -241,8 +240,8 @@ impl Problem {
         Ok(())
     }
 
-    /// Adds `weight * (sum_k coefficients[k] x[indices[k]] - rhs)^2` to the objective (without a
-    /// factor of 1/2) and returns the row's number. The row itself is kept.
+    /// Adds `weight * (sum_k coefficients[k] x[indices[k]] - rhs)^2` to the objective, without a factor of
+    /// 1/2, and returns the number of the row. The row itself is kept as well.
     ///
     /// # Errors
     /// [`Error::LengthMismatch`], [`Error::IndexOutOfRange`], [`Error::NotFinite`], and
@@ -276,11 +275,11 @@ impl Problem {
         Ok(row)
     }
 
-    /// Adds `weights[i] * (A x - rhs)_i^2` for every row of the matrix and returns the first row's
-    /// number; without weights all are 1. Nothing is added on an error.
+    /// Adds `weights[i] * (A x - rhs)_i^2` for every row of the matrix and returns the number of the first
+    /// row. Without weights, all weights are 1. After an error, nothing has been added.
     ///
     /// # Errors
-    /// As for one row; positions are positions in the arrays given.
+    /// As for one row. Positions in errors are positions in the arrays given.
     pub fn add_least_squares_matrix(
         &mut self,
         matrix: &MatrixRef,
@@ -315,8 +314,8 @@ impl Problem {
         Ok(first)
     }
 
-    /// Adds the constraint `sum_k coefficients[k] x[indices[k]] = rhs` and returns its number, by
-    /// which errors will name it. Duplicate indices are summed.
+    /// Adds the constraint `sum_k coefficients[k] x[indices[k]] = rhs` and returns its number, which errors
+    /// report. Duplicate indices are summed.
     ///
     /// # Errors
     /// [`Error::LengthMismatch`], [`Error::IndexOutOfRange`], [`Error::NotFinite`].
@@ -330,18 +329,17 @@ impl Problem {
             .push("constraint", self.variables, indices, coefficients, rhs)
     }
 
-    /// Adds the constraints `C x = rhs`, one a row of the matrix, and returns the first one's
-    /// number.
+    /// Adds the constraints `C x = rhs`, one for each row of the matrix, and returns the number of the first.
     ///
     /// # Errors
-    /// As for one constraint; positions are positions in the matrix' arrays.
+    /// As for one constraint. Positions in errors are positions in the arrays of the matrix.
     pub fn add_constraint_matrix(&mut self, matrix: &MatrixRef, rhs: &[f64]) -> Result<usize> {
         matrix.validate("constraint", rhs.len(), self.variables)?;
         all_finite("constraint right sides", rhs)?;
         self.constraints.append(matrix, rhs)
     }
 
-    /// Makes unknowns integer. Naming one twice is no error.
+    /// Makes unknowns integer. An unknown may be named more than once.
     ///
     /// # Errors
     /// [`Error::IndexOutOfRange`].
@@ -360,8 +358,8 @@ impl Problem {
         relaxed
     }
 
-    /// Fixes one unknown to a value; an integer unknown must be given an integer by the time of
-    /// the solve.
+    /// Fixes an unknown to a value. If the unknown is integer at the time of the solve, its value must be an
+    /// integer.
     ///
     /// # Errors
     /// [`Error::IndexOutOfRange`], [`Error::NotFinite`].
@@ -372,7 +370,7 @@ impl Problem {
         Ok(())
     }
 
-    /// Frees a pinned unknown again; one that is free stays so.
+    /// Frees a pinned unknown. An unknown that is free stays free.
     ///
     /// # Errors
     /// [`Error::IndexOutOfRange`].
@@ -382,8 +380,8 @@ impl Problem {
         Ok(())
     }
 
-    /// Sets the point that unknowns keep to where the objective does not decide them (zero unless
-    /// set), one value an unknown.
+    /// Sets the initial guess, one value for each unknown (zero if not set). Unknowns that the objective does
+    /// not determine keep these values.
     ///
     /// # Errors
     /// [`Error::LengthMismatch`], [`Error::NotFinite`].
@@ -394,12 +392,12 @@ impl Problem {
         Ok(())
     }
 
-    /// Sets short cycles that the caller knows: sums of least-squares rows, each with sign 1
-    /// or -1, in which all continuous unknowns cancel, such as the rings around the vertices of a
-    /// mesh. Cycle `k` has the entries `offsets[k]..offsets[k + 1]` of `rows` and `signs`.
+    /// Sets short cycles that the caller knows: sums of least-squares rows, each with sign 1 or -1, in which
+    /// all continuous unknowns cancel. Rings around the vertices of a mesh are such cycles. The entries of
+    /// cycle `k` are `offsets[k]..offsets[k + 1]` of `rows` and `signs`.
     ///
-    /// A hint never changes the problem. A solve ignores a hint whose unknowns do not cancel, and says so in
-    /// its log. A later hint replaces an earlier one.
+    /// A hint never changes the problem. If the continuous unknowns of a hint do not cancel, a solve ignores
+    /// the hint and reports that in its log. A later hint replaces an earlier one.
     ///
     /// # Errors
     /// [`Error::LengthMismatch`], [`Error::IndexOutOfRange`] for a row that does not exist yet,

@@ -7,10 +7,10 @@ use crate::error::{Error, Result};
 use crate::linalg::Sparse;
 use crate::linalg::sparse::reserve;
 
-/// A problem that has been checked and assembled. It does not change once made.
+/// A problem that was checked and assembled. It does not change afterwards.
 ///
-/// The least-squares rows are summed into Q, q and c, and also kept (shared with the problem), for what
-/// can be read off them.
+/// The least-squares rows are summed into Q, q and c. The rows themselves are kept too, shared with the
+/// problem, because some steps of the solver read them.
 #[derive(Debug, Clone)]
 pub struct Model {
     hessian: Arc<Sparse>,
@@ -41,7 +41,7 @@ impl Model {
         for (k, &w) in problem.weights.iter().enumerate() {
             let row = problem.least_squares.row(k);
             for (a, (i, u)) in row.clone().enumerate() {
-                // Each unordered pair once; a repeated variable meets itself twice.
+                // Each unordered pair once. A repeated variable is paired with itself twice.
                 entries.push((i as u32, i as u32, 2.0 * w * u * u));
                 for (j, v) in row.clone().take(a) {
                     let twice = if i == j { 2.0 } else { 1.0 };
@@ -88,8 +88,8 @@ impl Model {
         })
     }
 
-    /// The model of `problem`, which differs from this one's in nothing but linear terms, right sides,
-    /// pins and guess. What does not change is shared.
+    /// The model of `problem`, which differs from this one's problem only in linear terms, right sides, pins
+    /// and guess. The two models share everything else.
     ///
     /// # Errors
     /// As [`new`](Self::new).
@@ -127,7 +127,7 @@ impl Model {
         &self.gradient
     }
 
-    /// The sums of the absolute values of the terms that q was summed from.
+    /// The sums of the absolute values of the terms of q.
     pub(crate) fn gradient_size(&self) -> Vec<f64> {
         let mut size: Vec<f64> = self.gradient.iter().map(|q| q.abs()).collect();
         for (k, &w) in self.weights.iter().enumerate() {
@@ -149,12 +149,12 @@ impl Model {
         (&self.least_squares, &self.weights)
     }
 
-    /// C, one row a constraint.
+    /// C, one row for each constraint.
     pub fn constraints(&self) -> &Sparse {
         &self.constraints
     }
 
-    /// d, one number a constraint.
+    /// d, one number for each constraint.
     pub fn constraint_rhs(&self) -> &[f64] {
         &self.constraint_rhs
     }
@@ -169,12 +169,12 @@ impl Model {
         &self.pinned
     }
 
-    /// Where unknowns stay that the objective does not decide.
+    /// The values that unknowns keep if the objective does not determine them.
     pub fn guess(&self) -> &[f64] {
         &self.guess
     }
 
-    /// Short cycles that the caller knows, checked; none if the hint did not hold.
+    /// The cycles of the caller's hint, checked. There are none if the hint was wrong.
     pub fn cycles(&self) -> &CycleHint {
         &self.cycles
     }
@@ -185,7 +185,7 @@ impl Model {
     }
 }
 
-/// q and c with what the least-squares rows add to them.
+/// q and c, with the contributions of the least-squares rows.
 fn linear_part(problem: &Problem) -> Result<(Vec<f64>, f64)> {
     let mut gradient = problem.linear.clone();
     let mut constant = problem.constant;

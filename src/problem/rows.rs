@@ -6,8 +6,8 @@ use crate::error::{Error, Result};
 use crate::linalg::Sparse;
 use crate::linalg::sparse::reserve;
 
-/// A growing list of sparse rows with a right side each. Indices within a row are as given:
-/// unsorted, duplicates not yet summed.
+/// A growing list of sparse rows, each with a right side. The indices within a row are stored as given:
+/// unsorted, with duplicates not yet summed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RowList {
     offsets: Vec<usize>,
@@ -38,12 +38,12 @@ impl RowList {
         self.rhs.is_empty()
     }
 
-    /// The right sides, one a row.
+    /// The right sides, one for each row.
     pub fn rhs(&self) -> &[f64] {
         &self.rhs
     }
 
-    /// Replaces the right sides, one a row.
+    /// Replaces the right sides, one for each row.
     pub(super) fn set_rhs(&mut self, what: &'static str, rhs: &[f64]) -> Result<()> {
         same_length(what, self.len(), rhs.len())?;
         all_finite(what, rhs)?;
@@ -80,7 +80,7 @@ impl RowList {
         Ok(self.rhs.len() - 1)
     }
 
-    /// Appends the rows of a validated matrix and returns the first one's number.
+    /// Appends the rows of a validated matrix and returns the number of the first.
     pub(super) fn append(&mut self, matrix: &MatrixRef, rhs: &[f64]) -> Result<usize> {
         self.reserve(rhs.len(), matrix.indices.len())?;
         let (first, base) = (self.rhs.len(), self.indices.len());
@@ -117,7 +117,7 @@ impl RowList {
         Ok(first)
     }
 
-    /// Makes room for so many more rows and entries, or changes nothing.
+    /// Makes room for this many more rows and entries. Changes nothing if that fails.
     fn reserve(&mut self, rows: usize, entries: usize) -> Result<()> {
         let reserved = self
             .offsets

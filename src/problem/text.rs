@@ -1,11 +1,11 @@
-//! A row in words, for messages.
+//! A row as text, for messages.
 
 use std::fmt::Write;
 
-/// Longest rows are cut after this many terms.
+/// The largest number of terms that are shown.
 const TERMS: usize = 8;
 
-/// `2 x3 + 4 x9 = 3`.
+/// The row as text, such as `2 x3 + 4 x9 = 3`.
 pub(crate) fn row_text(row: impl ExactSizeIterator<Item = (usize, f64)>, rhs: f64) -> String {
     let mut text = String::new();
     let more = row.len().saturating_sub(TERMS);

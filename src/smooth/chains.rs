@@ -1,10 +1,9 @@
-//! Chains of quads' edges along curves, with the gaps that the map leaves in them closed.
+//! Closes the gaps that the map leaves in the chains of quad edges along curves.
 //!
-//! A curve is an isoline, so quads have a chain of edges along it. But where the map folds, some
-//! vertices of the chain lie beside the curve, and where a curve ends on the surface there may be
-//! no integer point. Every node of the curves therefore gets the nearest vertex of the chain. Every
-//! gap between two vertices on a curve is closed by the shortest way through vertices beside it,
-//! which are spread evenly.
+//! A curve is an isoline, so quads have a chain of edges along it. But where the map folds, some vertices of
+//! the chain lie beside the curve, and where a curve ends on the surface there may be no integer point. Every
+//! node of the curves therefore gets the nearest vertex of the chain. The shortest path through vertices
+//! beside the curve closes each gap, and the vertices of the path are spread evenly.
 
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet, BinaryHeap};
@@ -54,7 +53,7 @@ pub(super) fn close(quads: &mut QuadMesh, mesh: &TriangleMesh, surface: &mut Sur
     }
 }
 
-/// The ends of edges at every vertex, in increasing order.
+/// The neighbours of every vertex, in increasing order.
 fn neighbours(quads: &QuadMesh) -> Vec<Vec<u32>> {
     let mut neighbours = vec![Vec::new(); quads.vertices.len()];
     for face in quads.faces() {
@@ -73,7 +72,7 @@ fn neighbours(quads: &QuadMesh) -> Vec<Vec<u32>> {
 struct Chains<'a> {
     quads: &'a mut QuadMesh,
     surface: &'a mut Surface,
-    /// The vertices that were on each curve before any was moved.
+    /// The vertices on each curve before any vertex was moved.
     on_curve: Vec<Vec<u32>>,
     /// The vertices at each node of the curves, by vertex of the mesh.
     at_node: Vec<Vec<u32>>,
@@ -84,7 +83,7 @@ struct Chains<'a> {
 }
 
 impl Chains<'_> {
-    /// The vertices on a curve with their arc lengths, in order, those at its ends included.
+    /// The vertices on a curve with their arc lengths, in order, including those at its ends.
     fn members(&self, curve: usize) -> Vec<(f64, u32)> {
         let line = &self.surface.curves[curve];
         let mut members = Vec::new();
@@ -168,7 +167,7 @@ impl Chains<'_> {
         }
     }
 
-    /// Moves all vertices to these places, or none if that would invert a quad.
+    /// Moves all vertices to these places. Moves none if that would invert a quad.
     fn moves(&mut self, way: &[u32], places: &[Vec3]) -> bool {
         let around = way.iter().flat_map(|&v| &self.quads_at[v as usize]);
         let around: BTreeSet<u32> = around.copied().collect();
@@ -195,10 +194,9 @@ impl Chains<'_> {
         is_good
     }
 
-    /// The free vertices on the cheapest way from one vertex to another; none if there is no way
-    /// near the curve.
+    /// The free vertices on the cheapest path between two vertices. Empty if there is no path near the curve.
     fn way(&self, curve: usize, from: (f64, u32), to: (f64, u32)) -> Vec<u32> {
-        /// Costs as integers, which are ordered.
+        /// Costs are integers, because integers have a total order.
         const UNIT: f64 = 1e6;
         let line = &self.surface.curves[curve];
         let cost = |v: u32| -> Option<u64> {

@@ -1,4 +1,4 @@
-//! A curve on the surface, by its arc length.
+//! A curve on the surface, parametrised by arc length.
 
 use crate::mesh::features::FeatureCurve;
 use crate::mesh::vector::{Vec3, add, norm, scale, sub};
@@ -8,9 +8,9 @@ use crate::mesh::{ClosestPoint, TriangleMesh};
 pub(super) struct Curve {
     tree: ClosestPoint,
     points: Vec<Vec3>,
-    /// The length from the start to every point.
+    /// The arc length at every point.
     arcs: Vec<f64>,
-    /// Vertices of the mesh where it starts and ends.
+    /// The vertices of the mesh at which it starts and ends.
     pub(super) ends: [usize; 2],
 }
 
@@ -37,12 +37,12 @@ impl Curve {
         self.arcs[self.arcs.len() - 1]
     }
 
-    /// The closest point, and the number of its edge; a number found before is a hint.
+    /// The number of the closest edge and the closest point. `hint` is an edge number found before.
     pub(super) fn closest(&self, p: Vec3, hint: Option<usize>) -> Option<(usize, Vec3)> {
         self.tree.find(p, hint)
     }
 
-    /// The arc length at the closest point, and how far that is.
+    /// The arc length at the closest point, and the distance to that point.
     pub(super) fn arc(&self, p: Vec3) -> (f64, f64) {
         self.closest(p, None)
             .map_or((0.0, f64::INFINITY), |(edge, point)| {
@@ -51,7 +51,7 @@ impl Curve {
             })
     }
 
-    /// The point at this arc length; around, where the curve is a loop.
+    /// The point at this arc length, which is periodic if the curve is a loop.
     pub(super) fn point(&self, arc: f64) -> Vec3 {
         let arc = match self.ends[0] == self.ends[1] {
             true => arc.rem_euclid(self.length()),

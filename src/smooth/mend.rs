@@ -1,8 +1,8 @@
-//! The worst quads, improved one vertex at a time.
+//! Improves the worst quads one vertex at a time.
 //!
-//! For each corner of a poor quad a few places are tried: towards the mean of its neighbours,
-//! towards the targets of its quads, and along its edges and diagonals. The corner takes the place
-//! at which the worst of its quads is best, if that is an improvement.
+//! For each corner of a poor quad a few places are tried: towards the mean of its neighbours, towards the
+//! targets of its quads, and along its edges and diagonals. The corner moves to the place where the worst of
+//! its quads is best, if that is an improvement.
 
 use super::quality::scaled_jacobian;
 use super::square;

@@ -14,12 +14,12 @@ pub struct QuadQuality {
     pub scaled_jacobian_min: f64,
     /// Quads with a scaled Jacobian of zero or less.
     pub inverted: usize,
-    /// Standard deviation of edge lengths, as a part of their mean.
+    /// Standard deviation of edge lengths, relative to their mean.
     pub edge_spread: f64,
 }
 
 impl QuadQuality {
-    /// The figures of these quads; all zero where there are none.
+    /// The figures of these quads. All are zero if there are no quads.
     pub fn new(quads: &QuadMesh) -> Self {
         let corners = quads
             .quads

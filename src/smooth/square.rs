@@ -9,7 +9,7 @@ pub(super) fn closest(corners: [Vec3; 4], edge: f64, uniformity: f64) -> [Vec3; 
     let [a, b, c, d] = corners;
     let center = scale(add(add(a, b), add(c, d)), 0.25);
     let normal = normalize(cross(sub(c, a), sub(d, b)));
-    // Every corner turned back to the first: by k quarters about the normal.
+    // The sum of all corners, each turned back to the first: corner k by k quarters about the normal.
     let mut arm = [0.0; 3];
     for (k, corner) in corners.into_iter().enumerate() {
         let from = sub(corner, center);

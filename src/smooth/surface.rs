@@ -18,12 +18,12 @@ pub(super) enum Bond {
 /// The surface with its curves: boundary and features.
 pub(super) struct Surface {
     faces: ClosestPoint,
-    /// One tree for each curve: curves may be closer to each other than vertices are.
+    /// The curves, each with its own search tree: curves may be closer to each other than vertices are.
     pub(super) curves: Vec<Curve>,
     pub(super) bonds: Vec<Bond>,
-    /// The vertex of the mesh that each fixed vertex is at: where curves end, meet or turn.
+    /// The vertex of the mesh at which each fixed vertex lies, where curves end, meet or turn.
     pub(super) node: Vec<Option<usize>>,
-    /// The triangle or segment where each vertex was found last.
+    /// The triangle or segment in which each vertex was last found.
     hints: Vec<Option<usize>>,
     pub(super) fixed: Vec<Vec3>,
 }
@@ -53,7 +53,7 @@ impl Surface {
         }
     }
 
-    /// The place nearest to `p` that a vertex may have.
+    /// The point nearest to `p` that satisfies the constraint of the vertex.
     pub(super) fn project(&mut self, vertex: usize, p: Vec3) -> Vec3 {
         let hint = self.hints[vertex];
         let found = match self.bonds[vertex] {
@@ -92,7 +92,7 @@ fn place(
             if let Some(k) = (0..3).find(|&k| at[k] == 1.0) {
                 return of_vertex(corners[k]);
             }
-            // On the edge opposite to a corner that it has no part of.
+            // A vertex whose weight of a corner is zero lies on the edge opposite to that corner.
             let opposite = |k: usize| curve(on[mesh.edge_of(face, (k + 1) % 3)]);
             let bond = (0..3).filter(|&k| at[k] == 0.0).find_map(opposite);
             (bond.unwrap_or(Bond::Surface), None)

@@ -1,8 +1,8 @@
-//! Ambient light: how much of the sky each vertex sees.
+//! Ambient light: the share of the sky that each vertex sees.
 //!
-//! The surface is drawn into depth maps from directions spread over the sphere; a vertex sees
-//! those directions in whose map it is the nearest. This needs no ray tracing and no data
-//! structure but the rasteriser that is there already.
+//! The surface is drawn into depth maps from directions spread over the sphere. A vertex sees a direction if
+//! it is nearest in the depth map of that direction. This needs only the existing rasteriser, no ray tracing
+//! and no search structure.
 
 use super::raster::fill;
 use roundel::mesh::TriangleMesh;
@@ -12,7 +12,7 @@ use roundel::mesh::vector::{Vec3, add, cross, dot, normalize, scale, sub};
 const DIRECTIONS: usize = 64;
 /// Width and height of a depth map.
 const SIZE: usize = 320;
-/// How far behind the map's surface, in pixels of the map, still counts as on it.
+/// The largest distance behind the surface, in pixels of the depth map, that counts as on it.
 const BIAS: f64 = 2.0;
 
 /// For each vertex the visible part of the half of the sky above it, weighted by the cosine.

@@ -2,8 +2,8 @@
 
 use roundel::mesh::vector::{Vec3, add, cross, dot, norm, normalize, scale, sub};
 
-/// Distance of the eye from the middle of the scene, in radii of its bounding sphere: the
-/// perspective of a portrait lens, which shows depth and bends nothing.
+/// Distance of the eye from the centre of the scene, in radii of its bounding sphere. The perspective is that
+/// of a portrait lens, which shows depth without distortion.
 const DISTANCE: f64 = 5.0;
 
 /// The fraction of the frame that stays empty on each side.

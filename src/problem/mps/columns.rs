@@ -12,16 +12,16 @@ pub(super) struct Columns {
     pub linear: Vec<f64>,
     /// The integer columns.
     pub integers: Vec<usize>,
-    /// Where each column starts in `rows` and `values`.
+    /// The start of each column in `rows` and `values`.
     pub offsets: Vec<usize>,
     /// The constraint of each entry.
     pub rows: Vec<usize>,
     pub values: Vec<f64>,
-    /// For each row, one more than the last column with an entry in it.
+    /// For each row, one more than the last column with an entry in the row.
     entered: Vec<usize>,
     /// The name of the last column.
     current: String,
-    /// The line of the integer marker that is open.
+    /// The line of the open integer marker, if there is one.
     integer_since: Option<usize>,
 }
 
@@ -84,7 +84,7 @@ impl Columns {
     }
 
     fn read_marker(&mut self, line: &Line, rest: &[&str]) -> Result<()> {
-        // No column goes on behind a marker: it would be on both sides.
+        // No column continues after a marker, since the marker would apply to half of it.
         self.current.clear();
         self.integer_since = match (rest, self.integer_since) {
             (["'INTORG'"], None) => Some(line.number),
@@ -99,7 +99,7 @@ impl Columns {
         Ok(())
     }
 
-    /// Ends the section at the header `line` of the next.
+    /// Ends the section at the header `line` of the next section.
     pub fn end(&mut self, line: &Line) -> Result<()> {
         if let Some(open) = self.integer_since {
             return Err(line.fault(format!("'INTORG' of line {open} has no 'INTEND'")));
@@ -112,7 +112,7 @@ impl Columns {
     }
 }
 
-/// Which columns are free. No other bounds are solved, and without one x >= 0 holds in MPS.
+/// The columns declared free. No other bounds are supported, and a column without bounds means x >= 0 in MPS.
 #[derive(Default)]
 pub(super) struct Bounds {
     set: VectorName,
@@ -149,7 +149,7 @@ impl Bounds {
         Ok(())
     }
 
-    /// Whether all columns are free; if not, which is not.
+    /// Returns the columns if all of them are free, and otherwise an error that names one that is not.
     pub fn end(&self, columns: Columns) -> Result<Columns> {
         let bounded = (0..columns.names.len()).find(|&j| self.free.get(j) != Some(&true));
         let Some(column) = bounded else {

@@ -1,4 +1,4 @@
-//! Compression by gzip (feature `gzip`).
+//! Compression by gzip (feature `gzip`, format of `deutsch1996`).
 
 use std::fs::File;
 use std::io::{BufRead, BufWriter, Read, Write};
@@ -11,7 +11,7 @@ use crate::error::{Error, Result};
 /// The first bytes of every gzip file (`deutsch1996`, section 2.3.1).
 const MAGIC: [u8; 2] = [0x1f, 0x8b];
 
-/// Reads from `reader`, compressed or not.
+/// Reads from `reader`, which may be compressed.
 pub(super) fn parse(mut reader: impl BufRead) -> Result<MpsProblem> {
     let mut head = Vec::with_capacity(MAGIC.len());
     let peeked = reader
@@ -32,7 +32,7 @@ pub(super) fn parse(mut reader: impl BufRead) -> Result<MpsProblem> {
 
 #[cfg(feature = "gzip")]
 fn inflate(reader: impl BufRead) -> Result<MpsProblem> {
-    // A file may be several archives one after the other.
+    // A gzip file may consist of several members.
     let inflated = flate2::bufread::MultiGzDecoder::new(reader);
     parse_text(std::io::BufReader::with_capacity(1 << 16, inflated))
 }
@@ -42,8 +42,8 @@ fn inflate(_: impl BufRead) -> Result<MpsProblem> {
     Err(no_gzip())
 }
 
-/// Creates the file at `path`, has `content` fill it, and closes it; compressed if its name ends
-/// in `.gz`.
+/// Creates the file at `path`, lets `content` write it, and closes it. The file is compressed if its name
+/// ends in `.gz`.
 pub(super) fn create(
     path: &Path,
     content: impl FnOnce(&mut dyn Write) -> std::io::Result<()>,

@@ -1,4 +1,4 @@
-//! Reading: from the lines of the sections to a problem.
+//! Reading: the lines of the sections become a problem.
 
 use std::io::BufRead;
 
@@ -38,7 +38,7 @@ pub(super) fn parse_text(reader: impl BufRead) -> Result<MpsProblem> {
     }
 }
 
-/// What the sections said so far.
+/// The content of the sections read so far.
 struct Content {
     title: String,
     has_sense: bool,
@@ -63,7 +63,7 @@ impl Content {
         }
     }
 
-    /// Starts `section`; what it refers to is complete by then.
+    /// Starts `section`. The sections to which it refers are complete by then.
     fn begin(&mut self, section: Section, line: &Line) -> Result<()> {
         match section {
             Section::Name => {

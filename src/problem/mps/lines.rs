@@ -1,7 +1,7 @@
 //! Lines of an MPS file, cut into fields.
 //!
-//! The free format has no limit on a line; this reader has one, so that a file which is not MPS
-//! at all (or a small archive that inflates to one endless line) costs no memory.
+//! The free format does not limit the length of a line; this reader does. Without a limit, a file that is not
+//! MPS, or a small archive that inflates to one endless line, could fill the memory.
 
 use std::io::{BufRead, Read};
 
@@ -10,7 +10,7 @@ use crate::error::{Error, Result};
 /// Longest line accepted, in bytes.
 pub(super) const MAX_LINE: usize = 1 << 16;
 
-/// No section has lines of more fields.
+/// The largest number of fields on a line of any section.
 const MAX_FIELDS: usize = 5;
 
 /// The lines of a file that are neither blank nor comments, one at a time.
@@ -20,9 +20,9 @@ pub(super) struct Lines<R> {
     number: usize,
 }
 
-/// One line. A header starts in the first column, data after a blank.
+/// A line. A header starts in the first column, data after a blank.
 pub(super) struct Line<'a> {
-    /// Counted from 1.
+    /// The number of the line, counted from 1.
     pub number: usize,
     text: &'a str,
     fields: [&'a str; MAX_FIELDS + 1],
@@ -43,7 +43,7 @@ impl<R: BufRead> Lines<R> {
         self.number
     }
 
-    /// The next line that says something, or none at the end of the file.
+    /// The next line that is neither blank nor a comment, or `None` at the end of the file.
     pub fn next(&mut self) -> Result<Option<Line<'_>>> {
         loop {
             self.buffer.clear();
@@ -104,28 +104,28 @@ impl<'a> Line<'a> {
         !self.text.starts_with([' ', '\t'])
     }
 
-    /// The fields; of a line with too many, one more than any section takes.
+    /// The fields. For a line with too many, the list is one longer than any section allows.
     pub fn fields(&self) -> &[&'a str] {
         &self.fields[..self.len]
     }
 
-    /// What follows the first field.
+    /// The text after the first field.
     pub fn rest(&self) -> &'a str {
         let text = self.text.trim_ascii();
         text[self.fields[0].len()..].trim_ascii_start()
     }
 
-    /// The error that this line is not as it must be.
+    /// The error for a malformed line.
     pub fn fault(&self, message: impl Into<String>) -> Error {
         fault(self.number, message)
     }
 
-    /// The error that this line asks for something that the library does not solve.
+    /// The error for a line that needs something the library does not support.
     pub fn unsupported(&self, what: impl AsRef<str>) -> Error {
         unsupported(self.number, what, None)
     }
 
-    /// The finite number that `field` is.
+    /// The value of `field`, which must be a finite number.
     pub fn value(&self, field: &str) -> Result<f64> {
         match field.parse::<f64>() {
             Ok(value) if value.is_finite() => Ok(value),
@@ -142,7 +142,7 @@ impl<'a> Line<'a> {
         Ok((self.fields[0], self.pairs(1)))
     }
 
-    /// Pairs of fields from `first` on.
+    /// The pairs of fields from `first` on.
     pub fn pairs(&self, first: usize) -> impl Iterator<Item = (&'a str, &'a str)> {
         let fields = self.fields[first..self.len].chunks_exact(2);
         fields.map(|pair| (pair[0], pair[1]))
@@ -168,7 +168,7 @@ pub(super) fn fault(line: usize, message: impl Into<String>) -> Error {
     }
 }
 
-/// An error that names what is not solved, and its line.
+/// An error that names an unsupported feature and its line.
 pub(super) fn unsupported(line: usize, what: impl AsRef<str>, index: Option<usize>) -> Error {
     Error::NotSupported {
         what: format!("line {line}: {}", what.as_ref()),
@@ -177,7 +177,7 @@ pub(super) fn unsupported(line: usize, what: impl AsRef<str>, index: Option<usiz
     }
 }
 
-/// A field as messages show it: in quotes, cut where it is long.
+/// A field for messages: in quotes, and cut if it is long.
 pub(super) fn quoted(field: &str) -> String {
     const SHOWN: usize = 40;
     let cut: String = field.chars().take(SHOWN).collect();

@@ -1,7 +1,7 @@
 //! Free-format MPS, reading and writing.
 //!
-//! MPS is IBM's format for linear programs of the 1960s, since extended by everyone; what is read
-//! here is the part that states the problems of this library:
+//! MPS is IBM's format for linear programs of the 1960s, with many later extensions. This reader accepts the
+//! part that states the problems of this library:
 //!
 //! | section | what is read |
 //! | --- | --- |
@@ -15,14 +15,14 @@
 //! | `QMATRIX` | instead of `QUADOBJ`: both triangles, which must agree |
 //! | `ENDATA` | needed |
 //!
-//! The sections come in this order. Section names start in the first column, all else behind a
-//! blank; names are any text without blanks, and lines that start with `*` are comments.
-//! Everything else that MPS can say (inequalities, ranges, other bounds, maximisation, ...) is
-//! [`Error::NotSupported`] with its line, and what MPS cannot say is [`Error::Parse`] with its
-//! line: nothing is skipped or guessed, no entry may be given twice.
+//! The sections come in this order. Section names start in the first column, all other lines with a blank.
+//! Names are any text without blanks, and lines that start with `*` are comments. Every other feature of MPS
+//! (inequalities, ranges, other bounds, maximisation, ...) is [`Error::NotSupported`] with its line. Text
+//! that is not MPS is [`Error::Parse`] with its line. Nothing is skipped or guessed, and no entry may be
+//! given twice.
 //!
-//! Files compressed by gzip are known by their content when reading, and by a name that ends in
-//! `.gz` when writing (feature `gzip`).
+//! The reader recognises gzip by the content of the file, the writer by a file name that ends in `.gz`
+//! (feature `gzip`).
 
 mod columns;
 mod compression;
@@ -48,8 +48,8 @@ use crate::error::{Error, Result};
 /// Reads the file at `path`.
 ///
 /// # Errors
-/// [`Error::Io`] for a file that cannot be read, a damaged archive included; [`Error::Parse`] and
-/// [`Error::NotSupported`] with the line at fault; [`Error::OutOfMemory`], [`Error::Overflow`].
+/// [`Error::Io`] for a file that cannot be read or a damaged archive; [`Error::Parse`] and
+/// [`Error::NotSupported`] with the faulty line; [`Error::OutOfMemory`], [`Error::Overflow`].
 pub fn read(path: &Path) -> Result<MpsProblem> {
     let file = std::fs::File::open(path).map_err(|e| io_error(path, e))?;
     match parse(std::io::BufReader::with_capacity(1 << 16, file)) {
@@ -58,7 +58,7 @@ pub fn read(path: &Path) -> Result<MpsProblem> {
     }
 }
 
-/// Reads from `reader`, compressed or not.
+/// Reads from `reader`, which may be compressed.
 ///
 /// # Errors
 /// As [`read`].

@@ -5,8 +5,8 @@ use super::names::{check_name, check_title};
 use crate::error::{Error, Result};
 use crate::problem::Problem;
 
-/// A problem and its names. The names fit the problem: as many as there are variables and
-/// constraints, all such that a file can hold them.
+/// A problem and its names. There is one name for each variable and each constraint, and a file can hold all
+/// of them.
 #[derive(Debug, Clone)]
 pub struct MpsProblem {
     pub(super) problem: Problem,
@@ -23,7 +23,7 @@ pub(crate) struct MpsNames {
 }
 
 impl MpsNames {
-    /// `OBJ`, x0, x1, ... and c0, c1, ...
+    /// The names `OBJ`, x0, x1, ... and c0, c1, ...
     pub fn numbered(variables: usize, constraints: usize) -> Self {
         MpsNames {
             title: String::new(),
@@ -42,13 +42,13 @@ impl MpsProblem {
         MpsProblem { problem, names }
     }
 
-    /// `problem` with names of the caller's choice: not empty, without blanks, each once among the
-    /// variables, and each once among the constraints and the objective. The title may be empty
-    /// and may have blanks within.
+    /// `problem` with the caller's names. Names must not be empty or contain blanks. Each must be unique
+    /// among the variables, or among the constraints and the objective. The title may be empty and may
+    /// contain blanks.
     ///
     /// # Errors
-    /// [`Error::LengthMismatch`] for too few or too many names, and [`Error::InvalidArgument`]
-    /// with the position of a name that cannot be.
+    /// [`Error::LengthMismatch`] for too few or too many names, and [`Error::InvalidArgument`] with the
+    /// position of an invalid name.
     pub fn with_names(
         problem: Problem,
         title: &str,
@@ -79,12 +79,12 @@ impl MpsProblem {
         &self.problem
     }
 
-    /// The problem alone.
+    /// Returns the problem without its names.
     pub fn into_problem(self) -> Problem {
         self.problem
     }
 
-    /// What `NAME` says; may be empty.
+    /// The title from `NAME`, which may be empty.
     pub fn title(&self) -> &str {
         &self.names.title
     }

@@ -1,4 +1,4 @@
-//! Names of rows and columns: what is a name, and the number that each one stands for.
+//! Names of rows and columns: the rules for a name, and the number of each name.
 
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
@@ -6,12 +6,12 @@ use std::collections::hash_map::Entry;
 use super::lines::{Line, quoted};
 use crate::error::{Error, Result};
 
-/// Longest name, in bytes. Two of them and a number always fit on a line.
+/// The longest name, in bytes. Two of them and a number always fit on a line.
 const MAX_NAME: usize = 1 << 12;
 
-/// Names in order of appearance, each once.
+/// Names in order of appearance, without repetition.
 pub(super) struct Names {
-    /// What is named, for messages.
+    /// The kind of things that are named, for messages.
     what: &'static str,
     numbers: HashMap<String, u32>,
     lines: Vec<usize>,
@@ -30,7 +30,7 @@ impl Names {
         self.lines.len()
     }
 
-    /// Takes a new name from `line` and returns its number.
+    /// Inserts a new name from `line` and returns its number.
     pub fn insert(&mut self, line: &Line, name: &str) -> Result<usize> {
         check_name(name).map_err(|fault| line.fault(format!("{} {fault}", self.what)))?;
         let number = self.len();
@@ -76,7 +76,7 @@ impl Names {
     }
 }
 
-/// Whether a file can hold `name`; if not, why.
+/// Checks whether a file can hold `name`. The error gives the reason.
 pub(super) fn check_name(name: &str) -> std::result::Result<(), String> {
     let blank = |c: char| c.is_ascii_whitespace() || c.is_ascii_control();
     if name.is_empty() {
@@ -94,7 +94,8 @@ pub(super) fn check_name(name: &str) -> std::result::Result<(), String> {
     Ok(())
 }
 
-/// Whether a file can hold `title` as the name of the problem, which may have blanks; if not, why.
+/// Checks whether a file can hold `title` as the name of the problem, which may contain blanks. The error
+/// gives the reason.
 pub(super) fn check_title(title: &str) -> std::result::Result<(), String> {
     if title.trim_ascii() != title || title.contains(|c: char| c.is_ascii_control()) {
         return Err(format!(

@@ -65,13 +65,13 @@ impl Quadratic {
         ))
     }
 
-    /// Whether no entry is given twice and, with both triangles, each agrees with its mirror
-    /// image. Of several faults the one on the first line is told.
+    /// Checks that no entry is given twice and, with both triangles, that each entry agrees with its mirror
+    /// image. If there are several faults, the error reports the one on the first line.
     fn check(&self, variables: usize) -> Result<()> {
         const NONE: usize = usize::MAX;
         let (offsets, order) = self.by_least(variables);
-        // By the larger variable of a pair: the entry above and the one below the diagonal that
-        // came last. It counts only where it belongs to the smaller variable at hand.
+        // For each larger variable of a pair, the last entry above and the last below the diagonal. An entry
+        // counts only if it belongs to the current smaller variable.
         let mut last = [vec![NONE; variables], vec![NONE; variables]];
         let mut worst: Option<(usize, String)> = None;
         let mut tell = |line: usize, message: &dyn Fn() -> String| {
@@ -121,7 +121,7 @@ impl Quadratic {
         }
     }
 
-    /// Which of the two triangles an entry fills; with one triangle given, there is but one.
+    /// The triangle of an entry. If only one triangle is given, all entries belong to it.
     fn side(&self, entry: &Entry) -> usize {
         usize::from(self.full && entry.row < entry.col)
     }

@@ -1,15 +1,15 @@
-//! The section ROWS, and the right sides that RHS gives its rows.
+//! The section ROWS, and the right sides of the rows in the section RHS.
 
 use super::lines::{Line, quoted};
 use super::names::Names;
 use crate::error::Result;
 
-/// What a row stands for.
+/// The role of a row.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Row {
     /// The first `N` row.
     Objective,
-    /// A further `N` row, without a meaning.
+    /// Another `N` row, which has no meaning.
     Ignored,
     /// The equality constraint of this number.
     Constraint(usize),
@@ -58,7 +58,7 @@ impl Rows {
         Ok(())
     }
 
-    /// Ends the section at the header `line` of the next.
+    /// Ends the section at the header `line` of the next section.
     pub fn end(&self, line: &Line) -> Result<()> {
         match self.objective {
             Some(_) => Ok(()),
@@ -71,7 +71,7 @@ impl Rows {
         self.kinds.len()
     }
 
-    /// The number of the row of this name, and what it stands for.
+    /// The number and the role of the row with this name.
     pub fn find(&self, line: &Line, name: &str) -> Result<(usize, Row)> {
         let number = self.names.find(line, name)?;
         Ok((number, self.kinds[number]))
@@ -92,12 +92,12 @@ impl Rows {
     }
 }
 
-/// The right sides: zero unless given.
+/// The right sides, which are zero unless given.
 #[derive(Default)]
 pub(super) struct RightSides {
     set: VectorName,
     given: Vec<bool>,
-    /// One number a constraint.
+    /// One number for each constraint.
     pub values: Vec<f64>,
     /// The constant of the objective: minus its right side.
     pub constant: f64,
@@ -137,13 +137,13 @@ impl RightSides {
     }
 }
 
-/// The name that lines of RHS and of BOUNDS may start with. A file may hold several vectors of
-/// right sides or bounds by it, to be chosen from when solving; this library takes files of one.
+/// The optional name at the start of the lines of RHS and of BOUNDS. A file may hold several vectors of right
+/// sides or bounds under different names. This library accepts files with one.
 #[derive(Default)]
 pub(super) struct VectorName(Option<String>);
 
 impl VectorName {
-    /// Holds the optional name of `line`, given as a slice of at most one, against the first one.
+    /// Compares the optional name of `line`, a slice of at most one name, with the first name.
     pub fn check(&mut self, line: &Line, name: &[&str]) -> Result<()> {
         let name = name.first().copied().unwrap_or_default();
         match &self.0 {

@@ -1,4 +1,4 @@
-//! The sections of an MPS file and the order in which they come.
+//! The sections of an MPS file and their order.
 
 use super::lines::{Line, quoted};
 use crate::error::Result;
@@ -34,7 +34,7 @@ impl Section {
         }
     }
 
-    /// Sections come in the order of these numbers; two of the same number exclude each other.
+    /// The position of a section in the order. Two sections with the same position exclude each other.
     fn step(self) -> usize {
         match self {
             Section::QMatrix => Section::QuadObj as usize,
@@ -42,7 +42,7 @@ impl Section {
         }
     }
 
-    /// The section that the header `line` opens when `self` was the one before.
+    /// The section that the header `line` opens after the section `self`.
     pub fn next(self, line: &Line) -> Result<Section> {
         let word = line.fields()[0];
         let next = match word {

@@ -1,7 +1,7 @@
-//! Writing: a model as free-format MPS, such that reading it gives the same model bit for bit.
+//! Writing: a model becomes free-format MPS. Reading the file gives the same model bit for bit.
 //!
-//! Numbers are written as the shortest decimals that read back as themselves. Least-squares rows
-//! are written as what they add to Q, q and c, since MPS has no place for them.
+//! Each number is written as the shortest decimal that reads back as the same number. MPS has no
+//! least-squares rows; the file holds their contributions to Q, q and c.
 
 use std::collections::HashSet;
 use std::io::{self, Write};
@@ -12,20 +12,19 @@ use super::{MpsNames, MpsProblem};
 use crate::error::{Error, Result};
 use crate::problem::Model;
 
-/// Where the values of pinned variables go.
+/// The place of the values of pinned variables.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Pins {
-    /// Into the file, as constraints behind the others.
+    /// In the file, as constraints after the others.
     Rows,
-    /// Elsewhere: the file does not mention them.
+    /// Not in the file.
     Elsewhere,
 }
 
 /// Writes `problem` to the file at `path`, compressed by gzip if that ends in `.gz`.
 ///
-/// MPS cannot state everything: the pin of variable i becomes a constraint named `PIN_i` behind the
-/// others, and the initial guess is lost. A replay file keeps both, see
-/// [`replay`](crate::solve::replay).
+/// MPS cannot state everything. The pin of variable i becomes a constraint named `PIN_i` after the others,
+/// and the initial guess is lost. A replay file keeps both, see [`replay`](crate::solve::replay).
 ///
 /// # Errors
 /// As [`Model::new`]; [`Error::Io`] for a file that cannot be written, [`Error::NotSupported`]
@@ -57,7 +56,7 @@ pub(crate) fn write_model(path: &Path, model: &Model, names: &MpsNames, pins: Pi
 struct Document<'a> {
     model: &'a Model,
     names: &'a MpsNames,
-    /// Variable, value and row name of each pin that is written.
+    /// Variable, value and row name of each pin in the file.
     pins: Vec<(usize, f64, String)>,
 }
 
@@ -111,7 +110,7 @@ impl<'a> Document<'a> {
                 writeln!(out, " MARKER 'MARKER' {side}")?;
                 in_integers = integer;
             }
-            // A column exists by its entries, so that one without any needs a zero.
+            // Only an entry declares a column, so an empty column needs an entry of zero.
             let pinned = pins.next_if(|(variable, _, _)| *variable == j);
             let linear = self.model.gradient()[j];
             if linear != 0.0 || (by_columns.row(j).len() == 0 && pinned.is_none()) {
@@ -143,7 +142,7 @@ impl<'a> Document<'a> {
             .iter()
             .map(|(_, value, name)| (name.as_str(), *value));
         for (name, value) in given.chain(pins) {
-            // Zero is what a row has that is not mentioned; minus zero is not.
+            // A row without an entry has the right side zero, but not minus zero.
             if value.to_bits() != 0 {
                 writeln!(out, " RHS {name} {value:?}")?;
             }
