@@ -42,7 +42,7 @@
 #define ROUNDEL_VERSION_PATCH 0
 
 /**
- * How a call went. The numbers never change; new ones may be added, so treat every number other
+ * The status of a call. The numbers never change; new ones may be added, so treat every number other
  * than ROUNDEL_OK as a failure.
  */
 enum roundel_status
@@ -51,15 +51,15 @@ enum roundel_status
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
     /**
-     * The call did what it says.
+     * The call succeeded.
      */
     ROUNDEL_OK = 0,
     /**
-     * A pointer is NULL that must not be.
+     * A pointer that must not be NULL is NULL.
      */
     ROUNDEL_ERROR_NULL_POINTER = 1,
     /**
-     * A value that is not allowed in itself; the index is its position, where it has one.
+     * A value that is never allowed; the index is its position, if it has one.
      */
     ROUNDEL_ERROR_INVALID_ARGUMENT = 2,
     /**
@@ -83,7 +83,7 @@ enum roundel_status
      */
     ROUNDEL_ERROR_OVERFLOW = 7,
     /**
-     * Memory for a large array could not be had.
+     * Memory for a large array was not available.
      */
     ROUNDEL_ERROR_OUT_OF_MEMORY = 8,
     /**
@@ -182,7 +182,7 @@ typedef int32_t roundel_status;
 #endif // __cplusplus
 
 /**
- * How a solve ended that gave a solution. The numbers never change; new ones may be added.
+ * How a solve with a solution ended. The numbers never change; new ones may be added.
  */
 enum roundel_solve_status
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
@@ -285,7 +285,7 @@ typedef int32_t roundel_option_type;
 #endif // __cplusplus
 
 /**
- * What an event tells.
+ * The kind of an event.
  */
 enum roundel_event_kind
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
@@ -293,19 +293,19 @@ enum roundel_event_kind
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
     /**
-     * A part of the solve has got so far: see `phase` and `fraction`.
+     * A part of the solve has progressed: see `phase` and `fraction`.
      */
     ROUNDEL_EVENT_PROGRESS = 1,
     /**
-     * Something worth a line in a log: see `text`.
+     * A line for a log: see `text`.
      */
     ROUNDEL_EVENT_LOG = 2,
     /**
-     * A better solution than any before: see `energy`.
+     * A better solution than all before: see `energy`.
      */
     ROUNDEL_EVENT_IMPROVED = 3,
     /**
-     * A better lower bound than any before: see `lower_bound` and `gap`.
+     * A better lower bound than all before: see `lower_bound` and `gap`.
      */
     ROUNDEL_EVENT_RAISED = 4,
 };
@@ -342,7 +342,7 @@ enum roundel_phase
      */
     ROUNDEL_PHASE_ROUND = 3,
     /**
-     * Motion of what is continuous around integers that are held.
+     * Motion of the continuous unknowns while the integers are fixed.
      */
     ROUNDEL_PHASE_UNTANGLE = 4,
     /**
@@ -365,29 +365,30 @@ typedef int32_t roundel_phase;
 typedef struct roundel_cancel_token roundel_cancel_token;
 
 /**
- * An N-symmetric direction field of a mesh: N arms in every face, a cross for N = 4, and how they
- * match over edges. It does not need the mesh any more.
+ * An N-symmetric direction field of a mesh: N arms in every face, a cross for N = 4, and their matching
+ * across edges. The mesh may be freed before the field.
  */
 typedef struct roundel_field roundel_field;
 
 /**
- * What a field follows, and which edges become isolines of its map: features, the boundary, given
- * directions, the curvature, given indices. Where several state the direction of one face, the first
- * of these decides: a given direction, a feature or the boundary, a reliable curvature.
+ * The requirements of a field, and the edges that become isolines of its map: features, the boundary,
+ * given directions, the curvature, given indices. If several give a direction for one face, the first of
+ * these decides: a given direction, a feature or the boundary, a reliable curvature.
  *
  * roundel_guidance_option_info lists its options. A new guidance asks for crosses that follow the
- * boundary, and for nothing else; where a function takes a guidance, NULL stands for that. Numbers of faces, edges and vertices are those of the
- * mesh that it is used with, and are checked there.
+ * boundary, and for nothing else; NULL stands for the same wherever a function takes a guidance. Numbers
+ * of faces, edges and vertices are those of the mesh that the guidance is used with, and are checked
+ * when it is used.
  */
 typedef struct roundel_guidance roundel_guidance;
 
 /**
- * A seamless map of a mesh: coordinates (u, v) on the surface cut open, whose gradients follow a
- * field of crosses, which turn by quarters and shift by integers over the cut. Cones are integer
- * points, features isolines of integer value. It keeps what it needs of mesh and field.
+ * A seamless map of a mesh: coordinates (u, v) on the cut surface, whose gradients follow a field of
+ * crosses. Across the cut they turn by quarter turns and shift by integers. Cones are integer points,
+ * and features are isolines of integer value. The mesh and the field may be freed before the map.
  *
- * It is made for a size of quads, solved, and solved again for other sizes, from what was kept of
- * the first solve. What it tells is of the last solve.
+ * A map is made for a size of quads and solved. It can be solved again for other sizes, which reuses
+ * data of the first solve. The results are those of the last solve.
  */
 typedef struct roundel_map roundel_map;
 
@@ -402,7 +403,7 @@ typedef struct roundel_map roundel_map;
 typedef struct roundel_mesh roundel_mesh;
 
 /**
- * How to solve. roundel_option_info lists the options that there are.
+ * The options of a solve. roundel_option_info lists them.
  *
  * An unknown name, a value of the wrong type and a value out of range are three different errors.
  */
@@ -418,17 +419,17 @@ typedef struct roundel_options roundel_options;
 typedef struct roundel_problem roundel_problem;
 
 /**
- * How to make quads: their size, what they follow, how field and map are solved, untangling and
- * smoothing. roundel_quad_option_info lists what is set by name. New quad options are those of the
- * program `roundel quad` without flags: 1000 quads along the boundary and the curvature, the field's
- * integers decided adaptively and the map's by lattice decoding. Guidance is checked when quads are
- * made. Where vary_curvature is 1, curvature may count for less than the guidance has it.
+ * The options of quads: their size, their guidance, the solves of field and map, untangling and
+ * smoothing. roundel_quad_option_info lists those that are set by name. New quad options are those of
+ * the program `roundel quad` without flags: 1000 quads along the boundary and the curvature, adaptive
+ * rounding for the field and lattice decoding for the map. The guidance is checked when quads are made.
+ * If vary_curvature is 1, curvature may have less weight than the guidance gives it.
  */
 typedef struct roundel_quad_options roundel_quad_options;
 
 /**
- * A mesh of quads with shared vertices. Where a map leaves no quads to be made, other polygons are
- * kept beside them. It does not need the mesh and the map that it is from any more.
+ * A mesh of quads with shared vertices. Where a map gives no quads, other polygons are kept beside them.
+ * The mesh and the map may be freed before the quads.
  */
 typedef struct roundel_quads roundel_quads;
 
@@ -440,11 +441,11 @@ typedef struct roundel_solution roundel_solution;
 /**
  * A problem whose matrices and integers are fixed, for many solves.
  *
- * Elimination, orderings and factors are kept: the first solve costs what roundel_problem_solve costs, one
- * with other linear terms, right sides or pinned values a fraction. Pinning or releasing a variable
- * that is in no constraint keeps the elimination; one that is in a constraint calls for another. The
- * solution is that of roundel_problem_solve for the same data, except that a warm start (option
- * "warm_start") may improve it.
+ * Elimination, orderings and factors are kept. The first solve costs as much as roundel_problem_solve; a
+ * solve with other linear terms, right sides or pinned values costs a fraction of that. Pinning or
+ * releasing a variable that is in no constraint keeps the elimination; otherwise the elimination is
+ * repeated. The solution is that of roundel_problem_solve for the same data, except that a warm start
+ * (option "warm_start") may improve it.
  *
  * A solve that fails changes nothing: the data stay as they were set, and the solver can be used
  * with them or with others.
@@ -452,7 +453,7 @@ typedef struct roundel_solution roundel_solution;
 typedef struct roundel_solver roundel_solver;
 
 /**
- * What there is to know about one preset. The texts live as long as the library is loaded.
+ * The description of one preset. The texts live as long as the library is loaded.
  */
 typedef struct roundel_preset {
     /**
@@ -460,17 +461,17 @@ typedef struct roundel_preset {
      */
     const char *name;
     /**
-     * What it is for.
+     * Its purpose.
      */
     const char *text;
     /**
-     * Zero, for later use.
+     * Zero; reserved.
      */
     int64_t reserved[6];
 } roundel_preset;
 
 /**
- * What there is to know about one option. The texts live as long as the library is loaded.
+ * The description of one option. The texts live as long as the library is loaded.
  */
 typedef struct roundel_option {
     /**
@@ -482,8 +483,8 @@ typedef struct roundel_option {
      */
     const char *default_value;
     /**
-     * The values allowed: an interval, whose end does not belong to it where the bracket is round,
-     * or words or numbers with a bar between them.
+     * The values allowed: an interval, which excludes its end at a round bracket, or words or numbers
+     * separated by bars.
      */
     const char *range;
     /**
@@ -495,7 +496,7 @@ typedef struct roundel_option {
      */
     int32_t value_type;
     /**
-     * Zero, for later use.
+     * Zero; reserved.
      */
     int32_t reserved[7];
 } roundel_option;
@@ -529,7 +530,7 @@ typedef struct roundel_counts {
      */
     int64_t factor_nonzeros;
     /**
-     * Zero, for later use.
+     * Zero; reserved.
      */
     int64_t reserved[10];
 } roundel_counts;
@@ -555,17 +556,17 @@ typedef struct roundel_seconds {
      */
     double total;
     /**
-     * Zero, for later use.
+     * Zero; reserved.
      */
     double reserved[12];
 } roundel_seconds;
 
 /**
- * One message to the callback, with where the solve stands. It lives as long as the callback runs.
+ * One event for the callback, with the state of the solve. It is valid until the callback returns.
  */
 typedef struct roundel_event {
     /**
-     * Bytes of this struct in the library that is linked: later versions add members at its end.
+     * Size of this struct in the linked library, in bytes: later versions add members at its end.
      */
     size_t size;
     /**
@@ -603,18 +604,18 @@ typedef struct roundel_event {
 } roundel_event;
 
 /**
- * Hears of progress, log lines and better solutions, on the thread that called solve. 0 goes on;
- * anything else ends the solve and keeps the best solution. It must return: no exception and no
+ * Receives progress, log lines and better solutions, on the thread that called solve. It returns 0 to go
+ * on; any other value ends the solve, which keeps the best solution. It must return: no exception and no
  * longjmp may leave it.
  */
 typedef int32_t (*roundel_callback)(const struct roundel_event *event, void *user_data);
 
 /**
- * Who watches a solve.
+ * The monitor of a solve.
  */
 typedef struct roundel_monitor {
     /**
-     * sizeof(roundel_monitor), by which a later library knows the members that you know.
+     * sizeof(roundel_monitor), which tells a later library which members the caller knows.
      */
     size_t size;
     /**
@@ -622,7 +623,7 @@ typedef struct roundel_monitor {
      */
     roundel_callback callback;
     /**
-     * Handed to the callback as it is.
+     * Passed to the callback unchanged.
      */
     void *user_data;
     /**
@@ -671,13 +672,14 @@ const char *roundel_status_name(int32_t status);
 const char *roundel_solve_status_name(int32_t status);
 
 /**
- * Copies the message of the last call that failed on this thread, which names the element at
- * fault, to `buffer`: at most `capacity` bytes with the NUL that ends it, cut if need be. UTF-8.
+ * Copies the message of the last call that failed on this thread to `buffer`: at most `capacity` bytes
+ * of UTF-8 with the terminating NUL, truncated if necessary. The message names the element at fault.
  *
- * Returns the length of the whole message without its NUL, as snprintf does; 0 if no call has
- * failed. `buffer` may be NULL if `capacity` is 0. Calls that succeed leave the message alone.
+ * Returns the length of the whole message without its NUL, as snprintf does, or 0 if no call has failed.
+ * `buffer` may be NULL if `capacity` is 0. Calls that succeed leave the message unchanged.
  */
-size_t roundel_last_error_message(char *buffer, size_t capacity);
+size_t roundel_last_error_message(char *buffer,
+                                  size_t capacity);
 
 /**
  * The element at fault in the last call that failed on this thread, counted from 0: a position
@@ -692,13 +694,14 @@ int64_t roundel_last_error_index(void);
 int64_t roundel_last_error_line(void);
 
 /**
- * Copies the direction that goes with ROUNDEL_ERROR_UNBOUNDED and ROUNDEL_ERROR_NOT_CONVEX: one
- * number a variable, largest entry 1 in absolute value. `length` must be the number of variables.
+ * Copies the direction that belongs to ROUNDEL_ERROR_UNBOUNDED and ROUNDEL_ERROR_NOT_CONVEX: one number
+ * for each variable, the largest with absolute value 1. `length` must be the number of variables.
  *
- * Fails with ROUNDEL_ERROR_LENGTH_MISMATCH if the last error had no direction, or one of another
- * length. Being a failure, that takes the place of the last error.
+ * Fails with ROUNDEL_ERROR_LENGTH_MISMATCH if the last error had no direction, or one of another length.
+ * This failure then replaces the last error.
  */
-roundel_status roundel_last_error_direction(double *direction, size_t length);
+roundel_status roundel_last_error_direction(double *direction,
+                                            size_t length);
 
 /**
  * Makes a problem of `variables` unknowns with objective zero, no constraint and no integers.
@@ -714,7 +717,7 @@ roundel_status roundel_problem_new(size_t variables, struct roundel_problem **pr
 roundel_status roundel_problem_free(struct roundel_problem *problem);
 
 /**
- * Makes a copy of a problem, which then lives on its own.
+ * Makes an independent copy of a problem.
  */
 roundel_status roundel_problem_clone(const struct roundel_problem *problem,
                                      struct roundel_problem **copy);
@@ -732,8 +735,8 @@ roundel_status roundel_problem_constraint_count(const struct roundel_problem *pr
                                                 size_t *constraints);
 
 /**
- * Adds `count` entries to Q, which stands in the objective as 1/2 x'Qx, in any order, duplicates
- * summed. `triangle` is a roundel_triangle.
+ * Adds `count` entries to Q; the objective contains 1/2 x'Qx. The entries may be in any order;
+ * duplicates are summed. `triangle` is a roundel_triangle.
  *
  * Errors give the position of the entry at fault as their index.
  */
@@ -838,13 +841,13 @@ roundel_status roundel_problem_add_least_squares(struct roundel_problem *problem
                                                  size_t *row);
 
 /**
- * Adds sum_i weights[i] ((A x)_i - rhs[i])^2 to the objective, one term a row of A, which is given
- * in compressed rows: the entries of row i are those from offsets[i] to before offsets[i + 1].
- * `offset_count` is one more than `row_count`, `count` the number of entries. Entries of a row may
- * be in any order, duplicates are summed. `weights` may be NULL: all are 1 then. The number of the
- * first new row goes to `first`, which may be NULL. After an error nothing has been added.
+ * Adds sum_i weights[i] ((A x)_i - rhs[i])^2 to the objective, one term for each row of A. A is given in
+ * compressed rows: the entries of row i are those from offsets[i] to before offsets[i + 1].
+ * `offset_count` is one more than `row_count`, and `count` is the number of entries. Entries of a row
+ * may be in any order; duplicates are summed. `weights` may be NULL: then all are 1. The number of the
+ * first new row is written to `first`, which may be NULL. A failure adds nothing.
  *
- * Errors give a position in the array at fault as their index; the message names the row too.
+ * Errors give a position in the array at fault as their index; the message also names the row.
  */
 roundel_status roundel_problem_add_least_squares_csr(struct roundel_problem *problem,
                                                      size_t offset_count,
@@ -911,11 +914,10 @@ roundel_status roundel_problem_add_constraint(struct roundel_problem *problem,
                                               double rhs);
 
 /**
- * Adds the constraints C x = rhs, one a row of C, which is given in compressed rows: the
- * entries of row k are those from offsets[k] to before offsets[k + 1]. `offset_count` is one more
- * than the number of constraints, `count` the number of entries. Entries of a row may be in any
- * order, duplicates are summed. The number of the first new constraint goes to `first`, which may
- * be NULL.
+ * Adds the constraints C x = rhs, one for each row of C. C is given in compressed rows: the entries of
+ * row k are those from offsets[k] to before offsets[k + 1]. `offset_count` is one more than the number
+ * of constraints, and `count` is the number of entries. Entries of a row may be in any order; duplicates
+ * are summed. The number of the first new constraint is written to `first`, which may be NULL.
  *
  * Errors give a position in the array at fault as their index.
  */
@@ -943,11 +945,11 @@ roundel_status roundel_problem_add_constraints_csr_i64(struct roundel_problem *p
                                                        size_t *first);
 
 /**
- * Adds the constraints C x = rhs, one a row of C, which is given in compressed columns: the
- * entries of column k are those from offsets[k] to before offsets[k + 1]. `offset_count` is one more
- * than the number of variables, `count` the number of entries. Entries of a column may be in any
- * order, duplicates are summed. The number of the first new constraint goes to `first`, which may
- * be NULL.
+ * Adds the constraints C x = rhs, one for each row of C. C is given in compressed columns: the entries
+ * of column k are those from offsets[k] to before offsets[k + 1]. `offset_count` is one more than the
+ * number of variables, and `count` is the number of entries. Entries of a column may be in any order;
+ * duplicates are summed. The number of the first new constraint is written to `first`, which may be
+ * NULL.
  *
  * Errors give a position in the array at fault as their index.
  */
@@ -1003,13 +1005,13 @@ roundel_status roundel_problem_set_guess(struct roundel_problem *problem,
                                          size_t length);
 
 /**
- * Hands over short cycles that the caller knows: sums of least-squares rows, each with sign 1 or
- * -1, in which all continuous variables cancel, such as the rings around the vertices of a mesh.
- * Cycle k has the entries from offsets[k] to before offsets[k + 1]; `offset_count` is one more
- * than the number of cycles, `count` the number of entries.
+ * Passes known short cycles to the solver. A cycle is a sum of least-squares rows, each with sign 1 or
+ * -1, in which all continuous variables cancel, such as the ring around a vertex of a mesh. Cycle k has
+ * the entries from offsets[k] to before offsets[k + 1]. `offset_count` is one more than the number of
+ * cycles, and `count` is the number of entries.
  *
- * A hint never changes what is solved. One that does not hold is ignored by the solve, which says
- * so in a log event. A later hint replaces an earlier one.
+ * A hint never changes the problem. The solve ignores a wrong hint and reports it in a log event. A
+ * later hint replaces an earlier one.
  */
 roundel_status roundel_problem_hint_cycles(struct roundel_problem *problem,
                                            size_t offset_count,
@@ -1039,7 +1041,7 @@ roundel_status roundel_options_new(struct roundel_options **options);
 roundel_status roundel_options_free(struct roundel_options *options);
 
 /**
- * Sets an option to a whole number; one that takes a real number takes this too.
+ * Sets an option to a whole number. Options of type real take whole numbers too.
  */
 roundel_status roundel_options_set_int(struct roundel_options *options,
                                        const char *name,
@@ -1074,9 +1076,9 @@ roundel_status roundel_options_get_real(const struct roundel_options *options,
                                         double *value);
 
 /**
- * Reads an option whose value is a text: into `buffer`, which has `capacity` bytes, with the NUL
- * that ends it. Its length without the NUL goes to `length`, which may be NULL. With `buffer`
- * NULL and `capacity` 0, only the length is told.
+ * Reads an option whose value is a text into `buffer`, which has `capacity` bytes, with the terminating
+ * NUL. Its length without the NUL is written to `length`, which may be NULL. If `buffer` is NULL and
+ * `capacity` 0, only the length is written.
  *
  * Fails with ROUNDEL_ERROR_LENGTH_MISMATCH if the buffer is too small.
  */
@@ -1087,7 +1089,7 @@ roundel_status roundel_options_get_text(const struct roundel_options *options,
                                         size_t *length);
 
 /**
- * How many presets there are.
+ * The number of presets.
  */
 size_t roundel_preset_count(void);
 
@@ -1097,9 +1099,9 @@ size_t roundel_preset_count(void);
 roundel_status roundel_preset_info(size_t index, struct roundel_preset *preset);
 
 /**
- * Sets all options that the preset of this name is about; others, such as the time limit, stay.
+ * Sets all options of the preset of this name; others, such as the time limit, stay.
  *
- * Fails with ROUNDEL_ERROR_OPTION_RANGE where there is no such preset.
+ * Fails with ROUNDEL_ERROR_OPTION_RANGE if there is no such preset.
  */
 roundel_status roundel_options_set_preset(struct roundel_options *options, const char *name);
 
@@ -1185,16 +1187,16 @@ roundel_status roundel_solution_values(const struct roundel_solution *solution,
 roundel_status roundel_solution_energy(const struct roundel_solution *solution, double *energy);
 
 /**
- * Gives a bound that no integer solution's energy is below. `known` becomes 1, or 0 where there
- * is no bound, which is minus infinity then.
+ * Gives a lower bound on the energy of every integer solution. `known` becomes 1, or 0 if there is no
+ * bound; the bound is then minus infinity.
  */
 roundel_status roundel_solution_lower_bound(const struct roundel_solution *solution,
                                             int32_t *known,
                                             double *lower_bound);
 
 /**
- * Gives (energy - lower_bound) / max(1, |energy|). `known` becomes 1, or 0 where there is no
- * bound, and the gap infinite then.
+ * Gives (energy - lower_bound) / max(1, |energy|). `known` becomes 1, or 0 if there is no bound; the gap
+ * is then infinite.
  */
 roundel_status roundel_solution_gap(const struct roundel_solution *solution,
                                     int32_t *known,
@@ -1227,16 +1229,16 @@ roundel_status roundel_solution_violations(const struct roundel_solution *soluti
                                            double *integrality);
 
 /**
- * Solves a problem. `options` may be NULL for the default options. `monitor` hears of progress and
- * of every better solution, and may cancel; it may be NULL. On success `solution` is a new handle,
- * to be freed with roundel_solution_free.
+ * Solves a problem. `options` may be NULL for the default options. `monitor` receives progress and every
+ * better solution, and may cancel; it may be NULL. On success `solution` is a new handle, to be freed
+ * with roundel_solution_free.
  *
  * The problem is not changed. It may be solved again, as it is or after changes: a pinned variable,
  * another guess, more terms or constraints. Several threads may solve it at once.
  *
  * Apart from bad input, fails with ROUNDEL_ERROR_INFEASIBLE, ROUNDEL_ERROR_NO_INTEGER_SOLUTION,
- * ROUNDEL_ERROR_UNBOUNDED, ROUNDEL_ERROR_NOT_CONVEX, and ROUNDEL_ERROR_CANCELLED or
- * ROUNDEL_ERROR_TIME_LIMIT when ended before a first solution was found.
+ * ROUNDEL_ERROR_UNBOUNDED and ROUNDEL_ERROR_NOT_CONVEX. Fails with ROUNDEL_ERROR_CANCELLED or
+ * ROUNDEL_ERROR_TIME_LIMIT if it ends before a first solution is found.
  */
 roundel_status roundel_problem_solve(const struct roundel_problem *problem,
                                      const struct roundel_options *options,
@@ -1244,10 +1246,10 @@ roundel_status roundel_problem_solve(const struct roundel_problem *problem,
                                      struct roundel_solution **solution);
 
 /**
- * Makes a solver for a problem, of which it keeps a copy. To be freed with roundel_solver_free.
+ * Makes a solver for a copy of a problem. To be freed with roundel_solver_free.
  *
  * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for an integer variable pinned to a fraction,
- * ROUNDEL_ERROR_OVERFLOW, ROUNDEL_ERROR_OUT_OF_MEMORY. All else shows in the first solve.
+ * ROUNDEL_ERROR_OVERFLOW, ROUNDEL_ERROR_OUT_OF_MEMORY. The first solve reports all other errors.
  */
 roundel_status roundel_solver_new(const struct roundel_problem *problem,
                                   struct roundel_solver **solver);
@@ -1266,8 +1268,8 @@ roundel_status roundel_solver_set_linear(struct roundel_solver *solver,
                                          size_t length);
 
 /**
- * Replaces the right sides of the constraints, one a constraint, in the order in which they were
- * added. Whether they can hold shows in the next solve.
+ * Replaces the right sides of the constraints, one for each constraint, in the order in which they were
+ * added. The next solve checks whether they are feasible.
  */
 roundel_status roundel_solver_set_constraint_right_sides(struct roundel_solver *solver,
                                                          const double *values,
@@ -1313,13 +1315,14 @@ roundel_status roundel_solver_solve(struct roundel_solver *solver,
                                     struct roundel_solution **solution);
 
 /**
- * Makes a problem from a file in free-format MPS, gzipped or not. Variables and constraints are
- * numbered in the order of the file; their names are not kept.
+ * Makes a problem from a file in free-format MPS, gzipped or not. Variables and constraints are numbered
+ * in the order of the file; their names are not kept.
  *
- * Fails with ROUNDEL_ERROR_PARSE and ROUNDEL_ERROR_NOT_SUPPORTED with the line at fault,
+ * Fails with ROUNDEL_ERROR_PARSE or ROUNDEL_ERROR_NOT_SUPPORTED and the line at fault, and with
  * ROUNDEL_ERROR_IO.
  */
-roundel_status roundel_problem_read_mps(const char *file, struct roundel_problem **problem);
+roundel_status roundel_problem_read_mps(const char *file,
+                                        struct roundel_problem **problem);
 
 /**
  * Writes a problem as free-format MPS, gzipped if the file's name ends in ".gz". Variables are
@@ -1331,9 +1334,9 @@ roundel_status roundel_problem_read_mps(const char *file, struct roundel_problem
 roundel_status roundel_problem_write_mps(const struct roundel_problem *problem, const char *file);
 
 /**
- * Writes a problem and how to solve it, so that the solve can be repeated elsewhere: `file`, which
- * ends in ".mps" or ".mps.gz", and beside it a file that ends in ".replay.json" for options, pins
- * and guess. `options` may be NULL for the default options.
+ * Writes a problem and its options, so that the solve can be repeated elsewhere. The problem is written
+ * to `file`, which ends in ".mps" or ".mps.gz". The options, pins and guess are written to a file beside
+ * it that ends in ".replay.json". `options` may be NULL for the default options.
  */
 roundel_status roundel_problem_save_replay(const struct roundel_problem *problem,
                                            const struct roundel_options *options,
@@ -1351,7 +1354,8 @@ roundel_status roundel_problem_load_replay(const char *file,
  * `face_count` triangles, whose `corners` are three vertices each, counter-clockwise seen from
  * outside.
  *
- * What is not an oriented manifold fails, the whole mesh being looked at for each reason in turn:
+ * Fails for a mesh that is not an oriented manifold. The reasons are checked one after the other, each
+ * on the whole mesh:
  * ROUNDEL_ERROR_INDEX_OUT_OF_RANGE with the position in `corners`, ROUNDEL_ERROR_EMPTY,
  * ROUNDEL_ERROR_NOT_FINITE with the vertex, ROUNDEL_ERROR_REPEATED_VERTEX,
  * ROUNDEL_ERROR_ZERO_AREA, ROUNDEL_ERROR_NON_MANIFOLD_EDGE,
@@ -1382,8 +1386,8 @@ roundel_status roundel_mesh_new_i64(size_t vertex_count,
 roundel_status roundel_mesh_make_shape(const char *name, size_t faces, struct roundel_mesh **mesh);
 
 /**
- * Makes a copy whose vertices are moved by a reproducible noise, uniform in +-`amplitude` times
- * the shortest edge of each vertex, so that nothing in a symmetric mesh is equal any more.
+ * Makes a copy whose vertices are moved by a reproducible noise, uniform in +-`amplitude` times the
+ * shortest edge of each vertex. This breaks all symmetries of a mesh.
  */
 roundel_status roundel_mesh_jitter(const struct roundel_mesh *mesh,
                                    double amplitude,
@@ -1452,13 +1456,14 @@ roundel_status roundel_mesh_face_edges(const struct roundel_mesh *mesh,
                                        size_t length);
 
 /**
- * Makes a mesh from a file in OBJ, OFF or PLY, told apart by extension. Only triangles are read.
+ * Makes a mesh from a file in OBJ, OFF or PLY, according to its extension. Only triangles are read.
  *
- * Apart from what roundel_mesh_new refuses, fails with ROUNDEL_ERROR_IO, ROUNDEL_ERROR_PARSE with
- * the line at fault, ROUNDEL_ERROR_NOT_A_TRIANGLE and ROUNDEL_ERROR_INDEX_OUT_OF_RANGE with the
- * face, ROUNDEL_ERROR_NOT_SUPPORTED for another extension.
+ * Fails as roundel_mesh_new does, and with ROUNDEL_ERROR_IO, ROUNDEL_ERROR_PARSE with the line at fault,
+ * ROUNDEL_ERROR_NOT_A_TRIANGLE and ROUNDEL_ERROR_INDEX_OUT_OF_RANGE with the face,
+ * ROUNDEL_ERROR_NOT_SUPPORTED for another extension.
  */
-roundel_status roundel_mesh_read(const char *file, struct roundel_mesh **mesh);
+roundel_status roundel_mesh_read(const char *file,
+                                 struct roundel_mesh **mesh);
 
 /**
  * Writes a mesh as OBJ, OFF or binary PLY, told apart by extension. Reading gives back the same
@@ -1472,8 +1477,8 @@ roundel_status roundel_mesh_write(const struct roundel_mesh *mesh, const char *f
 roundel_status roundel_guidance_new(struct roundel_guidance **guidance);
 
 /**
- * Makes the guidance that quads have where none is given: crosses that follow the boundary and the
- * curvature. To be freed with roundel_guidance_free.
+ * Makes the default guidance of quads: crosses that follow the boundary and the curvature. To be freed
+ * with roundel_guidance_free.
  */
 roundel_status roundel_guidance_new_for_quads(struct roundel_guidance **guidance);
 
@@ -1483,7 +1488,8 @@ roundel_status roundel_guidance_new_for_quads(struct roundel_guidance **guidance
 roundel_status roundel_guidance_free(struct roundel_guidance *guidance);
 
 /**
- * Sets an option of a guidance, which roundel_guidance_option_info lists, to a whole number; one that takes a real number takes this too.
+ * Sets an option of a guidance, which roundel_guidance_option_info lists, to a whole number. Options of
+ * type real take whole numbers too.
  */
 roundel_status roundel_guidance_set_int(struct roundel_guidance *guidance,
                                         const char *name,
@@ -1497,15 +1503,16 @@ roundel_status roundel_guidance_set_real(struct roundel_guidance *guidance,
                                          double value);
 
 /**
- * Sets an option of a guidance, which roundel_guidance_option_info lists, to a text: one of its words, or "unset" where it may be without a value.
+ * Sets an option of a guidance, which roundel_guidance_option_info lists, to a text: one of its words,
+ * or "unset" if the option may have no value.
  */
 roundel_status roundel_guidance_set_text(struct roundel_guidance *guidance,
                                          const char *name,
                                          const char *value);
 
 /**
- * Sets the directions that `count` faces have: `angles` of one arm, in radians, counter-clockwise
- * about the normal from the face's first edge. Each face at most once.
+ * Fixes the directions of `count` faces. `angles` are those of one arm, in radians, counter-clockwise
+ * about the normal from the face's first edge. Each face may be named at most once.
  */
 roundel_status roundel_guidance_set_constraints(struct roundel_guidance *guidance,
                                                 size_t count,
@@ -1513,9 +1520,9 @@ roundel_status roundel_guidance_set_constraints(struct roundel_guidance *guidanc
                                                 const double *angles);
 
 /**
- * Sets the directions that `count` faces should have, each at most once: a deviation costs its
- * square times the weight, where one between neighbours costs its square. A face with a direction
- * that it must have keeps that.
+ * Sets the preferred directions of `count` faces, each named at most once. A deviation costs its square
+ * times the weight; a deviation between neighbouring faces costs its square. A face with a fixed
+ * direction keeps it.
  */
 roundel_status roundel_guidance_set_guides(struct roundel_guidance *guidance,
                                            size_t count,
@@ -1524,10 +1531,9 @@ roundel_status roundel_guidance_set_guides(struct roundel_guidance *guidance,
                                            const double *weights);
 
 /**
- * Prescribes all irregular vertices: `count` vertices of the interior, each once, and their
- * indices in `steps` of 1/N; all others become regular. On closed meshes the indices must sum to
- * the Euler characteristic, which shows when the field is made. roundel_guidance_clear_indices undoes
- * this.
+ * Prescribes all irregular vertices: `count` vertices of the interior, each once, and their indices in
+ * `steps` of 1/N; all others become regular. On closed meshes the indices must sum to the Euler
+ * characteristic, which is checked when the field is made. roundel_guidance_clear_indices undoes this.
  */
 roundel_status roundel_guidance_set_indices(struct roundel_guidance *guidance,
                                             size_t count,
@@ -1535,20 +1541,20 @@ roundel_status roundel_guidance_set_indices(struct roundel_guidance *guidance,
                                             const int32_t *steps);
 
 /**
- * Leaves indices to the energy again.
+ * Drops prescribed indices, so that the energy decides them.
  */
 roundel_status roundel_guidance_clear_indices(struct roundel_guidance *guidance);
 
 /**
- * Makes `count` edges features, by number; they take the place of those that were set before.
+ * Makes `count` edges features, by number. They replace the features that were set before.
  */
 roundel_status roundel_guidance_set_feature_edges(struct roundel_guidance *guidance,
                                                   size_t count,
                                                   const int32_t *edges);
 
 /**
- * Makes the edges between `count` pairs of vertices features; they take the place of those that
- * were set before. `vertices` has twice as many entries.
+ * Makes the edges between `count` pairs of vertices features. They replace the features that were set
+ * before. `vertices` has twice as many entries.
  */
 roundel_status roundel_guidance_set_feature_lines(struct roundel_guidance *guidance,
                                                   size_t count,
@@ -1559,8 +1565,8 @@ roundel_status roundel_guidance_set_feature_lines(struct roundel_guidance *guida
  * direction that the face has, the same with a weight for one that it should have, "edge VERTEX
  * VERTEX" for a feature, "index VERTEX STEPS" for an irregular vertex. A comment begins with #.
  *
- * Fails with ROUNDEL_ERROR_IO, and with ROUNDEL_ERROR_PARSE and the line for what is none of these
- * or not on the mesh. After a failure the guidance is what it was.
+ * Fails with ROUNDEL_ERROR_IO, and with ROUNDEL_ERROR_PARSE and the line for a line that is none of
+ * these or names an element that the mesh does not have. A failure leaves the guidance unchanged.
  */
 roundel_status roundel_guidance_read(struct roundel_guidance *guidance,
                                      const struct roundel_mesh *mesh,
@@ -1569,16 +1575,16 @@ roundel_status roundel_guidance_read(struct roundel_guidance *guidance,
 /**
  * Adds the line elements of an OBJ file, which has the vertices of the mesh, to the feature edges.
  *
- * Fails with ROUNDEL_ERROR_IO, and with ROUNDEL_ERROR_PARSE and the line for what is no line
- * between vertices that an edge joins; nothing is added then.
+ * Fails with ROUNDEL_ERROR_IO, and with ROUNDEL_ERROR_PARSE and the line for a line between vertices
+ * that no edge joins. A failure leaves the guidance unchanged.
  */
 roundel_status roundel_guidance_read_features(struct roundel_guidance *guidance,
                                               const struct roundel_mesh *mesh,
                                               const char *file);
 
 /**
- * Marks the edges of a mesh that a guidance makes features: 1 for each, 0 for all others.
- * `length` is the number of edges. `guidance` may be NULL.
+ * Marks the feature edges of a guidance on a mesh: 1 for each, 0 for all others. `length` is the number
+ * of edges. `guidance` may be NULL.
  */
 roundel_status roundel_mesh_mark_features(const struct roundel_mesh *mesh,
                                           const struct roundel_guidance *guidance,
@@ -1586,12 +1592,13 @@ roundel_status roundel_mesh_mark_features(const struct roundel_mesh *mesh,
                                           size_t length);
 
 /**
- * Gives the directions of least absolute curvature of the faces where they are most reliable:
- * `fraction` of all faces, rounded to the nearest count, in increasing order. `faces` and `angles` have room for `capacity` entries, and as many as the mesh
- * has faces are always enough; `count` tells how many were written.
+ * Gives the directions of least absolute curvature of the faces where they are most reliable: `fraction`
+ * of all faces, rounded to the nearest count, in increasing order. `faces` and `angles` have room for
+ * `capacity` entries; the number of faces of the mesh always suffices. The number of entries written
+ * goes to `count`.
  *
- * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for a fraction outside of 0 to 1,
- * ROUNDEL_ERROR_LENGTH_MISMATCH where the room is too small.
+ * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for a fraction outside of 0 to 1, and with
+ * ROUNDEL_ERROR_LENGTH_MISMATCH if the room is too small.
  */
 roundel_status roundel_mesh_curvature_constraints(const struct roundel_mesh *mesh,
                                                   double fraction,
@@ -1606,9 +1613,9 @@ roundel_status roundel_mesh_curvature_constraints(const struct roundel_mesh *mes
 roundel_status roundel_field_free(struct roundel_field *field);
 
 /**
- * Copies the angle of one arm of every face: radians, counter-clockwise about the normal
- * from the face's first edge. Not reduced to the angle between arms: the period jumps belong to
- * these very angles. `length` is the number of faces.
+ * Copies the angle of one arm of every face, in radians, counter-clockwise about the normal from the
+ * face's first edge. The angle is not reduced modulo the angle between arms, because the period jumps
+ * belong to these values. `length` is the number of faces.
  */
 roundel_status roundel_field_angles(const struct roundel_field *field,
                                     double *angles,
@@ -1638,8 +1645,8 @@ roundel_status roundel_field_vertex_indices(const struct roundel_field *field,
                                             size_t length);
 
 /**
- * roundel_field_vertex_indices found another way: by following an arm of the cross in space around
- * each vertex.
+ * Copies the same indices as roundel_field_vertex_indices, computed in another way: by following an arm
+ * of the cross in space around each vertex.
  */
 roundel_status roundel_field_traced_indices(const struct roundel_field *field,
                                             double *indices,
@@ -1680,12 +1687,12 @@ roundel_status roundel_field_symmetry(const struct roundel_field *field, int32_t
  * Finds the smoothest field of a mesh that follows a guidance. `guidance`, `options` and `monitor`
  * may be NULL.
  *
- * With the position in the list at fault, fails with ROUNDEL_ERROR_INDEX_OUT_OF_RANGE for an
- * element that the mesh does not have, ROUNDEL_ERROR_NOT_FINITE, and
- * ROUNDEL_ERROR_INVALID_ARGUMENT for one that is named twice, two vertices that no edge joins, a
- * negative weight or an index at the boundary. ROUNDEL_ERROR_INVALID_ARGUMENT also for indices that
- * do not sum to the Euler characteristic, and with the face for one whose three edges are features.
- * Else as roundel_problem_solve does.
+ * Fails with ROUNDEL_ERROR_INDEX_OUT_OF_RANGE for an element that the mesh does not have,
+ * ROUNDEL_ERROR_NOT_FINITE, and ROUNDEL_ERROR_INVALID_ARGUMENT for an element that is named twice, two
+ * vertices that no edge joins, a negative weight or an index at the boundary. The error's index is then
+ * the position in the list. Also fails with ROUNDEL_ERROR_INVALID_ARGUMENT for indices that do not sum
+ * to the Euler characteristic, and, with the face, for a face whose three edges are features. Other
+ * failures are those of roundel_problem_solve.
  */
 roundel_status roundel_field_solve(const struct roundel_mesh *mesh,
                                    const struct roundel_guidance *guidance,
@@ -1697,10 +1704,10 @@ roundel_status roundel_field_solve(const struct roundel_mesh *mesh,
  * Makes the mixed-integer problem of the field that roundel_field_solve finds. `guidance` may be
  * NULL.
  *
- * Variable f is the angle of face f. Period jumps follow in the order of the edges, without those
- * of the boundary, between two constrained faces, and of a spanning forest, where they are zero:
- * breadth-first from the constrained faces (else the lowest face of a component) in increasing
- * number, neighbours in increasing number.
+ * Variable f is the angle of face f. The period jumps follow in the order of the edges. Edges of the
+ * boundary, edges between two constrained faces and edges of a spanning forest have no variable: their
+ * period jump is zero. The forest grows breadth-first from the constrained faces (in a component without
+ * any, from its lowest face) in increasing number, and to neighbours in increasing number.
  */
 roundel_status roundel_field_make_problem(const struct roundel_mesh *mesh,
                                           const struct roundel_guidance *guidance,
@@ -1719,8 +1726,8 @@ roundel_status roundel_field_from_solution(const struct roundel_mesh *mesh,
                                            struct roundel_field **field);
 
 /**
- * Makes a map, not yet solved for, of a mesh and a field on it, with 1000 quads aimed at. Features
- * are those of `guidance`, or of that of the field where it is NULL. To be freed with
+ * Makes a map of a mesh and a field on it, not yet solved for, with the size of 1000 quads. The features
+ * are those of `guidance`, or, if it is NULL, those that the field follows. To be freed with
  * roundel_map_free.
  *
  * Fails with ROUNDEL_ERROR_LENGTH_MISMATCH for the field of another mesh,
@@ -1738,52 +1745,52 @@ roundel_status roundel_map_new(const struct roundel_mesh *mesh,
 roundel_status roundel_map_free(struct roundel_map *map);
 
 /**
- * Aims at a number of quads.
+ * Sets the size by the number of quads.
  *
- * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for none.
+ * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for zero.
  */
 roundel_status roundel_map_set_quads(struct roundel_map *map, size_t quads);
 
 /**
- * Aims at quads with edges of one length, in units of the mesh.
+ * Sets the size by one edge length of quads, in units of the mesh.
  *
- * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for one that is not above zero,
+ * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for a length that is not above zero, and with
  * ROUNDEL_ERROR_NOT_FINITE.
  */
 roundel_status roundel_map_set_edge_length(struct roundel_map *map, double edge_length);
 
 /**
- * Aims at quads with edges of two lengths a face: along the arm that the field stores there (its
- * angle), and across it. `length` is twice the number of faces.
+ * Sets the size by two edge lengths of quads for each face: along the arm that the field stores there
+ * (its angle), and across it. `length` is twice the number of faces.
  *
- * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT and the face for one that is not above zero,
- * ROUNDEL_ERROR_NOT_FINITE, ROUNDEL_ERROR_LENGTH_MISMATCH.
+ * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT and the face for a length that is not above zero, and with
+ * ROUNDEL_ERROR_NOT_FINITE and ROUNDEL_ERROR_LENGTH_MISMATCH.
  */
 roundel_status roundel_map_set_edge_lengths(struct roundel_map *map,
                                             const double *edge_lengths,
                                             size_t length);
 
 /**
- * Solves for the map under the eyes of `monitor`, which may cancel. `options` and `monitor` may be
- * NULL. A later call after another size was set skips elimination, orderings and factorizations.
+ * Solves for the map. `monitor` receives progress and may cancel. `options` and `monitor` may be NULL. A
+ * later call at another size skips elimination, orderings and factorizations.
  *
- * Fails as roundel_problem_solve does, and leaves what an earlier solve found. The callback must not use
- * the map.
+ * Fails as roundel_problem_solve does, and keeps the results of an earlier solve. The callback must not
+ * use the map.
  */
 roundel_status roundel_map_solve(struct roundel_map *map,
                                  const struct roundel_options *options,
                                  const struct roundel_monitor *monitor);
 
 /**
- * Makes a copy of the mixed-integer problem of a map at its present size, to be kept or solved in
- * another way. Variables 2 c and 2 c + 1 are u and v of vertex c of the cut surface; the
- * translations of the seams follow.
+ * Makes a copy of the mixed-integer problem of a map at its current size, to be saved or solved in
+ * another way. Variables 2 c and 2 c + 1 are u and v of vertex c of the cut surface. The translations of
+ * the seams follow.
  */
 roundel_status roundel_map_make_problem(const struct roundel_map *map,
                                         struct roundel_problem **problem);
 
 /**
- * Takes any solution of roundel_map_make_problem's problem in place of a solve.
+ * Takes a solution of roundel_map_make_problem's problem as the result of a solve.
  *
  * Fails with ROUNDEL_ERROR_LENGTH_MISMATCH for the solution of another problem.
  */
@@ -1791,49 +1798,50 @@ roundel_status roundel_map_set_solution(struct roundel_map *map,
                                         const struct roundel_solution *solution);
 
 /**
- * Solves for a map without folds, as the program `roundel parametrize` does: integers that collapse
- * cones are decided anew, faces that are turned over are untangled, vertices that the map goes around
- * once too often are laid anew, and where folds are left all that is done for a finer map.
- * Of all maps that with the fewest folds is kept. `options` are those of every solve, `monitor`
- * watches each; both may be NULL. Every solve starts from nothing. A relaxation is not untangled.
+ * Solves for a map without folds, as the program `roundel parametrize` does. Integers that collapse
+ * cones are decided anew, flipped faces are untangled, and disks around winding defects are laid out
+ * anew. If folds remain, the same is done for a finer map. The map with the fewest folds is kept.
+ * `options` apply to every solve, and `monitor` watches each; both may be NULL. No solve reuses data of
+ * an earlier one. A relaxation is not untangled.
  *
- * roundel_map_flipped_face_count and roundel_map_winding_defect_count tell what is left, roundel_map_round_count and
- * roundel_map_refinement_count what it took. A map that was made finer keeps the size asked for
- * in mind, for the next solve.
+ * roundel_map_flipped_face_count and roundel_map_winding_defect_count give the remaining faults.
+ * roundel_map_round_count and roundel_map_refinement_count give the work that was done. The next solve
+ * uses the size that was asked for, even if this map was made finer.
  *
- * Fails as roundel_problem_solve does for the first solve, with ROUNDEL_ERROR_CANCELLED also later, and
- * leaves what an earlier solve found. The callback must not use the map.
+ * Fails as roundel_problem_solve does for the first solve, and with ROUNDEL_ERROR_CANCELLED also later.
+ * A failure keeps the results of an earlier solve. The callback must not use the map.
  */
 roundel_status roundel_map_solve_fold_free(struct roundel_map *map,
                                            const struct roundel_options *options,
                                            const struct roundel_monitor *monitor);
 
 /**
- * Sets how often the surroundings of faces that are turned over are made stiffer before these are
- * untangled, the classical remedy, with the integers kept: at most 5 times unless told otherwise.
+ * Sets how often the surroundings of flipped faces are stiffened before the faces are untangled, with
+ * the integers kept: at most 5 times by default.
  */
-roundel_status roundel_map_set_stiffening_count(struct roundel_map *map, size_t count);
+roundel_status roundel_map_set_stiffening_count(struct roundel_map *map,
+                                                size_t count);
 
 /**
- * Moves the vertices that integers do not hold until as few faces as can be are turned over or
- * collapsed, under the eyes of `monitor`, which may be NULL. Seams, cones and isolines stay what
- * they are. roundel_map_flipped_face_count tells what is left; the solution stays that of the solve. After
- * roundel_map_solve_fold_free there is nothing left to do.
+ * Moves the vertices that integers do not fix until as few faces as possible are flipped or collapsed.
+ * `monitor` may be NULL. Seams, cones and isolines stay what they are. roundel_map_flipped_face_count
+ * gives the remaining faces; the solution stays that of the solve. A map of roundel_map_solve_fold_free
+ * is already untangled.
  *
- * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT where nothing has been solved for, and after a
- * relaxation, which has no integers to hold; ROUNDEL_ERROR_CANCELLED, which leaves the map as it
- * was.
+ * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT before a solve, and after a relaxation, which has no
+ * integers to keep. Fails with ROUNDEL_ERROR_CANCELLED, which leaves the map unchanged.
  */
 roundel_status roundel_map_untangle(struct roundel_map *map,
                                     const struct roundel_monitor *monitor);
 
 /**
- * Gives the number of inner vertices around which the map turns another number of times than the
- * field, faces that are turned over left aside: a ring of faces may go around its vertex twice
- * without a fold. Recomputed from the mesh. With none of these and no flipped faces, a map is
- * one to one around every inner point.
+ * Gives the number of inner vertices around which the map turns another number of times than the field
+ * does. A ring of faces may go around its vertex twice without a flipped face; vertices of flipped faces
+ * are not counted. The number is recomputed from the mesh. A map without winding defects and flipped
+ * faces is one to one around every inner point.
  */
-roundel_status roundel_map_winding_defect_count(const struct roundel_map *map, size_t *count);
+roundel_status roundel_map_winding_defect_count(const struct roundel_map *map,
+                                                size_t *count);
 
 /**
  * Copies the vertices of roundel_map_winding_defect_count, in increasing order. `length` is their number.
@@ -1850,11 +1858,12 @@ roundel_status roundel_map_round_count(const struct roundel_map *map,
                                        size_t *count);
 
 /**
- * Gives how often roundel_map_solve_fold_free made the map finer than asked for, each time by the
- * square root of two in length; 0 after any other solve. Smaller quads around what folds were left
- * after that are not counted.
+ * Gives how often roundel_map_solve_fold_free made the map finer than asked for, each time by the square
+ * root of two in length; 0 after any other solve. Later refinements around the remaining folds alone are
+ * not counted.
  */
-roundel_status roundel_map_refinement_count(const struct roundel_map *map, size_t *count);
+roundel_status roundel_map_refinement_count(const struct roundel_map *map,
+                                            size_t *count);
 
 /**
  * Copies u, v of the three corners of every face. `length` is six times the number of faces.
@@ -1862,10 +1871,11 @@ roundel_status roundel_map_refinement_count(const struct roundel_map *map, size_
 roundel_status roundel_map_corner_uvs(const struct roundel_map *map, double *uvs, size_t length);
 
 /**
- * Gives the number of vertices of the cut surface: a vertex has one for each sector between cut
- * edges.
+ * Gives the number of vertices of the cut surface. A vertex of the mesh has one copy for each sector
+ * between cut edges.
  */
-roundel_status roundel_map_vertex_count(const struct roundel_map *map, size_t *count);
+roundel_status roundel_map_vertex_count(const struct roundel_map *map,
+                                        size_t *count);
 
 /**
  * Copies u, v of every vertex of the cut surface. `length` is twice their number.
@@ -1907,7 +1917,7 @@ roundel_status roundel_map_cone_count(const struct roundel_map *map, size_t *cou
 roundel_status roundel_map_cones(const struct roundel_map *map, int32_t *vertices, size_t length);
 
 /**
- * Gives the number of faces that the map turns over or collapses.
+ * Gives the number of faces that the map flips or collapses.
  */
 roundel_status roundel_map_flipped_face_count(const struct roundel_map *map, size_t *count);
 
@@ -1920,11 +1930,12 @@ roundel_status roundel_map_flipped_faces(const struct roundel_map *map,
                                          size_t length);
 
 /**
- * Gives how far the gradients of u and v are from the arms of the field, as long as they should
- * be: the sum over triangles of area times the squares of both differences, recomputed from the
+ * Gives the energy of the map: the sum over triangles of area times the squared differences between the
+ * gradients of u and v and the arms of the field, scaled to the size asked for. Recomputed from the
  * mesh.
  */
-roundel_status roundel_map_energy(const struct roundel_map *map, double *energy);
+roundel_status roundel_map_energy(const struct roundel_map *map,
+                                  double *energy);
 
 /**
  * Makes a copy of the solution behind a map, which tells how the solve ended, its lower bound and
@@ -1949,7 +1960,8 @@ roundel_status roundel_quad_options_new(struct roundel_quad_options **options);
 roundel_status roundel_quad_options_free(struct roundel_quad_options *options);
 
 /**
- * Sets a quad option, which roundel_quad_option_info lists, to a whole number; one that takes a real number takes this too.
+ * Sets a quad option, which roundel_quad_option_info lists, to a whole number. Options of type real take
+ * whole numbers too.
  */
 roundel_status roundel_quad_options_set_int(struct roundel_quad_options *options,
                                             const char *name,
@@ -1963,35 +1975,36 @@ roundel_status roundel_quad_options_set_real(struct roundel_quad_options *option
                                              double value);
 
 /**
- * Sets a quad option, which roundel_quad_option_info lists, to a text: one of its words, or "unset" where it may be without a value.
+ * Sets a quad option, which roundel_quad_option_info lists, to a text: one of its words, or "unset" if
+ * the option may have no value.
  */
 roundel_status roundel_quad_options_set_text(struct roundel_quad_options *options,
                                              const char *name,
                                              const char *value);
 
 /**
- * Sets two lengths of edges a face, instead of a number of quads: along the arm that the field stores there, and
- * across it. `length` is twice the number of faces.
+ * Sets two edge lengths for each face, instead of a number of quads: along the arm that the field stores
+ * there, and across it. `length` is twice the number of faces.
  */
 roundel_status roundel_quad_options_set_edge_lengths(struct roundel_quad_options *options,
                                                      const double *edge_lengths,
                                                      size_t length);
 
 /**
- * Sets what quads follow, by a copy of `guidance`; NULL stands for the boundary and the curvature,
- * which is what roundel_guidance_new_for_quads makes.
+ * Sets the guidance of the quads to a copy of `guidance`. NULL stands for the boundary and the
+ * curvature, as roundel_guidance_new_for_quads makes it.
  */
 roundel_status roundel_quad_options_set_guidance(struct roundel_quad_options *options,
                                                  const struct roundel_guidance *guidance);
 
 /**
- * Sets how the field is solved for, by a copy of `solve`; NULL stands for adaptive rounding.
+ * Sets the options of the field's solve to a copy of `solve`; NULL stands for adaptive rounding.
  */
 roundel_status roundel_quad_options_set_field_options(struct roundel_quad_options *options,
                                                       const struct roundel_options *solve);
 
 /**
- * Sets how the map is solved for, by a copy of `solve`; NULL stands for lattice decoding.
+ * Sets the options of the map's solve to a copy of `solve`; NULL stands for lattice decoding.
  */
 roundel_status roundel_quad_options_set_map_options(struct roundel_quad_options *options,
                                                     const struct roundel_options *solve);
@@ -2002,7 +2015,7 @@ roundel_status roundel_quad_options_set_map_options(struct roundel_quad_options 
  * chains of the quads' edges. roundel_quads_is_conforming tells whether all faces are quads.
  *
  * Fails as roundel_field_solve and roundel_map_solve do, and with ROUNDEL_ERROR_INVALID_ARGUMENT,
- * ROUNDEL_ERROR_NOT_FINITE or ROUNDEL_ERROR_LENGTH_MISMATCH for a size that is none.
+ * ROUNDEL_ERROR_NOT_FINITE or ROUNDEL_ERROR_LENGTH_MISMATCH for an invalid size.
  */
 roundel_status roundel_quads_make(const struct roundel_mesh *mesh,
                                   const struct roundel_quad_options *options,
@@ -2010,7 +2023,7 @@ roundel_status roundel_quads_make(const struct roundel_mesh *mesh,
                                   struct roundel_quads **quads);
 
 /**
- * Extracts the quads of the last solve of a map. Faces that the map turns over are coped with.
+ * Extracts the quads of the last solve of a map, which may have flipped faces.
  *
  * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for a map that has not been solved for, or whose
  * integers were not decided.
@@ -2018,12 +2031,12 @@ roundel_status roundel_quads_make(const struct roundel_mesh *mesh,
 roundel_status roundel_quads_extract(const struct roundel_map *map, struct roundel_quads **quads);
 
 /**
- * Extracts the quads of an integer-grid map from anywhere: u, v of the three corners of every face.
- * Over seams coordinates turn by quarters and shift by integers, and irregular vertices lie on
- * integers. `length` is six times the number of faces.
+ * Extracts the quads of any integer-grid map, given by u, v of the three corners of every face. Across
+ * seams coordinates turn by quarter turns and shift by integers, and irregular vertices lie on integers.
+ * `length` is six times the number of faces.
  *
- * Fails with ROUNDEL_ERROR_NOT_FINITE and ROUNDEL_ERROR_OVERFLOW with the face,
- * ROUNDEL_ERROR_INVALID_ARGUMENT with the edge that is no such seam or the vertex around which
+ * Fails with ROUNDEL_ERROR_NOT_FINITE and ROUNDEL_ERROR_OVERFLOW with the face, and with
+ * ROUNDEL_ERROR_INVALID_ARGUMENT with the edge that is no such seam, or with the vertex around which
  * coordinates close at no integer point.
  */
 roundel_status roundel_quads_extract_from_uvs(const struct roundel_mesh *mesh,
@@ -2032,9 +2045,9 @@ roundel_status roundel_quads_extract_from_uvs(const struct roundel_mesh *mesh,
                                               struct roundel_quads **quads);
 
 /**
- * Moves the vertices of quads over the mesh that they were extracted from, towards squares of one
- * size. They stay on the features of `guidance` and on the boundary; NULL stands for no features.
- * After a failure the quads are what they were.
+ * Moves the vertices of quads over the mesh that they were extracted from, so that the quads become
+ * squares of one size. Vertices stay on the features of `guidance` and on the boundary; NULL stands for
+ * no features. A failure leaves the quads unchanged.
  */
 roundel_status roundel_quads_smooth(struct roundel_quads *quads,
                                     const struct roundel_mesh *mesh,
@@ -2072,8 +2085,8 @@ roundel_status roundel_quads_corners(const struct roundel_quads *quads,
                                      size_t length);
 
 /**
- * Gives the number of faces that are no quads, and of all their corners together. Either place may
- * not be NULL.
+ * Gives the number of faces that are not quads, and the number of all their corners. Neither place may
+ * be NULL.
  */
 roundel_status roundel_quads_other_face_counts(const struct roundel_quads *quads,
                                                size_t *count,
@@ -2101,18 +2114,18 @@ roundel_status roundel_quads_euler_characteristic(const struct roundel_quads *qu
                                                   int64_t *euler);
 
 /**
- * Gives 1 if there is nothing but quads, each edge has two faces, or one at the boundary, and the
- * Euler characteristic is that of the triangle mesh; 0 otherwise: roundel_quads_faults names the
- * elements at fault.
+ * Gives 1 if all faces are quads, each edge has two faces, or one at the boundary, and the Euler
+ * characteristic is that of the triangle mesh; 0 otherwise. roundel_quads_faults then names the elements
+ * at fault.
  */
 roundel_status roundel_quads_is_conforming(const struct roundel_quads *quads,
                                            int32_t *is_conforming);
 
 /**
- * Gives the numbers of elements that keep quads from conforming: faces that are no quads or have a
- * vertex twice, edges with more than two faces or two that run the same way, and vertices whose
- * faces are more than one fan; and of triangles that the map folds, which is where faults come
- * from. No place may be NULL.
+ * Gives the numbers of elements that keep quads from conforming: faces that are not quads or have a
+ * vertex twice, edges with more than two faces or two that run the same way, and vertices whose faces
+ * form more than one fan. Also gives the number of triangles that the map folds, which cause these
+ * faults. No place may be NULL.
  */
 roundel_status roundel_quads_fault_counts(const struct roundel_quads *quads,
                                           size_t *face_count,
