@@ -1,9 +1,9 @@
 //! Fixes unknowns one by one. The other unknowns follow exactly, and nothing is factored again.
 //!
 //! In `A = L D L'`, fixing unknown k clears column k of L and restores the Schur complement from before the
-//! elimination of k. That is a rank-one *update* of the columns on the path from k to the root, `L33 D33 L33'
-//! + d_k l_k l_k'` (`davis2005`, section 3). Row k of L stays unchanged: it says how the unknowns before k
-//! follow k.
+//! elimination of k. That is a rank-one *update* of the columns on the path from k to the root,
+//! `L33 D33 L33' + d_k l_k l_k'` (`davis2005`, section 3). Row k of L stays unchanged: it says how the
+//! unknowns before k follow k.
 //!
 //! The update (`gill1974`, method C1) also yields the new solution at no extra cost. When k moves by delta,
 //! the change dx of the later unknowns satisfies `L33' dx = -delta * beta`, where `beta_j` are the

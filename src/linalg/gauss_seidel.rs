@@ -5,7 +5,7 @@
 //! of 20,000 faces:
 //!
 //! - *Local* integers couple to a few unknowns, none of them integer. They are not relaxed; they follow
-//! exactly, see [`super::static_condensation`].
+//!   exactly, see [`super::static_condensation`].
 //! - The updates are over-relaxed (`young1954`) by [`OVERRELAXATION`].
 
 use std::collections::VecDeque;
