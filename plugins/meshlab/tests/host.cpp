@@ -119,9 +119,9 @@ void errors_are_messages(const Host& host) {
         CHECK(torus.document.size() == 1);
         return host.filter->errorMsg();
     };
-    CHECK(refused("Quads", IntValue(0)).contains("no quads"));
-    CHECK(refused("Quads", IntValue(-5)).contains("no quads"));
-    CHECK(refused("FeatureAngle", FloatValue(-1.0F)).contains("angle of features"));
+    CHECK(refused("Quads", IntValue(0)).contains("quads"));
+    CHECK(refused("Quads", IntValue(-5)).contains("quads"));
+    CHECK(refused("FeatureAngle", FloatValue(-1.0F)).contains("feature"));
     CHECK(refused("Strategy", EnumValue(99)) == "Strategy: choice 99 of 0 to 6");
     CHECK(refused("SolverOptions", StringValue("speed=3")) == "no option is called speed");
     CHECK(refused("SolverOptions", StringValue("speed")) == "expected NAME=VALUE, found speed");
