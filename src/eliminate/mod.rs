@@ -16,13 +16,17 @@
 //! | back substitution, T | `stack`, `back` |
 //! | right sides and pinned values, t | `steps`, `right_sides` |
 //! | the objective in y | `project` |
+//! | the reduced model around a point, in twice the working precision | `centre`, `rounding` |
+//! | its independent parts | `components` |
 //! | unknowns pinned afterwards | `hold` |
 //!
 //! Only `t` and the linear part of the objective depend on the right sides. An [`Elimination`] keeps
 //! everything else, so that new right sides need no new elimination.
 
 mod back;
+mod centre;
 mod cluster;
+mod components;
 mod continuous;
 mod errors;
 mod expansion;
@@ -34,6 +38,7 @@ mod ratio;
 mod record;
 mod reduced;
 mod right_sides;
+mod rounding;
 mod row;
 mod run;
 mod stack;
@@ -45,6 +50,9 @@ mod tableau;
 mod tolerance;
 mod unknowns;
 
+pub use centre::Centre;
+pub use components::{Component, components};
 pub use expansion::Expansion;
 pub use reduced::ReducedModel;
+pub use rounding::Rounding;
 pub use run::{Elimination, eliminate};

@@ -14,40 +14,41 @@ use crate::monitor::Monitor;
 use crate::problem::Model;
 
 /// The lower triangle of `T'QT` by rows, with every diagonal entry stored (`gustavson1978`). It first
-/// computes `W = QT`. Row `a` of the result is the combination of the rows of `W` with the entries of column
+/// computes `W = QT`, in twice the working precision, since an integer of a map may couple a thousand
+/// unknowns whose terms nearly cancel. Row `a` of the result is the combination of the rows of `W` with the entries of column
 /// `a` of `T`.
 pub(super) fn hessian(lower: &Sparse, expansion: &Sparse, monitor: &mut Monitor) -> Result<Sparse> {
     let upper = lower.transpose();
     let by_unknown = expansion.transpose();
     let dim = expansion.cols();
-    let mut row = Accumulator::new(dim);
+    let mut row: Accumulator<CompensatedSum> = Accumulator::new(dim);
     let mut w = Rows::new(expansion.rows(), lower.len())?;
     for i in 0..expansion.rows() {
         monitor.check()?;
         let mirrored = upper.row(i).filter(|&(j, _)| j > i);
         for (j, q) in lower.row(i).chain(mirrored) {
             for (b, t) in expansion.row(j) {
-                *row.slot(b as u32) += q * t;
+                row.slot(b as u32).add_product(q, t);
             }
         }
-        w.push(&mut row)?;
+        w.push(&mut row, |sum| sum.two_fold())?;
     }
     let mut h = Rows::new(dim, lower.len())?;
     for a in 0..dim {
         monitor.check()?;
         row.slot(a as u32);
         for (i, t) in by_unknown.row(a) {
-            for (&b, v) in w.indices[w.offsets[i]..w.offsets[i + 1]]
+            for (&b, &v) in w.indices[w.offsets[i]..w.offsets[i + 1]]
                 .iter()
                 .zip(&w.values[w.offsets[i]..w.offsets[i + 1]])
             {
                 if b as usize <= a {
-                    *row.slot(b) += t * v;
+                    row.slot(b).add_multiple(t, v);
                 }
             }
         }
         row.sort();
-        h.push(&mut row)?;
+        h.push(&mut row, |sum| sum.value())?;
     }
     if h.values.iter().any(|v| !v.is_finite()) {
         return Err(overflow());
@@ -124,13 +125,13 @@ fn overflow() -> Error {
 }
 
 /// Sparse rows, one after the other.
-struct Rows {
+struct Rows<T> {
     offsets: Vec<usize>,
     indices: Vec<u32>,
-    values: Vec<f64>,
+    values: Vec<T>,
 }
 
-impl Rows {
+impl<T> Rows<T> {
     fn new(rows: usize, entries: usize) -> Result<Self> {
         let mut offsets = reserve(rows + 1)?;
         offsets.push(0);
@@ -142,7 +143,11 @@ impl Rows {
     }
 
     /// Appends `row` in the order of its list, and empties it.
-    fn push(&mut self, row: &mut Accumulator<f64>) -> Result<()> {
+    fn push(
+        &mut self,
+        row: &mut Accumulator<CompensatedSum>,
+        value: impl Fn(CompensatedSum) -> T,
+    ) -> Result<()> {
         let out_of_memory = |_| Error::OutOfMemory {
             what: "the reduced Hessian",
         };
@@ -151,7 +156,7 @@ impl Rows {
         self.values.try_reserve(more).map_err(out_of_memory)?;
         row.drain(|j, v| {
             self.indices.push(j);
-            self.values.push(v);
+            self.values.push(value(v));
         });
         self.offsets.push(self.indices.len());
         Ok(())

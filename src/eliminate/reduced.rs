@@ -2,9 +2,12 @@
 
 use std::sync::Arc;
 
-use super::{Expansion, project};
+use super::{Expansion, Rounding, project};
 use crate::linalg::{CANCELLED, CompensatedSum, Sparse};
 use crate::problem::Model;
+
+/// Half a unit in the last place of 1.
+const UNIT: f64 = 0.5 * f64::EPSILON;
 
 /// The problem `minimise 1/2 y'Hy + g'y + c`, where some entries of `y` are integer, without constraints.
 ///
@@ -18,6 +21,10 @@ pub struct ReducedModel {
     pub(crate) integers: Vec<u32>,
     pub(crate) continuous: Vec<u32>,
     pub(crate) guess: Vec<f64>,
+    /// The values at which the unknowns are zero: none, or those of the [`Centre`](super::Centre).
+    pub(super) origin: Vec<f64>,
+    /// Bounds on the errors of the numbers above. They are known only around a centre.
+    pub(crate) rounding: Rounding,
     /// The number of each reduced unknown among the caller's and the introduced ones.
     pub(super) free: Vec<u32>,
     pub(crate) expansion: Expansion,
@@ -73,25 +80,37 @@ impl ReducedModel {
         &self.expansion
     }
 
-    /// The objective at `y` and the sum of the absolute values of its terms.
+    /// Bounds on the errors of the model's numbers. They are known only around a centre.
+    pub fn rounding(&self) -> &Rounding {
+        &self.rounding
+    }
+
+    /// The value at which reduced unknown `y` is zero.
+    pub fn origin(&self, y: usize) -> f64 {
+        self.origin.get(y).copied().unwrap_or(0.0)
+    }
+
+    /// The objective at `y`, and a bound on the error of this number. Around a centre the bound includes the
+    /// rounding of the model itself.
     ///
-    /// The sum is compensated, because on real problems the constant is a million times the result.
+    /// Products and sums are compensated (`ogita2005`, proposition 5.5), because on real problems the
+    /// constant is a million times the result.
     pub fn energy(&self, y: &[f64]) -> (f64, f64) {
         let mut sum = CompensatedSum::new(self.constant);
         let mut size = self.constant.abs();
-        let mut add = |a: f64, b: f64| {
-            sum.add_product(a, b);
-            size += (a * b).abs();
-        };
         for (g, y) in self.gradient.iter().zip(y) {
-            add(*g, *y);
+            sum.add_product(*g, *y);
+            size += (g * y).abs();
         }
         for i in 0..self.dim() {
             for (j, v) in self.hessian.row(i) {
-                let half = if i == j { 0.5 } else { 1.0 };
-                add(half * v * y[i], y[j]);
+                let v = if i == j { 0.5 * v } else { v };
+                sum.add_product_of_three(v, y[i], y[j]);
+                size += (v * y[i] * y[j]).abs();
             }
         }
-        (sum.value(), size)
+        let gamma = (2 * self.hessian.len() + self.dim() + 4) as f64 * UNIT;
+        let error = UNIT * sum.value().abs() + 2.0 * gamma * gamma * size;
+        (sum.value(), error + self.rounding.of_energy(y))
     }
 }

@@ -6,7 +6,8 @@ use super::record::Record;
 use super::steps::{Definitions, Step};
 use super::tableau::Tableau;
 use super::{
-    Expansion, ReducedModel, back, continuous, hold, integral, project, right_sides, subtree, sweep,
+    Expansion, ReducedModel, Rounding, back, continuous, hold, integral, project, right_sides,
+    subtree, sweep,
 };
 use crate::error::Result;
 use crate::linalg::{Ordering, Sparse, principal_submatrix};
@@ -30,7 +31,7 @@ pub fn eliminate(model: &Model, monitor: &mut Monitor) -> Result<ReducedModel> {
 /// constraints and of Q, and on the set of pinned unknowns.
 #[derive(Debug)]
 pub struct Elimination {
-    record: Record,
+    pub(super) record: Record,
     definitions: Definitions,
     in_constraints: Vec<bool>,
     /// The reduced unknowns.
@@ -148,6 +149,8 @@ impl Elimination {
             integers,
             continuous,
             guess: free.iter().map(|&u| guess[u as usize]).collect(),
+            origin: Vec::new(),
+            rounding: Rounding::default(),
             free: free.to_vec(),
             expansion,
         })

@@ -88,6 +88,33 @@ impl Basis {
         self.discrete
     }
 
+    /// A bound on the relative rounding error of the distances of points, `|R v|` for a computed v: row i of
+    /// `R v` is a sum of at most m products, each with a relative error of m units
+    /// (`higham2002`, section 3.1), and `|v_j|` is at most the distance times the norm of row j of the
+    /// inverse of R.
+    pub fn evaluation_error(&self) -> f64 {
+        let m = self.rank();
+        let mut reach = vec![0.0; m];
+        for k in 0..m {
+            // Column k of the inverse.
+            let mut column = vec![0.0; k + 1];
+            column[k] = 1.0 / self.r(k, k);
+            for i in (0..k).rev() {
+                let sum: f64 = (i + 1..=k).map(|j| self.r(i, j) * column[j]).sum();
+                column[i] = -sum / self.r(i, i);
+            }
+            for (r, c) in reach.iter_mut().zip(column) {
+                *r += c * c;
+            }
+        }
+        let row = |i: usize| -> f64 {
+            let terms = (i..m).map(|j| self.r(i, j).abs() * reach[j].sqrt());
+            terms.sum::<f64>().powi(2)
+        };
+        let size: f64 = (0..m).map(row).sum();
+        (m + 4) as f64 * f64::EPSILON * size.sqrt()
+    }
+
     /// Whether vector `k` leaves the span of the vectors before it. Only then do distances determine its
     /// coordinate.
     pub fn decides(&self, k: usize) -> bool {

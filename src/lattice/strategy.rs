@@ -236,8 +236,7 @@ fn raise(pieces: &[Piece], certificate: &Certificate, search: &mut Search) {
     };
     let beyond = certificate.energy_bound(square);
     if let Some(best) = search.best() {
-        let evaluated = best.energy - search.evaluation_error(&best.point);
-        search.raise_bound(beyond.min(evaluated));
+        search.raise_bound(beyond.min(best.at_least));
     }
 }
 

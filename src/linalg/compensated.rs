@@ -2,7 +2,7 @@
 
 /// A running sum that carries its own rounding error (`neumaier1974`). Products use fused multiply-add as in
 /// algorithm Dot2 of `ogita2005`. The result is as accurate as if computed in twice the working precision.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub struct CompensatedSum {
     sum: f64,
     error: f64,
@@ -35,15 +35,55 @@ impl CompensatedSum {
         self.error += a.mul_add(b, -product);
     }
 
+    /// Adds `a * b * c`, with an error of the order of the square of the rounding unit.
+    pub fn add_product_of_three(&mut self, a: f64, b: f64, c: f64) {
+        let product = a * b;
+        self.add_product(product, c);
+        self.error += a.mul_add(b, -product) * c;
+    }
+
+    /// Adds `a * (x.high + x.low)`.
+    pub fn add_multiple(&mut self, a: f64, x: TwoFold) {
+        self.add_product(a, x.high);
+        self.error += a * x.low;
+    }
+
     /// The sum.
     pub fn value(&self) -> f64 {
         self.sum + self.error
+    }
+
+    /// The sum with its rounding error.
+    pub fn two_fold(&self) -> TwoFold {
+        let high = self.sum + self.error;
+        let low = if self.sum.abs() >= self.error.abs() {
+            (self.sum - high) + self.error
+        } else {
+            (self.error - high) + self.sum
+        };
+        TwoFold { high, low }
+    }
+}
+
+/// A number of twice the working precision: the unevaluated sum of two floats (`dekker1971`). The lower one
+/// is at most half a unit in the last place of the higher one.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct TwoFold {
+    /// The nearest float.
+    pub high: f64,
+    /// The rest.
+    pub low: f64,
+}
+
+impl From<f64> for TwoFold {
+    fn from(high: f64) -> Self {
+        TwoFold { high, low: 0.0 }
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::CompensatedSum;
+    use super::{CompensatedSum, TwoFold};
 
     fn sum(terms: &[f64]) -> f64 {
         let mut sum = CompensatedSum::new(0.0);
@@ -67,6 +107,29 @@ mod tests {
         sum.add_product(factor, factor);
         sum.add(-2f64.powi(-29));
         assert_eq!(sum.value(), 2f64.powi(-60));
+    }
+
+    #[test]
+    fn a_product_of_three_factors_is_exact_to_twice_the_precision() {
+        // (2^27 + 1)^3 has 82 bits; its lowest bit is lost in a float.
+        let factor = f64::from((1 << 27) + 1);
+        let mut sum = CompensatedSum::new(0.0);
+        sum.add_product_of_three(factor, factor, factor);
+        sum.add(-2f64.powi(81));
+        sum.add(-3.0 * 2f64.powi(54));
+        sum.add(-3.0 * 2f64.powi(27));
+        assert_eq!(sum.value(), 1.0);
+    }
+
+    #[test]
+    fn the_rest_of_a_sum_is_kept() {
+        let mut sum = CompensatedSum::new(2f64.powi(60));
+        sum.add(0.5);
+        let (high, low) = (2f64.powi(60), 0.5);
+        assert_eq!(sum.two_fold(), TwoFold { high, low });
+        let mut twice = CompensatedSum::new(-2f64.powi(61));
+        twice.add_multiple(2.0, sum.two_fold());
+        assert_eq!(twice.value(), 1.0);
     }
 
     /// The sums satisfy the error bound of algorithm Dot2 (`ogita2005`, proposition 5.5). The oracle is

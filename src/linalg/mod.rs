@@ -31,7 +31,7 @@ mod unpreconditioned_cg;
 pub(crate) use accumulator::Accumulator;
 pub use analysis::Analysis;
 pub use cholesky::Cholesky;
-pub use compensated::CompensatedSum;
+pub use compensated::{CompensatedSum, TwoFold};
 pub use conjugate_gradient::{Effort, conjugate_gradient};
 pub(crate) use disjoint_sets::DisjointSets;
 pub use fix::FixedSolve;

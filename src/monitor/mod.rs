@@ -22,6 +22,8 @@ pub struct Monitor<'a> {
     limit: Option<Duration>,
     energy: f64,
     lower_bound: f64,
+    /// Energy and bound of the parts of the problem that are not searched at present.
+    elsewhere: (f64, f64),
     last_progress: Option<Instant>,
 }
 
@@ -35,6 +37,7 @@ impl Default for Monitor<'_> {
             limit: None,
             energy: f64::INFINITY,
             lower_bound: f64::NEG_INFINITY,
+            elsewhere: (0.0, 0.0),
             last_progress: None,
         }
     }
@@ -111,9 +114,14 @@ impl<'a> Monitor<'a> {
         self.tell(EventKind::Log(line));
     }
 
+    /// Sets the energy and the bound of all parts of the problem but the one that is searched next.
+    pub(crate) fn elsewhere(&mut self, energy: f64, lower_bound: f64) {
+        self.elsewhere = (energy, lower_bound);
+    }
+
     /// Reports a better solution.
     pub(crate) fn improved(&mut self, energy: f64) {
-        self.energy = energy;
+        self.energy = self.elsewhere.0 + energy;
         self.tell(EventKind::Improved);
     }
 
@@ -125,7 +133,7 @@ impl<'a> Monitor<'a> {
 
     /// Records a better bound.
     pub(crate) fn bounded(&mut self, lower_bound: f64) {
-        self.lower_bound = lower_bound;
+        self.lower_bound = self.elsewhere.1 + lower_bound;
     }
 
     fn tell(&mut self, kind: EventKind) {

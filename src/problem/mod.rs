@@ -5,12 +5,14 @@ mod cycles;
 mod matrix;
 mod model;
 pub mod mps;
+mod objective;
 mod rows;
 mod text;
 
 pub use cycles::CycleHint;
 pub use matrix::{Layout, MatrixRef, Triangle};
 pub use model::Model;
+pub(crate) use objective::Objective;
 pub use rows::RowList;
 pub(crate) use text::row_text;
 

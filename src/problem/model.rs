@@ -112,6 +112,16 @@ impl Model {
         })
     }
 
+    /// The same constraints with other right sides, and with every pinned unknown pinned to zero.
+    pub(crate) fn with_constraint_right_sides(&self, rhs: Vec<f64>) -> Self {
+        let pinned = self.pinned.iter();
+        Model {
+            constraint_rhs: rhs,
+            pinned: pinned.map(|pin| pin.map(|_| 0.0)).collect(),
+            ..self.clone()
+        }
+    }
+
     /// Number of unknowns.
     pub fn variables(&self) -> usize {
         self.gradient.len()

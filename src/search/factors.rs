@@ -24,6 +24,8 @@ pub(crate) struct Factors {
     ordering: Ordering,
     keep: bool,
     schur_factor: Option<SchurFactor>,
+    /// By component: its own factors.
+    components: Vec<Factors>,
     seconds: f64,
 }
 
@@ -65,6 +67,18 @@ impl Factors {
         }
     }
 
+    /// The factors of component `k` of the model.
+    pub fn of_component(&mut self, k: usize) -> &mut Factors {
+        let (ordering, keep) = (self.ordering, self.keep);
+        while self.components.len() <= k {
+            self.components.push(Factors {
+                keep,
+                ..Factors::new(ordering)
+            });
+        }
+        &mut self.components[k]
+    }
+
     /// The number of entries below the diagonal of the relaxation's factor, if it has been made.
     pub fn entries(&self) -> usize {
         let schur_factor = self
@@ -78,7 +92,7 @@ impl Factors {
 
     /// The seconds spent in factorizations so far.
     pub fn seconds(&self) -> f64 {
-        self.seconds
+        self.seconds + self.components.iter().map(Factors::seconds).sum::<f64>()
     }
 
     /// The factor of the whole reduced Hessian, with all integers real.

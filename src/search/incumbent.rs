@@ -5,6 +5,6 @@
 pub(crate) struct Incumbent {
     pub point: Vec<f64>,
     pub energy: f64,
-    /// An upper bound on the exact energy if rounding errors matter, otherwise the energy.
-    pub(super) at_most: f64,
+    /// A lower bound on the exact energy of every point with these integers.
+    pub at_least: f64,
 }

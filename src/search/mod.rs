@@ -22,14 +22,20 @@ pub use warm_start::WarmStart;
 
 pub(crate) use factors::Factors;
 pub(crate) use incumbent::Incumbent;
-pub(crate) use work::{Work, auto_limit, of_relaxation};
+pub(crate) use work::{ALWAYS, Work, of_relaxation};
 
 use crate::eliminate::ReducedModel;
 use crate::error::{Error, Result};
-use crate::monitor::{Monitor, Phase, Stop, relative_gap};
+use crate::monitor::{Monitor, Phase, Stop};
 
 /// Integers are kept as floats, which are exact up to this size.
 pub(crate) const LARGEST_INTEGER: f64 = 9_007_199_254_740_992.0;
+
+/// An energy whose error may be larger than this part of it is computed again from the caller's numbers.
+const JUDGED: f64 = 1e-12;
+
+/// The exact energy of a point in the unknowns of the model, rounded once.
+type Exact<'s> = Box<dyn Fn(&[f64]) -> f64 + 's>;
 
 /// The incumbent, the lower bound, the work spent and the monitor.
 pub(crate) struct Search<'s, 'm> {
@@ -37,6 +43,12 @@ pub(crate) struct Search<'s, 'm> {
     relaxed: Vec<f64>,
     lower_bound: f64,
     incumbent: Option<Incumbent>,
+    /// The exact energy of a point, if the model's own numbers may be too inaccurate.
+    exact: Option<Exact<'s>>,
+    /// The energy of what is not in the model, to which relative gaps refer as well.
+    elsewhere: f64,
+    /// The part of a gap that is allowed here.
+    share: f64,
     /// The multiplications spent, and their limit.
     pub work: Work,
     /// Progress, cancel, time limit.
@@ -57,9 +69,27 @@ impl<'s, 'm> Search<'s, 'm> {
             relaxed,
             lower_bound,
             incumbent: None,
+            exact: None,
+            elsewhere: 0.0,
+            share: 1.0,
             work: Work::unlimited(),
             monitor,
         }
+    }
+
+    /// The same search, for one of `count` independent components of a problem. The others have the energy
+    /// `elsewhere`, and `always` is this one's share of the budget that every problem has.
+    pub fn of_component(mut self, count: usize, elsewhere: f64, always: u64) -> Self {
+        self.elsewhere = elsewhere;
+        self.share = 1.0 / count as f64;
+        self.work.always = always;
+        self
+    }
+
+    /// The same search, with a judge for energies that differ by less than the rounding errors of the model.
+    pub fn judged_by(mut self, exact: impl Fn(&[f64]) -> f64 + 's) -> Self {
+        self.exact = Some(Box::new(exact));
+        self
     }
 
     /// Counts this many multiplications. Returns whether to end.
@@ -116,8 +146,11 @@ impl<'s, 'm> Search<'s, 'm> {
     /// [`Error::Overflow`] for integers beyond 2^53, and an error for lack of memory.
     pub fn offer(&mut self, factors: &mut Factors, integers: &[f64]) -> Result<bool> {
         let model = self.model;
-        let too_large = |z: &f64| z.abs().is_nan() || z.abs() > LARGEST_INTEGER;
-        if let Some(k) = integers.iter().position(too_large) {
+        let too_large = |(&i, z): (&u32, &f64)| {
+            let whole = model.origin(i as usize) + z;
+            whole.is_nan() || whole.abs() > LARGEST_INTEGER
+        };
+        if let Some(k) = model.integers().iter().zip(integers).position(too_large) {
             return Err(Error::Overflow {
                 what: "an integer of the solution is beyond 2^53".into(),
                 index: Some(model.integers()[k] as usize),
@@ -130,53 +163,26 @@ impl<'s, 'm> Search<'s, 'm> {
         if !model.continuous().is_empty() {
             point = factors.follow(model, &point)?;
         }
-        let (energy, size) = model.energy(&point);
-        let at_most = self.at_most(energy, size, &point);
+        let (mut energy, error) = model.energy(&point);
+        let at_least = energy - error;
+        if let Some(exact) = self
+            .exact
+            .as_ref()
+            .filter(|_| error > JUDGED * energy.abs())
+        {
+            energy = exact(&point);
+        }
         let best = self.incumbent.as_ref();
-        let better = best.is_none_or(|best| at_most < best.at_most);
+        let better = best.is_none_or(|best| energy < best.energy);
         if better {
             self.incumbent = Some(Incumbent {
                 point,
                 energy,
-                at_most,
+                at_least: at_least.min(energy),
             });
             self.monitor.improved(energy);
         }
         Ok(better)
-    }
-
-    /// An upper bound on the exact energy of `point`. Its computed energy is `energy`, a sum of terms of
-    /// this `size`. The bound is `energy` itself unless rounding errors matter, which they do if integers
-    /// are huge. A computed energy below the lower bound is wrong by at least the difference. The bound
-    /// allows for the same error upwards.
-    fn at_most(&self, energy: f64, size: f64, point: &[f64]) -> f64 {
-        let enough = GAP_TOLERANCE * energy.abs().max(1.0);
-        let below = 2.0 * (self.lower_bound - energy);
-        let own = 4.0 * f64::EPSILON * size;
-        if own.max(below) <= enough {
-            return energy;
-        }
-        let error = own.min(self.evaluation_error(point)).max(below);
-        if error <= enough {
-            energy
-        } else {
-            energy + error
-        }
-    }
-
-    /// A bound on the error of the difference between the energies of two evaluated solutions.
-    ///
-    /// Energies are summed with compensation, so the remaining error comes from the rounding of the model's
-    /// entries. This error matters only for the difference of the solutions. It is a few units in the last
-    /// place of each term of the quadratic form of the step from the relaxation to `point`.
-    pub fn evaluation_error(&self, point: &[f64]) -> f64 {
-        let steps = point.iter().zip(&self.relaxed);
-        let step: Vec<f64> = steps.map(|(p, r)| p - r).collect();
-        let terms = self.model.hessian().entries();
-        let size: f64 = terms
-            .map(|(i, j, v)| (v * step[i as usize] * step[j as usize]).abs())
-            .sum();
-        4.0 * f64::EPSILON * size
     }
 
     /// The best solution so far.
@@ -195,14 +201,17 @@ impl<'s, 'm> Search<'s, 'm> {
     /// The lower bound at which the incumbent's relative gap is `gap`.
     pub fn wanted_bound(&self, gap: f64) -> f64 {
         let best = self.incumbent.as_ref();
-        best.map_or(f64::INFINITY, |b| b.energy - gap * b.energy.abs().max(1.0))
+        best.map_or(f64::INFINITY, |b| b.energy - self.allowed(gap, b.energy))
+    }
+
+    /// The difference of energy and bound that a relative gap allows.
+    fn allowed(&self, gap: f64, energy: f64) -> f64 {
+        gap * self.share * (energy + self.elsewhere).abs()
     }
 
     /// Whether the incumbent's relative gap is at most `gap` or [`GAP_TOLERANCE`].
     pub fn is_within(&self, gap: f64) -> bool {
-        let most = gap.max(GAP_TOLERANCE);
-        let best = self.incumbent.as_ref();
-        best.is_some_and(|b| relative_gap(b.energy, self.lower_bound) <= most)
+        self.wanted_bound(gap.max(GAP_TOLERANCE)) <= self.lower_bound
     }
 
     /// The status of the search if it ended now.
@@ -210,8 +219,7 @@ impl<'s, 'm> Search<'s, 'm> {
         let Some(best) = &self.incumbent else {
             return SolveStatus::Relaxed;
         };
-        let gap = relative_gap(best.energy, self.lower_bound);
-        if gap <= GAP_TOLERANCE {
+        if best.energy - self.lower_bound <= self.allowed(GAP_TOLERANCE, best.energy) {
             return SolveStatus::Optimal;
         }
         match self.monitor.stopped() {

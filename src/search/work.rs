@@ -7,7 +7,7 @@ use crate::eliminate::ReducedModel;
 use crate::monitor::Monitor;
 
 /// `auto`: the multiplications of its budget on every problem, about a tenth of a second.
-const ALWAYS: u64 = 200_000_000;
+pub(crate) const ALWAYS: u64 = 200_000_000;
 
 /// `auto`: the rest of its budget, in relaxations.
 const RELAXATIONS: u64 = 1_000;
@@ -17,6 +17,8 @@ const RELAXATIONS: u64 = 1_000;
 pub(crate) struct Work {
     spent: u64,
     limit: u64,
+    /// The part of the limit of `auto` that does not depend on the size of the problem.
+    pub always: u64,
 }
 
 impl Work {
@@ -25,12 +27,16 @@ impl Work {
         Work {
             spent: 0,
             limit: u64::MAX,
+            always: ALWAYS,
         }
     }
 
-    /// Sets the limit: see [`auto_limit`].
-    pub fn limit_to(&mut self, limit: u64) {
-        self.limit = limit;
+    /// Sets the limit to the budget of `auto`, roundings not included, and returns it.
+    pub fn limit_to_auto(&mut self, relaxation: u64) -> u64 {
+        self.limit = relaxation
+            .saturating_mul(RELAXATIONS)
+            .saturating_add(self.always);
+        self.limit
     }
 
     /// Counts this many multiplications.
@@ -65,13 +71,6 @@ pub(crate) fn of_relaxation(model: &ReducedModel) -> u64 {
     PER_ENTRY * model.hessian().len() as u64
 }
 
-/// The budget of `auto` in multiplications, roundings not included.
-pub(crate) fn auto_limit(relaxation: u64) -> u64 {
-    relaxation
-        .saturating_mul(RELAXATIONS)
-        .saturating_add(ALWAYS)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -80,7 +79,7 @@ mod tests {
     fn what_is_spent_is_left_no_more() {
         let mut work = Work::unlimited();
         assert!(!work.ends(1 << 60, &mut Monitor::default()));
-        work.limit_to((1 << 60) + 10);
+        work.limit = (1 << 60) + 10;
         assert_eq!((work.spent(), work.left()), (1 << 60, 10));
         assert!(!work.ends(9, &mut Monitor::default()));
         assert!(work.ends(1, &mut Monitor::default()));

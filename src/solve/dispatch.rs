@@ -3,8 +3,7 @@
 use crate::eliminate::ReducedModel;
 use crate::error::Result;
 use crate::problem::Model;
-use crate::search::{Factors, Options, Search, Strategy};
-use crate::search::{auto_limit, of_relaxation};
+use crate::search::{Factors, Options, Search, Strategy, of_relaxation};
 use crate::{cycle, lattice, round};
 
 /// `auto` also tries a proof for angle-difference systems of at most this many integers.
@@ -32,8 +31,7 @@ pub(super) fn search(
     let m = model.integers().len();
     let mut few = m <= options.dense_integers;
     if options.strategy == Strategy::Auto {
-        let limit = auto_limit(of_relaxation(model));
-        search.work.limit_to(limit);
+        let limit = search.work.limit_to_auto(of_relaxation(model));
         few &= DENSE * (m as u64).pow(3) <= limit;
     }
     match options.strategy {

@@ -1,16 +1,16 @@
 //! The solve of a problem after elimination: right sides, relaxation, search, expansion, verification.
 
+use super::around::around_relaxation;
 use super::candidate::Candidate;
-use super::dispatch;
+use super::components::by_components;
 use super::expand::expand;
-use super::relax::{Relaxation, relax};
 use super::solution::{Counts, Seconds, Solution};
 use crate::eliminate::{Elimination, ReducedModel};
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::monitor::{Monitor, Phase};
 use crate::problem::{Model, Problem};
 use crate::round;
-use crate::search::{Factors, Options, Search, SolveStatus, Strategy, WarmStart, of_relaxation};
+use crate::search::{Factors, Options, SolveStatus, Strategy, WarmStart, of_relaxation};
 
 /// A problem with all results that do not depend on its right sides.
 pub(super) struct EliminatedProblem<'a> {
@@ -31,20 +31,8 @@ impl EliminatedProblem<'_> {
         options: &Options,
         monitor: &mut Monitor,
     ) -> Result<Solution> {
-        let start = match options.warm_start {
-            WarmStart::Off => None,
-            WarmStart::Offer | WarmStart::Keep => {
-                let point = self.elimination.restrict(reduced, self.earlier);
-                let integers = reduced.integers().iter();
-                Some(
-                    integers
-                        .map(|&i| round::nearest(point[i as usize]))
-                        .collect(),
-                )
-            }
-        };
-        let decided = decide(self.model, reduced, options, start, self.factors, monitor)?;
-        self.conclude(reduced, decided, options.strategy, clock, monitor)
+        let decided = decide(self, reduced, options, monitor)?;
+        self.conclude(reduced, decided, clock, monitor)
     }
 
     /// The reduced model for the current right sides, and the time when it was made.
@@ -62,7 +50,6 @@ impl EliminatedProblem<'_> {
         &mut self,
         reduced: &ReducedModel,
         found: SearchResult,
-        strategy: Strategy,
         clock: &Clock,
         monitor: &mut Monitor,
     ) -> Result<Solution> {
@@ -70,7 +57,7 @@ impl EliminatedProblem<'_> {
         let factored = self.factors.seconds() - clock.factored_before;
 
         let candidate = Candidate {
-            values: expand(reduced, self.model, strategy, &found.point),
+            values: found.values,
             lower_bound: found.lower_bound,
             status: found.status,
             has_integers: !reduced.integers().is_empty(),
@@ -103,59 +90,56 @@ pub(super) struct Clock {
 
 /// The result of a search.
 pub(super) struct SearchResult {
-    /// In reduced unknowns.
-    pub point: Vec<f64>,
+    /// The caller's unknowns.
+    pub values: Vec<f64>,
     pub lower_bound: f64,
     pub status: SolveStatus,
     /// Multiplications, including those of the relaxation.
     pub work: u64,
 }
 
+/// The relaxation, and the search around its minimiser.
 fn decide(
-    model: &Model,
+    of: &mut EliminatedProblem,
     reduced: &ReducedModel,
     options: &Options,
-    start: Option<Vec<f64>>,
-    factors: &mut Factors,
     monitor: &mut Monitor,
 ) -> Result<SearchResult> {
     monitor.progress(Phase::Factor, 0.0)?;
-    let relaxation = relax(model, reduced, options.strategy, factors)?;
+    let (centre, relaxation) = around_relaxation(of, reduced, options.strategy)?;
     let work = of_relaxation(reduced);
-    let relaxed = |status: SolveStatus, relaxation: Relaxation| SearchResult {
-        point: relaxation.point,
-        lower_bound: relaxation.lower_bound,
-        status,
-        work,
+    let status = match options.strategy {
+        _ if reduced.integers().is_empty() => Some(SolveStatus::Optimal),
+        Strategy::Relax => Some(SolveStatus::Relaxed),
+        _ => None,
     };
-    if reduced.integers().is_empty() {
-        return Ok(relaxed(SolveStatus::Optimal, relaxation));
-    }
-    if options.strategy == Strategy::Relax {
-        return Ok(relaxed(SolveStatus::Relaxed, relaxation));
+    if let Some(status) = status {
+        return Ok(SearchResult {
+            values: expand(&centre, of.model, options.strategy, &relaxation.point),
+            lower_bound: relaxation.lower_bound,
+            status,
+            work,
+        });
     }
     monitor.check()?;
-    let mut search = Search::new(reduced, relaxation.point, relaxation.lower_bound, monitor);
-    if let Some(integers) = start {
-        search.offer(factors, &integers)?;
-    }
-    // An optimal solution cannot be improved.
-    let done = search.status() == SolveStatus::Optimal || options.warm_start == WarmStart::Keep;
-    if !done {
-        match dispatch::search(model, reduced, options, factors, &mut search) {
-            // If the search was stopped, the best solution so far is kept.
-            Err(Error::Cancelled | Error::TimeLimit) if search.best().is_some() => {}
-            other => other?,
-        }
-    }
-    let (lower_bound, status) = (search.lower_bound(), search.status());
-    let work = work + search.work.spent();
+    let start = match options.warm_start {
+        WarmStart::Off => None,
+        WarmStart::Offer | WarmStart::Keep => Some(start(of, reduced, centre.model())),
+    };
+    let found = by_components(of, &centre, relaxation, options, start, monitor)?;
     Ok(SearchResult {
-        point: search.into_best()?.point,
-        lower_bound,
-        status,
-        work,
+        values: expand(&centre, of.model, options.strategy, &found.point),
+        lower_bound: found.lower_bound,
+        status: found.status,
+        work: work + found.work,
     })
+}
+
+/// The integers of a warm start, as steps from the centre of `model`.
+fn start(of: &EliminatedProblem, reduced: &ReducedModel, model: &ReducedModel) -> Vec<f64> {
+    let point = of.elimination.restrict(reduced, of.earlier);
+    let step = |&i: &u32| round::nearest(point[i as usize]) - model.origin(i as usize);
+    model.integers().iter().map(step).collect()
 }
 
 fn counts(model: &Model, reduced: &ReducedModel, factors: &Factors) -> Counts {

@@ -1,6 +1,8 @@
 //! The solve from beginning to end: validation, elimination, relaxation, search, expansion, verification.
 
+mod around;
 mod candidate;
+mod components;
 mod dispatch;
 mod eliminated;
 mod expand;

@@ -6,14 +6,12 @@ use crate::linalg::{Lowest, Minimum};
 use crate::problem::Model;
 use crate::search::{Factors, Strategy};
 
-/// The rounding error of an energy, relative to the sum of the absolute values of its terms. It includes
-/// the rounding of the terms when the model was assembled.
-const EVALUATION_ERROR: f64 = 4.0 * f64::EPSILON;
-
 /// The relaxation's minimiser and the bound that it proves.
 #[derive(Debug, Clone)]
 pub(crate) struct Relaxation {
     pub point: Vec<f64>,
+    /// An estimate of the energy above the minimum.
+    pub excess: f64,
     pub lower_bound: f64,
 }
 
@@ -36,10 +34,11 @@ pub(crate) fn relax(
     let rounding = || model.gradient_rounding(whole);
     match factors.minimise(model, strategy, rounding)? {
         Minimum::At(Lowest { point, excess }) => {
-            let (energy, terms) = model.energy(&point);
+            let (energy, error) = model.energy(&point);
             Ok(Relaxation {
                 point,
-                lower_bound: energy - 2.0 * excess - EVALUATION_ERROR * terms,
+                excess,
+                lower_bound: energy - 2.0 * excess - error,
             })
         }
         Minimum::Unbounded(v) => Err(unbounded(model, &v)),

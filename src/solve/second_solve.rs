@@ -6,10 +6,11 @@
 //! every unknown may lose its digits. The second solve pins the integers to the values of the first, or
 //! makes them real for a relaxation. Then there is no such chain, and pivots are chosen by size.
 
+use super::around::around_relaxation;
+use super::eliminated::EliminatedProblem;
 use super::expand::expand;
-use super::relax::relax;
 use super::verify::{Verdict, verify};
-use crate::eliminate::eliminate;
+use crate::eliminate::Elimination;
 use crate::error::Result;
 use crate::linalg::Ordering;
 use crate::monitor::Monitor;
@@ -72,10 +73,17 @@ fn better(
 /// Solves `continuous`, which has no free integers, and measures the result on `problem`.
 fn again(problem: &Problem, continuous: &Problem) -> Result<SecondSolve> {
     let model = Model::new(continuous)?;
-    let reduced = eliminate(&model, &mut Monitor::default())?;
-    let mut factors = Factors::new(Ordering::FillReducing);
-    let relaxation = relax(&model, &reduced, Strategy::Relax, &mut factors)?;
-    let values = expand(&reduced, &model, Strategy::Relax, &relaxation.point);
+    let monitor = &mut Monitor::default();
+    let mut of = EliminatedProblem {
+        problem: continuous,
+        model: &model,
+        elimination: &Elimination::new(&model, Ordering::FillReducing, monitor)?,
+        factors: &mut Factors::new(Ordering::FillReducing),
+        earlier: model.guess(),
+    };
+    let (reduced, _) = of.reduce(monitor)?;
+    let (centre, relaxation) = around_relaxation(&mut of, &reduced, Strategy::Relax)?;
+    let values = expand(&centre, &model, Strategy::Relax, &relaxation.point);
     let energy = verify(continuous, &values)?.energy;
     Ok(SecondSolve {
         verdict: verify(problem, &values)?,

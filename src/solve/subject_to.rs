@@ -8,6 +8,7 @@
 
 use super::Solution;
 use super::eliminated::{EliminatedProblem, SearchResult};
+use super::expand::clean;
 use super::relax::{Relaxation, relax};
 use super::run::solve_eliminated;
 use crate::eliminate::{Elimination, ReducedModel};
@@ -63,17 +64,23 @@ pub(super) fn solve_subject_to(
         earlier: model.guess(),
     };
     let decided = solve_eliminated(eliminated, options, monitor)?;
-    let Relaxation { point, lower_bound } = relaxation;
+    let Relaxation {
+        point, lower_bound, ..
+    } = relaxation;
     let mut search = Search::new(&reduced, point, lower_bound, monitor);
     search.offer(of.factors, decided.values())?;
     let decided = SearchResult {
         lower_bound,
         status: SolveStatus::Feasible,
         work: of_relaxation(&reduced) + decided.work(),
-        point: search.into_best()?.point,
+        values: {
+            let point = search.into_best()?.point;
+            let mut values = reduced.expansion().expand(&point);
+            clean(&mut values, of.model, options.strategy);
+            values
+        },
     };
-    let concluded = of.conclude(&reduced, decided, options.strategy, &clock, monitor);
-    concluded.map(Some)
+    of.conclude(&reduced, decided, &clock, monitor).map(Some)
 }
 
 /// A constraint in the reduced integers: their places among all integers, the coefficients, and the right

@@ -1,11 +1,11 @@
 //! Verification: energy and violations, computed from the caller's own arrays.
 //!
-//! This shares nothing with the solver. It reads the caller's problem term by term and row by row, before
-//! duplicates are summed or rows are squared into Q.
+//! It reads the caller's problem term by term and row by row, before duplicates are summed or rows are squared
+//! into Q, and in twice the working precision ([`Objective`]).
 
 use crate::error::{Error, Result};
 use crate::linalg::CompensatedSum;
-use crate::problem::Problem;
+use crate::problem::{Objective, Problem};
 
 /// The energy and the violations of a point, measured on the caller's problem.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -37,31 +37,10 @@ pub fn verify(problem: &Problem, x: &[f64]) -> Result<Verdict> {
         });
     }
     Ok(Verdict {
-        energy: energy(problem, x),
+        energy: Objective(problem).energy(|i| x[i].into()).value.high,
         constraint_violation: constraint_violation(problem, x),
         integrality_violation: integrality_violation(problem, x),
     })
-}
-
-fn energy(problem: &Problem, x: &[f64]) -> f64 {
-    let mut sum = CompensatedSum::new(problem.constant());
-    for (q, x) in problem.linear().iter().zip(x) {
-        sum.add_product(*q, *x);
-    }
-    for &(i, j, v) in problem.quadratic() {
-        let half = if i == j { 0.5 } else { 1.0 };
-        sum.add_product(half * v * x[i as usize], x[j as usize]);
-    }
-    let (rows, weights) = problem.least_squares();
-    for (k, w) in weights.iter().enumerate() {
-        let mut residual = CompensatedSum::new(-rows.rhs()[k]);
-        for (j, a) in rows.row(k) {
-            residual.add_product(a, x[j]);
-        }
-        let residual = residual.value();
-        sum.add_product(w * residual, residual);
-    }
-    sum.value()
 }
 
 fn constraint_violation(problem: &Problem, x: &[f64]) -> f64 {

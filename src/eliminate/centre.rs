@@ -1,0 +1,149 @@
+//! A reduced model around a point, from the caller's numbers in twice the working precision.
+//!
+//! With integers near 1e8 the terms of the objective are 1e16 times its value, so that a reduced model around
+//! zero has no correct digits. Around a point near the minimum the same objective has a small linear term,
+//! a constant near the minimum, and steps y of about one. The point, the energy and the gradient there are
+//! computed in twice the working precision from the caller's own terms ([`Objective`]). The Hessian
+//! does not depend on the point.
+
+use std::sync::Arc;
+
+use super::rounding::{curvature, roundings_of_expansion};
+use super::{Elimination, Expansion, ReducedModel, Rounding, right_sides};
+use crate::linalg::{CompensatedSum, TwoFold};
+use crate::monitor::Monitor;
+use crate::problem::{Model, Objective, Problem};
+
+/// A point that satisfies the constraints, and the reduced model around it.
+#[derive(Debug, Clone)]
+pub struct Centre {
+    /// The caller's unknowns at the point.
+    point: Vec<TwoFold>,
+    model: ReducedModel,
+}
+
+impl Centre {
+    /// The model of `problem` around the point where the unknowns of `reduced` are `y`.
+    pub fn new(
+        problem: &Problem,
+        model: &Model,
+        elimination: &Elimination,
+        reduced: &ReducedModel,
+        y: &[f64],
+    ) -> Self {
+        let mut point = expand(reduced, y);
+        if model.constraints().rows() > 0 {
+            satisfy(&mut point, model, elimination);
+        }
+        let at = |i: usize| point[i];
+        let energy = Objective(problem).energy(at);
+        let slopes = Objective(problem).gradient(at);
+        let matrix = reduced.expansion.matrix();
+        let mut gradient = vec![CompensatedSum::new(0.0); reduced.dim()];
+        let mut slope = vec![0.0; reduced.dim()];
+        let relative = roundings_of_expansion(reduced) as f64 * 0.5 * f64::EPSILON;
+        for (i, a, t) in matrix.entries() {
+            let g = slopes[i as usize];
+            gradient[a as usize].add_multiple(t, g);
+            slope[a as usize] += relative * (t * g.high).abs();
+        }
+        let gradient: Vec<f64> = gradient.iter().map(CompensatedSum::value).collect();
+        for (s, g) in slope.iter_mut().zip(&gradient) {
+            *s += 0.5 * f64::EPSILON * g.abs();
+        }
+        let guess = reduced.guess.iter().zip(y).map(|(g, y)| g - y).collect();
+        let origin = (0..y.len()).map(|a| reduced.origin(a) + y[a]).collect();
+        let moved = ReducedModel {
+            hessian: Arc::clone(&reduced.hessian),
+            gradient,
+            constant: energy.value.high,
+            integers: reduced.integers.clone(),
+            continuous: reduced.continuous.clone(),
+            guess,
+            origin,
+            rounding: Rounding {
+                curvature: curvature(problem, model, reduced),
+                slope,
+                constant: energy.error + energy.value.low.abs(),
+            },
+            free: reduced.free.clone(),
+            expansion: Expansion::new(
+                Arc::clone(reduced.expansion.shared_matrix()),
+                point.iter().map(|x| x.high).collect(),
+            ),
+        };
+        Centre {
+            point,
+            model: moved,
+        }
+    }
+
+    /// The reduced model around the point.
+    pub fn model(&self) -> &ReducedModel {
+        &self.model
+    }
+
+    /// The caller's unknowns at the step `y` from the point.
+    pub fn expand(&self, y: &[f64]) -> Vec<TwoFold> {
+        let matrix = self.model.expansion.matrix();
+        let unknown = |(i, x): (usize, &TwoFold)| {
+            let mut sum = CompensatedSum::new(x.high);
+            sum.add(x.low);
+            matrix.row(i).for_each(|(a, t)| sum.add_product(t, y[a]));
+            sum.two_fold()
+        };
+        self.point.iter().enumerate().map(unknown).collect()
+    }
+}
+
+/// The caller's unknowns at `y`, up to the rounding errors of the expansion.
+fn expand(reduced: &ReducedModel, y: &[f64]) -> Vec<TwoFold> {
+    let matrix = reduced.expansion.matrix();
+    let unknown = |(i, t): (usize, &f64)| {
+        let mut sum = CompensatedSum::new(*t);
+        matrix.row(i).for_each(|(a, t)| sum.add_product(t, y[a]));
+        sum.two_fold()
+    };
+    reduced
+        .expansion
+        .offset()
+        .iter()
+        .enumerate()
+        .map(unknown)
+        .collect()
+}
+
+/// Moves `point` by the solution of the constraints for its own remainders, as iterative refinement does. A
+/// point of integers, or one whose remainders are too small to be solved for, stays.
+fn satisfy(point: &mut [TwoFold], model: &Model, elimination: &Elimination) {
+    for (x, pin) in point.iter_mut().zip(model.pinned()) {
+        if let Some(value) = pin {
+            *x = (*value).into();
+        }
+    }
+    for _ in 0..2 {
+        let constraints = model.constraints();
+        let remainder = |k: usize| {
+            let mut sum = CompensatedSum::new(model.constraint_rhs()[k]);
+            constraints
+                .row(k)
+                .for_each(|(j, c)| sum.add_multiple(-c, point[j]));
+            sum.value()
+        };
+        let remainders: Vec<f64> = (0..constraints.rows()).map(remainder).collect();
+        if remainders.iter().all(|r| *r == 0.0) {
+            return;
+        }
+        let homogeneous = model.with_constraint_right_sides(remainders);
+        let step = right_sides::offset(&elimination.record, &homogeneous, &mut Monitor::default());
+        let Ok(step) = step else { return };
+        for ((x, step), is_integer) in point.iter_mut().zip(step).zip(model.integer()) {
+            if !is_integer {
+                let mut sum = CompensatedSum::new(x.high);
+                sum.add(x.low);
+                sum.add(step);
+                *x = sum.two_fold();
+            }
+        }
+    }
+}

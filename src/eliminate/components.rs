@@ -1,0 +1,128 @@
+//! The independent parts of a reduced model: integers that its Hessian does not couple, directly or through
+//! other unknowns, are in different components.
+
+use std::sync::Arc;
+
+use super::{Expansion, ReducedModel};
+use crate::error::Result;
+use crate::linalg::{DisjointSets, NO_PLACE, Sparse};
+
+/// One component: some unknowns of a model, and the model in these alone.
+#[derive(Debug, Clone)]
+pub struct Component {
+    /// The unknowns in the whole model, increasing.
+    pub members: Vec<u32>,
+    /// The model, without the constant of the whole one.
+    pub model: ReducedModel,
+}
+
+/// The components of `model` that have integers, in the order of their first unknowns. None if there is
+/// only one.
+///
+/// # Errors
+/// For lack of memory.
+pub fn components(model: &ReducedModel) -> Result<Option<Vec<Component>>> {
+    let mut sets = DisjointSets::new(model.dim());
+    for (i, j, v) in model.hessian().entries() {
+        if i != j && v != 0.0 {
+            sets.join(i as usize, j as usize);
+        }
+    }
+    let mut is_integer = vec![false; model.dim()];
+    model
+        .integers()
+        .iter()
+        .for_each(|&i| is_integer[i as usize] = true);
+    let mut sets = sets.sets();
+    sets.retain(|set| set.iter().any(|&i| is_integer[i]));
+    if sets.len() <= 1 {
+        return Ok(None);
+    }
+    let mut component = vec![NO_PLACE; model.dim()];
+    let mut place = vec![NO_PLACE; model.dim()];
+    for (k, set) in sets.iter().enumerate() {
+        for (at, &i) in set.iter().enumerate() {
+            (component[i], place[i]) = (k as u32, at as u32);
+        }
+    }
+    let mut entries = vec![Vec::new(); sets.len()];
+    for (i, j, v) in model.hessian().entries() {
+        let (k, other) = (component[i as usize], component[j as usize]);
+        if k != NO_PLACE && k == other {
+            entries[k as usize].push((place[i as usize], place[j as usize], v));
+        }
+    }
+    let hinted = sets.len() <= WITH_EXPANSION;
+    let made = sets.iter().zip(entries).map(|(set, entries)| {
+        let members: Vec<u32> = set.iter().map(|&i| i as u32).collect();
+        let pick = |v: &[f64]| -> Vec<f64> { set.iter().map(|&i| v[i]).collect() };
+        let of_part = 0..members.len() as u32;
+        let (integers, continuous) = of_part.partition(|&at| is_integer[set[at as usize]]);
+        let n = members.len();
+        let expansion = if hinted {
+            model.expansion.of_columns(&members)?
+        } else {
+            Expansion::new(Arc::new(Sparse::zeros(0, n)), Vec::new())
+        };
+        let part = ReducedModel {
+            hessian: Arc::new(Sparse::from_triplets(n, n, entries.into_iter())?),
+            gradient: pick(&model.gradient),
+            constant: 0.0,
+            integers,
+            continuous,
+            guess: pick(&model.guess),
+            origin: set.iter().map(|&i| model.origin(i)).collect(),
+            rounding: model.rounding.of(&members),
+            free: set.iter().map(|&i| model.free[i]).collect(),
+            expansion,
+        };
+        Ok(Component {
+            members,
+            model: part,
+        })
+    });
+    made.collect::<Result<_>>().map(Some)
+}
+
+/// Up to this number of components each one has its part of the expansion, which the cycles that the caller
+/// knows need. With more, the copies would take more time than the cycles save.
+const WITH_EXPANSION: usize = 64;
+
+#[cfg(test)]
+mod tests {
+    use crate::eliminate::eliminate;
+    use crate::monitor::Monitor;
+    use crate::problem::{Model, Problem};
+
+    #[test]
+    fn the_energy_is_the_sum_of_the_components_energies() {
+        // Unknowns 0, 2, 5 are a chain, 1 and 3 are another, 4 is continuous and alone.
+        let mut problem = Problem::new(6).unwrap();
+        for (i, j) in [(0, 2), (2, 5), (1, 3)] {
+            problem
+                .add_least_squares(&[i, j], &[1.0, -0.7], 0.3, 1.0)
+                .unwrap();
+        }
+        for i in 0..6 {
+            problem
+                .add_least_squares(&[i], &[1.0], 0.1 * i as f64, 0.5)
+                .unwrap();
+        }
+        problem.set_integers(&[1, 2]).unwrap();
+        let model = Model::new(&problem).unwrap();
+        let reduced = eliminate(&model, &mut Monitor::default()).unwrap();
+        let parts = super::components(&reduced).unwrap().unwrap();
+        assert_eq!(parts[0].members, [0, 2, 5]);
+        assert_eq!(parts[1].members, [1, 3]);
+        assert_eq!(parts[0].model.integers(), [1]);
+        let y = [0.4, -2.0, 3.0, 0.7, 0.0, -1.1];
+        let sum: f64 = parts
+            .iter()
+            .map(|part| {
+                let own: Vec<f64> = part.members.iter().map(|&i| y[i as usize]).collect();
+                part.model.energy(&own).0
+            })
+            .sum();
+        assert!((reduced.constant() + sum - reduced.energy(&y).0).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,86 @@
+//! The relaxation around its own minimiser, to the last digit.
+//!
+//! The first relaxation is solved around zero. Where integers are large or the Hessian is ill-conditioned, its
+//! minimiser has few correct digits. The model is then stated again around it ([`Centre`]) and solved again,
+//! until the minimiser is at the centre. This is iterative refinement with residuals in twice the
+//! working precision (`higham2002`, section 12.1).
+
+use super::eliminated::EliminatedProblem;
+use super::relax::{Relaxation, relax};
+use crate::eliminate::{Centre, ReducedModel};
+use crate::error::{Error, Result};
+use crate::round;
+use crate::search::Strategy;
+
+/// The most rounds. Each one gains the digits that the factor has, so three are usual.
+const ROUNDS: usize = 8;
+
+/// A minimiser whose integers are this near to zero is at the centre.
+const NEAR: f64 = 0.75;
+
+/// The model around the relaxation's minimiser, with its integers rounded, and the relaxation of this model.
+///
+/// # Errors
+/// Those of [`relax`].
+pub(super) fn around_relaxation(
+    of: &mut EliminatedProblem,
+    reduced: &ReducedModel,
+    strategy: Strategy,
+) -> Result<(Centre, Relaxation)> {
+    let mut relaxation = relax(of.model, reduced, strategy, of.factors)?;
+    let mut at = rounded(reduced, &relaxation.point);
+    let mut centre = Centre::new(of.problem, of.model, of.elimination, reduced, &at);
+    for _ in 0..ROUNDS {
+        let next = match relax(of.model, centre.model(), strategy, of.factors) {
+            // The first relaxation had a minimum, so this is rounding in directions without curvature.
+            Err(Error::Unbounded { .. } | Error::NotConvex { .. }) => {
+                return Ok(moved(centre, relaxation, &at));
+            }
+            other => other?,
+        };
+        let step = rounded(reduced, &next.point);
+        let farthest = |v: &[f64]| {
+            let integers = reduced.integers().iter();
+            integers.fold(0.0, |most: f64, &i| most.max(v[i as usize].abs()))
+        };
+        if farthest(&next.point) <= NEAR {
+            return Ok((centre, next));
+        }
+        relaxation = next;
+        at = at.iter().zip(&step).map(|(a, s)| a + s).collect();
+        relaxation.point = at.clone();
+        centre = Centre::new(of.problem, of.model, of.elimination, reduced, &at);
+    }
+    let last = relax(of.model, centre.model(), strategy, of.factors);
+    match last {
+        Ok(last) => Ok((centre, last)),
+        Err(_) => Ok(moved(centre, relaxation, &at)),
+    }
+}
+
+/// The relaxation with its minimiser as a step from the centre, which is at `at`.
+fn moved(centre: Centre, relaxation: Relaxation, at: &[f64]) -> (Centre, Relaxation) {
+    let step: Vec<f64> = relaxation
+        .point
+        .iter()
+        .zip(at)
+        .map(|(y, a)| y - a)
+        .collect();
+    let (energy, error) = centre.model().energy(&step);
+    let lower_bound = energy - 2.0 * relaxation.excess - error;
+    let relaxation = Relaxation {
+        point: step,
+        lower_bound,
+        ..relaxation
+    };
+    (centre, relaxation)
+}
+
+/// The point with its integers rounded.
+fn rounded(reduced: &ReducedModel, point: &[f64]) -> Vec<f64> {
+    let mut rounded = point.to_vec();
+    for &i in reduced.integers() {
+        rounded[i as usize] = round::nearest(point[i as usize]);
+    }
+    rounded
+}

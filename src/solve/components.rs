@@ -1,0 +1,201 @@
+//! The search for integers, one independent component after the other.
+//!
+//! A method's thresholds and budgets then refer to what has to be decided together, and not to the size of the
+//! whole problem. The components with few integers come first, so that the large ones inherit what they leave
+//! of the budget.
+
+use super::dispatch;
+use super::eliminated::EliminatedProblem;
+use super::relax::Relaxation;
+use crate::eliminate::{Centre, Component, ReducedModel, components};
+use crate::error::{Error, Result};
+use crate::linalg::{TwoFold, places};
+use crate::monitor::Monitor;
+use crate::problem::{Model, Objective, Problem};
+use crate::round;
+use crate::search::{ALWAYS, Factors, Options, Search, SolveStatus, WarmStart};
+
+/// The best point of a search, in the unknowns of the model around the centre.
+pub(super) struct Found {
+    pub point: Vec<f64>,
+    pub lower_bound: f64,
+    pub status: SolveStatus,
+    /// Multiplications, without those of the relaxation.
+    pub work: u64,
+}
+
+/// Searches for integers around `centre`. `start` has one integer for each integer unknown.
+///
+/// # Errors
+/// Those of the methods.
+pub(super) fn by_components(
+    of: &mut EliminatedProblem,
+    centre: &Centre,
+    relaxation: Relaxation,
+    options: &Options,
+    start: Option<Vec<f64>>,
+    monitor: &mut Monitor,
+) -> Result<Found> {
+    let exact = Exact::new(of.problem, centre);
+    let whole = centre.model();
+    let Some(parts) = components(whole)? else {
+        let search = Search::new(whole, relaxation.point, relaxation.lower_bound, monitor)
+            .judged_by(|step| whole.constant() + exact.difference(step));
+        return run(of.model, whole, options, start, of.factors, search, false);
+    };
+    let mut order: Vec<usize> = (0..parts.len()).collect();
+    order.sort_by_key(|&k| parts[k].model.integers().len());
+    let relaxed: Vec<Relaxed> = parts
+        .iter()
+        .map(|part| Relaxed::of(part, &relaxation))
+        .collect();
+
+    let mut always = ALWAYS;
+    let mut energy = whole.constant();
+    let mut pending: f64 = relaxed.iter().map(|r| r.energy).sum();
+    let mut found = Found {
+        point: relaxation.point,
+        lower_bound: relaxation.lower_bound,
+        status: SolveStatus::Optimal,
+        work: 0,
+    };
+    let place = places(whole.dim(), whole.integers());
+    for (done, &k) in order.iter().enumerate() {
+        let (part, of_part) = (&parts[k], &relaxed[k]);
+        pending -= of_part.energy;
+        let last = done + 1 == order.len();
+        let known = if last { energy } else { f64::INFINITY };
+        monitor.elsewhere(known, found.lower_bound - of_part.highest);
+        let start = start.as_ref().map(|start| {
+            let integers = part.model.integers().iter();
+            let place = |&i: &u32| place[part.members[i as usize] as usize];
+            integers.map(|i| start[place(i) as usize]).collect()
+        });
+        let share = always / (order.len() - done) as u64;
+        let point = pick(&part.members, &found.point);
+        let search = Search::new(&part.model, point, of_part.lower_bound, monitor)
+            .of_component(parts.len(), energy + pending, share)
+            .judged_by(|step| exact.difference_of(&part.members, step));
+        let factors = of.factors.of_component(k);
+        let own = run(of.model, &part.model, options, start, factors, search, true)?;
+        for (&i, x) in part.members.iter().zip(&own.point) {
+            found.point[i as usize] = *x;
+        }
+        always = always.saturating_sub(own.work);
+        energy += part.model.energy(&own.point).0;
+        found.lower_bound += own.lower_bound - of_part.highest;
+        found.work += own.work;
+        found.status = worse(found.status, own.status);
+    }
+    monitor.elsewhere(0.0, 0.0);
+    Ok(found)
+}
+
+/// The relaxation of a component.
+struct Relaxed {
+    energy: f64,
+    /// No point has less energy.
+    lower_bound: f64,
+    /// The minimum is not above this.
+    highest: f64,
+}
+
+impl Relaxed {
+    fn of(part: &Component, whole: &Relaxation) -> Self {
+        let (energy, error) = part.model.energy(&pick(&part.members, &whole.point));
+        Relaxed {
+            energy,
+            lower_bound: energy - 2.0 * whole.excess - error,
+            highest: energy + error,
+        }
+    }
+}
+
+/// Runs the strategy. If there is no solution when the search is stopped and one is `required`, the nearest
+/// integers are taken.
+fn run(
+    given: &Model,
+    model: &ReducedModel,
+    options: &Options,
+    start: Option<Vec<f64>>,
+    factors: &mut Factors,
+    mut search: Search,
+    required: bool,
+) -> Result<Found> {
+    if let Some(integers) = start {
+        search.offer(factors, &integers)?;
+    }
+    // An optimal solution cannot be improved.
+    let done = search.status() == SolveStatus::Optimal || options.warm_start == WarmStart::Keep;
+    if !done {
+        match dispatch::search(given, model, options, factors, &mut search) {
+            // If the search was stopped, the best solution so far is kept.
+            Err(Error::Cancelled | Error::TimeLimit) if search.best().is_some() => {}
+            Err(Error::Cancelled | Error::TimeLimit) if required => {
+                let relaxed = |&i: &u32| round::nearest(search.relaxed()[i as usize]);
+                let nearest: Vec<f64> = model.integers().iter().map(relaxed).collect();
+                search.offer(factors, &nearest)?;
+            }
+            other => other?,
+        }
+    }
+    let (lower_bound, status) = (search.lower_bound(), search.status());
+    let work = search.work.spent();
+    Ok(Found {
+        point: search.into_best()?.point,
+        lower_bound,
+        status,
+        work,
+    })
+}
+
+/// The status of a whole from those of two parts.
+fn worse(a: SolveStatus, b: SolveStatus) -> SolveStatus {
+    let rank = |status| match status {
+        SolveStatus::Optimal => 0,
+        SolveStatus::Feasible => 1,
+        SolveStatus::Limit => 2,
+        SolveStatus::Cancelled => 3,
+        SolveStatus::Relaxed => 4,
+    };
+    if rank(a) >= rank(b) { a } else { b }
+}
+
+fn pick(members: &[u32], v: &[f64]) -> Vec<f64> {
+    members.iter().map(|&i| v[i as usize]).collect()
+}
+
+/// Energies from the caller's numbers, relative to the one at the centre.
+struct Exact<'a> {
+    objective: Objective<'a>,
+    centre: &'a Centre,
+    energy: TwoFold,
+}
+
+impl<'a> Exact<'a> {
+    fn new(problem: &'a Problem, centre: &'a Centre) -> Self {
+        let objective = Objective(problem);
+        let x = centre.expand(&vec![0.0; centre.model().dim()]);
+        Exact {
+            energy: objective.energy(|i| x[i]).value,
+            objective,
+            centre,
+        }
+    }
+
+    /// The energy at the step `y` from the centre, minus the energy at the centre.
+    fn difference(&self, y: &[f64]) -> f64 {
+        let x = self.centre.expand(y);
+        let energy = self.objective.energy(|i| x[i]).value;
+        (energy.high - self.energy.high) + (energy.low - self.energy.low)
+    }
+
+    /// The same for the step `y` in the unknowns `members` alone.
+    fn difference_of(&self, members: &[u32], y: &[f64]) -> f64 {
+        let mut whole = vec![0.0; self.centre.model().dim()];
+        for (&i, y) in members.iter().zip(y) {
+            whole[i as usize] = *y;
+        }
+        self.difference(&whole)
+    }
+}
