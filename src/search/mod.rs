@@ -8,6 +8,7 @@ mod incumbent;
 mod options;
 mod presets;
 mod status;
+mod stopped_by;
 mod strategy;
 pub(crate) mod table;
 mod warm_start;
@@ -16,6 +17,7 @@ mod work;
 pub use options::{OPTIONS, Options};
 pub use presets::{PRESETS, Preset};
 pub use status::{GAP_TOLERANCE, SolveStatus};
+pub use stopped_by::StoppedBy;
 pub use strategy::Strategy;
 pub use table::{OptionInfo, OptionKind, OptionValue, UNSET};
 pub use warm_start::WarmStart;
@@ -37,6 +39,8 @@ pub(crate) struct Search<'s, 'm> {
     relaxed: Vec<f64>,
     lower_bound: f64,
     incumbent: Option<Incumbent>,
+    complete: bool,
+    stopped_by: StoppedBy,
     /// The multiplications spent, and their limit.
     pub work: Work,
     /// Progress, cancel, time limit.
@@ -57,6 +61,8 @@ impl<'s, 'm> Search<'s, 'm> {
             relaxed,
             lower_bound,
             incumbent: None,
+            complete: false,
+            stopped_by: StoppedBy::Nothing,
             work: Work::unlimited(),
             monitor,
         }
@@ -64,7 +70,23 @@ impl<'s, 'm> Search<'s, 'm> {
 
     /// Counts this many multiplications. Returns whether to end.
     pub fn ends(&mut self, multiplications: u64) -> bool {
-        self.work.ends(multiplications, self.monitor)
+        let ends = self.work.ends(multiplications, self.monitor);
+        if self.work.left() == 0 {
+            self.stop_by(StoppedBy::Budget);
+        }
+        ends
+    }
+
+    /// Records that the strategy ends for this reason, unless one is known already.
+    pub fn stop_by(&mut self, reason: StoppedBy) {
+        if self.stopped_by == StoppedBy::Nothing {
+            self.stopped_by = reason;
+        }
+    }
+
+    /// Records that no solution that has not been evaluated has less energy than the incumbent.
+    pub fn complete(&mut self) {
+        self.complete = true;
     }
 
     /// The minimiser of the relaxation.
@@ -150,7 +172,7 @@ impl<'s, 'm> Search<'s, 'm> {
     /// are huge. A computed energy below the lower bound is wrong by at least the difference. The bound
     /// allows for the same error upwards.
     fn at_most(&self, energy: f64, size: f64, point: &[f64]) -> f64 {
-        let enough = GAP_TOLERANCE * energy.abs().max(1.0);
+        let enough = GAP_TOLERANCE * energy.abs();
         let below = 2.0 * (self.lower_bound - energy);
         let own = 4.0 * f64::EPSILON * size;
         if own.max(below) <= enough {
@@ -195,29 +217,48 @@ impl<'s, 'm> Search<'s, 'm> {
     /// The lower bound at which the incumbent's relative gap is `gap`.
     pub fn wanted_bound(&self, gap: f64) -> f64 {
         let best = self.incumbent.as_ref();
-        best.map_or(f64::INFINITY, |b| b.energy - gap * b.energy.abs().max(1.0))
+        best.map_or(f64::INFINITY, |b| b.energy - gap * b.energy.abs())
     }
 
-    /// Whether the incumbent's relative gap is at most `gap` or [`GAP_TOLERANCE`].
+    /// Whether the incumbent is proved to be optimal, or its relative gap is at most `gap`.
     pub fn is_within(&self, gap: f64) -> bool {
-        let most = gap.max(GAP_TOLERANCE);
-        let best = self.incumbent.as_ref();
-        best.is_some_and(|b| relative_gap(b.energy, self.lower_bound) <= most)
+        let within = |b: &Incumbent| relative_gap(b.energy, self.lower_bound) <= gap;
+        self.is_proved() || self.incumbent.as_ref().is_some_and(within)
+    }
+
+    /// Whether every solution that could be better has been visited, or none is left because the bound has
+    /// reached the energy.
+    pub fn is_complete(&self) -> bool {
+        let reached = |best: &Incumbent| best.energy <= self.lower_bound;
+        self.complete || self.incumbent.as_ref().is_some_and(reached)
+    }
+
+    fn is_proved(&self) -> bool {
+        let closed = |best: &Incumbent| {
+            let rounding = self.evaluation_error(&best.point);
+            status::is_closed(best.energy, self.lower_bound, rounding)
+        };
+        self.is_complete() || self.incumbent.as_ref().is_some_and(closed)
+    }
+
+    /// Why the search ended before it was complete, if it ended now.
+    pub fn stopped_by(&self) -> StoppedBy {
+        match self.monitor.stopped() {
+            _ if self.is_proved() => StoppedBy::Nothing,
+            Some(Stop::Cancelled) => StoppedBy::Cancel,
+            Some(Stop::TimeLimit) => StoppedBy::Time,
+            None => self.stopped_by,
+        }
     }
 
     /// The status of the search if it ended now.
     pub fn status(&self) -> SolveStatus {
-        let Some(best) = &self.incumbent else {
-            return SolveStatus::Relaxed;
-        };
-        let gap = relative_gap(best.energy, self.lower_bound);
-        if gap <= GAP_TOLERANCE {
-            return SolveStatus::Optimal;
-        }
-        match self.monitor.stopped() {
-            Some(Stop::Cancelled) => SolveStatus::Cancelled,
-            Some(Stop::TimeLimit) => SolveStatus::Limit,
-            None => SolveStatus::Feasible,
+        if self.incumbent.is_none() {
+            SolveStatus::Relaxed
+        } else if self.is_proved() {
+            SolveStatus::Optimal
+        } else {
+            SolveStatus::unproved(self.stopped_by())
         }
     }
 }

@@ -3,7 +3,7 @@
 use crate::eliminate::ReducedModel;
 use crate::error::Result;
 use crate::problem::Model;
-use crate::search::{Factors, Options, Search, Strategy};
+use crate::search::{Factors, Options, Search, StoppedBy, Strategy};
 use crate::search::{auto_limit, of_relaxation};
 use crate::{cycle, lattice, round};
 
@@ -34,7 +34,10 @@ pub(super) fn search(
     if options.strategy == Strategy::Auto {
         let limit = auto_limit(of_relaxation(model));
         search.work.limit_to(limit);
-        few &= DENSE * (m as u64).pow(3) <= limit;
+        if few && DENSE * (m as u64).pow(3) > limit {
+            few = false;
+            search.stop_by(StoppedBy::Budget);
+        }
     }
     match options.strategy {
         Strategy::Relax => Ok(()),

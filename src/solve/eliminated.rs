@@ -10,7 +10,9 @@ use crate::error::{Error, Result};
 use crate::monitor::{Monitor, Phase};
 use crate::problem::{Model, Problem};
 use crate::round;
-use crate::search::{Factors, Options, Search, SolveStatus, Strategy, WarmStart, of_relaxation};
+use crate::search::{
+    Factors, Options, Search, SolveStatus, StoppedBy, Strategy, WarmStart, of_relaxation,
+};
 
 /// A problem with all results that do not depend on its right sides.
 pub(super) struct EliminatedProblem<'a> {
@@ -71,8 +73,11 @@ impl EliminatedProblem<'_> {
 
         let candidate = Candidate {
             values: expand(reduced, self.model, strategy, &found.point),
+            energy: reduced.energy(&found.point).0,
             lower_bound: found.lower_bound,
             status: found.status,
+            complete: found.complete,
+            stopped_by: found.stopped_by,
             has_integers: !reduced.integers().is_empty(),
         };
         let (candidate, verdict) = candidate.verified(self.problem)?;
@@ -81,6 +86,8 @@ impl EliminatedProblem<'_> {
             energy: verdict.energy,
             lower_bound: Some(candidate.lower_bound),
             status: candidate.status,
+            complete: candidate.complete,
+            stopped_by: candidate.stopped_by,
             work: found.work,
             counts: counts(self.model, reduced, self.factors),
             seconds: Seconds {
@@ -107,6 +114,8 @@ pub(super) struct SearchResult {
     pub point: Vec<f64>,
     pub lower_bound: f64,
     pub status: SolveStatus,
+    pub complete: bool,
+    pub stopped_by: StoppedBy,
     /// Multiplications, including those of the relaxation.
     pub work: u64,
 }
@@ -125,6 +134,8 @@ fn decide(
     let relaxed = |status: SolveStatus, relaxation: Relaxation| SearchResult {
         point: relaxation.point,
         lower_bound: relaxation.lower_bound,
+        complete: status == SolveStatus::Optimal,
+        stopped_by: StoppedBy::Nothing,
         status,
         work,
     };
@@ -145,15 +156,21 @@ fn decide(
         match dispatch::search(model, reduced, options, factors, &mut search) {
             // If the search was stopped, the best solution so far is kept.
             Err(Error::Cancelled | Error::TimeLimit) if search.best().is_some() => {}
+            Err(Error::OutOfMemory { .. }) if search.best().is_some() => {
+                search.stop_by(StoppedBy::Memory);
+            }
             other => other?,
         }
     }
     let (lower_bound, status) = (search.lower_bound(), search.status());
+    let (complete, stopped_by) = (search.is_complete(), search.stopped_by());
     let work = work + search.work.spent();
     Ok(SearchResult {
         point: search.into_best()?.point,
         lower_bound,
         status,
+        complete,
+        stopped_by,
         work,
     })
 }

@@ -68,7 +68,9 @@ pub(super) fn solve_subject_to(
     search.offer(of.factors, decided.values())?;
     let decided = SearchResult {
         lower_bound,
-        status: SolveStatus::Feasible,
+        status: SolveStatus::unproved(decided.stopped_by()),
+        complete: false,
+        stopped_by: decided.stopped_by(),
         work: of_relaxation(&reduced) + decided.work(),
         point: search.into_best()?.point,
     };
