@@ -61,16 +61,16 @@ fn maps_have_the_same_solution_at_every_scale() {
     }
 }
 
-/// x^2 + (x + y - 0.6)^2, at 1.5 times its optimum where x is rounded last.
+/// (x + y - 0.9)^2 + (x - y)^2 / 10: both integers are rounded from 0.45 to 0, and (1, 0) is seven times better.
 #[test]
 fn rounding_is_not_called_optimal_because_all_energies_are_small() {
     for scale in [1.0, 1e-10, 1e-100] {
         let mut problem = Problem::new(2).unwrap();
         problem
-            .add_least_squares(&[0, 1], &[1.0, 1.0], 0.6, scale)
+            .add_least_squares(&[0, 1], &[1.0, 1.0], 0.9, scale)
             .unwrap();
         problem
-            .add_least_squares(&[0, 1], &[1.0, -1.0], 0.7, 4.0 * scale)
+            .add_least_squares(&[0, 1], &[1.0, -1.0], 0.0, 0.1 * scale)
             .unwrap();
         problem.set_integers(&[0, 1]).unwrap();
         let exact = solved(&problem, Strategy::Exact);

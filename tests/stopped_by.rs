@@ -37,7 +37,11 @@ fn a_proof_that_has_visited_everything_is_complete() {
 
 #[test]
 fn a_problem_without_integers_is_complete() {
-    let problem = field().relaxed();
+    let mut problem = Problem::new(2).unwrap();
+    problem
+        .add_least_squares(&[0, 1], &[1.0, -1.0], 0.3, 1.0)
+        .unwrap();
+    problem.add_constraint(&[0], &[2.0], 1.0).unwrap();
     for strategy in Strategy::ALL {
         let solution = solve(&problem, &with(strategy)).unwrap();
         let expected = (SolveStatus::Optimal, true, StoppedBy::Nothing);
