@@ -49,7 +49,7 @@ fn hold(problem: impl Fn(f64) -> Problem) {
 
 #[test]
 fn fields_have_the_same_solution_at_every_scale() {
-    for (side, seed) in [(4, 1), (5, 2), (12, 3)] {
+    for (side, seed) in [(4, 1), (5, 2)] {
         hold(|scale| weighted_orientation_field(side, seed, scale).unwrap());
     }
 }
