@@ -72,7 +72,7 @@ pub use error::{Error, InputError, Result};
 pub use linalg::Ordering;
 pub use monitor::{CancelToken, Event, Flow, Monitor};
 pub use problem::{Layout, Model, Problem, Triangle};
-pub use search::{Options, SolveStatus, Strategy, WarmStart};
+pub use search::{Options, SolveStatus, StoppedBy, Strategy, WarmStart};
 pub use solve::{Seconds, Solution, Solver, solve, solve_with};
 
 /// The Rust examples of the README and of the book are run as tests.

@@ -7,6 +7,8 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use roundel::monitor::{EventKind, Phase};
 use roundel::{Event, Flow, Monitor};
 
+use crate::summary::telling_gap;
+
 /// The line. It disappears when this is dropped.
 pub struct Progress(ProgressBar);
 
@@ -82,10 +84,8 @@ fn found(event: &Event) -> Cow<'static, str> {
     if !event.energy.is_finite() {
         return "".into();
     }
-    let gap = event.gap;
-    if gap.is_finite() {
-        format!(", energy {:.6}, gap {:.2} %", event.energy, 100.0 * gap).into()
-    } else {
-        format!(", energy {:.6}", event.energy).into()
+    match telling_gap(Some(event.gap)) {
+        Some(gap) => format!(", energy {:.6}, gap {:.2} %", event.energy, 100.0 * gap).into(),
+        None => format!(", energy {:.6}", event.energy).into(),
     }
 }

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use roundel::Solution;
+use roundel::{Solution, SolveStatus, StoppedBy};
 
 /// Three lines: the problem that was read, the problem after elimination, the solution.
 pub struct Summary<'a> {
@@ -40,13 +40,41 @@ impl fmt::Display for Summary<'_> {
     }
 }
 
-/// The status of a solve, and the gap between energy and bound.
+/// The status of a solve, the gap between energy and bound, and what stopped the search.
 pub fn verdict(solution: &Solution) -> String {
-    let status = solution.status().name();
-    match solution.gap() {
-        Some(gap) if gap.is_finite() => format!("{status}, gap {:.2} %", 100.0 * gap),
-        _ => status.into(),
+    let status = solution.status();
+    let bound = match telling_gap(solution.gap()) {
+        Some(gap) => format!(", gap {:.2} %", 100.0 * gap),
+        None if matches!(status, SolveStatus::Optimal | SolveStatus::Relaxed) => String::new(),
+        None => ", no bound".into(),
+    };
+    format!("{}{bound}{}", status.name(), stopped(solution.stopped_by()))
+}
+
+/// The status of a solve, and what stopped the search.
+pub fn outcome(solution: &Solution) -> String {
+    format!(
+        "{}{}",
+        solution.status().name(),
+        stopped(solution.stopped_by())
+    )
+}
+
+/// What stopped a search, unless the status says it already.
+fn stopped(by: StoppedBy) -> &'static str {
+    match by {
+        StoppedBy::Nodes => ", stopped by the limit of nodes",
+        StoppedBy::Time => ", stopped by the time limit",
+        StoppedBy::Memory => ", stopped by a lack of memory",
+        StoppedBy::Budget => ", stopped by its budget",
+        _ => "",
     }
+}
+
+/// The gap, if its bound says something. An energy that is a sum of squares has a gap of 100 % before
+/// anything is proved.
+pub fn telling_gap(gap: Option<f64>) -> Option<f64> {
+    gap.filter(|&gap| gap < 1.0)
 }
 
 /// Nine decimals; rounding noise below them has no sign.
@@ -87,13 +115,20 @@ pub fn thousands(count: usize) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{energy, thousands};
+    use super::{energy, telling_gap, thousands};
 
     #[test]
     fn rounding_noise_of_an_energy_has_no_sign() {
         let written = [-1e-14, -6e-10, -25.5].map(energy);
         let expected = ["0.000000000", "-0.000000001", "-25.500000000"];
         assert_eq!(written, expected.map(|e| format!("energy {e}")));
+    }
+
+    #[test]
+    fn a_bound_of_zero_below_a_sum_of_squares_says_nothing() {
+        assert_eq!(telling_gap(Some(1.0)), None);
+        assert_eq!(telling_gap(Some(f64::INFINITY)), None);
+        assert_eq!(telling_gap(Some(0.99)), Some(0.99));
     }
 
     #[test]

@@ -198,7 +198,7 @@ enum roundel_solve_status
      */
     ROUNDEL_SOLVE_FEASIBLE = 2,
     /**
-     * As feasible, but the time limit ended the search early.
+     * As feasible, but a limit that the caller set ended the search early: the option time_limit or nodes.
      */
     ROUNDEL_SOLVE_LIMIT = 3,
     /**
@@ -223,6 +223,48 @@ enum roundel_solve_status
 typedef enum roundel_solve_status roundel_solve_status;
 #else
 typedef int32_t roundel_solve_status;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/**
+ * Why a search ended before it had visited everything that could be better. The numbers never change;
+ * new ones may be added.
+ */
+enum roundel_stopped_by
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : int32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+    /**
+     * Nothing stopped it: it is complete, it has reached the option gap, or its strategy proves nothing.
+     */
+    ROUNDEL_STOPPED_BY_NONE = 0,
+    /**
+     * The option nodes, set by the caller.
+     */
+    ROUNDEL_STOPPED_BY_NODES = 1,
+    /**
+     * The option time_limit.
+     */
+    ROUNDEL_STOPPED_BY_TIME = 2,
+    /**
+     * A lack of memory.
+     */
+    ROUNDEL_STOPPED_BY_MEMORY = 3,
+    /**
+     * The caller, by a cancel token or the callback.
+     */
+    ROUNDEL_STOPPED_BY_CANCEL = 4,
+    /**
+     * A budget of the library: the work of auto, or the default of nodes.
+     */
+    ROUNDEL_STOPPED_BY_BUDGET = 5,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum roundel_stopped_by roundel_stopped_by;
+#else
+typedef int32_t roundel_stopped_by;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
@@ -598,7 +640,8 @@ typedef struct roundel_event {
      */
     double lower_bound;
     /**
-     * (energy - lower_bound) / max(1, |energy|), infinite while either is.
+     * (energy - lower_bound) / |energy|: 0 where they are equal, and infinite while either is infinite or
+     * an energy of 0 is above the bound.
      */
     double gap;
 } roundel_event;
@@ -670,6 +713,11 @@ const char *roundel_status_name(int32_t status);
  * The word for the end of a solve, such as "optimal"; "unknown" for a number that is none.
  */
 const char *roundel_solve_status_name(int32_t status);
+
+/**
+ * The word for what stopped a search, such as "budget"; "unknown" for a number that is none.
+ */
+const char *roundel_stopped_by_name(int32_t stopped_by);
 
 /**
  * Copies the message of the last call that failed on this thread to `buffer`: at most `capacity` bytes
@@ -1195,8 +1243,8 @@ roundel_status roundel_solution_lower_bound(const struct roundel_solution *solut
                                             double *lower_bound);
 
 /**
- * Gives (energy - lower_bound) / max(1, |energy|). `known` becomes 1, or 0 if there is no bound; the gap
- * is then infinite.
+ * Gives (energy - lower_bound) / |energy|: 0 where they are equal, and infinite for an energy of 0 above
+ * the bound. `known` becomes 1, or 0 if there is no bound; the gap is then infinite.
  */
 roundel_status roundel_solution_gap(const struct roundel_solution *solution,
                                     int32_t *known,
@@ -1207,6 +1255,19 @@ roundel_status roundel_solution_gap(const struct roundel_solution *solution,
  */
 roundel_status roundel_solution_status(const struct roundel_solution *solution,
                                        roundel_solve_status *status);
+
+/**
+ * Gives 1 if the search has visited everything that could be better, else 0. It is 1 for problems without
+ * integers. A solution can be optimal without that, if a bound proves it.
+ */
+roundel_status roundel_solution_is_complete(const struct roundel_solution *solution,
+                                            int32_t *complete);
+
+/**
+ * Gives why the search ended before it was complete.
+ */
+roundel_status roundel_solution_stopped_by(const struct roundel_solution *solution,
+                                           roundel_stopped_by *stopped_by);
 
 /**
  * Gives the sizes of the problem before and after elimination.

@@ -63,7 +63,8 @@ pub struct roundel_event {
     pub energy: f64,
     /// The best lower bound so far; minus infinity before the first.
     pub lower_bound: f64,
-    /// (energy - lower_bound) / max(1, |energy|), infinite while either is.
+    /// (energy - lower_bound) / |energy|: 0 where they are equal, and infinite while either is infinite or
+    /// an energy of 0 is above the bound.
     pub gap: f64,
 }
 

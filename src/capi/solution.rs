@@ -5,7 +5,7 @@ use std::mem::offset_of;
 use super::guard::{self, Guarded, object};
 use super::input::slice_mut;
 use super::output::Out;
-use super::status::{roundel_solve_status, roundel_status};
+use super::status::{roundel_solve_status, roundel_status, roundel_stopped_by};
 use crate::error::Error;
 use crate::solve::Solution;
 
@@ -174,8 +174,8 @@ pub unsafe extern "C" fn roundel_solution_lower_bound(
     }
 }
 
-/// Gives (energy - lower_bound) / max(1, |energy|). `known` becomes 1, or 0 if there is no bound; the gap
-/// is then infinite.
+/// Gives (energy - lower_bound) / |energy|: 0 where they are equal, and infinite for an energy of 0 above
+/// the bound. `known` becomes 1, or 0 if there is no bound; the gap is then infinite.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_solution_gap(
     solution: *const roundel_solution,
@@ -194,6 +194,31 @@ pub unsafe extern "C" fn roundel_solution_status(
 ) -> roundel_status {
     // SAFETY: the caller gives a live handle and a place for the number, or NULL.
     unsafe { give(solution, "status", status, |s| s.status().into()) }
+}
+
+/// Gives 1 if the search has visited everything that could be better, else 0. It is 1 for problems without
+/// integers. A solution can be optimal without that, if a bound proves it.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_solution_is_complete(
+    solution: *const roundel_solution,
+    complete: *mut i32,
+) -> roundel_status {
+    // SAFETY: the caller gives a live handle and a place for the number, or NULL.
+    unsafe { give(solution, "complete", complete, |s| s.is_complete().into()) }
+}
+
+/// Gives why the search ended before it was complete.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_solution_stopped_by(
+    solution: *const roundel_solution,
+    stopped_by: *mut roundel_stopped_by,
+) -> roundel_status {
+    // SAFETY: the caller gives a live handle and a place for the number, or NULL.
+    unsafe {
+        give(solution, "stopped by", stopped_by, |s| {
+            s.stopped_by().into()
+        })
+    }
 }
 
 /// Gives the sizes of the problem before and after elimination.

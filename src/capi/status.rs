@@ -3,7 +3,7 @@
 use std::ffi::{CStr, c_char};
 
 use crate::error::Error;
-use crate::search::SolveStatus;
+use crate::search::{SolveStatus, StoppedBy};
 
 /// The status of a call. The numbers never change; new ones may be added, so treat every number other
 /// than ROUNDEL_OK as a failure.
@@ -82,7 +82,7 @@ pub enum roundel_solve_status {
     ROUNDEL_SOLVE_OPTIMAL = 1,
     /// Every constraint and integrality holds; a better solution may exist.
     ROUNDEL_SOLVE_FEASIBLE = 2,
-    /// As feasible, but the time limit ended the search early.
+    /// As feasible, but a limit that the caller set ended the search early: the option time_limit or nodes.
     ROUNDEL_SOLVE_LIMIT = 3,
     /// As feasible, but the caller ended the search early.
     ROUNDEL_SOLVE_CANCELLED = 4,
@@ -94,8 +94,28 @@ pub enum roundel_solve_status {
     ROUNDEL_SOLVE_UNBOUNDED = 11,
 }
 
+/// Why a search ended before it had visited everything that could be better. The numbers never change;
+/// new ones may be added.
+#[repr(i32)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum roundel_stopped_by {
+    /// Nothing stopped it: it is complete, it has reached the option gap, or its strategy proves nothing.
+    ROUNDEL_STOPPED_BY_NONE = 0,
+    /// The option nodes, set by the caller.
+    ROUNDEL_STOPPED_BY_NODES = 1,
+    /// The option time_limit.
+    ROUNDEL_STOPPED_BY_TIME = 2,
+    /// A lack of memory.
+    ROUNDEL_STOPPED_BY_MEMORY = 3,
+    /// The caller, by a cancel token or the callback.
+    ROUNDEL_STOPPED_BY_CANCEL = 4,
+    /// A budget of the library: the work of auto, or the default of nodes.
+    ROUNDEL_STOPPED_BY_BUDGET = 5,
+}
+
 use roundel_solve_status::*;
 use roundel_status::*;
+use roundel_stopped_by::*;
 
 const NAMES: &[(roundel_status, &CStr)] = &[
     (ROUNDEL_OK, c"ok"),
@@ -143,6 +163,15 @@ const SOLVE_NAMES: &[(roundel_solve_status, &CStr)] = &[
     (ROUNDEL_SOLVE_UNBOUNDED, c"unbounded"),
 ];
 
+const STOP_NAMES: &[(roundel_stopped_by, &CStr)] = &[
+    (ROUNDEL_STOPPED_BY_NONE, c"none"),
+    (ROUNDEL_STOPPED_BY_NODES, c"nodes"),
+    (ROUNDEL_STOPPED_BY_TIME, c"time"),
+    (ROUNDEL_STOPPED_BY_MEMORY, c"memory"),
+    (ROUNDEL_STOPPED_BY_CANCEL, c"cancel"),
+    (ROUNDEL_STOPPED_BY_BUDGET, c"budget"),
+];
+
 /// The word for a status, such as "index_out_of_range"; "unknown" for a number that is none.
 #[unsafe(no_mangle)]
 pub extern "C" fn roundel_status_name(status: i32) -> *const c_char {
@@ -156,6 +185,14 @@ pub extern "C" fn roundel_status_name(status: i32) -> *const c_char {
 pub extern "C" fn roundel_solve_status_name(status: i32) -> *const c_char {
     let mut names = SOLVE_NAMES.iter();
     let found = names.find(|(s, _)| *s as i32 == status);
+    found.map_or(c"unknown", |(_, name)| name).as_ptr()
+}
+
+/// The word for what stopped a search, such as "budget"; "unknown" for a number that is none.
+#[unsafe(no_mangle)]
+pub extern "C" fn roundel_stopped_by_name(stopped_by: i32) -> *const c_char {
+    let mut names = STOP_NAMES.iter();
+    let found = names.find(|(s, _)| *s as i32 == stopped_by);
     found.map_or(c"unknown", |(_, name)| name).as_ptr()
 }
 
@@ -225,6 +262,19 @@ impl From<SolveStatus> for roundel_solve_status {
     }
 }
 
+impl From<StoppedBy> for roundel_stopped_by {
+    fn from(stopped_by: StoppedBy) -> Self {
+        match stopped_by {
+            StoppedBy::Nothing => ROUNDEL_STOPPED_BY_NONE,
+            StoppedBy::Nodes => ROUNDEL_STOPPED_BY_NODES,
+            StoppedBy::Time => ROUNDEL_STOPPED_BY_TIME,
+            StoppedBy::Memory => ROUNDEL_STOPPED_BY_MEMORY,
+            StoppedBy::Cancel => ROUNDEL_STOPPED_BY_CANCEL,
+            StoppedBy::Budget => ROUNDEL_STOPPED_BY_BUDGET,
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -281,6 +331,23 @@ mod tests {
         }
     }
 
+    #[test]
+    fn the_word_for_what_stopped_a_search_is_that_of_rust() {
+        for stopped_by in [
+            StoppedBy::Nothing,
+            StoppedBy::Nodes,
+            StoppedBy::Time,
+            StoppedBy::Memory,
+            StoppedBy::Cancel,
+            StoppedBy::Budget,
+        ] {
+            let number = roundel_stopped_by::from(stopped_by) as i32;
+            // SAFETY: the function gives a static text.
+            let word = unsafe { CStr::from_ptr(roundel_stopped_by_name(number)) };
+            assert_eq!(word.to_str(), Ok(stopped_by.name()));
+        }
+    }
+
     /// The names in the header and the numbers behind them are what other languages bind to.
     #[test]
     fn every_status_has_a_word() {
@@ -296,6 +363,8 @@ mod tests {
                 roundel_status_name(number)
             } else if name.starts_with("ROUNDEL_SOLVE_") {
                 roundel_solve_status_name(number)
+            } else if name.starts_with("ROUNDEL_STOPPED_BY_") {
+                roundel_stopped_by_name(number)
             } else {
                 continue;
             };
@@ -307,6 +376,6 @@ mod tests {
             );
             seen += 1;
         }
-        assert!(seen >= 30, "only {seen} statuses found in the header");
+        assert!(seen >= 36, "only {seen} statuses found in the header");
     }
 }

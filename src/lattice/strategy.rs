@@ -11,7 +11,7 @@ use crate::eliminate::ReducedModel;
 use crate::error::{Error, Result};
 use crate::monitor::Phase;
 use crate::round;
-use crate::search::{Factors, Options, Search};
+use crate::search::{Factors, Options, Search, StoppedBy};
 
 /// A proof is not tried if its predicted nodes exceed the budget by more than this factor.
 const HOPELESS: f64 = 4.0;
@@ -92,7 +92,13 @@ fn prove(
     let certificate = Certificate::measure(model, factors, &pieces, search)?;
     let widest = pieces.iter().map(|p| p.basis.rank()).max().unwrap_or(0);
     let per_node = widest as u64 / 2 + 1;
-    let nodes = (options.nodes as u64).min(search.work.left() / per_node);
+    let affordable = search.work.left() / per_node;
+    let nodes = (options.nodes as u64).min(affordable);
+    let by_caller = options.nodes != Options::default().nodes && options.nodes as u64 <= affordable;
+    let limit = match by_caller {
+        true => StoppedBy::Nodes,
+        false => StoppedBy::Budget,
+    };
     let mut left = nodes;
     for piece in &mut pieces {
         let mut stop = || search.monitor.check().is_err();
@@ -136,6 +142,7 @@ fn prove(
             }
             pieces[at].bound = pieces[at].bound.max(found.bound);
             if !found.complete {
+                search.stop_by(limit);
                 raise(&pieces, &certificate, search);
                 return Ok(());
             }
@@ -143,6 +150,9 @@ fn prove(
         }
         raise(&pieces, &certificate, search);
         goal *= GROWTH;
+    }
+    if !search.is_within(options.gap) && pieces.iter().any(|p| !p.proved) {
+        search.stop_by(limit);
     }
     Ok(())
 }
@@ -215,7 +225,8 @@ fn try_point(
     Ok(())
 }
 
-/// Raises the bound to the one that the searched balls prove.
+/// Raises the bound to the one that the searched balls prove. The search is complete if every solution that
+/// was not evaluated has at least the energy of the best one.
 fn raise(pieces: &[Piece], certificate: &Certificate, search: &mut Search) {
     let least = |p: &Piece| {
         if p.proved {
@@ -224,7 +235,8 @@ fn raise(pieces: &[Piece], certificate: &Certificate, search: &mut Search) {
             p.bound.min(p.value)
         }
     };
-    let square = if pieces.iter().all(|p| p.proved) {
+    let all = pieces.iter().all(|p| p.proved);
+    let square = if all {
         // A solution that was not evaluated lies outside the ball of some piece.
         let values: f64 = pieces.iter().map(|p| p.value).sum();
         let beyond = pieces
@@ -235,8 +247,11 @@ fn raise(pieces: &[Piece], certificate: &Certificate, search: &mut Search) {
         pieces.iter().map(least).sum()
     };
     let beyond = certificate.energy_bound(square);
-    if let Some(best) = search.best() {
-        search.raise_bound(beyond.min(best.at_least));
+    if let Some((energy, at_least)) = search.best().map(|best| (best.energy, best.at_least)) {
+        if all && certificate.is_valid() && beyond >= energy {
+            search.complete();
+        }
+        search.raise_bound(beyond.min(at_least));
     }
 }
 

@@ -189,9 +189,16 @@ impl Cholesky {
     /// Schur complement S, dense and by columns, in the order of elimination. The second result says whether
     /// all pivots were positive. A vanished pivot leaves a zero row. Its column is zero as well if it holds
     /// nothing but rounding errors.
-    pub fn trailing_factor(&self, m: usize) -> (Vec<f64>, bool) {
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`].
+    pub fn trailing_factor(&self, m: usize) -> Result<(Vec<f64>, bool)> {
         let first = self.dim() - m;
-        let mut r = vec![0.0; m * m];
+        let mut r = Vec::new();
+        r.try_reserve_exact(m * m).map_err(|_| Error::OutOfMemory {
+            what: "the dense factor of the integers",
+        })?;
+        r.resize(m * m, 0.0);
         let mut null = Vec::new();
         // The largest entry of each column of the scaled complement.
         let mut size = vec![0.0f64; m];
@@ -215,7 +222,7 @@ impl Cholesky {
             r[k * m..(k + 1) * m].fill(0.0);
         }
         let full = null.is_empty();
-        (r, full)
+        Ok((r, full))
     }
 
     /// The unknown that is eliminated as the `position`-th.

@@ -17,7 +17,9 @@ pub fn equilibrate(lower: &Sparse) -> Vec<f64> {
 /// The power of two `s` with `s^2 d` in [1/2, 2), or 1 where `d` is not positive.
 pub fn unit_scale(d: f64) -> f64 {
     if d > 0.0 {
-        (-0.5 * d.log2()).round().exp2()
+        // From the exponent of d, so that a factor of 4 halves s exactly. Logarithms round.
+        let exponent = (d.to_bits() >> 52) as i32 - 1023;
+        f64::from(-(exponent + 1).div_euclid(2)).exp2()
     } else {
         1.0
     }
@@ -36,5 +38,16 @@ mod tests {
             assert!((0.5..2.0).contains(&(s * s * d)));
         }
         assert_eq!(s[2], 1.0);
+    }
+
+    #[test]
+    fn four_times_a_diagonal_halves_its_scale() {
+        for d in [1.0, 1.9, 2.0, 3.0] {
+            for k in -40..40 {
+                let scaled = unit_scale(d * f64::from(2 * k).exp2());
+                assert_eq!(scaled, unit_scale(d) * f64::from(-k).exp2(), "{d} {k}");
+                assert!((0.5..2.0).contains(&(unit_scale(d).powi(2) * d)));
+            }
+        }
     }
 }

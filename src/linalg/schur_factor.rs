@@ -32,7 +32,7 @@ impl SchurFactor {
         let mut order: Vec<u32> = tree.order.iter().map(|&k| continuous[k as usize]).collect();
         order.extend(integers);
         let factor = Cholesky::in_order(lower, &order)?;
-        let (trailing, full) = factor.trailing_factor(integers.len());
+        let (trailing, full) = factor.trailing_factor(integers.len())?;
         Ok(SchurFactor {
             factor,
             integers: integers.len(),

@@ -146,7 +146,7 @@ impl<'a> Monitor<'a> {
             seconds: self.started.elapsed().as_secs_f64(),
             energy: self.energy,
             lower_bound: self.lower_bound,
-            gap: if gap.is_nan() { f64::INFINITY } else { gap },
+            gap,
         };
         if callback(&event) == Flow::Cancel && self.stopped.is_none() {
             self.stopped = Some(Stop::Cancelled);
@@ -154,7 +154,41 @@ impl<'a> Monitor<'a> {
     }
 }
 
-/// `(energy - lower_bound) / max(1, |energy|)`.
+/// `(energy - lower_bound) / |energy|`. It is 0 where the bound has reached the energy, also for an energy of
+/// 0, and infinite without an energy, without a bound, and for an energy of 0 above the bound.
 pub(crate) fn relative_gap(energy: f64, lower_bound: f64) -> f64 {
-    (energy - lower_bound) / energy.abs().max(1.0)
+    if !energy.is_finite() {
+        f64::INFINITY
+    } else if energy <= lower_bound {
+        0.0
+    } else {
+        (energy - lower_bound) / energy.abs()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::relative_gap;
+
+    #[test]
+    fn the_gap_is_relative_at_every_scale() {
+        for scale in [2f64.powi(-1000), 2f64.powi(-40), 1.0, 2f64.powi(40)] {
+            assert_eq!(relative_gap(1.5 * scale, 0.75 * scale), 0.5);
+            assert_eq!(relative_gap(-1.5 * scale, -3.0 * scale), 1.0);
+        }
+    }
+
+    #[test]
+    fn the_gap_of_an_energy_of_zero_is_zero_or_infinite() {
+        assert_eq!(relative_gap(0.0, 0.0), 0.0);
+        assert_eq!(relative_gap(0.0, -1e-300), f64::INFINITY);
+    }
+
+    #[test]
+    fn without_an_energy_or_a_bound_the_gap_is_infinite() {
+        const NONE: f64 = f64::INFINITY;
+        assert_eq!(relative_gap(NONE, -NONE), NONE);
+        assert_eq!(relative_gap(NONE, 1.0), NONE);
+        assert_eq!(relative_gap(1.0, -NONE), NONE);
+    }
 }

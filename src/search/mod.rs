@@ -8,6 +8,7 @@ mod incumbent;
 mod options;
 mod presets;
 mod status;
+mod stopped_by;
 mod strategy;
 pub(crate) mod table;
 mod warm_start;
@@ -16,6 +17,7 @@ mod work;
 pub use options::{OPTIONS, Options};
 pub use presets::{PRESETS, Preset};
 pub use status::{GAP_TOLERANCE, SolveStatus};
+pub use stopped_by::StoppedBy;
 pub use strategy::Strategy;
 pub use table::{OptionInfo, OptionKind, OptionValue, UNSET};
 pub use warm_start::WarmStart;
@@ -49,6 +51,8 @@ pub(crate) struct Search<'s, 'm> {
     elsewhere: f64,
     /// The part of a gap that is allowed here.
     share: f64,
+    complete: bool,
+    stopped_by: StoppedBy,
     /// The multiplications spent, and their limit.
     pub work: Work,
     /// Progress, cancel, time limit.
@@ -72,6 +76,8 @@ impl<'s, 'm> Search<'s, 'm> {
             exact: None,
             elsewhere: 0.0,
             share: 1.0,
+            complete: false,
+            stopped_by: StoppedBy::Nothing,
             work: Work::unlimited(),
             monitor,
         }
@@ -94,7 +100,23 @@ impl<'s, 'm> Search<'s, 'm> {
 
     /// Counts this many multiplications. Returns whether to end.
     pub fn ends(&mut self, multiplications: u64) -> bool {
-        self.work.ends(multiplications, self.monitor)
+        let ends = self.work.ends(multiplications, self.monitor);
+        if self.work.left() == 0 {
+            self.stop_by(StoppedBy::Budget);
+        }
+        ends
+    }
+
+    /// Records that the strategy ends for this reason, unless one is known already.
+    pub fn stop_by(&mut self, reason: StoppedBy) {
+        if self.stopped_by == StoppedBy::Nothing {
+            self.stopped_by = reason;
+        }
+    }
+
+    /// Records that no solution that has not been evaluated has less energy than the incumbent.
+    pub fn complete(&mut self) {
+        self.complete = true;
     }
 
     /// The minimiser of the relaxation.
@@ -209,23 +231,43 @@ impl<'s, 'm> Search<'s, 'm> {
         gap * self.share * (energy + self.elsewhere).abs()
     }
 
-    /// Whether the incumbent's relative gap is at most `gap` or [`GAP_TOLERANCE`].
+    /// Whether the incumbent is proved to be optimal, or its relative gap is at most `gap`.
     pub fn is_within(&self, gap: f64) -> bool {
-        self.wanted_bound(gap.max(GAP_TOLERANCE)) <= self.lower_bound
+        let within = |_: &Incumbent| self.wanted_bound(gap) <= self.lower_bound;
+        self.is_proved() || self.incumbent.as_ref().is_some_and(within)
+    }
+
+    /// Whether every solution that could be better has been visited, or none is left because the bound has
+    /// reached the energy.
+    pub fn is_complete(&self) -> bool {
+        let reached = |best: &Incumbent| best.energy <= self.lower_bound;
+        self.complete || self.incumbent.as_ref().is_some_and(reached)
+    }
+
+    fn is_proved(&self) -> bool {
+        let rounding = 4.0 * self.model.rounding().constant;
+        let closed = |best: &Incumbent| status::is_closed(best.energy, self.lower_bound, rounding);
+        self.is_complete() || self.incumbent.as_ref().is_some_and(closed)
+    }
+
+    /// Why the search ended before it was complete, if it ended now.
+    pub fn stopped_by(&self) -> StoppedBy {
+        match self.monitor.stopped() {
+            _ if self.is_proved() => StoppedBy::Nothing,
+            Some(Stop::Cancelled) => StoppedBy::Cancel,
+            Some(Stop::TimeLimit) => StoppedBy::Time,
+            None => self.stopped_by,
+        }
     }
 
     /// The status of the search if it ended now.
     pub fn status(&self) -> SolveStatus {
-        let Some(best) = &self.incumbent else {
-            return SolveStatus::Relaxed;
-        };
-        if best.energy - self.lower_bound <= self.allowed(GAP_TOLERANCE, best.energy) {
-            return SolveStatus::Optimal;
-        }
-        match self.monitor.stopped() {
-            Some(Stop::Cancelled) => SolveStatus::Cancelled,
-            Some(Stop::TimeLimit) => SolveStatus::Limit,
-            None => SolveStatus::Feasible,
+        if self.incumbent.is_none() {
+            SolveStatus::Relaxed
+        } else if self.is_proved() {
+            SolveStatus::Optimal
+        } else {
+            SolveStatus::unproved(self.stopped_by())
         }
     }
 }

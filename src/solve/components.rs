@@ -13,13 +13,16 @@ use crate::linalg::{TwoFold, places};
 use crate::monitor::Monitor;
 use crate::problem::{Model, Objective, Problem};
 use crate::round;
-use crate::search::{ALWAYS, Factors, Options, Search, SolveStatus, WarmStart};
+use crate::search::{ALWAYS, Factors, Options, Search, SolveStatus, StoppedBy, WarmStart};
 
 /// The best point of a search, in the unknowns of the model around the centre.
 pub(super) struct Found {
     pub point: Vec<f64>,
+    pub energy: f64,
     pub lower_bound: f64,
     pub status: SolveStatus,
+    pub complete: bool,
+    pub stopped_by: StoppedBy,
     /// Multiplications, without those of the relaxation.
     pub work: u64,
 }
@@ -51,12 +54,14 @@ pub(super) fn by_components(
         .collect();
 
     let mut always = ALWAYS;
-    let mut energy = whole.constant();
     let mut pending: f64 = relaxed.iter().map(|r| r.energy).sum();
     let mut found = Found {
         point: relaxation.point,
+        energy: whole.constant(),
         lower_bound: relaxation.lower_bound,
         status: SolveStatus::Optimal,
+        complete: true,
+        stopped_by: StoppedBy::Nothing,
         work: 0,
     };
     let place = places(whole.dim(), whole.integers());
@@ -64,7 +69,7 @@ pub(super) fn by_components(
         let (part, of_part) = (&parts[k], &relaxed[k]);
         pending -= of_part.energy;
         let last = done + 1 == order.len();
-        let known = if last { energy } else { f64::INFINITY };
+        let known = if last { found.energy } else { f64::INFINITY };
         monitor.elsewhere(known, found.lower_bound - of_part.highest);
         let start = start.as_ref().map(|start| {
             let integers = part.model.integers().iter();
@@ -74,7 +79,7 @@ pub(super) fn by_components(
         let share = always / (order.len() - done) as u64;
         let point = pick(&part.members, &found.point);
         let search = Search::new(&part.model, point, of_part.lower_bound, monitor)
-            .of_component(parts.len(), energy + pending, share)
+            .of_component(parts.len(), found.energy + pending, share)
             .judged_by(|step| exact.difference_of(&part.members, step));
         let factors = of.factors.of_component(k);
         let own = run(of.model, &part.model, options, start, factors, search, true)?;
@@ -82,10 +87,14 @@ pub(super) fn by_components(
             found.point[i as usize] = *x;
         }
         always = always.saturating_sub(own.work);
-        energy += part.model.energy(&own.point).0;
+        found.energy += own.energy;
         found.lower_bound += own.lower_bound - of_part.highest;
         found.work += own.work;
         found.status = worse(found.status, own.status);
+        found.complete &= own.complete;
+        if found.stopped_by == StoppedBy::Nothing {
+            found.stopped_by = own.stopped_by;
+        }
     }
     monitor.elsewhere(0.0, 0.0);
     Ok(found)
@@ -131,6 +140,9 @@ fn run(
         match dispatch::search(given, model, options, factors, &mut search) {
             // If the search was stopped, the best solution so far is kept.
             Err(Error::Cancelled | Error::TimeLimit) if search.best().is_some() => {}
+            Err(Error::OutOfMemory { .. }) if search.best().is_some() => {
+                search.stop_by(StoppedBy::Memory);
+            }
             Err(Error::Cancelled | Error::TimeLimit) if required => {
                 let relaxed = |&i: &u32| round::nearest(search.relaxed()[i as usize]);
                 let nearest: Vec<f64> = model.integers().iter().map(relaxed).collect();
@@ -140,11 +152,16 @@ fn run(
         }
     }
     let (lower_bound, status) = (search.lower_bound(), search.status());
+    let (complete, stopped_by) = (search.is_complete(), search.stopped_by());
     let work = search.work.spent();
+    let best = search.into_best()?;
     Ok(Found {
-        point: search.into_best()?.point,
+        point: best.point,
+        energy: best.energy,
         lower_bound,
         status,
+        complete,
+        stopped_by,
         work,
     })
 }

@@ -3,7 +3,7 @@
 use crate::eliminate::ReducedModel;
 use crate::error::Result;
 use crate::problem::Model;
-use crate::search::{Factors, Options, Search, Strategy, of_relaxation};
+use crate::search::{Factors, Options, Search, StoppedBy, Strategy, of_relaxation};
 use crate::{cycle, lattice, round};
 
 /// `auto` also tries a proof for angle-difference systems of at most this many integers.
@@ -32,7 +32,10 @@ pub(super) fn search(
     let mut few = m <= options.dense_integers;
     if options.strategy == Strategy::Auto {
         let limit = search.work.limit_to_auto(of_relaxation(model));
-        few &= DENSE * (m as u64).pow(3) <= limit;
+        if few && DENSE * (m as u64).pow(3) > limit {
+            few = false;
+            search.stop_by(StoppedBy::Budget);
+        }
     }
     match options.strategy {
         Strategy::Relax => Ok(()),

@@ -10,7 +10,7 @@ use crate::error::Result;
 use crate::monitor::{Monitor, Phase};
 use crate::problem::{Model, Problem};
 use crate::round;
-use crate::search::{Factors, Options, SolveStatus, Strategy, WarmStart, of_relaxation};
+use crate::search::{Factors, Options, SolveStatus, StoppedBy, Strategy, WarmStart, of_relaxation};
 
 /// A problem with all results that do not depend on its right sides.
 pub(super) struct EliminatedProblem<'a> {
@@ -58,8 +58,11 @@ impl EliminatedProblem<'_> {
 
         let candidate = Candidate {
             values: found.values,
+            energy: found.energy,
             lower_bound: found.lower_bound,
             status: found.status,
+            complete: found.complete,
+            stopped_by: found.stopped_by,
             has_integers: !reduced.integers().is_empty(),
         };
         let (candidate, verdict) = candidate.verified(self.problem)?;
@@ -68,6 +71,8 @@ impl EliminatedProblem<'_> {
             energy: verdict.energy,
             lower_bound: Some(candidate.lower_bound),
             status: candidate.status,
+            complete: candidate.complete,
+            stopped_by: candidate.stopped_by,
             work: found.work,
             counts: counts(self.model, reduced, self.factors),
             seconds: Seconds {
@@ -92,8 +97,11 @@ pub(super) struct Clock {
 pub(super) struct SearchResult {
     /// The caller's unknowns.
     pub values: Vec<f64>,
+    pub energy: f64,
     pub lower_bound: f64,
     pub status: SolveStatus,
+    pub complete: bool,
+    pub stopped_by: StoppedBy,
     /// Multiplications, including those of the relaxation.
     pub work: u64,
 }
@@ -116,7 +124,10 @@ fn decide(
     if let Some(status) = status {
         return Ok(SearchResult {
             values: expand(&centre, of.model, options.strategy, &relaxation.point),
+            energy: centre.model().energy(&relaxation.point).0,
             lower_bound: relaxation.lower_bound,
+            complete: status == SolveStatus::Optimal,
+            stopped_by: StoppedBy::Nothing,
             status,
             work,
         });
@@ -129,8 +140,11 @@ fn decide(
     let found = by_components(of, &centre, relaxation, options, start, monitor)?;
     Ok(SearchResult {
         values: expand(&centre, of.model, options.strategy, &found.point),
+        energy: found.energy,
         lower_bound: found.lower_bound,
         status: found.status,
+        complete: found.complete,
+        stopped_by: found.stopped_by,
         work: work + found.work,
     })
 }

@@ -100,8 +100,11 @@ fn in_callers_unknowns(
 ) -> Result<Option<Solution>> {
     let candidate = Candidate {
         values: short.expand(&found.values),
+        energy: found.energy,
         lower_bound: found.lower_bound.unwrap_or(f64::NEG_INFINITY),
         status: found.status,
+        complete: found.complete,
+        stopped_by: found.stopped_by,
         has_integers: found.counts.reduced_integers > 0,
     };
     if candidate.values.iter().any(|x| x.abs() > LARGEST_INTEGER) {
@@ -113,6 +116,8 @@ fn in_callers_unknowns(
         energy: verdict.energy,
         lower_bound: Some(candidate.lower_bound),
         status: candidate.status,
+        complete: candidate.complete,
+        stopped_by: candidate.stopped_by,
         work: found.work,
         counts: Counts {
             variables: of.model.variables(),

@@ -1,7 +1,7 @@
 //! The result of a solve.
 
 use crate::monitor::relative_gap;
-use crate::search::SolveStatus;
+use crate::search::{SolveStatus, StoppedBy};
 
 /// Sizes of a problem before and after elimination.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -43,6 +43,8 @@ pub struct Solution {
     pub(super) energy: f64,
     pub(super) lower_bound: Option<f64>,
     pub(super) status: SolveStatus,
+    pub(super) complete: bool,
+    pub(super) stopped_by: StoppedBy,
     pub(super) work: u64,
     pub(super) counts: Counts,
     pub(super) seconds: Seconds,
@@ -66,7 +68,8 @@ impl Solution {
         self.lower_bound
     }
 
-    /// The relative gap `(energy - lower_bound) / max(1, |energy|)`, if there is a bound.
+    /// The relative gap `(energy - lower_bound) / |energy|`, if there is a bound. It is 0 where they are equal,
+    /// and infinite for an energy of 0 above the bound.
     pub fn gap(&self) -> Option<f64> {
         self.lower_bound
             .map(|bound| relative_gap(self.energy, bound))
@@ -75,6 +78,17 @@ impl Solution {
     /// How the solve ended.
     pub fn status(&self) -> SolveStatus {
         self.status
+    }
+
+    /// Whether the search has visited everything that could be better; always true without integers. A
+    /// solution can be optimal without that, if a bound proves it.
+    pub fn is_complete(&self) -> bool {
+        self.complete
+    }
+
+    /// Why the search ended before it was complete.
+    pub fn stopped_by(&self) -> StoppedBy {
+        self.stopped_by
     }
 
     /// The multiplications of the relaxation and of the search, approximately. The relaxation counts as 50

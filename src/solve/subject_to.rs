@@ -69,16 +69,17 @@ pub(super) fn solve_subject_to(
     } = relaxation;
     let mut search = Search::new(&reduced, point, lower_bound, monitor);
     search.offer(of.factors, decided.values())?;
+    let best = search.into_best()?;
+    let mut values = reduced.expansion().expand(&best.point);
+    clean(&mut values, of.model, options.strategy);
     let decided = SearchResult {
+        energy: best.energy,
         lower_bound,
-        status: SolveStatus::Feasible,
+        status: SolveStatus::unproved(decided.stopped_by()),
+        complete: false,
+        stopped_by: decided.stopped_by(),
         work: of_relaxation(&reduced) + decided.work(),
-        values: {
-            let point = search.into_best()?.point;
-            let mut values = reduced.expansion().expand(&point);
-            clean(&mut values, of.model, options.strategy);
-            values
-        },
+        values,
     };
     of.conclude(&reduced, decided, &clock, monitor).map(Some)
 }

@@ -21,6 +21,11 @@ pub fn solve_briefly(problem: &Problem, strategy: Strategy) -> Result<Solution> 
 /// An orientation field on the faces of a `side` by `side` torus of quadrilaterals. There is one angle for
 /// each face and one period jump for each dual edge off a spanning tree. The first angle is pinned.
 pub fn orientation_field(side: usize, seed: u64) -> Result<Problem> {
+    weighted_orientation_field(side, seed, 1.0)
+}
+
+/// The same with this weight of every row.
+pub fn weighted_orientation_field(side: usize, seed: u64, weight: f64) -> Result<Problem> {
     let mut random = Random::new(seed);
     let faces = side * side;
     let face = |r: usize, c: usize| (r % side) * side + c % side;
@@ -37,10 +42,10 @@ pub fn orientation_field(side: usize, seed: u64) -> Result<Problem> {
     for (i, j, in_tree) in edges {
         let kappa = std::f64::consts::PI * random.next();
         if in_tree {
-            problem.add_least_squares(&[i, j], &[1.0, -1.0], -kappa, 1.0)?;
+            problem.add_least_squares(&[i, j], &[1.0, -1.0], -kappa, weight)?;
         } else {
             let quarter = std::f64::consts::FRAC_PI_2;
-            problem.add_least_squares(&[i, j, jump], &[1.0, -1.0, quarter], -kappa, 1.0)?;
+            problem.add_least_squares(&[i, j, jump], &[1.0, -1.0, quarter], -kappa, weight)?;
             problem.set_integers(&[jump])?;
             jump += 1;
         }
@@ -53,6 +58,11 @@ pub fn orientation_field(side: usize, seed: u64) -> Result<Problem> {
 /// gradient. A quarter turn and an integer translation glue its left side to its right and its top to its
 /// bottom. Two vertices are cones on integers.
 pub fn parametrization(side: usize, seed: u64) -> Result<Problem> {
+    weighted_parametrization(side, seed, 1.0)
+}
+
+/// The same with this weight of every row.
+pub fn weighted_parametrization(side: usize, seed: u64, weight: f64) -> Result<Problem> {
     let mut random = Random::new(seed);
     let at = |r: usize, c: usize| 2 * (r * side + c);
     let unknowns = 2 * side * side;
@@ -65,7 +75,7 @@ pub fn parametrization(side: usize, seed: u64) -> Result<Problem> {
                     for k in 0..2 {
                         let wanted = 1.3 * random.next();
                         let ends = [at(r2, c2) + k, at(r, c) + k];
-                        problem.add_least_squares(&ends, &[1.0, -1.0], wanted, 1.0)?;
+                        problem.add_least_squares(&ends, &[1.0, -1.0], wanted, weight)?;
                     }
                 }
             }
@@ -74,8 +84,8 @@ pub fn parametrization(side: usize, seed: u64) -> Result<Problem> {
     for seam in 0..seams {
         let (s, t) = (unknowns + 2 * seam, unknowns + 2 * seam + 1);
         problem.set_integers(&[s, t])?;
-        problem.add_least_squares(&[s], &[1.0], 0.0, 1e-6)?;
-        problem.add_least_squares(&[t], &[1.0], 0.0, 1e-6)?;
+        problem.add_least_squares(&[s], &[1.0], 0.0, 1e-6 * weight)?;
+        problem.add_least_squares(&[t], &[1.0], 0.0, 1e-6 * weight)?;
         for k in 0..side {
             let (a, b) = if seam == 0 {
                 (at(k, 0), at(k, side - 1))
@@ -91,6 +101,21 @@ pub fn parametrization(side: usize, seed: u64) -> Result<Problem> {
     problem.set_integers(&[cones[0], cones[0] + 1, cones[1], cones[1] + 1])?;
     problem.add_constraint(&[cones[0]], &[1.0], 0.0)?;
     problem.add_constraint(&[cones[0] + 1], &[1.0], 0.0)?;
+    Ok(problem)
+}
+
+/// A chain of integers that are coupled to their neighbours.
+pub fn loosely_coupled(size: usize) -> Result<Problem> {
+    let mut random = Random::new(5);
+    let mut problem = Problem::new(size)?;
+    for i in 0..size {
+        problem.add_least_squares(&[i], &[1.0], 9.0 * random.next(), 1.0)?;
+        if i > 0 {
+            let wanted = random.next();
+            problem.add_least_squares(&[i - 1, i], &[1.0, -0.7], wanted, 1.0)?;
+        }
+    }
+    problem.set_integers(&Vec::from_iter(0..size))?;
     Ok(problem)
 }
 

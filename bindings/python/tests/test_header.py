@@ -36,5 +36,6 @@ def test_the_package_was_built_from_this_header():
     from roundel._declarations import ffi
 
     fresh = parsed()
-    for name in ("roundel_status", "roundel_solve_status", "roundel_event_kind", "roundel_phase"):
+    enums = ("status", "solve_status", "stopped_by", "event_kind", "phase")
+    for name in (f"roundel_{enum}" for enum in enums):
         assert ffi.typeof(f"enum {name}").relements == fresh.typeof(f"enum {name}").relements

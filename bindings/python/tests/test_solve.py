@@ -160,3 +160,14 @@ def test_rows_of_a_matrix_equal_rows_added_one_by_one():
     with pytest.raises(roundel.InvalidArgumentError, match="entry 1 is -2") as caught:
         problem.least_squares_rows(A, b, [1.0, -2.0, 1.0])
     assert caught.value.position == 1
+
+
+def test_a_solution_tells_whether_its_search_is_complete_and_what_stopped_it():
+    given = random_problem()
+    proved = roundel.solve(**given, strategy="exact")
+    assert (proved.status, proved.complete, proved.stopped_by) == ("optimal", True, "none")
+    rounded = roundel.solve(Q, q, integers=[1], strategy="greedy")
+    assert (rounded.status, rounded.complete, rounded.stopped_by) == ("feasible", False, "none")
+    cut = roundel.solve(**given, strategy="exact", nodes=0)
+    assert (cut.status, cut.complete, cut.stopped_by) == ("limit", False, "nodes")
+    assert cut.gap == (cut.energy - cut.lower_bound) / cut.energy

@@ -28,6 +28,7 @@ def test_the_line_of_progress_goes_to_stderr(cube, capfd):
 def test_a_callback_ends_the_solve_and_the_best_solution_is_kept(endless):
     found = roundel.solve(**endless, strategy="exact", progress=lambda event: event.energy < np.inf)
     assert found.status == "cancelled" and found.integrality_violation == 0.0
+    assert found.stopped_by == "cancel" and not found.complete
 
 
 def test_an_exception_of_a_callback_leaves_the_solve(endless):

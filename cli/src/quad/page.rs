@@ -13,7 +13,7 @@ use serde::Serialize;
 
 use super::steps::Solved;
 use super::words;
-use crate::summary::{counted, verdict};
+use crate::summary::{counted, outcome, telling_gap, verdict};
 
 const PAGE: &str = include_str!("page.html");
 
@@ -106,11 +106,8 @@ fn tables(solved: &Solved) -> String {
                 format!("{name}: energy"),
                 format!("{:.6}", solution.energy()),
             ),
-            (
-                format!("{name}: lower bound"),
-                number(solution.lower_bound(), 1.0, ""),
-            ),
-            (format!("{name}: gap"), number(solution.gap(), 100.0, " %")),
+            (format!("{name}: lower bound"), bound(solution)),
+            (format!("{name}: gap"), gap(solution)),
         ]
     };
     let rows = [solve("field", field), solve("map", solution)].concat();
@@ -146,10 +143,10 @@ fn strategies(out: &mut String, compared: &[Compared]) {
             };
             let cells = [
                 one.strategy.name().to_string(),
-                solution.status().name().to_string(),
+                outcome(solution),
                 format!("{:.6}", solution.energy()),
-                number(solution.lower_bound(), 1.0, ""),
-                number(solution.gap(), 100.0, " %"),
+                bound(solution),
+                gap(solution),
                 format!("{:.3}", solution.seconds().total),
             ];
             let cells = cells.map(|cell| format!("<td>{cell}</td>")).concat();
@@ -159,12 +156,15 @@ fn strategies(out: &mut String, compared: &[Compared]) {
     }
 }
 
-fn number(value: Option<f64>, factor: f64, unit: &str) -> String {
-    let value = value.filter(|value| value.is_finite());
-    value.map_or_else(
-        || "none".into(),
-        |value| format!("{:.4}{unit}", factor * value),
-    )
+/// The lower bound, if it says something.
+fn bound(solution: &roundel::Solution) -> String {
+    let telling = telling_gap(solution.gap()).and(solution.lower_bound());
+    telling.map_or_else(|| "none".into(), |bound| format!("{bound:.4}"))
+}
+
+fn gap(solution: &roundel::Solution) -> String {
+    let gap = telling_gap(solution.gap());
+    gap.map_or_else(|| "none".into(), |gap| format!("{:.4} %", 100.0 * gap))
 }
 
 fn table<N: AsRef<str>>(out: &mut String, title: &str, rows: &[(N, String)]) {

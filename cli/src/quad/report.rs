@@ -40,6 +40,8 @@ struct Compared {
 #[derive(Serialize)]
 struct Found {
     status: &'static str,
+    complete: bool,
+    stopped_by: &'static str,
     energy: f64,
     lower_bound: Option<f64>,
     gap: Option<f64>,
@@ -60,9 +62,11 @@ impl Found {
     fn new(solution: &Solution) -> Self {
         Found {
             status: solution.status().name(),
+            complete: solution.is_complete(),
+            stopped_by: solution.stopped_by().name(),
             energy: solution.energy(),
             lower_bound: solution.lower_bound(),
-            gap: solution.gap(),
+            gap: solution.gap().filter(|gap| gap.is_finite()),
             seconds: solution.seconds().total,
         }
     }

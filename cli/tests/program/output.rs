@@ -44,6 +44,8 @@ fn the_report_has_every_field_with_its_type() {
         "file",
         "strategy",
         "status",
+        "complete",
+        "stopped_by",
         "energy",
         "lower_bound",
         "gap",

@@ -47,6 +47,7 @@ static void no_solution(fixture* f) {
     int32_t known = 7;
     size_t count = 7;
     roundel_solve_status status = ROUNDEL_SOLVE_LIMIT;
+    roundel_stopped_by stopped_by = ROUNDEL_STOPPED_BY_MEMORY;
     roundel_counts counts;
     roundel_seconds seconds;
     BAD(f, roundel_solution_variable_count(NULL, &count), null, "solution", NONE);
@@ -55,11 +56,13 @@ static void no_solution(fixture* f) {
     BAD(f, roundel_solution_lower_bound(NULL, &known, &number), null, "solution", NONE);
     BAD(f, roundel_solution_gap(NULL, &known, &number), null, "solution", NONE);
     BAD(f, roundel_solution_status(NULL, &status), null, "solution", NONE);
+    BAD(f, roundel_solution_is_complete(NULL, &known), null, "solution", NONE);
+    BAD(f, roundel_solution_stopped_by(NULL, &stopped_by), null, "solution", NONE);
     BAD(f, roundel_solution_counts(NULL, &counts), null, "solution", NONE);
     BAD(f, roundel_solution_seconds(NULL, &seconds), null, "solution", NONE);
     BAD(f, roundel_solution_violations(NULL, &number, &other), null, "solution", NONE);
     HOLDS(number == 7.0 && other == 7.0 && known == 7 && count == 7);
-    HOLDS(status == ROUNDEL_SOLVE_LIMIT);
+    HOLDS(status == ROUNDEL_SOLVE_LIMIT && stopped_by == ROUNDEL_STOPPED_BY_MEMORY);
 }
 
 static void no_place(fixture* f) {
@@ -81,6 +84,8 @@ static void no_place(fixture* f) {
     BAD(f, roundel_solution_lower_bound(f->solution, &known, NULL), null, "lower bound", NONE);
     BAD(f, roundel_solution_gap(f->solution, &known, NULL), null, "gap", NONE);
     BAD(f, roundel_solution_status(f->solution, NULL), null, "status", NONE);
+    BAD(f, roundel_solution_is_complete(f->solution, NULL), null, "complete", NONE);
+    BAD(f, roundel_solution_stopped_by(f->solution, NULL), null, "stopped by", NONE);
     BAD(f, roundel_solution_counts(f->solution, NULL), null, "counts", NONE);
     BAD(f, roundel_solution_seconds(f->solution, NULL), null, "seconds", NONE);
     BAD(f, roundel_solution_violations(f->solution, &number, NULL), null, "integrality", NONE);

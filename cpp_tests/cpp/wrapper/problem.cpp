@@ -80,6 +80,8 @@ void every_part_of_a_problem_counts() {
         CHECK(solution.status() == roundel::SolveStatus::optimal);
         CHECK(std::string(roundel::name(solution.status())) == "optimal");
         CHECK(solution.gap().value_or(1.0) < 1e-9);
+        CHECK(solution.is_complete() && solution.stopped_by() == roundel::StoppedBy::none);
+        CHECK(std::string(roundel::name(solution.stopped_by())) == "none");
         CHECK(solution.counts().variables == 2 && solution.seconds().total >= 0.0);
         CHECK(solution.violations().integrality == 0.0);
     }

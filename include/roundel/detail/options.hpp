@@ -87,7 +87,8 @@ struct Event {
     double energy;
     /// The best lower bound so far; minus infinity before the first.
     double lower_bound;
-    /// (energy - lower_bound) / max(1, |energy|); infinite while either is infinite.
+    /// (energy - lower_bound) / |energy|: 0 where they are equal, and infinite while either is
+    /// infinite or an energy of 0 is above the bound.
     double gap;
 };
 

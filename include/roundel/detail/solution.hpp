@@ -26,6 +26,24 @@ inline const char* name(SolveStatus status) noexcept {
     return roundel_solve_status_name(static_cast<std::int32_t>(status));
 }
 
+/// Why a search ended before it had visited everything that could be better.
+enum class StoppedBy : std::int32_t {
+    /// It is complete, it has reached the option gap, or its strategy proves nothing.
+    none = ROUNDEL_STOPPED_BY_NONE,
+    /// The option nodes, set by the caller.
+    nodes = ROUNDEL_STOPPED_BY_NODES,
+    time = ROUNDEL_STOPPED_BY_TIME,
+    memory = ROUNDEL_STOPPED_BY_MEMORY,
+    cancel = ROUNDEL_STOPPED_BY_CANCEL,
+    /// A budget of the library: the work of auto, or the default of nodes.
+    budget = ROUNDEL_STOPPED_BY_BUDGET,
+};
+
+/// The word for what stopped a search.
+inline const char* name(StoppedBy stopped_by) noexcept {
+    return roundel_stopped_by_name(static_cast<std::int32_t>(stopped_by));
+}
+
 /// The largest violations of constraints and integrality.
 struct Violations {
     double constraint = 0.0;
@@ -66,7 +84,8 @@ class Solution {
         return maybe(roundel_solution_lower_bound, status);
     }
 
-    /// (energy - lower_bound) / max(1, |energy|), if there is a bound.
+    /// (energy - lower_bound) / |energy|, if there is a bound: 0 where they are equal, and infinite
+    /// for an energy of 0 above the bound.
     std::optional<double> gap(Status* status = nullptr) const {
         return maybe(roundel_solution_gap, status);
     }
@@ -76,6 +95,21 @@ class Solution {
         auto value = ROUNDEL_SOLVE_FEASIBLE;
         detail::check(roundel_solution_status(get(), &value), status);
         return static_cast<SolveStatus>(value);
+    }
+
+    /// Whether the search has visited everything that could be better. Always true without
+    /// integers. A solution can be optimal without that, if a bound proves it.
+    bool is_complete(Status* status = nullptr) const {
+        std::int32_t value = 0;
+        detail::check(roundel_solution_is_complete(get(), &value), status);
+        return value != 0;
+    }
+
+    /// Why the search ended before it was complete.
+    StoppedBy stopped_by(Status* status = nullptr) const {
+        auto value = ROUNDEL_STOPPED_BY_NONE;
+        detail::check(roundel_solution_stopped_by(get(), &value), status);
+        return static_cast<StoppedBy>(value);
     }
 
     /// Sizes of the problem before and after elimination.

@@ -29,10 +29,16 @@ class Solution:
     energy: float
     #: A lower bound on the energy of all integer solutions, or None if there is no bound.
     lower_bound: Optional[float]
-    #: (energy - lower_bound) / max(1, abs(energy)), or None if there is no bound.
+    #: (energy - lower_bound) / abs(energy), or None if there is no bound. It is 0 where they are equal,
+    #: and infinite for an energy of 0 above the bound.
     gap: Optional[float]
     #: "optimal", "feasible", "limit", "cancelled" or "relaxed".
     status: str
+    #: Whether the search has visited everything that could be better; always True without integers.
+    complete: bool
+    #: Why the search ended before it was complete: "none", "nodes", "time", "memory", "cancel" or
+    #: "budget" (one of the library's own).
+    stopped_by: str
     #: The largest relative violation of a constraint.
     constraint_violation: float
     #: The largest distance of an integer variable from an integer.
@@ -55,12 +61,15 @@ def taken(pointer_: Any) -> Solution:
     violations = ffi.new("double[2]")
     check(lib.roundel_solution_violations(pointer_, violations, violations + 1))
     status = number(lib.roundel_solution_status, pointer_, kind="roundel_solve_status")
+    stopped_by = number(lib.roundel_solution_stopped_by, pointer_, kind="roundel_stopped_by")
     return Solution(
         values=values,
         energy=number(lib.roundel_solution_energy, pointer_, kind="double"),
         lower_bound=_if_known(lib.roundel_solution_lower_bound, pointer_),
         gap=_if_known(lib.roundel_solution_gap, pointer_),
         status=text(lib.roundel_solve_status_name(status)),
+        complete=bool(number(lib.roundel_solution_is_complete, pointer_, kind="int32_t")),
+        stopped_by=text(lib.roundel_stopped_by_name(stopped_by)),
         constraint_violation=violations[0],
         integrality_violation=violations[1],
         counts=_members("roundel_counts", lib.roundel_solution_counts, pointer_),

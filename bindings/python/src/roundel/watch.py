@@ -29,7 +29,8 @@ class Event:
     energy: float
     #: The best lower bound so far; minus infinity before the first.
     lower_bound: float
-    #: (energy - lower_bound) / max(1, abs(energy)).
+    #: (energy - lower_bound) / abs(energy): 0 where they are equal, and infinite while either is
+    #: infinite or an energy of 0 is above the bound.
     gap: float
 
 

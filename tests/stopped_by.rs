@@ -1,0 +1,119 @@
+//! What ends a search before it is complete, and the status that follows from it.
+
+mod common;
+
+use std::time::Duration;
+
+use common::orientation_field;
+use roundel::monitor::EventKind;
+use roundel::{
+    Event, Flow, Monitor, Options, Problem, Solution, SolveStatus, StoppedBy, Strategy, solve,
+    solve_with,
+};
+
+fn with(strategy: Strategy) -> Options {
+    Options {
+        strategy,
+        ..Options::default()
+    }
+}
+
+fn ended(solution: &Solution) -> (SolveStatus, bool, StoppedBy) {
+    let (status, stopped_by) = (solution.status(), solution.stopped_by());
+    (status, solution.is_complete(), stopped_by)
+}
+
+/// Its proof takes thousands of nodes.
+fn field() -> Problem {
+    orientation_field(7, 3).unwrap()
+}
+
+#[test]
+fn a_proof_that_has_visited_everything_is_complete() {
+    let solution = solve(&field(), &with(Strategy::Exact)).unwrap();
+    let expected = (SolveStatus::Optimal, true, StoppedBy::Nothing);
+    assert_eq!(ended(&solution), expected);
+}
+
+#[test]
+fn a_problem_without_integers_is_complete() {
+    let mut problem = Problem::new(2).unwrap();
+    problem
+        .add_least_squares(&[0, 1], &[1.0, -1.0], 0.3, 1.0)
+        .unwrap();
+    problem.add_constraint(&[0], &[2.0], 1.0).unwrap();
+    for strategy in Strategy::ALL {
+        let solution = solve(&problem, &with(strategy)).unwrap();
+        let expected = (SolveStatus::Optimal, true, StoppedBy::Nothing);
+        assert_eq!(ended(&solution), expected, "{strategy:?}");
+    }
+}
+
+#[test]
+fn a_rounding_is_stopped_by_nothing() {
+    for strategy in [Strategy::Direct, Strategy::Greedy, Strategy::Lattice] {
+        let solution = solve(&field(), &with(strategy)).unwrap();
+        let expected = (SolveStatus::Feasible, false, StoppedBy::Nothing);
+        assert_eq!(ended(&solution), expected, "{strategy:?}");
+    }
+}
+
+#[test]
+fn a_gap_that_was_asked_for_stops_nothing() {
+    let options = Options {
+        gap: 0.1,
+        ..with(Strategy::Exact)
+    };
+    let solution = solve(&field(), &options).unwrap();
+    let expected = (SolveStatus::Feasible, false, StoppedBy::Nothing);
+    assert_eq!(ended(&solution), expected);
+}
+
+#[test]
+fn nodes_that_the_caller_set_are_a_limit() {
+    let options = Options {
+        nodes: 100,
+        ..with(Strategy::Exact)
+    };
+    let solution = solve(&field(), &options).unwrap();
+    let expected = (SolveStatus::Limit, false, StoppedBy::Nodes);
+    assert_eq!(ended(&solution), expected);
+}
+
+#[test]
+fn a_time_limit_stops_by_time() {
+    let options = Options {
+        time_limit: 2.0,
+        ..with(Strategy::Exact)
+    };
+    let monitor = Monitor::default().on_event(|event: &Event| {
+        if event.kind == EventKind::Improved {
+            let left = options.time_limit - event.seconds;
+            std::thread::sleep(Duration::from_secs_f64(left.max(0.0)));
+        }
+        Flow::Continue
+    });
+    let solution = solve_with(&field(), &options, monitor).unwrap();
+    let expected = (SolveStatus::Limit, false, StoppedBy::Time);
+    assert_eq!(ended(&solution), expected);
+}
+
+#[test]
+fn a_cancel_stops_by_cancel() {
+    let monitor = Monitor::default().on_event(|event: &Event| match event.kind {
+        EventKind::Improved => Flow::Cancel,
+        _ => Flow::Continue,
+    });
+    let solution = solve_with(&field(), &with(Strategy::Exact), monitor).unwrap();
+    let expected = (SolveStatus::Cancelled, false, StoppedBy::Cancel);
+    assert_eq!(ended(&solution), expected);
+}
+
+/// So many integers that the work of `auto` does not reach for a proof.
+#[test]
+fn the_work_of_auto_is_a_budget() {
+    let problem = common::loosely_coupled(600).unwrap();
+    let solution = solve(&problem, &with(Strategy::Auto)).unwrap();
+    let expected = (SolveStatus::Feasible, false, StoppedBy::Budget);
+    assert_eq!(ended(&solution), expected);
+}
