@@ -39,6 +39,14 @@ impl CompensatedSum {
     pub fn value(&self) -> f64 {
         self.sum + self.error
     }
+
+    /// The sum as two numbers: its value, and what the rounding of the value leaves.
+    pub fn parts(&self) -> (f64, f64) {
+        let value = self.value();
+        let of_error = value - self.sum;
+        let of_sum = value - of_error;
+        (value, (self.sum - of_sum) + (self.error - of_error))
+    }
 }
 
 #[cfg(test)]
@@ -57,6 +65,15 @@ mod tests {
         assert_eq!(sum(&[1e16, 1.0, -1e16]), 1.0);
         assert_eq!(sum(&[1.0, 1e100, -1e100]), 1.0);
         assert_eq!(sum(&[1.0, 1e100, 1.0, -1e100]), 2.0);
+    }
+
+    #[test]
+    fn the_second_part_is_what_the_value_lacks() {
+        let mut sum = CompensatedSum::new(1.0);
+        sum.add(1e-20);
+        assert_eq!(sum.parts(), (1.0, 1e-20));
+        sum.add(-1.0);
+        assert_eq!(sum.parts(), (1e-20, 0.0));
     }
 
     #[test]
