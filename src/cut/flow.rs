@@ -11,7 +11,7 @@ use super::network::Network;
 use super::price::Labels;
 
 /// Arcs scanned in relabels, for each arc, before labels are computed anew.
-const RELABELS: usize = 2;
+const RELABELS: usize = 1;
 
 /// Rounds of moves with one step length before a start counts as far, and the step is doubled.
 const FAR: u32 = 48;
@@ -72,9 +72,17 @@ fn push_and_relabel(
     let mut queue: VecDeque<u32> = (0..nodes as u32)
         .filter(|&i| active(network, label, i as usize))
         .collect();
+    // How many nodes have each label. If none has, those with higher labels have no path to any that has a
+    // lower one, and nothing above the gap is worth a relabel.
+    let mut count = vec![0u32; nodes + 1];
+    label.iter().for_each(|&l| count[l as usize] += 1);
+    let mut gap = far;
     let mut scanned = 0;
     while let Some(i) = queue.pop_front() {
         let i = i as usize;
+        if label[i] > gap {
+            continue;
+        }
         let range = network.range(i);
         let mut at = current[i] as usize;
         while network.excess[i] > 0 {
@@ -87,11 +95,16 @@ fn push_and_relabel(
                         least = least.min(label[other]);
                     }
                 }
+                count[label[i] as usize] -= 1;
+                if count[label[i] as usize] == 0 {
+                    gap = gap.min(label[i]);
+                }
                 label[i] = least + 1;
+                count[label[i] as usize] += 1;
                 at = range.start;
                 scanned += 2 * range.len();
                 budget = budget.saturating_sub(range.len() + 1);
-                if label[i] >= far || budget == 0 {
+                if label[i] >= far || label[i] > gap || budget == 0 {
                     break;
                 }
                 continue;
