@@ -43,6 +43,7 @@
 
 pub mod capi;
 pub mod check;
+mod cut;
 mod cycle;
 mod eliminate;
 mod error;

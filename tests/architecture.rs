@@ -7,7 +7,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The layers from the lowest to the highest. A file names its own layer and lower ones, nothing else.
-const LAYERS: [&str; 19] = [
+const LAYERS: [&str; 20] = [
     "error",
     "monitor",
     "linalg",
@@ -15,6 +15,7 @@ const LAYERS: [&str; 19] = [
     "eliminate",
     "search",
     "round",
+    "cut",
     "lattice",
     "cycle",
     "solve",

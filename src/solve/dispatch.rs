@@ -4,7 +4,7 @@ use crate::eliminate::ReducedModel;
 use crate::error::Result;
 use crate::problem::Model;
 use crate::search::{Factors, Options, Search, StoppedBy, Strategy, of_relaxation};
-use crate::{cycle, lattice, round};
+use crate::{cut, cycle, lattice, round};
 
 /// `auto` also tries a proof for angle-difference systems of at most this many integers.
 const PROVABLE: usize = 60;
@@ -15,7 +15,8 @@ const DENSE: u64 = 12;
 
 /// Runs the strategy of `options`.
 ///
-/// Angle-difference systems of any size are solved in cycle space. For other problems the lattice
+/// Problems with integers alone whose Hessian is a graph Laplacian plus a diagonal are solved by minimum
+/// cuts, and angle-difference systems in cycle space, both of any size. For other problems the lattice
 /// strategies need a dense matrix of the integers. With more than `dense_integers` integers, `adaptive` is
 /// used instead.
 ///
@@ -43,6 +44,11 @@ pub(super) fn search(
         Strategy::Greedy => round::greedy(model, factors, search),
         Strategy::Adaptive => round::adaptive(model, options, factors, search),
         Strategy::Multiple => round::multiple(model, options, factors, search),
+        Strategy::Lattice | Strategy::Exact | Strategy::Auto
+            if cut::exact(model, factors, search)? =>
+        {
+            Ok(())
+        }
         Strategy::Lattice if cycle::lattice(given, model, factors, search)? => Ok(()),
         Strategy::Auto
             if cycle::auto(given, model, options, factors, search)? && !(few && m <= PROVABLE) =>
