@@ -14,6 +14,9 @@ use crate::linalg::{CompensatedSum, TwoFold};
 use crate::monitor::Monitor;
 use crate::problem::{Model, Objective, Problem};
 
+/// The rounding error of a null direction, for each unknown.
+const FLAT: f64 = 8.0 * f64::EPSILON;
+
 /// A point that satisfies the constraints, and the reduced model around it.
 #[derive(Debug, Clone)]
 pub struct Centre {
@@ -78,6 +81,19 @@ impl Centre {
         }
     }
 
+    /// Whether the objective of `problem` has no curvature along the direction `y`, up to the rounding of the
+    /// direction itself, which a solve by a factor with this smallest pivot made. A Hessian with a condition
+    /// number beyond 1e13 seems to be singular, but is not.
+    pub fn is_flat(&self, problem: &Problem, y: &[f64], smallest_pivot: f64) -> bool {
+        let direction = direction(&self.model, y);
+        let matrix = self.model.expansion.matrix();
+        let magnitude = |i| matrix.row(i).map(|(a, t)| (t * y[a]).abs()).sum();
+        let magnitude: Vec<f64> = (0..matrix.rows()).map(magnitude).collect();
+        let (curvature, size) = Objective(problem).curvature(&direction, &magnitude);
+        let rounding = self.model.dim() as f64 * FLAT;
+        curvature.abs() * smallest_pivot.min(1.0) <= rounding * rounding * size
+    }
+
     /// The reduced model around the point.
     pub fn model(&self) -> &ReducedModel {
         &self.model
@@ -94,6 +110,17 @@ impl Centre {
         };
         self.point.iter().enumerate().map(unknown).collect()
     }
+}
+
+/// The direction in the caller's unknowns of the direction `y` in those of `reduced`.
+fn direction(reduced: &ReducedModel, y: &[f64]) -> Vec<TwoFold> {
+    let matrix = reduced.expansion.matrix();
+    let unknown = |i: usize| {
+        let mut sum = CompensatedSum::new(0.0);
+        matrix.row(i).for_each(|(a, t)| sum.add_product(t, y[a]));
+        sum.two_fold()
+    };
+    (0..matrix.rows()).map(unknown).collect()
 }
 
 /// The caller's unknowns at `y`, up to the rounding errors of the expansion.

@@ -9,7 +9,7 @@
 use super::Expansion;
 use crate::error::{Error, Result};
 use crate::linalg::sparse::reserve;
-use crate::linalg::{Accumulator, CompensatedSum, Sparse};
+use crate::linalg::{Accumulator, CompensatedSum, Sparse, TwoFold};
 use crate::monitor::Monitor;
 use crate::problem::Model;
 
@@ -21,34 +21,35 @@ pub(super) fn hessian(lower: &Sparse, expansion: &Sparse, monitor: &mut Monitor)
     let upper = lower.transpose();
     let by_unknown = expansion.transpose();
     let dim = expansion.cols();
-    let mut row: Accumulator<CompensatedSum> = Accumulator::new(dim);
+    let mut row: Accumulator<Entry> = Accumulator::new(dim);
     let mut w = Rows::new(expansion.rows(), lower.len())?;
     for i in 0..expansion.rows() {
         monitor.check()?;
         let mirrored = upper.row(i).filter(|&(j, _)| j > i);
         for (j, q) in lower.row(i).chain(mirrored) {
             for (b, t) in expansion.row(j) {
-                row.slot(b as u32).add_product(q, t);
+                row.slot(b as u32).add(q, t.into(), t.abs());
             }
         }
-        w.push(&mut row, |sum| sum.two_fold())?;
+        w.push(&mut row, |entry| (entry.sum.two_fold(), entry.size))?;
     }
+    let is_rounded = expansion.values().iter().any(|t| *t != t.round());
     let mut h = Rows::new(dim, lower.len())?;
     for a in 0..dim {
         monitor.check()?;
         row.slot(a as u32);
         for (i, t) in by_unknown.row(a) {
-            for (&b, &v) in w.indices[w.offsets[i]..w.offsets[i + 1]]
+            for (&b, &(v, size)) in w.indices[w.offsets[i]..w.offsets[i + 1]]
                 .iter()
                 .zip(&w.values[w.offsets[i]..w.offsets[i + 1]])
             {
                 if b as usize <= a {
-                    row.slot(b).add_multiple(t, v);
+                    row.slot(b).add(t, v, size);
                 }
             }
         }
         row.sort();
-        h.push(&mut row, |sum| sum.value())?;
+        h.push(&mut row, |entry| entry.value(is_rounded))?;
     }
     if h.values.iter().any(|v| !v.is_finite()) {
         return Err(overflow());
@@ -124,6 +125,28 @@ fn overflow() -> Error {
     }
 }
 
+/// An entry that is being summed, and the sum of the absolute values of its terms.
+#[derive(Debug, Clone, Copy, Default)]
+struct Entry {
+    sum: CompensatedSum,
+    size: f64,
+}
+
+impl Entry {
+    /// Adds `a * b`, where `b` is a sum of terms of this `size`.
+    fn add(&mut self, a: f64, b: TwoFold, size: f64) {
+        self.sum.add_multiple(a, b);
+        self.size += a.abs() * size;
+    }
+
+    /// The sum. With a rounded expansion, a sum that has cancelled is zero: only the rounding is left.
+    fn value(&self, is_rounded: bool) -> f64 {
+        let value = self.sum.value();
+        let cancelled = is_rounded && value.abs() <= 16.0 * f64::EPSILON * self.size;
+        if cancelled { 0.0 } else { value }
+    }
+}
+
 /// Sparse rows, one after the other.
 struct Rows<T> {
     offsets: Vec<usize>,
@@ -143,11 +166,7 @@ impl<T> Rows<T> {
     }
 
     /// Appends `row` in the order of its list, and empties it.
-    fn push(
-        &mut self,
-        row: &mut Accumulator<CompensatedSum>,
-        value: impl Fn(CompensatedSum) -> T,
-    ) -> Result<()> {
+    fn push(&mut self, row: &mut Accumulator<Entry>, value: impl Fn(Entry) -> T) -> Result<()> {
         let out_of_memory = |_| Error::OutOfMemory {
             what: "the reduced Hessian",
         };

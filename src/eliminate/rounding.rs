@@ -35,7 +35,7 @@ impl Rounding {
         0.5 * curvature.sum::<f64>() + slope.sum::<f64>() + self.constant
     }
 
-    /// The bounds for the unknowns `members`.
+    /// The bounds for the unknowns `members`, without the constant.
     pub fn of(&self, members: &[u32]) -> Rounding {
         let pick = |v: &[f64]| -> Vec<f64> {
             let of = |&a: &u32| v.get(a as usize).copied().unwrap_or(0.0);
@@ -44,7 +44,7 @@ impl Rounding {
         Rounding {
             curvature: pick(&self.curvature),
             slope: pick(&self.slope),
-            constant: self.constant,
+            constant: 0.0,
         }
     }
 }

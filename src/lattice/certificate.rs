@@ -106,7 +106,9 @@ impl Certificate {
             relaxation,
             relative,
             shift: shift * (1.0 + relative) + slope,
-            valid: relative < 0.5 && pieces.iter().all(|p| p.basis.is_discrete()),
+            valid: relative < 0.5
+                && relaxation.is_finite()
+                && pieces.iter().all(|p| p.basis.is_discrete()),
         })
     }
 

@@ -74,7 +74,7 @@ impl Diagonals {
 }
 
 /// `R'R` by columns.
-fn leading_gram(basis: &Basis) -> Vec<f64> {
+pub(super) fn leading_gram(basis: &Basis) -> Vec<f64> {
     let m = basis.rank();
     let mut gram = vec![0.0; m * m];
     for j in 0..m {
@@ -225,7 +225,7 @@ fn solve(lower: &[f64], n: usize, b: &[f64]) -> Vec<f64> {
 }
 
 /// The inverse of a symmetric positive definite matrix.
-fn inverse(a: Vec<f64>, n: usize) -> Option<Vec<f64>> {
+pub(super) fn inverse(a: Vec<f64>, n: usize) -> Option<Vec<f64>> {
     let lower = cholesky(a, n)?;
     // First the columns of the inverse of L, then their products.
     let mut columns = vec![0.0; n * n];

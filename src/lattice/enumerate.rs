@@ -14,7 +14,7 @@ use super::tree::Tree;
 use super::{Basis, Diagonals, Target};
 
 /// The number of nodes between two calls of `stop`.
-const WATCH: u64 = 1 << 14;
+pub(super) const WATCH: u64 = 1 << 14;
 
 /// The limits of an enumeration.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -89,6 +89,6 @@ pub fn enumerate(
     }
 }
 
-fn whole(z: &[f64]) -> Vec<i64> {
+pub(super) fn whole(z: &[f64]) -> Vec<i64> {
     z.iter().map(|&v| v as i64).collect()
 }

@@ -7,7 +7,8 @@
 
 use crate::error::{Error, Result};
 
-/// A pivot at or below this part of its diagonal entry counts as zero.
+/// A pivot at or below this part of its diagonal entry counts as zero, or below 32 units for each dimension
+/// if that is less.
 pub const RANK_TOLERANCE: f64 = 1e-12;
 
 /// A dense symmetric matrix by columns, which are also its rows.
@@ -85,6 +86,7 @@ impl Gram {
         let n = self.dim;
         let mut r = vec![0.0; n * n];
         let mut full = true;
+        let tolerance = RANK_TOLERANCE.min(32.0 * f64::EPSILON * n as f64);
         for j in 0..n {
             for i in 0..j {
                 let (left, right) = r.split_at_mut(j * n);
@@ -94,7 +96,7 @@ impl Gram {
             }
             let column = &mut r[j * n..j * n + j + 1];
             let pivot = self.at(j, j) - column[..j].iter().map(|v| v * v).sum::<f64>();
-            if pivot > RANK_TOLERANCE * self.at(j, j) {
+            if pivot > tolerance * self.at(j, j) {
                 column[j] = pivot.sqrt();
             } else {
                 full = false;

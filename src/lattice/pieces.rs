@@ -3,7 +3,11 @@
 //! Integers that the Schur complement does not couple, directly or through others, belong to different
 //! pieces. The squared distances of the pieces add up, so each piece is solved separately.
 
-use super::{Basis, DEPTH, Diagonals, Target, lll, nearest_plane, predicted_nodes};
+use super::enumerate::Enumerated;
+use super::{
+    Basis, DEPTH, Diagonals, Limits, Splits, Target, enumerate, enumerate_split, lll,
+    nearest_plane, predicted_nodes,
+};
 use crate::error::Result;
 use crate::linalg::DisjointSets;
 
@@ -17,6 +21,8 @@ pub struct Piece {
     /// Diagonal matrices below the Gram matrix of the basis. They are computed only if a proof needs many
     /// nodes.
     pub diagonals: Option<Diagonals>,
+    /// The splits of its bound. They are computed only if a proof needs very many nodes.
+    pub splits: Option<Splits>,
     /// The relaxation's integers.
     pub target: Target,
     /// The steps from the target's whole part to the best point so far.
@@ -33,6 +39,15 @@ impl Piece {
     /// The predicted number of nodes in an enumeration of the ball of the best point.
     pub fn predicted_nodes(&self) -> f64 {
         predicted_nodes(&self.basis, self.diagonals.as_ref(), self.value)
+    }
+
+    /// Searches a ball around its target, with the best of the bounds that it has.
+    pub fn search(&self, limits: Limits, stop: &mut dyn FnMut(u64) -> bool) -> Enumerated {
+        let (basis, target) = (&self.basis, &self.target);
+        let by_splits = self.splits.as_ref();
+        by_splits
+            .and_then(|splits| enumerate_split(basis, target, splits, limits, stop))
+            .unwrap_or_else(|| enumerate(basis, target, self.diagonals.as_ref(), limits, stop))
     }
 
     /// Whether its vectors are independent.
@@ -84,6 +99,7 @@ pub fn pieces(
             places,
             basis,
             diagonals: None,
+            splits: None,
             target,
             z,
         })

@@ -6,12 +6,12 @@
 
 use super::certificate::Certificate;
 use super::prove::{FIRST, GROWTH, radius_for};
-use super::{Diagonals, Limits, Piece, assemble, beam, enumerate, improve_blocks, pieces};
+use super::{Diagonals, Limits, Piece, Splits, assemble, beam, improve_blocks, pieces};
 use crate::eliminate::ReducedModel;
 use crate::error::{Error, Result};
 use crate::monitor::Phase;
 use crate::round;
-use crate::search::{Factors, Options, Search, StoppedBy};
+use crate::search::{Factors, Options, Search, StoppedBy, Strategy};
 
 /// A proof is not tried if its predicted nodes exceed the budget by more than this factor.
 const HOPELESS: f64 = 4.0;
@@ -28,6 +28,16 @@ const LAST: f64 = 1e30;
 /// If no proof is tried, the node budget is divided by this and spent on the bound, which
 /// rises with the logarithm of the nodes.
 const BOUND_SHARE: u64 = 1_000;
+
+/// From this number of predicted nodes on, a bound by splits takes less time than they do.
+const SPLIT_FROM: f64 = 1e8;
+
+/// The splits take at most this part of the node budget.
+const SPLITS_SHARE: u64 = 4;
+
+/// Without a time limit, the enumeration with splits takes at most this part of the node budget. Its nodes
+/// cannot be predicted, and the splits have given most of the bound.
+const SPLIT_TREE_SHARE: u64 = 50;
 
 /// Finds good integers for `model` without a proof.
 ///
@@ -90,6 +100,9 @@ fn prove(
         return Ok(());
     }
     let certificate = Certificate::measure(model, factors, &pieces, search)?;
+    if !certificate.is_valid() {
+        return Ok(());
+    }
     let widest = pieces.iter().map(|p| p.basis.rank()).max().unwrap_or(0);
     let per_node = widest as u64 / 2 + 1;
     let affordable = search.work.left() / per_node;
@@ -106,8 +119,18 @@ fn prove(
         left -= price;
         search.work.spend(price * per_node);
     }
+    if options.strategy == Strategy::Exact {
+        for piece in &mut pieces {
+            left -= split(piece, left, per_node, search);
+        }
+        raise(&pieces, &certificate, search);
+    }
     let all: f64 = pieces.iter().map(Piece::predicted_nodes).sum();
-    if all > HOPELESS * nodes as f64 {
+    if pieces.iter().any(|p| p.splits.is_some()) {
+        if options.time_limit == f64::INFINITY {
+            left /= SPLIT_TREE_SHARE;
+        }
+    } else if all > HOPELESS * nodes as f64 {
         left /= BOUND_SHARE;
     }
     let mut goal = FIRST;
@@ -125,16 +148,10 @@ fn prove(
                 nodes: left,
                 ..ball
             };
-            let found = enumerate(
-                &pieces[at].basis,
-                &pieces[at].target,
-                pieces[at].diagonals.as_ref(),
-                limits,
-                &mut |nodes| {
-                    let done = nodes as f64 / limits.nodes as f64;
-                    search.monitor.progress(Phase::Round, done).is_err()
-                },
-            );
+            let found = pieces[at].search(limits, &mut |nodes| {
+                let done = nodes as f64 / limits.nodes as f64;
+                search.monitor.progress(Phase::Round, done).is_err()
+            });
             left -= found.nodes;
             search.work.spend(found.nodes * per_node);
             for (z, distance) in found.near {
@@ -169,6 +186,25 @@ fn bound_undecided(piece: &mut Piece, left: u64, stop: &mut dyn FnMut() -> bool)
     price
 }
 
+/// Makes the splits of `piece` if its proof needs very many nodes. Returns the price in nodes, of which at most
+/// `left` may be spent.
+fn split(piece: &mut Piece, left: u64, per_node: u64, search: &mut Search) -> u64 {
+    if piece.predicted_nodes() < SPLIT_FROM {
+        return 0;
+    }
+    let limit = left / SPLITS_SHARE;
+    let mut price = 0;
+    let mut stop = |work: u64| {
+        price += work / per_node;
+        price > limit || search.ends(work)
+    };
+    piece.splits = Splits::new(&piece.basis, &piece.target, piece.value, &mut stop);
+    if let Some(splits) = &piece.splits {
+        piece.bound = piece.bound.max(splits.bound);
+    }
+    price.min(left)
+}
+
 /// The next ball to search for piece `at`, and whether it completes the proof.
 ///
 /// The proof needs the ball of the best point, enlarged by the largest error of distances. Every solution
@@ -193,7 +229,10 @@ fn ball(
     } else {
         full
     };
-    let radius = radius_for(&piece.basis, piece.diagonals.as_ref(), goal, largest);
+    let radius = match &piece.splits {
+        Some(splits) => splits.radius_for((goal / FIRST).log(GROWTH).round(), largest),
+        None => radius_for(&piece.basis, piece.diagonals.as_ref(), goal, largest),
+    };
     let limits = Limits {
         radius,
         margin,

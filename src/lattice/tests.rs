@@ -381,3 +381,117 @@ fn a_reduction_that_is_stopped_leaves_the_same_lattice() {
         assert!((length - gram.square(&vector)).abs() < 1e-9, "{patience}");
     }
 }
+
+/// A reduced random lattice with a target: sheared, nearly singular or well conditioned, by turns.
+fn closest_vector_problem(round: usize, n: usize, random: &mut Random) -> (Basis, Target) {
+    let gram = match round % 3 {
+        0 => random.gram(n, 0.3),
+        1 => random.gram(n, 1e-3),
+        _ => conditioned(n.max(2), 10.0, random),
+    };
+    let basis = reduced(&gram);
+    let target = Target::new(&basis, &random.target(gram.dim())).unwrap();
+    (basis, target)
+}
+
+#[test]
+fn no_lattice_point_is_closer_than_the_bound_by_splits() {
+    let mut random = Random::new(11);
+    let (mut bounds, mut distances, mut too_flat) = (0.0, 0.0, 0);
+    for round in 0..2000 {
+        let (basis, target) = closest_vector_problem(round, 1 + round % 9, &mut random);
+        let start = nearest_plane(&basis, &target);
+        let value = target.distance(&basis, &start);
+        let limits = Limits {
+            radius: value * (1.0 + 1e-9),
+            margin: 0.0,
+            nodes: 1_000_000,
+        };
+        let found = enumerate(&basis, &target, None, limits, &mut |_| false);
+        if !found.complete {
+            too_flat += 1;
+            continue;
+        }
+        let least = found.near[0].1;
+        // However early it is stopped.
+        let mut steps = round % 50;
+        let mut stop = |_| {
+            steps = steps.saturating_sub(1);
+            steps == 0 && round % 4 == 0
+        };
+        let splits = Splits::new(&basis, &target, value, &mut stop).unwrap();
+        assert!(splits.bound <= least, "{round}: {} {least}", splits.bound);
+        if round % 4 != 0 {
+            bounds += splits.bound / least;
+            distances += 1.0;
+        }
+    }
+    assert!(bounds > 0.9 * distances, "{bounds} of {distances}");
+    assert!(too_flat < 10, "{too_flat}");
+}
+
+#[test]
+fn an_enumeration_with_splits_finds_all_points_that_enumeration_finds() {
+    let mut random = Random::new(12);
+    for round in 0..1000 {
+        let (basis, target) = closest_vector_problem(round, 1 + round % 12, &mut random);
+        let start = nearest_plane(&basis, &target);
+        let value = target.distance(&basis, &start);
+        let splits = Splits::new(&basis, &target, value, &mut |_| false).unwrap();
+        for margin in [0.0, 0.3 * value] {
+            let limits = Limits {
+                radius: value * (1.0 + 1e-9) + margin,
+                margin,
+                nodes: u64::MAX,
+            };
+            let plain = enumerate(&basis, &target, None, limits, &mut |_| false);
+            let found = enumerate_split(&basis, &target, &splits, limits, &mut |_| false).unwrap();
+            assert!(found.complete);
+            let points = |all: &[(Vec<i64>, f64)]| {
+                let mut all: Vec<_> = all.iter().map(|p| p.0.clone()).collect();
+                all.sort();
+                all
+            };
+            assert_eq!(points(&plain.near), points(&found.near), "{round}");
+            assert!((found.near[0].1 / plain.near[0].1 - 1.0).abs() < 1e-9);
+        }
+    }
+}
+
+#[test]
+fn an_enumeration_with_splits_that_is_stopped_keeps_their_bound() {
+    let mut random = Random::new(13);
+    let basis = reduced(&conditioned(40, 10.0, &mut random));
+    let target = Target::new(&basis, &random.target(40)).unwrap();
+    let value = target.distance(&basis, &nearest_plane(&basis, &target));
+    let splits = Splits::new(&basis, &target, value, &mut |_| false).unwrap();
+    let run = |nodes| {
+        let limits = Limits {
+            radius: value * (1.0 + 1e-9),
+            margin: 0.0,
+            nodes,
+        };
+        enumerate_split(&basis, &target, &splits, limits, &mut |_| false).unwrap()
+    };
+    let whole = run(u64::MAX);
+    for nodes in [0, 10, whole.nodes - 1] {
+        let part = run(nodes);
+        assert_eq!((part.complete, part.nodes), (false, nodes));
+        assert_eq!(part.bound, splits.bound);
+    }
+    assert!(whole.complete && splits.bound <= whole.near[0].1);
+}
+
+#[test]
+fn splits_of_an_orthogonal_lattice_give_its_distance() {
+    let n = 12;
+    let square = |i: usize| 1.0 + (5 * i % n) as f64;
+    let entry = |k: usize| if k / n == k % n { square(k % n) } else { 0.0 };
+    let basis = Basis::new(&Gram::new(n, (0..n * n).map(entry).collect()).unwrap());
+    let point: Vec<f64> = (0..n).map(|i| (0.37 * i as f64).fract()).collect();
+    let target = Target::new(&basis, &point).unwrap();
+    let distance = target.distance(&basis, &vec![0; n]);
+    let splits = Splits::new(&basis, &target, distance, &mut |_| false).unwrap();
+    let part = splits.bound / distance;
+    assert!((0.99..=1.0).contains(&part), "{part}");
+}

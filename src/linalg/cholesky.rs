@@ -33,6 +33,12 @@ use crate::error::{Error, Result};
 /// (from the regularisation 1e-6 of seam translations) stay above 1e-7.
 pub const PIVOT_TOLERANCE: f64 = 1e-12;
 
+/// The same for a matrix of `n` rows. The rounding error of a pivot grows with the number of terms that cancel
+/// in it, so a small matrix may be decided more sharply.
+pub fn pivot_tolerance(n: usize) -> f64 {
+    PIVOT_TOLERANCE.min(32.0 * f64::EPSILON * n as f64)
+}
+
 /// The value that replaces a vanished pivot of the scaled matrix. Every true pivot is smaller.
 pub const NULL_PIVOT: f64 = 9.0;
 
@@ -110,7 +116,7 @@ impl Cholesky {
         let regularization = LdltRegularization {
             dynamic_regularization_signs: Some(&signs),
             dynamic_regularization_delta: NULL_PIVOT,
-            dynamic_regularization_epsilon: PIVOT_TOLERANCE,
+            dynamic_regularization_epsilon: pivot_tolerance(n),
         };
         symbolic
             .factorize_numeric_ldlt(
@@ -145,6 +151,26 @@ impl Cholesky {
         });
         (factor.null, factor.coupled) = (null, coupled);
         Ok(factor)
+    }
+
+    /// A combination of the directions that belong to the null unknowns, and the smallest pivot that did not
+    /// vanish. None if no pivot vanished.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`].
+    pub fn null_direction(&self) -> Result<Option<(Vec<f64>, f64)>> {
+        if self.null.is_empty() {
+            return Ok(None);
+        }
+        let mut direction = vec![0.0; self.dim()];
+        for (k, &j) in self.null.iter().enumerate() {
+            // Weights between 1 and 2, in no order.
+            direction[j as usize] = 1.0 + (0.618_033_988_75 * k as f64).fract();
+        }
+        self.solve(&mut direction)?;
+        let mut smallest = f64::INFINITY;
+        self.for_each_column(|_, pivot, _| smallest = smallest.min(pivot));
+        Ok(Some((direction, smallest)))
     }
 
     /// Number of unknowns.

@@ -4,6 +4,7 @@
 //! complement is ordered and factored. On an orientation field the complement is the Laplacian of a forest,
 //! whose factor has no fill.
 
+use super::cholesky::pivot_tolerance;
 use super::local_integers::local_integers;
 use super::minimise::{CANCELLED, Lowest, Minimum, minimise};
 use super::{Cholesky, NO_PLACE, Ordering, Sparse, coupling, places};
@@ -86,6 +87,19 @@ impl RelaxedFactor {
         self.factor.solve(&mut inner)?;
         self.embed(&inner, b);
         Ok(())
+    }
+
+    /// As [`Cholesky::null_direction`].
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+    pub fn null_direction(&self) -> Result<Option<(Vec<f64>, f64)>> {
+        let inner = self.factor.null_direction()?;
+        Ok(inner.map(|(inner, smallest)| {
+            let mut whole = vec![0.0; self.place.len()];
+            self.embed(&inner, &mut whole);
+            (whole, smallest)
+        }))
     }
 
     /// Minimises `1/2 x'Ax + g'x`, as [`minimise`].
@@ -184,10 +198,11 @@ fn schur(
         }
     }
     let sum = Sparse::from_triplets(dim, dim, terms.iter().copied())?;
+    let tolerance = pivot_tolerance(dim);
     let (mut offsets, mut indices, mut values) = (vec![0], Vec::new(), Vec::new());
     for i in 0..dim {
         for (j, v) in sum.row(i) {
-            let cancelled = v * v <= CANCELLED * CANCELLED * size[i] * size[j];
+            let cancelled = v * v <= tolerance * tolerance * size[i] * size[j];
             if i == j || !cancelled {
                 indices.push(j as u32);
                 values.push(if cancelled { 0.0 } else { v });

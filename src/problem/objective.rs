@@ -88,6 +88,32 @@ impl Objective<'_> {
         sums.iter().map(CompensatedSum::two_fold).collect()
     }
 
+    /// Half the second derivative along `direction`, and the size of its terms, where each entry of the
+    /// direction counts with its `magnitude`.
+    pub fn curvature(&self, direction: &[TwoFold], magnitude: &[f64]) -> (f64, f64) {
+        let problem = self.0;
+        let (mut sum, mut size) = (CompensatedSum::new(0.0), 0.0);
+        for &(i, j, v) in &problem.quadratic {
+            let v = if i == j { 0.5 * v } else { v };
+            let (x, y) = (direction[i as usize], direction[j as usize]);
+            sum.add_product_of_three(v, x.high, y.high);
+            sum.add_product(v * x.high, y.low);
+            sum.add_product(v * x.low, y.high);
+            size += v.abs() * magnitude[i as usize] * magnitude[j as usize];
+        }
+        for (k, w) in problem.weights.iter().enumerate() {
+            let (mut product, mut terms) = (CompensatedSum::new(0.0), 0.0);
+            for (j, a) in problem.least_squares.row(k) {
+                product.add_multiple(a, direction[j]);
+                terms += a.abs() * magnitude[j];
+            }
+            let product = product.value();
+            sum.add_product_of_three(*w, product, product);
+            size += w * terms * terms;
+        }
+        (sum.value(), size)
+    }
+
     /// The residual of a least-squares row, and the sum of the absolute values of its terms.
     fn residual(&self, k: usize, x: impl Fn(usize) -> TwoFold) -> (TwoFold, f64) {
         let rows = &self.0.least_squares;

@@ -121,6 +121,19 @@ impl Factors {
         self.relaxed(model)?.minimise(gradient, rounding, guess)
     }
 
+    /// A direction in which the computed Hessian has no curvature, a combination of all of them, and
+    /// the smallest pivot that did not vanish. None if the Hessian is definite.
+    pub fn null_direction(
+        &mut self,
+        model: &ReducedModel,
+        strategy: Strategy,
+    ) -> Result<Option<(Vec<f64>, f64)>> {
+        if strategy != Strategy::Relax && self.has_schur_factor(model) {
+            return self.schur_factor(model)?.whole().null_direction();
+        }
+        self.relaxed(model)?.null_direction()
+    }
+
     /// A factor in which unknowns can be fixed. The caller owns it, since fixing unknowns uses it up. None
     /// if `go_on` stopped the factorization.
     pub fn updatable(

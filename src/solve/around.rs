@@ -27,6 +27,21 @@ pub(super) fn around_relaxation(
     reduced: &ReducedModel,
     strategy: Strategy,
 ) -> Result<(Centre, Relaxation)> {
+    let (centre, mut relaxation) = centred(of, reduced, strategy)?;
+    // Where the factor takes a small curvature for none, the minimum may be anywhere below.
+    if let Some((direction, pivot)) = of.factors.null_direction(centre.model(), strategy)?
+        && !centre.is_flat(of.problem, &direction, pivot)
+    {
+        relaxation.lower_bound = f64::NEG_INFINITY;
+    }
+    Ok((centre, relaxation))
+}
+
+fn centred(
+    of: &mut EliminatedProblem,
+    reduced: &ReducedModel,
+    strategy: Strategy,
+) -> Result<(Centre, Relaxation)> {
     let mut relaxation = relax(of.model, reduced, strategy, of.factors)?;
     let mut at = rounded(reduced, &relaxation.point);
     let mut centre = Centre::new(of.problem, of.model, of.elimination, reduced, &at);

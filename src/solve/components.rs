@@ -114,7 +114,10 @@ impl Relaxed {
         let (energy, error) = part.model.energy(&pick(&part.members, &whole.point));
         Relaxed {
             energy,
-            lower_bound: energy - 2.0 * whole.excess - error,
+            lower_bound: match whole.lower_bound {
+                f64::NEG_INFINITY => f64::NEG_INFINITY,
+                _ => energy - 2.0 * whole.excess - error,
+            },
             highest: energy + error,
         }
     }
