@@ -1,16 +1,16 @@
 //! The rounding errors of a proof: a lower bound on exact energies from computed ones.
 //!
-//! Let u be the unit roundoff and `gamma_k = k u / (1 - k u)` (`higham2002`, section 3.1). A computed energy of
-//! charges is `sum over patches of d_S^2`, where d_S is a computed distance. It differs from the exact
-//! energy in three ways:
+//! Let u be the unit roundoff and `gamma_k = k u / (1 - k u)` (`higham2002`, section 3.1). A computed
+//! energy of charges is `sum over patches of d_S^2`, where d_S is a computed distance. It differs from
+//! the exact energy in three ways:
 //!
-//! 1. The factor. The computed values `w = G^-1 c` of all patches together satisfy `(G + X) w = c` with `|X| <=
-//!    gamma_k |G|` and `G G' = K + Y` with `|Y| <= gamma_k |G| |G'|` (`higham2002`, theorems 8.5 and 10.3),
-//!    where k is the largest number of entries in a row of G, and K is assembled with relative errors of its
-//!    terms. So `|w|^2` is exact for a matrix `K + F`. The basis is that of a forest: with the weights D of the
-//!    chords, `K = D^-1 + T W^-1 T'`, so `D^1/2 K D^1/2` has no eigenvalue below 1, and
-//!    `|D^1/2 F D^1/2| <= 4 gamma sum_i D_ii K_ii =: relative`. So the exact energy is at least
-//!    `(1 - relative) |w|^2`.
+//! 1. The factor. The computed values `w = G^-1 c` of all patches together satisfy `(G + X) w = c` with
+//!    `|X| <= gamma_k |G|` and `G G' = K + Y` with `|Y| <= gamma_k |G| |G'|` (`higham2002`, theorems 8.5
+//!    and 10.3), where k is the largest number of entries in a row of G, and K is assembled with relative
+//!    errors of its terms. So `|w|^2` is exact for a matrix `K + F`. The basis is that of a forest: with
+//!    the weights D of the chords, `K = D^-1 + T W^-1 T'`, so `D^1/2 K D^1/2` has no eigenvalue below 1,
+//!    and `|D^1/2 F D^1/2| <= 4 gamma sum_i D_ii K_ii =: relative`. So the exact energy is at least `(1 -
+//!    relative) |w|^2`.
 //! 2. The sums c. An error x of them moves `|w|` by at most `|D^1/2 x|`, up to the same factor.
 //! 3. The distances. In a patch, `R z + M c` stands for `Q' w`. The error of `|R z + M c|` is bounded by the
 //!    measured residuals of `M G = Q'`, `Q'Q = I` and `R = step M U`, and by gammas times bounds on `|z|` and

@@ -1,18 +1,18 @@
 //! Conditions of optimality, and what charges that violate them cost.
 //!
-//! Let r be the residuals of an optimum. A change of the integers by a vector f on the edges, up or down, does
-//! not lower the energy, so
+//! Let r be the residuals of an optimum. A change of the integers by a vector f on the edges, up or down,
+//! does not lower the energy, so
 //!
 //! ```text
 //! |f'W r| <= step rho_f / 2,    rho_f = f'M'K^-1 M f.
 //! ```
 //!
-//! Here f is an edge, or a signed pair of near edges. On a patch, r is the sum of the residuals r_P of its
-//! charges and of a harmonic part g: a gradient without divergence at the inner nodes of the patch. The
-//! optimum has the energy `|r_P|^2 + |g|^2` there, in the norm of the weights. If r_P violates the
-//! condition of f by x, then `|f'W g| >= x`, so `|g|^2 >= x^2 / H_f`, where `H_f` is the squared norm of f on the
-//! harmonic parts: `f'W f` less the squares of its projections on the cycles of the patch and on its inner
-//! nodes. So charges are worth at least `|r_P|^2 + x^2 / H_f`, for any f.
+//! Here f is an edge, or a signed pair of near edges. On a patch, r is the sum of the residuals r_P of
+//! its charges and of a harmonic part g: a gradient without divergence at the inner nodes of the patch.
+//! The optimum has the energy `|r_P|^2 + |g|^2` there, in the norm of the weights. If r_P violates the
+//! condition of f by x, then `|f'W g| >= x`, so `|g|^2 >= x^2 / H_f`, where `H_f` is the squared norm of
+//! f on the harmonic parts: `f'W f` less the squares of its projections on the cycles of the patch and on
+//! its inner nodes. So charges are worth at least `|r_P|^2 + x^2 / H_f`, for any f.
 //!
 //! Flows `W r_P` are kept in single precision. All thresholds are raised by bounds on the errors.
 

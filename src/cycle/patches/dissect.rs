@@ -3,7 +3,7 @@
 //! A patch is a set of nodes with all edges between them and to the ground. Its halves share no edge. The
 //! edges between the halves belong to the patch itself. What the tree loses is the energy of these edges.
 //! So several bisections are tried, with edges weighted by the incumbent's residuals, and the one is kept
-//! that loses the least energy of the incumbent ([`loss`]).
+//! that loses the least energy of the incumbent.
 
 use super::bisect::{Measure, bisect};
 use super::coarsen::Weighted;

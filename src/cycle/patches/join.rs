@@ -1,9 +1,9 @@
 //! The entries of a list: enumeration of a patch's own charges for each pair of entries of its children.
 //!
 //! A pair of entries with energies that leave a rest below the threshold determines a target. The own
-//! charges within the rest of it are enumerated (`schnorr1994`, section 2). Most pairs have none. A first test
-//! in single precision, a few operations a pair, finds most of these: the distance of the target's last
-//! coordinate from the nearest integer.
+//! charges within the rest of it are enumerated (`schnorr1994`, section 2). Most pairs have none. A first
+//! test in single precision, a few operations a pair, finds most of these: the distance of the target's
+//! last coordinate from the nearest integer.
 
 use super::list::Found;
 use super::local::Local;
@@ -20,7 +20,8 @@ pub(super) enum Overflow {
     Ended,
 }
 
-/// The entries of a child's list as targets: what they are worth, their energies, and by entry the images of what it sends.
+/// The entries of a child's list as targets: what they are worth, their energies, and by entry the images
+/// of what it sends.
 #[derive(Debug)]
 pub(super) struct Targets {
     pub worth: Vec<f64>,

@@ -4,8 +4,9 @@ use super::conditions::Conditions;
 use super::factor::Front;
 use super::local::{Local, dot};
 
-/// The charges of a patch, sorted by what they are worth. An entry refers to entries of the children's lists. These are
-/// sorted in the same way however far they go, so the references stay valid when a list grows.
+/// The charges of a patch, sorted by what they are worth. An entry refers to entries of the children's
+/// lists. These are sorted in the same way however far they go, so the references stay valid when a list
+/// grows.
 #[derive(Debug, Clone, Default)]
 pub(super) struct List {
     /// A lower bound on the energy in the patch of any optimum with these charges.

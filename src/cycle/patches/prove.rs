@@ -46,8 +46,9 @@ impl Watch for Watched<'_, '_, '_> {
     }
 }
 
-/// Raises the bound of the search, whose relaxation has the bound `relaxation`, and offers charges that are better than the incumbent if the proof finds
-/// some. Returns whether the search visited all charges that could be better.
+/// Raises the bound of the search, whose relaxation has the bound `relaxation`, and offers charges that
+/// are better than the incumbent if the proof finds some. Returns whether the search visited all charges
+/// that could be better.
 ///
 /// # Errors
 /// For lack of memory, and those of the evaluation of offers.
