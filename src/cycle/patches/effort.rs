@@ -44,7 +44,6 @@ impl Proof {
                 false => vec![0.1, 0.4, 1.5],
             },
             tries: 1,
-            balance: 0.8,
             ..recipe(0)
         };
         Proof {
@@ -68,10 +67,10 @@ impl Proof {
 
 /// The recipe of the tree with this number.
 fn recipe(number: u64) -> Recipe {
-    const LEAVES: [usize; 3] = [16, 30, 8];
-    const BALANCES: [f64; 2] = [0.5, 0.8];
+    const LEAVES: [usize; 4] = [16, 16, 30, 8];
+    const BALANCES: [f64; 2] = [0.8, 0.5];
     Recipe {
-        leaf: LEAVES[(number % 3) as usize],
+        leaf: LEAVES[(number % 4) as usize],
         floors: vec![0.1, 0.4, 1.5],
         tries: 2,
         price: 0.02,

@@ -14,6 +14,9 @@ use crate::search::{Factors, Search};
 /// The number of charges that are evaluated where the list of the root ends a proof.
 const CANDIDATES: usize = 64;
 
+/// On systems of more cycles, conditions of optimality take longer than they save.
+const CONDITIONED: usize = 7_000;
+
 /// The rounds for which each tree is tried.
 const TRIAL_ROUNDS: usize = 2;
 
@@ -126,7 +129,7 @@ pub(in crate::cycle) fn prove(
         return Ok(false);
     };
     let mut rounds = Rounds::new(&tree, cap, unit);
-    if effort.conditions {
+    if effort.conditions && tree.basis.len() <= CONDITIONED {
         let stop = &mut |w| watch.ends(w);
         let conditions = conditions(system, &tree, &account, cap, stop);
         rounds.hold(conditions);
