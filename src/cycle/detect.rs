@@ -13,7 +13,7 @@ use crate::linalg::Sparse;
 
 /// Relative to the terms, two entries that differ by less than this are equal, and a smaller difference is
 /// zero. This is a hundred times the rounding error of assembling rows of unit size.
-const TOLERANCE: f64 = 1e-10;
+pub(super) const TOLERANCE: f64 = 1e-10;
 
 /// An angle-difference system whose edges without an integer form a forest.
 #[derive(Debug, Clone)]

@@ -55,4 +55,34 @@ impl CycleSpace {
         }
         (self.charges(&integers) == charges).then_some(integers)
     }
+
+    /// Integers with these charges in the basis of a forest, by its chords. They differ from the origin
+    /// on the chords and, where a chord has no integer, along a forest of the edges without one.
+    pub fn integers_on(&self, chords: &[u32], charges: &[f64]) -> Vec<f64> {
+        let graph = &self.system.graph;
+        let mut jump = vec![0.0; graph.edges.len()];
+        for (&e, charge) in chords.iter().zip(charges) {
+            jump[e as usize] = *charge;
+        }
+        // Turning a node by whole steps changes no charge.
+        let forest = Forest::through_fixed(graph);
+        let mut turn = vec![0.0; graph.nodes()];
+        for &node in &forest.order {
+            let e = forest.parent[node as usize];
+            if e != NONE {
+                let edge = &graph.edges[e as usize];
+                let sign = f64::from(edge.sign_from(node));
+                turn[node as usize] = turn[edge.other(node) as usize] - sign * jump[e as usize];
+            }
+        }
+        let mut integers = self.origin.clone();
+        for (edge, jump) in graph.edges.iter().zip(jump) {
+            if edge.integer != NONE {
+                let p = edge.integer as usize;
+                let total = jump + turn[edge.tail as usize] - turn[edge.head as usize];
+                integers[p] += f64::from(self.system.sign[p]) * total;
+            }
+        }
+        integers
+    }
 }

@@ -9,6 +9,7 @@
 //! ```text
 //! ReducedModel --detect--> AngleSystem --short, fundamental, basis--> CycleSpace (laplacian)
 //!     --plane--> charges --block, decide, improve--> charges --lift--> integers
+//!     --patches--> lower bound, and the optimum where the proof ends
 //! ```
 //!
 //! All known angles are one node, the *ground*. On orientation fields with a tenth of the faces known, the
@@ -27,12 +28,14 @@ mod hint;
 mod improve;
 mod laplacian;
 mod lift;
+mod offset_error;
+mod patches;
 mod plane;
 mod short;
 mod space;
 mod strategy;
 
-pub(crate) use strategy::{auto, lattice};
+pub(crate) use strategy::{auto, exact, lattice};
 
 #[cfg(test)]
 mod tests;

@@ -8,12 +8,13 @@ use super::block::Growth;
 use super::detect::AngleSystem;
 use super::hint::hinted_cycles;
 use super::improve::{Effort, Improvement};
+use super::patches::{Proof, prove};
 use super::space::CycleSpace;
 use crate::eliminate::ReducedModel;
 use crate::error::Result;
 use crate::problem::Model;
 use crate::round;
-use crate::search::{Factors, Options, Search};
+use crate::search::{Factors, Options, Search, StoppedBy, Strategy};
 
 /// Multiplications of `lattice`, for each entry of the factor.
 const QUICK_WORK: usize = 1_000;
@@ -66,7 +67,8 @@ pub(crate) fn lattice(
     Ok(true)
 }
 
-/// The same with a larger budget, and once more from the result of adaptive greedy rounding.
+/// The same with a larger budget, and once more from the result of adaptive greedy rounding. Then a bound,
+/// within a budget of its own.
 ///
 /// # Errors
 /// For lack of memory, and those of the evaluation of its offers.
@@ -80,6 +82,78 @@ pub(crate) fn auto(
     let Some(space) = space(model, reduced, search)? else {
         return Ok(false);
     };
+    let relaxation = search.lower_bound();
+    find(reduced, &space, options, factors, search)?;
+    let proof = Proof::brief(&space);
+    conclude(
+        reduced, &space, relaxation, &proof, options, factors, search,
+    )?;
+    Ok(true)
+}
+
+/// As [`auto`], with a proof that goes on as long as nodes and memory last.
+///
+/// # Errors
+/// As [`auto`].
+pub(crate) fn exact(
+    model: &Model,
+    reduced: &ReducedModel,
+    options: &Options,
+    factors: &mut Factors,
+    search: &mut Search,
+) -> Result<bool> {
+    let Some(space) = space(model, reduced, search)? else {
+        return Ok(false);
+    };
+    let relaxation = search.lower_bound();
+    find(reduced, &space, options, factors, search)?;
+    let proof = Proof::thorough(options.nodes);
+    conclude(
+        reduced, &space, relaxation, &proof, options, factors, search,
+    )?;
+    Ok(true)
+}
+
+/// Proves what it can about the incumbent. `relaxation` is the bound of the relaxation.
+fn conclude(
+    reduced: &ReducedModel,
+    space: &CycleSpace,
+    relaxation: f64,
+    proof: &Proof,
+    options: &Options,
+    factors: &mut Factors,
+    search: &mut Search,
+) -> Result<()> {
+    let complete = prove(
+        reduced,
+        space,
+        relaxation,
+        proof,
+        options.gap,
+        factors,
+        search,
+    )?;
+    match search.best().map(|best| best.at_least) {
+        Some(at_least) if complete => {
+            search.complete();
+            search.raise_bound(at_least);
+        }
+        _ if options.strategy == Strategy::Exact && options.nodes != Options::default().nodes => {
+            search.stop_by(StoppedBy::Nodes);
+        }
+        _ => search.stop_by(StoppedBy::Budget),
+    }
+    Ok(())
+}
+
+/// Adaptive rounding, and improvement from there and from nearest plane.
+fn find(
+    reduced: &ReducedModel,
+    space: &CycleSpace,
+    options: &Options,
+    factors: &mut Factors,
+    search: &mut Search,
+) -> Result<()> {
     round::adaptive(reduced, options, factors, search)?;
     let mut starts = Vec::from_iter(search.incumbent_integers().map(|z| space.charges(&z)));
     starts.push(space.nearest_plane());
@@ -88,7 +162,7 @@ pub(crate) fn auto(
         if !search.ends(0) {
             let share = count - done;
             improve(
-                &space,
+                space,
                 start,
                 &THOROUGH,
                 THOROUGH_WORK,
@@ -98,7 +172,7 @@ pub(crate) fn auto(
             )?;
         }
     }
-    Ok(true)
+    Ok(())
 }
 
 fn space(model: &Model, reduced: &ReducedModel, search: &Search) -> Result<Option<CycleSpace>> {

@@ -16,7 +16,7 @@ use crate::solve::solve;
 use crate::test_random::Random;
 
 /// Rows `(i, j, has an integer)`; unknown `n` stands for a pinned one.
-struct Sketch {
+pub(super) struct Sketch {
     nodes: usize,
     rows: Vec<(usize, usize, bool)>,
     pinned: Vec<usize>,
@@ -24,7 +24,7 @@ struct Sketch {
 
 impl Sketch {
     /// A grid on a torus. The rows without integers form a spanning forest.
-    fn torus(side: usize, pinned: &[usize]) -> Self {
+    pub fn torus(side: usize, pinned: &[usize]) -> Self {
         let at = |r: usize, c: usize| (r % side) * side + c % side;
         let mut links = Vec::new();
         for r in 0..side {
@@ -37,7 +37,7 @@ impl Sketch {
     }
 
     /// Edges between random nodes, parallel edges included, in several components.
-    fn random(random: &mut Random, fixed_forest: bool) -> Self {
+    pub fn random(random: &mut Random, fixed_forest: bool) -> Self {
         let nodes = 3 + random.below(10);
         let links = (0..nodes + random.below(8))
             .map(|_| (random.below(nodes), random.below(nodes)))
@@ -47,7 +47,12 @@ impl Sketch {
         Sketch::of(nodes, links, &pinned, fixed_forest)
     }
 
-    fn of(nodes: usize, links: Vec<(usize, usize)>, pinned: &[usize], fixed_forest: bool) -> Self {
+    pub fn of(
+        nodes: usize,
+        links: Vec<(usize, usize)>,
+        pinned: &[usize],
+        fixed_forest: bool,
+    ) -> Self {
         let mut root: Vec<usize> = (0..nodes).collect();
         let find = |root: &[usize], mut i: usize| {
             while root[i] != i {
@@ -74,7 +79,7 @@ impl Sketch {
         }
     }
 
-    fn problem(&self, random: &mut Random) -> Problem {
+    pub fn problem(&self, random: &mut Random) -> Problem {
         let integers = self.rows.iter().filter(|r| r.2).count();
         let mut problem = Problem::new(self.nodes + integers).unwrap();
         let step = 0.5 + random.unit();
@@ -101,7 +106,7 @@ impl Sketch {
     }
 }
 
-fn reduced(problem: &Problem) -> (Model, ReducedModel) {
+pub(super) fn reduced(problem: &Problem) -> (Model, ReducedModel) {
     let model = Model::new(problem).unwrap();
     let reduced = eliminate(&model, &mut Monitor::default()).unwrap();
     (model, reduced)
@@ -115,7 +120,7 @@ fn options(strategy: Strategy) -> Options {
 }
 
 /// The cycle space of a problem, with its hints.
-fn space(problem: &Problem) -> Option<(ReducedModel, CycleSpace)> {
+pub(super) fn space(problem: &Problem) -> Option<(ReducedModel, CycleSpace)> {
     let (model, reduced) = reduced(problem);
     let system = AngleSystem::detect(&reduced)?;
     let relaxed = solve(problem, &options(Strategy::Relax)).unwrap();
@@ -129,7 +134,7 @@ fn space(problem: &Problem) -> Option<(ReducedModel, CycleSpace)> {
 }
 
 /// The energy with these integers, by a separate solve with all of them pinned.
-fn energy(problem: &Problem, integers: &[f64]) -> f64 {
+pub(super) fn energy(problem: &Problem, integers: &[f64]) -> f64 {
     let mut problem = problem.clone();
     let (model, _) = reduced(&problem);
     let at = (0..model.variables()).filter(|&i| model.integer()[i]);

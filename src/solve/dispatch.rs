@@ -6,9 +6,6 @@ use crate::problem::Model;
 use crate::search::{Factors, Options, Search, StoppedBy, Strategy, of_relaxation};
 use crate::{cut, cycle, lattice, round};
 
-/// `auto` also tries a proof for angle-difference systems of at most this many integers.
-const PROVABLE: usize = 60;
-
 /// The multiplications of the lattice method before its first decision are this times `m^3`, for m
 /// integers: the Schur complement, the reduction, and the new computation of R.
 const DENSE: u64 = 12;
@@ -50,19 +47,10 @@ pub(super) fn search(
             Ok(())
         }
         Strategy::Lattice if cycle::lattice(given, model, factors, search)? => Ok(()),
-        Strategy::Auto
-            if cycle::auto(given, model, options, factors, search)? && !(few && m <= PROVABLE) =>
-        {
-            Ok(())
-        }
+        Strategy::Auto if cycle::auto(given, model, options, factors, search)? => Ok(()),
+        Strategy::Exact if cycle::exact(given, model, options, factors, search)? => Ok(()),
         Strategy::Lattice if few => lattice::lattice(model, options, factors, search),
-        Strategy::Exact if few => {
-            // For an angle-difference system, cycle space gives the better start.
-            cycle::auto(given, model, options, factors, search)?;
-            lattice::exact(model, options, factors, search)
-        }
-        Strategy::Auto if few => lattice::exact(model, options, factors, search),
-        Strategy::Exact if cycle::auto(given, model, options, factors, search)? => Ok(()),
+        Strategy::Exact | Strategy::Auto if few => lattice::exact(model, options, factors, search),
         Strategy::Lattice | Strategy::Exact | Strategy::Auto => {
             round::adaptive(model, options, factors, search)
         }

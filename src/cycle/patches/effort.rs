@@ -1,0 +1,80 @@
+//! How much is done for a proof.
+
+use super::dissect::Recipe;
+use crate::cycle::space::CycleSpace;
+
+/// `auto`: the multiplications of a proof, about three seconds.
+const BRIEF: u64 = 800_000_000;
+
+/// `auto`: systems of more edges get one bisection of each patch instead of several.
+const SEVERAL: usize = 60_000;
+
+/// `auto`: systems of more edges get no bound.
+const MOST: usize = 250_000;
+
+/// `exact`: the multiplications of a node.
+const PER_NODE: u64 = 20;
+
+/// `exact`: the number of trees that are tried.
+const TREES: u64 = 12;
+
+/// `exact`: the multiplications after which no further tree is tried.
+const TRIALS: u64 = 1_200_000_000;
+
+/// The effort of a proof.
+#[derive(Debug, Clone)]
+pub(in crate::cycle) struct Proof {
+    /// The trees that are tried. The one with the best bound is continued.
+    pub recipes: Vec<Recipe>,
+    /// The multiplications after which no further tree is tried.
+    pub trials: u64,
+    /// The largest number of multiplications.
+    pub work: u64,
+    /// Whether charges that violate conditions of optimality are dropped.
+    pub conditions: bool,
+}
+
+impl Proof {
+    /// That of `auto`.
+    pub fn brief(space: &CycleSpace) -> Self {
+        let edges = space.system.graph.edges.len();
+        let recipe = Recipe {
+            floors: match edges > SEVERAL {
+                true => vec![0.4],
+                false => vec![0.1, 0.4, 1.5],
+            },
+            tries: 1,
+            ..recipe(0)
+        };
+        Proof {
+            recipes: vec![recipe],
+            trials: 0,
+            work: if edges > MOST { 0 } else { BRIEF },
+            conditions: false,
+        }
+    }
+
+    /// That of `exact`, with this many nodes.
+    pub fn thorough(nodes: usize) -> Self {
+        Proof {
+            recipes: (0..TREES).map(recipe).collect(),
+            trials: TRIALS,
+            work: (nodes as u64).saturating_mul(PER_NODE),
+            conditions: true,
+        }
+    }
+}
+
+/// The recipe of the tree with this number.
+fn recipe(number: u64) -> Recipe {
+    const LEAVES: [usize; 4] = [16, 16, 30, 8];
+    const BALANCES: [f64; 2] = [0.8, 0.5];
+    Recipe {
+        leaf: LEAVES[(number % 4) as usize],
+        floors: vec![0.1, 0.4, 1.5],
+        tries: 2,
+        price: 0.02,
+        balance: BALANCES[(number % 2) as usize],
+        seed: 1 + number,
+    }
+}

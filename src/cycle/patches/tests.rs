@@ -1,0 +1,201 @@
+//! Proofs by trees of patches against flat enumeration and brute force, on small random systems.
+
+use super::dissect::Recipe;
+use super::effort::Proof;
+use super::prove::prove;
+use crate::cycle::space::CycleSpace;
+use crate::cycle::tests::{Sketch, energy, reduced, space};
+use crate::eliminate::ReducedModel;
+use crate::lattice;
+use crate::linalg::{Lowest, Minimum, Ordering};
+use crate::monitor::Monitor;
+use crate::problem::Problem;
+use crate::round::nearest;
+use crate::search::{Factors, Options, Search, Strategy};
+use crate::test_random::Random;
+
+/// The number of random systems that are compared with flat enumeration.
+const SYSTEMS: usize = 900;
+
+/// The work of a proof that may take as long as it needs.
+const UNLIMITED: u64 = u64::MAX;
+
+fn proof(leaf: usize, work: u64, seed: u64, conditions: bool) -> Proof {
+    let recipe = Recipe {
+        leaf,
+        floors: vec![0.2, 1.0],
+        tries: 1,
+        price: 0.02,
+        balance: 0.5,
+        seed,
+    };
+    Proof {
+        recipes: vec![recipe],
+        trials: 0,
+        work,
+        conditions,
+    }
+}
+
+/// Runs `method` on a search at the relaxation of a model. Returns the energy of its best solution, its
+/// bound, and the result.
+fn searched<T>(
+    problem: &Problem,
+    method: impl FnOnce(&ReducedModel, &mut Factors, &mut Search) -> T,
+) -> (f64, f64, T) {
+    let (model, reduced) = reduced(problem);
+    let mut factors = Factors::new(Ordering::FillReducing);
+    let relaxed = factors.minimise(&reduced, Strategy::Exact, || {
+        reduced.gradient_rounding(&model)
+    });
+    let Minimum::At(Lowest { point, excess }) = relaxed.unwrap() else {
+        panic!("the relaxation has a minimum");
+    };
+    let (energy, terms) = reduced.energy(&point);
+    let bound = energy - 2.0 * excess - 4.0 * f64::EPSILON * terms;
+    let mut monitor = Monitor::default();
+    let mut search = Search::new(&reduced, point, bound, &mut monitor);
+    let result = method(&reduced, &mut factors, &mut search);
+    let bound = search.lower_bound();
+    (search.into_best().unwrap().energy, bound, result)
+}
+
+/// Flat enumeration.
+fn flat(problem: &Problem) -> f64 {
+    let options = Options::default();
+    let (energy, ..) = searched(problem, |reduced, factors, search| {
+        lattice::exact(reduced, &options, factors, search).unwrap();
+    });
+    energy
+}
+
+/// A proof from a poor incumbent.
+fn by_tree(problem: &Problem, space: &CycleSpace, proof: &Proof) -> (f64, f64, bool) {
+    searched(problem, |reduced, factors, search| {
+        let relaxed = search.relaxed();
+        let integers = reduced.integers().iter();
+        let start: Vec<f64> = integers.map(|&i| nearest(relaxed[i as usize])).collect();
+        search.offer(factors, &start).unwrap();
+        let relaxation = search.lower_bound();
+        prove(reduced, space, relaxation, proof, 0.0, factors, search).unwrap()
+    })
+}
+
+/// Edges of a grid and some random ones, parallel ones included.
+fn grid(random: &mut Random) -> Sketch {
+    let (rows, columns) = (2 + random.below(4), 2 + random.below(5));
+    let nodes = rows * columns;
+    let mut links = Vec::new();
+    for i in 0..nodes {
+        if i % columns + 1 < columns {
+            links.push((i, i + 1));
+        }
+        if i + columns < nodes {
+            links.push((i, i + columns));
+        }
+    }
+    for _ in 0..random.below(4) {
+        let (i, j) = (random.below(nodes), random.below(nodes));
+        if i != j {
+            links.push((i, j));
+        }
+    }
+    let pinned: Vec<usize> = (0..nodes).filter(|_| random.unit() < 0.15).collect();
+    Sketch::of(nodes, links, &pinned, random.unit() < 0.5)
+}
+
+#[test]
+fn the_tree_agrees_with_flat_enumeration() {
+    let mut random = Random::new(11);
+    let (mut proved, mut divided) = (0, 0);
+    for round in 0..SYSTEMS {
+        let sketch = match round % 3 {
+            0 => Sketch::random(&mut random, round % 2 == 0),
+            _ => grid(&mut random),
+        };
+        let problem = sketch.problem(&mut random);
+        let Some((_, space)) = space(&problem) else {
+            continue;
+        };
+        let expected = flat(&problem);
+        let leaf = 1 + random.below(6);
+        let (energy, bound, complete) = by_tree(
+            &problem,
+            &space,
+            &proof(leaf, UNLIMITED, round as u64, round % 2 == 0),
+        );
+        let tolerance = 1e-9 * (1.0 + expected);
+        assert!(complete, "round {round}");
+        assert!(
+            (energy - expected).abs() <= tolerance,
+            "round {round}: {energy} {expected}"
+        );
+        assert!(bound <= expected, "round {round}: {bound} {expected}");
+        assert!(
+            bound >= expected - 1e-6 * (1.0 + expected),
+            "round {round}: {bound} {expected}"
+        );
+        proved += 1;
+        divided += usize::from(space.basis.len() > leaf);
+    }
+    assert!(
+        proved > SYSTEMS / 2 && divided > SYSTEMS / 3,
+        "{proved} {divided}"
+    );
+}
+
+#[test]
+fn a_proof_that_ends_early_has_a_bound_below_the_optimum() {
+    let mut random = Random::new(12);
+    let (mut open, mut above) = (0, 0);
+    for round in 0..SYSTEMS / 3 {
+        let problem = grid(&mut random).problem(&mut random);
+        let Some((reduced, space)) = space(&problem) else {
+            continue;
+        };
+        let expected = flat(&problem);
+        let work = 1 << (10 + random.below(9));
+        let (_, bound, complete) = by_tree(
+            &problem,
+            &space,
+            &proof(3, work, round as u64, round % 2 == 0),
+        );
+        assert!(bound <= expected, "round {round}: {bound} {expected}");
+        assert_eq!(reduced.integers().len(), space.origin.len());
+        open += usize::from(!complete);
+        above += usize::from(!complete && bound > 1e-3 * expected);
+    }
+    assert!(open > 20 && above > 0, "{open} {above}");
+}
+
+/// Every choice of integers within two of the relaxation's, each solved for its angles separately.
+#[test]
+fn the_tree_agrees_with_brute_force() {
+    let mut random = Random::new(13);
+    let mut compared = 0;
+    while compared < 12 {
+        let sketch = Sketch::random(&mut random, true);
+        let problem = sketch.problem(&mut random);
+        let Some((_, space)) = space(&problem) else {
+            continue;
+        };
+        let count = space.origin.len();
+        if !(1..=4).contains(&count) {
+            continue;
+        }
+        let mut least = f64::INFINITY;
+        for code in 0..5usize.pow(count as u32) {
+            let shift = |k: usize| (code / 5usize.pow(k as u32) % 5) as f64 - 2.0;
+            let integers: Vec<f64> = (0..count).map(|k| space.origin[k] + shift(k)).collect();
+            least = least.min(energy(&problem, &integers));
+        }
+        let (energy, bound, complete) =
+            by_tree(&problem, &space, &proof(1, UNLIMITED, 1, compared % 2 == 0));
+        assert!(complete && bound <= least, "{bound} {least}");
+        assert!(
+            (energy - least).abs() < 1e-9 * (1.0 + least),
+            "{energy} {least}"
+        );
+        compared += 1;
+    }
+}
