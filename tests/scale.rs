@@ -37,8 +37,8 @@ fn unscaled(solution: &Solution, scale: f64) -> impl PartialEq + std::fmt::Debug
     )
 }
 
-fn hold(problem: impl Fn(f64) -> Problem) {
-    for strategy in STRATEGIES {
+fn hold(strategies: &[Strategy], problem: impl Fn(f64) -> Problem) {
+    for &strategy in strategies {
         let plain = unscaled(&solved(&problem(1.0), strategy), 1.0);
         for scale in [2f64.powi(-40), 2.0, 2f64.powi(40)] {
             let scaled = unscaled(&solved(&problem(scale), strategy), scale);
@@ -50,14 +50,22 @@ fn hold(problem: impl Fn(f64) -> Problem) {
 #[test]
 fn fields_have_the_same_solution_at_every_scale() {
     for (side, seed) in [(4, 1), (5, 2)] {
-        hold(|scale| weighted_orientation_field(side, seed, scale).unwrap());
+        hold(&STRATEGIES, |scale| {
+            weighted_orientation_field(side, seed, scale).unwrap()
+        });
     }
+    // The proof of this one takes a minute.
+    hold(&STRATEGIES[..4], |scale| {
+        weighted_orientation_field(12, 3, scale).unwrap()
+    });
 }
 
 #[test]
 fn maps_have_the_same_solution_at_every_scale() {
     for seed in 1..4 {
-        hold(|scale| weighted_parametrization(6, seed, scale).unwrap());
+        hold(&STRATEGIES, |scale| {
+            weighted_parametrization(6, seed, scale).unwrap()
+        });
     }
 }
 

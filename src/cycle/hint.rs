@@ -22,7 +22,8 @@ enum Became {
 /// The hinted cycles of `model`, in the edges of `system`.
 pub(super) fn hinted_cycles(model: &Model, reduced: &ReducedModel, system: &AngleSystem) -> Cycles {
     let mut cycles = Cycles::new();
-    if model.cycles().is_empty() {
+    // A small component of a model has no expansion.
+    if model.cycles().is_empty() || reduced.expansion().matrix().rows() == 0 {
         return cycles;
     }
     let became = became(reduced);

@@ -16,7 +16,7 @@ use crate::error::Result;
 use crate::linalg::PathSolve;
 use crate::monitor::{Monitor, Phase};
 
-/// A potential counts as changed from this difference on, in units of the step.
+/// A potential counts as changed from this difference on, in units of the step times the mean weight.
 const CHANGED: f64 = 0.02;
 
 /// A gain below this, relative to the energy, does not count.
@@ -53,6 +53,8 @@ pub(super) struct Improvement<'a> {
     /// By cycle: the last failed block that contains it. It is 0 if the potential has changed since.
     failed: Vec<u32>,
     failures: u32,
+    /// The least change of a potential after which a block is tried again.
+    changed: f64,
     /// The waiting moves of charges, one list for each block.
     waiting: Vec<Vec<(u32, f64)>>,
     /// By cycle: whether it is near a waiting move.
@@ -64,11 +66,15 @@ impl<'a> Improvement<'a> {
     /// Starts from `charges`.
     pub fn new(space: &'a CycleSpace, charges: Vec<f64>) -> Result<Self> {
         let (x, energy) = space.potentials(&charges);
+        let edges = &space.system.graph.edges;
+        let weights: f64 = edges.iter().map(|e| e.weight).sum();
+        let mean_weight = weights / edges.len().max(1) as f64;
         Ok(Improvement {
             paths: PathSolve::new(charges.len()),
             blocks: Blocks::new(space)?,
             failed: vec![0; charges.len()],
             failures: 0,
+            changed: CHANGED * space.system.step * mean_weight,
             waiting: Vec::new(),
             near: vec![false; charges.len()],
             work: 0,
@@ -214,7 +220,7 @@ impl<'a> Improvement<'a> {
 
     /// Allows another try for the blocks whose potentials have changed.
     fn note_changes(&mut self, x: &[f64]) {
-        let changed = CHANGED * self.space.system.step;
+        let changed = self.changed;
         for (k, (new, old)) in x.iter().zip(&self.x).enumerate() {
             if (new - old).abs() > changed {
                 self.failed[k] = 0;

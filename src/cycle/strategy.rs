@@ -138,6 +138,7 @@ fn conclude(
             search.complete();
             search.raise_bound(at_least);
         }
+        _ if search.is_within(options.gap) => {}
         _ if options.strategy == Strategy::Exact && options.nodes != Options::default().nodes => {
             search.stop_by(StoppedBy::Nodes);
         }

@@ -52,14 +52,14 @@ pub fn components(model: &ReducedModel) -> Result<Option<Vec<Component>>> {
             entries[k as usize].push((place[i as usize], place[j as usize], v));
         }
     }
-    let hinted = sets.len() <= WITH_EXPANSION;
+    let large = model.dim() / WITH_EXPANSION;
     let made = sets.iter().zip(entries).map(|(set, entries)| {
         let members: Vec<u32> = set.iter().map(|&i| i as u32).collect();
         let pick = |v: &[f64]| -> Vec<f64> { set.iter().map(|&i| v[i]).collect() };
         let of_part = 0..members.len() as u32;
         let (integers, continuous) = of_part.partition(|&at| is_integer[set[at as usize]]);
         let n = members.len();
-        let expansion = if hinted {
+        let expansion = if n > large {
             model.expansion.of_columns(&members)?
         } else {
             Expansion::new(Arc::new(Sparse::zeros(0, n)), Vec::new())
@@ -84,8 +84,8 @@ pub fn components(model: &ReducedModel) -> Result<Option<Vec<Component>>> {
     made.collect::<Result<_>>().map(Some)
 }
 
-/// Up to this number of components each one has its part of the expansion, which the cycles that the caller
-/// knows need. With more, the copies would take more time than the cycles save.
+/// A component with more than one in so many unknowns has its part of the expansion, which the cycles that the
+/// caller knows need. For all the small ones the copies would take more time than the cycles save.
 const WITH_EXPANSION: usize = 64;
 
 #[cfg(test)]

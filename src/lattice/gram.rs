@@ -7,7 +7,7 @@
 
 use crate::error::{Error, Result};
 
-/// A pivot at or below this part of its diagonal entry counts as zero, or below 32 units for each dimension
+/// A pivot at or below this part of its diagonal entry counts as zero, or below 128 units for each dimension
 /// if that is less.
 pub const RANK_TOLERANCE: f64 = 1e-12;
 
@@ -86,7 +86,7 @@ impl Gram {
         let n = self.dim;
         let mut r = vec![0.0; n * n];
         let mut full = true;
-        let tolerance = RANK_TOLERANCE.min(32.0 * f64::EPSILON * n as f64);
+        let tolerance = RANK_TOLERANCE.min(128.0 * f64::EPSILON * n as f64);
         for j in 0..n {
             for i in 0..j {
                 let (left, right) = r.split_at_mut(j * n);

@@ -36,7 +36,7 @@ pub const PIVOT_TOLERANCE: f64 = 1e-12;
 /// The same for a matrix of `n` rows. The rounding error of a pivot grows with the number of terms that cancel
 /// in it, so a small matrix may be decided more sharply.
 pub fn pivot_tolerance(n: usize) -> f64 {
-    PIVOT_TOLERANCE.min(32.0 * f64::EPSILON * n as f64)
+    PIVOT_TOLERANCE.min(128.0 * f64::EPSILON * n as f64)
 }
 
 /// The value that replaces a vanished pivot of the scaled matrix. Every true pivot is smaller.

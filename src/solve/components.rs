@@ -10,10 +10,12 @@ use super::relax::Relaxation;
 use crate::eliminate::{Centre, Component, ReducedModel, components};
 use crate::error::{Error, Result};
 use crate::linalg::{TwoFold, places};
-use crate::monitor::Monitor;
+use crate::monitor::{Monitor, relative_gap};
 use crate::problem::{Model, Objective, Problem};
 use crate::round;
-use crate::search::{ALWAYS, Factors, Options, Search, SolveStatus, StoppedBy, WarmStart};
+use crate::search::{
+    ALWAYS, Factors, GAP_TOLERANCE, Options, Search, SolveStatus, StoppedBy, WarmStart,
+};
 
 /// The best point of a search, in the unknowns of the model around the centre.
 pub(super) struct Found {
@@ -97,6 +99,11 @@ pub(super) fn by_components(
         }
     }
     monitor.elsewhere(0.0, 0.0);
+    // The gap of the whole may be closed where that of a part is not, as with a part's energy of zero.
+    if relative_gap(found.energy, found.lower_bound) <= GAP_TOLERANCE {
+        found.status = SolveStatus::Optimal;
+        found.stopped_by = StoppedBy::Nothing;
+    }
     Ok(found)
 }
 

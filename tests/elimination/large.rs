@@ -150,7 +150,14 @@ fn holds_and_stays_sparse(problem: &Problem, gone: usize) -> ReducedModel {
     for (x, q) in x.iter().zip(model.gradient()) {
         energy += x * q;
     }
-    let (value, size) = reduced.energy(&y);
+    let (value, _) = reduced.energy(&y);
+    let linear = reduced.gradient().iter().zip(&y);
+    let quadratic = reduced.hessian().entries();
+    let size = reduced.constant().abs()
+        + linear.map(|(g, y)| (g * y).abs()).sum::<f64>()
+        + quadratic
+            .map(|(i, j, v)| (v * y[i as usize] * y[j as usize]).abs())
+            .sum::<f64>();
     assert!((value - energy).abs() <= 1e-10 * size);
     reduced
 }

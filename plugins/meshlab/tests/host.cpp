@@ -119,9 +119,9 @@ void errors_are_messages(const Host& host) {
         CHECK(torus.document.size() == 1);
         return host.filter->errorMsg();
     };
-    CHECK(refused("Quads", IntValue(0)).contains("quads"));
-    CHECK(refused("Quads", IntValue(-5)).contains("quads"));
-    CHECK(refused("FeatureAngle", FloatValue(-1.0F)).contains("feature"));
+    CHECK(refused("Quads", IntValue(0)).contains("option 'quads': 0 is outside"));
+    CHECK(refused("Quads", IntValue(-5)).contains("option 'quads': 0 is outside"));
+    CHECK(refused("FeatureAngle", FloatValue(-1.0F)).contains("option 'feature_angle'"));
     CHECK(refused("Strategy", EnumValue(99)) == "Strategy: choice 99 of 0 to 6");
     CHECK(refused("SolverOptions", StringValue("speed=3")) == "no option is called speed");
     CHECK(refused("SolverOptions", StringValue("speed")) == "expected NAME=VALUE, found speed");

@@ -130,7 +130,9 @@ fn the_tree_agrees_with_flat_enumeration() {
             (energy - expected).abs() <= tolerance,
             "round {round}: {energy} {expected}"
         );
-        assert!(bound <= expected, "round {round}: {bound} {expected}");
+        // The energy of the flat enumeration has an error of its own.
+        let own = 1e-12 * (1.0 + expected.abs());
+        assert!(bound <= expected + own, "round {round}: {bound} {expected}");
         assert!(
             bound >= expected - 1e-6 * (1.0 + expected),
             "round {round}: {bound} {expected}"
