@@ -41,10 +41,8 @@ impl Watch for Watched<'_, '_, '_> {
         if let Some(account) = &self.account {
             let bound = self.base + account.lower(bound);
             // The energies of the search have errors of their own, so no proof goes beyond the incumbent.
-            let most = self.search.best().map_or(f64::INFINITY, |b| b.energy);
-            if bound < most {
-                self.search.raise_bound(bound);
-            }
+            let most = self.search.best().map_or(f64::INFINITY, |b| b.at_least);
+            self.search.raise_bound(bound.min(most));
         }
     }
 }

@@ -51,8 +51,8 @@ fn searched<T>(
     let Minimum::At(Lowest { point, excess }) = relaxed.unwrap() else {
         panic!("the relaxation has a minimum");
     };
-    let (energy, terms) = reduced.energy(&point);
-    let bound = energy - 2.0 * excess - 4.0 * f64::EPSILON * terms;
+    let (energy, error) = reduced.energy(&point);
+    let bound = energy - 2.0 * excess - error;
     let mut monitor = Monitor::default();
     let mut search = Search::new(&reduced, point, bound, &mut monitor);
     let result = method(&reduced, &mut factors, &mut search);
