@@ -67,6 +67,18 @@ impl Quadratic {
         rest
     }
 
+    /// Whether some direction has no curvature.
+    pub fn is_singular(&self) -> bool {
+        let mut rest = self.clone();
+        while let Some(k) = rest.gradient.len().checked_sub(1) {
+            if rest.hessian[k][k] == zero() {
+                return true;
+            }
+            rest = rest.without_last();
+        }
+        false
+    }
+
     /// The least energy over integers, where only the first `integers` unknowns are integer. Some integer
     /// point must have at most the energy `enough`.
     pub fn least_energy(mut self, integers: usize, enough: &BigRational) -> BigRational {
