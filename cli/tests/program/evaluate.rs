@@ -105,7 +105,11 @@ fn a_quick_run_is_a_page_that_stands_alone_and_complete_tables() {
         let (ours, reference): (Vec<_>, Vec<_>) =
             rows.iter().partition(|row| row["source"] == "roundel");
         assert!(!ours.is_empty(), "{table}");
-        for row in ours {
+        // A solver is not run on larger meshes than one that took it too long.
+        for row in ours
+            .into_iter()
+            .filter(|row| !row["status"].starts_with("not run"))
+        {
             for column in ["faces", "integers", "continuous", "energy", "seconds"] {
                 let number: f64 = row[column].parse().unwrap_or_else(|_| panic!("{row:?}"));
                 assert!(number.is_finite() && number >= 0.0, "{row:?}");
