@@ -33,6 +33,7 @@
 //! | [`Options`], [`Strategy`], [`WarmStart`], [`search`] | what a solve may do; the list of all options |
 //! | [`solve()`], [`solve_with`], [`Solver`], [`Solution`], [`mod@solve`] | one solve, re-solves, results, verification, replay |
 //! | [`Monitor`], [`Event`], [`CancelToken`], [`monitor`] | progress, cancel, time limit |
+//! | [`soup`] | polygon soups: files of any kind, and their repair |
 //! | [`mesh`], [`field`], [`map`], [`untangle`], [`check`] | meshes, orientation fields, seamless maps, their repair and their check |
 //! | [`extract`], [`smooth`], [`quad`] | quads from a map; all the way from a mesh to quads |
 //! | [`Error`], [`InputError`] | what can go wrong |
@@ -62,6 +63,7 @@ mod round;
 pub mod search;
 pub mod smooth;
 pub mod solve;
+pub mod soup;
 pub mod untangle;
 
 #[cfg(test)]

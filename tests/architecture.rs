@@ -7,7 +7,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The layers from the lowest to the highest. A file names its own layer and lower ones, nothing else.
-const LAYERS: [&str; 20] = [
+const LAYERS: [&str; 21] = [
     "error",
     "monitor",
     "linalg",
@@ -19,6 +19,7 @@ const LAYERS: [&str; 20] = [
     "lattice",
     "cycle",
     "solve",
+    "soup",
     "mesh",
     "field",
     "map",

@@ -27,6 +27,7 @@ mod static_condensation;
 mod submatrix;
 mod substitute;
 mod unpreconditioned_cg;
+pub mod vector;
 
 pub(crate) use accumulator::Accumulator;
 pub use analysis::Analysis;

@@ -33,9 +33,9 @@ pub mod shape;
 mod subdivide;
 mod topology;
 mod triangle_mesh;
-pub mod vector;
 
-pub use check::ZERO_AREA_TOLERANCE;
+pub use crate::linalg::vector;
+pub use crate::soup::ZERO_AREA_TOLERANCE;
 pub use closest::ClosestPoint;
 pub use error::MeshError;
 pub use jitter::jitter;
