@@ -90,6 +90,18 @@ impl ReducedModel {
         self.origin.get(y).copied().unwrap_or(0.0)
     }
 
+    /// The nearest integer to the value `step` of reduced unknown `y`. Exact halves of the whole value, which is
+    /// the step and the [origin](Self::origin), are rounded away from zero, as everywhere in the library.
+    pub fn nearest(&self, y: usize, step: f64) -> f64 {
+        let below = step.floor();
+        let is_half = step - below == 0.5;
+        match is_half && self.origin(y) + step < 0.0 {
+            true => below,
+            false if is_half => below + 1.0,
+            false => step.round(),
+        }
+    }
+
     /// The objective at `y`, and a bound on the error of this number. Around a centre the bound includes the
     /// rounding of the model itself.
     ///

@@ -8,7 +8,7 @@
 //! With few integers, exact greedy rounding is faster and is used instead.
 
 use super::candidates::Candidates;
-use super::{greedy, nearest};
+use super::greedy;
 use crate::eliminate::ReducedModel;
 use crate::error::Result;
 use crate::linalg::{Effort, LocalSolve, conjugate_gradient, minimise_fixed};
@@ -65,8 +65,8 @@ pub(crate) fn adaptive(
             candidates.push(i, passes.solve.value(i));
         }
     }
-    let values = integers.iter().map(|&i| passes.solve.value(i));
-    let rounded: Vec<f64> = values.map(nearest).collect();
+    let nearest = |&i: &u32| model.nearest(i as usize, passes.solve.value(i));
+    let rounded: Vec<f64> = integers.iter().map(nearest).collect();
     search.offer(factors, &rounded)?;
     Ok(())
 }
@@ -88,7 +88,9 @@ impl Passes<'_> {
     }
 
     fn round(&mut self, unknown: u32) {
-        self.solve.fix(unknown, nearest(self.solve.value(unknown)));
+        let value = self.solve.value(unknown);
+        self.solve
+            .fix(unknown, self.model.nearest(unknown as usize, value));
         self.fixed[unknown as usize] = true;
         self.left -= 1;
     }

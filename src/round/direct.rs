@@ -3,7 +3,6 @@
 //! This is the first of the solvers that `bommes2012`, section 5.3, compares: the fastest, with the highest
 //! energies.
 
-use super::nearest;
 use crate::eliminate::ReducedModel;
 use crate::error::Result;
 use crate::search::{Factors, Search};
@@ -31,7 +30,7 @@ pub(super) fn round_all(
     search: &mut Search,
 ) -> Result<()> {
     let integers = model.integers().iter();
-    let rounded = integers.map(|&k| nearest(search.relaxed()[k as usize]));
+    let rounded = integers.map(|&k| model.nearest(k as usize, search.relaxed()[k as usize]));
     let rounded: Vec<f64> = rounded.collect();
     search.offer(factors, &rounded)?;
     Ok(())

@@ -5,7 +5,6 @@
 //! complement alone, otherwise on the sparse factor of the whole Hessian.
 
 use super::direct::round_all;
-use super::nearest;
 use crate::eliminate::ReducedModel;
 use crate::error::Result;
 use crate::linalg::FixedSolve;
@@ -36,6 +35,9 @@ pub(crate) fn greedy(
     let point: Vec<f64> = factor.unknowns.iter().map(relaxed).collect();
     let watched = factor.integers;
     let mut solve = FixedSolve::new(&mut factor.ldl, &point, &watched)?;
+    let nearest = |place: usize, solve: &FixedSolve| {
+        model.nearest(integers[place] as usize, solve.value(watched[place]))
+    };
     let mut rounded = vec![0.0; integers.len()];
     // Places in `integers`, increasing.
     let mut free: Vec<u32> = (0..integers.len() as u32).collect();
@@ -43,13 +45,13 @@ pub(crate) fn greedy(
         let done = 1.0 - free.len() as f64 / integers.len() as f64;
         if search.monitor.progress(Phase::Round, done).is_err() {
             for &place in &free {
-                rounded[place as usize] = nearest(solve.value(watched[place as usize]));
+                rounded[place as usize] = nearest(place as usize, &solve);
             }
             break;
         }
         let at = closest(&free, |place| solve.value(watched[place as usize]));
         let place = free.remove(at) as usize;
-        rounded[place] = nearest(solve.value(watched[place]));
+        rounded[place] = nearest(place, &solve);
         solve.fix(watched[place], rounded[place]);
     }
     search.offer(factors, &rounded)?;
@@ -60,7 +62,7 @@ pub(crate) fn greedy(
 fn closest(free: &[u32], value: impl Fn(u32) -> f64) -> usize {
     let deviation = |&place: &u32| {
         let x = value(place);
-        (x - nearest(x)).abs()
+        (x - x.round()).abs()
     };
     let least = free.iter().map(deviation).fold(f64::INFINITY, f64::min);
     let tied = |place: &u32| deviation(place) <= least + TIE;

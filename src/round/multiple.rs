@@ -12,7 +12,6 @@
 //! elimination, this reproduces the decisions of the thesis' program on its seamless parametrizations.
 
 use super::candidates::Candidates;
-use super::nearest;
 use crate::eliminate::ReducedModel;
 use crate::error::Result;
 use crate::linalg::{
@@ -74,8 +73,8 @@ pub(crate) fn multiple(
                 .for_each(|i| candidates.push(i, passes.point[i as usize])),
         }
     }
-    let rounded = integers.iter().map(|&i| nearest(passes.point[i as usize]));
-    let rounded: Vec<f64> = rounded.collect();
+    let nearest = |&i: &u32| model.nearest(i as usize, passes.point[i as usize]);
+    let rounded: Vec<f64> = integers.iter().map(nearest).collect();
     search.offer(factors, &rounded)?;
     Ok(())
 }
@@ -101,7 +100,7 @@ impl Passes<'_> {
         let options = self.options;
         for &i in batch {
             let i = i as usize;
-            self.point[i] = nearest(self.point[i]);
+            self.point[i] = self.model.nearest(i, self.point[i]);
             self.fixed[i] = true;
         }
         let mut budget = options.gauss_seidel_updates;

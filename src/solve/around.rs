@@ -18,6 +18,10 @@ const ROUNDS: usize = 8;
 /// A minimiser whose integers are this near to zero is at the centre.
 const NEAR: f64 = 0.75;
 
+/// Integers up to this size are decided around zero by [`Strategy::Multiple`]: its iterations depend on their
+/// starts, and its published decisions were made around zero.
+const SMALL: f64 = 1024.0;
+
 /// The model around the relaxation's minimiser, with its integers rounded, and the relaxation of this model.
 ///
 /// # Errors
@@ -44,6 +48,11 @@ fn centred(
 ) -> Result<(Centre, Relaxation)> {
     let mut relaxation = relax(of.model, reduced, strategy, of.factors)?;
     let mut at = rounded(reduced, &relaxation.point);
+    if strategy == Strategy::Multiple && farthest(reduced, &at) <= SMALL {
+        at.fill(0.0);
+        let centre = Centre::new(of.problem, of.model, of.elimination, reduced, &at);
+        return Ok(moved(centre, relaxation, &at));
+    }
     let mut centre = Centre::new(of.problem, of.model, of.elimination, reduced, &at);
     for _ in 0..ROUNDS {
         let next = match relax(of.model, centre.model(), strategy, of.factors) {
@@ -54,11 +63,7 @@ fn centred(
             other => other?,
         };
         let step = rounded(reduced, &next.point);
-        let farthest = |v: &[f64]| {
-            let integers = reduced.integers().iter();
-            integers.fold(0.0, |most: f64, &i| most.max(v[i as usize].abs()))
-        };
-        if farthest(&next.point) <= NEAR {
+        if farthest(reduced, &next.point) <= NEAR {
             return Ok((centre, next));
         }
         relaxation = next;
@@ -89,6 +94,12 @@ fn moved(centre: Centre, relaxation: Relaxation, at: &[f64]) -> (Centre, Relaxat
         ..relaxation
     };
     (centre, relaxation)
+}
+
+/// The largest magnitude of the integers.
+fn farthest(reduced: &ReducedModel, point: &[f64]) -> f64 {
+    let integers = reduced.integers().iter();
+    integers.fold(0.0, |most: f64, &i| most.max(point[i as usize].abs()))
 }
 
 /// The point with its integers rounded.

@@ -12,7 +12,6 @@ use crate::error::{Error, Result};
 use crate::linalg::{TwoFold, places};
 use crate::monitor::{Monitor, relative_gap};
 use crate::problem::{Model, Objective, Problem};
-use crate::round;
 use crate::search::{
     ALWAYS, Factors, GAP_TOLERANCE, Options, Search, SolveStatus, StoppedBy, WarmStart,
 };
@@ -154,7 +153,7 @@ fn run(
                 search.stop_by(StoppedBy::Memory);
             }
             Err(Error::Cancelled | Error::TimeLimit) if required => {
-                let relaxed = |&i: &u32| round::nearest(search.relaxed()[i as usize]);
+                let relaxed = |&i: &u32| model.nearest(i as usize, search.relaxed()[i as usize]);
                 let nearest: Vec<f64> = model.integers().iter().map(relaxed).collect();
                 search.offer(factors, &nearest)?;
             }
