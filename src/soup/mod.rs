@@ -1,14 +1,23 @@
 //! Polygon soups: positions and polygons of any size, of which nothing is assumed.
 //!
 //! A soup is what a file holds. [`TriangleMesh`](crate::mesh::TriangleMesh) is strict; what lies between
-//! the two is repair, which says exactly what it did.
+//! the two is [`repair()`], which says exactly what it did.
 
 mod area;
+mod edits;
 mod error;
+mod lists;
+mod options;
 mod polygon_soup;
+mod repair;
+mod repaired;
 
 pub use area::ZERO_AREA_TOLERANCE;
+pub use edits::{Edit, EditKind, Edits};
 pub use error::SoupError;
+pub use options::{REPAIR_OPTIONS, RepairOptions};
 pub use polygon_soup::PolygonSoup;
+pub use repair::repair;
+pub use repaired::Repaired;
 
 pub(crate) use area::has_no_area;
