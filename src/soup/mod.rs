@@ -4,13 +4,28 @@
 //! the two is [`repair()`], which says exactly what it did.
 
 mod area;
+mod clean;
+mod components;
+mod cut;
+mod duplicates;
+mod ears;
+mod edges;
 mod edits;
 mod error;
+mod fill;
+mod finite;
 mod lists;
+mod near;
 mod options;
+mod orient;
+mod pair;
 mod polygon_soup;
 mod repair;
 mod repaired;
+mod slivers;
+mod surface;
+mod triangulate;
+mod weld;
 
 pub use area::ZERO_AREA_TOLERANCE;
 pub use edits::{Edit, EditKind, Edits};

@@ -14,7 +14,7 @@ options! {
             "the distance up to which vertices are welded, in units of the mesh; at 0, those of equal position";
         drop_components: f64 = 0.0, "0" in "[0, 1]",
             "the share of the area below which a component is dropped; 0 keeps all";
-        fill_holes: usize = 0, "0" in "[0, 10000]",
+        fill_holes: usize = 0, "0" in "[0, 1000]",
             "the largest number of edges of a hole that is filled; 0 fills none";
     }
     and {}
