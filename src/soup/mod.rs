@@ -5,6 +5,8 @@
 
 mod area;
 mod error;
+#[cfg(feature = "mesh-io")]
+pub mod io;
 mod polygon_soup;
 
 pub use area::ZERO_AREA_TOLERANCE;
