@@ -15,6 +15,12 @@ pub enum MeshError {
     /// A mesh without faces.
     #[error("the mesh has no faces")]
     NoFaces,
+    /// A soup of which repair leaves nothing: points, lines, or polygons without area.
+    #[error("there is no surface: {reason}")]
+    NoSurface {
+        /// What there is instead.
+        reason: String,
+    },
     /// More half-edges or vertices than 32-bit numbers can name.
     #[error("the mesh is too large: {vertices} vertices, {faces} faces")]
     TooLarge {
@@ -171,6 +177,7 @@ impl MeshError {
     pub fn code(&self) -> &'static str {
         match self {
             MeshError::NoFaces => "no_faces",
+            MeshError::NoSurface { .. } => "no_surface",
             MeshError::TooLarge { .. } => "mesh_too_large",
             MeshError::NotFinite { .. } => "vertex_not_finite",
             MeshError::NotATriangle { .. } => "not_a_triangle",
@@ -194,7 +201,7 @@ impl MeshError {
 impl From<SoupError> for MeshError {
     fn from(error: SoupError) -> Self {
         match error {
-            SoupError::NoSurface { .. } => MeshError::NoFaces,
+            SoupError::NoSurface { reason } => MeshError::NoSurface { reason },
             SoupError::TooLarge { vertices, polygons } => MeshError::TooLarge {
                 vertices,
                 faces: polygons,
@@ -207,6 +214,12 @@ impl From<SoupError> for MeshError {
             }
             SoupError::InvalidArgument { what } => MeshError::InvalidArgument { what },
         }
+    }
+}
+
+impl From<SoupError> for crate::error::Error {
+    fn from(error: SoupError) -> Self {
+        MeshError::from(error).into()
     }
 }
 

@@ -22,6 +22,7 @@ mod connectivity;
 pub mod curvature;
 mod error;
 pub mod features;
+mod from_soup;
 #[cfg(feature = "mesh-io")]
 pub mod io;
 mod jitter;

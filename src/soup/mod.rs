@@ -12,3 +12,31 @@ mod ears;
 mod edges;
 mod edits;
 mod error;
+mod fill;
+mod finite;
+#[cfg(feature = "mesh-io")]
+pub mod io;
+#[cfg(feature = "mesh-io")]
+pub mod io;
+mod lists;
+mod near;
+mod options;
+mod orient;
+mod pair;
+mod polygon_soup;
+mod repair;
+mod repaired;
+mod slivers;
+mod surface;
+mod triangulate;
+mod weld;
+
+pub use area::ZERO_AREA_TOLERANCE;
+pub use edits::{Edit, EditKind, Edits};
+pub use error::SoupError;
+pub use options::{REPAIR_OPTIONS, RepairOptions};
+pub use polygon_soup::PolygonSoup;
+pub use repair::repair;
+pub use repaired::Repaired;
+
+pub(crate) use area::has_no_area;
