@@ -16,8 +16,6 @@ mod fill;
 mod finite;
 #[cfg(feature = "mesh-io")]
 pub mod io;
-#[cfg(feature = "mesh-io")]
-pub mod io;
 mod lists;
 mod near;
 mod options;
