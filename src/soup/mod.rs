@@ -14,6 +14,8 @@ mod edits;
 mod error;
 mod fill;
 mod finite;
+#[cfg(feature = "mesh-io")]
+pub mod io;
 mod lists;
 mod near;
 mod options;

@@ -1,56 +1,26 @@
-//! Reading and writing of mesh files: OBJ, OFF and PLY, told apart by extension.
+//! Strict reading and writing of mesh files of every [`Format`], told apart by extension.
 //!
-//! Vertices and faces keep the numbers of the file. Only triangles are read: any other polygon is an
-//! error that names its face. Normals, texture coordinates, colours, materials and groups are
-//! ignored.
+//! Vertices and faces keep the numbers of the file; only in STL, whose triangles are positions, are
+//! equal ones made one vertex. Only triangles are read: any other polygon is an error that names its
+//! face. Normals, texture coordinates, colours, materials and groups are ignored.
+//! [`soup::io`](crate::soup::io) reads the same files, and takes what is not a mesh too.
 
 mod drawing;
 mod obj;
 mod obj_uv;
 mod off;
 mod ply;
+mod strict;
 
 use std::io::Write;
 use std::path::Path;
 
-use super::vector::Vec3;
 use super::{MeshError, TriangleMesh};
+use crate::soup::io as soup;
 
+pub use crate::soup::io::Format;
 pub use drawing::Drawing;
 pub use obj_uv::{TexturedMesh, parse_textured, read_textured};
-
-/// A file format.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Format {
-    /// Wavefront, `.obj`.
-    Obj,
-    /// Object file format of Geomview, `.off`, with its variants COFF, NOFF and STOFF.
-    Off,
-    /// Polygon file format, `.ply`: ascii, and binary of both byte orders.
-    Ply,
-}
-
-impl Format {
-    /// The format that the extension of a file name stands for, in any case.
-    ///
-    /// # Errors
-    ///
-    /// [`MeshError::UnknownFormat`].
-    pub fn of(path: &Path) -> Result<Format, MeshError> {
-        let extension = path.extension().unwrap_or_default().to_string_lossy();
-        match extension.to_ascii_lowercase().as_str() {
-            "obj" => Ok(Format::Obj),
-            "off" => Ok(Format::Off),
-            "ply" => Ok(Format::Ply),
-            _ => Err(MeshError::UnknownFormat {
-                extension: extension.into_owned(),
-            }),
-        }
-    }
-}
-
-/// Positions and corners as a file has them, nothing checked yet.
-type Soup = (Vec<Vec3>, Vec<[u32; 3]>);
 
 /// Reads a mesh; the extension tells the format.
 ///
@@ -62,8 +32,7 @@ type Soup = (Vec<Vec3>, Vec<[u32; 3]>);
 pub fn read(path: impl AsRef<Path>) -> Result<TriangleMesh, MeshError> {
     let path = path.as_ref();
     let format = Format::of(path)?;
-    let bytes = std::fs::read(path).map_err(|e| MeshError::of_file(path, &e))?;
-    parse(&bytes, format)
+    strict::mesh(&soup::read_as(path, format)?, format)
 }
 
 /// The mesh that the contents of a file describe.
@@ -72,12 +41,7 @@ pub fn read(path: impl AsRef<Path>) -> Result<TriangleMesh, MeshError> {
 ///
 /// As [`read`].
 pub fn parse(bytes: &[u8], format: Format) -> Result<TriangleMesh, MeshError> {
-    let (vertices, triangles) = match format {
-        Format::Obj => obj::parse(bytes),
-        Format::Off => off::parse(bytes),
-        Format::Ply => ply::parse(bytes),
-    }?;
-    TriangleMesh::new(vertices, triangles)
+    strict::mesh(&soup::parse(bytes, format)?, format)
 }
 
 /// Writes a mesh or any other [`Drawing`]; the extension tells the format.
@@ -94,39 +58,22 @@ pub fn write<'a>(path: impl AsRef<Path>, drawing: impl Into<Drawing<'a>>) -> Res
     let format = Format::of(path)?;
     let drawing = drawing.into();
     drawing.check()?;
-    let bytes = encode(&drawing, format);
+    let bytes = encode(&drawing, format)?;
     std::fs::File::create(path)
         .and_then(|mut file| file.write_all(&bytes))
         .map_err(|e| MeshError::of_file(path, &e))
 }
 
-fn encode(drawing: &Drawing, format: Format) -> Vec<u8> {
+fn encode(drawing: &Drawing, format: Format) -> Result<Vec<u8>, MeshError> {
     match format {
-        Format::Obj => obj::encode(drawing),
-        Format::Off => off::encode(drawing),
-        Format::Ply => ply::encode(drawing),
+        Format::Obj => Ok(obj::encode(drawing)),
+        Format::Off => Ok(off::encode(drawing)),
+        Format::Ply => Ok(ply::encode(drawing)),
+        other => Err(MeshError::UnknownFormat {
+            extension: other.name().to_owned(),
+            known: "obj, off and ply",
+        }),
     }
-}
-
-/// The corners of one face of the file, which must be three.
-fn triangle(face: usize, corners: &[i64], vertices: usize) -> Result<[u32; 3], MeshError> {
-    let &[a, b, c] = corners else {
-        return Err(MeshError::NotATriangle {
-            face,
-            corners: corners.len(),
-        });
-    };
-    let number = |vertex: i64| {
-        u32::try_from(vertex)
-            .ok()
-            .filter(|&v| (v as usize) < vertices)
-            .ok_or(MeshError::IndexOutOfRange {
-                face,
-                vertex,
-                vertices,
-            })
-    };
-    Ok([number(a)?, number(b)?, number(c)?])
 }
 
 #[cfg(test)]

@@ -5,9 +5,9 @@
 
 use std::path::Path;
 
-use super::Format;
-use super::obj::{self, keyword};
+use super::{Format, strict};
 use crate::mesh::{MeshError, TriangleMesh};
+use crate::soup::io::{self as soup, Statement, Statements, corner_number};
 
 /// A mesh and the coordinates (u, v) of the corners of each of its faces.
 pub type TexturedMesh = (TriangleMesh, Vec<[[f64; 2]; 3]>);
@@ -35,38 +35,39 @@ pub fn read_textured(path: impl AsRef<Path>) -> Result<TexturedMesh, MeshError> 
 /// # Errors
 /// As [`read_textured`].
 pub fn parse_textured(bytes: &[u8]) -> Result<TexturedMesh, MeshError> {
-    let (vertices, triangles) = obj::parse(bytes)?;
+    let soup = soup::parse(bytes, Format::Obj)?;
+    strict::triangles(&soup)?;
     let uv = corners(bytes)?;
-    Ok((TriangleMesh::new(vertices, triangles)?, uv))
+    Ok((strict::mesh(&soup, Format::Obj)?, uv))
 }
 
 fn corners(bytes: &[u8]) -> Result<Vec<[[f64; 2]; 3]>, MeshError> {
     let mut points: Vec<[f64; 2]> = Vec::new();
     let mut faces: Vec<(usize, [usize; 3])> = Vec::new();
-    for (at, line) in bytes.split(|&b| b == b'\n').enumerate() {
+    for (line, statement) in Statements::new(bytes) {
         let fault = |message: &str| MeshError::Parse {
-            line: at + 1,
+            line,
             message: message.to_owned(),
         };
-        let words = || std::str::from_utf8(line).map(|text| text.split_ascii_whitespace().skip(1));
-        match keyword(line) {
-            b"vt" => {
-                let point = words().ok().and_then(point);
+        match statement {
+            Statement::Texture(text) => {
+                let point = point(words(&text));
                 points.push(point.ok_or_else(|| fault("vt needs two finite numbers"))?);
             }
-            b"f" => {
+            Statement::Face(text) => {
                 let mut corners = [0; 3];
-                let words = words().map_err(|_| fault("the line is not readable text"))?;
-                for (corner, word) in corners.iter_mut().zip(words) {
-                    let number = word.split('/').nth(1).filter(|number| !number.is_empty());
+                for (corner, word) in corners.iter_mut().zip(words(&text)) {
+                    let number = word.split(|&b| b == b'/').nth(1);
+                    let number = number.filter(|number| !number.is_empty());
                     let number =
                         number.ok_or_else(|| fault("a corner has no texture coordinates"))?;
-                    *corner = resolve(number, points.len())
+                    *corner = corner_number(number, points.len() as i64)
+                        .and_then(|number| usize::try_from(number).ok())
                         .ok_or_else(|| fault("a corner names no texture coordinates"))?;
                 }
-                faces.push((at + 1, corners));
+                faces.push((line, corners));
             }
-            _ => {}
+            Statement::Vertex(_) => {}
         }
     }
     let of_face = |&(line, corners): &(usize, [usize; 3])| {
@@ -82,16 +83,15 @@ fn corners(bytes: &[u8]) -> Result<Vec<[[f64; 2]; 3]>, MeshError> {
     faces.iter().map(of_face).collect()
 }
 
-fn point<'a>(mut words: impl Iterator<Item = &'a str>) -> Option<[f64; 2]> {
-    let mut number = || words.next()?.parse().ok().filter(|x: &f64| x.is_finite());
-    Some([number()?, number()?])
+fn words(text: &[u8]) -> impl Iterator<Item = &[u8]> {
+    text.split(u8::is_ascii_whitespace)
+        .filter(|word| !word.is_empty())
 }
 
-/// From 1 onwards, or backwards from the last so far.
-fn resolve(number: &str, so_far: usize) -> Option<usize> {
-    match number.parse::<i64>().ok()? {
-        0 => None,
-        forwards @ 1.. => usize::try_from(forwards - 1).ok(),
-        backwards => so_far.checked_sub(usize::try_from(-backwards).ok()?),
-    }
+fn point<'a>(mut words: impl Iterator<Item = &'a [u8]>) -> Option<[f64; 2]> {
+    let mut number = || {
+        let word = std::str::from_utf8(words.next()?).ok()?;
+        word.parse().ok().filter(|x: &f64| x.is_finite())
+    };
+    Some([number()?, number()?])
 }

@@ -1,0 +1,79 @@
+//! The statements of an OBJ file that describe a surface, each on a line of its own or continued over
+//! several by a backslash.
+
+use std::borrow::Cow;
+
+use super::lines::{Lines, number, said};
+
+/// A statement, without its keyword and its comment.
+pub(crate) enum Statement<'a> {
+    /// `v`: the position of a vertex.
+    Vertex(Cow<'a, [u8]>),
+    /// `vt`: texture coordinates.
+    Texture(Cow<'a, [u8]>),
+    /// `f`, or `fo` as old files have it: the corners of a face.
+    Face(Cow<'a, [u8]>),
+}
+
+/// The statements of a file, each with the number of its first line, counted from 1.
+pub(crate) struct Statements<'a> {
+    lines: Lines<'a>,
+}
+
+impl<'a> Statements<'a> {
+    pub(crate) fn new(bytes: &'a [u8]) -> Self {
+        Statements {
+            lines: Lines::new(bytes),
+        }
+    }
+
+    /// What follows the keyword, with the lines that continue it. Only these statements are continued:
+    /// in a comment or a name a backslash at the end may be part of a path.
+    fn continued(&mut self, first: &'a [u8]) -> Cow<'a, [u8]> {
+        let mut text = said(first);
+        let mut joined = Vec::new();
+        while let Some(start) = text.trim_ascii_end().strip_suffix(b"\\") {
+            joined.extend(start);
+            joined.push(b' ');
+            text = self.lines.next().map_or(&[], |(_, line)| said(line));
+        }
+        if joined.is_empty() {
+            return Cow::Borrowed(text);
+        }
+        joined.extend(text);
+        Cow::Owned(joined)
+    }
+}
+
+impl<'a> Iterator for Statements<'a> {
+    type Item = (usize, Statement<'a>);
+
+    fn next(&mut self) -> Option<Self::Item> {
+        loop {
+            let (number, line) = self.lines.next()?;
+            let line = line.trim_ascii_start();
+            let end = line
+                .iter()
+                .position(|b| b.is_ascii_whitespace() || b"#\\".contains(b));
+            let (keyword, rest) = line.split_at(end.unwrap_or(line.len()));
+            let statement = match keyword {
+                b"v" => Statement::Vertex(self.continued(rest)),
+                b"vt" => Statement::Texture(self.continued(rest)),
+                b"f" | b"fo" => Statement::Face(self.continued(rest)),
+                _ => continue,
+            };
+            return Some((number, statement));
+        }
+    }
+}
+
+/// The number, counted from 0, that a word names: it counts from 1 onwards, or backwards from the last of
+/// those so far. Nothing is assumed of how many there will be.
+pub(crate) fn corner_number(word: &[u8], so_far: i64) -> Option<i64> {
+    let given: i64 = number(word)?;
+    if given < 0 {
+        so_far.checked_add(given)
+    } else {
+        Some(given - 1)
+    }
+}
