@@ -1,4 +1,4 @@
-//! Quads as a Wavefront OBJ file.
+//! Quads as a file: Wavefront OBJ, or any format that the name tells.
 
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
@@ -9,6 +9,21 @@ use crate::error::Result;
 use crate::mesh::MeshError;
 
 impl QuadMesh {
+    /// Writes vertices and faces to a file whose extension tells the format: see
+    /// [`write_polygons`](crate::mesh::io::write_polygons). As OBJ, what [`QuadMesh::write_obj`] writes.
+    ///
+    /// # Errors
+    /// [`Error::Io`](crate::Error::Io) for a file that cannot be written, and
+    /// [`Error::Input`](crate::Error::Input) for an unknown format.
+    #[cfg(feature = "mesh-io")]
+    pub fn write(&self, path: &Path) -> Result<()> {
+        let polygons = crate::mesh::io::Polygons {
+            vertices: &self.vertices,
+            faces: self.faces().collect(),
+        };
+        Ok(crate::mesh::io::write_polygons(path, &polygons)?)
+    }
+
     /// Writes vertices and faces. Coordinates are written so that reading gives back the same.
     ///
     /// # Errors

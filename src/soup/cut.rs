@@ -53,9 +53,7 @@ fn cut_once(surface: &mut Surface) -> Vec<u32> {
         let patches = orient(surface, &mut pairs.twin.clone());
         pair_crowded(surface, &mut pairs, &patches.turned);
     }
-    let mut found = orient(surface, &mut pairs.twin);
-    // In the order of the triangles, not of the search.
-    found.cut.sort_unstable();
+    let found = orient(surface, &mut pairs.twin);
     let mut edits = std::mem::take(&mut surface.edits);
     tell_turned(surface, &found.turned, &mut edits);
     for [lowest, count] in found.outwards {
@@ -65,26 +63,15 @@ fn cut_once(surface: &mut Surface) -> Vec<u32> {
             count,
         );
     }
-    let simple = |&&[h, g]: &&[u32; 2]| {
-        let of = |h: u32| tail(&surface.triangles, h).min(tip(&surface.triangles, h));
-        let upper = |h: u32| tail(&surface.triangles, h).max(tip(&surface.triangles, h));
-        let crowded = |edge: &Vec<u32>| edge.contains(&h);
-        debug_assert_eq!((of(h), upper(h)), (of(g), upper(g)));
-        !pairs.crowded.iter().any(crowded)
-    };
     let ends = |h: u32| {
         let (a, b) = (tail(&surface.triangles, h), tip(&surface.triangles, h));
         [a.min(b), a.max(b)]
     };
     let crowded = pairs.crowded.iter().map(|halves| ends(halves[0]));
-    let mut cuts: Vec<_> = found
-        .cut
-        .iter()
-        .filter(simple)
-        .map(|c| ends(c[0]))
-        .collect();
+    let mut cuts: Vec<_> = found.cut.iter().map(|c| ends(c[0])).collect();
     cuts.extend(crowded);
     cuts.sort_unstable();
+    cuts.dedup();
     for [a, b] in cuts {
         edits.add(EditKind::EdgeCut, a, b);
     }

@@ -1,26 +1,26 @@
-//! Writing of Wavefront OBJ.
+//! Writing of Wavefront OBJ. It has a place for the colours of vertices only.
 
 use std::io::Write;
 
-use super::Drawing;
+use super::figure::Figure;
 
-pub(super) fn encode(drawing: &Drawing) -> Vec<u8> {
-    let mut out = Vec::with_capacity(60 * drawing.vertices.len() + 25 * drawing.triangles.len());
-    for (v, [x, y, z]) in drawing.vertices.iter().enumerate() {
+pub(super) fn encode(figure: &Figure) -> Vec<u8> {
+    let mut out = Vec::with_capacity(60 * figure.vertices.len() + 25 * figure.faces.len());
+    for (v, [x, y, z]) in figure.vertices.iter().enumerate() {
         let _ = write!(out, "v {x} {y} {z}");
-        if let Some(colors) = drawing.vertex_colors {
+        if let Some(colors) = figure.vertex_colors {
             for channel in colors[v] {
                 let _ = write!(out, " {:.4}", f64::from(channel) / 255.0);
             }
         }
         out.push(b'\n');
     }
-    for [a, b, c] in drawing
-        .triangles
-        .iter()
-        .map(|t| t.map(|v| u64::from(v) + 1))
-    {
-        let _ = writeln!(out, "f {a} {b} {c}");
+    for face in &figure.faces {
+        out.push(b'f');
+        for &corner in *face {
+            let _ = write!(out, " {}", u64::from(corner) + 1);
+        }
+        out.push(b'\n');
     }
     out
 }

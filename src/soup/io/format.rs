@@ -6,7 +6,6 @@ use crate::soup::SoupError;
 
 /// A file format.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-#[non_exhaustive]
 pub enum Format {
     /// Wavefront, `.obj`.
     Obj,
@@ -93,7 +92,7 @@ impl Format {
 }
 
 /// Whether the name of a file ends in `.gz`.
-fn is_compressed(path: &Path) -> bool {
+pub(crate) fn is_compressed(path: &Path) -> bool {
     path.extension()
         .is_some_and(|extension| extension.eq_ignore_ascii_case("gz"))
 }

@@ -100,6 +100,15 @@ impl<'a> Words<'a> {
         (!word.is_empty()).then_some(word)
     }
 
+    /// Passes over bytes of the line.
+    pub(super) fn take_here(&mut self, count: usize) {
+        self.rest = self
+            .rest
+            .trim_ascii_start()
+            .get(count..)
+            .unwrap_or_default();
+    }
+
     /// The next word as a number, on this line or the next.
     pub(super) fn number<T: FromStr>(&mut self, expected: &str) -> Result<T, SoupError> {
         let word = self.word(expected)?;

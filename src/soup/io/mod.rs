@@ -6,7 +6,10 @@
 
 mod bytes;
 mod format;
+mod gltf;
+mod gzip;
 mod lines;
+mod look;
 mod obj;
 mod off;
 mod off_binary;
@@ -21,6 +24,7 @@ use super::{PolygonSoup, SoupError};
 
 pub use format::Format;
 
+pub(crate) use format::is_compressed;
 pub(crate) use statements::{Statement, Statements, corner_number};
 
 /// Reads a file; its extension tells the format.
@@ -63,14 +67,16 @@ pub fn parse_in(
     format: Format,
     folder: Option<&Path>,
 ) -> Result<PolygonSoup, SoupError> {
-    let _ = folder;
+    let bytes = &gzip::inflated(bytes)?;
+    look::check(bytes, format)?;
     match format {
         Format::Obj => obj::parse(bytes),
         Format::Off => off::parse(bytes),
         Format::Ply => ply::parse(bytes),
         Format::Stl => stl::parse(bytes),
-        other => Err(SoupError::UnknownFormat {
-            extension: other.name().to_owned(),
+        Format::Gltf | Format::Glb => gltf::parse(bytes, folder),
+        Format::Usda => Err(SoupError::UnknownFormat {
+            extension: format.name().to_owned(),
             known: Format::READ,
         }),
     }

@@ -25,15 +25,15 @@ pub(super) struct Keyword {
 pub(super) fn parse(bytes: &[u8]) -> Result<PolygonSoup, SoupError> {
     let mut words = Words::new(bytes);
     words.next_line("the word OFF")?;
-    let start = words.clone();
-    let first = words.on_this_line().unwrap_or_default();
-    let mut keyword = match Keyword::of(first) {
-        Some(keyword) => keyword,
-        // The first of the counts.
-        None if number::<i64>(first).is_some() => {
-            words = start;
-            Keyword::plain()
+    let first = words.clone().on_this_line().unwrap_or_default();
+    let mut keyword = match Keyword::at_start_of(first) {
+        Some((keyword, length)) => {
+            // The first count may stand next to it without a space.
+            words.take_here(length);
+            keyword
         }
+        // The first of the counts.
+        None if number::<i64>(first).is_some() => Keyword::plain(),
         None => return Err(words.wrong("the file does not start with OFF, COFF, NOFF or STOFF")),
     };
     if words.clone().on_this_line() == Some(b"BINARY") {
@@ -74,10 +74,13 @@ impl Keyword {
         }
     }
 
-    /// `[ST][C][N][4][n]OFF`
-    fn of(word: &[u8]) -> Option<Keyword> {
-        let (mut prefix, ending) = word.split_at_checked(word.len().checked_sub(3)?)?;
-        if !ending.eq_ignore_ascii_case(b"OFF") {
+    /// `[ST][C][N][4][n]OFF`, and its length.
+    fn at_start_of(word: &[u8]) -> Option<(Keyword, usize)> {
+        let place = word
+            .windows(3)
+            .position(|letters| letters.eq_ignore_ascii_case(b"OFF"))?;
+        let (mut prefix, ending) = word.split_at(place);
+        if !ending[3..].iter().all(u8::is_ascii_digit) {
             return None;
         }
         let mut has = |letters: &[u8]| {
@@ -93,7 +96,7 @@ impl Keyword {
             named_dimension: has(b"n"),
             ..Keyword::plain()
         };
-        prefix.is_empty().then_some(keyword)
+        prefix.is_empty().then_some((keyword, place + 3))
     }
 
     /// Numbers of a position, the weight included.
