@@ -12,6 +12,7 @@ mod output;
 mod parametrize;
 mod progress;
 mod quad;
+mod repair;
 mod report;
 mod shape;
 mod solve;
@@ -35,6 +36,7 @@ enum Command {
     Field(field::Arguments),
     Parametrize(parametrize::Arguments),
     Check(check::Arguments),
+    Repair(repair::Arguments),
     Quad(quad::Arguments),
     Extract(extract::Arguments),
     Shape(shape::Arguments),
@@ -47,6 +49,7 @@ fn main() -> ExitCode {
         Command::Field(arguments) => field::run(&arguments),
         Command::Parametrize(arguments) => parametrize::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
+        Command::Repair(arguments) => repair::run(&arguments),
         Command::Quad(arguments) => quad::run(&arguments),
         Command::Extract(arguments) => extract::run(&arguments),
         Command::Shape(arguments) => shape::run(&arguments),

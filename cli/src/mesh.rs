@@ -1,12 +1,162 @@
-//! A mesh named on the command line: a file, or a procedural shape.
+//! The mesh that a command works on: a file of any kind, repaired where it must be, or a procedural shape.
 
+use std::io::Read;
 use std::path::Path;
 
-use roundel::Result;
-use roundel::mesh::{TriangleMesh, io, shape};
+use roundel::mesh::{MeshError, TriangleMesh, io, shape};
+use roundel::soup::io::Format;
+use roundel::soup::{EditKind, Edits, PolygonSoup, RepairOptions, Repaired, io as soup};
+use roundel::{Error, Result};
+use serde::{Serialize, Serializer};
 
-/// The mesh that `name` stands for: `shape:NAME[:TRIANGLES]` or a file.
-pub fn read(name: &Path) -> Result<TriangleMesh> {
-    let drawn = name.to_str().and_then(shape::from_spec);
-    Ok(drawn.unwrap_or_else(|| io::read(name))?)
+use crate::options::RepairFlags;
+use crate::output;
+
+/// The name of standard input.
+const STDIN: &str = "-";
+
+/// How the file of a mesh is read.
+#[derive(clap::Args)]
+pub struct MeshFlags {
+    /// Read the mesh as this format, whatever its name: obj, off, ply, stl, gltf or glb. Standard input,
+    /// `-`, needs it
+    #[arg(long, value_name = "FORMAT", value_parser = format)]
+    pub format: Option<Format>,
+
+    /// Refuse what is not an oriented manifold triangle mesh as it stands, and repair nothing
+    #[arg(long)]
+    #[arg(conflicts_with_all = ["weld", "drop_components", "fill_holes"])]
+    pub strict: bool,
+
+    #[command(flatten)]
+    pub repair: RepairFlags,
+}
+
+/// A mesh, and what was done to make it one.
+pub struct Input {
+    pub mesh: TriangleMesh,
+    pub repair: RepairCounts,
+}
+
+/// How often each kind of repair was done; those that were not are left out.
+#[derive(Debug, Clone, Default)]
+pub struct RepairCounts(Vec<(EditKind, usize)>);
+
+impl RepairCounts {
+    /// The counts of a list of edits.
+    pub fn new(edits: &Edits) -> Self {
+        let counts = EditKind::ALL
+            .into_iter()
+            .map(|kind| (kind, edits.count(kind)));
+        RepairCounts(counts.filter(|&(_, count)| count > 0).collect())
+    }
+}
+
+impl Serialize for RepairCounts {
+    fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
+        serializer.collect_map(self.0.iter().map(|(kind, count)| (kind.name(), count)))
+    }
+}
+
+impl Input {
+    /// Refuses a flag whose argument counts faces or vertices, if repair has changed their numbers.
+    ///
+    /// # Errors
+    /// [`Error::InvalidArgument`].
+    pub fn keeps_numbers(&self, flag: &str, is_given: bool) -> Result<()> {
+        if !is_given || self.repair.0.is_empty() {
+            return Ok(());
+        }
+        Err(Error::InvalidArgument {
+            what: format!(
+                "{flag} counts the faces and vertices of the file, but repair has changed them: write \
+                 the mesh with `roundel repair`, and count those of its result"
+            ),
+            index: None,
+        })
+    }
+}
+
+impl MeshFlags {
+    /// The mesh that `name` stands for: `shape:NAME[:TRIANGLES]`, a file, or `-` for standard input. What was
+    /// repaired is told on stderr.
+    ///
+    /// # Errors
+    /// Those of reading and of repair; with `--strict` those of [`TriangleMesh::new`].
+    pub fn read(&self, name: &Path) -> Result<Input> {
+        if let Some(drawn) = name.to_str().and_then(shape::from_spec) {
+            return Ok(Input {
+                mesh: drawn?,
+                repair: RepairCounts::default(),
+            });
+        }
+        if self.strict {
+            return Ok(Input {
+                mesh: self.read_strictly(name)?,
+                repair: RepairCounts::default(),
+            });
+        }
+        let (mesh, repaired) = self.repaired(&self.read_soup(name)?)?;
+        if !repaired.edits.is_empty() {
+            output::note(name, &format!("repaired: {}", repaired.edits.summary()));
+        }
+        Ok(Input {
+            mesh,
+            repair: RepairCounts::new(&repaired.edits),
+        })
+    }
+
+    /// The soup in a file, or on standard input.
+    ///
+    /// # Errors
+    /// Those of reading.
+    pub fn read_soup(&self, name: &Path) -> Result<PolygonSoup> {
+        if is_stdin(name) {
+            return Ok(soup::parse(&stdin()?, self.format_of(name)?)?);
+        }
+        Ok(soup::read_as(name, self.format_of(name)?)?)
+    }
+
+    /// The mesh that repair makes of a soup by the flags.
+    ///
+    /// # Errors
+    /// Those of [`TriangleMesh::from_soup`].
+    pub fn repaired(&self, soup: &PolygonSoup) -> Result<(TriangleMesh, Repaired)> {
+        let options = self.repair.over(RepairOptions::default())?;
+        Ok(TriangleMesh::from_soup(soup, &options)?)
+    }
+
+    fn read_strictly(&self, name: &Path) -> Result<TriangleMesh> {
+        let format = self.format_of(name)?;
+        Ok(match is_stdin(name) {
+            true => io::parse(&stdin()?, format)?,
+            false => io::read_as(name, format)?,
+        })
+    }
+
+    fn format_of(&self, name: &Path) -> Result<Format> {
+        match self.format {
+            Some(format) => Ok(format),
+            None if is_stdin(name) => Err(Error::InvalidArgument {
+                what: "standard input has no extension: add --format".into(),
+                index: None,
+            }),
+            None => Ok(Format::of(name).map_err(MeshError::from)?),
+        }
+    }
+}
+
+fn is_stdin(name: &Path) -> bool {
+    name.as_os_str() == STDIN
+}
+
+fn stdin() -> Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    let read = std::io::stdin().lock().read_to_end(&mut bytes);
+    read.map_err(|reason| output::io_error("standard input", &reason))?;
+    Ok(bytes)
+}
+
+fn format(word: &str) -> std::result::Result<Format, String> {
+    Format::by_name(word).map_err(|error| error.to_string())
 }

@@ -10,6 +10,7 @@ use clap::{Arg, ArgAction, ArgMatches, Args, Command, FromArgMatches};
 use roundel::Options;
 use roundel::quad::{QUAD_OPTIONS, QuadOptions};
 use roundel::search::{OPTIONS, OptionInfo, OptionKind, OptionValue, PRESETS};
+use roundel::soup::{REPAIR_OPTIONS, RepairOptions};
 
 /// Options of the solver, from flags named as the options are, `-` for `_`.
 #[derive(Debug, Clone, Default)]
@@ -57,43 +58,58 @@ impl FromArgMatches for SolverOptions {
     }
 }
 
-/// Options of `roundel quad` beside its sizes, its guidance and the strategy of its field, which have
-/// flags of their own.
-#[derive(Debug, Clone, Default)]
-pub struct QuadFlags {
-    given: Vec<(&'static str, OptionValue)>,
-}
-
-impl QuadFlags {
-    /// `options` with what the command line says put over them.
-    pub fn over(&self, mut options: QuadOptions) -> roundel::Result<QuadOptions> {
-        for (name, value) in &self.given {
-            options.set(name, value)?;
+/// Options of one table, from flags named as the options are, `-` for `_`.
+macro_rules! flags {
+    ($(#[$doc:meta])* $flags:ident, $options:ty, $table:ident) => {
+        $(#[$doc])*
+        #[derive(Debug, Clone, Default)]
+        pub struct $flags {
+            given: Vec<(&'static str, OptionValue)>,
         }
-        Ok(options)
-    }
+
+        impl $flags {
+            /// `options` with what the command line says put over them.
+            pub fn over(&self, mut options: $options) -> roundel::Result<$options> {
+                for (name, value) in &self.given {
+                    options.set(name, value)?;
+                }
+                Ok(options)
+            }
+        }
+
+        impl Args for $flags {
+            fn augment_args(command: Command) -> Command {
+                $table.flags(command)
+            }
+
+            fn augment_args_for_update(command: Command) -> Command {
+                Self::augment_args(command)
+            }
+        }
+
+        impl FromArgMatches for $flags {
+            fn from_arg_matches(matches: &ArgMatches) -> Result<Self, clap::Error> {
+                let given = $table.given(matches);
+                Ok($flags { given })
+            }
+
+            fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), clap::Error> {
+                self.given = $table.given(matches);
+                Ok(())
+            }
+        }
+    };
 }
 
-impl Args for QuadFlags {
-    fn augment_args(command: Command) -> Command {
-        QUADS.flags(command)
-    }
-
-    fn augment_args_for_update(command: Command) -> Command {
-        Self::augment_args(command)
-    }
+flags! {
+    /// Options of `roundel quad` beside its sizes, its guidance and the strategy of its field, which have
+    /// flags of their own.
+    QuadFlags, QuadOptions, QUADS
 }
 
-impl FromArgMatches for QuadFlags {
-    fn from_arg_matches(matches: &ArgMatches) -> Result<Self, clap::Error> {
-        let given = QUADS.given(matches);
-        Ok(QuadFlags { given })
-    }
-
-    fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), clap::Error> {
-        self.given = QUADS.given(matches);
-        Ok(())
-    }
+flags! {
+    /// Options of the repair of what a file holds.
+    RepairFlags, RepairOptions, REPAIRS
 }
 
 /// A table of options whose flags are made here.
@@ -122,6 +138,14 @@ const QUADS: Table = Table {
     heading: "Quad options",
     has_switches: true,
     accepts: |name, value| QuadOptions::default().set(name, value).is_ok(),
+};
+
+const REPAIRS: Table = Table {
+    options: REPAIR_OPTIONS,
+    elsewhere: &[],
+    heading: "Repair",
+    has_switches: false,
+    accepts: |name, value| RepairOptions::default().set(name, value).is_ok(),
 };
 
 impl Table {
@@ -296,6 +320,23 @@ mod tests {
             let mut flags = command.get_arguments();
             let flag = flags.find(|a| a.get_id() == info.name);
             assert!(flag.is_some(), "no flag for {}", info.name);
+        }
+    }
+
+    #[test]
+    fn every_option_of_repair_is_a_flag_of_each_command_that_reads_a_mesh() {
+        let commands = [
+            crate::quad::Arguments::augment_args(Command::new("quad")),
+            crate::parametrize::Arguments::augment_args(Command::new("parametrize")),
+            crate::field::Arguments::augment_args(Command::new("field")),
+            crate::repair::Arguments::augment_args(Command::new("repair")),
+        ];
+        for command in commands {
+            for info in REPAIR_OPTIONS {
+                let mut flags = command.get_arguments();
+                let flag = flags.find(|a| a.get_id() == info.name);
+                assert!(flag.is_some(), "no flag for {}", info.name);
+            }
         }
     }
 

@@ -63,6 +63,23 @@ pub fn complain(file: &Path, error: &Error) {
     let _ = writeln!(io::stderr(), "roundel: {text}");
 }
 
+/// Prints what a person should know about a file on stderr.
+pub fn note(file: &Path, text: &str) {
+    // If stderr is closed, nobody reads the note.
+    let _ = writeln!(io::stderr(), "roundel: {}: {text}", file.display());
+}
+
+/// Writes one JSON object and a line end to a file.
+pub fn write_json(path: &Path, object: &impl Serialize) -> Result<()> {
+    let write = || -> io::Result<()> {
+        let mut file = BufWriter::new(File::create(path)?);
+        serde_json::to_writer(&mut file, object)?;
+        file.write_all(b"\n")?;
+        file.flush()
+    };
+    write().map_err(|reason| io_error(&path.to_string_lossy(), &reason))
+}
+
 /// The error of a file or stream that cannot be read or written.
 pub fn io_error(name: &str, reason: &io::Error) -> Error {
     Error::Io {

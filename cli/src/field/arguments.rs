@@ -4,14 +4,15 @@ use std::path::PathBuf;
 
 use super::Directions;
 use crate::exit;
+use crate::mesh::MeshFlags;
 use crate::options::SolverOptions;
 
 /// Compute the smoothest cross field of a triangle mesh.
 #[derive(clap::Args)]
 #[command(after_help = exit::HELP)]
 pub struct Arguments {
-    /// The mesh: a file (.obj, .off, .ply), or shape:NAME or shape:NAME:TRIANGLES for one of the
-    /// shapes that `roundel shape --help` lists
+    /// The mesh: a file (.obj, .off, .ply, .stl, .gltf, .glb, also .gz), - for standard input, or
+    /// shape:NAME or shape:NAME:TRIANGLES for one of the shapes that `roundel shape --help` lists
     #[arg(value_name = "MESH")]
     pub mesh: PathBuf,
 
@@ -53,6 +54,9 @@ pub struct Arguments {
     /// Print one JSON object instead of the summary
     #[arg(long)]
     pub json: bool,
+
+    #[command(flatten)]
+    pub input: MeshFlags,
 
     #[command(flatten)]
     pub solver: SolverOptions,

@@ -8,6 +8,8 @@ use roundel::mesh::TriangleMesh;
 use roundel::mesh::features::FeatureGraph;
 use roundel::quad::QuadOptions;
 
+use crate::mesh::Input;
+
 /// The default fraction of faces that have the direction of their curvature.
 const CURVED: f64 = 0.1;
 
@@ -94,6 +96,16 @@ impl Directions {
 }
 
 impl Directions {
+    /// Refuses flags that count faces or vertices of a mesh that was repaired.
+    ///
+    /// # Errors
+    /// Those of [`Input::keeps_numbers`].
+    pub fn keep_numbers(&self, input: &Input) -> roundel::Result<()> {
+        input.keeps_numbers("--feature-lines", self.feature_lines.is_some())?;
+        input.keeps_numbers("--fix", !self.fix.is_empty())?;
+        input.keeps_numbers("--guide", self.guide.is_some())
+    }
+
     /// As [`of`](Self::of), for crosses that a map follows: without flags for curvature, the defaults
     /// of quads hold.
     pub fn of_map(&self, mesh: &TriangleMesh) -> roundel::Result<(Guidance, FeatureGraph)> {

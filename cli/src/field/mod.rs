@@ -16,9 +16,10 @@ use roundel::{Error, Options, Result};
 use roundel_pictures::{FieldModel, View, draw_field};
 
 use crate::exit::Exit;
+use crate::mesh::Input;
 use crate::progress::Progress;
 use crate::report::Preparation;
-use crate::{interrupt, mesh, output};
+use crate::{interrupt, output};
 pub use arguments::Arguments;
 pub use directions::{Directions, named};
 use report::FieldReport;
@@ -36,7 +37,9 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
     let progress = Progress::start();
     let options = arguments.solver.over(Options::default())?;
     let started = Instant::now();
-    let mesh = mesh::read(&arguments.mesh)?;
+    let input = arguments.input.read(&arguments.mesh)?;
+    arguments.directions.keep_numbers(&input)?;
+    let Input { mesh, repair } = input;
     let read = started.elapsed().as_secs_f64();
     let started = Instant::now();
     if arguments.symmetry != 4 && draws(arguments) {
@@ -65,6 +68,7 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
     Ok(Solved {
         strategy: options.strategy,
         mesh,
+        repair,
         features: features.edges().count(),
         field,
         solution,

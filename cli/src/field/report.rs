@@ -5,6 +5,7 @@ use std::path::Path;
 use serde::Serialize;
 
 use super::solved::Solved;
+use crate::mesh::RepairCounts;
 use crate::report::Report;
 
 /// What `--json` prints of a field.
@@ -12,6 +13,7 @@ use crate::report::Report;
 pub struct FieldReport<'a> {
     #[serde(flatten)]
     solve: Report<'a>,
+    repair: &'a RepairCounts,
     faces: usize,
     vertices: usize,
     symmetry: u8,
@@ -33,6 +35,7 @@ impl<'a> FieldReport<'a> {
                 &solved.solution,
                 roundel::peak_memory(),
             ),
+            repair: &solved.repair,
             faces: mesh.face_count(),
             vertices: mesh.vertex_count(),
             symmetry: field.symmetry(),

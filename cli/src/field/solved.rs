@@ -4,12 +4,14 @@ use roundel::field::OrientationField;
 use roundel::mesh::TriangleMesh;
 use roundel::{Solution, Strategy};
 
+use crate::mesh::RepairCounts;
 use crate::report::Preparation;
 
 /// A field, and how it was found.
 pub(super) struct Solved {
     pub(super) strategy: Strategy,
     pub(super) mesh: TriangleMesh,
+    pub(super) repair: RepairCounts,
     /// The number of edges that it follows.
     pub(super) features: usize,
     pub(super) field: OrientationField,

@@ -16,6 +16,7 @@ impl fmt::Display for FieldSummary<'_> {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         let Solved {
             mesh,
+            repair: _,
             features,
             field,
             solution,

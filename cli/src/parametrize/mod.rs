@@ -16,9 +16,10 @@ use roundel::untangle::{UntangleOptions, Untangled};
 use roundel::{Options, Result, Solution};
 
 use crate::exit::Exit;
+use crate::mesh::{Input, RepairCounts};
 use crate::progress::Progress;
 use crate::report::Preparation;
-use crate::{interrupt, mesh, output};
+use crate::{interrupt, output};
 pub use arguments::Arguments;
 use field::FieldSource;
 use report::MapReport;
@@ -35,6 +36,7 @@ pub fn run(arguments: &Arguments) -> Exit {
 struct Solved {
     options: Options,
     mesh: TriangleMesh,
+    repair: RepairCounts,
     field: FieldSource,
     sizing: Sizing,
     /// Edges that are isolines.
@@ -58,7 +60,10 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
     let monitor = || progress.monitor().cancel_token(token.clone());
     let options = arguments.solver.over(Options::default())?;
     let started = Instant::now();
-    let mesh = mesh::read(&arguments.mesh)?;
+    let input = arguments.input.read(&arguments.mesh)?;
+    arguments.directions.keep_numbers(&input)?;
+    input.keeps_numbers("--field", arguments.field.is_some())?;
+    let Input { mesh, repair } = input;
     let read = started.elapsed().as_secs_f64();
     let (guidance, features) = arguments.directions.of_map(&mesh)?;
     let sizing = arguments.sizing.of()?;
@@ -103,6 +108,7 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
     Ok(Solved {
         options,
         mesh,
+        repair,
         field: source,
         sizing,
         features: features.edges().count(),

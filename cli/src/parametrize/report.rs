@@ -4,6 +4,7 @@ use roundel::map::Sizing;
 use serde::Serialize;
 
 use super::{Arguments, Solved};
+use crate::mesh::RepairCounts;
 use crate::report::Report;
 
 /// What `--json` prints of a map. Times and counts are those of the parametrization, but for
@@ -12,6 +13,7 @@ use crate::report::Report;
 pub struct MapReport<'a> {
     #[serde(flatten)]
     solve: Report<'a>,
+    repair: &'a RepairCounts,
     faces: usize,
     vertices: usize,
     /// The target number of quads; null if a length was given.
@@ -65,6 +67,7 @@ impl<'a> MapReport<'a> {
                 &solved.solution,
                 roundel::peak_memory(),
             ),
+            repair: &solved.repair,
             faces: mesh.face_count(),
             vertices: mesh.vertex_count(),
             quads: match solved.sizing {

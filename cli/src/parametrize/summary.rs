@@ -16,6 +16,7 @@ impl fmt::Display for MapSummary<'_> {
         let Solved {
             options,
             mesh,
+            repair: _,
             field,
             sizing: _,
             features,

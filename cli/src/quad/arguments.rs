@@ -6,6 +6,7 @@ use roundel::Strategy;
 
 use crate::exit;
 use crate::field::Directions;
+use crate::mesh::MeshFlags;
 use crate::options::{QuadFlags, SolverOptions};
 use crate::parametrize::SizingFlags;
 
@@ -17,8 +18,8 @@ use crate::parametrize::SizingFlags;
 #[derive(clap::Args)]
 #[command(after_help = exit::HELP)]
 pub struct Arguments {
-    /// The mesh: a file (.obj, .off, .ply), or shape:NAME or shape:NAME:TRIANGLES for one of the
-    /// shapes that `roundel shape --help` lists
+    /// The mesh: a file (.obj, .off, .ply, .stl, .gltf, .glb, also .gz), - for standard input, or
+    /// shape:NAME or shape:NAME:TRIANGLES for one of the shapes that `roundel shape --help` lists
     #[arg(value_name = "MESH")]
     pub mesh: PathBuf,
 
@@ -51,6 +52,9 @@ pub struct Arguments {
     /// Print one JSON object instead of the summary
     #[arg(long)]
     pub json: bool,
+
+    #[command(flatten)]
+    pub input: MeshFlags,
 
     #[command(flatten)]
     pub solver: SolverOptions,

@@ -8,6 +8,7 @@ use serde::Serialize;
 use super::Arguments;
 use super::faults::Faults;
 use super::steps::Solved;
+use crate::mesh::RepairCounts;
 use crate::report::{Preparation, Report};
 use crate::summary::{counted, thousands};
 
@@ -16,6 +17,7 @@ use crate::summary::{counted, thousands};
 pub(super) struct QuadReport<'a> {
     #[serde(flatten)]
     solve: Report<'a>,
+    repair: &'a RepairCounts,
     faces: usize,
     field_irregular_vertices: usize,
     flipped_before: usize,
@@ -152,6 +154,7 @@ impl<'a> QuadReport<'a> {
                 &made.solution,
                 roundel::peak_memory(),
             ),
+            repair: &solved.repair,
             faces: solved.mesh.face_count(),
             field_irregular_vertices: made.untangled.map.cones().len(),
             flipped_before: made.untangled.flipped_before,

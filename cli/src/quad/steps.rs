@@ -7,12 +7,14 @@ use roundel::quad::{QuadOptions, Quadrangulation, quadrangulate};
 use roundel::{Options, Result};
 
 use super::Arguments;
+use crate::interrupt;
+use crate::mesh::{Input, RepairCounts};
 use crate::progress::Progress;
-use crate::{interrupt, mesh};
 
 /// Quads, and what they were made from.
 pub(super) struct Solved {
     pub(super) mesh: TriangleMesh,
+    pub(super) repair: RepairCounts,
     pub(super) options: QuadOptions,
     pub(super) made: Quadrangulation,
     pub(super) read_seconds: f64,
@@ -24,7 +26,9 @@ pub(super) fn solve(arguments: &Arguments) -> Result<Solved> {
     let default = QuadOptions::default();
     let map = arguments.solver.over(default.map.clone())?;
     let started = Instant::now();
-    let mesh = mesh::read(&arguments.mesh)?;
+    let input = arguments.input.read(&arguments.mesh)?;
+    arguments.directions.keep_numbers(&input)?;
+    let Input { mesh, repair } = input;
     let read_seconds = started.elapsed().as_secs_f64();
     let (mut guidance, features) = arguments.directions.of_map(&mesh)?;
     // Those of the command line's file are among them.
@@ -49,6 +53,7 @@ pub(super) fn solve(arguments: &Arguments) -> Result<Solved> {
     }
     Ok(Solved {
         mesh,
+        repair,
         options,
         made,
         read_seconds,

@@ -39,7 +39,15 @@ pub use polygons::Polygons;
 /// [`MeshError::IndexOutOfRange`]), then those of [`TriangleMesh::new`].
 pub fn read(path: impl AsRef<Path>) -> Result<TriangleMesh, MeshError> {
     let path = path.as_ref();
-    let format = Format::of(path)?;
+    read_as(path, Format::of(path)?)
+}
+
+/// Reads a mesh from a file of this format, whatever its name.
+///
+/// # Errors
+///
+/// As [`read`].
+pub fn read_as(path: impl AsRef<Path>, format: Format) -> Result<TriangleMesh, MeshError> {
     strict::mesh(&soup::read_as(path, format)?, format)
 }
 
