@@ -8,7 +8,7 @@ use roundel::{Options, Result};
 
 use super::Arguments;
 use crate::progress::Progress;
-use crate::{interrupt, mesh};
+use crate::{interrupt, mesh, output};
 
 /// Quads, and what they were made from.
 pub(super) struct Solved {
@@ -19,6 +19,7 @@ pub(super) struct Solved {
 }
 
 pub(super) fn solve(arguments: &Arguments) -> Result<Solved> {
+    output::check_quads_file(arguments.out.as_deref())?;
     let token = interrupt::cancel_token()?;
     let progress = Progress::start();
     let default = QuadOptions::default();
@@ -45,7 +46,7 @@ pub(super) fn solve(arguments: &Arguments) -> Result<Solved> {
     let monitor = || progress.monitor().cancel_token(token.clone());
     let made = quadrangulate(&mesh, &options, monitor)?;
     if let Some(path) = &arguments.out {
-        made.quads.write_obj(path)?;
+        output::write_quads(&made.quads, path)?;
     }
     Ok(Solved {
         mesh,
