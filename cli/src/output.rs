@@ -4,6 +4,8 @@ use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
 
+use roundel::extract::QuadMesh;
+use roundel::mesh;
 use roundel::{Error, Result};
 use serde::Serialize;
 
@@ -85,4 +87,27 @@ pub fn io_error(name: &str, reason: &io::Error) -> Error {
     Error::Io {
         message: format!("{name}: {reason}"),
     }
+}
+
+/// Checks, before the work begins, that quads can be written to a file of this name.
+pub fn check_quads_file(file: Option<&Path>) -> Result<()> {
+    if let Some(file) = file {
+        mesh::io::format_of(file)?;
+    }
+    Ok(())
+}
+
+/// Writes quads, and says on stderr where the format holds triangles only.
+pub fn write_quads(quads: &QuadMesh, file: &Path) -> Result<()> {
+    let format = mesh::io::format_of(file)?;
+    quads.write(file)?;
+    if !format.holds_polygons() {
+        let _ = writeln!(
+            io::stderr(),
+            "{}: {} holds no quads; each is written as two triangles",
+            file.display(),
+            format.name()
+        );
+    }
+    Ok(())
 }

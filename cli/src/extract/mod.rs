@@ -27,7 +27,8 @@ pub struct Arguments {
     #[arg(value_name = "UV.obj")]
     map: PathBuf,
 
-    /// Write the quads to this file
+    /// Write the quads to this file: .obj, .off, .ply or .usda; as .stl, .gltf or .glb, which hold no
+    /// quads, they are split into triangles
     #[arg(short, long, value_name = "QUADS.obj")]
     out: Option<PathBuf>,
 
@@ -62,6 +63,7 @@ struct Solved {
 }
 
 fn solve(arguments: &Arguments) -> Result<Solved> {
+    output::check_quads_file(arguments.out.as_deref())?;
     let token = interrupt::cancel_token()?;
     let progress = Progress::start();
     let started = Instant::now();
@@ -78,7 +80,7 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
     }
     let smooth = started.elapsed().as_secs_f64();
     if let Some(path) = &arguments.out {
-        quads.write_obj(path)?;
+        output::write_quads(&quads, path)?;
     }
     Ok(Solved {
         mesh,

@@ -23,7 +23,8 @@ pub struct Arguments {
     #[arg(value_name = "MESH")]
     pub mesh: PathBuf,
 
-    /// Write the quads to this file
+    /// Write the quads to this file: .obj, .off, .ply or .usda; as .stl, .gltf or .glb, which hold no
+    /// quads, they are split into triangles
     #[arg(short, long, value_name = "QUADS.obj")]
     pub out: Option<PathBuf>,
 

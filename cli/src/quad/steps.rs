@@ -7,9 +7,9 @@ use roundel::quad::{QuadOptions, Quadrangulation, quadrangulate};
 use roundel::{Options, Result};
 
 use super::Arguments;
-use crate::interrupt;
 use crate::mesh::{Input, RepairCounts};
 use crate::progress::Progress;
+use crate::{interrupt, output};
 
 /// Quads, and what they were made from.
 pub(super) struct Solved {
@@ -21,6 +21,7 @@ pub(super) struct Solved {
 }
 
 pub(super) fn solve(arguments: &Arguments) -> Result<Solved> {
+    output::check_quads_file(arguments.out.as_deref())?;
     let token = interrupt::cancel_token()?;
     let progress = Progress::start();
     let default = QuadOptions::default();
@@ -49,7 +50,7 @@ pub(super) fn solve(arguments: &Arguments) -> Result<Solved> {
     let monitor = || progress.monitor().cancel_token(token.clone());
     let made = quadrangulate(&mesh, &options, monitor)?;
     if let Some(path) = &arguments.out {
-        made.quads.write_obj(path)?;
+        output::write_quads(&made.quads, path)?;
     }
     Ok(Solved {
         mesh,

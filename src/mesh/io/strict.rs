@@ -18,6 +18,9 @@ pub(super) fn mesh(soup: &PolygonSoup, format: Format) -> Result<TriangleMesh, M
 
 pub(super) fn triangles(soup: &PolygonSoup) -> Result<Vec<[u32; 3]>, MeshError> {
     let vertices = soup.positions().len();
+    if vertices == 0 {
+        return Err(MeshError::NoFaces);
+    }
     let of = |(face, corners): (usize, &[i64])| {
         let &[a, b, c] = corners else {
             return Err(MeshError::NotATriangle {

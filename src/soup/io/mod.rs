@@ -81,3 +81,6 @@ pub fn parse_in(
         }),
     }
 }
+
+#[cfg(test)]
+mod tests;

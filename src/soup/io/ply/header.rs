@@ -77,10 +77,10 @@ pub(super) struct Element {
 }
 
 impl Element {
-    /// The fewest bytes that one takes: in text a digit and a space for each property.
+    /// The fewest bytes that one takes: in text a line, of which the last may lack its end.
     pub(super) fn size(&self, encoding: Encoding) -> usize {
         match encoding {
-            Encoding::Ascii => (2 * self.properties.len()).saturating_sub(1),
+            Encoding::Ascii => 1,
             _ => self.properties.iter().map(Property::size).sum(),
         }
     }

@@ -109,6 +109,11 @@ fn faces(
             ),
         });
     };
+    if !element.properties[place].scalar.is_integer() {
+        return Err(SoupError::Malformed {
+            message: "the vertex numbers of faces must be integers".to_owned(),
+        });
+    }
     let mut corners = Vec::new();
     for _ in 0..count {
         data.start_element("a face")?;
