@@ -18,8 +18,8 @@ use crate::options::SolverOptions;
 #[derive(clap::Args)]
 #[command(after_help = exit::HELP)]
 pub struct Arguments {
-    /// The mesh: a file (.obj, .off, .ply), or shape:NAME or shape:NAME:TRIANGLES for one of the
-    /// shapes that `roundel shape --help` lists
+    /// The mesh: a file (.obj, .off, .ply, .stl, .gltf, .glb, each also as .gz), or shape:NAME or
+    /// shape:NAME:TRIANGLES for one of the shapes that `roundel shape --help` lists
     #[arg(value_name = "MESH")]
     pub mesh: PathBuf,
 
