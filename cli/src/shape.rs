@@ -35,7 +35,7 @@ pub struct Arguments {
     #[arg(long, value_name = "S", default_value_t = 0)]
     seed: u64,
 
-    /// Write the mesh to this file: .obj, .off or .ply
+    /// Write the mesh to this file: .obj, .off, .ply, .stl, .gltf, .glb or .usda
     #[arg(short, long, value_name = "OUT")]
     out: PathBuf,
 }

@@ -1,17 +1,21 @@
-//! Mesh files: any bytes give a valid mesh or an error.
+//! Mesh files: any bytes give a soup or an error, and of the strict reader a valid mesh or an error.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
 use roundel::mesh::TriangleMesh;
 use roundel::mesh::io::{self, Format};
+use roundel::soup;
 
 fuzz_target!(|input: (u8, &[u8])| {
     let (format, bytes) = input;
-    match format % 4 {
-        0 => io::parse(bytes, Format::Obj).iter().for_each(check),
-        1 => io::parse(bytes, Format::Off).iter().for_each(check),
-        2 => io::parse(bytes, Format::Ply).iter().for_each(check),
-        _ => drop(io::parse_textured(bytes)),
+    match Format::ALL.get(usize::from(format) % (Format::ALL.len() + 1)) {
+        Some(&format) => {
+            let soup = soup::io::parse(bytes, format);
+            let mesh = io::parse(bytes, format);
+            assert!(soup.is_ok() || mesh.is_err());
+            mesh.iter().for_each(check);
+        }
+        None => drop(io::parse_textured(bytes)),
     }
 });
 
