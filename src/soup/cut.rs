@@ -84,7 +84,10 @@ fn cut_once(surface: &mut Surface) -> Vec<u32> {
         }
     }
     split_vertices(surface, &pairs.twin);
-    halve_edges(surface, &pairs.twin)
+    match found.cut.is_empty() && pairs.crowded.is_empty() {
+        true => (0..surface.triangles.len() as u32).collect(),
+        false => halve_edges(surface, &pairs.twin),
+    }
 }
 
 /// Half-edges of a crowded edge that lost their partners are paired if they run against each other.
