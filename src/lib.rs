@@ -91,6 +91,8 @@ mod book {
     struct Problems;
     #[doc = include_str!("../docs/rust.md")]
     struct Rust;
+    #[doc = include_str!("../docs/soup.md")]
+    struct Soup;
     #[doc = include_str!("../docs/strategies.md")]
     struct Strategies;
     #[doc = include_str!("../docs/trust.md")]

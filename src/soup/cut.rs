@@ -6,14 +6,14 @@
 //! edge, because their fans meet elsewhere: all but the first get a vertex in the middle of the edge,
 //! which moves no surface and opens nothing.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::edges::Edges;
 use super::edits::{EditKind, Edits};
 use super::lists::NONE;
 use super::orient::{orient, turn};
 use super::pair::{join, pair_crowded, pair_simple};
-use super::surface::{Surface, fans, flat, next, tail, tip};
+use super::surface::{Surface, fans, flat, next, previous, tail, tip};
 use crate::linalg::vector::{Vec3, add, scale};
 
 /// Makes the surface an oriented manifold.
@@ -84,7 +84,10 @@ fn cut_once(surface: &mut Surface) -> Vec<u32> {
         }
     }
     split_vertices(surface, &pairs.twin);
-    halve_edges(surface, &pairs.twin)
+    match found.cut.is_empty() && pairs.crowded.is_empty() {
+        true => (0..surface.triangles.len() as u32).collect(),
+        false => halve_edges(surface, &pairs.twin),
+    }
 }
 
 /// Half-edges of a crowded edge that lost their partners are paired if they run against each other.
@@ -152,6 +155,9 @@ fn halve_edges(surface: &mut Surface, twin: &[u32]) -> Vec<u32> {
         halved.extend(more.filter(|&&h| twin[h as usize] == NONE || h < twin[h as usize]));
     });
     let mut middle: BTreeMap<u32, u32> = BTreeMap::new();
+    // Of two triangles with the same corners, one is split at its center: else both would be split along
+    // the same edge.
+    let mut at_center = BTreeSet::new();
     for h in halved {
         let ends = [tail(&surface.triangles, h), tip(&surface.triangles, h)];
         let [a, b] = ends.map(|v| surface.positions[v as usize]);
@@ -161,6 +167,10 @@ fn halve_edges(surface: &mut Surface, twin: &[u32]) -> Vec<u32> {
         middle.insert(h, vertex);
         if twin[h as usize] != NONE {
             middle.insert(twin[h as usize], vertex);
+            let apex = |h: u32| tail(&surface.triangles, previous(h));
+            if apex(h) == apex(twin[h as usize]) {
+                at_center.insert(twin[h as usize] / 3);
+            }
         }
         let [a, b] = ends.map(|v| surface.origin[v as usize]);
         surface.edits.add(EditKind::EdgeHalved, a.min(b), a.max(b));
@@ -170,10 +180,15 @@ fn halve_edges(surface: &mut Surface, twin: &[u32]) -> Vec<u32> {
     at.dedup();
     for t in at {
         let triangle = surface.triangles[t as usize];
-        let parts = parts(
-            triangle,
-            [0, 1, 2].map(|k| middle.get(&(3 * t + k)).copied()),
-        );
+        let middle = [0, 1, 2].map(|k| middle.get(&(3 * t + k)).copied());
+        let parts = if at_center.contains(&t) {
+            let [a, b, c] = surface.corners(t as usize).map(|p| scale(p, 1.0 / 3.0));
+            surface.positions.push(add(add(a, b), c));
+            surface.origin.push(NONE);
+            parts_at_center(triangle, middle, surface.positions.len() as u32 - 1)
+        } else {
+            parts(triangle, middle)
+        };
         surface.triangles[t as usize] = parts[0];
         for &part in &parts[1..] {
             surface.push(part, part, surface.polygon[t as usize]);
@@ -183,8 +198,9 @@ fn halve_edges(surface: &mut Surface, twin: &[u32]) -> Vec<u32> {
     sources
 }
 
+/// A point near the middle of an edge. On grids, vertices lie in the very middle of edges of others.
 fn middle_of(a: Vec3, b: Vec3) -> Vec3 {
-    add(scale(a, 0.5), scale(b, 0.5))
+    add(scale(a, 0.53), scale(b, 0.47))
 }
 
 /// The parts of a triangle with vertices on one, two or three of its edges.
@@ -196,6 +212,16 @@ fn parts([a, b, c]: [u32; 3], middle: [Option<u32>; 3]) -> Vec<[u32; 3]> {
         [None, None, None] => vec![[a, b, c]],
         [x, y, z] => parts([b, c, a], [y, z, x]),
     }
+}
+
+/// The parts of a triangle between its center and its edges.
+fn parts_at_center(corners: [u32; 3], middle: [Option<u32>; 3], center: u32) -> Vec<[u32; 3]> {
+    let rim: Vec<u32> = (0..3)
+        .flat_map(|k| [Some(corners[k]), middle[k]])
+        .flatten()
+        .collect();
+    let next = |i: usize| rim[(i + 1) % rim.len()];
+    (0..rim.len()).map(|i| [rim[i], next(i), center]).collect()
 }
 
 /// The half-edges at the boundary, each with the one after it along the boundary.

@@ -1,10 +1,10 @@
 //! Step 4: triangles with the same corners.
 //!
 //! Of those that run the same way, the first stays. What is then left are pairs that run against each
-//! other. Those that hang together over edges form a sheet. Where the sheet has a free rim, an edge that
-//! no other triangle shares, it is a surface that was given with both of its sides, and the first
-//! triangle of each pair stays. Where other triangles meet its whole rim, it is a wall between two
-//! solids, and both sides stay: each closes its own solid when edges are cut.
+//! other. Those that hang together over edges form a sheet. Where other triangles meet its whole rim, the sheet
+//! is a wall between two solids, and both sides stay: each closes its own solid when edges are cut. Any
+//! other sheet is a surface that was given with both of its sides, and the first triangle of each pair
+//! stays. A lone pair without neighbors stays as well: it is a closed surface as it is.
 
 use super::edges::Edges;
 use super::edits::EditKind;
@@ -57,28 +57,33 @@ fn drop_second_sides(surface: &mut Surface) -> bool {
     // Sheets as a forest over the first triangles of the pairs.
     let mut parent: Vec<u32> = (0..first.len() as u32).collect();
     let mut free = vec![false; first.len()];
+    let mut met = vec![false; first.len()];
     let vertices = surface.positions.len();
     Edges::of(vertices, &surface.triangles).each(|halves| {
-        let triangle = |h: u32| first[h as usize / 3];
-        let paired = halves.iter().map(|&h| triangle(h));
-        let mut paired: Vec<_> = paired.filter(|&f| twice[f as usize]).collect();
+        let paired = halves.iter().map(|&h| first[h as usize / 3]);
+        let paired: Vec<_> = paired.filter(|&f| twice[f as usize]).collect();
         for pair in paired.windows(2) {
             unite(&mut parent, pair[0], pair[1]);
         }
-        paired.dedup();
-        if let (Some(&f), 2) = (paired.first(), halves.len()) {
-            free[f as usize] = true;
+        if let Some(&f) = paired.first() {
+            free[f as usize] |= halves.len() == 2;
+            met[f as usize] |= paired.len() < halves.len();
         }
     });
+    let mut pairs = vec![0; first.len()];
     for f in 0..free.len() {
-        if free[f] {
-            let root = find(&mut parent, f as u32);
-            free[root as usize] = true;
-        }
+        let root = find(&mut parent, f as u32) as usize;
+        free[root] |= free[f];
+        met[root] |= met[f];
+        pairs[root] += usize::from(twice[f]);
     }
+    let one_side = |root: usize| match met[root] {
+        true => free[root],
+        false => pairs[root] > 1,
+    };
     let mut keep = vec![true; first.len()];
     for (t, &f) in first.iter().enumerate() {
-        if t != f as usize && free[find(&mut parent, f) as usize] {
+        if t != f as usize && one_side(find(&mut parent, f) as usize) {
             keep[t] = false;
             let polygons = [surface.polygon[t], surface.polygon[f as usize]];
             surface

@@ -1,4 +1,4 @@
-//! Ear clipping in the plane that fits a polygon best (`meisters1975`, `eberly2002`).
+//! Ear clipping in the plane that fits a polygon best (`meisters1975`).
 //!
 //! The plane is that of Newell's normal (`sutherland1974`). The polygon is projected along the axis nearest
 //! to it, which keeps its coordinates as they are, and the sign of an area is exact (`shewchuk1997`, the

@@ -35,23 +35,32 @@ impl Edges {
             }
         }
         start.pop();
-        for v in 0..vertices {
-            words[start[v] as usize..start[v + 1] as usize].sort_unstable();
-        }
         Edges { words, start }
     }
 
     /// Calls `visit` with the half-edges of every edge, in increasing order.
-    pub(super) fn each(&self, mut visit: impl FnMut(&[u32])) {
+    pub(super) fn each(self, mut visit: impl FnMut(&[u32])) {
+        self.any(|halves| {
+            visit(halves);
+            false
+        });
+    }
+
+    /// Whether `found` holds for the half-edges of an edge; the first one ends the search.
+    pub(super) fn any(mut self, mut found: impl FnMut(&[u32]) -> bool) -> bool {
         let mut halves = Vec::new();
         for bucket in self.start.windows(2) {
-            let bucket = &self.words[bucket[0] as usize..bucket[1] as usize];
+            let bucket = &mut self.words[bucket[0] as usize..bucket[1] as usize];
+            bucket.sort_unstable();
             for edge in bucket.chunk_by(|a, b| a >> 32 == b >> 32) {
                 halves.clear();
                 halves.extend(edge.iter().map(|&word| word as u32));
-                visit(&halves);
+                if found(&halves) {
+                    return true;
+                }
             }
         }
+        false
     }
 }
 

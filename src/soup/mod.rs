@@ -38,3 +38,6 @@ pub use repair::repair;
 pub use repaired::Repaired;
 
 pub(crate) use area::has_no_area;
+
+#[cfg(test)]
+mod tests;

@@ -1,10 +1,9 @@
 //! The steps of repair, one after the other.
 
-use super::clean::Clean;
+use super::clean::{Seam, clean, seam};
 use super::components::drop_small;
 use super::cut::cut;
 use super::duplicates::drop_duplicates;
-use super::edges::manifold_twins;
 use super::edits::EditKind;
 use super::fill::fill_holes;
 use super::lists::{Lists, NONE};
@@ -22,40 +21,64 @@ use super::{PolygonSoup, RepairOptions, Repaired, SoupError};
 /// keep the order of the polygons.
 ///
 /// # Errors
-/// [`SoupError::NoSurface`] if nothing is left, [`SoupError::TooLarge`].
+/// [`SoupError::NoSurface`] if nothing is left, or if more than half of the polygons name vertices that are
+/// not there; [`SoupError::TooLarge`].
 pub fn repair(soup: &PolygonSoup, options: &RepairOptions) -> Result<Repaired, SoupError> {
     check_size(soup)?;
-    let exact = equal_positions(soup.positions());
-    let mut stands_for = exact.clone();
-    if options.weld > 0.0 {
-        within(soup.positions(), options.weld, &mut stands_for);
-    }
-    let clean = match stands_for == exact {
-        true => Clean::of(soup),
-        false => None,
-    };
-    let seam = clean.as_ref().is_some_and(|c| c.has_seam(&stands_for));
-    let (mut surface, stands_for) = match clean {
-        None => repaired(soup, stands_for),
-        Some(clean) if !seam => unchanged(soup, clean),
-        Some(clean) => {
-            let (surface, welded) = repaired(soup, stands_for);
-            match boundary_edges(&surface) < clean.boundary_edges() {
-                true => (surface, welded),
-                false => unchanged(soup, clean),
-            }
-        }
-    };
+    let (mut surface, stands_for) = to_manifold(soup, options.weld);
     if options.drop_components > 0.0 && !surface.triangles.is_empty() {
         drop_small(&mut surface, options.drop_components);
     }
     if options.fill_holes > 0 {
         fill_holes(&mut surface, options.fill_holes);
     }
-    if surface.triangles.is_empty() {
+    // What is left of such a file is not what it was meant to hold.
+    let lost = surface.edits.count(EditKind::PolygonOutOfRange);
+    if surface.triangles.is_empty() || 2 * lost > soup.polygon_count() {
         return Err(no_surface(soup, &surface));
     }
     Ok(finish(soup, surface, stands_for))
+}
+
+/// Steps 1 to 7, or the soup itself if it needs none of them.
+fn to_manifold(soup: &PolygonSoup, tolerance: f64) -> (Surface, Vec<u32>) {
+    let exact = equal_positions(soup.positions());
+    let mut stands_for = exact.clone();
+    if tolerance > 0.0 {
+        within(soup.positions(), tolerance, &mut stands_for);
+    }
+    if stands_for != exact {
+        return repaired(soup, stands_for);
+    }
+    let welds = exact.iter().enumerate().any(|(v, &to)| to != v as u32);
+    let seam = if welds {
+        seam(soup, &exact)
+    } else {
+        Seam::None
+    };
+    if seam == Seam::Against {
+        return repaired(soup, stands_for);
+    }
+    let Some(triangles) = clean(soup) else {
+        return repaired(soup, stands_for);
+    };
+    if seam == Seam::Alike {
+        let (surface, stands_for) = repaired(soup, stands_for);
+        let few = [
+            EditKind::VertexWelded,
+            EditKind::PolygonTurned,
+            EditKind::ComponentTurned,
+        ];
+        if few
+            .map(|kind| surface.edits.count(kind))
+            .iter()
+            .sum::<usize>()
+            == surface.edits.list().len()
+        {
+            return (surface, stands_for);
+        }
+    }
+    unchanged(soup, triangles)
 }
 
 /// Triangles, vertices and half-edges must have 32-bit numbers; edits may double them.
@@ -72,7 +95,11 @@ fn check_size(soup: &PolygonSoup) -> Result<(), SoupError> {
 }
 
 fn no_surface(soup: &PolygonSoup, surface: &Surface) -> SoupError {
+    let lost = surface.edits.count(EditKind::PolygonOutOfRange);
     let reason = match soup.polygon_count() {
+        count if lost > 0 => {
+            format!("{lost} of {count} polygons name vertices that are not there")
+        }
         0 => format!("{} vertices and no polygon", soup.positions().len()),
         count => format!(
             "of {count} polygons none has an area ({})",
@@ -82,13 +109,13 @@ fn no_surface(soup: &PolygonSoup, surface: &Surface) -> SoupError {
     SoupError::NoSurface { reason }
 }
 
-fn unchanged(soup: &PolygonSoup, clean: Clean) -> (Surface, Vec<u32>) {
-    let count = clean.triangles.len() as u32;
+fn unchanged(soup: &PolygonSoup, triangles: Vec<[u32; 3]>) -> (Surface, Vec<u32>) {
+    let count = triangles.len() as u32;
     let vertices = soup.positions().len() as u32;
     let surface = Surface {
         positions: soup.positions().to_vec(),
-        before: clean.triangles.clone(),
-        triangles: clean.triangles,
+        before: triangles.clone(),
+        triangles,
         polygon: (0..count).collect(),
         origin: (0..vertices).collect(),
         ..Surface::default()
@@ -130,11 +157,6 @@ fn repaired(soup: &PolygonSoup, mut stands_for: Vec<u32>) -> (Surface, Vec<u32>)
         }
     }
     (surface, stands_for)
-}
-
-fn boundary_edges(surface: &Surface) -> usize {
-    let twin = manifold_twins(surface.positions.len(), &surface.triangles);
-    twin.map_or(0, |twin| twin.iter().filter(|&&t| t == NONE).count())
 }
 
 /// Drops unused vertices, and makes the maps.
