@@ -1,6 +1,10 @@
 //! Orientation fields on procedural shapes: properties that hold on any mesh.
 
-use roundel::field::{Constraint, FieldProblem, OrientationField, curvature_constraints};
+use roundel::field::{
+    Constraint, FieldOptions, FieldProblem, OrientationField, curvature_constraints,
+    feature_constraints,
+};
+use roundel::mesh::features::FeatureGraph;
 use roundel::mesh::{TriangleMesh, shape};
 use roundel::{Options, Solution, solve};
 
@@ -15,13 +19,14 @@ fn field(mesh: &TriangleMesh, constraints: &[Constraint]) -> (OrientationField, 
     (problem.field(mesh, &solution).unwrap(), solution)
 }
 
-const SHAPES: [&str; 8] = [
+const SHAPES: [&str; 9] = [
     "rounded-cube",
     "sphere",
     "torus",
     "genus-2",
     "genus-3",
     "gear",
+    "plane",
     "disk",
     "plate-with-holes",
 ];
@@ -43,28 +48,83 @@ fn the_energy_on_the_mesh_is_the_energy_of_the_solution() {
     }
 }
 
+/// Indices are what their steps say, found in two ways, and sum to the Euler characteristic, all exactly.
+fn assert_exact(name: &str, mesh: &TriangleMesh, field: &OrientationField) {
+    let (steps, loops) = (
+        field.vertex_index_steps(mesh),
+        field.boundary_index_steps(mesh),
+    );
+    assert_eq!(loops.len(), mesh.boundary_loop_count(), "{name}");
+    assert_eq!(field.traced_index_steps(mesh), steps, "{name}");
+    let arms = f64::from(field.symmetry());
+    let over = |steps: &[i32]| -> Vec<f64> { steps.iter().map(|&n| f64::from(n) / arms).collect() };
+    assert_eq!(field.vertex_indices(mesh), over(&steps), "{name}");
+    assert_eq!(field.traced_indices(mesh), over(&steps), "{name}");
+    assert_eq!(field.boundary_indices(mesh), over(&loops), "{name}");
+    let sum: i32 = steps.iter().chain(&loops).sum();
+    let euler = mesh.euler_characteristic();
+    assert_eq!(
+        i64::from(sum),
+        i64::from(field.symmetry()) * euler,
+        "{name}"
+    );
+    assert_eq!(field.index_sum(mesh), euler as f64, "{name}");
+    for v in (0..steps.len()).filter(|&v| mesh.is_boundary_vertex(v)) {
+        assert_eq!(steps[v], 0, "{name}: vertex {v} of the boundary");
+    }
+}
+
 #[test]
 fn indices_are_quarters_that_sum_to_the_euler_characteristic() {
     for name in SHAPES {
-        let mesh = shape(name, 1500);
-        let constraints = curvature_constraints(&mesh, 0.1).unwrap();
-        let (field, _) = field(&mesh, &constraints);
-        let indices = field.vertex_indices(&mesh);
-        let boundary = field.boundary_indices(&mesh);
-        for (at, index) in indices.iter().chain(&boundary).enumerate() {
-            let quarters = 4.0 * index;
-            assert!(
-                (quarters - quarters.round()).abs() < 4e-9,
-                "{name} {at}: {index}"
-            );
+        for jittered in [false, true] {
+            let mesh = match jittered {
+                true => shape(name, 1500),
+                false => shape::by_name(name, 1500).unwrap(),
+            };
+            let constraints = curvature_constraints(&mesh, 0.1).unwrap();
+            let (found, _) = field(&mesh, &constraints);
+            assert_exact(name, &mesh, &found);
+            // 4 k/4 is k again, without rounding.
+            let quarters = found.vertex_indices(&mesh).into_iter().map(|i| 4.0 * i);
+            assert!(quarters.into_iter().all(|k| k.fract() == 0.0), "{name}");
+
+            let sharp = FeatureGraph::by_angle(&mesh, 0.7).unwrap();
+            let features = sharp.with(&mesh, &FeatureGraph::boundary(&mesh)).unwrap();
+            let constraints = feature_constraints(&mesh, &features).unwrap();
+            let (found, _) = field(&mesh, &constraints);
+            assert_exact(name, &mesh, &found);
         }
-        for (v, (a, b)) in indices.iter().zip(field.traced_indices(&mesh)).enumerate() {
-            assert!((a - b).abs() < 1e-9, "{name}: vertex {v} has {a} or {b}");
-        }
-        let sum = field.index_sum(&mesh);
-        let euler = mesh.euler_characteristic() as f64;
-        assert!((sum - euler).abs() < 1e-6, "{name}: {sum}, not {euler}");
     }
+}
+
+#[test]
+fn sixths_of_a_turn_are_rounded_once() {
+    let mesh = shape("genus-2", 900);
+    for symmetry in [1, 2, 6] {
+        let options = FieldOptions {
+            symmetry,
+            ..FieldOptions::default()
+        };
+        let problem = FieldProblem::with_options(&mesh, &options).unwrap();
+        let solution = solve(problem.problem(), &Options::default()).unwrap();
+        let field = problem.field(&mesh, &solution).unwrap();
+        assert_exact("genus-2", &mesh, &field);
+    }
+}
+
+#[test]
+fn every_irregular_vertex_of_a_gear_turns_by_a_quarter() {
+    let mesh = shape::by_name("gear", 8_000).unwrap();
+    let features = FeatureGraph::by_angle(&mesh, 40f64.to_radians()).unwrap();
+    let constraints = feature_constraints(&mesh, &features).unwrap();
+    let (field, _) = field(&mesh, &constraints);
+    let indices = field.vertex_indices(&mesh);
+    let count = |index: f64| indices.iter().filter(|&&i| i == index).count();
+    let irregular = field.irregular_vertices(&mesh).len();
+    assert!(irregular >= 96, "{irregular}");
+    assert_eq!(count(0.25), count(-0.25));
+    assert_eq!(count(0.25) + count(-0.25), irregular);
 }
 
 #[test]
@@ -72,12 +132,10 @@ fn the_eight_corners_of_a_rounded_cube_are_irregular() {
     let mesh = shape::by_name("rounded-cube", 10_000).unwrap();
     let constraints = curvature_constraints(&mesh, 0.1).unwrap();
     let (field, _) = field(&mesh, &constraints);
-    let indices = field.vertex_indices(&mesh);
+    let steps = field.vertex_index_steps(&mesh);
     let irregular = field.irregular_vertices(&mesh);
     assert_eq!(irregular.len(), 8);
-    for v in irregular {
-        assert!((indices[v] - 0.25).abs() < 1e-9);
-    }
+    assert!(irregular.into_iter().all(|v| steps[v] == 1));
 }
 
 #[test]

@@ -143,23 +143,15 @@ fn indices_are_multiples_of_one_over_n_and_sum_to_the_euler_characteristic() {
             let (field, solution) = field(&mesh, &options);
             let energy = field.energy(&mesh);
             assert!((energy - solution.energy()).abs() < 1e-9 * energy.max(1.0));
-            let n = f64::from(symmetry);
-            let vertices = field.vertex_indices(&mesh);
-            let loops = field.boundary_indices(&mesh);
-            for index in vertices.iter().chain(&loops) {
-                assert!(
-                    (n * index - (n * index).round()).abs() < 1e-8,
-                    "{name} {index}"
-                );
+            let vertices = field.vertex_index_steps(&mesh);
+            let loops = field.boundary_index_steps(&mesh);
+            let turns = [field.vertex_indices(&mesh), field.boundary_indices(&mesh)].concat();
+            for (index, steps) in turns.into_iter().zip(vertices.iter().chain(&loops)) {
+                assert_eq!(index, f64::from(*steps) / f64::from(symmetry), "{name}");
             }
-            for (a, b) in vertices.iter().zip(field.traced_indices(&mesh)) {
-                assert!((a - b).abs() < 1e-9, "{name}: {a} or {b}");
-            }
+            assert_eq!(field.traced_index_steps(&mesh), vertices, "{name}");
             let euler = mesh.euler_characteristic() as f64;
-            assert!(
-                (field.index_sum(&mesh) - euler).abs() < 1e-6,
-                "{name}, N = {symmetry}"
-            );
+            assert_eq!(field.index_sum(&mesh), euler, "{name}, N = {symmetry}");
         }
     }
 }
@@ -179,16 +171,11 @@ fn prescribed_indices_are_reached_exactly() {
             ..FieldOptions::default()
         };
         let (field, solution) = field(&mesh, &options);
-        let mut expected = vec![0.0; mesh.vertex_count()];
+        let mut expected = vec![0; mesh.vertex_count()];
         for g in given {
-            expected[g.vertex] = f64::from(g.steps) / f64::from(symmetry);
+            expected[g.vertex] = g.steps;
         }
-        for (v, (found, expected)) in field.vertex_indices(&mesh).iter().zip(expected).enumerate() {
-            assert!(
-                (found - expected).abs() < 1e-9,
-                "{name}: {v} has {found}, not {expected}"
-            );
-        }
+        assert_eq!(field.vertex_index_steps(&mesh), expected, "{name}");
         let energy = field.energy(&mesh);
         assert!(
             (energy - solution.energy()).abs() < 1e-8 * energy.max(1.0),
@@ -208,11 +195,7 @@ fn the_boundary_index_completes_the_prescribed_indices() {
             ..FieldOptions::default()
         };
         let (field, _) = field(&mesh, &options);
-        let loops = field.boundary_indices(&mesh);
-        assert!(
-            (loops[0] - (1.0 - f64::from(steps) / 4.0)).abs() < 1e-8,
-            "{loops:?}"
-        );
+        assert_eq!(field.boundary_index_steps(&mesh), [4 - steps]);
         assert_eq!(
             field.irregular_vertices(&mesh).len(),
             usize::from(steps != 0)

@@ -166,14 +166,18 @@ fn transitions_around_a_vertex_compose_to_its_index() {
     for case in cases(600) {
         let Case { mesh, field, .. } = &case;
         let combing: &Combing = case.problem.combing();
-        let indices = field.vertex_indices(mesh);
+        let quarters = field.vertex_index_steps(mesh);
         for v in (0..mesh.vertex_count()).filter(|&v| !mesh.is_boundary_vertex(v)) {
             let turns: i64 = mesh
                 .ring(v)
                 .map(|(f, k)| i64::from(combing.transition_from(mesh, f, (k + 2) % 3)))
                 .sum();
-            let index = (4.0 * indices[v]).round() as i64;
-            assert_eq!((turns - index).rem_euclid(4), 0, "{}: {v}", case.name);
+            assert_eq!(
+                (turns - i64::from(quarters[v])).rem_euclid(4),
+                0,
+                "{}: {v}",
+                case.name
+            );
         }
     }
 }

@@ -1,5 +1,6 @@
-/* Maps through the C interface: the sharp edges of a gear and the rim of a plate lie exactly on
- * isolines, a second solve gives the same map, and a callback cancels. */
+/* Fields and maps through the C interface: indices are counted exactly, the sharp edges of a gear
+ * and the rim of a plate lie exactly on isolines, a second solve gives the same map, and a callback
+ * cancels. */
 
 #include "check.h"
 
@@ -35,6 +36,35 @@ static void freed(model* m) {
     OK(roundel_field_free(m->field));
     OK(roundel_guidance_free(m->guidance));
     OK(roundel_mesh_free(m->mesh));
+}
+
+/* Indices are integers over 4, both counts and turns, and sum to the Euler characteristic. */
+static void indices(const model* m) {
+    size_t vertices = 0, loops = 0, irregular = 0, counted = 0;
+    int64_t euler = 0, sum = 0;
+    OK(roundel_mesh_vertex_count(m->mesh, &vertices));
+    OK(roundel_mesh_boundary_loop_count(m->mesh, &loops));
+    OK(roundel_mesh_euler_characteristic(m->mesh, &euler));
+    OK(roundel_field_irregular_count(m->field, &irregular));
+    int32_t* steps = malloc((vertices + loops) * sizeof *steps);
+    double* turns = malloc((vertices + loops) * sizeof *turns);
+    CHECK(steps != NULL && turns != NULL);
+    OK(roundel_field_vertex_index_steps(m->field, steps, vertices));
+    OK(roundel_field_boundary_index_steps(m->field, steps + vertices, loops));
+    OK(roundel_field_vertex_indices(m->field, turns, vertices));
+    OK(roundel_field_boundary_indices(m->field, turns + vertices, loops));
+    for (size_t i = 0; i < vertices + loops; ++i) {
+        CHECK(turns[i] == 0.25 * steps[i]);
+        sum += steps[i];
+        counted += i < vertices && (turns[i] == 0.25 || turns[i] == -0.25);
+    }
+    CHECK(sum == 4 * euler && counted == irregular);
+    OK(roundel_field_traced_indices(m->field, turns, vertices));
+    for (size_t v = 0; v < vertices; ++v) {
+        CHECK(turns[v] == 0.25 * steps[v]);
+    }
+    free(steps);
+    free(turns);
 }
 
 static double* corners(const roundel_map* map, size_t faces) {
@@ -268,6 +298,7 @@ int main(void) {
     const char* const shapes[] = {"gear", "plate-with-holes"};
     for (size_t i = 0; i < 2; ++i) {
         model m = made(shapes[i], 2000);
+        indices(&m);
         roundel_map* map = NULL;
         OK(roundel_map_new(m.mesh, m.field, NULL, &map));
         OK(roundel_map_set_quads(map, 600));

@@ -136,6 +136,8 @@ struct FieldMatrices {
     Eigen::VectorXd kappa;
     /// The index of every vertex in full turns; zero at the boundary.
     Eigen::VectorXd indices;
+    /// The same in steps of 1/N of a turn, which are quarters for crosses.
+    Eigen::Matrix<std::int32_t, Eigen::Dynamic, 1> index_steps;
 };
 
 inline FieldMatrices matrices(const EigenField& field, Status* status = nullptr) {
@@ -150,6 +152,7 @@ inline FieldMatrices matrices(const EigenField& field, Status* status = nullptr)
     to.period_jumps = copied(field.period_jumps());
     to.kappa = copied(field.kappa());
     to.indices = copied(field.vertex_indices());
+    to.index_steps = copied(field.vertex_index_steps());
     const auto sides = field.mesh.edge_faces(status);
     to.edge_faces = Eigen::Map<const decltype(to.edge_faces)>(
         sides.data(), static_cast<Eigen::Index>(sides.size() / 2), 2);

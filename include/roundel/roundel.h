@@ -1697,8 +1697,9 @@ roundel_status roundel_field_period_jumps(const struct roundel_field *field,
 roundel_status roundel_field_kappa(const struct roundel_field *field, double *kappa, size_t length);
 
 /**
- * Copies the index of every vertex in full turns, from the period jumps: a multiple of 1/N, and
- * +1/4 at the corner of a cube. Zero for vertices of the boundary. `length` is the number of
+ * Copies the index of every vertex in full turns, from the period jumps: the steps that
+ * roundel_field_vertex_index_steps gives over N, and +1/4 at the corner of a cube. Multiples of 1/4 are
+ * exact; those of 1/6 are rounded once. Zero for vertices of the boundary. `length` is the number of
  * vertices.
  */
 roundel_status roundel_field_vertex_indices(const struct roundel_field *field,
@@ -1714,8 +1715,8 @@ roundel_status roundel_field_traced_indices(const struct roundel_field *field,
                                             size_t length);
 
 /**
- * Copies the index of every boundary loop. With the indices of the vertices they sum to the Euler
- * characteristic. `length` is the number of boundary loops.
+ * Copies the index of every boundary loop in full turns, as roundel_field_vertex_indices those of the
+ * vertices. Together they sum to the Euler characteristic. `length` is the number of boundary loops.
  */
 roundel_status roundel_field_boundary_indices(const struct roundel_field *field,
                                               double *indices,
@@ -1743,6 +1744,23 @@ roundel_status roundel_field_solution(const struct roundel_field *field,
  * Gives N, the number of arms that a field has in a face.
  */
 roundel_status roundel_field_symmetry(const struct roundel_field *field, int32_t *arms);
+
+/**
+ * Copies the index of every vertex in steps of 1/N of a turn, which are quarters for crosses: 1 at the
+ * corner of a cube. They are integers, to be compared and counted. Vertices of the boundary have no
+ * index, and 0 here: boundary loops have one. `length` is the number of vertices.
+ */
+roundel_status roundel_field_vertex_index_steps(const struct roundel_field *field,
+                                                int32_t *steps,
+                                                size_t length);
+
+/**
+ * Copies the index of every boundary loop in steps of 1/N of a turn. With those of the vertices they sum
+ * to N times the Euler characteristic. `length` is the number of boundary loops.
+ */
+roundel_status roundel_field_boundary_index_steps(const struct roundel_field *field,
+                                                  int32_t *steps,
+                                                  size_t length);
 
 /**
  * Finds the smoothest field of a mesh that follows a guidance. `guidance`, `options` and `monitor`

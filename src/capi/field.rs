@@ -17,10 +17,10 @@ pub(super) struct Found {
     features: FeatureGraph,
     solution: Solution,
     energy: f64,
-    irregular: usize,
-    vertex_indices: Vec<f64>,
-    traced_indices: Vec<f64>,
-    boundary_indices: Vec<f64>,
+    /// Indices in steps of 1/N of a turn.
+    vertex_index_steps: Vec<i32>,
+    traced_index_steps: Vec<i32>,
+    boundary_index_steps: Vec<i32>,
 }
 
 impl Found {
@@ -32,10 +32,9 @@ impl Found {
     ) -> Self {
         Found {
             energy: field.energy(mesh),
-            irregular: field.irregular_vertices(mesh).len(),
-            vertex_indices: field.vertex_indices(mesh),
-            traced_indices: field.traced_indices(mesh),
-            boundary_indices: field.boundary_indices(mesh),
+            vertex_index_steps: field.vertex_index_steps(mesh),
+            traced_index_steps: field.traced_index_steps(mesh),
+            boundary_index_steps: field.boundary_index_steps(mesh),
             field,
             features,
             solution,
@@ -78,6 +77,26 @@ unsafe fn copy<T: Copy>(
     let body = |found: &Found| -> Outcome {
         // SAFETY: handed on.
         unsafe { copy_numbers(what, values(found).iter().copied(), to, length) }
+    };
+    // SAFETY: handed on.
+    unsafe { guard::read(field, body) }
+}
+
+/// An entry that copies one list of indices of a field in full turns.
+///
+/// # Safety
+/// As [`copy`].
+unsafe fn copy_turns(
+    field: *const roundel_field,
+    what: &'static str,
+    steps: impl FnOnce(&Found) -> &[i32],
+    to: *mut f64,
+    length: usize,
+) -> roundel_status {
+    let body = |found: &Found| -> Outcome {
+        let turns = steps(found).iter().map(|&n| found.field.turns(n));
+        // SAFETY: handed on.
+        unsafe { copy_numbers(what, turns, to, length) }
     };
     // SAFETY: handed on.
     unsafe { guard::read(field, body) }
@@ -128,8 +147,9 @@ pub unsafe extern "C" fn roundel_field_kappa(
     unsafe { copy(field, "kappa", |f| f.field.kappa(), kappa, length) }
 }
 
-/// Copies the index of every vertex in full turns, from the period jumps: a multiple of 1/N, and
-/// +1/4 at the corner of a cube. Zero for vertices of the boundary. `length` is the number of
+/// Copies the index of every vertex in full turns, from the period jumps: the steps that
+/// roundel_field_vertex_index_steps gives over N, and +1/4 at the corner of a cube. Multiples of 1/4 are
+/// exact; those of 1/6 are rounded once. Zero for vertices of the boundary. `length` is the number of
 /// vertices.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_field_vertex_indices(
@@ -139,10 +159,10 @@ pub unsafe extern "C" fn roundel_field_vertex_indices(
 ) -> roundel_status {
     // SAFETY: the caller gives a live handle and an array of `length` numbers, or NULL.
     unsafe {
-        copy(
+        copy_turns(
             field,
             "vertex indices",
-            |f| &f.vertex_indices,
+            |f| &f.vertex_index_steps,
             indices,
             length,
         )
@@ -159,18 +179,18 @@ pub unsafe extern "C" fn roundel_field_traced_indices(
 ) -> roundel_status {
     // SAFETY: the caller gives a live handle and an array of `length` numbers, or NULL.
     unsafe {
-        copy(
+        copy_turns(
             field,
             "traced indices",
-            |f| &f.traced_indices,
+            |f| &f.traced_index_steps,
             indices,
             length,
         )
     }
 }
 
-/// Copies the index of every boundary loop. With the indices of the vertices they sum to the Euler
-/// characteristic. `length` is the number of boundary loops.
+/// Copies the index of every boundary loop in full turns, as roundel_field_vertex_indices those of the
+/// vertices. Together they sum to the Euler characteristic. `length` is the number of boundary loops.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_field_boundary_indices(
     field: *const roundel_field,
@@ -179,10 +199,10 @@ pub unsafe extern "C" fn roundel_field_boundary_indices(
 ) -> roundel_status {
     // SAFETY: the caller gives a live handle and an array of `length` numbers, or NULL.
     unsafe {
-        copy(
+        copy_turns(
             field,
             "boundary indices",
-            |f| &f.boundary_indices,
+            |f| &f.boundary_index_steps,
             indices,
             length,
         )
@@ -213,7 +233,8 @@ pub unsafe extern "C" fn roundel_field_irregular_count(
 ) -> roundel_status {
     let body = |found: &Found| {
         // SAFETY: the caller gives a place for the number, or NULL.
-        unsafe { Out::new("irregular count", count) }?.set(found.irregular);
+        let out = unsafe { Out::new("irregular count", count) }?;
+        out.set(found.vertex_index_steps.iter().filter(|&&n| n != 0).count());
         Ok(())
     };
     // SAFETY: the caller gives a live handle, or NULL.
@@ -251,4 +272,45 @@ pub unsafe extern "C" fn roundel_field_symmetry(
     };
     // SAFETY: the caller gives a live handle, or NULL.
     unsafe { guard::read(field, body) }
+}
+
+/// Copies the index of every vertex in steps of 1/N of a turn, which are quarters for crosses: 1 at the
+/// corner of a cube. They are integers, to be compared and counted. Vertices of the boundary have no
+/// index, and 0 here: boundary loops have one. `length` is the number of vertices.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_field_vertex_index_steps(
+    field: *const roundel_field,
+    steps: *mut i32,
+    length: usize,
+) -> roundel_status {
+    // SAFETY: the caller gives a live handle and an array of `length` numbers, or NULL.
+    unsafe {
+        copy(
+            field,
+            "vertex index steps",
+            |f| &f.vertex_index_steps,
+            steps,
+            length,
+        )
+    }
+}
+
+/// Copies the index of every boundary loop in steps of 1/N of a turn. With those of the vertices they sum
+/// to N times the Euler characteristic. `length` is the number of boundary loops.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_field_boundary_index_steps(
+    field: *const roundel_field,
+    steps: *mut i32,
+    length: usize,
+) -> roundel_status {
+    // SAFETY: the caller gives a live handle and an array of `length` numbers, or NULL.
+    unsafe {
+        copy(
+            field,
+            "boundary index steps",
+            |f| &f.boundary_index_steps,
+            steps,
+            length,
+        )
+    }
 }

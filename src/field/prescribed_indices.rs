@@ -10,9 +10,8 @@
 //! trivial connections of `crane2010`, section 2, are the special case in which all integers but those
 //! around handles are given.
 
-use std::f64::consts::TAU;
-
 use super::PrescribedIndex;
+use super::index::steps_without_jumps;
 use crate::error::{Error, Result};
 use crate::mesh::TriangleMesh;
 
@@ -100,11 +99,5 @@ pub(super) fn ring_sum(
     vertex: usize,
     steps: i32,
 ) -> f64 {
-    let mut turn = TAU;
-    for (face, corner) in mesh.ring(vertex) {
-        let k = (corner + 2) % 3;
-        turn -= mesh.angle(face, corner);
-        turn -= mesh.out_of(face, k, kappa[mesh.edge_of(face, k)]);
-    }
-    (turn / step).round() - f64::from(steps)
+    (steps_without_jumps(mesh, kappa, step, vertex) - i64::from(steps)) as f64
 }

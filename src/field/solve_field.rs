@@ -86,7 +86,7 @@ pub fn solve_field<'a>(
     if options.indices.is_some() || options.symmetry != 4 {
         return Ok((field, solution));
     }
-    let found = steps(mesh, &field);
+    let found = field.vertex_index_steps(mesh);
     let steps = feasible_indices(mesh, found.clone());
     if steps == found {
         return match options.detail > 0.0 {
@@ -120,7 +120,7 @@ pub fn solve_field<'a>(
 
 /// Removes the directions of faces around vertices whose prescribed index differs from that of the field.
 fn give_way(mesh: &TriangleMesh, field: &OrientationField, options: &mut FieldOptions) {
-    let mut steps = steps(mesh, field);
+    let mut steps = field.vertex_index_steps(mesh);
     for given in options.indices.iter().flatten() {
         steps[given.vertex] -= given.steps;
     }
@@ -130,11 +130,6 @@ fn give_way(mesh: &TriangleMesh, field: &OrientationField, options: &mut FieldOp
         .enumerate()
         .filter(|(k, c)| *k < options.firm || regular(c));
     options.constraints = kept.map(|(_, c)| c).collect();
-}
-
-fn steps(mesh: &TriangleMesh, field: &OrientationField) -> Vec<i32> {
-    let indices = field.vertex_indices(mesh);
-    indices.iter().map(|i| (4.0 * i).round() as i32).collect()
 }
 
 #[cfg(test)]
@@ -172,11 +167,11 @@ mod tests {
         let problem = FieldProblem::with_options(&mesh, &options).unwrap();
         let solution = solve_with(problem.problem(), &Options::default(), Monitor::default());
         let smoothest = problem.field(&mesh, &solution.unwrap()).unwrap();
-        let before = steps(&mesh, &smoothest);
+        let before = smoothest.vertex_index_steps(&mesh);
         assert!(before[0] > MOST, "{}", before[0]);
         let (field, _) =
             solve_field(&mesh, &options, &Options::default(), Monitor::default).unwrap();
-        let after = steps(&mesh, &field);
+        let after = field.vertex_index_steps(&mesh);
         assert!(after.iter().all(|&n| n <= MOST), "{after:?}");
         assert_eq!(after.iter().sum::<i32>(), before.iter().sum::<i32>());
     }

@@ -12,16 +12,22 @@ use crate::mesh::TriangleMesh;
 use crate::mesh::vector::{Vec3, add, cross, dot, normalize, scale, sub};
 
 impl OrientationField {
-    /// The index of every vertex, in full turns, by tracing. Boundary vertices have none: 0.
-    pub fn traced_indices(&self, mesh: &TriangleMesh) -> Vec<f64> {
-        (0..mesh.vertex_count())
-            .map(|v| match mesh.is_boundary_vertex(v) {
-                true => 0.0,
-                false => self.trace(mesh, v),
-            })
-            .collect()
+    /// The index of every vertex in steps of 1/N of a turn, by tracing. Boundary vertices have none: 0.
+    pub fn traced_index_steps(&self, mesh: &TriangleMesh) -> Vec<i32> {
+        let steps = |v| match mesh.is_boundary_vertex(v) {
+            true => 0,
+            false => self.trace(mesh, v).round() as i32,
+        };
+        (0..mesh.vertex_count()).map(steps).collect()
     }
 
+    /// The index of every vertex in full turns: [`traced_index_steps`](Self::traced_index_steps) over N.
+    pub fn traced_indices(&self, mesh: &TriangleMesh) -> Vec<f64> {
+        let steps = self.traced_index_steps(mesh).into_iter();
+        steps.map(|n| self.turns(n)).collect()
+    }
+
+    /// The index of an interior vertex in steps, an integer but for rounding.
     fn trace(&self, mesh: &TriangleMesh, vertex: usize) -> f64 {
         let mut defect = TAU;
         let mut turning = 0.0;
@@ -50,7 +56,7 @@ impl OrientationField {
             );
             turning += dot(cross(carried, matched), to).atan2(dot(carried, matched));
         }
-        (defect + turning) / TAU
+        (defect + turning) / self.step()
     }
 
     /// An arm of the cross of a face, as a unit vector in space.
@@ -58,5 +64,29 @@ impl OrientationField {
         let [x, y] = mesh.frame(face);
         let angle = self.angles[face] + self.step() * f64::from(steps);
         add(scale(x, angle.cos()), scale(y, angle.sin()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::field::FieldProblem;
+    use crate::mesh::shape;
+    use crate::search::Options;
+    use crate::solve::solve;
+
+    #[test]
+    fn only_rounding_errors_are_rounded_away() {
+        for name in ["gear", "plate-with-holes", "genus-2"] {
+            let mesh = shape::by_name(name, 1_500).unwrap();
+            let problem = FieldProblem::new(&mesh, &[]).unwrap();
+            let solution = solve(problem.problem(), &Options::default()).unwrap();
+            let field = problem.field(&mesh, &solution).unwrap();
+            let steps = field.traced_index_steps(&mesh);
+            for v in (0..steps.len()).filter(|&v| !mesh.is_boundary_vertex(v)) {
+                let apart = field.trace(&mesh, v) - f64::from(steps[v]);
+                assert!(apart.abs() < 1e-7, "{name}: {v} is off by {apart:e}");
+            }
+        }
     }
 }

@@ -290,8 +290,9 @@ impl SeamlessProblem {
 
     /// The quarter turns of a map around every interior vertex; none at the boundary.
     pub(crate) fn quarters(&self, mesh: &TriangleMesh) -> Vec<Option<i32>> {
-        (0..mesh.vertex_count())
-            .map(|v| (!mesh.is_boundary_vertex(v)).then(|| self.field.quarters(mesh, v)))
+        let steps = self.field.vertex_index_steps(mesh).into_iter().enumerate();
+        steps
+            .map(|(v, steps)| (!mesh.is_boundary_vertex(v)).then_some(4 - steps))
             .collect()
     }
 
@@ -303,7 +304,7 @@ impl SeamlessProblem {
         let turns = self.between_isolines(mesh);
         let turns = turns
             .into_iter()
-            .filter(|&v| self.field.quarters(mesh, v) == 4);
+            .filter(|&v| self.field.boundary_quarters(mesh, v) == 4);
         let cones = self.cones.iter().copied().chain(turns).flat_map(|v| {
             let u = 2 * first[v] as usize;
             [u, u + 1]

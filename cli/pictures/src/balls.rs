@@ -4,11 +4,11 @@ use roundel::field::OrientationField;
 use roundel::mesh::TriangleMesh;
 use roundel::mesh::vector::{Vec3, add, normalize, scale};
 
-const POSITIVE: [u8; 3] = [214, 48, 38];
-const NEGATIVE: [u8; 3] = [30, 92, 205];
-const OTHER: [u8; 3] = [240, 168, 12];
+pub(super) const POSITIVE: [u8; 3] = [214, 48, 38];
+pub(super) const NEGATIVE: [u8; 3] = [30, 92, 205];
+pub(super) const OTHER: [u8; 3] = [240, 168, 12];
 
-/// A ball: red for an index of a quarter, blue for minus a quarter, amber for all others.
+/// A ball: red for an index of one step of 1/N of a turn, blue for minus one, amber for all others.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Ball {
     pub(super) centre: Vec3,
@@ -17,18 +17,16 @@ pub(super) struct Ball {
 
 /// One ball for each irregular vertex, in increasing order of vertices.
 pub(super) fn balls(mesh: &TriangleMesh, field: &OrientationField) -> Vec<Ball> {
-    let indices = field.vertex_indices(mesh);
-    let quarters = indices.iter().map(|index| (4.0 * index).round() as i64);
-    let irregular = quarters.enumerate().filter(|&(_, quarters)| quarters != 0);
-    let ball = |(vertex, quarters)| Ball {
+    let steps = field.vertex_index_steps(mesh).into_iter().enumerate();
+    let ball = |(vertex, steps)| Ball {
         centre: mesh.position(vertex),
-        color: match quarters {
+        color: match steps {
             1 => POSITIVE,
             -1 => NEGATIVE,
             _ => OTHER,
         },
     };
-    irregular.map(ball).collect()
+    steps.filter(|&(_, steps)| steps != 0).map(ball).collect()
 }
 
 /// A sphere of radius 1 about the origin, whose points are its normals: an octahedron, each edge

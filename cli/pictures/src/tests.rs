@@ -1,8 +1,13 @@
 //! What every picture and model holds, whatever the mesh.
 
+use super::balls::{NEGATIVE, OTHER, POSITIVE, balls};
 use super::streamlines::streamlines;
 use super::{FieldModel, View, draw_field};
-use roundel::field::{FieldProblem, OrientationField, curvature_constraints};
+use roundel::field::{
+    FieldOptions, FieldProblem, OrientationField, PrescribedIndex, curvature_constraints,
+    feature_constraints,
+};
+use roundel::mesh::features::FeatureGraph;
 use roundel::mesh::vector::{dot, norm, sub};
 use roundel::mesh::{TriangleMesh, io, shape};
 use roundel::{Error, Options, solve};
@@ -145,6 +150,36 @@ fn a_model_is_the_mesh_with_a_cross_in_every_face_and_a_ball_at_every_irregular_
     let path = std::env::temp_dir().join(format!("roundel-model-{}.ply", std::process::id()));
     io::write(&path, drawing).unwrap();
     std::fs::remove_file(path).unwrap();
+}
+
+#[test]
+fn balls_are_coloured_by_integers() {
+    let mesh = shape::by_name("gear", 8_000).unwrap();
+    let features = FeatureGraph::by_angle(&mesh, 40f64.to_radians()).unwrap();
+    let constraints = feature_constraints(&mesh, &features).unwrap();
+    let problem = FieldProblem::new(&mesh, &constraints).unwrap();
+    let solution = solve(problem.problem(), &Options::default()).unwrap();
+    let field = problem.field(&mesh, &solution).unwrap();
+    let drawn = balls(&mesh, &field);
+    assert_eq!(drawn.len(), field.irregular_vertices(&mesh).len());
+    // A torus has as many of either kind, and a gear no others.
+    let count = |color| drawn.iter().filter(|ball| ball.color == color).count();
+    assert_eq!(count(POSITIVE), drawn.len() / 2);
+    assert_eq!(count(NEGATIVE), drawn.len() / 2);
+
+    let mesh = shape::by_name("sphere", 400).unwrap();
+    let indices = [(0, 5), (7, 1), (9, 3), (20, -1)];
+    let indices = indices.map(|(vertex, steps)| PrescribedIndex { vertex, steps });
+    let options = FieldOptions {
+        indices: Some(indices.to_vec()),
+        ..FieldOptions::default()
+    };
+    let problem = FieldProblem::with_options(&mesh, &options).unwrap();
+    let solution = solve(problem.problem(), &Options::default()).unwrap();
+    let field = problem.field(&mesh, &solution).unwrap();
+    let colors = balls(&mesh, &field).into_iter();
+    let colors: Vec<[u8; 3]> = colors.map(|ball| ball.color).collect();
+    assert_eq!(colors, [OTHER, POSITIVE, OTHER, NEGATIVE]);
 }
 
 #[test]

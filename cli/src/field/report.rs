@@ -1,5 +1,6 @@
 //! The JSON object of a field: that of a solve, with figures of the mesh and the field.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use serde::Serialize;
@@ -19,6 +20,8 @@ pub struct FieldReport<'a> {
     symmetry: u8,
     feature_edges: usize,
     irregular_vertices: usize,
+    /// How many irregular vertices have an index of so many steps of 1/N of a turn.
+    index_counts: BTreeMap<i32, usize>,
     index_sum: f64,
     euler_characteristic: i64,
 }
@@ -27,6 +30,12 @@ impl<'a> FieldReport<'a> {
     /// The report of what was found for the mesh in `file`.
     pub(super) fn new(file: &Path, solved: &'a Solved) -> Self {
         let (mesh, field) = (&solved.mesh, &solved.field);
+        let mut index_counts = BTreeMap::new();
+        for steps in field.vertex_index_steps(mesh) {
+            if steps != 0 {
+                *index_counts.entry(steps).or_insert(0) += 1;
+            }
+        }
         FieldReport {
             solve: Report::new(
                 file,
@@ -40,7 +49,8 @@ impl<'a> FieldReport<'a> {
             vertices: mesh.vertex_count(),
             symmetry: field.symmetry(),
             feature_edges: solved.features,
-            irregular_vertices: field.irregular_vertices(mesh).len(),
+            irregular_vertices: index_counts.values().sum(),
+            index_counts,
             index_sum: field.index_sum(mesh),
             euler_characteristic: mesh.euler_characteristic(),
         }

@@ -24,8 +24,8 @@ struct Data<'a> {
     faces: &'a [[u32; 3]],
     /// One arm of every face's cross, in space.
     arms: Vec<[f64; 3]>,
-    /// Irregular vertices and their index.
-    irregular: Vec<(usize, f64)>,
+    /// Irregular vertices and their index in quarters.
+    irregular: Vec<(usize, i32)>,
     uvs: Vec<[[f64; 2]; 3]>,
     quad_vertices: &'a [[f64; 3]],
     quads: &'a [[u32; 4]],
@@ -42,15 +42,14 @@ pub(super) fn write(path: &Path, title: &str, solved: &Solved) -> Result<()> {
 
 fn page(title: &str, solved: &Solved) -> serde_json::Result<String> {
     let (mesh, made) = (&solved.mesh, &solved.made);
-    let indices = made.field.vertex_indices(mesh);
-    let irregular = made.field.irregular_vertices(mesh);
+    let quarters = made.field.vertex_index_steps(mesh).into_iter().enumerate();
     let data = Data {
         vertices: mesh.vertices(),
         faces: mesh.triangles(),
         arms: (0..mesh.face_count())
             .map(|face| made.field.direction(mesh, face))
             .collect(),
-        irregular: irregular.into_iter().map(|v| (v, indices[v])).collect(),
+        irregular: quarters.filter(|&(_, quarters)| quarters != 0).collect(),
         uvs: made.untangled.map.corner_uvs(),
         quad_vertices: &made.quads.vertices,
         quads: &made.quads.quads,

@@ -101,6 +101,12 @@ fn the_page_holds_its_numbers_and_asks_for_nothing_else() {
     assert_eq!(length("quads"), count("quads"));
     assert_eq!(length("quad_vertices"), count("vertices"));
     assert_eq!(length("irregular"), count("field_irregular_vertices"));
+    // Pairs of a vertex and an integer of quarters, which the script compares.
+    let irregular = data["irregular"].as_array().unwrap().iter();
+    let quarters = irregular.map(|pair| pair[1].as_i64().unwrap());
+    assert_eq!(quarters.clone().sum::<i64>(), 0);
+    assert!(quarters.into_iter().all(|k| k.abs() == 1));
+    assert!(content.contains("quarters === 1 ?") && content.contains("quarters === -1 ?"));
 }
 
 /// Says so where there is no chromium.

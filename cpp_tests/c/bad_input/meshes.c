@@ -191,6 +191,11 @@ static void fields(fixture* f, const roundel_mesh* tetra) {
     BAD(f, roundel_field_traced_indices(field, numbers, 6), length, "expected 4", NONE);
     BAD(f, roundel_field_boundary_indices(NULL, numbers, 0), null, "field", NONE);
     BAD(f, roundel_field_boundary_indices(field, numbers, 1), length, "expected 0", NONE);
+    BAD(f, roundel_field_vertex_index_steps(NULL, jumps, 4), null, "field", NONE);
+    BAD(f, roundel_field_vertex_index_steps(field, NULL, 4), null, "index steps", NONE);
+    BAD(f, roundel_field_vertex_index_steps(field, jumps, 6), length, "expected 4", NONE);
+    BAD(f, roundel_field_boundary_index_steps(NULL, jumps, 0), null, "field", NONE);
+    BAD(f, roundel_field_boundary_index_steps(field, jumps, 1), length, "expected 0", NONE);
     BAD(f, roundel_field_energy(NULL, &energy), null, "field", NONE);
     BAD(f, roundel_field_energy(field, NULL), null, "energy", NONE);
     BAD(f, roundel_field_irregular_count(NULL, &count), null, "field", NONE);

@@ -17,12 +17,19 @@ void fields_follow_their_options() {
             options.set_features(roundel::no_features());
         }
         const auto field = roundel::orientation_field(mesh, options);
-        double sum = field.boundary_indices()[0];
-        for (const double index : field.vertex_indices()) {
-            CHECK(std::abs(arms * index - std::round(arms * index)) < 1e-8);
-            sum += index;
+        const auto turns = field.vertex_indices();
+        const auto steps = field.vertex_index_steps();
+        CHECK(steps.size() == turns.size() && steps.size() == mesh.vertices());
+        const std::int32_t loop = field.boundary_index_steps()[0];
+        CHECK(field.boundary_indices()[0] == static_cast<double>(loop) / arms);
+        std::int32_t sum = loop;
+        std::size_t irregular = 0;
+        for (std::size_t v = 0; v < steps.size(); ++v) {
+            CHECK(turns[v] == static_cast<double>(steps[v]) / arms);
+            sum += steps[v];
+            irregular += steps[v] != 0;
         }
-        CHECK(std::abs(sum - 1.0) < 1e-6);
+        CHECK(sum == arms && irregular == field.irregular_count());
     }
     // Crosses at the boundary follow it, which costs energy.
     CHECK(roundel::orientation_field(mesh).energy() >
@@ -36,7 +43,8 @@ void fields_follow_their_options() {
     const auto two =
         roundel::orientation_field(sphere, roundel::FieldOptions().set_indices({{3, 7}, {200, 1}}));
     CHECK(two.irregular_count() == 2);
-    CHECK(std::abs(two.vertex_indices()[3] - 1.75) < 1e-9);
+    CHECK(two.vertex_indices()[3] == 1.75 && two.vertex_index_steps()[3] == 7);
+    CHECK(two.vertex_indices()[200] == 0.25 && two.boundary_index_steps().size() == 0);
     roundel::Status status;
     CHECK(!roundel::orientation_field(sphere, roundel::FieldOptions().set_indices({{3, 7}}),
                                       &status));

@@ -104,6 +104,10 @@ template <class V, class F> void fields_are_found_in_matrices() {
     const auto found = roundel::matrices(field);
     CHECK(found.angles.size() == faces.rows() && found.angles[90] == 1.0);
     CHECK(found.indices.size() == vertices.rows());
+    CHECK(found.index_steps.size() == vertices.rows());
+    for (Eigen::Index v = 0; v < vertices.rows(); ++v) {
+        CHECK(found.indices[v] == 0.25 * found.index_steps[v]);
+    }
     double energy = 0.0;
     for (Eigen::Index e = 0; e < found.edge_faces.rows(); ++e) {
         const auto i = found.edge_faces(e, 0), j = found.edge_faces(e, 1);

@@ -30,7 +30,7 @@ bool has_the_indices_of_a_sphere(const roundel::Field& field) {
     for (const double index : field.vertex_indices()) {
         sum += index;
     }
-    return field && field.irregular_count() >= 8 && std::abs(sum - 2.0) < 1e-6;
+    return field && field.irregular_count() >= 8 && sum == 2.0;
 }
 
 } // namespace

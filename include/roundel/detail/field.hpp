@@ -108,8 +108,10 @@ class Field {
         if (copy(roundel_field_angles, angles_, mesh.faces(status), status) &&
             copy(roundel_field_period_jumps, jumps_, mesh.edges(status), status) &&
             copy(roundel_field_kappa, kappa_, mesh.edges(status), status) &&
-            copy(roundel_field_vertex_indices, vertex_, mesh.vertices(status), status)) {
-            copy(roundel_field_boundary_indices, boundary_, mesh.boundary_loops(status), status);
+            copy(roundel_field_vertex_indices, vertex_, mesh.vertices(status), status) &&
+            copy(roundel_field_vertex_index_steps, vertex_steps_, vertex_.size(), status) &&
+            copy(roundel_field_boundary_indices, boundary_, mesh.boundary_loops(status), status)) {
+            copy(roundel_field_boundary_index_steps, boundary_steps_, boundary_.size(), status);
         }
     }
 
@@ -130,11 +132,22 @@ class Field {
     span<const double> kappa() const& noexcept { return view(kappa_); }
     span<const double> kappa() const&& = delete;
 
-    /// The index of every vertex in full turns, a multiple of 1/N; zero at the boundary.
+    /// The index of every vertex in steps of 1/N of a turn, which are quarters for crosses; zero at
+    /// the boundary, whose loops have an index instead.
+    span<const std::int32_t> vertex_index_steps() const& noexcept { return view(vertex_steps_); }
+    span<const std::int32_t> vertex_index_steps() const&& = delete;
+
+    /// The index of every boundary loop in steps of 1/N of a turn.
+    span<const std::int32_t> boundary_index_steps() const& noexcept {
+        return view(boundary_steps_);
+    }
+    span<const std::int32_t> boundary_index_steps() const&& = delete;
+
+    /// The index of every vertex in full turns: its steps over N.
     span<const double> vertex_indices() const& noexcept { return view(vertex_); }
     span<const double> vertex_indices() const&& = delete;
 
-    /// The index of every boundary loop.
+    /// The index of every boundary loop in full turns: its steps over N.
     span<const double> boundary_indices() const& noexcept { return view(boundary_); }
     span<const double> boundary_indices() const&& = delete;
 
@@ -188,6 +201,8 @@ class Field {
     std::vector<double> kappa_;
     std::vector<double> vertex_;
     std::vector<double> boundary_;
+    std::vector<std::int32_t> vertex_steps_;
+    std::vector<std::int32_t> boundary_steps_;
 };
 
 namespace detail {
