@@ -29,6 +29,7 @@ mod jitter;
 mod measure;
 mod orientation;
 mod plane;
+pub mod refine;
 mod rings;
 pub mod shape;
 mod subdivide;
