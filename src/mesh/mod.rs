@@ -28,6 +28,7 @@ mod jitter;
 mod measure;
 mod orientation;
 mod plane;
+pub mod refine;
 mod rings;
 pub mod shape;
 mod subdivide;

@@ -2,6 +2,7 @@
 //!
 //! ```text
 //! size, features
+//! refinement  where the mesh is too coarse or too thin for quads of this size
 //! field       the one of several whose map has the least distorted relaxation
 //! map         integers are decided; feature curves that they put on one line are separated
 //! quads       are extracted from the map
@@ -23,6 +24,7 @@ use super::field_map::FieldMap;
 use super::missed::missed;
 use super::options::QuadOptions;
 use super::quadrangulation::timed;
+use super::refined_input::RefinedInput;
 use super::{QuadSeconds, Quadrangulation};
 use crate::error::Result;
 use crate::field::FieldProblem;
@@ -56,11 +58,53 @@ pub fn quadrangulate<'a>(
     monitor: impl Fn() -> Monitor<'a>,
 ) -> Result<Quadrangulation> {
     options.sizing.check(mesh)?;
+    let features = options.guidance.features(mesh)?;
+    let Some(input) = refined(mesh, &features, options)? else {
+        return of_mesh(mesh, features, options, &monitor);
+    };
+    let smooth = options.smooth.as_ref().map(|given| SmoothOptions {
+        features: input.refined.parts_of(|edge| given.features.contains(&edge)),
+        ..given.clone()
+    });
+    let given = QuadOptions {
+        guidance: input.guidance.clone(),
+        sizing: input.sizing.clone(),
+        smooth,
+        ..options.clone()
+    };
+    let made = of_mesh(&input.refined.mesh, input.features.clone(), &given, &monitor)?;
+    Ok(input.result_for(mesh, made))
+}
+
+/// The refined mesh, where the options allow it and the mesh needs it.
+fn refined(
+    mesh: &TriangleMesh,
+    features: &FeatureGraph,
+    options: &QuadOptions,
+) -> Result<Option<RefinedInput>> {
+    if !options.refine {
+        return Ok(None);
+    }
+    let held = match &options.smooth {
+        Some(given) => FeatureGraph::from_edges(mesh, &given.features)?,
+        None => FeatureGraph::none(mesh),
+    };
+    let held = held.with(mesh, features)?;
+    RefinedInput::new(mesh, &options.guidance, &held, &options.sizing)
+}
+
+/// The quads of a mesh that is as fine as it has to be.
+fn of_mesh<'a>(
+    mesh: &TriangleMesh,
+    features: FeatureGraph,
+    options: &QuadOptions,
+    monitor: &impl Fn() -> Monitor<'a>,
+) -> Result<Quadrangulation> {
     let mut driver = Driver {
         mesh,
         options,
-        features: options.guidance.features(mesh)?,
-        monitor: &monitor,
+        features,
+        monitor,
         started: Instant::now(),
         fields: Vec::new(),
         seconds: QuadSeconds::default(),
@@ -212,6 +256,7 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Driver<'a, M> {
             missed_features,
             compared,
             seconds,
+            refined: None,
         })
     }
 }

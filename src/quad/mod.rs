@@ -3,6 +3,7 @@
 //! | idea | file |
 //! | --- | --- |
 //! | quads, from a mesh | `driver` |
+//! | a mesh that is refined first | `refined_input` |
 //! | a map without folds, from its problem | `fold_free` |
 //! | a field and its current map | `field_map` |
 //! | the choice of the field | `fields`, `aim` |
@@ -22,9 +23,11 @@ mod missed;
 mod options;
 mod outcome;
 mod quadrangulation;
+mod refined_input;
 
 pub use compare::Compared;
 pub use driver::quadrangulate;
 pub use fold_free::{FoldFreeMap, solve_fold_free};
 pub use options::{QUAD_OPTIONS, QuadOptions};
 pub use quadrangulation::{QuadSeconds, Quadrangulation};
+pub use refined_input::RefinedInput;

@@ -20,6 +20,9 @@ options! {
         /// indices are prescribed.
         vary_curvature: bool = true, "1" in "[0, 1]",
             "1: also try fields that follow curvature less than the guidance says, and keep the field whose map is least distorted";
+        /// Fields and maps then belong to the refined mesh: see [`Quadrangulation`](super::Quadrangulation).
+        refine: bool = true, "1" in "[0, 1]",
+            "1: refine the mesh first where edges are longer than three edges of the quads or angles are below 2 degrees";
         untangle: bool = true, "1" in "[0, 1]",
             "1: untangle the map if its folds keep extraction from making quads";
         stiffenings: usize = UntangleOptions::default().stiffenings, "5" in "[0, 1000]",

@@ -6,6 +6,8 @@ use super::Compared;
 use crate::error::Result;
 use crate::extract::QuadMesh;
 use crate::field::OrientationField;
+use crate::mesh::TriangleMesh;
+use crate::mesh::refine::Refined;
 use crate::solve::Solution;
 use crate::untangle::Untangled;
 
@@ -30,6 +32,16 @@ pub struct Quadrangulation {
     pub compared: Vec<Compared>,
     /// The time of each step.
     pub seconds: QuadSeconds,
+    /// The refined mesh, if the mesh was refined first. Then field and map are its field and map; features,
+    /// and the origins of the quads, are those of the mesh that was given.
+    pub refined: Option<Refined>,
+}
+
+impl Quadrangulation {
+    /// The mesh that the field and the map belong to: the refined one, or the one that was given.
+    pub fn mesh<'a>(&'a self, given: &'a TriangleMesh) -> &'a TriangleMesh {
+        self.refined.as_ref().map_or(given, |refined| &refined.mesh)
+    }
 }
 
 /// Wall-clock seconds of each step.

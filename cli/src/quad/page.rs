@@ -41,7 +41,8 @@ pub(super) fn write(path: &Path, title: &str, solved: &Solved) -> Result<()> {
 }
 
 fn page(title: &str, solved: &Solved) -> serde_json::Result<String> {
-    let (mesh, made) = (&solved.mesh, &solved.made);
+    let made = &solved.made;
+    let mesh = made.mesh(&solved.mesh);
     let indices = made.field.vertex_indices(mesh);
     let irregular = made.field.irregular_vertices(mesh);
     let data = Data {

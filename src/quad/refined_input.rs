@@ -1,0 +1,205 @@
+//! Refinement before the field: a mesh that is too coarse or too thin for its quads, and what is given for
+//! its elements, on the refined mesh.
+//!
+//! Vertices keep their numbers. Edges of faces with directions of their own are held, so that each such
+//! face is divided into faces that take its direction.
+
+use crate::error::Result;
+use crate::extract::Origin;
+use crate::field::{Constraint, Guidance, Guide};
+use crate::map::Sizing;
+use crate::mesh::features::FeatureGraph;
+use crate::mesh::refine::{RefineOptions, Refined, needs_refinement, refine};
+use crate::mesh::vector::{Vec3, add, cross, dot, scale, sub};
+use crate::mesh::{ClosestPoint, TriangleMesh};
+
+use super::Quadrangulation;
+
+/// The longest edge of a refined mesh, in edges of the quads.
+const LONGEST_EDGE: f64 = 0.6;
+
+/// The most triangles that are added for each quad.
+const TRIANGLES_PER_QUAD: f64 = 50.0;
+
+/// The most triangles that are added in all.
+const MOST_TRIANGLES: f64 = 20e6;
+
+/// A refined mesh, and everything that was given for the original one.
+#[derive(Debug)]
+pub struct RefinedInput {
+    /// The refined mesh.
+    pub refined: Refined,
+    /// The guidance. Features are among its edges by number.
+    pub guidance: Guidance,
+    /// The features of the guidance.
+    pub features: FeatureGraph,
+    /// The sizes.
+    pub sizing: Sizing,
+}
+
+impl RefinedInput {
+    /// Refines a mesh if [`needs_refinement`] says so and the refinement changes anything.
+    ///
+    /// `features` are edges besides those of the guidance.
+    ///
+    /// # Errors
+    /// Those of [`Guidance::features`] and of [`refine`].
+    pub fn new(
+        mesh: &TriangleMesh,
+        guidance: &Guidance,
+        features: &FeatureGraph,
+        sizing: &Sizing,
+    ) -> Result<Option<Self>> {
+        let edge_length = sizing.edge_length(mesh);
+        let quads = mesh.surface_area() / (edge_length * edge_length);
+        if needs_refinement(mesh, edge_length).is_none() || !is_in_range(mesh, guidance) {
+            return Ok(None);
+        }
+        let mut wanted = guidance.features(mesh)?.with(mesh, features)?;
+        if let Some(angle) = guidance.feature_angle.filter(|&angle| angle != 0.0) {
+            // With every edge that is sharp: faces between three of them are divided.
+            wanted = wanted.with(mesh, &FeatureGraph::by_angle(mesh, angle)?)?;
+        }
+        let sides = directed_faces(guidance).flat_map(|f| [0, 1, 2].map(|k| mesh.edge_of(f, k)));
+        let sides = FeatureGraph::from_edges(mesh, &sides.collect::<Vec<_>>())?;
+        let held = wanted.clone().with(mesh, &sides)?;
+        let most = (TRIANGLES_PER_QUAD * quads).min(MOST_TRIANGLES) as usize;
+        let options = RefineOptions::new(mesh, LONGEST_EDGE * edge_length, most);
+        let refined = refine(mesh, &held, &options)?;
+        if refined.is_unchanged() {
+            return Ok(None);
+        }
+        let parts = refined.parts_of(|edge| wanted.contains(edge));
+        let guidance = divided(mesh, guidance, &refined, &parts);
+        Ok(Some(RefinedInput {
+            features: FeatureGraph::from_edges(&refined.mesh, &parts)?,
+            guidance,
+            sizing: match sizing {
+                Sizing::Lengths(lengths) => {
+                    let of_face = refined.face_origin.iter().map(|&f| lengths[f as usize]);
+                    Sizing::Lengths(of_face.collect())
+                }
+                other => other.clone(),
+            },
+            refined,
+        }))
+    }
+
+    /// The result for the refined mesh, with elements of the original one where it names elements.
+    pub(super) fn result_for(self, mesh: &TriangleMesh, made: Quadrangulation) -> Quadrangulation {
+        let refined = self.refined;
+        let original = |edges: Vec<usize>| {
+            let origins = edges.into_iter().filter_map(|e| refined.edge_origin[e]);
+            let mut origins: Vec<usize> = origins.map(|e| e as usize).collect();
+            origins.sort_unstable();
+            origins.dedup();
+            origins
+        };
+        let mut quads = made.quads;
+        let tree = ClosestPoint::new(mesh);
+        for origin in &mut quads.origins {
+            *origin = original_place(mesh, &refined, &tree, *origin);
+        }
+        quads.folded = {
+            let faces = quads.folded.iter().map(|&f| refined.face_origin[f] as usize);
+            let mut faces: Vec<usize> = faces.collect();
+            faces.sort_unstable();
+            faces.dedup();
+            faces
+        };
+        Quadrangulation {
+            quads,
+            features: original(made.features),
+            missed_features: original(made.missed_features),
+            refined: Some(refined),
+            ..made
+        }
+    }
+}
+
+fn directed_faces(guidance: &Guidance) -> impl Iterator<Item = usize> + '_ {
+    let constraints = guidance.constraints.iter().map(|c| c.face);
+    constraints.chain(guidance.guides.iter().map(|g| g.face))
+}
+
+/// Whether the faces of the guidance exist: where they do not, the field's problem says so.
+fn is_in_range(mesh: &TriangleMesh, guidance: &Guidance) -> bool {
+    directed_faces(guidance).all(|face| face < mesh.face_count())
+}
+
+/// The guidance on the refined mesh.
+fn divided(
+    mesh: &TriangleMesh,
+    guidance: &Guidance,
+    refined: &Refined,
+    features: &[usize],
+) -> Guidance {
+    let mut parts: Vec<(u32, usize)> = refined.face_origin.iter().copied().zip(0..).collect();
+    parts.sort_unstable();
+    let parts_of = |face: usize| {
+        let first = parts.partition_point(|&(origin, _)| (origin as usize) < face);
+        let rest = parts[first..].iter();
+        rest.take_while(move |&&(origin, _)| origin as usize == face)
+            .map(|&(_, part)| part)
+    };
+    let turned = |face: usize, angle: f64, part: usize| {
+        let [x, y] = mesh.frame(face);
+        let direction = add(scale(x, angle.cos()), scale(y, angle.sin()));
+        let [x, y] = refined.mesh.frame(part).map(|axis| dot(direction, axis));
+        y.atan2(x)
+    };
+    let constraints = guidance.constraints.iter().flat_map(|given| {
+        parts_of(given.face).map(|part| Constraint {
+            face: part,
+            angle: turned(given.face, given.angle, part),
+        })
+    });
+    let guides = guidance.guides.iter().flat_map(|given| {
+        parts_of(given.face).map(|part| Guide {
+            face: part,
+            angle: turned(given.face, given.angle, part),
+            weight: given.weight,
+        })
+    });
+    Guidance {
+        constraints: constraints.collect(),
+        guides: guides.collect(),
+        feature_lines: Vec::new(),
+        feature_edges: features.to_vec(),
+        feature_angle: None,
+        ..guidance.clone()
+    }
+}
+
+/// A place of the refined mesh on the original one.
+fn original_place(
+    mesh: &TriangleMesh,
+    refined: &Refined,
+    tree: &ClosestPoint,
+    place: Origin,
+) -> Origin {
+    let (point, hint) = match place {
+        Origin::Vertex(vertex) => match refined.vertex_origin[vertex] {
+            Some(original) => return Origin::Vertex(original as usize),
+            None => (refined.mesh.position(vertex), refined.vertex_face[vertex]),
+        },
+        Origin::Face(face, weights) => {
+            let corners = refined.mesh.corner_positions(face);
+            let point = (0..3).fold([0.0; 3], |p, k| add(p, scale(corners[k], weights[k])));
+            (point, refined.face_origin[face])
+        }
+        Origin::Middle => return place,
+    };
+    match tree.find(point, Some(hint as usize)) {
+        Some((face, foot)) => Origin::Face(face, weights(mesh.corner_positions(face), foot)),
+        None => place,
+    }
+}
+
+/// The barycentric coordinates of a point of a triangle.
+fn weights([a, b, c]: [Vec3; 3], p: Vec3) -> [f64; 3] {
+    let normal = cross(sub(b, a), sub(c, a));
+    let whole = dot(normal, normal);
+    let of = |u: Vec3, v: Vec3| dot(cross(sub(u, p), sub(v, p)), normal) / whole;
+    [of(b, c), of(c, a), of(a, b)]
+}
