@@ -10,7 +10,7 @@
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
 use super::Constraint;
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::mesh::TriangleMesh;
 use crate::mesh::features::FeatureGraph;
 
@@ -18,29 +18,22 @@ use crate::mesh::features::FeatureGraph;
 ///
 /// A face with one feature edge follows that edge. In a wedge of less than 45 degrees between feature
 /// edges, and in a face with two of them, directions turn evenly from one edge to the other. Where
-/// narrow wedges overlap, that at the lowest vertex comes first.
+/// narrow wedges overlap, that at the lowest vertex comes first. A face between three feature edges
+/// follows the two shortest: no cross follows them all.
 ///
 /// # Errors
-/// [`Error::LengthMismatch`] for features of another mesh, [`Error::InvalidArgument`] with the face
-/// for one whose three edges are features: no cross can follow them, and the face must be split.
+/// [`Error::LengthMismatch`](crate::error::Error::LengthMismatch) for features of another mesh.
 pub fn feature_constraints(
     mesh: &TriangleMesh,
     features: &FeatureGraph,
 ) -> Result<Vec<Constraint>> {
     features.check_mesh(mesh)?;
+    let features = &features.with_two_of_each_face(mesh);
     let mut along = vec![None; mesh.face_count()];
     for (face, along) in along.iter_mut().enumerate() {
         let sides = (0..3).filter(|&k| features.contains(mesh.edge_of(face, k)));
         match sides.collect::<Vec<_>>()[..] {
             [k] => *along = Some(mesh.edge_angle(face, k)),
-            [_, _, _] => {
-                return Err(Error::InvalidArgument {
-                    what: format!(
-                        "all three edges of face {face} are features: no cross follows them all"
-                    ),
-                    index: Some(face),
-                });
-            }
             _ => {}
         }
     }

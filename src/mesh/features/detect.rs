@@ -50,6 +50,24 @@ impl FeatureGraph {
         Ok(Self::of(mesh, is_feature))
     }
 
+    /// The graph without the longest edge of each face between three features: quads follow the other
+    /// two, which enclose the largest angle.
+    pub(crate) fn with_two_of_each_face(&self, mesh: &TriangleMesh) -> Self {
+        let mut is_feature = self.is_feature.clone();
+        for face in 0..mesh.face_count() {
+            if (0..3).all(|k| is_feature[mesh.edge_of(face, k)]) {
+                let longer = |&a: &usize, &b: &usize| {
+                    let [a, b] = [a, b].map(|k| mesh.edge_length(face, k));
+                    // The first of equal edges.
+                    a.total_cmp(&b).then(std::cmp::Ordering::Greater)
+                };
+                let longest = (0..3).max_by(longer).unwrap_or(0);
+                is_feature[mesh.edge_of(face, longest)] = false;
+            }
+        }
+        Self::of(mesh, is_feature)
+    }
+
     /// The edges with a single face.
     pub fn boundary(mesh: &TriangleMesh) -> Self {
         Self::of(mesh, mesh.edges().map(|e| e.second.is_none()).collect())
