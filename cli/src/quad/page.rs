@@ -41,15 +41,9 @@ pub(super) fn write(path: &Path, title: &str, solved: &Solved) -> Result<()> {
 }
 
 fn page(title: &str, solved: &Solved) -> serde_json::Result<String> {
-<<<<<<< HEAD
-    let (mesh, made) = (&solved.mesh, &solved.made);
-    let quarters = made.field.vertex_index_steps(mesh).into_iter().enumerate();
-=======
     let made = &solved.made;
     let mesh = made.mesh(&solved.mesh);
-    let indices = made.field.vertex_indices(mesh);
-    let irregular = made.field.irregular_vertices(mesh);
->>>>>>> refine
+    let quarters = made.field.vertex_index_steps(mesh).into_iter().enumerate();
     let data = Data {
         vertices: mesh.vertices(),
         faces: mesh.triangles(),
