@@ -79,8 +79,8 @@ fn indices_are_quarters_that_sum_to_the_euler_characteristic() {
     for name in SHAPES {
         for jittered in [false, true] {
             let mesh = match jittered {
-                true => shape(name, 1500),
-                false => shape::by_name(name, 1500).unwrap(),
+                true => shape(name, 700),
+                false => shape::by_name(name, 700).unwrap(),
             };
             let constraints = curvature_constraints(&mesh, 0.1).unwrap();
             let (found, _) = field(&mesh, &constraints);
@@ -115,14 +115,14 @@ fn sixths_of_a_turn_are_rounded_once() {
 
 #[test]
 fn every_irregular_vertex_of_a_gear_turns_by_a_quarter() {
-    let mesh = shape::by_name("gear", 8_000).unwrap();
+    let mesh = shape::by_name("gear", 3_000).unwrap();
     let features = FeatureGraph::by_angle(&mesh, 40f64.to_radians()).unwrap();
     let constraints = feature_constraints(&mesh, &features).unwrap();
     let (field, _) = field(&mesh, &constraints);
     let indices = field.vertex_indices(&mesh);
     let count = |index: f64| indices.iter().filter(|&&i| i == index).count();
     let irregular = field.irregular_vertices(&mesh).len();
-    assert!(irregular >= 96, "{irregular}");
+    assert_eq!(irregular, 96);
     assert_eq!(count(0.25), count(-0.25));
     assert_eq!(count(0.25) + count(-0.25), irregular);
 }

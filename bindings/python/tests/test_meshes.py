@@ -42,7 +42,7 @@ def test_lines_have_half_turns(cube):
 @pytest.mark.parametrize("symmetry", [1, 2, 4, 6])
 @pytest.mark.parametrize("name", ["gear", "genus-2", "plate-with-holes"])
 def test_indices_are_integers_over_n_that_sum_to_the_euler_characteristic(name, symmetry):
-    mesh = roundel.Mesh.shape(name, 1500)
+    mesh = roundel.Mesh.shape(name, 600)
     directed = {"align_boundary": False} if symmetry == 1 else {"features": 40}
     field = roundel.field(mesh, symmetry=symmetry, **directed)
     steps, loops = field.vertex_index_steps, field.boundary_index_steps
@@ -54,10 +54,10 @@ def test_indices_are_integers_over_n_that_sum_to_the_euler_characteristic(name, 
 
 
 def test_quarters_of_a_gear_can_be_counted():
-    mesh = roundel.Mesh.shape("gear", 8000)
+    mesh = roundel.Mesh.shape("gear", 3000)
     field = roundel.field(mesh, features=40)
     plus, minus = (np.count_nonzero(field.vertex_indices == index) for index in (0.25, -0.25))
-    assert plus == minus and plus + minus == len(field.irregular) >= 96
+    assert plus == minus and plus + minus == len(field.irregular) == 96
 
 
 def test_details_attract_no_irregular_vertices(cube):

@@ -154,7 +154,7 @@ fn a_model_is_the_mesh_with_a_cross_in_every_face_and_a_ball_at_every_irregular_
 
 #[test]
 fn balls_are_coloured_by_integers() {
-    let mesh = shape::by_name("gear", 8_000).unwrap();
+    let mesh = shape::by_name("gear", 3_000).unwrap();
     let features = FeatureGraph::by_angle(&mesh, 40f64.to_radians()).unwrap();
     let constraints = feature_constraints(&mesh, &features).unwrap();
     let problem = FieldProblem::new(&mesh, &constraints).unwrap();
