@@ -12,6 +12,7 @@ mod output;
 mod parametrize;
 mod progress;
 mod quad;
+mod refinement;
 mod report;
 mod shape;
 mod solve;

@@ -4,6 +4,7 @@ use roundel::map::Sizing;
 use serde::Serialize;
 
 use super::{Arguments, Solved};
+use crate::refinement::Refinement;
 use crate::report::Report;
 
 /// What `--json` prints of a map. Times and counts are those of the parametrization, but for
@@ -12,8 +13,11 @@ use crate::report::Report;
 pub struct MapReport<'a> {
     #[serde(flatten)]
     solve: Report<'a>,
+    /// Of the mesh of the map, which is the refined one where there is one.
     faces: usize,
     vertices: usize,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    refined: Option<Refinement>,
     /// The target number of quads; null if a length was given.
     quads: Option<usize>,
     edge_length: Option<f64>,
@@ -67,6 +71,7 @@ impl<'a> MapReport<'a> {
             ),
             faces: mesh.face_count(),
             vertices: mesh.vertex_count(),
+            refined: solved.refined,
             quads: match solved.sizing {
                 Sizing::Quads(quads) => Some(quads),
                 _ => None,

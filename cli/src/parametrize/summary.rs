@@ -15,7 +15,9 @@ impl fmt::Display for MapSummary<'_> {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         let Solved {
             options,
-            mesh,
+            given_faces,
+            mesh: _,
+            refined,
             field,
             sizing: _,
             features,
@@ -29,8 +31,15 @@ impl fmt::Display for MapSummary<'_> {
         } = self.solved;
         let map = &untangled.map;
         let (counts, seconds) = (solution.counts(), solution.seconds());
-        let read = counted(mesh.face_count(), "face");
+        let read = counted(*given_faces, "face");
         line(f, "read", &read, before.read)?;
+        if let Some(refined) = refined {
+            writeln!(
+                f,
+                "{:<10} {refined}: the map is on the refined mesh",
+                "refine"
+            )?;
+        }
         let irregular = counted_vertices(map.cones().len(), "irregular ");
         line(f, "field", &irregular, field.seconds)?;
         let mut assemble = format!(

@@ -8,6 +8,7 @@ use serde::Serialize;
 use super::Arguments;
 use super::faults::Faults;
 use super::steps::Solved;
+use crate::refinement::Refinement;
 use crate::report::{Preparation, Report};
 use crate::summary::{counted, thousands};
 
@@ -17,6 +18,8 @@ pub(super) struct QuadReport<'a> {
     #[serde(flatten)]
     solve: Report<'a>,
     faces: usize,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    refined: Option<Refinement>,
     field_irregular_vertices: usize,
     flipped_before: usize,
     flipped: usize,
@@ -153,6 +156,7 @@ impl<'a> QuadReport<'a> {
                 roundel::peak_memory(),
             ),
             faces: solved.mesh.face_count(),
+            refined: made.refined.as_ref().map(Refinement::new),
             field_irregular_vertices: made.untangled.map.cones().len(),
             flipped_before: made.untangled.flipped_before,
             flipped: made.untangled.flipped_after,
