@@ -12,7 +12,11 @@ mod output;
 mod parametrize;
 mod progress;
 mod quad;
+<<<<<<< HEAD
 mod repair;
+=======
+mod refinement;
+>>>>>>> refine
 mod report;
 mod shape;
 mod solve;

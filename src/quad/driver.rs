@@ -59,20 +59,34 @@ pub fn quadrangulate<'a>(
 ) -> Result<Quadrangulation> {
     options.sizing.check(mesh)?;
     let features = options.guidance.features(mesh)?;
-    let Some(input) = refined(mesh, &features, options)? else {
+    let mut seconds = 0.0;
+    let input = timed(&mut seconds, || refined(mesh, &features, options))?;
+    let Some(input) = input else {
         return of_mesh(mesh, features, options, &monitor);
     };
-    let smooth = options.smooth.as_ref().map(|given| SmoothOptions {
-        features: input.refined.parts_of(|edge| given.features.contains(&edge)),
-        ..given.clone()
-    });
+    let smooth = match &options.smooth {
+        Some(given) => {
+            let kept = FeatureGraph::from_edges(mesh, &given.features)?;
+            Some(SmoothOptions {
+                features: input.refined.parts_of(|edge| kept.contains(edge)),
+                ..given.clone()
+            })
+        }
+        None => None,
+    };
     let given = QuadOptions {
         guidance: input.guidance.clone(),
         sizing: input.sizing.clone(),
         smooth,
         ..options.clone()
     };
-    let made = of_mesh(&input.refined.mesh, input.features.clone(), &given, &monitor)?;
+    let mut made = of_mesh(
+        &input.refined.mesh,
+        input.features.clone(),
+        &given,
+        &monitor,
+    )?;
+    made.seconds.refine = seconds;
     Ok(input.result_for(mesh, made))
 }
 

@@ -47,6 +47,8 @@ impl Quadrangulation {
 /// Wall-clock seconds of each step.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct QuadSeconds {
+    /// Refinement, where the mesh needs it.
+    pub refine: f64,
     /// The field's problem and its solution.
     pub field: f64,
     /// The map's problem and its solution.

@@ -43,13 +43,15 @@ impl RefinedInput {
     /// `features` are edges besides those of the guidance.
     ///
     /// # Errors
-    /// Those of [`Guidance::features`] and of [`refine`].
+    /// Those of [`Guidance::features`] and of [`refine`](refine()), and those of a map for sizes that no map
+    /// can have.
     pub fn new(
         mesh: &TriangleMesh,
         guidance: &Guidance,
         features: &FeatureGraph,
         sizing: &Sizing,
     ) -> Result<Option<Self>> {
+        sizing.check(mesh)?;
         let edge_length = sizing.edge_length(mesh);
         let quads = mesh.surface_area() / (edge_length * edge_length);
         if needs_refinement(mesh, edge_length).is_none() || !is_in_range(mesh, guidance) {
@@ -101,7 +103,10 @@ impl RefinedInput {
             *origin = original_place(mesh, &refined, &tree, *origin);
         }
         quads.folded = {
-            let faces = quads.folded.iter().map(|&f| refined.face_origin[f] as usize);
+            let faces = quads
+                .folded
+                .iter()
+                .map(|&f| refined.face_origin[f] as usize);
             let mut faces: Vec<usize> = faces.collect();
             faces.sort_unstable();
             faces.dedup();

@@ -53,7 +53,12 @@ pub struct Arguments {
     #[arg(long)]
     pub no_untangle: bool,
 
-    /// Write the mesh with the coordinates of its corners to this file
+    /// Do not refine the mesh first where edges are longer than three edges of the quads or angles are
+    /// below 2 degrees. With a field from a file the mesh is never refined
+    #[arg(long)]
+    pub no_refine: bool,
+
+    /// Write the mesh, refined if it was, with the coordinates of its corners to this file
     #[arg(short, long, value_name = "UV.obj")]
     pub out: Option<PathBuf>,
 

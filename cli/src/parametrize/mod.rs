@@ -11,13 +11,14 @@ use std::time::Instant;
 use roundel::map::{SeamlessProblem, Sizing};
 use roundel::mesh::TriangleMesh;
 use roundel::problem::mps::{self, MpsProblem};
-use roundel::quad::{FoldFreeMap, solve_fold_free};
+use roundel::quad::{FoldFreeMap, RefinedInput, solve_fold_free};
 use roundel::untangle::{UntangleOptions, Untangled};
 use roundel::{Options, Result, Solution};
 
 use crate::exit::Exit;
 use crate::mesh::{Input, RepairCounts};
 use crate::progress::Progress;
+use crate::refinement::Refinement;
 use crate::report::Preparation;
 use crate::{interrupt, output};
 pub use arguments::Arguments;
@@ -35,8 +36,15 @@ pub fn run(arguments: &Arguments) -> Exit {
 /// A map, and how it was found.
 struct Solved {
     options: Options,
+    /// The number of faces of the mesh that was given.
+    given_faces: usize,
+    /// The mesh of the map: that which was given, or what it was refined to.
     mesh: TriangleMesh,
+<<<<<<< HEAD
     repair: RepairCounts,
+=======
+    refined: Option<Refinement>,
+>>>>>>> refine
     field: FieldSource,
     sizing: Sizing,
     /// Edges that are isolines.
@@ -67,6 +75,21 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
     let read = started.elapsed().as_secs_f64();
     let (guidance, features) = arguments.directions.of_map(&mesh)?;
     let sizing = arguments.sizing.of()?;
+    let given_faces = mesh.face_count();
+    let input = match arguments.field.is_some() || arguments.no_refine {
+        true => None,
+        false => RefinedInput::new(&mesh, &guidance, &features, &sizing)?,
+    };
+    let refined = input.as_ref().map(|input| Refinement::new(&input.refined));
+    let (mesh, guidance, features, sizing) = match input {
+        Some(input) => (
+            input.refined.mesh,
+            input.guidance,
+            input.features,
+            input.sizing,
+        ),
+        None => (mesh, guidance, features, sizing),
+    };
     let follows = (&guidance, &features, &sizing);
     let (field, source) = field::of(arguments, &mesh, follows, &options, monitor)?;
     let started = Instant::now();
@@ -107,8 +130,13 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
     }
     Ok(Solved {
         options,
+        given_faces,
         mesh,
+<<<<<<< HEAD
         repair,
+=======
+        refined,
+>>>>>>> refine
         field: source,
         sizing,
         features: features.edges().count(),

@@ -4,7 +4,11 @@ use roundel::map::Sizing;
 use serde::Serialize;
 
 use super::{Arguments, Solved};
+<<<<<<< HEAD
 use crate::mesh::RepairCounts;
+=======
+use crate::refinement::Refinement;
+>>>>>>> refine
 use crate::report::Report;
 
 /// What `--json` prints of a map. Times and counts are those of the parametrization, but for
@@ -13,9 +17,15 @@ use crate::report::Report;
 pub struct MapReport<'a> {
     #[serde(flatten)]
     solve: Report<'a>,
+<<<<<<< HEAD
     repair: &'a RepairCounts,
+=======
+    /// Of the mesh of the map, which is the refined one where there is one.
+>>>>>>> refine
     faces: usize,
     vertices: usize,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    refined: Option<Refinement>,
     /// The target number of quads; null if a length was given.
     quads: Option<usize>,
     edge_length: Option<f64>,
@@ -70,6 +80,7 @@ impl<'a> MapReport<'a> {
             repair: &solved.repair,
             faces: mesh.face_count(),
             vertices: mesh.vertex_count(),
+            refined: solved.refined,
             quads: match solved.sizing {
                 Sizing::Quads(quads) => Some(quads),
                 _ => None,

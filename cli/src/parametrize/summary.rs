@@ -15,8 +15,14 @@ impl fmt::Display for MapSummary<'_> {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         let Solved {
             options,
+<<<<<<< HEAD
             mesh,
             repair: _,
+=======
+            given_faces,
+            mesh: _,
+            refined,
+>>>>>>> refine
             field,
             sizing: _,
             features,
@@ -30,8 +36,15 @@ impl fmt::Display for MapSummary<'_> {
         } = self.solved;
         let map = &untangled.map;
         let (counts, seconds) = (solution.counts(), solution.seconds());
-        let read = counted(mesh.face_count(), "face");
+        let read = counted(*given_faces, "face");
         line(f, "read", &read, before.read)?;
+        if let Some(refined) = refined {
+            writeln!(
+                f,
+                "{:<10} {refined}: the map is on the refined mesh",
+                "refine"
+            )?;
+        }
         let irregular = counted_vertices(map.cones().len(), "irregular ");
         line(f, "field", &irregular, field.seconds)?;
         let mut assemble = format!(

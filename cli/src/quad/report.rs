@@ -8,7 +8,11 @@ use serde::Serialize;
 use super::Arguments;
 use super::faults::Faults;
 use super::steps::Solved;
+<<<<<<< HEAD
 use crate::mesh::RepairCounts;
+=======
+use crate::refinement::Refinement;
+>>>>>>> refine
 use crate::report::{Preparation, Report};
 use crate::summary::{counted, thousands};
 
@@ -19,6 +23,8 @@ pub(super) struct QuadReport<'a> {
     solve: Report<'a>,
     repair: &'a RepairCounts,
     faces: usize,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    refined: Option<Refinement>,
     field_irregular_vertices: usize,
     flipped_before: usize,
     flipped: usize,
@@ -156,6 +162,7 @@ impl<'a> QuadReport<'a> {
             ),
             repair: &solved.repair,
             faces: solved.mesh.face_count(),
+            refined: made.refined.as_ref().map(Refinement::new),
             field_irregular_vertices: made.untangled.map.cones().len(),
             flipped_before: made.untangled.flipped_before,
             flipped: made.untangled.flipped_after,

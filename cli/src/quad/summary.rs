@@ -4,6 +4,7 @@ use std::fmt;
 
 use super::steps::Solved;
 use super::{Arguments, words};
+use crate::refinement::Refinement;
 use crate::summary::{counted, counted_vertices, energy, line, verdict};
 
 /// Lines for the field, the map and the quads.
@@ -18,6 +19,10 @@ impl fmt::Display for QuadSummary<'_> {
         let (made, seconds) = (&solved.made, solved.made.seconds);
         let read = counted(solved.mesh.face_count(), "face");
         line(f, "read", &read, solved.read_seconds)?;
+        if let Some(refined) = &made.refined {
+            let seconds = seconds.refine;
+            line(f, "refine", &Refinement::new(refined).to_string(), seconds)?;
+        }
         let irregular = counted_vertices(made.untangled.map.cones().len(), "irregular ");
         line(f, "field", &irregular, seconds.field)?;
         let map = format!(

@@ -41,6 +41,9 @@ struct QuadOptions {
     /// 1: also try fields that follow curvature less than the guidance says, and keep the field
     /// whose map is least distorted. In [0, 1]; 1 by default.
     std::optional<bool> vary_curvature = std::nullopt;
+    /// 1: refine the mesh first where edges are longer than three edges of the quads or angles are
+    /// below 2 degrees. In [0, 1]; 1 by default.
+    std::optional<bool> refine = std::nullopt;
     /// 1: untangle the map if its folds keep extraction from making quads. In [0, 1]; 1 by default.
     std::optional<bool> untangle = std::nullopt;
     /// The number of times that untangling first stiffens the surroundings of folded triangles. In
@@ -79,6 +82,10 @@ struct QuadOptions {
     }
     QuadOptions& set_vary_curvature(bool value) {
         vary_curvature = value;
+        return *this;
+    }
+    QuadOptions& set_refine(bool value) {
+        refine = value;
         return *this;
     }
     QuadOptions& set_untangle(bool value) {
@@ -289,6 +296,9 @@ template <class Tell> bool each_quad_option(const QuadOptions& options, const Te
         return false;
     }
     if (options.vary_curvature && !tell("vary_curvature", *options.vary_curvature)) {
+        return false;
+    }
+    if (options.refine && !tell("refine", *options.refine)) {
         return false;
     }
     if (options.untangle && !tell("untangle", *options.untangle)) {

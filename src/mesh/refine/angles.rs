@@ -6,8 +6,8 @@
 use super::queue::{smallest_angle, squared_length};
 use super::working_mesh::WorkingMesh;
 use crate::mesh::connectivity::NONE;
-use crate::mesh::vector::{Vec3, add, scale};
 use crate::mesh::orientation;
+use crate::mesh::vector::{Vec3, add, scale};
 
 /// The most triangles on the way to a circumcenter.
 const STEPS: usize = 1000;
@@ -33,16 +33,32 @@ impl WorkingMesh<'_> {
         };
         match self.way_to(face, q) {
             Some(Way::Held(half)) => self.split_held(half, shortest),
-            Some(Way::Face(found)) => match self.encroached(found, q) {
-                Some(half) => self.split_held(half, shortest),
-                None => {
-                    let p = self.point_of(found, q);
-                    let (p, on) = self.on_the_surface(found, p);
-                    self.split_face(found, p, on)
+            Some(Way::Face(found)) => {
+                let encroached = self.encroached(face, q);
+                match encroached.or_else(|| self.encroached(found, q)) {
+                    Some(half) => self.split_held(half, shortest),
+                    None => self.insert(found, q),
                 }
-            },
+            }
             None => false,
         }
+    }
+
+    /// Puts a vertex at a point of a face or, if the point is on one of its edges as the circumcenter of a
+    /// right triangle is, in the middle of that edge.
+    fn insert(&mut self, face: u32, q: [f64; 2]) -> bool {
+        let p = self.point_of(face, q);
+        let (p, on) = self.on_the_surface(face, p);
+        if self.split_face(face, p, on) {
+            return true;
+        }
+        let area = |half: u32| {
+            let [a, b] = self.in_plane(self.region(face), self.ends(half));
+            orientation([a, b, q])
+        };
+        let edges = (3 * face..3 * face + 3).filter(|&half| !self.is_held(half));
+        let nearest = edges.min_by(|&a, &b| area(a).total_cmp(&area(b)));
+        nearest.is_some_and(|half| self.split_in_the_middle(half))
     }
 
     fn split_held(&mut self, half: u32, shortest: f64) -> bool {

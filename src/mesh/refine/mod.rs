@@ -4,7 +4,7 @@
 //! fans of needles for the caps of a cylinder. An orientation field has one direction for each triangle, and
 //! a map is linear on it, so that neither means much there.
 //!
-//! Faces that lie in one plane are grouped into regions ([`flat`](self)). Within a region edges may be
+//! Faces that lie in one plane are grouped into regions. Within a region edges may be
 //! flipped; all other edges are held and can only be split. Edges that are too long are split at their
 //! midpoint, the longest first, and Delaunay flips follow (`lawson1977`). Angles that are too small are
 //! removed by Delaunay refinement (`chew1993`, `ruppert1995`): a vertex is put at the circumcenter of the

@@ -54,7 +54,10 @@ impl Queue {
         };
         let at_fault: Vec<u32> = faces.filter(is_at_fault).collect();
         work.changed.extend_from_slice(&at_fault);
-        let edges = at_fault.iter().rev().flat_map(|face| 3 * face..3 * face + 3);
+        let edges = at_fault
+            .iter()
+            .rev()
+            .flat_map(|face| 3 * face..3 * face + 3);
         work.flip_to_delaunay(edges.collect());
         queue
     }

@@ -112,7 +112,11 @@ impl<'a> WorkingMesh<'a> {
 
     /// Whether an edge joins the tail of a half-edge to a vertex.
     fn is_joined(&self, half: u32, to: u32) -> bool {
-        let reaches = |h: u32| [next(h), previous(h)].into_iter().any(|e| self.tail(e) == to);
+        let reaches = |h: u32| {
+            [next(h), previous(h)]
+                .into_iter()
+                .any(|e| self.tail(e) == to)
+        };
         self.around(half).any(reaches)
     }
 
@@ -161,8 +165,7 @@ impl<'a> WorkingMesh<'a> {
         let other = self.twin[half as usize];
         for side in [half, other].into_iter().filter(|&side| side != NONE) {
             let region = self.region(side / 3);
-            let [a, b, c] =
-                [side, next(side), previous(side)].map(|h| self.position(self.tail(h)));
+            let [a, b, c] = [side, next(side), previous(side)].map(|h| self.position(self.tail(h)));
             if !self.is_sound(region, [a, p, c]) || !self.is_sound(region, [p, b, c]) {
                 return false;
             }
@@ -203,11 +206,7 @@ impl<'a> WorkingMesh<'a> {
         let [a, b, c] = self.triangles[face as usize];
         let region = self.region(face);
         let at = |v: u32| self.position(v);
-        let parts = [
-            [at(a), at(b), p],
-            [at(b), at(c), p],
-            [at(c), at(a), p],
-        ];
+        let parts = [[at(a), at(b), p], [at(b), at(c), p], [at(c), at(a), p]];
         if parts.iter().any(|&part| !self.is_sound(region, part)) {
             return false;
         }
