@@ -63,17 +63,30 @@ fn a_disk_without_inner_vertices_has_quads() {
     hold(&mesh(&points, &triangles), 300);
 }
 
-#[test]
-fn a_tetrahedron_of_slivers_has_quads() {
+/// A tetrahedron of this width and of length 1.
+fn rod(width: f64) -> TriangleMesh {
     let points = [
         [0.0, 0.0, 0.0],
         [1.0, 0.0, 0.0],
-        [0.5, 1e-4, 0.0],
-        [0.5, 0.0, 1e-4],
+        [0.5, width, 0.0],
+        [0.5, 0.0, width],
     ];
-    let mesh = mesh(&points, &[[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]]);
-    let made = quads(&mesh, 12, true);
-    assert!(!made.quads.quads.is_empty());
+    mesh(&points, &[[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])
+}
+
+#[test]
+fn a_tetrahedron_of_slivers_has_quads() {
+    assert!(quads(&rod(0.02), 12, true).quads.is_conforming());
+}
+
+#[test]
+fn a_rod_far_thinner_than_its_quads_is_an_error_that_says_so() {
+    let options = QuadOptions {
+        sizing: Sizing::Quads(12),
+        ..QuadOptions::default()
+    };
+    let error = quadrangulate(&rod(1e-4), &options, Monitor::default).unwrap_err();
+    assert!(error.to_string().contains("no quads fit"), "{error}");
 }
 
 #[test]
