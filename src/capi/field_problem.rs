@@ -31,8 +31,7 @@ fn stated(mesh: &TriangleMesh, guidance: &Guidance) -> Result<(FieldProblem, Fea
 /// ROUNDEL_ERROR_NOT_FINITE, and ROUNDEL_ERROR_INVALID_ARGUMENT for an element that is named twice, two
 /// vertices that no edge joins, a negative weight or an index at the boundary. The error's index is then
 /// the position in the list. Also fails with ROUNDEL_ERROR_INVALID_ARGUMENT for indices that do not sum
-/// to the Euler characteristic, and, with the face, for a face whose three edges are features. Other
-/// failures are those of roundel_problem_solve.
+/// to the Euler characteristic. Other failures are those of roundel_problem_solve.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_field_solve(
     mesh: *const roundel_mesh,

@@ -32,9 +32,8 @@ pub fn feature_constraints(
     let mut along = vec![None; mesh.face_count()];
     for (face, along) in along.iter_mut().enumerate() {
         let sides = (0..3).filter(|&k| features.contains(mesh.edge_of(face, k)));
-        match sides.collect::<Vec<_>>()[..] {
-            [k] => *along = Some(mesh.edge_angle(face, k)),
-            _ => {}
+        if let [k] = sides.collect::<Vec<_>>()[..] {
+            *along = Some(mesh.edge_angle(face, k));
         }
     }
     let mut turned = vec![None; mesh.face_count()];
@@ -127,4 +126,21 @@ fn wedges(mesh: &TriangleMesh, features: &FeatureGraph, vertex: usize) -> Vec<We
         }
     }
     wedges
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_face_between_three_features_follows_its_two_shortest() {
+        let points = vec![[0.0; 3], [2.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+        let mesh = TriangleMesh::new(points, vec![[0, 1, 2]]).unwrap();
+        let constraints = feature_constraints(&mesh, &FeatureGraph::boundary(&mesh)).unwrap();
+        let [Constraint { face: 0, angle }] = constraints[..] else {
+            panic!("{constraints:?}");
+        };
+        let quarters = angle / FRAC_PI_2;
+        assert!((quarters - quarters.round()).abs() < 1e-12, "{angle}");
+    }
 }

@@ -72,15 +72,11 @@ impl Guidance {
         if self.align_boundary && self.symmetry != 1 {
             features = features.with(mesh, &FeatureGraph::boundary(mesh))?;
         }
-        let features = match self.feature_angle.filter(|&angle| angle != 0.0) {
-            Some(angle) if self.symmetry == 4 => features.with_sharp(mesh, angle)?,
-            Some(angle) => features.with(mesh, &FeatureGraph::by_angle(mesh, angle)?)?,
-            None => features,
-        };
-        Ok(match self.symmetry {
-            4 => features.with_two_of_each_face(mesh),
-            _ => features,
-        })
+        match self.feature_angle.filter(|&angle| angle != 0.0) {
+            Some(angle) if self.symmetry == 4 => features.with_sharp(mesh, angle),
+            Some(angle) => features.with(mesh, &FeatureGraph::by_angle(mesh, angle)?),
+            None => Ok(features),
+        }
     }
 
     /// The options of a field that follows these features, for a field on its own.

@@ -84,7 +84,8 @@ impl SeamlessProblem {
 
     /// The problem for a mesh, a field on it, the size of quads, and the edges that are to be
     /// isolines, which the field should follow
-    /// ([`feature_constraints`](crate::field::feature_constraints)).
+    /// ([`feature_constraints`](crate::field::feature_constraints)). Of three around one face, the longest
+    /// is left out.
     ///
     /// # Errors
     /// [`Error::LengthMismatch`] for field, sizes or features of another mesh,
@@ -100,6 +101,7 @@ impl SeamlessProblem {
         let density = Density::new(mesh, sizing)?;
         field.check_mesh(mesh)?;
         features.check_mesh(mesh)?;
+        let features = &features.with_two_of_each_face(mesh);
         if field.symmetry() != 4 {
             return Err(Error::InvalidArgument {
                 what: format!(

@@ -6,8 +6,9 @@
 //! field       the one of several whose map has the least distorted relaxation
 //! map         integers are decided; feature curves that they put on one line are separated
 //! quads       are extracted from the map
-//! next try    while quads have holes or miss features: untangle the map; separate collapsed cones;
-//!             do not separate feature curves; use a field that sees fewer details
+//! next try    while quads have holes or miss features: smaller quads on small parts that have lost
+//!             theirs; untangle the map; separate collapsed cones; do not separate feature curves;
+//!             use a field that sees fewer details
 //! smoothing
 //! ```
 //!
@@ -25,9 +26,11 @@ use super::missed::missed;
 use super::options::QuadOptions;
 use super::quadrangulation::timed;
 use super::refined_input::RefinedInput;
+use super::smaller::{SIZES, smaller_quads};
 use super::{QuadSeconds, Quadrangulation};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::field::FieldProblem;
+use crate::map::Sizing;
 use crate::mesh::TriangleMesh;
 use crate::mesh::features::FeatureGraph;
 use crate::monitor::Monitor;
@@ -40,16 +43,26 @@ use crate::untangle::Untangled;
 /// vertices of their own; fewer irregular vertices cause fewer folds.
 const DETAILS: [f64; 3] = [0.25, 1.0, 2.0];
 
+/// The most passes over the mesh of all untangling together: a mesh where folds cannot be removed, as
+/// around holes smaller than a quad, takes no longer than a few that untangle.
+const PASSES: usize = 240;
+
+/// Meshes of more faces have as many visits of faces in all, and so fewer passes.
+const FACES: usize = 20_000;
+
 /// Turns a mesh into quads. `monitor` makes one watcher for each step.
 ///
 /// [`is_conforming`](crate::extract::QuadMesh::is_conforming) tells whether the result consists of quads
 /// only. Features that rounding puts on one line are separated if the quads then conform. Extraction
 /// copes with nearly all folds. Untangling is tried only if its quads do not conform, and the result is
 /// kept if its quads conform or need fewer repairs. If the quads still do not conform, and the options
-/// give no size of details, the field is solved for again with larger details excluded.
+/// give no size of details, the field is solved for again with larger details excluded. Small parts of the
+/// mesh that are lost get smaller quads, and so does a mesh without any quads
+/// ([`Sizing::Lengths`]).
 ///
 /// # Errors
-/// Those of [`solve_field`](crate::field::solve_field), [`solve`](crate::solve()),
+/// [`Error::InvalidArgument`] if there are no quads of any size that was tried. Otherwise
+/// those of [`solve_field`](crate::field::solve_field), [`solve`](crate::solve()),
 /// [`SeamlessProblem::with_features`](crate::map::SeamlessProblem::with_features),
 /// [`untangle`](crate::untangle::untangle), [`extract`](crate::extract) and [`smooth`].
 pub fn quadrangulate<'a>(
@@ -64,6 +77,7 @@ pub fn quadrangulate<'a>(
     let Some(input) = input else {
         return of_mesh(mesh, features, options, &monitor);
     };
+<<<<<<< HEAD
     let smooth = match &options.smooth {
         Some(given) => {
             let kept = FeatureGraph::from_edges(mesh, &given.features)?;
@@ -74,19 +88,34 @@ pub fn quadrangulate<'a>(
         }
         None => None,
     };
+=======
+    let smooth = options.smooth.as_ref().map(|given| SmoothOptions {
+        features: input
+            .refined
+            .parts_of(|edge| given.features.contains(&edge)),
+        ..given.clone()
+    });
+>>>>>>> door
     let given = QuadOptions {
         guidance: input.guidance.clone(),
         sizing: input.sizing.clone(),
         smooth,
         ..options.clone()
     };
+<<<<<<< HEAD
     let mut made = of_mesh(
+=======
+    let made = of_mesh(
+>>>>>>> door
         &input.refined.mesh,
         input.features.clone(),
         &given,
         &monitor,
     )?;
+<<<<<<< HEAD
     made.seconds.refine = seconds;
+=======
+>>>>>>> door
     Ok(input.result_for(mesh, made))
 }
 
@@ -114,9 +143,15 @@ fn of_mesh<'a>(
     options: &QuadOptions,
     monitor: &impl Fn() -> Monitor<'a>,
 ) -> Result<Quadrangulation> {
+    let features = features.with_two_of_each_face(mesh);
+    let most = PASSES * mesh.face_count().min(FACES);
     let mut driver = Driver {
         mesh,
         options,
+        sizing: options.sizing.clone(),
+        sizes: 0,
+        details: 0,
+        visits: most,
         features,
         monitor,
         started: Instant::now(),
@@ -124,22 +159,37 @@ fn of_mesh<'a>(
         seconds: QuadSeconds::default(),
     };
     let mut best = driver.follow()?;
-    let mut last = Try::LessDetail;
+    let mut last = Try::SmallerQuads;
     while let Some(next) = driver.next(last, &best) {
         let found = match next {
-            Try::Untangled => {
-                let map = driver.at_hand().untangled()?;
-                Some(driver.quads(map)?)
-            }
-            Try::ConesApart => match driver.at_hand().cones_apart()? {
-                Some(map) => Some(driver.quads(map)?),
+            Try::SmallerQuads => match driver.smaller(&best) {
+                Some(sizing) => {
+                    driver.sizing = sizing;
+                    driver.sizes += 1;
+                    Some(driver.follow()?)
+                }
                 None => None,
             },
+            Try::Untangled => {
+                let passes = driver.passes();
+                let map = driver.at_hand().untangled(passes)?;
+                Some(driver.quads(map)?)
+            }
+            Try::ConesApart => {
+                let passes = driver.passes();
+                match driver.at_hand().cones_apart(passes)? {
+                    Some(map) => Some(driver.quads(map)?),
+                    None => None,
+                }
+            }
             Try::FeaturesAsRounded => {
                 driver.at_hand().forget_separation();
                 Some(driver.as_solved()?)
             }
-            Try::LessDetail => Some(driver.follow()?),
+            Try::LessDetail => {
+                driver.details += 1;
+                Some(driver.follow()?)
+            }
         };
         if let Some(found) = found
             && found.outcome < best.outcome
@@ -151,9 +201,12 @@ fn of_mesh<'a>(
     driver.finish(best)
 }
 
-/// The tries, in this order; the first two follow again after each of the last two.
+/// The tries, in this order; untangling and the separation of cones follow again after each of the last
+/// two.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Try {
+    /// Use smaller quads on parts of the mesh that have lost theirs.
+    SmallerQuads,
     /// Untangle the current map, with the integers fixed.
     Untangled,
     /// Separate the cones of the current map and untangle it.
@@ -168,10 +221,18 @@ enum Try {
 struct Driver<'a, M> {
     mesh: &'a TriangleMesh,
     options: &'a QuadOptions,
+    /// The current size of the quads.
+    sizing: Sizing,
+    /// How often it was changed.
+    sizes: usize,
+    /// The place in [`DETAILS`] of the next field.
+    details: usize,
+    /// The faces that untangling may still visit.
+    visits: usize,
     features: FeatureGraph,
     monitor: &'a M,
     started: Instant,
-    /// One for each size of details that was tried.
+    /// One for each size of quads or details that was tried.
     fields: Vec<FieldMap<'a, M>>,
     seconds: QuadSeconds,
 }
@@ -182,16 +243,21 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Driver<'a, M> {
         let at_hand = self.fields.last()?;
         match last {
             _ if best.outcome.is_whole() => None,
-            Try::LessDetail | Try::FeaturesAsRounded
-                if self.options.untangle && !at_hand.is_hopeless(self.mesh) =>
+            Try::SmallerQuads if self.smaller(best).is_some() => Some(Try::SmallerQuads),
+            Try::SmallerQuads | Try::LessDetail | Try::FeaturesAsRounded
+                if self.options.untangle
+                    && self.passes() > 0
+                    && !at_hand.is_hopeless(self.mesh) =>
             {
                 Some(Try::Untangled)
             }
-            Try::Untangled if at_hand.may_decide_anew() => Some(Try::ConesApart),
+            Try::Untangled if self.passes() > 0 && at_hand.may_decide_anew() => {
+                Some(Try::ConesApart)
+            }
             _ if at_hand.holds_features_apart() => Some(Try::FeaturesAsRounded),
             _ => {
                 let may_see_less = self.options.guidance.detail.is_none()
-                    && self.fields.len() < DETAILS.len()
+                    && self.details + 1 < DETAILS.len()
                     && !best.outcome.conforms()
                     && !is_hopeless(self.mesh, &best.map.map);
                 may_see_less.then_some(Try::LessDetail)
@@ -201,12 +267,28 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Driver<'a, M> {
 
     /// The quads of the next field and its map.
     fn follow(&mut self) -> Result<Attempt> {
-        let (mesh, given) = (self.mesh, self.options);
-        let detail = DETAILS[self.fields.len()] * given.sizing.edge_length(mesh);
+        let (mesh, of_map) = (self.mesh, &self.options.map);
+        let given = QuadOptions {
+            sizing: self.sizing.clone(),
+            ..self.options.clone()
+        };
+        let detail = DETAILS[self.details] * given.sizing.edge_length(mesh);
         let of_both = [&mut self.seconds.field, &mut self.seconds.map];
-        let next = FieldMap::new(mesh, given, &self.features, detail, self.monitor, of_both)?;
+        let (features, monitor) = (&self.features, self.monitor);
+        let next = FieldMap::new(mesh, &given, of_map, features, detail, monitor, of_both)?;
         self.fields.push(next);
         self.as_solved()
+    }
+
+    /// Smaller quads for the parts that have lost theirs, if that may help.
+    fn smaller(&self, best: &Attempt) -> Option<Sizing> {
+        let may_change = self.sizes < SIZES && !best.outcome.conforms();
+        may_change.then(|| smaller_quads(self.mesh, &self.sizing, &best.quads))?
+    }
+
+    /// The passes over the mesh that untangling may still make.
+    fn passes(&self) -> usize {
+        self.visits / self.mesh.face_count()
     }
 
     /// The quads of the current map as it is.
@@ -217,7 +299,8 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Driver<'a, M> {
         Ok(found)
     }
 
-    fn quads(&self, (solution, map): (Solution, Untangled)) -> Result<Attempt> {
+    fn quads(&mut self, (solution, map): (Solution, Untangled)) -> Result<Attempt> {
+        self.visits = self.visits.saturating_sub(map.visited);
         let field = self.fields.len() - 1;
         let features: Vec<usize> = self.features.edges().collect();
         let monitor = (self.monitor)();
@@ -238,6 +321,12 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Driver<'a, M> {
         let followed = self.fields.swap_remove(best.field);
         let features: Vec<usize> = self.features.edges().collect();
         let (mut quads, mut missed_features) = (best.quads, best.missed);
+        if quads.faces().next().is_none() {
+            return Err(Error::InvalidArgument {
+                what: "no quads fit on this surface, nor did smaller ones: ask for more of them, or remesh it".into(),
+                index: None,
+            });
+        }
         if let Some(given) = &options.smooth {
             timed(&mut seconds.smooth, || {
                 let given = SmoothOptions {

@@ -12,7 +12,7 @@ use crate::field::{FieldOptions, Guidance, OrientationField};
 use crate::mesh::TriangleMesh;
 use crate::mesh::features::FeatureGraph;
 use crate::monitor::Monitor;
-use crate::search::Strategy;
+use crate::search::{Options, Strategy};
 use crate::solve::Solution;
 use crate::untangle::{UntangleOptions, Untangled};
 
@@ -41,10 +41,11 @@ pub(super) struct FieldMap<'a, M> {
 
 impl<'a, 'm, M: Fn() -> Monitor<'m>> FieldMap<'a, M> {
     /// The field that sees no details smaller than this, unless the guidance says otherwise, and its map
-    /// with feature curves separated. The times of fields and maps are added to `seconds`.
+    /// with feature curves separated, whose integers `of_map_solve` decides. The times of fields and maps are added to `seconds`.
     pub(super) fn new(
         mesh: &'a TriangleMesh,
-        given: &'a QuadOptions,
+        given: &QuadOptions,
+        of_map_solve: &'a Options,
         features: &FeatureGraph,
         detail: f64,
         monitor: &'a M,
@@ -59,7 +60,7 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> FieldMap<'a, M> {
         };
         let chosen = choose_field(mesh, &options, features, monitor, [of_field, of_map])?;
         let problem = Cow::Owned(chosen.problem);
-        let mut maps = MapSolver::new(mesh, problem, chosen.solver, &given.map, monitor);
+        let mut maps = MapSolver::new(mesh, problem, chosen.solver, of_map_solve, monitor);
         let (at_hand, features_as_rounded) = timed(of_map, || {
             let first = maps.solve()?;
             if is_hopeless(mesh, &first.map) {
@@ -84,7 +85,7 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> FieldMap<'a, M> {
                 stiffenings: given.stiffenings,
                 ..UntangleOptions::default()
             },
-            is_relaxed: given.map.strategy == Strategy::Relax,
+            is_relaxed: of_map_solve.strategy == Strategy::Relax,
         })
     }
 
@@ -128,21 +129,29 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> FieldMap<'a, M> {
         Ok((solution.clone(), map))
     }
 
-    /// The current map untangled, with the integers fixed.
-    pub(super) fn untangled(&mut self) -> Result<(Solution, Untangled)> {
+    /// The current map untangled, with the integers fixed, in at most this many passes over the mesh.
+    pub(super) fn untangled(&mut self, passes: usize) -> Result<(Solution, Untangled)> {
         let Solved { solution, map } = &self.at_hand;
-        let map = self.maps.untangle(map, &self.effort)?;
+        let map = self.maps.untangle(map, &self.within(passes))?;
         Ok((solution.clone(), map))
     }
 
-    /// The current map with its cones separated, then untangled; `None` if no constraints separate them.
-    pub(super) fn cones_apart(&mut self) -> Result<Option<(Solution, Untangled)>> {
+    fn within(&self, passes: usize) -> UntangleOptions {
+        UntangleOptions {
+            passes: self.effort.passes.min(passes),
+            ..self.effort
+        }
+    }
+
+    /// The current map with its cones separated, then untangled in at most this many passes over the
+    /// mesh; `None` if no constraints separate them.
+    pub(super) fn cones_apart(&mut self, passes: usize) -> Result<Option<(Solution, Untangled)>> {
         let rounds = self.effort.rounds;
         let separated = self.maps.separate_cones(&self.at_hand, rounds)?;
         let Some(Solved { solution, map }) = separated.better else {
             return Ok(None);
         };
-        let map = self.maps.untangle(&map, &self.effort)?;
+        let map = self.maps.untangle(&map, &self.within(passes))?;
         Ok(Some((solution, map)))
     }
 }

@@ -9,6 +9,7 @@
 //! | the choice of the field | `fields`, `aim` |
 //! | repeated solves of a map's problem | `map_solver` |
 //! | the quads of one map | `attempt`, `missed` |
+//! | smaller quads where there are none | `smaller` |
 //! | the ordering of results | `outcome` |
 
 mod aim;
@@ -24,6 +25,7 @@ mod options;
 mod outcome;
 mod quadrangulation;
 mod refined_input;
+mod smaller;
 
 pub use compare::Compared;
 pub use driver::quadrangulate;

@@ -3,22 +3,75 @@
 //! For each corner of a poor quad a few places are tried: towards the mean of its neighbours, towards the
 //! targets of its quads, and along its edges and diagonals. The corner moves to the place where the worst of
 //! its quads is best, if that is an improvement.
+//!
+//! Three corners of a quad may lie on one straight boundary or crease. No motion along it makes such a quad
+//! convex, so a corner of a quad that is still inverted may leave the surface by a part of an edge.
 
 use super::quality::scaled_jacobian;
 use super::square;
 use super::surface::Surface;
 use crate::extract::QuadMesh;
-use crate::mesh::vector::{Vec3, add, scale, sub};
+use crate::mesh::vector::{Vec3, add, cross, norm, normalize, scale, sub};
 
 /// Quads with a scaled Jacobian below this are improved.
 const POOR: f64 = 0.5;
 
+/// The least improvement for which a vertex moves.
+const GAIN: f64 = 1e-3;
+
 /// The most passes over all poor quads.
 const ROUNDS: usize = 20;
 
-/// Improves poor quads until no vertex moves.
+/// Quads with a scaled Jacobian of at most this count as inverted: a rounding of the vertices makes them so.
+const INVERTED: f64 = 1e-3;
+
+/// How far a corner of an inverted quad may leave the surface, in the mean edge of the quad: more only if
+/// less does not suffice.
+const LEAVES: [f64; 4] = [0.02, 0.05, 0.1, 0.2];
+
+/// Improves poor quads until no vertex moves, on the surface, and then inverted ones off it.
 pub(super) fn mend(quads: &mut QuadMesh, surface: &mut Surface) {
     let around = quads.around();
+    mend_on(quads, surface, &around);
+    for part in LEAVES {
+        for q in 0..quads.quads.len() {
+            if quality(quads, q) <= INVERTED {
+                leave(quads, q, part, &around);
+            }
+        }
+    }
+}
+
+/// Moves the corner of a quad, off the surface, for which the worst quad around it becomes best.
+fn leave(quads: &mut QuadMesh, quad: usize, part: f64, around: &[Vec<u32>]) {
+    let vertices = quads.quads[quad].map(|v| v as usize);
+    let corners = vertices.map(|v| quads.vertices[v]);
+    let edge = |k: usize| norm(sub(corners[(k + 1) % 4], corners[k]));
+    let reach = part * 0.25 * (0..4).map(edge).sum::<f64>();
+    let mut best: Option<(f64, usize, Vec3)> = None;
+    for (k, &v) in vertices.iter().enumerate() {
+        let before = worst(quads, &around[v]);
+        let arms = [1, 2, 3].map(|turn| sub(corners[k], corners[(k + turn) % 4]));
+        let sides = [cross(arms[0], arms[1]), cross(arms[1], arms[2])];
+        for direction in arms.into_iter().chain(sides).map(normalize) {
+            for step in [reach, -reach] {
+                let place = add(corners[k], scale(direction, step));
+                quads.vertices[v] = place;
+                let found = worst(quads, &around[v]);
+                if found > before + GAIN && best.is_none_or(|(most, ..)| found > most) {
+                    best = Some((found, v, place));
+                }
+            }
+        }
+        quads.vertices[v] = corners[k];
+    }
+    if let Some((_, v, place)) = best {
+        quads.vertices[v] = place;
+    }
+}
+
+/// Improves poor quads on the surface.
+fn mend_on(quads: &mut QuadMesh, surface: &mut Surface, around: &[Vec<u32>]) {
     for _ in 0..ROUNDS {
         let mut is_better = false;
         for q in 0..quads.quads.len() {
@@ -46,8 +99,6 @@ fn worst(quads: &QuadMesh, around: &[u32]) -> f64 {
 
 /// Moves a vertex to the best of the places tried. Returns whether it moved.
 fn improve(quads: &mut QuadMesh, surface: &mut Surface, v: usize, around: &[u32]) -> bool {
-    /// The least improvement for which a vertex moves.
-    const GAIN: f64 = 1e-3;
     let before = quads.vertices[v];
     let mut best = (worst(quads, around) + GAIN, before);
     for place in places(quads, v, around) {
@@ -92,4 +143,31 @@ fn places(quads: &QuadMesh, v: usize, around: &[u32]) -> Vec<Vec3> {
         places.extend([0.25, 0.08, -0.08, -0.25].map(|part| add(here, scale(arm, part))));
     }
     places
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_quad_with_three_corners_on_a_straight_boundary_becomes_convex() {
+        // Corner 1 is straight: the quad is a triangle until it leaves the line.
+        let mut quads = QuadMesh {
+            vertices: vec![[0.0; 3], [1.0, 0.0, 0.0], [2.0, 0.0, 0.0], [1.0, 1.0, 0.0]],
+            origins: Vec::new(),
+            quads: vec![[0, 1, 2, 3]],
+            others: Vec::new(),
+            partial_cells: 0,
+            folds_removed: 0,
+            repaired: 0,
+            folded: Vec::new(),
+            expected_euler: 1,
+        };
+        let around = quads.around();
+        assert_eq!(quality(&quads, 0), 0.0);
+        leave(&mut quads, 0, LEAVES[0], &around);
+        assert!(quality(&quads, 0) > 0.02);
+        let lengths = quads.vertices.iter().map(|p| p[1].abs());
+        assert!(lengths.filter(|y| *y > 0.0 && *y < 0.05).count() <= 1);
+    }
 }

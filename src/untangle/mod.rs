@@ -109,6 +109,8 @@ pub struct Untangled {
     pub winding_defects: Vec<usize>,
     /// Newton steps, over all regions.
     pub steps: usize,
+    /// The faces that these steps visited, which [`UntangleOptions::passes`] limits.
+    pub(crate) visited: usize,
     /// Flipped faces that no motion can unfold, because integers fix all their corners.
     pub stuck_faces: Vec<usize>,
     /// Edges of flipped faces that integers collapse: both ends are cones at one point.
@@ -138,6 +140,7 @@ impl Untangled {
             flipped_stiffened: flipped,
             flipped_after: flipped,
             steps: 0,
+            visited: 0,
             stuck_faces: Vec::new(),
             collapsed_edges: Vec::new(),
         })
@@ -234,6 +237,7 @@ impl Structure {
             winding_defects: work.winding_defects(),
             flipped_after: left.len(),
             steps: work.steps,
+            visited: options.passes.saturating_mul(mesh.face_count()) - work.budget,
             map: SeamlessMap::new(problem, mesh, &work.values)?,
         })
     }

@@ -1,0 +1,167 @@
+//! Smaller quads for parts of a mesh that have lost theirs.
+//!
+//! A component smaller than a few quads may round to nothing, or to quads of another topology. The quads of
+//! such components get shorter edges, and all others keep theirs. That is bounded: the shorter edges may add
+//! as many quads as were wanted in all, unless there are no quads whatsoever.
+
+use crate::extract::{Origin, QuadMesh};
+use crate::map::Sizing;
+use crate::mesh::TriangleMesh;
+
+/// The most times that sizes change.
+pub(super) const SIZES: usize = 4;
+
+/// The factor of an edge.
+const SHORTER: f64 = 0.5;
+
+/// The least number of quads that a component has room for once its quads were lost.
+const LEAST: f64 = 8.0;
+
+/// The sizes with shorter edges where components have no quads, or quads of another Euler characteristic or
+/// with holes; `None` if there are no such components, or too large ones.
+pub(super) fn smaller_quads(
+    mesh: &TriangleMesh,
+    sizing: &Sizing,
+    quads: &QuadMesh,
+) -> Option<Sizing> {
+    let components = mesh.components();
+    let of_face: Vec<usize> = components.of_face.iter().map(|&c| c as usize).collect();
+    let is_lost = lost(mesh, quads, &of_face, components.count);
+    let lengths: Vec<[f64; 2]> = match sizing {
+        Sizing::Lengths(lengths) => lengths.clone(),
+        other => vec![[other.edge_length(mesh); 2]; mesh.face_count()],
+    };
+    let mut room = vec![0.0; components.count];
+    let squares = |face: usize, [along, across]: [f64; 2]| mesh.area(face) / (along * across);
+    for (face, &pair) in lengths.iter().enumerate() {
+        room[of_face[face]] += squares(face, pair);
+    }
+    let factor = |component: usize| match is_lost[component] {
+        true => (room[component] / LEAST).sqrt().min(SHORTER),
+        false => 1.0,
+    };
+    let more = |component: usize| room[component] * (factor(component).powi(-2) - 1.0);
+    let (wanted, added) = (0..components.count).fold((0.0, 0.0), |(wanted, added), component| {
+        (wanted + room[component], added + more(component))
+    });
+    let has_none = quads.faces().next().is_none();
+    if added == 0.0 || added > wanted && !has_none {
+        return None;
+    }
+    let shorter = lengths.iter().zip(&of_face).map(|(pair, &component)| {
+        let factor = factor(component);
+        pair.map(|length| factor * length)
+    });
+    Some(Sizing::Lengths(shorter.collect()))
+}
+
+/// For each component, whether its quads are not those of its surface.
+fn lost(mesh: &TriangleMesh, quads: &QuadMesh, of_face: &[usize], count: usize) -> Vec<bool> {
+    let of_vertex = |vertex: usize| mesh.ring(vertex).next().map(|(face, _)| of_face[face]);
+    let of_origin = |origin: Origin| match origin {
+        Origin::Vertex(vertex) => of_vertex(vertex),
+        Origin::Face(face, _) => Some(of_face[face]),
+        Origin::Middle => None,
+    };
+    let mut component: Vec<Option<usize>> = quads.origins.iter().map(|&o| of_origin(o)).collect();
+    let mut is_lost = vec![false; count];
+    let mut edges = Vec::new();
+    // Vertices less edges plus faces: those of the mesh less those of the quads.
+    let mut euler = vec![0i64; count];
+    for quad in quads.faces() {
+        let Some(here) = quad.iter().find_map(|&v| component[v as usize]) else {
+            continue;
+        };
+        is_lost[here] |= quad.len() != 4;
+        euler[here] -= 1;
+        for (&a, &b) in quad.iter().zip(quad.iter().cycle().skip(1)) {
+            component[a as usize].get_or_insert(here);
+            edges.push((a.min(b), a.max(b), here));
+        }
+    }
+    edges.sort_unstable();
+    for same in edges.chunk_by(|a, b| a == b) {
+        euler[same[0].2] += 1;
+        is_lost[same[0].2] |= same.len() > 2;
+    }
+    component.iter().flatten().for_each(|&c| euler[c] -= 1);
+    of_face.iter().for_each(|&c| euler[c] += 1);
+    mesh.edges()
+        .for_each(|edge| euler[of_face[edge.first.0]] -= 1);
+    for vertex in 0..mesh.vertex_count() {
+        of_vertex(vertex).into_iter().for_each(|c| euler[c] += 1);
+    }
+    let differs = euler.iter().zip(&mut is_lost);
+    differs.for_each(|(&euler, lost)| *lost |= euler != 0);
+    is_lost
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{QuadOptions, quadrangulate};
+    use super::*;
+    use crate::mesh::shape::by_name;
+    use crate::monitor::Monitor;
+
+    /// A sphere, and a far smaller one beside it.
+    fn unequal() -> TriangleMesh {
+        let sphere = by_name("rounded-cube", 600).unwrap();
+        let count = sphere.vertex_count() as u32;
+        let mut points = sphere.vertices().to_vec();
+        let small = sphere.vertices().iter();
+        points.extend(small.map(|p| [0.02 * p[0] + 9.0, 0.02 * p[1], 0.02 * p[2]]));
+        let mut triangles = sphere.triangles().to_vec();
+        let again = sphere.triangles().iter();
+        triangles.extend(again.map(|t| t.map(|v| v + count)));
+        TriangleMesh::new(points, triangles).unwrap()
+    }
+
+    fn made(mesh: &TriangleMesh) -> QuadMesh {
+        let options = QuadOptions {
+            sizing: Sizing::Quads(200),
+            ..QuadOptions::default()
+        };
+        quadrangulate(mesh, &options, Monitor::default)
+            .unwrap()
+            .quads
+    }
+
+    #[test]
+    fn a_component_smaller_than_a_quad_has_quads() {
+        let mesh = unequal();
+        let quads = made(&mesh);
+        assert!(quads.is_conforming());
+        assert_eq!(quads.figures().euler, 4);
+        assert!((100..400).contains(&quads.quads.len()));
+        let of_face: Vec<usize> = mesh
+            .components()
+            .of_face
+            .iter()
+            .map(|&c| c as usize)
+            .collect();
+        assert_eq!(lost(&mesh, &quads, &of_face, 2), [false; 2]);
+    }
+
+    #[test]
+    fn what_lost_its_quads_is_known_and_alone_gets_shorter_edges() {
+        let mesh = unequal();
+        let mut quads = made(&mesh);
+        let large = |origin: Origin| match origin {
+            Origin::Vertex(v) => v < mesh.vertex_count() / 2,
+            Origin::Face(f, _) => f < mesh.face_count() / 2,
+            Origin::Middle => true,
+        };
+        let origins = quads.origins.clone();
+        quads.quads.retain(|quad| large(origins[quad[0] as usize]));
+        let Some(Sizing::Lengths(lengths)) = smaller_quads(&mesh, &Sizing::Quads(200), &quads)
+        else {
+            panic!("nothing is lost");
+        };
+        let edge = Sizing::Quads(200).edge_length(&mesh);
+        let (first, second) = lengths.split_at(mesh.face_count() / 2);
+        assert!(first.iter().all(|&pair| pair == [edge; 2]));
+        assert!(second.iter().all(|pair| pair[0] <= 0.5 * edge));
+        quads.quads.clear();
+        assert!(smaller_quads(&mesh, &Sizing::Quads(200), &quads).is_some());
+    }
+}
