@@ -12,11 +12,8 @@ mod output;
 mod parametrize;
 mod progress;
 mod quad;
-<<<<<<< HEAD
-mod repair;
-=======
 mod refinement;
->>>>>>> refine
+mod repair;
 mod report;
 mod shape;
 mod solve;

@@ -77,7 +77,6 @@ pub fn quadrangulate<'a>(
     let Some(input) = input else {
         return of_mesh(mesh, features, options, &monitor);
     };
-<<<<<<< HEAD
     let smooth = match &options.smooth {
         Some(given) => {
             let kept = FeatureGraph::from_edges(mesh, &given.features)?;
@@ -88,34 +87,19 @@ pub fn quadrangulate<'a>(
         }
         None => None,
     };
-=======
-    let smooth = options.smooth.as_ref().map(|given| SmoothOptions {
-        features: input
-            .refined
-            .parts_of(|edge| given.features.contains(&edge)),
-        ..given.clone()
-    });
->>>>>>> door
     let given = QuadOptions {
         guidance: input.guidance.clone(),
         sizing: input.sizing.clone(),
         smooth,
         ..options.clone()
     };
-<<<<<<< HEAD
     let mut made = of_mesh(
-=======
-    let made = of_mesh(
->>>>>>> door
         &input.refined.mesh,
         input.features.clone(),
         &given,
         &monitor,
     )?;
-<<<<<<< HEAD
     made.seconds.refine = seconds;
-=======
->>>>>>> door
     Ok(input.result_for(mesh, made))
 }
 

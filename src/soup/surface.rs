@@ -63,7 +63,11 @@ pub(super) fn next(half: u32) -> u32 {
 
 /// The half-edge before this one in its triangle.
 pub(super) fn previous(half: u32) -> u32 {
-    if half.is_multiple_of(3) { half + 2 } else { half - 1 }
+    if half.is_multiple_of(3) {
+        half + 2
+    } else {
+        half - 1
+    }
 }
 
 /// The vertex from which a half-edge runs.

@@ -40,11 +40,8 @@ struct Solved {
     given_faces: usize,
     /// The mesh of the map: that which was given, or what it was refined to.
     mesh: TriangleMesh,
-<<<<<<< HEAD
     repair: RepairCounts,
-=======
     refined: Option<Refinement>,
->>>>>>> refine
     field: FieldSource,
     sizing: Sizing,
     /// Edges that are isolines.
@@ -132,11 +129,8 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
         options,
         given_faces,
         mesh,
-<<<<<<< HEAD
         repair,
-=======
         refined,
->>>>>>> refine
         field: source,
         sizing,
         features: features.edges().count(),

@@ -4,11 +4,8 @@ use roundel::map::Sizing;
 use serde::Serialize;
 
 use super::{Arguments, Solved};
-<<<<<<< HEAD
 use crate::mesh::RepairCounts;
-=======
 use crate::refinement::Refinement;
->>>>>>> refine
 use crate::report::Report;
 
 /// What `--json` prints of a map. Times and counts are those of the parametrization, but for
@@ -17,11 +14,8 @@ use crate::report::Report;
 pub struct MapReport<'a> {
     #[serde(flatten)]
     solve: Report<'a>,
-<<<<<<< HEAD
     repair: &'a RepairCounts,
-=======
     /// Of the mesh of the map, which is the refined one where there is one.
->>>>>>> refine
     faces: usize,
     vertices: usize,
     #[serde(skip_serializing_if = "Option::is_none")]

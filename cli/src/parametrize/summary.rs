@@ -15,14 +15,10 @@ impl fmt::Display for MapSummary<'_> {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         let Solved {
             options,
-<<<<<<< HEAD
-            mesh,
-            repair: _,
-=======
             given_faces,
             mesh: _,
+            repair: _,
             refined,
->>>>>>> refine
             field,
             sizing: _,
             features,

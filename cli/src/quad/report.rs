@@ -8,11 +8,8 @@ use serde::Serialize;
 use super::Arguments;
 use super::faults::Faults;
 use super::steps::Solved;
-<<<<<<< HEAD
 use crate::mesh::RepairCounts;
-=======
 use crate::refinement::Refinement;
->>>>>>> refine
 use crate::report::{Preparation, Report};
 use crate::summary::{counted, thousands};
 
