@@ -9,6 +9,7 @@ use std::path::Path;
 use roundel::field::GUIDANCE_OPTIONS;
 use roundel::quad::{QUAD_OPTIONS, QuadOptions};
 use roundel::search::{OPTIONS, OptionInfo, OptionKind, OptionValue, UNSET};
+use roundel::soup::REPAIR_OPTIONS;
 
 /// What `Features` and the class of crosses say in C++.
 const OF_FEATURES: &[&str] = &["feature_angle", "align_boundary"];
@@ -33,6 +34,12 @@ fn the_options_of_quads_are_in_cpp() {
 }
 
 #[test]
+fn the_options_of_repair_are_in_cpp() {
+    let repair = ("repair_option", REPAIR_OPTIONS, &[][..]);
+    hold("repair.hpp", "RepairOptions", &[repair]);
+}
+
+#[test]
 fn the_options_of_the_book_are_the_librarys() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/options.md");
     let committed = fs::read_to_string(&path).unwrap();
@@ -41,6 +48,7 @@ fn the_options_of_the_book_are_the_librarys() {
         ("All options of a solve", OPTIONS),
         ("Options of the guidance", GUIDANCE_OPTIONS),
         ("Options of quads", QUAD_OPTIONS),
+        ("Options of repair", REPAIR_OPTIONS),
     ] {
         fresh = with_rows(&fresh, heading, table);
     }

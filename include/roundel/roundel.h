@@ -75,7 +75,7 @@ enum roundel_status
      */
     ROUNDEL_ERROR_NOT_FINITE = 5,
     /**
-     * A problem without variables, or a mesh without faces.
+     * A problem without variables, a mesh without faces, or a soup of which repair leaves nothing.
      */
     ROUNDEL_ERROR_EMPTY = 6,
     /**
@@ -103,7 +103,7 @@ enum roundel_status
      */
     ROUNDEL_ERROR_NOT_SUPPORTED = 30,
     /**
-     * A file that does not follow its format, at the line given.
+     * A file that does not follow its format, at the line given if it is a text.
      */
     ROUNDEL_ERROR_PARSE = 31,
     /**
@@ -327,6 +327,124 @@ typedef int32_t roundel_option_type;
 #endif // __cplusplus
 
 /**
+ * What repair did. Vertices and polygons are those of the soup, by their numbers. The numbers of kinds
+ * never change; new ones may be added.
+ */
+enum roundel_edit_kind
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : int32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+    /**
+     * A vertex with a coordinate that is no finite number was dropped.
+     * Element: vertex.
+     */
+    ROUNDEL_EDIT_VERTEX_NOT_FINITE = 0,
+    /**
+     * A polygon with such a vertex was dropped.
+     * Element: polygon; other: vertex that is not finite.
+     */
+    ROUNDEL_EDIT_POLYGON_NOT_FINITE = 1,
+    /**
+     * A polygon that names a vertex that is not there was dropped.
+     * Element: polygon; other: corner that names no vertex.
+     */
+    ROUNDEL_EDIT_POLYGON_OUT_OF_RANGE = 2,
+    /**
+     * A vertex was welded to another one.
+     * Element: vertex; other: vertex that stays.
+     */
+    ROUNDEL_EDIT_VERTEX_WELDED = 3,
+    /**
+     * Corners of a polygon that repeat were removed.
+     * Element: polygon; other: number of corners removed.
+     */
+    ROUNDEL_EDIT_CORNERS_REMOVED = 4,
+    /**
+     * A polygon of fewer than three different corners was dropped.
+     * Element: polygon.
+     */
+    ROUNDEL_EDIT_POLYGON_DEGENERATE = 5,
+    /**
+     * A polygon of more than three corners was triangulated.
+     * Element: polygon; other: number of triangles.
+     */
+    ROUNDEL_EDIT_POLYGON_TRIANGULATED = 6,
+    /**
+     * A triangle with the corners and the direction of an earlier one was dropped.
+     * Element: polygon; other: polygon that stays.
+     */
+    ROUNDEL_EDIT_DUPLICATE_DROPPED = 7,
+    /**
+     * A triangle that runs against one with the same corners was dropped.
+     * Element: polygon; other: polygon that it runs against.
+     */
+    ROUNDEL_EDIT_OPPOSITE_DROPPED = 8,
+    /**
+     * A vertex of a triangle without area was merged with the vertex next to it.
+     * Element: vertex; other: vertex that stays.
+     */
+    ROUNDEL_EDIT_EDGE_COLLAPSED = 9,
+    /**
+     * A triangle with a vertex on its opposite edge gave way: the others at that edge were split there.
+     * Element: polygon; other: vertex on the edge.
+     */
+    ROUNDEL_EDIT_CAP_FLIPPED = 10,
+    /**
+     * A triangle without area that could not be collapsed or flipped was dropped.
+     * Element: polygon.
+     */
+    ROUNDEL_EDIT_SLIVER_DROPPED = 11,
+    /**
+     * A polygon was turned, so that it runs like its neighbors.
+     * Element: polygon.
+     */
+    ROUNDEL_EDIT_POLYGON_TURNED = 12,
+    /**
+     * A closed component in which polygons were turned was turned outwards as a whole.
+     * Element: lowest polygon of the component; other: number of triangles.
+     */
+    ROUNDEL_EDIT_COMPONENT_TURNED = 13,
+    /**
+     * An edge was cut open: it had more than two faces, or its faces cannot run alike.
+     * Element: vertex at one end; other: vertex at the other end.
+     */
+    ROUNDEL_EDIT_EDGE_CUT = 14,
+    /**
+     * A vertex became several, one for each fan of its faces.
+     * Element: vertex; other: number of vertices that it became.
+     */
+    ROUNDEL_EDIT_VERTEX_SPLIT = 15,
+    /**
+     * A second edge between the same vertices got a vertex in its middle.
+     * Element: vertex at one end; other: vertex at the other end.
+     */
+    ROUNDEL_EDIT_EDGE_HALVED = 16,
+    /**
+     * A vertex without faces was dropped.
+     * Element: vertex.
+     */
+    ROUNDEL_EDIT_VERTEX_UNUSED = 17,
+    /**
+     * A component below the share of the area that was asked for was dropped.
+     * Element: lowest polygon of the component; other: number of triangles.
+     */
+    ROUNDEL_EDIT_COMPONENT_DROPPED = 18,
+    /**
+     * A hole was filled.
+     * Element: an vertex on its rim; other: number of edges.
+     */
+    ROUNDEL_EDIT_HOLE_FILLED = 19,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum roundel_edit_kind roundel_edit_kind;
+#else
+typedef int32_t roundel_edit_kind;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/**
  * The kind of an event.
  */
 enum roundel_event_kind
@@ -476,6 +594,18 @@ typedef struct roundel_quad_options roundel_quad_options;
 typedef struct roundel_quads roundel_quads;
 
 /**
+ * What repair makes of a soup: an oriented manifold mesh, a list of edits that says what was done, and where
+ * vertices and faces of the mesh come from. The soup may be freed before it.
+ */
+typedef struct roundel_repair roundel_repair;
+
+/**
+ * The options of repair, which roundel_repair_option_info lists: what it may do beyond what a mesh needs.
+ * New repair options weld vertices of equal position only, drop no component and fill no hole.
+ */
+typedef struct roundel_repair_options roundel_repair_options;
+
+/**
  * A solution. Energy and violations are recomputed from the problem's own arrays.
  */
 typedef struct roundel_solution roundel_solution;
@@ -493,6 +623,13 @@ typedef struct roundel_solution roundel_solution;
  * with them or with others.
  */
 typedef struct roundel_solver roundel_solver;
+
+/**
+ * A polygon soup: vertices, and polygons with any number of corners. Nothing is assumed of it: coordinates
+ * may be infinite, corners may name vertices that are not there, polygons may overlap. It does not change
+ * once made. roundel_soup_repair makes a mesh of it.
+ */
+typedef struct roundel_soup roundel_soup;
 
 /**
  * The description of one preset. The texts live as long as the library is loaded.
@@ -1185,6 +1322,16 @@ size_t roundel_quad_option_count(void);
 roundel_status roundel_quad_option_info(size_t index, struct roundel_option *option);
 
 /**
+ * Gives the number of repair options.
+ */
+size_t roundel_repair_option_count(void);
+
+/**
+ * Describes one of the repair options: number `index`, from 0 to below roundel_repair_option_count.
+ */
+roundel_status roundel_repair_option_info(size_t index, struct roundel_option *option);
+
+/**
  * Makes a token that is not set.
  */
 roundel_status roundel_cancel_token_new(struct roundel_cancel_token **token);
@@ -1517,7 +1664,9 @@ roundel_status roundel_mesh_face_edges(const struct roundel_mesh *mesh,
                                        size_t length);
 
 /**
- * Makes a mesh from a file in OBJ, OFF or PLY, according to its extension. Only triangles are read.
+ * Makes a mesh from a file in OBJ, OFF, PLY, STL, glTF or GLB, according to its extension; a further
+ * extension .gz is passed over. Only triangles are read. roundel_soup_read and roundel_soup_repair take
+ * any polygons.
  *
  * Fails as roundel_mesh_new does, and with ROUNDEL_ERROR_IO, ROUNDEL_ERROR_PARSE with the line at fault,
  * ROUNDEL_ERROR_NOT_A_TRIANGLE and ROUNDEL_ERROR_INDEX_OUT_OF_RANGE with the face,
@@ -1527,10 +1676,226 @@ roundel_status roundel_mesh_read(const char *file,
                                  struct roundel_mesh **mesh);
 
 /**
- * Writes a mesh as OBJ, OFF or binary PLY, told apart by extension. Reading gives back the same
- * numbers.
+ * Writes a mesh as OBJ, OFF, binary PLY, binary STL, glTF, GLB or USD text (.usda), told apart by
+ * extension; a further extension .gz compresses. Reading gives back the same numbers, but for STL and
+ * glTF, which hold single precision; USD text is not read.
  */
-roundel_status roundel_mesh_write(const struct roundel_mesh *mesh, const char *file);
+roundel_status roundel_mesh_write(const struct roundel_mesh *mesh,
+                                  const char *file);
+
+/**
+ * Makes a soup of `vertex_count` vertices, whose `coordinates` are x, y, z in turn, and `polygon_count`
+ * polygons. `sizes` are their numbers of corners, and `corners` the vertices of all polygons, one polygon
+ * after the other. Corners that name no vertex are kept, for repair to tell.
+ *
+ * Fails with ROUNDEL_ERROR_LENGTH_MISMATCH if the sizes do not add up to `corner_count`, and with
+ * ROUNDEL_ERROR_INVALID_ARGUMENT for a negative size.
+ */
+roundel_status roundel_soup_new(size_t vertex_count,
+                                const double *coordinates,
+                                size_t polygon_count,
+                                const int32_t *sizes,
+                                size_t corner_count,
+                                const int32_t *corners,
+                                struct roundel_soup **soup);
+
+/**
+ * roundel_soup_new with 64-bit corners.
+ */
+roundel_status roundel_soup_new_i64(size_t vertex_count,
+                                    const double *coordinates,
+                                    size_t polygon_count,
+                                    const int32_t *sizes,
+                                    size_t corner_count,
+                                    const int64_t *corners,
+                                    struct roundel_soup **soup);
+
+/**
+ * Makes a soup of a file in OBJ, OFF, PLY, STL, glTF or GLB, according to its extension; a further
+ * extension .gz is passed over. Vertices and polygons keep the numbers of the file.
+ *
+ * Fails with ROUNDEL_ERROR_IO, ROUNDEL_ERROR_PARSE with the line at fault in a text, and
+ * ROUNDEL_ERROR_NOT_SUPPORTED for another extension.
+ */
+roundel_status roundel_soup_read(const char *file, struct roundel_soup **soup);
+
+/**
+ * roundel_soup_read for a file of any name, whose format is "obj", "off", "ply", "stl", "gltf" or "glb".
+ */
+roundel_status roundel_soup_read_as(const char *file,
+                                    const char *format,
+                                    struct roundel_soup **soup);
+
+/**
+ * Frees a soup. NULL is allowed.
+ */
+roundel_status roundel_soup_free(struct roundel_soup *soup);
+
+/**
+ * Gives the number of vertices.
+ */
+roundel_status roundel_soup_vertex_count(const struct roundel_soup *soup, size_t *count);
+
+/**
+ * Gives the number of polygons, and the number of all their corners. Neither place may be NULL.
+ */
+roundel_status roundel_soup_polygon_counts(const struct roundel_soup *soup,
+                                           size_t *count,
+                                           size_t *corner_count);
+
+/**
+ * Copies x, y, z of every vertex. `length` is three times the number of vertices.
+ */
+roundel_status roundel_soup_coordinates(const struct roundel_soup *soup,
+                                        double *coordinates,
+                                        size_t length);
+
+/**
+ * Copies the number of corners of every polygon, and the corners of all, one polygon after the other. The
+ * lengths are those of roundel_soup_polygon_counts. Corners have 64 bits, as files may name any vertex.
+ */
+roundel_status roundel_soup_polygons(const struct roundel_soup *soup,
+                                     size_t count,
+                                     int32_t *sizes,
+                                     size_t corner_count,
+                                     int64_t *corners);
+
+/**
+ * The word for a kind of edit, such as "vertex_welded"; "unknown" for a number that is none.
+ */
+const char *roundel_edit_kind_name(int32_t kind);
+
+/**
+ * Makes repair options. To be freed with roundel_repair_options_free.
+ */
+roundel_status roundel_repair_options_new(struct roundel_repair_options **options);
+
+/**
+ * Frees repair options. NULL is allowed.
+ */
+roundel_status roundel_repair_options_free(struct roundel_repair_options *options);
+
+/**
+ * Sets a repair option, which roundel_repair_option_info lists, to a whole number. Options of type real take
+ * whole numbers too.
+ */
+roundel_status roundel_repair_options_set_int(struct roundel_repair_options *options,
+                                              const char *name,
+                                              int64_t value);
+
+/**
+ * Sets a repair option, which roundel_repair_option_info lists, to a real number.
+ */
+roundel_status roundel_repair_options_set_real(struct roundel_repair_options *options,
+                                               const char *name,
+                                               double value);
+
+/**
+ * Sets a repair option, which roundel_repair_option_info lists, to a text. No repair option has type text so
+ * far.
+ */
+roundel_status roundel_repair_options_set_text(struct roundel_repair_options *options,
+                                               const char *name,
+                                               const char *value);
+
+/**
+ * Repairs a soup. `options` may be NULL for new repair options. A soup that roundel_mesh_new accepts comes
+ * back with its numbers and coordinates and an empty list of edits, unless its boundary edges lie on each
+ * other: then they are welded.
+ *
+ * Fails with ROUNDEL_ERROR_EMPTY if nothing is left: the soup has no polygons, or none with area. Fails
+ * with ROUNDEL_ERROR_OVERFLOW for more than 2^28 vertices or corners.
+ */
+roundel_status roundel_soup_repair(const struct roundel_soup *soup,
+                                   const struct roundel_repair_options *options,
+                                   struct roundel_repair **repair);
+
+/**
+ * Frees what repair made. NULL is allowed.
+ */
+roundel_status roundel_repair_free(struct roundel_repair *repair);
+
+/**
+ * Gives the mesh, which is the caller's own to free with roundel_mesh_free.
+ */
+roundel_status roundel_repair_mesh(const struct roundel_repair *repair, struct roundel_mesh **mesh);
+
+/**
+ * Gives the number of edits. It is 0 if the soup was a mesh as it is.
+ */
+roundel_status roundel_repair_edit_count(const struct roundel_repair *repair, size_t *count);
+
+/**
+ * Gives the number of edits of one kind, a roundel_edit_kind.
+ *
+ * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for another number.
+ */
+roundel_status roundel_repair_count_of(const struct roundel_repair *repair,
+                                       int32_t kind,
+                                       size_t *count);
+
+/**
+ * Copies the edits in the order in which they were made: the kind of each, the element that it was done to,
+ * and another number, or -1 where there is none. roundel_edit_kind says for each kind what they are.
+ * `length` is the number of edits.
+ */
+roundel_status roundel_repair_edits(const struct roundel_repair *repair,
+                                    int32_t *kinds,
+                                    int32_t *elements,
+                                    int32_t *others,
+                                    size_t length);
+
+/**
+ * Copies one line about the edits, such as "welded 12 vertices, split 3 vertices", to `buffer`, which has
+ * `capacity` bytes, with the terminating NUL. It is empty if nothing was done. Its length without the NUL
+ * is written to `length`, which may be NULL. If `buffer` is NULL and `capacity` 0, only the length is written.
+ *
+ * Fails with ROUNDEL_ERROR_LENGTH_MISMATCH if the buffer is too small.
+ */
+roundel_status roundel_repair_summary(const struct roundel_repair *repair,
+                                      char *buffer,
+                                      size_t capacity,
+                                      size_t *length);
+
+/**
+ * Gives the number of vertices of the mesh.
+ */
+roundel_status roundel_repair_vertex_count(const struct roundel_repair *repair, size_t *count);
+
+/**
+ * Gives the number of faces of the mesh.
+ */
+roundel_status roundel_repair_face_count(const struct roundel_repair *repair, size_t *count);
+
+/**
+ * Copies for each vertex of the mesh the vertex of the soup that it comes from, or -1 for one that repair
+ * made. `length` is the number of vertices of the mesh.
+ */
+roundel_status roundel_repair_vertex_origins(const struct roundel_repair *repair,
+                                             int32_t *vertices,
+                                             size_t length);
+
+/**
+ * Copies for each face of the mesh the polygon of the soup that it comes from, or -1 for one that fills a
+ * hole. `length` is the number of faces of the mesh.
+ */
+roundel_status roundel_repair_face_origins(const struct roundel_repair *repair,
+                                           int32_t *polygons,
+                                           size_t length);
+
+/**
+ * Gives the number of vertices of the soup.
+ */
+roundel_status roundel_repair_soup_vertex_count(const struct roundel_repair *repair, size_t *count);
+
+/**
+ * Copies for each vertex of the soup the one that it was welded to: itself if to none, -1 if its coordinates
+ * are not finite. With roundel_repair_vertex_origins this leads from the soup to the mesh. `length` is the
+ * number of vertices of the soup.
+ */
+roundel_status roundel_repair_welded_to(const struct roundel_repair *repair,
+                                        int32_t *vertices,
+                                        size_t length);
 
 /**
  * Makes a guidance. To be freed with roundel_guidance_free.

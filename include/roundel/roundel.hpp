@@ -12,15 +12,19 @@
 ///     roundel::quadrangulate(mesh, {.quads = 2000}).write("quads.obj");
 ///     auto map = roundel::parametrize(mesh, field, {.quads = 2000});
 ///
+///     auto repair = roundel::repair(roundel::Soup::read("part.stl"));    // any polygons
+///     std::cout << repair.summary();
+///     roundel::quadrangulate(repair.mesh());
+///
 /// In C++17: `roundel::Options options; options.set_strategy("greedy");`.
 ///
 /// Errors. A call that fails throws roundel::Error, which names the element at fault. Every call
 /// also takes a `Status*` as its last argument. With a Status it throws nothing and reports the
 /// failure there. Built without exceptions, a failure without a Status ends the program.
 ///
-/// Problem, Solution, Solver, Mesh, Field, Map, Quads and CancelToken own their C objects. They can
-/// be moved and not copied. A const object may be used by several threads at once, any other by
-/// one.
+/// Problem, Solution, Solver, Mesh, Soup, Repair, Field, Map, Quads and CancelToken own their C
+/// objects. They can be moved and not copied. A const object may be used by several threads at
+/// once, any other by one.
 ///
 /// Adapters for meshes of other libraries: <roundel/openmesh.hpp>, <roundel/cgal.hpp>,
 /// <roundel/eigen.hpp>, <roundel/vcg.hpp>.
@@ -36,6 +40,7 @@
 #include <roundel/detail/options.hpp>
 #include <roundel/detail/problem.hpp>
 #include <roundel/detail/quads.hpp>
+#include <roundel/detail/repair.hpp>
 #include <roundel/detail/solution.hpp>
 #include <roundel/detail/solve.hpp>
 #include <roundel/detail/solver.hpp>

@@ -21,7 +21,7 @@ pub struct roundel_mesh(Guarded<TriangleMesh>);
 object!(roundel_mesh, TriangleMesh, "mesh");
 
 /// Makes room for `count` values, or fails.
-fn reserved<T>(what: &'static str, count: usize) -> Result<Vec<T>> {
+pub(super) fn reserved<T>(what: &'static str, count: usize) -> Result<Vec<T>> {
     let mut values = Vec::new();
     values
         .try_reserve_exact(count)
@@ -29,7 +29,7 @@ fn reserved<T>(what: &'static str, count: usize) -> Result<Vec<T>> {
     Ok(values)
 }
 
-fn times_three(what: &'static str, count: usize) -> Result<usize> {
+pub(super) fn times_three(what: &'static str, count: usize) -> Result<usize> {
     count.checked_mul(3).ok_or_else(|| Error::Overflow {
         what: format!("{what}: 3 times {count} entries are more than memory can hold"),
         index: None,

@@ -1,4 +1,4 @@
-//! Meshes from and to files: OBJ, OFF and PLY.
+//! Meshes from and to files.
 
 use std::ffi::c_char;
 use std::path::Path;
@@ -41,7 +41,9 @@ fn write(file: &Path, _: &TriangleMesh) -> Result<()> {
     without_files(file)
 }
 
-/// Makes a mesh from a file in OBJ, OFF or PLY, according to its extension. Only triangles are read.
+/// Makes a mesh from a file in OBJ, OFF, PLY, STL, glTF or GLB, according to its extension; a further
+/// extension .gz is passed over. Only triangles are read. roundel_soup_read and roundel_soup_repair take
+/// any polygons.
 ///
 /// Fails as roundel_mesh_new does, and with ROUNDEL_ERROR_IO, ROUNDEL_ERROR_PARSE with the line at fault,
 /// ROUNDEL_ERROR_NOT_A_TRIANGLE and ROUNDEL_ERROR_INDEX_OUT_OF_RANGE with the face,
@@ -59,8 +61,9 @@ pub unsafe extern "C" fn roundel_mesh_read(
     })
 }
 
-/// Writes a mesh as OBJ, OFF or binary PLY, told apart by extension. Reading gives back the same
-/// numbers.
+/// Writes a mesh as OBJ, OFF, binary PLY, binary STL, glTF, GLB or USD text (.usda), told apart by
+/// extension; a further extension .gz compresses. Reading gives back the same numbers, but for STL and
+/// glTF, which hold single precision; USD text is not read.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_mesh_write(
     mesh: *const roundel_mesh,

@@ -10,6 +10,7 @@ use crate::error::Error;
 use crate::field::GUIDANCE_OPTIONS;
 use crate::quad::QUAD_OPTIONS;
 use crate::search::{OPTIONS, OptionInfo, OptionKind};
+use crate::soup::REPAIR_OPTIONS;
 
 /// The type of an option's value.
 #[repr(i32)]
@@ -142,4 +143,21 @@ pub unsafe extern "C" fn roundel_quad_option_info(
     static TEXTS: Texts = OnceLock::new();
     // SAFETY: the caller gives a place for the description, or NULL.
     unsafe { describe(QUAD_OPTIONS, &TEXTS, index, option) }
+}
+
+/// Gives the number of repair options.
+#[unsafe(no_mangle)]
+pub extern "C" fn roundel_repair_option_count() -> usize {
+    REPAIR_OPTIONS.len()
+}
+
+/// Describes one of the repair options: number `index`, from 0 to below roundel_repair_option_count.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_repair_option_info(
+    index: usize,
+    option: *mut roundel_option,
+) -> roundel_status {
+    static TEXTS: Texts = OnceLock::new();
+    // SAFETY: the caller gives a place for the description, or NULL.
+    unsafe { describe(REPAIR_OPTIONS, &TEXTS, index, option) }
 }

@@ -90,6 +90,34 @@ pub(super) unsafe fn copy_whole(
     Ok(())
 }
 
+/// The caller's array, which must have exactly `expected` places.
+///
+/// # Safety
+/// `to` is NULL or has `length` writable numbers, which are in no other array that is open.
+pub(super) unsafe fn places<'a, T>(
+    what: &'static str,
+    expected: usize,
+    to: *mut T,
+    length: usize,
+) -> Outcome<&'a mut [T]> {
+    if length != expected {
+        return Err(Failure::Library(Error::LengthMismatch {
+            what,
+            expected,
+            actual: length,
+        }));
+    }
+    // SAFETY: handed on.
+    unsafe { slice_mut(what, to, length) }
+}
+
+/// Copies values to as many places.
+pub(super) fn fill<T>(places: &mut [T], values: impl Iterator<Item = T>) {
+    for (place, value) in places.iter_mut().zip(values) {
+        *place = value;
+    }
+}
+
 /// Copies all of `values` to the caller's array, which must have exactly their number.
 ///
 /// # Safety
@@ -100,17 +128,8 @@ pub(super) unsafe fn copy_numbers<T>(
     to: *mut T,
     length: usize,
 ) -> Outcome {
-    if length != values.len() {
-        return Err(Failure::Library(Error::LengthMismatch {
-            what,
-            expected: values.len(),
-            actual: length,
-        }));
-    }
     // SAFETY: handed on.
-    let places = unsafe { slice_mut(what, to, length) }?;
-    for (place, value) in places.iter_mut().zip(values) {
-        *place = value;
-    }
+    let places = unsafe { places(what, values.len(), to, length) }?;
+    fill(places, values);
     Ok(())
 }

@@ -22,7 +22,7 @@ pub enum roundel_status {
     ROUNDEL_ERROR_INDEX_OUT_OF_RANGE = 4,
     /// NaN or infinity; the index is its position in the array, or the vertex of a mesh.
     ROUNDEL_ERROR_NOT_FINITE = 5,
-    /// A problem without variables, or a mesh without faces.
+    /// A problem without variables, a mesh without faces, or a soup of which repair leaves nothing.
     ROUNDEL_ERROR_EMPTY = 6,
     /// A count or a sum is beyond what can be represented.
     ROUNDEL_ERROR_OVERFLOW = 7,
@@ -36,7 +36,7 @@ pub enum roundel_status {
     ROUNDEL_ERROR_OPTION_RANGE = 22,
     /// Something that the library does not solve (yet); the line names it in a file.
     ROUNDEL_ERROR_NOT_SUPPORTED = 30,
-    /// A file that does not follow its format, at the line given.
+    /// A file that does not follow its format, at the line given if it is a text.
     ROUNDEL_ERROR_PARSE = 31,
     /// A file that cannot be read or written.
     ROUNDEL_ERROR_IO = 32,
@@ -224,8 +224,9 @@ impl From<&Error> for roundel_status {
 }
 
 /// The status of each reason for which a mesh is refused, by [`MeshError::code`](crate::mesh::MeshError::code).
-const OF_MESHES: [(&str, roundel_status); 15] = [
+const OF_MESHES: [(&str, roundel_status); 16] = [
     ("no_faces", ROUNDEL_ERROR_EMPTY),
+    ("no_surface", ROUNDEL_ERROR_EMPTY),
     ("mesh_too_large", ROUNDEL_ERROR_OVERFLOW),
     ("vertex_not_finite", ROUNDEL_ERROR_NOT_FINITE),
     ("not_a_triangle", ROUNDEL_ERROR_NOT_A_TRIANGLE),

@@ -1,7 +1,7 @@
 //! Why a file holds no soup that can be read, or a soup no surface.
 
-use std::io;
-use std::path::Path;
+#[cfg(feature = "mesh-io")]
+use std::{io, path::Path};
 
 /// Why a soup cannot be read or repaired.
 ///
@@ -59,6 +59,7 @@ pub enum SoupError {
     },
 }
 
+#[cfg(feature = "mesh-io")]
 impl SoupError {
     /// A file that the system refuses to open or read.
     pub(crate) fn of_file(path: &Path, reason: &io::Error) -> Self {

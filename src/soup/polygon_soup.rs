@@ -39,6 +39,17 @@ impl PolygonSoup {
         }
     }
 
+    /// A soup of these corners, of which those of polygon k are `starts[k]..starts[k + 1]`.
+    pub(crate) fn of_lists(positions: Vec<Vec3>, corners: Vec<i64>, starts: Vec<usize>) -> Self {
+        debug_assert_eq!(starts.first(), Some(&0));
+        debug_assert_eq!(starts.last(), Some(&corners.len()));
+        PolygonSoup {
+            positions,
+            corners,
+            starts,
+        }
+    }
+
     /// Adds a vertex, and gives its number.
     pub fn add_vertex(&mut self, position: Vec3) -> usize {
         self.positions.push(position);
@@ -55,6 +66,11 @@ impl PolygonSoup {
     /// Positions of all vertices.
     pub fn positions(&self) -> &[Vec3] {
         &self.positions
+    }
+
+    /// The corners of all polygons in one list.
+    pub fn corners(&self) -> &[i64] {
+        &self.corners
     }
 
     /// Number of polygons.

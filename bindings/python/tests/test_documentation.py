@@ -21,7 +21,8 @@ def test_examples_of_the_documentation(name):
 
 
 def test_every_public_function_has_an_example():
-    for name in ("solve", "Problem", "Solver", "field", "map", "quad", "extract", "options", "presets"):
+    functions = "solve Problem Solver field map quad extract Soup repair options presets"
+    for name in functions.split():
         assert ">>>" in getattr(roundel, name).__doc__, name
 
 

@@ -36,6 +36,6 @@ def test_the_package_was_built_from_this_header():
     from roundel._declarations import ffi
 
     fresh = parsed()
-    enums = ("status", "solve_status", "stopped_by", "event_kind", "phase")
+    enums = ("status", "solve_status", "stopped_by", "event_kind", "phase", "edit_kind")
     for name in (f"roundel_{enum}" for enum in enums):
         assert ffi.typeof(f"enum {name}").relements == fresh.typeof(f"enum {name}").relements

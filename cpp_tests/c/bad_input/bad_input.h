@@ -63,5 +63,6 @@ void bad_sizes(fixture* f);
 void bad_solvers(fixture* f);
 void bad_guidance(fixture* f);
 void bad_quads(fixture* f);
+void bad_soups(fixture* f);
 
 #endif

@@ -72,7 +72,7 @@ static void names(fixture* f, const roundel_mesh* tetra) {
     BAD(f, roundel_mesh_read(NULL, &mesh), null, "file", NONE);
     BAD(f, roundel_mesh_read("never.off", NULL), null, "mesh", NONE);
     BAD(f, roundel_mesh_read("never.off", &mesh), ROUNDEL_ERROR_IO, "never.off", NONE);
-    BAD(f, roundel_mesh_read("never.stl", &mesh), ROUNDEL_ERROR_NOT_SUPPORTED, "stl", NONE);
+    BAD(f, roundel_mesh_read("never.3mf", &mesh), ROUNDEL_ERROR_NOT_SUPPORTED, "3mf", NONE);
     BAD(f, roundel_mesh_write(NULL, "never.off"), null, "mesh", NONE);
     BAD(f, roundel_mesh_write(tetra, NULL), null, "file", NONE);
     BAD(f, roundel_mesh_write(tetra, "no/such/folder.off"), ROUNDEL_ERROR_IO, "folder", NONE);

@@ -21,6 +21,9 @@ void fields_follow_their_options();
 void maps_are_solved_again_at_another_size();
 void meshes_become_quads_of_their_topology();
 void unset_quad_options_have_the_librarys_defaults();
+void soups_become_meshes_and_say_how();
+void repair_follows_its_options();
+void files_of_polygons_become_meshes();
 
 /// A chain of `n` variables with target differences of 0.3, in which every second one is an
 /// integer.

@@ -46,10 +46,29 @@ class Mesh {
     /// Takes ownership of a mesh of the C interface.
     explicit Mesh(roundel_mesh* owned) noexcept : handle_(owned) {}
 
-    /// A mesh from a file in OBJ, OFF or PLY.
+    /// A mesh from a file in OBJ, OFF, PLY, STL, glTF or GLB that holds an oriented manifold of
+    /// triangles.
     static Mesh read(const std::string& file, Status* status = nullptr) {
         roundel_mesh* made = nullptr;
         detail::check(roundel_mesh_read(file.c_str(), &made), status);
+        return Mesh(made);
+    }
+
+    /// A mesh from a file in one of these formats that holds any polygons, which are repaired.
+    /// Soup::read and repair say what was done.
+    static Mesh repaired(const std::string& file, Status* status = nullptr) {
+        roundel_soup* soup = nullptr;
+        if (!detail::check(roundel_soup_read(file.c_str(), &soup), status)) {
+            return {};
+        }
+        const detail::Handle<roundel_soup, roundel_soup_free> read(soup);
+        roundel_repair* repair = nullptr;
+        if (!detail::check(roundel_soup_repair(soup, nullptr, &repair), status)) {
+            return {};
+        }
+        const detail::Handle<roundel_repair, roundel_repair_free> done(repair);
+        roundel_mesh* made = nullptr;
+        detail::check(roundel_repair_mesh(repair, &made), status);
         return Mesh(made);
     }
 
@@ -68,7 +87,7 @@ class Mesh {
         return Mesh(made);
     }
 
-    /// Writes an OBJ, OFF or PLY file.
+    /// Writes an OBJ, OFF, PLY, STL, glTF, GLB or USD text file.
     void write(const std::string& file, Status* status = nullptr) const {
         detail::check(roundel_mesh_write(get(), file.c_str()), status);
     }

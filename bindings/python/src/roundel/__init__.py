@@ -4,8 +4,9 @@
     subject to C x = d, x_i integer for i in I
 
 `solve` solves a problem in matrices, `Problem` builds one part by part, and `Solver` solves one many
-times. `field`, `map` and `quad` work on triangle meshes. Elements are counted from 0. Angles are in
-radians and counter-clockwise, except for the angle of features, which is in degrees.
+times. `field`, `map` and `quad` work on triangle meshes, which `repair` makes of polygon soups. Elements
+are counted from 0. Angles are in radians and counter-clockwise, except for the angle of features, which
+is in degrees.
 """
 
 from . import errors as _errors
@@ -17,9 +18,10 @@ from .map import Map
 # Not in __all__, because a star import must not hide Python's own name.
 from .map import map as map
 from .mesh import Mesh
-from .options import Option, guidance_options, options, presets, quad_options
+from .options import Option, guidance_options, options, presets, quad_options, repair_options
 from .problem import Problem
 from .quads import Quads, extract, quad
+from .repair import EditKind, Repair, Soup, repair
 from .solution import Solution
 from .solve import solve
 from .solver import Solver
@@ -29,6 +31,7 @@ __version__: str = _text(_lib.roundel_version_string())
 
 __all__ = [
     "CancelToken",
+    "EditKind",
     "Event",
     "Field",
     "Map",
@@ -36,8 +39,10 @@ __all__ = [
     "Option",
     "Problem",
     "Quads",
+    "Repair",
     "Solution",
     "Solver",
+    "Soup",
     "extract",
     "field",
     "guidance_options",
@@ -45,6 +50,8 @@ __all__ = [
     "presets",
     "quad",
     "quad_options",
+    "repair",
+    "repair_options",
     "solve",
     *_errors.__all__,
 ]

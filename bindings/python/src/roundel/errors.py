@@ -136,7 +136,7 @@ class NotFiniteError(Error, ValueError):
 
 
 class EmptyError(Error, ValueError):
-    """A problem without variables, or a mesh without faces."""
+    """A problem without variables, a mesh without faces, or a soup of which repair leaves nothing."""
 
 
 class CountOverflowError(Error, OverflowError):
@@ -164,7 +164,7 @@ class NotSupportedError(Error):
 
 
 class ParseError(Error, ValueError):
-    """A file violates its format at `line`."""
+    """A file violates its format, at `line` if it is a text."""
 
 
 class IoError(Error):

@@ -27,7 +27,7 @@ class Mesh:
     """
 
     def __init__(self, V: Any, F: Any = None) -> None:
-        vertices, faces = _arrays(V, F)
+        vertices, faces = arrays_of(V, F)
         points = reals(vertices, "vertices", (-1, 3))
         corners = indices(faces, "faces", (-1, 3))
         twin = "_i64" if corners.dtype == np.int64 else ""
@@ -42,9 +42,24 @@ class Mesh:
         return made
 
     @classmethod
-    def read(cls, file: Any) -> "Mesh":
-        """Reads an OBJ, OFF or PLY file."""
+    def read(cls, file: Any, repair: bool = False) -> "Mesh":
+        """Reads an OBJ, OFF, PLY, STL, glTF or GLB file.
+
+        It must hold an oriented manifold of triangles, unless `repair` is true: then the file may hold any
+        polygons. `roundel.repair(roundel.Soup.read(file))` does the same, and says what was done.
+        """
+        if repair:
+            from .repair import Soup
+
+            return cls.from_soup(Soup.read(file))
         return cls._of(Handle.made("roundel_mesh", lib.roundel_mesh_read, path(file)))
+
+    @classmethod
+    def from_soup(cls, vertices: Any, polygons: Any = None, **keywords: Any) -> "Mesh":
+        """The mesh that `roundel.repair` makes of a soup, with its keywords."""
+        from .repair import repair
+
+        return repair(vertices, polygons, **keywords).mesh
 
     @classmethod
     def shape(cls, name: str, faces: int) -> "Mesh":
@@ -52,7 +67,7 @@ class Mesh:
         return cls._of(Handle.made("roundel_mesh", lib.roundel_mesh_make_shape, name.encode(), faces))
 
     def write(self, file: Any) -> None:
-        """Writes an OBJ, OFF or binary PLY file."""
+        """Writes an OBJ, OFF, binary PLY, binary STL, glTF, GLB or USD text file."""
         check(lib.roundel_mesh_write(self._handle.pointer, path(file)))
 
     @property
@@ -99,7 +114,8 @@ def as_mesh(V: Any, F: Any = None) -> Mesh:
     return V if isinstance(V, Mesh) and F is None else Mesh(V, F)
 
 
-def _arrays(V: Any, F: Any) -> tuple[Any, Any]:
+def arrays_of(V: Any, F: Any) -> tuple[Any, Any]:
+    """Vertices and faces of the arguments, or of a mesh of any package."""
     if F is not None:
         return V, F
     # A MeshSet of pymeshlab stands for its current mesh.

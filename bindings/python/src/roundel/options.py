@@ -74,6 +74,16 @@ def quad_options() -> dict[str, Option]:
     return _listed("quad_option")
 
 
+def repair_options() -> dict[str, Option]:
+    """Every option that `repair` takes as a keyword, by name.
+
+    >>> import roundel
+    >>> roundel.repair_options()["weld"].default
+    0.0
+    """
+    return _listed("repair_option")
+
+
 def with_options(*tables: Mapping[str, Option]) -> Callable[[_Function], _Function]:
     """Gives a function that takes any keyword the signature and the documentation of these."""
 

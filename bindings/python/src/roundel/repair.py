@@ -1,0 +1,251 @@
+"""Polygon soups, and the meshes that repair makes of them."""
+
+from __future__ import annotations
+
+from enum import IntEnum
+from typing import Any, Optional
+
+import numpy as np
+
+from ._handle import Handle, number
+from ._library import ffi, lib, path
+from .arrays import indices, indices32, pointer, reals
+from .errors import check
+from .mesh import Mesh, arrays_of
+from .options import repair_options, set_option, with_options
+
+#: The options of repair.
+OPTIONS = repair_options()
+
+
+class EditKind(IntEnum):
+    """What repair did: the kinds of the edits in `Repair.edits`.
+
+    >>> import roundel
+    >>> roundel.EditKind.VERTEX_WELDED.name.lower()
+    'vertex_welded'
+    """
+
+    #: A vertex with a coordinate that is no finite number was dropped.
+    #: Element: vertex.
+    VERTEX_NOT_FINITE = 0
+    #: A polygon with such a vertex was dropped.
+    #: Element: polygon; other: vertex that is not finite.
+    POLYGON_NOT_FINITE = 1
+    #: A polygon that names a vertex that is not there was dropped.
+    #: Element: polygon; other: corner that names no vertex.
+    POLYGON_OUT_OF_RANGE = 2
+    #: A vertex was welded to another one.
+    #: Element: vertex; other: vertex that stays.
+    VERTEX_WELDED = 3
+    #: Corners of a polygon that repeat were removed.
+    #: Element: polygon; other: number of corners removed.
+    CORNERS_REMOVED = 4
+    #: A polygon of fewer than three different corners was dropped.
+    #: Element: polygon.
+    POLYGON_DEGENERATE = 5
+    #: A polygon of more than three corners was triangulated.
+    #: Element: polygon; other: number of triangles.
+    POLYGON_TRIANGULATED = 6
+    #: A triangle with the corners and the direction of an earlier one was dropped.
+    #: Element: polygon; other: polygon that stays.
+    DUPLICATE_DROPPED = 7
+    #: A triangle that runs against one with the same corners was dropped.
+    #: Element: polygon; other: polygon that it runs against.
+    OPPOSITE_DROPPED = 8
+    #: A vertex of a triangle without area was merged with the vertex next to it.
+    #: Element: vertex; other: vertex that stays.
+    EDGE_COLLAPSED = 9
+    #: A triangle with a vertex on its opposite edge gave way: the others at that edge were split there.
+    #: Element: polygon; other: vertex on the edge.
+    CAP_FLIPPED = 10
+    #: A triangle without area that could not be collapsed or flipped was dropped.
+    #: Element: polygon.
+    SLIVER_DROPPED = 11
+    #: A polygon was turned, so that it runs like its neighbors.
+    #: Element: polygon.
+    POLYGON_TURNED = 12
+    #: A closed component in which polygons were turned was turned outwards as a whole.
+    #: Element: lowest polygon of the component; other: number of triangles.
+    COMPONENT_TURNED = 13
+    #: An edge was cut open: it had more than two faces, or its faces cannot run alike.
+    #: Element: vertex at one end; other: vertex at the other end.
+    EDGE_CUT = 14
+    #: A vertex became several, one for each fan of its faces.
+    #: Element: vertex; other: number of vertices that it became.
+    VERTEX_SPLIT = 15
+    #: A second edge between the same vertices got a vertex in its middle.
+    #: Element: vertex at one end; other: vertex at the other end.
+    EDGE_HALVED = 16
+    #: A vertex without faces was dropped.
+    #: Element: vertex.
+    VERTEX_UNUSED = 17
+    #: A component below the share of the area that was asked for was dropped.
+    #: Element: lowest polygon of the component; other: number of triangles.
+    COMPONENT_DROPPED = 18
+    #: A hole was filled.
+    #: Element: an vertex on its rim; other: number of edges.
+    HOLE_FILLED = 19
+
+#: The type of an entry of `Repair.edits`.
+EDIT = np.dtype([("kind", np.int32), ("element", np.int32), ("other", np.int32)])
+
+
+class Soup:
+    """A polygon soup: vertices, and polygons with any number of corners, of which nothing is assumed.
+
+    `polygons` is a list of lists of corners, an array with as many columns as a polygon has corners, or
+    missing for a mesh of another package. Corners that name no vertex are kept, for repair to tell.
+
+    >>> import roundel
+    >>> square = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
+    >>> soup = roundel.Soup(square, [[0, 1, 2, 3]])
+    >>> len(soup), len(soup.vertices)
+    (1, 4)
+    """
+
+    def __init__(self, vertices: Any, polygons: Any = None) -> None:
+        vertices, polygons = arrays_of(vertices, polygons)
+        points = reals(vertices, "vertices", (-1, 3))
+        corners, sizes = _lists(polygons)
+        twin = "_i64" if corners.dtype == np.int64 else ""
+        call = getattr(lib, f"roundel_soup_new{twin}")
+        arrays = (len(points), pointer(points), len(sizes), pointer(sizes))
+        self._handle = Handle.made("roundel_soup", call, *arrays, len(corners), pointer(corners))
+
+    @classmethod
+    def read(cls, file: Any, format: Optional[str] = None) -> "Soup":
+        """Reads an OBJ, OFF, PLY, STL, glTF or GLB file; its extension tells the format if `format` does not."""
+        made = cls.__new__(cls)
+        if format is None:
+            made._handle = Handle.made("roundel_soup", lib.roundel_soup_read, path(file))
+        else:
+            call = lib.roundel_soup_read_as
+            made._handle = Handle.made("roundel_soup", call, path(file), format.encode())
+        return made
+
+    def __len__(self) -> int:
+        return self._counts()[0]
+
+    @property
+    def vertices(self) -> np.ndarray:
+        """x, y, z of every vertex."""
+        found = np.empty((number(lib.roundel_soup_vertex_count, self._handle.pointer), 3))
+        check(lib.roundel_soup_coordinates(self._handle.pointer, pointer(found), found.size))
+        return found
+
+    @property
+    def polygons(self) -> list[np.ndarray]:
+        """The corners of every polygon."""
+        count, corner_count = self._counts()
+        sizes, corners = np.empty(count, np.int32), np.empty(corner_count, np.int64)
+        arrays = (count, pointer(sizes), corner_count, pointer(corners))
+        check(lib.roundel_soup_polygons(self._handle.pointer, *arrays))
+        return np.split(corners, np.cumsum(sizes)[:-1]) if count else []
+
+    def _counts(self) -> tuple[int, int]:
+        counts = ffi.new("size_t[2]")
+        check(lib.roundel_soup_polygon_counts(self._handle.pointer, counts, counts + 1))
+        return counts[0], counts[1]
+
+
+def _lists(polygons: Any) -> tuple[np.ndarray, np.ndarray]:
+    """The corners of all polygons, and the number of corners of each."""
+    if isinstance(polygons, np.ndarray) and polygons.ndim == 2:
+        corners = indices(polygons.reshape(-1), "polygons")
+        return corners, np.full(len(polygons), polygons.shape[1], np.int32)
+    each = [indices(polygon, "polygons") for polygon in polygons]
+    sizes = indices32([len(polygon) for polygon in each], "polygons")
+    return indices(np.concatenate(each) if each else [], "polygons"), sizes
+
+
+class Repair:
+    """What `repair` makes of a soup: a mesh, the edits, and where its vertices and faces come from."""
+
+    def __init__(self, handle: Handle) -> None:
+        self._handle = handle
+        self._mesh: Optional[Mesh] = None
+
+    @property
+    def mesh(self) -> Mesh:
+        """The mesh."""
+        if self._mesh is None:
+            call = lib.roundel_repair_mesh
+            self._mesh = Mesh._of(Handle.made("roundel_mesh", call, self._handle.pointer))
+        return self._mesh
+
+    @property
+    def edits(self) -> np.ndarray:
+        """Everything that was done, in order: an array with the fields `kind`, an `EditKind`, `element` and `other`.
+
+        The kind says which numbers of the soup `element` and `other` are; `other` is -1 where there is none.
+        """
+        count = number(lib.roundel_repair_edit_count, self._handle.pointer)
+        columns = [np.empty(count, np.int32) for _ in EDIT.names or ()]
+        places = (pointer(column) for column in columns)
+        check(lib.roundel_repair_edits(self._handle.pointer, *places, count))
+        found = np.empty(count, EDIT)
+        for name, column in zip(EDIT.names or (), columns):
+            found[name] = column
+        return found
+
+    @property
+    def counts(self) -> dict[str, int]:
+        """How often each kind of edit was made, by its name; kinds that were not are left out."""
+        call = lib.roundel_repair_count_of
+        counts = {kind.name.lower(): number(call, self._handle.pointer, kind.value) for kind in EditKind}
+        return {name: count for name, count in counts.items() if count}
+
+    @property
+    def summary(self) -> str:
+        """One line, such as "welded 12 vertices, split 3 vertices"; empty if nothing was done."""
+        length = ffi.new("size_t *")
+        check(lib.roundel_repair_summary(self._handle.pointer, ffi.NULL, 0, length))
+        buffer = ffi.new("char[]", length[0] + 1)
+        check(lib.roundel_repair_summary(self._handle.pointer, buffer, length[0] + 1, ffi.NULL))
+        return ffi.string(buffer).decode()
+
+    @property
+    def vertex_origins(self) -> np.ndarray:
+        """The vertex of the soup that each vertex of the mesh comes from; -1 for one that repair made."""
+        return self._int32(lib.roundel_repair_vertex_origins, lib.roundel_repair_vertex_count)
+
+    @property
+    def face_origins(self) -> np.ndarray:
+        """The polygon of the soup that each face of the mesh comes from; -1 for one that fills a hole."""
+        return self._int32(lib.roundel_repair_face_origins, lib.roundel_repair_face_count)
+
+    @property
+    def welded_to(self) -> np.ndarray:
+        """The vertex to which each vertex of the soup was welded: itself if to none, -1 if it is not finite."""
+        return self._int32(lib.roundel_repair_welded_to, lib.roundel_repair_soup_vertex_count)
+
+    def _int32(self, call: Any, count: Any) -> np.ndarray:
+        found = np.empty(number(count, self._handle.pointer), dtype=np.int32)
+        check(call(self._handle.pointer, pointer(found), found.size))
+        return found
+
+
+@with_options(OPTIONS)
+def repair(vertices: Any, polygons: Any = None, **keywords: Any) -> Repair:
+    """Makes an oriented manifold mesh of a soup, and says what it did.
+
+    Takes a `Soup`, or what makes one. A soup that `Mesh` accepts comes back as it is, unless its boundary
+    edges lie on each other: then they are welded.
+
+    >>> import roundel
+    >>> square = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [5, 5, 5]]
+    >>> done = roundel.repair(square, [[0, 1, 2, 3]])
+    >>> done.summary
+    'triangulated 1 polygon, dropped 1 unused vertex'
+    >>> done.mesh.faces.shape, done.vertex_origins.tolist(), done.face_origins.tolist()
+    ((2, 3), [0, 1, 2, 3], [0, 0])
+    >>> done.counts
+    {'polygon_triangulated': 1, 'vertex_unused': 1}
+    """
+    given = vertices if isinstance(vertices, Soup) and polygons is None else Soup(vertices, polygons)
+    how = Handle.made("roundel_repair_options", lib.roundel_repair_options_new)
+    for name, value in keywords.items():
+        if value is not None:
+            set_option(how.pointer, "repair_options", name, value)
+    return Repair(Handle.made("roundel_repair", lib.roundel_soup_repair, given._handle.pointer, how.pointer))
