@@ -9,14 +9,17 @@ use crate::extract::Origin;
 use crate::field::{Constraint, Guidance, Guide};
 use crate::map::Sizing;
 use crate::mesh::features::FeatureGraph;
-use crate::mesh::refine::{RefineOptions, Refined, needs_refinement, refine};
+use crate::mesh::refine::{Need, RefineOptions, Refined, needs_refinement, refine};
 use crate::mesh::vector::{Vec3, add, cross, dot, scale, sub};
 use crate::mesh::{ClosestPoint, TriangleMesh};
 
 use super::Quadrangulation;
 
-/// The longest edge of a refined mesh, in edges of the quads.
+/// The longest edge of a refined mesh, in edges of the quads, where edges were too long.
 const LONGEST_EDGE: f64 = 0.6;
+
+/// The same where only angles were too small: the mesh stays as it is elsewhere.
+const LONGEST_BESIDE_NEEDLES: f64 = 2.0;
 
 /// The most triangles that are added for each quad.
 const TRIANGLES_PER_QUAD: f64 = 50.0;
@@ -54,7 +57,12 @@ impl RefinedInput {
         sizing.check(mesh)?;
         let edge_length = sizing.edge_length(mesh);
         let quads = mesh.surface_area() / (edge_length * edge_length);
-        if needs_refinement(mesh, edge_length).is_none() || !is_in_range(mesh, guidance) {
+        let longest = match needs_refinement(mesh, edge_length) {
+            Some(Need::LongEdge(_)) => LONGEST_EDGE * edge_length,
+            Some(Need::SmallAngle(_)) => LONGEST_BESIDE_NEEDLES * edge_length,
+            None => return Ok(None),
+        };
+        if !is_in_range(mesh, guidance) {
             return Ok(None);
         }
         let mut wanted = guidance.features(mesh)?.with(mesh, features)?;
@@ -66,7 +74,7 @@ impl RefinedInput {
         let sides = FeatureGraph::from_edges(mesh, &sides.collect::<Vec<_>>())?;
         let held = wanted.clone().with(mesh, &sides)?;
         let most = (TRIANGLES_PER_QUAD * quads).min(MOST_TRIANGLES) as usize;
-        let options = RefineOptions::new(mesh, LONGEST_EDGE * edge_length, most);
+        let options = RefineOptions::new(mesh, longest, most);
         let refined = refine(mesh, &held, &options)?;
         if refined.is_unchanged() {
             return Ok(None);
