@@ -1,4 +1,4 @@
-//! From a mesh to quads: [`quadrangulate`], step by step.
+//! From a mesh to quads by one set of options, step by step.
 //!
 //! ```text
 //! size, features
@@ -50,32 +50,21 @@ const PASSES: usize = 240;
 /// Meshes of more faces have as many visits of faces in all, and so fewer passes.
 const FACES: usize = 20_000;
 
-/// Turns a mesh into quads. `monitor` makes one watcher for each step.
-///
-/// [`is_conforming`](crate::extract::QuadMesh::is_conforming) tells whether the result consists of quads
-/// only. Features that rounding puts on one line are separated if the quads then conform. Extraction
-/// copes with nearly all folds. Untangling is tried only if its quads do not conform, and the result is
-/// kept if its quads conform or need fewer repairs. If the quads still do not conform, and the options
-/// give no size of details, the field is solved for again with larger details excluded. Small parts of the
-/// mesh that are lost get smaller quads, and so does a mesh without any quads
-/// ([`Sizing::Lengths`]).
+/// The quads by one set of options: [`quadrangulate`](super::quadrangulate()) tells what is tried.
 ///
 /// # Errors
-/// [`Error::InvalidArgument`] if there are no quads of any size that was tried. Otherwise
-/// those of [`solve_field`](crate::field::solve_field), [`solve`](crate::solve()),
-/// [`SeamlessProblem::with_features`](crate::map::SeamlessProblem::with_features),
-/// [`untangle`](crate::untangle::untangle), [`extract`](crate::extract) and [`smooth`].
-pub fn quadrangulate<'a>(
+/// Those of [`quadrangulate`](super::quadrangulate()).
+pub(super) fn by_options<'a>(
     mesh: &TriangleMesh,
     options: &QuadOptions,
-    monitor: impl Fn() -> Monitor<'a>,
+    monitor: &impl Fn() -> Monitor<'a>,
 ) -> Result<Quadrangulation> {
     options.sizing.check(mesh)?;
     let features = options.guidance.features(mesh)?;
     let mut seconds = 0.0;
     let input = timed(&mut seconds, || refined(mesh, &features, options))?;
     let Some(input) = input else {
-        return of_mesh(mesh, features, options, &monitor);
+        return of_mesh(mesh, features, options, monitor);
     };
     let smooth = match &options.smooth {
         Some(given) => {
@@ -93,12 +82,7 @@ pub fn quadrangulate<'a>(
         smooth,
         ..options.clone()
     };
-    let mut made = of_mesh(
-        &input.refined.mesh,
-        input.features.clone(),
-        &given,
-        &monitor,
-    )?;
+    let mut made = of_mesh(&input.refined.mesh, input.features.clone(), &given, monitor)?;
     made.seconds.refine = seconds;
     Ok(input.result_for(mesh, made))
 }

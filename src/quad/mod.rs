@@ -2,7 +2,8 @@
 //!
 //! | idea | file |
 //! | --- | --- |
-//! | quads, from a mesh | `driver` |
+//! | quads, from a mesh | `quadrangulate`, `coverage` |
+//! | quads, by one set of options | `driver` |
 //! | a mesh that is refined first | `refined_input` |
 //! | a map without folds, from its problem | `fold_free` |
 //! | a field and its current map | `field_map` |
@@ -15,6 +16,7 @@
 mod aim;
 mod attempt;
 mod compare;
+mod coverage;
 mod driver;
 mod field_map;
 mod fields;
@@ -23,13 +25,14 @@ mod map_solver;
 mod missed;
 mod options;
 mod outcome;
+mod quadrangulate;
 mod quadrangulation;
 mod refined_input;
 mod smaller;
 
 pub use compare::Compared;
-pub use driver::quadrangulate;
 pub use fold_free::{FoldFreeMap, solve_fold_free};
 pub use options::{QUAD_OPTIONS, QuadOptions};
+pub use quadrangulate::quadrangulate;
 pub use quadrangulation::{QuadSeconds, Quadrangulation};
 pub use refined_input::RefinedInput;

@@ -239,6 +239,15 @@ fn a_flip_does_not_join_the_two_sides_of_a_thin_plate() {
 }
 
 #[test]
+fn a_pillow_of_two_faces_is_refined() {
+    let points = vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+    let mesh = TriangleMesh::new(points, vec![[0, 1, 2], [0, 2, 1]]).unwrap();
+    let (found, _) = refined(&mesh, 0.2);
+    assert!(found.mesh.face_count() > 20);
+    assert_eq!(found.mesh.euler_characteristic(), 2);
+}
+
+#[test]
 fn options_out_of_range_are_refused() {
     let mesh = cuboid([1.0; 3]);
     let features = sharp(&mesh);

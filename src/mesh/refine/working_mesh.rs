@@ -163,6 +163,14 @@ impl<'a> WorkingMesh<'a> {
     /// Splits an edge at a point of an original face.
     fn split_edge(&mut self, half: u32, p: Vec3, on: u32) -> bool {
         let other = self.twin[half as usize];
+        if other != NONE && self.tail(previous(half)) == self.tail(previous(other)) {
+            // Two faces with the same corners: a vertex on their edge would have two edges to the third.
+            let face = half / 3;
+            let sum = self.corners(face).into_iter().reduce(add);
+            let middle = sum.map_or([0.0; 3], |sum| scale(sum, 1.0 / 3.0));
+            let (p, on) = self.on_the_surface(face, middle);
+            return self.split_face(face, p, on);
+        }
         for side in [half, other].into_iter().filter(|&side| side != NONE) {
             let region = self.region(side / 3);
             let [a, b, c] = [side, next(side), previous(side)].map(|h| self.position(self.tail(h)));

@@ -163,7 +163,7 @@ fn add_triangles(
         soup.add_polygon(if mirrored { [a, c, b] } else { [a, b, c] });
     };
     match primitive.mode.unwrap_or(4) {
-        4 if corners.len() % 3 == 0 => corners.as_chunks().0.iter().copied().for_each(add),
+        4 if corners.len().is_multiple_of(3) => corners.as_chunks().0.iter().copied().for_each(add),
         4 => {
             return Err(malformed(format!(
                 "a primitive of triangles has {} corners, not a multiple of 3",

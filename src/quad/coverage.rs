@@ -1,0 +1,84 @@
+//! Whether quads cover the surface that they are to replace.
+//!
+//! Quads much larger than a solid's details cut off its edges and corners. Where that loses more than a small
+//! part of the surface, quads along its sharp edges may do better.
+
+use crate::extract::QuadMesh;
+use crate::mesh::refine::diagonal;
+use crate::mesh::vector::{add, norm, scale, sub};
+use crate::mesh::{ClosestPoint, TriangleMesh};
+
+/// A point of the surface is lost if it is farther from the quads than this part of the diagonal.
+const FAR: f64 = 0.015;
+
+/// The part of the surface that may be lost.
+const LOST: f64 = 0.01;
+
+/// The number of points that stand for the surface.
+const POINTS: f64 = 4000.0;
+
+/// The fractional parts of the multiples of two irrational numbers fill a square evenly: the reciprocals of
+/// the plastic number and of its square.
+const EVENLY: [f64; 2] = [0.754_877_666_246_692_8, 0.569_840_290_998_053_3];
+
+/// Whether at most [`LOST`] of the surface is farther than [`FAR`] from the quads.
+pub(super) fn covers(quads: &QuadMesh, mesh: &TriangleMesh) -> bool {
+    let at = |v: u32| quads.vertices[v as usize];
+    let triangles = quads.faces().flat_map(|face| {
+        let fan = face.windows(2).skip(1);
+        fan.map(|pair| [at(face[0]), at(pair[0]), at(pair[1])])
+    });
+    let tree = ClosestPoint::of_triangles(triangles.collect());
+    let far = FAR * diagonal(mesh);
+    let spacing = mesh.surface_area() / POINTS;
+    let (mut count, mut lost, mut due) = (0usize, 0usize, 0.0);
+    for face in 0..mesh.face_count() {
+        due += mesh.area(face) / spacing;
+        while due >= 1.0 {
+            due -= 1.0;
+            count += 1;
+            let p = inside(mesh.corner_positions(face), count);
+            let near = tree.find(p, None);
+            let is_lost = near.is_none_or(|(_, q)| norm(sub(p, q)) > far);
+            lost += usize::from(is_lost);
+        }
+    }
+    lost as f64 <= LOST * count as f64
+}
+
+/// The point of a triangle that belongs to a number: even over all numbers.
+fn inside([a, b, c]: [[f64; 3]; 3], number: usize) -> [f64; 3] {
+    let [mut s, mut t] = EVENLY.map(|step| (number as f64 * step).fract());
+    if s + t > 1.0 {
+        (s, t) = (1.0 - s, 1.0 - t);
+    }
+    add(a, add(scale(sub(b, a), s), scale(sub(c, a), t)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::shape::by_name;
+
+    #[test]
+    fn the_surface_is_covered_by_itself_and_not_by_half_of_itself() {
+        let mesh = by_name("rounded-cube", 2_000).unwrap();
+        let whole = QuadMesh {
+            vertices: mesh.vertices().to_vec(),
+            origins: Vec::new(),
+            quads: Vec::new(),
+            others: mesh.triangles().iter().map(|t| t.to_vec()).collect(),
+            partial_cells: 0,
+            folds_removed: 0,
+            repaired: 0,
+            folded: Vec::new(),
+            expected_euler: 2,
+        };
+        assert!(covers(&whole, &mesh));
+        let half = QuadMesh {
+            others: whole.others[..mesh.face_count() / 2].to_vec(),
+            ..whole
+        };
+        assert!(!covers(&half, &mesh));
+    }
+}
