@@ -2592,9 +2592,10 @@ roundel_status roundel_quads_faults(const struct roundel_quads *quads,
                                     int32_t *triangles);
 
 /**
- * Writes the faces as OBJ. Reading gives back the same numbers.
+ * Writes the faces as OBJ, OFF, PLY or USD text (.usda), told apart by extension. Reading gives back the
+ * same numbers. STL and glTF hold no quads: they get triangles in single precision.
  *
- * Fails with ROUNDEL_ERROR_IO.
+ * Fails with ROUNDEL_ERROR_IO, and with ROUNDEL_ERROR_NOT_SUPPORTED for another extension.
  */
 roundel_status roundel_quads_write(const struct roundel_quads *quads, const char *file);
 

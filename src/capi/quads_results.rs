@@ -1,12 +1,14 @@
 //! The results of quads: vertices, faces, counts.
 
 use std::ffi::c_char;
+use std::path::Path;
 
 use super::guard;
 use super::input::path;
 use super::output::{Out, copy_numbers};
 use super::quads::roundel_quads;
 use super::status::roundel_status;
+use crate::error::Result;
 use crate::extract::QuadMesh;
 
 /// An entry that gives one number of quads.
@@ -251,9 +253,20 @@ pub unsafe extern "C" fn roundel_quads_faults(
     unsafe { guard::read(quads, body) }
 }
 
-/// Writes the faces as OBJ. Reading gives back the same numbers.
+#[cfg(feature = "mesh-io")]
+fn write(quads: &QuadMesh, file: &Path) -> Result<()> {
+    quads.write(file)
+}
+
+#[cfg(not(feature = "mesh-io"))]
+fn write(quads: &QuadMesh, file: &Path) -> Result<()> {
+    quads.write_obj(file)
+}
+
+/// Writes the faces as OBJ, OFF, PLY or USD text (.usda), told apart by extension. Reading gives back the
+/// same numbers. STL and glTF hold no quads: they get triangles in single precision.
 ///
-/// Fails with ROUNDEL_ERROR_IO.
+/// Fails with ROUNDEL_ERROR_IO, and with ROUNDEL_ERROR_NOT_SUPPORTED for another extension.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_quads_write(
     quads: *const roundel_quads,
@@ -262,7 +275,7 @@ pub unsafe extern "C" fn roundel_quads_write(
     let body = |quads: &QuadMesh| {
         // SAFETY: the caller gives a text, or NULL.
         let file = unsafe { path("file", file) }?;
-        Ok(quads.write_obj(file)?)
+        Ok(write(quads, file)?)
     };
     // SAFETY: the caller gives a live handle, or NULL.
     unsafe { guard::read(quads, body) }

@@ -69,7 +69,6 @@ impl OrientationField {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use crate::field::FieldProblem;
     use crate::mesh::shape;
     use crate::search::Options;

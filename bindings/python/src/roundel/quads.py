@@ -82,7 +82,7 @@ class Quads:
         check(lib.roundel_quads_smooth(self._handle.pointer, *arguments))
 
     def write(self, file: Any) -> None:
-        """Writes the faces to an OBJ file."""
+        """Writes the faces as OBJ, OFF, PLY or USD text, by extension; as STL or glTF, triangles."""
         check(lib.roundel_quads_write(self._handle.pointer, path(file)))
 
 
