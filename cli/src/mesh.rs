@@ -79,11 +79,11 @@ impl Input {
 
 impl MeshFlags {
     /// The mesh that `name` stands for: `shape:NAME[:TRIANGLES]`, a file, or `-` for standard input. What was
-    /// repaired is told on stderr.
+    /// repaired is told on stderr, unless `json` tells it.
     ///
     /// # Errors
     /// Those of reading and of repair; with `--strict` those of [`TriangleMesh::new`].
-    pub fn read(&self, name: &Path) -> Result<Input> {
+    pub fn read(&self, name: &Path, json: bool) -> Result<Input> {
         if let Some(drawn) = name.to_str().and_then(shape::from_spec) {
             return Ok(Input {
                 mesh: drawn?,
@@ -97,7 +97,7 @@ impl MeshFlags {
             });
         }
         let (mesh, repaired) = self.repaired(&self.read_soup(name)?)?;
-        if !repaired.edits.is_empty() {
+        if !repaired.edits.is_empty() && !json {
             output::note(name, &format!("repaired: {}", repaired.edits.summary()));
         }
         Ok(Input {

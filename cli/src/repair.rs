@@ -49,7 +49,7 @@ pub fn run(arguments: &Arguments) -> Exit {
 
 fn repair(arguments: &Arguments) -> Result<(TriangleMesh, Edits)> {
     if arguments.input.strict {
-        let mesh = arguments.input.read(&arguments.file)?.mesh;
+        let mesh = arguments.input.read(&arguments.file, true)?.mesh;
         write(arguments, &mesh)?;
         return Ok((mesh, Edits::default()));
     }

@@ -37,7 +37,7 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
     let progress = Progress::start();
     let options = arguments.solver.over(Options::default())?;
     let started = Instant::now();
-    let input = arguments.input.read(&arguments.mesh)?;
+    let input = arguments.input.read(&arguments.mesh, arguments.json)?;
     arguments.directions.keep_numbers(&input)?;
     let Input { mesh, repair } = input;
     let read = started.elapsed().as_secs_f64();

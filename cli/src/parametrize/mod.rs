@@ -65,7 +65,7 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
     let monitor = || progress.monitor().cancel_token(token.clone());
     let options = arguments.solver.over(Options::default())?;
     let started = Instant::now();
-    let input = arguments.input.read(&arguments.mesh)?;
+    let input = arguments.input.read(&arguments.mesh, arguments.json)?;
     arguments.directions.keep_numbers(&input)?;
     input.keeps_numbers("--field", arguments.field.is_some())?;
     let Input { mesh, repair } = input;

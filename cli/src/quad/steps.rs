@@ -27,7 +27,7 @@ pub(super) fn solve(arguments: &Arguments) -> Result<Solved> {
     let default = QuadOptions::default();
     let map = arguments.solver.over(default.map.clone())?;
     let started = Instant::now();
-    let input = arguments.input.read(&arguments.mesh)?;
+    let input = arguments.input.read(&arguments.mesh, arguments.json)?;
     arguments.directions.keep_numbers(&input)?;
     let Input { mesh, repair } = input;
     let read_seconds = started.elapsed().as_secs_f64();

@@ -14,12 +14,13 @@ use page::{Block, blocks, pages, root};
 const NAMES: [&str; 2] = ["cargo run --release -p roundel-cli -- ", "roundel "];
 
 /// The commands of the program.
-const COMMANDS: [&str; 8] = [
+const COMMANDS: [&str; 9] = [
     "quad",
     "field",
     "parametrize",
     "check",
     "extract",
+    "repair",
     "solve",
     "shape",
     "evaluate",

@@ -170,7 +170,7 @@ fn the_picture_is_the_same_every_time() {
 }
 
 #[test]
-fn a_mesh_that_is_refused_is_an_error_that_names_the_element() {
+fn a_mesh_that_is_refused_as_it_stands_is_an_error_that_names_the_element() {
     let scratch = Scratch::new("field-broken");
     let broken = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\n";
     let flat = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 2 0 0\nf 1 2 3\nf 1 2 4\n";
@@ -180,10 +180,10 @@ fn a_mesh_that_is_refused_is_an_error_that_names_the_element() {
         ("flat.obj", flat, "zero_area", json!(1)),
         ("quad.obj", quad, "not_a_triangle", json!(0)),
         ("empty.obj", "", "no_faces", Value::Null),
-        ("mesh.stl", "", "unknown_format", Value::Null),
+        ("mesh.3mf", "", "unknown_format", Value::Null),
     ] {
         let file = scratch.write(name, content);
-        let (exit, report) = field(&[text(&file)]);
+        let (exit, report) = field(&[text(&file), "--strict"]);
         assert_eq!((exit, &report["status"]), (1, &json!("error")));
         assert_eq!(report["error"]["code"], json!(code), "{report}");
         assert_eq!(report["error"]["index"], index, "{report}");

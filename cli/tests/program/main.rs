@@ -8,6 +8,7 @@ mod output;
 mod parametrize;
 mod problem;
 mod quad;
+mod repair;
 mod run;
 mod same_quads;
 mod shape;

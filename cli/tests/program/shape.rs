@@ -52,7 +52,7 @@ fn what_cannot_be_drawn_or_written_is_one_line_on_stderr() {
             &["torus", "--jitter", "-1", "-o", out],
             "jitter amplitude is -1",
         ),
-        (&["torus", "-o", "torus.stl"], "'stl' is not a mesh format"),
+        (&["torus", "-o", "torus.3mf"], "'3mf' is not a mesh format"),
         (&["torus", "-o", "no-such-folder/t.obj"], "t.obj: "),
     ] {
         let (code, output) = finish(program(&[&["shape"], words].concat()));
