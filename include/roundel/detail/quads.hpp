@@ -222,7 +222,7 @@ class Quads {
         return *this;
     }
 
-    /// Writes the faces as OBJ, OFF, PLY or USD text, told apart by extension; as STL or glTF, triangles.
+    /// Writes the faces as OBJ, OFF, PLY or USD text, by extension; as STL or glTF, triangles.
     void write(const std::string& file, Status* status = nullptr) const {
         detail::check(roundel_quads_write(get(), file.c_str()), status);
     }
