@@ -23,7 +23,7 @@ const FACES: usize = 50_000;
 /// kept if its quads conform or need fewer repairs. If the quads still do not conform, and the options
 /// give no size of details, the field is solved for again with larger details excluded. Small parts of the
 /// mesh that are lost get smaller quads, and so does a mesh without any quads
-/// ([`Sizing::Lengths`]).
+/// ([`Sizing::Lengths`](crate::map::Sizing::Lengths)).
 ///
 /// If a mesh that had to be refined, or whose quads do not conform, is still not covered by quads that conform,
 /// it is tried once more with its sharp edges as features, if the options give no angle, and once more

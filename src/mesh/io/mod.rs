@@ -74,12 +74,12 @@ pub fn write<'a>(path: impl AsRef<Path>, drawing: impl Into<Drawing<'a>>) -> Res
     save(path, &encode(&drawing.into(), format_of(path)?)?)
 }
 
-/// Writes polygons as [`write`] does triangles. Formats that hold no polygons
+/// Writes polygons as [`write()`] does triangles. Formats that hold no polygons
 /// ([`Format::holds_polygons`]) get triangles: a quad is split along its shorter diagonal.
 ///
 /// # Errors
 ///
-/// As [`write`].
+/// As [`write()`].
 pub fn write_polygons(path: impl AsRef<Path>, polygons: &Polygons) -> Result<(), MeshError> {
     let path = path.as_ref();
     save(path, &encode_polygons(polygons, format_of(path)?)?)
@@ -89,7 +89,7 @@ pub fn write_polygons(path: impl AsRef<Path>, polygons: &Polygons) -> Result<(),
 ///
 /// # Errors
 ///
-/// As [`write`].
+/// As [`write()`].
 pub fn encode_polygons(polygons: &Polygons, format: Format) -> Result<Vec<u8>, MeshError> {
     encoded(&polygons.into(), format)
 }
