@@ -2597,7 +2597,8 @@ roundel_status roundel_quads_faults(const struct roundel_quads *quads,
  *
  * Fails with ROUNDEL_ERROR_IO, and with ROUNDEL_ERROR_NOT_SUPPORTED for another extension.
  */
-roundel_status roundel_quads_write(const struct roundel_quads *quads, const char *file);
+roundel_status roundel_quads_write(const struct roundel_quads *quads,
+                                   const char *file);
 
 #ifdef __cplusplus
 }  // extern "C"
