@@ -77,6 +77,7 @@ fn euclidean_step(tableau: &mut Tableau, r: usize) -> Result<()> {
         constraint: r as u32,
         largest,
         magnitude: largest,
+        denominator: Some(1.0),
     };
     tableau.stack.push(by, terms);
     tableau.steps.push(Step::Introduce);

@@ -7,8 +7,8 @@ use super::tolerance::{DENOMINATOR, LARGEST, RATIO, TELLING, near_integer};
 /// the new unit in the old one. If there are no such integers, returns `None` and changes nothing.
 ///
 /// Coefficients that are integers in the caller's own units are taken unchanged, unless they are large
-/// numbers that were computed: those may be integers by accident. Otherwise the ratios to the smallest
-/// coefficient are expanded in continued fractions (`khinchin1935`), whose convergents are the best
+/// numbers that were computed: those may be integers by accident. If the caller gave integers, then the
+/// pivots give a common denominator of all that was computed. Otherwise the ratios to the smallest coefficient are expanded in continued fractions (`khinchin1935`), whose convergents are the best
 /// approximations among all fractions with denominators as small. The last resort is integers in the caller's
 /// units up to noise.
 pub(super) fn integer_multiples(row: &mut Row) -> Option<f64> {
@@ -16,6 +16,7 @@ pub(super) fn integer_multiples(row: &mut Row) -> Option<f64> {
     let exact = |v: f64| (v.fract() == 0.0 && v.abs() < limit).then_some(v);
     let near = |v: f64| near_integer(v, row.magnitude / row.scale).filter(|v| *v != 0.0);
     let (mut integers, unit) = as_given(row, exact)
+        .or_else(|| by_denominator(row))
         .or_else(|| from_ratios(row))
         .or_else(|| as_given(row, near))?;
     let factor = integers.iter().fold(0.0, |g, &v| gcd(g, v));
@@ -34,6 +35,13 @@ fn as_given(row: &Row, integer: impl Fn(f64) -> Option<f64>) -> Option<(Vec<f64>
         .map(|e| integer(e.1 / row.scale))
         .collect();
     Some((integers?, row.scale))
+}
+
+/// All coefficients in units of one by the row's denominator.
+fn by_denominator(row: &Row) -> Option<(Vec<f64>, f64)> {
+    let whole = |e: &(u32, f64)| row.whole(e.1).filter(|v| *v != 0.0);
+    let integers: Option<Vec<f64>> = row.entries.iter().map(whole).collect();
+    Some((integers?, row.scale / row.denominator?))
 }
 
 /// The non-negative greatest common divisor of two integers. Remainders of doubles are exact.

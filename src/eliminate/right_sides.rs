@@ -7,7 +7,7 @@ use super::errors::{infeasible, no_integer_solution, overflow};
 use super::record::Record;
 use super::row::{TooLarge, add_product};
 use super::steps::Step;
-use super::tolerance::{CONSISTENT, LARGEST, NOISE, near_integer};
+use super::tolerance::{CONSISTENT, LARGEST, NOISE, WHOLE, near_integer};
 use super::unknowns::Unknowns;
 use crate::error::Result;
 use crate::linalg::CompensatedSum;
@@ -66,8 +66,16 @@ fn constants(record: &Record, model: &Model, monitor: &mut Monitor) -> Result<Ve
                 if value.is_nan() || value.abs() >= LARGEST {
                     return Err(overflow(model, row as usize));
                 }
-                side.value = near_integer(value, side.magnitude / unit)
-                    .ok_or_else(|| no_integer_solution(model, row as usize))?;
+                let magnitude = side.magnitude / unit;
+                side.value = near_integer(value, magnitude).ok_or_else(|| {
+                    // Rounding errors of larger numbers may hide an integer.
+                    let of = if magnitude < WHOLE {
+                        no_integer_solution
+                    } else {
+                        overflow
+                    };
+                    of(model, row as usize)
+                })?;
             }
             Step::Divide { row, factor } => {
                 let side = &mut sides[row as usize];

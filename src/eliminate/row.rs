@@ -1,7 +1,8 @@
 //! The coefficients of an equation during the elimination.
 
+use super::ratio::gcd;
 use super::substitution::Substitution;
-use super::tolerance::{LARGEST, NOISE, RANK};
+use super::tolerance::{LARGEST, NOISE, RANK, WHOLE, near_integer};
 
 /// The left side of an equation. The right sides are computed afterwards; see `right_sides`.
 #[derive(Debug, Clone)]
@@ -12,6 +13,9 @@ pub(super) struct Row {
     pub magnitude: f64,
     /// The power of two by which the caller's row was multiplied.
     pub scale: f64,
+    /// A whole number that turns all coefficients, in the caller's units, into whole numbers, if one is
+    /// known.
+    pub denominator: Option<f64>,
     /// The number of continuous unknowns.
     pub continuous: u32,
     /// Whether an unknown of the row was substituted.
@@ -66,9 +70,12 @@ impl Row {
         self.entries.binary_search_by_key(&unknown, |e| e.0).ok()
     }
 
-    /// Raises the magnitude for a substitution that enters the row times `factor`.
+    /// Raises the magnitude and the denominator for a substitution that enters the row times `factor`.
     pub fn grow(&mut self, factor: f64, by: &Substitution) {
         self.touched = true;
+        if !self.integral {
+            self.denominator = self.denominator_with(factor, by);
+        }
         let factor = factor.abs();
         // As in Wilkinson's analysis (`wilkinson1961`), noise is relative to the largest numbers seen. The
         // product of the factors along a chain of substitutions would be a bound too. But that bound grows
@@ -76,6 +83,34 @@ impl Row {
         let inherited = factor.min(1.0);
         let largest = (factor * by.largest).max(inherited * by.magnitude);
         self.magnitude = self.magnitude.max(largest);
+    }
+
+    /// `factor` is the fraction of `whole` and the row's denominator; a factor that it has in common with the
+    /// substitution's denominator cancels.
+    fn denominator_with(&self, factor: f64, by: &Substitution) -> Option<f64> {
+        let whole = self.whole(factor)?;
+        let own = by.denominator? / gcd(whole, by.denominator?);
+        self.denominator.map(|d| d * own).filter(|d| *d < LARGEST)
+    }
+
+    /// A coefficient of this row in units of one by the row's denominator. `None` if none is known, or if
+    /// rounding hides which whole number it is.
+    pub fn whole(&self, coefficient: f64) -> Option<f64> {
+        let unit = self.scale / self.denominator?;
+        let magnitude = self.magnitude / unit;
+        (magnitude < WHOLE).then(|| near_integer(coefficient / unit, magnitude))?
+    }
+
+    /// The least denominator of the other coefficients once the row is solved for `pivot`.
+    pub fn denominator_by(&self, pivot: f64) -> Option<f64> {
+        if self.integral {
+            return Some(1.0);
+        }
+        let mut common = 0.0;
+        for (_, a) in &self.entries {
+            common = gcd(common, self.whole(*a)?);
+        }
+        Some(self.whole(pivot)?.abs() / common)
     }
 
     /// Drops rounding errors where they would decide the kind of the row: continuous coefficients if none of

@@ -53,6 +53,7 @@ impl Stack {
             constraint: constraint as u32,
             largest: terms.clone().fold(0.0, |m: f64, t| m.max(t.1.abs())),
             magnitude: row.magnitude,
+            denominator: row.denominator_by(a),
         };
         self.push(by, terms);
     }

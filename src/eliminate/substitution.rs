@@ -11,6 +11,8 @@ pub(super) struct Substitution {
     pub largest: f64,
     /// The magnitude of the row that it comes from; see `Row::magnitude`.
     pub magnitude: f64,
+    /// A whole number that turns all coefficients of the terms into whole numbers, if one is known.
+    pub denominator: Option<f64>,
 }
 
 impl Substitution {

@@ -108,6 +108,7 @@ fn shorten_group(
             constraint: r as u32,
             largest: 1.0,
             magnitude: 1.0,
+            denominator: None,
         };
         tableau.unknowns.replaced[pivot as usize] = tableau.stack.len() as u32;
         tableau.stack.push(by, terms);

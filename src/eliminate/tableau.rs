@@ -47,6 +47,7 @@ impl<'a> Tableau<'a> {
                     constraint: Substitution::NO_CONSTRAINT,
                     largest: 0.0,
                     magnitude: 0.0,
+                    denominator: Some(1.0),
                 };
                 unknowns.replaced[i] = stack.len() as u32;
                 stack.push(by, []);
@@ -84,12 +85,15 @@ impl<'a> Tableau<'a> {
         let largest = given.clone().fold(0.0, |m: f64, (_, v)| m.max(v.abs()));
         let scale = scale_of(largest);
         let pinned = self.model.pinned();
+        let whole = |v: f64| v.fract() == 0.0 && v.abs() < LARGEST;
+        let are_whole = given.clone().all(|(_, v)| whole(v));
         let free = given.filter(|&(j, _)| pinned[j].is_none());
         let scaled = free.map(|(j, v)| (j as u32, v * scale));
         Row {
             entries: scaled.filter(|e| e.1 != 0.0).collect(),
             magnitude: if largest > 0.0 { largest * scale } else { 1.0 },
             scale,
+            denominator: are_whole.then_some(1.0),
             continuous: 0,
             touched: false,
             integral: false,

@@ -44,6 +44,10 @@ pub(super) const DENOMINATOR: f64 = 1e4;
 /// Two ratios count as equal if they differ by at most this, relative to one plus their size.
 pub(super) const RATIO: f64 = 1e-11;
 
+/// A computed coefficient that must be a whole number is the nearest one if the numbers that it was computed
+/// from are below this: their rounding errors are then below a hundredth.
+pub(super) const WHOLE: f64 = 1e13;
+
 /// Integers are kept below 2^53, where sums and products of doubles are exact.
 pub(super) const LARGEST: f64 = 9_007_199_254_740_992.0;
 

@@ -212,7 +212,6 @@ impl From<SoupError> for MeshError {
             SoupError::UnknownFormat { extension, known } => {
                 MeshError::UnknownFormat { extension, known }
             }
-            SoupError::InvalidArgument { what } => MeshError::InvalidArgument { what },
         }
     }
 }

@@ -51,12 +51,6 @@ pub enum SoupError {
         /// The extensions of the known formats, as a list for people.
         known: &'static str,
     },
-    /// An option outside its range.
-    #[error("{what}")]
-    InvalidArgument {
-        /// What is wrong, in words.
-        what: String,
-    },
 }
 
 #[cfg(feature = "mesh-io")]

@@ -1,7 +1,7 @@
 //! Wrong or weak answers that others found by exact arithmetic, each named after what it showed.
 
 use super::random::Random;
-use roundel::{Options, Problem, Solution, SolveStatus, Strategy, Triangle, solve};
+use roundel::{Error, Options, Problem, Solution, SolveStatus, Strategy, Triangle, solve};
 
 fn by(problem: &Problem, strategy: Strategy) -> Solution {
     let options = Options {
@@ -173,4 +173,54 @@ fn what_was_enumerated_whole_is_optimal() {
     let solution = by(&problem, Strategy::Exact);
     assert!(solution.is_complete());
     assert_eq!(solution.status(), SolveStatus::Optimal);
+}
+
+/// Integers of four and five digits left "a relation of integers whose coefficients have no common measure".
+/// Such a relation may need numbers beyond 2^53: then the error says so.
+#[test]
+fn two_constraints_with_one_real_unknown_leave_an_exact_relation_of_integers() {
+    for (largest, least_solved) in [(1_000, 200), (10_000, 150), (100_000, 1)] {
+        let mut random = Random::new(7);
+        let mut solved = 0;
+        for _ in 0..200 {
+            let mut below = |most: usize| random.below(2 * most) as i64 - most as i64;
+            let rows = [0; 2].map(|_| [0; 4].map(|_| 2 * below(largest / 2) + 1));
+            let point = [0; 4].map(|_| below(1_000));
+            solved += usize::from(solves_relation(rows, point));
+        }
+        assert!(solved >= least_solved, "{largest}: {solved}");
+    }
+}
+
+/// Whether there is a solution, which is then right, of two constraints that hold at `point`, where all
+/// unknowns but the first are integers.
+fn solves_relation(rows: [[i64; 4]; 2], point: [i64; 4]) -> bool {
+    let all = [0, 1, 2, 3];
+    let right_sides = rows.map(|row| (0..4).map(|i| row[i] * point[i]).sum::<i64>());
+    let mut problem = Problem::new(4).unwrap();
+    for (row, right_side) in rows.iter().zip(right_sides) {
+        let row = row.map(|a| a as f64);
+        problem
+            .add_constraint(&all, &row, right_side as f64)
+            .unwrap();
+    }
+    for i in all {
+        let target = point[i] as f64 + 0.3;
+        problem
+            .add_least_squares(&[i], &[1.0], target, 1.0)
+            .unwrap();
+    }
+    problem.set_integers(&all[1..]).unwrap();
+    let solution = match solve(&problem, &Options::default()) {
+        Err(Error::Overflow { .. }) => return false,
+        solution => solution.unwrap(),
+    };
+    let x = solution.values();
+    // The combination of the rows without the real unknown is a relation of whole numbers.
+    let combined = |a: i64, b: i64| i128::from(rows[1][0] * a - rows[0][0] * b);
+    let relation = |i: usize| combined(rows[0][i], rows[1][i]) * x[i] as i128;
+    let sum: i128 = (1..4).map(relation).sum();
+    assert_eq!(sum, combined(right_sides[0], right_sides[1]), "{rows:?}");
+    assert!(solution.energy() <= 4.0 * 0.09 + 1e-9, "{rows:?}");
+    true
 }
