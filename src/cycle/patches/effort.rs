@@ -3,8 +3,12 @@
 use super::dissect::Recipe;
 use crate::cycle::space::CycleSpace;
 
-/// `auto`: the multiplications of a proof, about three seconds.
+/// `auto`: the most multiplications of a proof, about three seconds.
 const BRIEF: u64 = 800_000_000;
+
+/// `auto`: the multiplications of a proof for each edge, about a tenth of a millisecond. Ten times as many
+/// lower the gap of the corpus' fields of up to 2,000 faces from 8 to 5 % at the most.
+const PER_EDGE: u64 = 30_000;
 
 /// `auto`: systems of more edges get one bisection of each patch instead of several.
 const SEVERAL: usize = 60_000;
@@ -49,7 +53,7 @@ impl Proof {
         Proof {
             recipes: vec![recipe],
             trials: 0,
-            work: if edges > MOST { 0 } else { BRIEF },
+            work: if edges > MOST { 0 } else { BRIEF.min(PER_EDGE * edges as u64) },
             conditions: false,
         }
     }
