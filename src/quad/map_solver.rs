@@ -8,7 +8,7 @@ use super::outcome::Outcome;
 use crate::error::Result;
 use crate::map::{SeamlessMap, SeamlessProblem, SeparationConstraint, solve_separated};
 use crate::mesh::TriangleMesh;
-use crate::monitor::Monitor;
+use crate::monitor::{Monitor, optional};
 use crate::search::{Options, Strategy};
 use crate::solve::{Solution, Solver};
 use crate::untangle::{Collapsed, Structure, UntangleOptions, Untangled};
@@ -158,8 +158,10 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> MapSolver<'a, M> {
                 break;
             }
             let (solver, separation) = (&mut self.solver, &mut self.separation);
-            let Some(solution) = solve_separated(solver, separation, &options, self.monitor)?
-            else {
+            let solved = optional(self.monitor, || {
+                solve_separated(solver, separation, &options, self.monitor)
+            });
+            let Some(solution) = solved?.flatten() else {
                 break;
             };
             rounds += 1;
