@@ -34,6 +34,16 @@ pub(super) fn without_long_proof(options: &Options, variables: usize) -> Options
     options
 }
 
+/// A solution by options [`without_long_proof`]: where their limit of nodes is the library's, a budget has ended
+/// the proof, and no limit of the caller's.
+fn named_limit(solution: Solution, options: &Options) -> Solution {
+    let is_ours = options.strategy == Strategy::Auto && options.nodes == NODES;
+    match is_ours {
+        true => solution.within_budget(),
+        false => solution,
+    }
+}
+
 /// A solution, and its map.
 pub(super) struct Solved {
     pub(super) solution: Solution,
@@ -106,6 +116,7 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> MapSolver<'a, M> {
     pub(super) fn solve(&mut self) -> Result<Solved> {
         self.forget_separation();
         let solution = self.solver.solve_with(self.options, (self.monitor)())?;
+        let solution = named_limit(solution, self.options);
         self.solved(solution)
     }
 
@@ -165,7 +176,7 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> MapSolver<'a, M> {
                 break;
             };
             rounds += 1;
-            let found = self.solved(solution)?;
+            let found = self.solved(named_limit(solution, &options))?;
             let of_found;
             (of_found, wanted) = find(self, &found.map);
             if of_found < outcome {

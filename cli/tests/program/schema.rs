@@ -100,23 +100,24 @@ impl Schema {
                 others.any(|other| self.check(other, value, place).is_ok())
             }
             "items" => {
-                let elements = value.as_array().into_iter().flatten().enumerate();
-                return elements
-                    .map(|(i, element)| self.check(rule, element, &format!("{place}/{i}")))
-                    .collect();
+                let mut elements = value.as_array().into_iter().flatten().enumerate();
+                return elements.try_for_each(|(i, element)| {
+                    self.check(rule, element, &format!("{place}/{i}"))
+                });
             }
             "properties" => {
                 let members = rule.as_object().unwrap().iter();
-                let given = members.filter_map(|(key, rule)| Some((key, rule, value.get(key)?)));
-                return given
-                    .map(|(key, rule, value)| self.check(rule, value, &format!("{place}/{key}")))
-                    .collect();
+                let mut given =
+                    members.filter_map(|(key, rule)| Some((key, rule, value.get(key)?)));
+                return given.try_for_each(|(key, rule, value)| {
+                    self.check(rule, value, &format!("{place}/{key}"))
+                });
             }
             "additionalProperties" => {
-                let members = value.as_object().into_iter().flatten();
-                return members
-                    .map(|(key, value)| self.check(rule, value, &format!("{place}/{key}")))
-                    .collect();
+                let mut members = value.as_object().into_iter().flatten();
+                return members.try_for_each(|(key, value)| {
+                    self.check(rule, value, &format!("{place}/{key}"))
+                });
             }
             other => panic!("the test does not know {other}"),
         };
