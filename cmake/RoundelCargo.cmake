@@ -46,15 +46,16 @@ foreach(link IN LISTS ROUNDEL_SHARED_LINKS)
     list(APPEND ROUNDEL_SHARED_LINK_FILES "${ROUNDEL_LIB_DIR}/${link}")
 endforeach()
 
-# One call of cargo for all: calls for single packages would compile the library once for each, with other
-# features.
-set(cargo_packages --package roundel)
+# Both packages are always named, because cargo compiles the dependencies with the features of those that are:
+# other calls would compile the library again.
+set(cargo_packages --package roundel --package roundel-cli)
 set(generate_command "")
 set(ROUNDEL_PROGRAM "${cargo_dir}/release/roundel")
 set(ROUNDEL_GENERATED "${PROJECT_BINARY_DIR}/generated")
 if(ROUNDEL_BUILD_PROGRAM OR ROUNDEL_BUILD_TESTS)
-    list(APPEND cargo_packages --package roundel-cli)
     set(generate_command COMMAND "${ROUNDEL_PROGRAM}" generate "${ROUNDEL_GENERATED}")
+else()
+    list(APPEND cargo_packages --lib)
 endif()
 
 add_custom_target(
