@@ -15,7 +15,7 @@ const COMMON: [&str; 3] = ["strategy", "time_limit", "threads"];
 const EXPERT: [&str; 3] = ["preset", "stiffen", "stiffenings"];
 
 /// Examples of each command.
-const EXAMPLES: [(&str, &str); 9] = [
+const EXAMPLES: [(&str, &str); 10] = [
     (
         "solve",
         "\
@@ -61,6 +61,11 @@ const EXAMPLES: [(&str, &str); 9] = [
         "shape",
         "\
   roundel shape torus --triangles 5000 -o torus.obj",
+    ),
+    (
+        "generate",
+        "\
+  roundel generate ~/.local/share/roundel",
     ),
     (
         "evaluate",
@@ -122,7 +127,7 @@ mod tests {
     #[test]
     fn every_command_has_examples_that_it_understands() {
         let program = Program::command();
-        for command in program.get_subcommands().filter(|c| !c.is_hide_set()) {
+        for command in program.get_subcommands() {
             let name = command.get_name();
             let examples = EXAMPLES.iter().find(|(known, _)| *known == name);
             let (_, examples) = examples.unwrap_or_else(|| panic!("{name} has no examples"));

@@ -45,14 +45,13 @@ enum Command {
     Extract(extract::Arguments),
     Shape(shape::Arguments),
     Evaluate(evaluate::Arguments),
-    #[command(hide = true)]
     Generate(generate::Arguments),
 }
 
 fn main() -> ExitCode {
     let all = std::env::args_os().any(|word| word == help::HELP_ALL);
     let program = help::arranged(Program::command(), all);
-    let given = program.clone().get_matches();
+    let given = program.get_matches();
     let given = Program::from_arg_matches(&given).unwrap_or_else(|error| error.exit());
     match given.command {
         Command::Solve(arguments) => solve::run(&arguments),
@@ -64,7 +63,9 @@ fn main() -> ExitCode {
         Command::Extract(arguments) => extract::run(&arguments),
         Command::Shape(arguments) => shape::run(&arguments),
         Command::Evaluate(arguments) => evaluate::run(&arguments),
-        Command::Generate(arguments) => generate::run(&arguments, &program),
+        Command::Generate(arguments) => {
+            generate::run(&arguments, &help::arranged(Program::command(), true))
+        }
     }
     .into()
 }

@@ -1,7 +1,7 @@
 //! The monitor: progress, log lines, better solutions, cancellation and time limit for all loops.
 //!
-//! There are two kinds of ends. A loop that has no result yet asks [`Monitor::check`], and its error ends the
-//! call. A search, which has a result at any time, asks [`Monitor::ends`]. They differ when the caller wants
+//! There are two kinds of ends. A loop that has no result yet asks `Monitor::check`, and its error ends the
+//! call. A search, which has a result at any time, asks `Monitor::ends`. They differ when the caller wants
 //! a run to finish with what it has: then searches end, and all that a result needs goes on.
 
 mod cancel;

@@ -14,7 +14,7 @@ use page::{Block, blocks, pages, root};
 const NAMES: [&str; 2] = ["cargo run --release -p roundel-cli -- ", "roundel "];
 
 /// The commands of the program.
-const COMMANDS: [&str; 9] = [
+const COMMANDS: [&str; 10] = [
     "quad",
     "field",
     "parametrize",
@@ -24,6 +24,7 @@ const COMMANDS: [&str; 9] = [
     "solve",
     "shape",
     "evaluate",
+    "generate",
 ];
 
 fn page(name: &str) -> String {
