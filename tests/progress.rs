@@ -72,6 +72,7 @@ fn several_calls_of_one_run_share_its_progress() {
     let effort = UntangleOptions::default();
     solve_fold_free(&mesh, &problem, &options, &effort, monitor).unwrap();
     let told = told.check("torus");
+    assert_eq!(told.last().unwrap().1, 1.0);
     let at = told.iter().position(|t| t.0 == Stage::Map).unwrap();
     assert!(told[..at].iter().all(|t| t.0 == Stage::Field && t.1 <= 0.5));
     assert!(told[at..].iter().all(|t| t.0 == Stage::Map && t.1 >= 0.5));

@@ -4,6 +4,7 @@
 //! something, the time so far and about how long the rest takes. What is done never falls.
 
 use std::fmt::Write;
+use std::ops::Range;
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
@@ -30,8 +31,9 @@ const LENGTH: u64 = 1_000;
 /// The share of a run that reading and repair take.
 const READ: f64 = 0.03;
 
-/// The rest is estimated once this share is done, and this time has passed.
-const TELLING: (f64, Duration) = (0.05, Duration::from_secs(2));
+/// The rest is estimated while the share that is done is in this range, once this time has passed. At the end
+/// nobody knows what else is tried.
+const TELLING: (Range<f64>, Duration) = (0.05..0.95, Duration::from_secs(2));
 
 const LINE: &str = "{prefix:<6} {bar:20} {percent:>3} %  {elapsed}{rest}{msg}";
 
@@ -108,7 +110,7 @@ impl Drop for Progress {
 /// About how long the rest takes, once that can be told.
 fn rest(state: &ProgressState, line: &mut dyn Write) {
     let (share, elapsed) = (f64::from(state.fraction()), state.elapsed());
-    if share >= TELLING.0 && elapsed >= TELLING.1 {
+    if TELLING.0.contains(&share) && elapsed >= TELLING.1 {
         let seconds = elapsed.as_secs_f64() * (1.0 - share) / share;
         // The line is drawn without it.
         let _ = write!(line, ", about {} left", duration(seconds));

@@ -17,7 +17,7 @@ use super::outcome::Outcome;
 use crate::error::Result;
 use crate::map::{SeamlessMap, SeamlessProblem};
 use crate::mesh::TriangleMesh;
-use crate::monitor::{Monitor, Stage, optional};
+use crate::monitor::{Monitor, Phase, Stage, optional};
 use crate::search::{Options, Strategy};
 use crate::solve::{Solution, Solver};
 use crate::untangle::{UntangleOptions, Untangled, grow_around};
@@ -27,6 +27,9 @@ const REFINEMENT: f64 = std::f64::consts::SQRT_2;
 
 /// The number of times that a map without folds is made finer because of winding defects.
 const REFINEMENTS_TO_UNWIND: usize = 2;
+
+/// The share of a run that its first try takes; most need no other.
+const FIRST: f64 = 0.5;
 
 /// The number of times that a map with folds is made finer around them alone.
 const GRADINGS: usize = 4;
@@ -119,12 +122,20 @@ pub fn solve_fold_free<'a>(
         return FoldFreeMap::untouched(mesh, problem, relaxed.solution, relaxed.map);
     }
     let mut size = Size::default();
-    let mut best = driver.attempt(size)?;
+    let most = match effort.refinements {
+        0 => 0,
+        refinements => refinements + GRADINGS,
+    };
+    let mut best = run.with_share(share_of(0, most), || driver.attempt(size))?;
+    let mut others = 0;
     while let Some(next) = driver.next(size, &best) {
         size = next;
+        others += 1;
         let found = optional(&monitor, || {
-            driver.resize(size, &best)?;
-            driver.attempt(size)
+            run.with_share(share_of(others, most), || {
+                driver.resize(size, &best)?;
+                driver.attempt(size)
+            })
         });
         let Some(found) = found? else {
             break;
@@ -133,7 +144,22 @@ pub fn solve_fold_free<'a>(
             best = found;
         }
     }
+    run.end_call();
+    // There is a result, whatever the caller wants.
+    let _ = monitor().progress(Phase::Untangle, 1.0);
     Ok(best)
+}
+
+/// The share of the run that a try takes: the first one, or one of at most `most` others.
+fn share_of(number: usize, most: usize) -> [f64; 2] {
+    let end = |number: usize| match most {
+        0 => 1.0,
+        _ => FIRST + (1.0 - FIRST) * number.min(most) as f64 / most as f64,
+    };
+    match number {
+        0 => [0.0, end(0)],
+        _ => [end(number - 1), end(number)],
+    }
 }
 
 /// How much finer a map is than asked for: first the refinements as a whole, then those around its
