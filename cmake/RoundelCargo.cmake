@@ -46,17 +46,30 @@ foreach(link IN LISTS ROUNDEL_SHARED_LINKS)
     list(APPEND ROUNDEL_SHARED_LINK_FILES "${ROUNDEL_LIB_DIR}/${link}")
 endforeach()
 
+# Both packages are always named, because cargo compiles the dependencies with the features of those that are:
+# other calls would compile the library again.
+set(cargo_packages --package roundel --package roundel-cli)
+set(generate_command "")
+set(ROUNDEL_PROGRAM "${cargo_dir}/release/roundel")
+set(ROUNDEL_GENERATED "${PROJECT_BINARY_DIR}/generated")
+if(ROUNDEL_BUILD_PROGRAM OR ROUNDEL_BUILD_TESTS)
+    set(generate_command COMMAND "${ROUNDEL_PROGRAM}" generate "${ROUNDEL_GENERATED}")
+else()
+    list(APPEND cargo_packages --lib)
+endif()
+
 add_custom_target(
     roundel_cargo ALL
     COMMAND "${CMAKE_COMMAND}" -E env "CARGO_TARGET_DIR=${cargo_dir}"
-            "${CARGO}" build --quiet --locked --release --package roundel --lib
+            "${CARGO}" build --locked --release ${cargo_packages}
     COMMAND "${CMAKE_COMMAND}" -E make_directory "${ROUNDEL_LIB_DIR}"
     COMMAND "${CMAKE_COMMAND}" -E copy_if_different
             "${cargo_dir}/release/${cargo_shared}" "${ROUNDEL_SHARED}"
     COMMAND "${CMAKE_COMMAND}" -E copy_if_different
             "${cargo_dir}/release/${ROUNDEL_STATIC_NAME}" "${ROUNDEL_STATIC}"
     ${link_commands}
+    ${generate_command}
     BYPRODUCTS "${ROUNDEL_SHARED}" "${ROUNDEL_STATIC}"
     WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}"
-    COMMENT "Building roundel with cargo"
+    COMMENT "Building roundel with cargo, which takes some minutes the first time"
     USES_TERMINAL VERBATIM)

@@ -11,6 +11,18 @@ install(FILES "${ROUNDEL_STATIC}" ${ROUNDEL_SHARED_LINK_FILES}
 install(DIRECTORY include/roundel DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}"
         FILES_MATCHING PATTERN "*.h" PATTERN "*.hpp")
 
+if(ROUNDEL_BUILD_PROGRAM)
+    install(PROGRAMS "${ROUNDEL_PROGRAM}" DESTINATION "${CMAKE_INSTALL_BINDIR}")
+    install(DIRECTORY "${ROUNDEL_GENERATED}/man1" DESTINATION "${CMAKE_INSTALL_MANDIR}")
+    set(completions "${ROUNDEL_GENERATED}/completions")
+    install(FILES "${completions}/bash/roundel.bash" RENAME roundel
+            DESTINATION "${CMAKE_INSTALL_DATADIR}/bash-completion/completions")
+    install(FILES "${completions}/zsh/_roundel"
+            DESTINATION "${CMAKE_INSTALL_DATADIR}/zsh/site-functions")
+    install(FILES "${completions}/fish/roundel.fish"
+            DESTINATION "${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d")
+endif()
+
 install(FILES LICENSE-MIT LICENSE-APACHE THIRD-PARTY.md DESTINATION "${CMAKE_INSTALL_DOCDIR}")
 
 set(config_dir "${CMAKE_INSTALL_LIBDIR}/cmake/Roundel")

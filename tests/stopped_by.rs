@@ -5,7 +5,12 @@ mod common;
 use std::time::Duration;
 
 use common::orientation_field;
+use roundel::field::{FieldOptions, solve_field};
+use roundel::map::{SeamlessOptions, SeamlessProblem};
+use roundel::mesh::shape;
 use roundel::monitor::EventKind;
+use roundel::quad::solve_fold_free;
+use roundel::untangle::UntangleOptions;
 use roundel::{
     Event, Flow, Monitor, Options, Problem, Solution, SolveStatus, StoppedBy, Strategy, solve,
     solve_with,
@@ -78,6 +83,33 @@ fn nodes_that_the_caller_set_are_a_limit() {
     let solution = solve(&field(), &options).unwrap();
     let expected = (SolveStatus::Limit, false, StoppedBy::Nodes);
     assert_eq!(ended(&solution), expected);
+}
+
+/// The proof of this map is given up after thirty million nodes, which nobody asked for.
+#[test]
+fn a_limit_of_nodes_of_the_librarys_own_is_a_budget() {
+    let mesh = shape::by_name("genus-5", 1_500).unwrap();
+    let follow = FieldOptions::default();
+    let quick = with(Strategy::Adaptive);
+    let (field, _) = solve_field(&mesh, &follow, &quick, Monitor::default).unwrap();
+    let problem = SeamlessProblem::new(&mesh, &field, &SeamlessOptions::default()).unwrap();
+    let effort = UntangleOptions {
+        rounds: 0,
+        refinements: 0,
+        ..UntangleOptions::default()
+    };
+    let ended_with = |options: &Options| {
+        let made = solve_fold_free(&mesh, &problem, options, &effort, Monitor::default);
+        ended(&made.unwrap().solution)
+    };
+    let expected = (SolveStatus::Feasible, false, StoppedBy::Budget);
+    assert_eq!(ended_with(&Options::default()), expected);
+    let asked = Options {
+        nodes: 10_000,
+        ..Options::default()
+    };
+    let expected = (SolveStatus::Limit, false, StoppedBy::Nodes);
+    assert_eq!(ended_with(&asked), expected);
 }
 
 #[test]

@@ -48,7 +48,9 @@ class LibraryHook(BuildHookInterface):
         built = os.environ.get("ROUNDEL_LIBRARY")
         if built:
             return built
-        command = ["cargo", "build", "--locked", "--release", "--package", "roundel", "--lib"]
+        # The features of both packages together: builds of the program then use the same library.
+        packages = ["--package", "roundel", "--package", "roundel-cli", "--lib"]
+        command = ["cargo", "build", "--locked", "--release", *packages]
         subprocess.run(command, cwd=ROOT, check=True)
         target = Path(os.environ.get("CARGO_TARGET_DIR", "target"))
         return ROOT / target / "release" / name

@@ -19,6 +19,8 @@ pub enum Exit {
     Stopped = 5,
     /// A map was checked and is not valid.
     Invalid = 6,
+    /// Ctrl-C ended the run early, and there is a solution.
+    Finished = 7,
 }
 
 /// The codes as `--help` prints them. Code 2 comes from clap.
@@ -30,7 +32,8 @@ Exit codes:
   3  infeasible: the constraints contradict each other, or have no integer solution
   4  unbounded: the objective has no least value, or is not convex
   5  stopped: time limit or cancel, before a first solution
-  6  invalid: what was checked is not what it should be";
+  6  invalid: what was checked is not what it should be
+  7  finished early: Ctrl-C came, and the result is that of the best integers so far";
 
 impl Exit {
     /// The code of a run that ended in `error`.

@@ -5,10 +5,13 @@ mod evaluate;
 mod exit;
 mod extract;
 mod field;
+mod generate;
+mod help;
 mod interrupt;
 mod mesh;
 mod options;
 mod output;
+mod outputs;
 mod parametrize;
 mod progress;
 mod quad;
@@ -21,11 +24,11 @@ mod summary;
 
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
 /// Mixed-integer quadratic problems of geometry processing.
 #[derive(Parser)]
-#[command(version, after_help = exit::HELP)]
+#[command(name = "roundel", version, after_help = exit::HELP)]
 struct Program {
     #[command(subcommand)]
     command: Command,
@@ -42,10 +45,15 @@ enum Command {
     Extract(extract::Arguments),
     Shape(shape::Arguments),
     Evaluate(evaluate::Arguments),
+    Generate(generate::Arguments),
 }
 
 fn main() -> ExitCode {
-    match Program::parse().command {
+    let all = std::env::args_os().any(|word| word == help::HELP_ALL);
+    let program = help::arranged(Program::command(), all);
+    let given = program.get_matches();
+    let given = Program::from_arg_matches(&given).unwrap_or_else(|error| error.exit());
+    match given.command {
         Command::Solve(arguments) => solve::run(&arguments),
         Command::Field(arguments) => field::run(&arguments),
         Command::Parametrize(arguments) => parametrize::run(&arguments),
@@ -55,6 +63,9 @@ fn main() -> ExitCode {
         Command::Extract(arguments) => extract::run(&arguments),
         Command::Shape(arguments) => shape::run(&arguments),
         Command::Evaluate(arguments) => evaluate::run(&arguments),
+        Command::Generate(arguments) => {
+            generate::run(&arguments, &help::arranged(Program::command(), true))
+        }
     }
     .into()
 }

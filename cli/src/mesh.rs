@@ -11,6 +11,7 @@ use serde::{Serialize, Serializer};
 
 use crate::options::RepairFlags;
 use crate::output;
+use crate::shape::suggesting;
 
 /// The name of standard input.
 const STDIN: &str = "-";
@@ -86,7 +87,7 @@ impl MeshFlags {
     pub fn read(&self, name: &Path, json: bool) -> Result<Input> {
         if let Some(drawn) = name.to_str().and_then(shape::from_spec) {
             return Ok(Input {
-                mesh: drawn?,
+                mesh: suggesting(drawn)?,
                 repair: RepairCounts::default(),
             });
         }

@@ -10,6 +10,7 @@ use roundel::{Error, Result};
 use serde::Serialize;
 
 use crate::exit::Exit;
+use crate::interrupt;
 use crate::report::Failure;
 
 /// Writes one line `NAME VALUE` for each variable, with the 17 significant digits that give every
@@ -25,9 +26,24 @@ pub fn write_values(path: &Path, names: &[String], values: &[f64]) -> Result<()>
     write().map_err(|reason| io_error(&path.to_string_lossy(), &reason))
 }
 
-/// Prints one JSON object and a line end.
+/// The version of `docs/program.schema.json`, which describes every object that is printed.
+const SCHEMA: u32 = 1;
+
+/// An object with the version of its schema.
+#[derive(Serialize)]
+struct Versioned<'a, T> {
+    schema: u32,
+    #[serde(flatten)]
+    object: &'a T,
+}
+
+/// Prints one JSON object, with the version of its schema, and a line end.
 pub fn print_json(object: &impl Serialize) -> Result<()> {
-    let text = serde_json::to_string_pretty(object).map_err(|reason| Error::Io {
+    let versioned = Versioned {
+        schema: SCHEMA,
+        object,
+    };
+    let text = serde_json::to_string_pretty(&versioned).map_err(|reason| Error::Io {
         message: reason.to_string(),
     })?;
     print(&format!("{text}\n"))
@@ -46,7 +62,10 @@ pub fn print(text: &str) -> Result<()> {
 /// stdout as JSON if `json`, else on stderr.
 pub fn conclude(file: &Path, json: bool, told: Result<()>) -> Exit {
     let Err(error) = told else {
-        return Exit::Solved;
+        return match interrupt::was_asked() {
+            true => Exit::Finished,
+            false => Exit::Solved,
+        };
     };
     if !json || print_json(&Failure::new(file, &error)).is_err() {
         complain(file, &error);
@@ -56,13 +75,20 @@ pub fn conclude(file: &Path, json: bool, told: Result<()>) -> Exit {
 
 /// Prints an error on stderr, for people.
 pub fn complain(file: &Path, error: &Error) {
-    let text = match error {
-        // The message names the file that could not be read or written.
-        Error::Io { message } => message.clone(),
-        _ => format!("{}: {error}", file.display()),
-    };
+    let text = named_once(file, error);
     // If stderr is closed, nobody reads the error.
     let _ = writeln!(io::stderr(), "roundel: {text}");
+}
+
+/// The text of an error, with the name of the file that it is about, once.
+fn named_once(file: &Path, error: &Error) -> String {
+    let (text, file) = (error.to_string(), file.to_string_lossy());
+    match error {
+        // The message names the file that could not be read or written.
+        Error::Io { message } => message.clone(),
+        _ if text.contains(&*file) => text,
+        _ => format!("{file}: {text}"),
+    }
 }
 
 /// Prints what a person should know about a file on stderr.
@@ -87,14 +113,6 @@ pub fn io_error(name: &str, reason: &io::Error) -> Error {
     Error::Io {
         message: format!("{name}: {reason}"),
     }
-}
-
-/// Checks, before the work begins, that quads can be written to a file of this name.
-pub fn check_quads_file(file: Option<&Path>) -> Result<()> {
-    if let Some(file) = file {
-        mesh::io::format_of(file)?;
-    }
-    Ok(())
 }
 
 /// Writes quads, and says on stderr where the format holds triangles only.

@@ -1,62 +1,101 @@
 //! Progress: one line on stderr if it is a terminal, nothing otherwise.
+//!
+//! The line tells the stage, how much of the whole run is done, the energy and the gap where they mean
+//! something, the time so far and about how long the rest takes. What is done never falls.
 
-use std::borrow::Cow;
-use std::time::Duration;
+use std::fmt::Write;
+use std::ops::Range;
+use std::time::{Duration, Instant};
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use roundel::monitor::{EventKind, Phase};
-use roundel::{Event, Flow, Monitor};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
+use roundel::monitor::{EventKind, Run};
+use roundel::{CancelToken, Event, Flow, Monitor, Options, Result};
 
+use crate::interrupt;
 use crate::summary::telling_gap;
 
 /// The line. It disappears when this is dropped.
-pub struct Progress(ProgressBar);
+pub struct Progress {
+    bar: ProgressBar,
+    run: Run,
+    token: CancelToken,
+    finish_at: Option<Instant>,
+}
 
 /// Often enough to look alive, seldom enough to cost nothing.
 const TICK: Duration = Duration::from_millis(100);
 
+/// The steps of the line from nothing to all.
+const LENGTH: u64 = 1_000;
+
+/// The share of a run that reading and repair take.
+const READ: f64 = 0.03;
+
+/// The rest is estimated while the share that is done is in this range, once this time has passed. At the end
+/// nobody knows what else is tried.
+const TELLING: (Range<f64>, Duration) = (0.05..0.95, Duration::from_secs(2));
+
+const LINE: &str = "{prefix:<6} {bar:20} {percent:>3} %  {elapsed}{rest}{msg}";
+
 impl Progress {
-    /// Starts the line with the word for reading a file. indicatif draws on terminals only.
-    pub fn start() -> Self {
-        let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr());
-        bar.set_style(ProgressStyle::default_spinner());
+    /// Starts the line with reading a file, catches Ctrl-C, and starts the clock of the run. indicatif draws on
+    /// terminals only.
+    pub fn start(quiet: bool) -> Result<Self> {
+        let target = match quiet {
+            true => ProgressDrawTarget::hidden(),
+            false => ProgressDrawTarget::stderr(),
+        };
+        let bar = ProgressBar::with_draw_target(Some(LENGTH), target);
+        let style = ProgressStyle::with_template(LINE).expect("a template of indicatif");
+        bar.set_style(style.with_key("rest", rest).progress_chars("=> "));
+        bar.set_prefix("repair");
         if !bar.is_hidden() {
             bar.enable_steady_tick(TICK);
         }
-        bar.set_message("read");
-        Progress(bar)
+        let run = Run::new();
+        run.next_call(READ, 1.0);
+        Ok(Progress {
+            bar,
+            run,
+            token: interrupt::cancel_token()?,
+            finish_at: None,
+        })
     }
 
-    /// Shows the current step, for steps without a monitor.
-    pub fn say(&self, what: &'static str) {
-        self.0.set_message(what);
-    }
-
-    /// A monitor that keeps the line up to date.
-    pub fn monitor(&self) -> Monitor<'_> {
-        if self.0.is_hidden() {
-            return Monitor::default();
+    /// Takes the time limit of the options as that of the whole run, which began at `started`.
+    pub fn limit(&mut self, options: &mut Options, started: Instant) {
+        let limit = Duration::try_from_secs_f64(options.time_limit).ok();
+        self.finish_at = limit.and_then(|limit| started.checked_add(limit));
+        if self.finish_at.is_some() {
+            // A single solve ends with the run. It still knows that its time is limited.
+            options.time_limit = f64::MAX;
         }
-        let mut phase = "";
-        Monitor::default().on_event(move |event| {
-            match event.kind {
-                EventKind::Progress {
-                    phase: now,
-                    fraction,
-                } => {
-                    phase = word(now);
-                    self.0.set_message(format!(
-                        "{phase} {:.0} %{}",
-                        100.0 * fraction,
-                        found(event)
-                    ));
-                }
-                EventKind::Improved | EventKind::Raised => {
-                    self.0.set_message(format!("{phase}{}", found(event)))
-                }
-                EventKind::Log(line) => self.0.println(line),
-                _ => {}
+    }
+
+    /// Gives the next call of the library the share from `from` to `to` of what follows reading.
+    pub fn next_call(&self, from: f64, to: f64) {
+        let of = |share: f64| READ + share * (1.0 - READ);
+        self.run.next_call(of(from), of(to));
+    }
+
+    /// A monitor that keeps the line up to date, and ends with the run.
+    pub fn monitor(&self) -> Monitor<'_> {
+        let mut monitor = Monitor::default()
+            .of_run(&self.run)
+            .cancel_token(self.token.clone());
+        if let Some(time) = self.finish_at {
+            monitor = monitor.finish_at(time);
+        }
+        if self.bar.is_hidden() {
+            return monitor;
+        }
+        monitor.on_event(|event| {
+            if let EventKind::Log(line) = event.kind {
+                self.bar.println(line);
             }
+            self.bar.set_prefix(event.stage.name());
+            self.bar.set_position((event.share * LENGTH as f64) as u64);
+            self.bar.set_message(found(event));
             Flow::Continue
         })
     }
@@ -64,28 +103,47 @@ impl Progress {
 
 impl Drop for Progress {
     fn drop(&mut self) {
-        self.0.finish_and_clear();
+        self.bar.finish_and_clear();
     }
 }
 
-fn word(phase: Phase) -> &'static str {
-    match phase {
-        Phase::Eliminate => "eliminate",
-        Phase::Factor => "factor",
-        Phase::Round => "round",
-        Phase::Untangle => "untangle",
-        Phase::Quads => "quads",
-        _ => "solve",
+/// About how long the rest takes, once that can be told.
+fn rest(state: &ProgressState, line: &mut dyn Write) {
+    let (share, elapsed) = (f64::from(state.fraction()), state.elapsed());
+    if TELLING.0.contains(&share) && elapsed >= TELLING.1 {
+        let seconds = elapsed.as_secs_f64() * (1.0 - share) / share;
+        // The line is drawn without it.
+        let _ = write!(line, ", about {} left", duration(seconds));
+    }
+}
+
+/// Seconds and minutes, no more exact than an estimate is.
+fn duration(seconds: f64) -> String {
+    match seconds {
+        s if s < 90.0 => format!("{:.0} s", s.max(1.0)),
+        s if s < 5_400.0 => format!("{:.0} min", s / 60.0),
+        s => format!("{:.1} h", s / 3_600.0),
     }
 }
 
 /// What has been found so far, if anything has.
-fn found(event: &Event) -> Cow<'static, str> {
+fn found(event: &Event) -> String {
     if !event.energy.is_finite() {
-        return "".into();
+        return String::new();
     }
     match telling_gap(Some(event.gap)) {
-        Some(gap) => format!(", energy {:.6}, gap {:.2} %", event.energy, 100.0 * gap).into(),
-        None => format!(", energy {:.6}", event.energy).into(),
+        Some(gap) => format!(", energy {:.6}, gap {:.2} %", event.energy, 100.0 * gap),
+        None => format!(", energy {:.6}", event.energy),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::duration;
+
+    #[test]
+    fn an_estimate_is_told_in_seconds_minutes_or_hours() {
+        let told = [0.2, 42.4, 150.0, 9_000.0].map(duration);
+        assert_eq!(told, ["1 s", "42 s", "2 min", "2.5 h"]);
     }
 }

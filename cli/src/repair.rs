@@ -10,6 +10,7 @@ use serde::Serialize;
 use crate::exit::{self, Exit};
 use crate::mesh::{MeshFlags, RepairCounts};
 use crate::output;
+use crate::outputs::{Content, Outputs};
 use crate::summary::counted;
 
 /// Turn a polygon soup into an oriented manifold triangle mesh, and tell what was done.
@@ -37,6 +38,14 @@ pub struct Arguments {
     #[arg(long)]
     pub json: bool,
 
+    /// Overwrite a file that is read
+    #[arg(long, help_heading = "Output")]
+    pub force: bool,
+
+    /// Do not say that no file will be written
+    #[arg(short, long, help_heading = "Output")]
+    pub quiet: bool,
+
     #[command(flatten)]
     pub input: MeshFlags,
 }
@@ -48,6 +57,10 @@ pub fn run(arguments: &Arguments) -> Exit {
 }
 
 fn repair(arguments: &Arguments) -> Result<(TriangleMesh, Edits)> {
+    let outputs = Outputs::of(&[Some(&arguments.file)], arguments.force)
+        .write(arguments.out.as_ref(), Content::Mesh)?
+        .write(arguments.edits.as_ref(), Content::Text)?;
+    outputs.tell(arguments.json || arguments.quiet);
     if arguments.input.strict {
         let mesh = arguments.input.read(&arguments.file, true)?.mesh;
         write(arguments, &mesh)?;

@@ -5,6 +5,8 @@ use std::path::Path;
 use roundel::{Error, Solution};
 use serde::Serialize;
 
+use crate::summary::{telling_bound, telling_gap};
+
 /// The output of `--json` for a solution.
 #[derive(Serialize)]
 pub struct Report<'a> {
@@ -67,8 +69,8 @@ impl<'a> Report<'a> {
             complete: solution.is_complete(),
             stopped_by: solution.stopped_by().name(),
             energy: finite(solution.energy()),
-            lower_bound: solution.lower_bound().and_then(finite),
-            gap: solution.gap().and_then(finite),
+            lower_bound: telling_bound(solution),
+            gap: telling_gap(solution.gap()),
             variables: counts.variables,
             integers: counts.integers,
             constraints: counts.constraints,

@@ -2,12 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
-use roundel::Result;
 use roundel::mesh::shape::{DEFAULT_TRIANGLES, NAMES, by_name};
-use roundel::mesh::{TriangleMesh, io, jitter};
+use roundel::mesh::{MeshError, TriangleMesh, io, jitter};
+use roundel::{Error, Result};
 
 use crate::exit::Exit;
 use crate::output;
+use crate::outputs::{Content, Outputs};
 use crate::summary::counted;
 
 /// Write a procedural mesh to a file.
@@ -40,6 +41,9 @@ pub struct Arguments {
     out: PathBuf,
 }
 
+/// The similarity of names, from 0 to 1, from which one is likely to be meant.
+const LIKELY: f64 = 0.8;
+
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Exit {
     let written = write(arguments).and_then(|mesh| {
@@ -56,12 +60,41 @@ pub fn run(arguments: &Arguments) -> Exit {
 }
 
 fn write(arguments: &Arguments) -> Result<TriangleMesh> {
-    let mut mesh = by_name(&arguments.name, arguments.triangles)?;
+    Outputs::of(&[], false).write(Some(&arguments.out), Content::Mesh)?;
+    let mut mesh = suggesting(by_name(&arguments.name, arguments.triangles))?;
     if arguments.jitter != 0.0 {
         mesh = jitter(&mesh, arguments.jitter, arguments.seed)?;
     }
     io::write(&arguments.out, &mesh)?;
     Ok(mesh)
+}
+
+/// A shape by name; the error for a name that is none says which one is meant, if one is near.
+///
+/// # Errors
+/// The error of the shape.
+pub fn suggesting(shape: std::result::Result<TriangleMesh, MeshError>) -> Result<TriangleMesh> {
+    shape.map_err(|error| {
+        let meant = match &error {
+            MeshError::UnknownShape { name } => nearest(name),
+            _ => None,
+        };
+        match meant {
+            Some(meant) => Error::InvalidArgument {
+                what: format!("{error}; did you mean '{meant}'?"),
+                index: None,
+            },
+            None => error.into(),
+        }
+    })
+}
+
+/// The name of a shape that is likely to be meant.
+fn nearest(name: &str) -> Option<&'static str> {
+    let names = NAMES.iter().map(|(known, _)| *known);
+    let rated = names.map(|known| (strsim::jaro_winkler(name, known), known));
+    let best = rated.max_by(|a, b| a.0.total_cmp(&b.0))?;
+    (best.0 >= LIKELY).then_some(best.1)
 }
 
 /// The table of the library, as `--help` prints it.
@@ -70,4 +103,16 @@ fn names() -> String {
         .iter()
         .map(|(name, what)| format!("\n  {name:<17} {what}"));
     lines.fold(String::from("Shapes:"), |text, line| text + &line)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::nearest;
+
+    #[test]
+    fn a_name_with_a_slip_means_the_nearest_shape() {
+        assert_eq!(nearest("gaer"), Some("gear"));
+        assert_eq!(nearest("round-cube"), Some("rounded-cube"));
+        assert_eq!(nearest("teapot"), None);
+    }
 }

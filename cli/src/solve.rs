@@ -8,9 +8,9 @@ use roundel::solve::replay;
 use roundel::{Options, Result, Solution, Strategy};
 
 use crate::exit::{self, Exit};
-use crate::interrupt;
 use crate::options::SolverOptions;
 use crate::output;
+use crate::outputs::{Content, OutputFlags, Outputs};
 use crate::progress::Progress;
 use crate::report::{Preparation, Report};
 use crate::summary::Summary;
@@ -35,6 +35,9 @@ pub struct Arguments {
     /// Write a line `NAME VALUE` for each variable to this file, with 17 digits
     #[arg(long, value_name = "OUT")]
     solution: Option<PathBuf>,
+
+    #[command(flatten)]
+    output: OutputFlags,
 
     #[command(flatten)]
     solver: SolverOptions,
@@ -77,11 +80,14 @@ struct Solved {
 }
 
 fn solve(arguments: &Arguments) -> Result<Solved> {
-    let token = interrupt::cancel_token()?;
-    let progress = Progress::start();
-    let input = read(arguments)?;
-    let monitor = progress.monitor().cancel_token(token);
-    let solution = roundel::solve_with(input.mps.problem(), &input.options, monitor)?;
+    let started = Instant::now();
+    let read_only = [Some(arguments.file.as_path())];
+    Outputs::of(&read_only, arguments.output.force)
+        .write(arguments.solution.as_ref(), Content::Text)?;
+    let mut progress = Progress::start(arguments.output.quiet)?;
+    let mut input = read(arguments)?;
+    progress.limit(&mut input.options, started);
+    let solution = roundel::solve_with(input.mps.problem(), &input.options, progress.monitor())?;
     if let Some(path) = &arguments.solution {
         output::write_values(path, input.mps.variables(), solution.values())?;
     }

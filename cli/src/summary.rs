@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use roundel::{Solution, SolveStatus, StoppedBy};
+use roundel::{Solution, StoppedBy};
 
 /// Three lines: the problem that was read, the problem after elimination, the solution.
 pub struct Summary<'a> {
@@ -45,8 +45,7 @@ pub fn verdict(solution: &Solution) -> String {
     let status = solution.status();
     let bound = match telling_gap(solution.gap()) {
         Some(gap) => format!(", gap {:.2} %", 100.0 * gap),
-        None if matches!(status, SolveStatus::Optimal | SolveStatus::Relaxed) => String::new(),
-        None => ", no bound".into(),
+        None => String::new(),
     };
     format!("{}{bound}{}", status.name(), stopped(solution.stopped_by()))
 }
@@ -69,6 +68,12 @@ fn stopped(by: StoppedBy) -> &'static str {
         StoppedBy::Budget => ", stopped by its budget",
         _ => "",
     }
+}
+
+/// The lower bound of a solution, if it says something.
+pub fn telling_bound(solution: &Solution) -> Option<f64> {
+    let bound = solution.lower_bound().filter(|bound| bound.is_finite());
+    bound.filter(|_| telling_gap(solution.gap()).is_some())
 }
 
 /// The gap, if its bound says something. An energy that is a sum of squares has a gap of 100 % before

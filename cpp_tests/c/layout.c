@@ -19,7 +19,7 @@ AT(roundel_monitor, callback, WORD);
 AT(roundel_monitor, user_data, 2 * WORD);
 AT(roundel_monitor, cancel_token, 3 * WORD);
 
-_Static_assert(sizeof(roundel_event) == (WORD == 8 ? 64 : 56), "event");
+_Static_assert(sizeof(roundel_event) == (WORD == 8 ? 80 : 72), "event");
 AT(roundel_event, size, 0);
 AT(roundel_event, kind, WORD);
 AT(roundel_event, phase, WORD + 4);
@@ -29,6 +29,8 @@ AT(roundel_event, seconds, WORD == 8 ? 32 : 24);
 AT(roundel_event, energy, WORD == 8 ? 40 : 32);
 AT(roundel_event, lower_bound, WORD == 8 ? 48 : 40);
 AT(roundel_event, gap, WORD == 8 ? 56 : 48);
+AT(roundel_event, share, WORD == 8 ? 64 : 56);
+AT(roundel_event, stage, WORD == 8 ? 72 : 64);
 
 _Static_assert(sizeof(roundel_counts) == 128, "counts");
 AT(roundel_counts, variables, 0);

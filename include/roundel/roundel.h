@@ -478,6 +478,38 @@ typedef int32_t roundel_event_kind;
 #endif // __cplusplus
 
 /**
+ * What the callback may return. Any other value cancels.
+ */
+enum roundel_flow
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : int32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+    /**
+     * Go on.
+     */
+    ROUNDEL_FLOW_CONTINUE = 0,
+    /**
+     * End the solve, which keeps its best solution. A call of several solves, such as roundel_quads_new,
+     * fails with ROUNDEL_ERROR_CANCELLED.
+     */
+    ROUNDEL_FLOW_CANCEL = 1,
+    /**
+     * Finish the call with the best integers so far: the search ends, later solves of the call round
+     * their relaxation, and what is not needed for a result is left out. Before a first solution this
+     * cancels.
+     */
+    ROUNDEL_FLOW_FINISH = 2,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum roundel_flow roundel_flow;
+#else
+typedef int32_t roundel_flow;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/**
  * A part of the solve.
  */
 enum roundel_phase
@@ -519,7 +551,44 @@ typedef int32_t roundel_phase;
 #endif // __cplusplus
 
 /**
- * A flag by which any thread may cancel a solve. Unlike other objects it may be set while other
+ * A stage of the whole computation.
+ */
+enum roundel_stage
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : int32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+    /**
+     * A problem is solved.
+     */
+    ROUNDEL_STAGE_SOLVE = 0,
+    /**
+     * The orientation field is solved for.
+     */
+    ROUNDEL_STAGE_FIELD = 1,
+    /**
+     * The map is solved for, and untangled.
+     */
+    ROUNDEL_STAGE_MAP = 2,
+    /**
+     * Quads are extracted from the map.
+     */
+    ROUNDEL_STAGE_QUADS = 3,
+    /**
+     * Quads are smoothed.
+     */
+    ROUNDEL_STAGE_SMOOTH = 4,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum roundel_stage roundel_stage;
+#else
+typedef int32_t roundel_stage;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/**
+ * A flag by which any thread may cancel or finish a call. Unlike other objects it may be set while other
  * threads use it; only free it when nobody does.
  */
 typedef struct roundel_cancel_token roundel_cancel_token;
@@ -781,12 +850,24 @@ typedef struct roundel_event {
      * an energy of 0 is above the bound.
      */
     double gap;
+    /**
+     * The share of the whole call that is done, from 0 to 1, by the times that such calls take. It never
+     * falls.
+     */
+    double share;
+    /**
+     * The stage of the whole call, a roundel_stage.
+     */
+    int32_t stage;
+    /**
+     * Reserved: 0.
+     */
+    int32_t reserved;
 } roundel_event;
 
 /**
- * Receives progress, log lines and better solutions, on the thread that called solve. It returns 0 to go
- * on; any other value ends the solve, which keeps the best solution. It must return: no exception and no
- * longjmp may leave it.
+ * Receives progress, log lines and better solutions, on the thread that called solve. It returns a
+ * roundel_flow: 0 to go on. It must return: no exception and no longjmp may leave it.
  */
 typedef int32_t (*roundel_callback)(const struct roundel_event *event, void *user_data);
 
@@ -807,7 +888,7 @@ typedef struct roundel_monitor {
      */
     void *user_data;
     /**
-     * Ends the solve when it is set; may be NULL.
+     * Ends or finishes the call when it is set; may be NULL.
      */
     const struct roundel_cancel_token *cancel_token;
 } roundel_monitor;
@@ -1347,12 +1428,18 @@ roundel_status roundel_cancel_token_free(struct roundel_cancel_token *token);
 roundel_status roundel_cancel_token_cancel(const struct roundel_cancel_token *token);
 
 /**
+ * Asks every call that holds this token to finish with the best integers so far, as the callback does by
+ * ROUNDEL_FLOW_FINISH. A token that is cancelled stays so.
+ */
+roundel_status roundel_cancel_token_finish(const struct roundel_cancel_token *token);
+
+/**
  * Takes the request back, so that the token can be used again.
  */
 roundel_status roundel_cancel_token_reset(const struct roundel_cancel_token *token);
 
 /**
- * Gives 1 if the token is set, 0 if not.
+ * Gives 1 if the token is cancelled, 0 if not.
  */
 roundel_status roundel_cancel_token_is_cancelled(const struct roundel_cancel_token *token,
                                                  int32_t *cancelled);

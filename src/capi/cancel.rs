@@ -5,7 +5,7 @@ use super::output::Out;
 use super::status::roundel_status;
 use crate::monitor::CancelToken;
 
-/// A flag by which any thread may cancel a solve. Unlike other objects it may be set while other
+/// A flag by which any thread may cancel or finish a call. Unlike other objects it may be set while other
 /// threads use it; only free it when nobody does.
 pub struct roundel_cancel_token(Guarded<CancelToken>);
 
@@ -46,6 +46,20 @@ pub unsafe extern "C" fn roundel_cancel_token_cancel(
     unsafe { guard::read(token, body) }
 }
 
+/// Asks every call that holds this token to finish with the best integers so far, as the callback does by
+/// ROUNDEL_FLOW_FINISH. A token that is cancelled stays so.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_cancel_token_finish(
+    token: *const roundel_cancel_token,
+) -> roundel_status {
+    let body = |token: &CancelToken| {
+        token.finish();
+        Ok(())
+    };
+    // SAFETY: the caller gives a live handle, or NULL.
+    unsafe { guard::read(token, body) }
+}
+
 /// Takes the request back, so that the token can be used again.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_cancel_token_reset(
@@ -59,7 +73,7 @@ pub unsafe extern "C" fn roundel_cancel_token_reset(
     unsafe { guard::read(token, body) }
 }
 
-/// Gives 1 if the token is set, 0 if not.
+/// Gives 1 if the token is cancelled, 0 if not.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_cancel_token_is_cancelled(
     token: *const roundel_cancel_token,

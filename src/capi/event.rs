@@ -9,7 +9,7 @@ use super::guard;
 use super::input::{aligned, slice};
 use crate::error::Error;
 use crate::monitor::{Event, Flow, Monitor};
-use crate::monitor::{EventKind, Phase};
+use crate::monitor::{EventKind, Phase, Run, Stage};
 
 /// The kind of an event.
 #[repr(i32)]
@@ -43,6 +43,37 @@ pub enum roundel_phase {
     ROUNDEL_PHASE_QUADS = 5,
 }
 
+/// A stage of the whole computation.
+#[repr(i32)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum roundel_stage {
+    /// A problem is solved.
+    ROUNDEL_STAGE_SOLVE = 0,
+    /// The orientation field is solved for.
+    ROUNDEL_STAGE_FIELD = 1,
+    /// The map is solved for, and untangled.
+    ROUNDEL_STAGE_MAP = 2,
+    /// Quads are extracted from the map.
+    ROUNDEL_STAGE_QUADS = 3,
+    /// Quads are smoothed.
+    ROUNDEL_STAGE_SMOOTH = 4,
+}
+
+/// What the callback may return. Any other value cancels.
+#[repr(i32)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum roundel_flow {
+    /// Go on.
+    ROUNDEL_FLOW_CONTINUE = 0,
+    /// End the solve, which keeps its best solution. A call of several solves, such as roundel_quads_new,
+    /// fails with ROUNDEL_ERROR_CANCELLED.
+    ROUNDEL_FLOW_CANCEL = 1,
+    /// Finish the call with the best integers so far: the search ends, later solves of the call round
+    /// their relaxation, and what is not needed for a result is left out. Before a first solution this
+    /// cancels.
+    ROUNDEL_FLOW_FINISH = 2,
+}
+
 /// One event for the callback, with the state of the solve. It is valid until the callback returns.
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
@@ -66,11 +97,17 @@ pub struct roundel_event {
     /// (energy - lower_bound) / |energy|: 0 where they are equal, and infinite while either is infinite or
     /// an energy of 0 is above the bound.
     pub gap: f64,
+    /// The share of the whole call that is done, from 0 to 1, by the times that such calls take. It never
+    /// falls.
+    pub share: f64,
+    /// The stage of the whole call, a roundel_stage.
+    pub stage: i32,
+    /// Reserved: 0.
+    pub reserved: i32,
 }
 
-/// Receives progress, log lines and better solutions, on the thread that called solve. It returns 0 to go
-/// on; any other value ends the solve, which keeps the best solution. It must return: no exception and no
-/// longjmp may leave it.
+/// Receives progress, log lines and better solutions, on the thread that called solve. It returns a
+/// roundel_flow: 0 to go on. It must return: no exception and no longjmp may leave it.
 pub type roundel_callback =
     Option<unsafe extern "C" fn(event: *const roundel_event, user_data: *mut c_void) -> i32>;
 
@@ -84,9 +121,12 @@ pub struct roundel_monitor {
     pub callback: roundel_callback,
     /// Passed to the callback unchanged.
     pub user_data: *mut c_void,
-    /// Ends the solve when it is set; may be NULL.
+    /// Ends or finishes the call when it is set; may be NULL.
     pub cancel_token: *const roundel_cancel_token,
 }
+
+const CONTINUE: i32 = roundel_flow::ROUNDEL_FLOW_CONTINUE as i32;
+const FINISH: i32 = roundel_flow::ROUNDEL_FLOW_FINISH as i32;
 
 /// A longer struct is taken for one whose size was never set.
 const LARGEST: usize = 4096;
@@ -101,7 +141,9 @@ const _: () = {
     assert!(offset_of!(roundel_event, phase) == word + 4);
     assert!(offset_of!(roundel_event, fraction) == word + 8);
     assert!(offset_of!(roundel_event, text) == word + 16);
-    assert!(size_of::<roundel_event>() == if word == 8 { 64 } else { 56 });
+    assert!(offset_of!(roundel_event, share) == if word == 8 { 64 } else { 56 });
+    assert!(offset_of!(roundel_event, stage) == if word == 8 { 72 } else { 64 });
+    assert!(size_of::<roundel_event>() == if word == 8 { 80 } else { 72 });
 };
 
 /// The library's monitor for the caller's. The caller's may be NULL: then nobody watches.
@@ -147,7 +189,8 @@ pub(super) unsafe fn monitor<'a>(monitor: *const roundel_monitor) -> Outcome<Mon
             let event = for_c(event, text.as_ptr());
             // SAFETY: a function by the caller's word; the event outlives the call.
             match unsafe { callback(&raw const event, given.user_data) } {
-                0 => Flow::Continue,
+                CONTINUE => Flow::Continue,
+                FINISH => Flow::Finish,
                 _ => Flow::Cancel,
             }
         });
@@ -186,6 +229,21 @@ fn for_c(event: &Event, text: *const c_char) -> roundel_event {
         energy: event.energy,
         lower_bound: event.lower_bound,
         gap: event.gap,
+        share: event.share,
+        stage: roundel_stage::from(event.stage) as i32,
+        reserved: 0,
+    }
+}
+
+impl From<Stage> for roundel_stage {
+    fn from(stage: Stage) -> Self {
+        match stage {
+            Stage::Solve => roundel_stage::ROUNDEL_STAGE_SOLVE,
+            Stage::Field => roundel_stage::ROUNDEL_STAGE_FIELD,
+            Stage::Map => roundel_stage::ROUNDEL_STAGE_MAP,
+            Stage::Quads => roundel_stage::ROUNDEL_STAGE_QUADS,
+            Stage::Smooth => roundel_stage::ROUNDEL_STAGE_SMOOTH,
+        }
     }
 }
 
@@ -201,7 +259,7 @@ impl From<Phase> for roundel_phase {
     }
 }
 
-/// A watcher for every step, all with the caller's callback and token.
+/// A watcher for every step of one call, all with the caller's callback and token.
 ///
 /// # Safety
 /// As [`watched_by`], for as long as the result is used.
@@ -212,5 +270,7 @@ pub(super) unsafe fn watchers<'a>(
     // SAFETY: handed on.
     unsafe { self::monitor(monitor) }?;
     // SAFETY: handed on.
-    Ok(move || unsafe { self::monitor(monitor) }.unwrap_or_default())
+    let one = move || unsafe { self::monitor(monitor) }.unwrap_or_default();
+    let run = Run::new();
+    Ok(move || one().of_run(&run))
 }

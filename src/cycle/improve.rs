@@ -102,7 +102,7 @@ impl<'a> Improvement<'a> {
             let before = self.energy;
             for e in self.seeds(effort.residual) {
                 let done = self.work() as f64 / work.max(1) as f64;
-                if done >= 1.0 || monitor.progress(Phase::Round, done).is_err() {
+                if done >= 1.0 || monitor.ends_at(Phase::Round, done) {
                     self.make_waiting();
                     return Ok(());
                 }

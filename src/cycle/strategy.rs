@@ -124,15 +124,16 @@ fn conclude(
     factors: &mut Factors,
     search: &mut Search,
 ) -> Result<()> {
-    let complete = prove(
-        reduced,
-        space,
-        relaxation,
-        proof,
-        options.gap,
-        factors,
-        search,
-    )?;
+    let complete = !search.monitor.ends()
+        && prove(
+            reduced,
+            space,
+            relaxation,
+            proof,
+            options.gap,
+            factors,
+            search,
+        )?;
     match search.best().map(|best| best.at_least) {
         Some(at_least) if complete => {
             search.complete();

@@ -8,7 +8,7 @@ use super::feasible_indices::feasible_indices;
 use super::{Constraint, FieldOptions, FieldProblem, OrientationField, PrescribedIndex};
 use crate::error::{Error, Result};
 use crate::mesh::TriangleMesh;
-use crate::monitor::Monitor;
+use crate::monitor::{Monitor, Stage};
 use crate::search::{Options, WarmStart};
 use crate::solve::{Solution, Solver, solve_with};
 
@@ -79,6 +79,9 @@ pub fn solve_field<'a>(
     solver: &Options,
     monitor: impl Fn() -> Monitor<'a>,
 ) -> Result<(OrientationField, Solution)> {
+    let run = monitor().run();
+    run.name_stage(Stage::Field);
+    let monitor = || monitor().of_run(&run);
     let problem = FieldProblem::with_options(mesh, options)?;
     let mut kept = Solver::new(problem.problem())?;
     let solution = kept.solve_with(solver, monitor())?;

@@ -114,7 +114,7 @@ fn prove(
     };
     let mut left = nodes;
     for piece in &mut pieces {
-        let mut stop = || search.monitor.check().is_err();
+        let mut stop = || search.monitor.ends();
         let price = bound_undecided(piece, left, &mut stop);
         left -= price;
         search.work.spend(price * per_node);
@@ -150,7 +150,7 @@ fn prove(
             };
             let found = pieces[at].search(limits, &mut |nodes| {
                 let done = nodes as f64 / limits.nodes as f64;
-                search.monitor.progress(Phase::Round, done).is_err()
+                search.monitor.ends_at(Phase::Round, done)
             });
             left -= found.nodes;
             search.work.spend(found.nodes * per_node);
@@ -298,7 +298,8 @@ fn raise(pieces: &[Piece], certificate: &Certificate, search: &mut Search) {
 /// is offered.
 ///
 /// With dependent vectors the reduction depends on tolerances, so adaptive rounding is offered as well.
-/// Pieces whose vectors generate no lattice are not improved further.
+/// Pieces whose vectors generate no lattice are not improved further. There are no pieces if the search was
+/// stopped before they are made.
 fn decode(
     model: &ReducedModel,
     options: &Options,
@@ -306,6 +307,9 @@ fn decode(
     search: &mut Search,
 ) -> Result<Vec<Piece>> {
     round::direct(model, factors, search)?;
+    if search.monitor.ends() {
+        return Ok(Vec::new());
+    }
     let m = model.integers().len();
     let relaxed: Vec<f64> = {
         let at = |&i: &u32| search.relaxed()[i as usize];

@@ -1,13 +1,18 @@
 //! The reasons to stop a loop: a cancel token, which any thread may set, and the time limit.
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicU8, Ordering};
 
 use crate::error::Error;
 
-/// A flag by which any thread may cancel a solve.
+/// The states of a token, in the order in which they replace each other.
+const UNSET: u8 = 0;
+const FINISHING: u8 = 1;
+const CANCELLED: u8 = 2;
+
+/// A flag by which any thread may cancel a run, or ask for the results so far.
 #[derive(Debug, Clone, Default)]
-pub struct CancelToken(Arc<AtomicBool>);
+pub struct CancelToken(Arc<AtomicU8>);
 
 impl CancelToken {
     /// A token that is not set.
@@ -17,17 +22,30 @@ impl CancelToken {
 
     /// Asks every solve with this token to end.
     pub fn cancel(&self) {
-        self.0.store(true, Ordering::Relaxed);
+        self.0.fetch_max(CANCELLED, Ordering::Relaxed);
+    }
+
+    /// Asks every run with this token to finish with the best integers so far: see [`Flow::Finish`].
+    ///
+    /// [`Flow::Finish`]: super::Flow::Finish
+    pub fn finish(&self) {
+        self.0.fetch_max(FINISHING, Ordering::Relaxed);
     }
 
     /// Clears the token, so that it can be used again.
     pub fn reset(&self) {
-        self.0.store(false, Ordering::Relaxed);
+        self.0.store(UNSET, Ordering::Relaxed);
     }
 
-    /// Whether the token is set.
+    /// Whether the token asks to end.
     pub fn is_cancelled(&self) -> bool {
-        self.0.load(Ordering::Relaxed)
+        self.0.load(Ordering::Relaxed) == CANCELLED
+    }
+
+    /// Whether the token asks for the results so far. A later [`cancel`](Self::cancel) takes the place of
+    /// this request.
+    pub fn is_finishing(&self) -> bool {
+        self.0.load(Ordering::Relaxed) == FINISHING
     }
 }
 

@@ -5,8 +5,42 @@
 pub enum Flow {
     /// Go on.
     Continue,
-    /// End the solve; the best solution so far is kept.
+    /// End the solve; the best solution so far is kept. Calls of several solves, as
+    /// [`quadrangulate`](crate::quad::quadrangulate()), end without a result.
     Cancel,
+    /// Finish the run with the best integers so far. The search of this solve ends, later solves round
+    /// their relaxation, and what is not needed for a result is left out. Before a first solution this is
+    /// `Cancel`.
+    Finish,
+}
+
+/// A stage of a run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Stage {
+    /// A problem is solved.
+    Solve,
+    /// The orientation field is solved for.
+    Field,
+    /// The map is solved for, and untangled.
+    Map,
+    /// Quads are extracted from the map.
+    Quads,
+    /// Quads are smoothed.
+    Smooth,
+}
+
+impl Stage {
+    /// The word for this stage.
+    pub fn name(self) -> &'static str {
+        match self {
+            Stage::Solve => "solve",
+            Stage::Field => "field",
+            Stage::Map => "map",
+            Stage::Quads => "quads",
+            Stage::Smooth => "smooth",
+        }
+    }
 }
 
 /// A phase of the computation from a problem or a mesh to its result.
@@ -49,6 +83,10 @@ pub enum EventKind<'a> {
 pub struct Event<'a> {
     /// What happened.
     pub kind: EventKind<'a>,
+    /// The stage of the run.
+    pub stage: Stage,
+    /// The share of the whole run that is done, from 0 to 1, by the times that runs take. It never falls.
+    pub share: f64,
     /// Seconds since the solve began.
     pub seconds: f64,
     /// Energy of the best solution so far; infinite before the first.

@@ -1,13 +1,20 @@
 //! The monitor: progress, log lines, better solutions, cancellation and time limit for all loops.
+//!
+//! There are two kinds of ends. A loop that has no result yet asks `Monitor::check`, and its error ends the
+//! call. A search, which has a result at any time, asks `Monitor::ends`. They differ when the caller wants
+//! a run to finish with what it has: then searches end, and all that a result needs goes on.
 
 mod cancel;
 mod event;
+mod run;
 
 use std::time::{Duration, Instant};
 
+use crate::error::Error;
 pub use cancel::CancelToken;
 pub(crate) use cancel::Stop;
-pub use event::{Event, EventKind, Flow, Phase};
+pub use event::{Event, EventKind, Flow, Phase, Stage};
+pub use run::Run;
 
 type Callback<'a> = Box<dyn FnMut(&Event) -> Flow + 'a>;
 
@@ -17,6 +24,12 @@ type Callback<'a> = Box<dyn FnMut(&Event) -> Flow + 'a>;
 pub struct Monitor<'a> {
     callback: Option<Callback<'a>>,
     token: Option<CancelToken>,
+    run: Run,
+    /// The share of the run that the current step has.
+    step: Option<[f64; 2]>,
+    /// Why the caller wants the results so far.
+    finishing: Option<Stop>,
+    finish_at: Option<Instant>,
     stopped: Option<Stop>,
     started: Instant,
     limit: Option<Duration>,
@@ -32,6 +45,10 @@ impl Default for Monitor<'_> {
         Monitor {
             callback: None,
             token: None,
+            run: Run::new(),
+            step: None,
+            finishing: None,
+            finish_at: None,
             stopped: None,
             started: Instant::now(),
             limit: None,
@@ -54,15 +71,35 @@ impl<'a> Monitor<'a> {
         self
     }
 
-    /// Ends the solve when `token` is set.
+    /// Ends or finishes the run when `token` asks for it.
     #[must_use]
     pub fn cancel_token(mut self, token: CancelToken) -> Self {
         self.token = Some(token);
         self
     }
 
+    /// Finishes the run at this time with the best integers so far, as [`Flow::Finish`] does.
+    #[must_use]
+    pub fn finish_at(mut self, time: Instant) -> Self {
+        self.finish_at = Some(time);
+        self
+    }
+
+    /// Makes this a monitor of a run that has others.
+    #[must_use]
+    pub fn of_run(mut self, run: &Run) -> Self {
+        self.run = run.clone();
+        self
+    }
+
+    /// The run, which other monitors may share.
+    pub(crate) fn run(&self) -> Run {
+        self.run.clone()
+    }
+
     /// Starts the clock of a solve that may take at most `limit` seconds.
     pub(crate) fn start(&mut self, limit: f64) {
+        self.step = None;
         self.started = Instant::now();
         // A limit that the clock cannot represent is no limit.
         self.limit = Duration::try_from_secs_f64(limit).ok();
@@ -74,20 +111,20 @@ impl<'a> Monitor<'a> {
 
     /// The reason why the solve was told to end, if it was.
     pub(crate) fn stopped(&self) -> Option<Stop> {
-        self.stopped
+        self.stopped.or(self.finishing)
     }
 
-    /// Whether to continue. Every loop of the library that may run long calls this.
+    /// Whether a step that a result needs may continue. Every loop of the library that may run long calls
+    /// this or [`Self::ends`].
     pub(crate) fn check(&mut self) -> Result<(), Stop> {
         if self.stopped.is_none() {
-            if self.token.as_ref().is_some_and(CancelToken::is_cancelled) {
-                self.stopped = Some(Stop::Cancelled);
-            } else if self
-                .limit
-                .is_some_and(|limit| self.started.elapsed() >= limit)
-            {
-                self.stopped = Some(Stop::TimeLimit);
-            }
+            self.stopped = self.hard_stop();
+        }
+        if self.stopped.is_none()
+            && self.finishes()
+            && (self.run.is_optional() || !self.run.has_solution())
+        {
+            self.stopped = self.finishing;
         }
         match self.stopped {
             Some(stop) => Err(stop),
@@ -95,18 +132,66 @@ impl<'a> Monitor<'a> {
         }
     }
 
-    /// Reports the progress of `phase`. Returns whether to continue.
-    pub(crate) fn progress(&mut self, phase: Phase, fraction: f64) -> Result<(), Stop> {
-        if self.callback.is_some() {
-            let now = Instant::now();
-            let edge = fraction <= 0.0 || fraction >= 1.0;
-            let due = |last: Instant| now - last >= PROGRESS_INTERVAL;
-            if edge || self.last_progress.is_none_or(due) {
-                self.last_progress = Some(now);
-                self.tell(EventKind::Progress { phase, fraction });
+    /// Whether a search is to end with the best that it has.
+    pub(crate) fn ends(&mut self) -> bool {
+        self.check().is_err() || self.finishing.is_some()
+    }
+
+    /// Whether the caller wants the results so far.
+    pub(crate) fn finishes(&mut self) -> bool {
+        if self.finishing.is_none() {
+            let token = self.token.as_ref();
+            if self.run.is_finishing() || token.is_some_and(CancelToken::is_finishing) {
+                self.finishing = Some(Stop::Cancelled);
+            } else if self.finish_at.is_some_and(|time| Instant::now() >= time) {
+                self.finishing = Some(Stop::TimeLimit);
             }
         }
+        self.finishing.is_some()
+    }
+
+    /// Whether the caller wants the results so far, and there are some. A caller who cancels does not.
+    pub(crate) fn has_result_to_finish(&mut self) -> bool {
+        self.hard_stop().is_none() && self.finishes() && self.run.has_solution()
+    }
+
+    fn hard_stop(&self) -> Option<Stop> {
+        let is_late = |limit: Duration| self.started.elapsed() >= limit;
+        if self.token.as_ref().is_some_and(CancelToken::is_cancelled) {
+            Some(Stop::Cancelled)
+        } else if self.limit.is_some_and(is_late) {
+            Some(Stop::TimeLimit)
+        } else {
+            None
+        }
+    }
+
+    /// Reports the progress of `phase`. Returns whether a step that a result needs may continue.
+    pub(crate) fn progress(&mut self, phase: Phase, fraction: f64) -> Result<(), Stop> {
+        self.report(phase, fraction);
         self.check()
+    }
+
+    /// Reports the progress of `phase`. Returns whether a search is to end with the best that it has.
+    pub(crate) fn ends_at(&mut self, phase: Phase, fraction: f64) -> bool {
+        self.report(phase, fraction);
+        self.ends()
+    }
+
+    fn report(&mut self, phase: Phase, fraction: f64) {
+        if self.callback.is_none() {
+            return;
+        }
+        let [from, to] = *self.step.get_or_insert_with(|| self.run.step());
+        self.run
+            .reach(from + run::of_step(phase, fraction) * (to - from));
+        let now = Instant::now();
+        let edge = fraction <= 0.0 || fraction >= 1.0;
+        let due = |last: Instant| now - last >= PROGRESS_INTERVAL;
+        if edge || self.last_progress.is_none_or(due) {
+            self.last_progress = Some(now);
+            self.tell(EventKind::Progress { phase, fraction });
+        }
     }
 
     /// Reports one line of text.
@@ -122,6 +207,7 @@ impl<'a> Monitor<'a> {
     /// Reports a better solution.
     pub(crate) fn improved(&mut self, energy: f64) {
         self.energy = self.elsewhere.0 + energy;
+        self.run.has_solved();
         self.tell(EventKind::Improved);
     }
 
@@ -143,14 +229,40 @@ impl<'a> Monitor<'a> {
         let gap = relative_gap(self.energy, self.lower_bound);
         let event = Event {
             kind,
+            stage: self.run.stage(),
+            share: self.run.share(),
             seconds: self.started.elapsed().as_secs_f64(),
             energy: self.energy,
             lower_bound: self.lower_bound,
             gap,
         };
-        if callback(&event) == Flow::Cancel && self.stopped.is_none() {
-            self.stopped = Some(Stop::Cancelled);
+        match callback(&event) {
+            Flow::Continue => {}
+            Flow::Cancel => self.stopped = self.stopped.or(Some(Stop::Cancelled)),
+            Flow::Finish => self.run.finish(),
         }
+    }
+}
+
+/// Makes a step of a run that has a result without it as well: `None` if the caller wants the results so far.
+/// The monitors are of one run.
+///
+/// # Errors
+/// Those of the step, except for its end for that reason.
+pub(crate) fn optional<'a, T>(
+    monitor: &impl Fn() -> Monitor<'a>,
+    step: impl FnOnce() -> crate::error::Result<T>,
+) -> crate::error::Result<Option<T>> {
+    if monitor().has_result_to_finish() {
+        return Ok(None);
+    }
+    let run = monitor().run();
+    let before = run.set_optional(true);
+    let made = step();
+    run.set_optional(before);
+    match made {
+        Err(Error::Cancelled | Error::TimeLimit) if monitor().has_result_to_finish() => Ok(None),
+        other => other.map(Some),
     }
 }
 
@@ -168,7 +280,49 @@ pub(crate) fn relative_gap(energy: f64, lower_bound: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::relative_gap;
+    use super::*;
+
+    #[test]
+    fn a_run_that_finishes_ends_its_searches_and_what_it_can_do_without() {
+        let (run, token) = (Run::new(), CancelToken::new());
+        let monitor = || {
+            let monitor = Monitor::default().of_run(&run);
+            monitor.cancel_token(token.clone())
+        };
+        let checked = || Ok(monitor().check()?);
+        monitor().improved(1.0);
+        assert_eq!(optional(&monitor, checked), Ok(Some(())));
+        let during = || {
+            token.finish();
+            checked()
+        };
+        assert_eq!(optional(&monitor, during), Ok(None));
+        assert_eq!(optional(&monitor, || Ok(())), Ok(None));
+        assert!(monitor().ends());
+        assert_eq!(monitor().check(), Ok(()));
+        token.cancel();
+        assert_eq!(optional(&monitor, checked), Err(Error::Cancelled));
+        assert_eq!(monitor().check(), Err(Stop::Cancelled));
+        token.finish();
+        assert!(token.is_cancelled() && !token.is_finishing());
+    }
+
+    #[test]
+    fn a_run_without_a_solution_cannot_be_finished() {
+        let mut monitor = Monitor::default().finish_at(Instant::now());
+        assert_eq!(monitor.check(), Err(Stop::TimeLimit));
+    }
+
+    #[test]
+    fn a_callback_that_finishes_is_heard_by_the_next_monitor_of_the_run() {
+        let run = Run::new();
+        let mut first = Monitor::default().of_run(&run).on_event(|_| Flow::Finish);
+        first.improved(1.0);
+        assert!(first.ends());
+        assert_eq!(first.stopped(), Some(Stop::Cancelled));
+        assert!(Monitor::default().of_run(&run).ends());
+        assert!(!Monitor::default().ends());
+    }
 
     #[test]
     fn the_gap_is_relative_at_every_scale() {

@@ -27,13 +27,14 @@ use super::options::QuadOptions;
 use super::quadrangulation::timed;
 use super::refined_input::RefinedInput;
 use super::smaller::{SIZES, smaller_quads};
+use super::stage_ends::stage_ends;
 use super::{QuadSeconds, Quadrangulation};
 use crate::error::{Error, Result};
 use crate::field::FieldProblem;
 use crate::map::Sizing;
 use crate::mesh::TriangleMesh;
 use crate::mesh::features::FeatureGraph;
-use crate::monitor::Monitor;
+use crate::monitor::{Monitor, Stage, optional};
 use crate::smooth::{SmoothOptions, smooth};
 use crate::solve::Solution;
 use crate::untangle::Untangled;
@@ -112,6 +113,7 @@ fn of_mesh<'a>(
     monitor: &impl Fn() -> Monitor<'a>,
 ) -> Result<Quadrangulation> {
     let features = features.with_two_of_each_face(mesh);
+    monitor().run().plan(stage_ends(mesh, options));
     let most = PASSES * mesh.face_count().min(FACES);
     let mut driver = Driver {
         mesh,
@@ -129,35 +131,9 @@ fn of_mesh<'a>(
     let mut best = driver.follow()?;
     let mut last = Try::SmallerQuads;
     while let Some(next) = driver.next(last, &best) {
-        let found = match next {
-            Try::SmallerQuads => match driver.smaller(&best) {
-                Some(sizing) => {
-                    driver.sizing = sizing;
-                    driver.sizes += 1;
-                    Some(driver.follow()?)
-                }
-                None => None,
-            },
-            Try::Untangled => {
-                let passes = driver.passes();
-                let map = driver.at_hand().untangled(passes)?;
-                Some(driver.quads(map)?)
-            }
-            Try::ConesApart => {
-                let passes = driver.passes();
-                match driver.at_hand().cones_apart(passes)? {
-                    Some(map) => Some(driver.quads(map)?),
-                    None => None,
-                }
-            }
-            Try::FeaturesAsRounded => {
-                driver.at_hand().forget_separation();
-                Some(driver.as_solved()?)
-            }
-            Try::LessDetail => {
-                driver.details += 1;
-                Some(driver.follow()?)
-            }
+        let tried = optional(monitor, || driver.attempt(next, &best));
+        let Some(found) = tried? else {
+            break;
         };
         if let Some(found) = found
             && found.outcome < best.outcome
@@ -233,6 +209,42 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Driver<'a, M> {
         }
     }
 
+    /// The quads of a try, if it can be made.
+    fn attempt(&mut self, next: Try, best: &Attempt) -> Result<Option<Attempt>> {
+        Ok(match next {
+            Try::SmallerQuads => match self.smaller(best) {
+                Some(sizing) => {
+                    self.sizing = sizing;
+                    self.sizes += 1;
+                    Some(self.follow()?)
+                }
+                None => None,
+            },
+            Try::Untangled => {
+                self.enter(Stage::Map);
+                let passes = self.passes();
+                let map = self.at_hand().untangled(passes)?;
+                Some(self.quads(map)?)
+            }
+            Try::ConesApart => {
+                self.enter(Stage::Map);
+                let passes = self.passes();
+                match self.at_hand().cones_apart(passes)? {
+                    Some(map) => Some(self.quads(map)?),
+                    None => None,
+                }
+            }
+            Try::FeaturesAsRounded => {
+                self.at_hand().forget_separation();
+                Some(self.as_solved()?)
+            }
+            Try::LessDetail => {
+                self.details += 1;
+                Some(self.follow()?)
+            }
+        })
+    }
+
     /// The quads of the next field and its map.
     fn follow(&mut self) -> Result<Attempt> {
         let (mesh, of_map) = (self.mesh, &self.options.map);
@@ -269,10 +281,15 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Driver<'a, M> {
 
     fn quads(&mut self, (solution, map): (Solution, Untangled)) -> Result<Attempt> {
         self.visits = self.visits.saturating_sub(map.visited);
+        self.enter(Stage::Quads);
         let field = self.fields.len() - 1;
         let features: Vec<usize> = self.features.edges().collect();
         let monitor = (self.monitor)();
         Attempt::new(self.mesh, &features, field, solution, map, monitor)
+    }
+
+    fn enter(&self, stage: Stage) {
+        (self.monitor)().run().enter(stage, 0, 1);
     }
 
     /// The field that was followed last.
@@ -290,11 +307,16 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Driver<'a, M> {
         let features: Vec<usize> = self.features.edges().collect();
         let (mut quads, mut missed_features) = (best.quads, best.missed);
         if quads.faces().next().is_none() {
+            // What was left out might have made some.
+            if monitor().finishes() {
+                return Err(Error::Cancelled);
+            }
             return Err(Error::InvalidArgument {
                 what: "no quads fit on this surface, nor did smaller ones: ask for more of them, or remesh it".into(),
                 index: None,
             });
         }
+        monitor().run().enter(Stage::Smooth, 0, 1);
         if let Some(given) = &options.smooth {
             timed(&mut seconds.smooth, || {
                 let given = SmoothOptions {
@@ -315,7 +337,8 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Driver<'a, M> {
                 (field.problem(), &options.field),
                 (followed.maps.problem().problem(), &options.map),
             ];
-            compare(both, &options.compare, monitor)
+            let compared = optional(monitor, || compare(both, &options.compare, monitor));
+            Ok(compared?.unwrap_or_default())
         })?;
         Ok(Quadrangulation {
             quads,

@@ -11,7 +11,7 @@ use crate::error::Result;
 use crate::field::{FieldOptions, Guidance, OrientationField};
 use crate::mesh::TriangleMesh;
 use crate::mesh::features::FeatureGraph;
-use crate::monitor::Monitor;
+use crate::monitor::{Monitor, Stage};
 use crate::search::{Options, Strategy};
 use crate::solve::Solution;
 use crate::untangle::{UntangleOptions, Untangled};
@@ -61,6 +61,7 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> FieldMap<'a, M> {
         let chosen = choose_field(mesh, &options, features, monitor, [of_field, of_map])?;
         let problem = Cow::Owned(chosen.problem);
         let mut maps = MapSolver::new(mesh, problem, chosen.solver, of_map_solve, monitor);
+        monitor().run().enter(Stage::Map, 0, 1);
         let (at_hand, features_as_rounded) = timed(of_map, || {
             let first = maps.solve()?;
             if is_hopeless(mesh, &first.map) {

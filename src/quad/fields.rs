@@ -15,7 +15,7 @@ use crate::field::{FieldOptions, Guidance, OrientationField, solve_field};
 use crate::map::SeamlessProblem;
 use crate::mesh::TriangleMesh;
 use crate::mesh::features::FeatureGraph;
-use crate::monitor::Monitor;
+use crate::monitor::{Monitor, Stage, optional};
 use crate::solve::{Solution, Solver};
 
 /// Another use of curvature.
@@ -69,16 +69,28 @@ pub(super) fn choose_field<'a>(
     monitor: &impl Fn() -> Monitor<'a>,
     [of_field, of_map]: [&mut f64; 2],
 ) -> Result<ChosenField> {
+    let (run, count) = (monitor().run(), field_count(mesh, options));
+    run.enter(Stage::Field, 0, count);
     let mut best = follow(mesh, options, features, monitor, [of_field, of_map])?;
-    for other in others(mesh, options) {
-        match follow(mesh, &other, features, monitor, [of_field, of_map]) {
-            Ok(found) if found.outcome < best.outcome => best = found,
+    for (k, other) in others(mesh, options).enumerate() {
+        run.enter(Stage::Field, k + 1, count);
+        let found = optional(monitor, || {
+            follow(mesh, &other, features, monitor, [of_field, of_map])
+        });
+        match found {
+            Ok(None) => break,
+            Ok(Some(found)) if found.outcome < best.outcome => best = found,
             // The guidance that the caller asked for works, so a failure of another one is no error.
             Ok(_) | Err(Error::Infeasible { .. } | Error::NoIntegerSolution { .. }) => {}
             Err(error) => return Err(error),
         }
     }
     Ok(best)
+}
+
+/// The number of fields that are tried.
+pub(super) fn field_count(mesh: &TriangleMesh, options: &QuadOptions) -> usize {
+    1 + others(mesh, options).count()
 }
 
 /// The same guidance with other uses of curvature, as many as the size of the mesh allows.

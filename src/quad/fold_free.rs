@@ -17,7 +17,7 @@ use super::outcome::Outcome;
 use crate::error::Result;
 use crate::map::{SeamlessMap, SeamlessProblem};
 use crate::mesh::TriangleMesh;
-use crate::monitor::Monitor;
+use crate::monitor::{Monitor, Phase, Stage, optional};
 use crate::search::{Options, Strategy};
 use crate::solve::{Solution, Solver};
 use crate::untangle::{UntangleOptions, Untangled, grow_around};
@@ -27,6 +27,9 @@ const REFINEMENT: f64 = std::f64::consts::SQRT_2;
 
 /// The number of times that a map without folds is made finer because of winding defects.
 const REFINEMENTS_TO_UNWIND: usize = 2;
+
+/// The share of a run that its first try takes; most need no other.
+const FIRST: f64 = 0.5;
 
 /// The number of times that a map with folds is made finer around them alone.
 const GRADINGS: usize = 4;
@@ -88,6 +91,8 @@ impl FoldFreeMap {
 /// fifty thousand unknowns and thirty million nodes. [`Strategy::Exact`] has no such limits. With
 /// [`Strategy::Relax`] no integers are decided, and the map is that of the relaxation.
 ///
+/// A caller who [finishes](crate::Flow::Finish) the run gets the best map so far, whose folds may remain.
+///
 /// # Errors Those of [`solve`](crate::solve()) for the first solve and of
 /// [`untangle`](crate::untangle::untangle); a later solve that fails because constraints contradict each
 /// other ends the rounds.
@@ -98,6 +103,9 @@ pub fn solve_fold_free<'a>(
     effort: &UntangleOptions,
     monitor: impl Fn() -> Monitor<'a>,
 ) -> Result<FoldFreeMap> {
+    let run = monitor().run();
+    run.name_stage(Stage::Map);
+    let monitor = || monitor().of_run(&run);
     let options = without_long_proof(options, problem.problem().variables());
     let solver = Solver::new(problem.problem())?;
     let stated = Cow::Borrowed(problem);
@@ -106,6 +114,7 @@ pub fn solve_fold_free<'a>(
         problem,
         effort,
         maps: MapSolver::new(mesh, stated, solver, &options, &monitor),
+        monitor: &monitor,
         lengths: Vec::new(),
     };
     if options.strategy == Strategy::Relax {
@@ -113,16 +122,44 @@ pub fn solve_fold_free<'a>(
         return FoldFreeMap::untouched(mesh, problem, relaxed.solution, relaxed.map);
     }
     let mut size = Size::default();
-    let mut best = driver.attempt(size)?;
+    let most = match effort.refinements {
+        0 => 0,
+        refinements => refinements + GRADINGS,
+    };
+    let mut best = run.with_share(share_of(0, most), || driver.attempt(size))?;
+    let mut others = 0;
     while let Some(next) = driver.next(size, &best) {
         size = next;
-        driver.resize(size, &best)?;
-        let found = driver.attempt(size)?;
+        others += 1;
+        let found = optional(&monitor, || {
+            run.with_share(share_of(others, most), || {
+                driver.resize(size, &best)?;
+                driver.attempt(size)
+            })
+        });
+        let Some(found) = found? else {
+            break;
+        };
         if Outcome::of_map(&found.untangled) < Outcome::of_map(&best.untangled) {
             best = found;
         }
     }
+    run.end_call();
+    // There is a result, whatever the caller wants.
+    let _ = monitor().progress(Phase::Untangle, 1.0);
     Ok(best)
+}
+
+/// The share of the run that a try takes: the first one, or one of at most `most` others.
+fn share_of(number: usize, most: usize) -> [f64; 2] {
+    let end = |number: usize| match most {
+        0 => 1.0,
+        _ => FIRST + (1.0 - FIRST) * number.min(most) as f64 / most as f64,
+    };
+    match number {
+        0 => [0.0, end(0)],
+        _ => [end(number - 1), end(number)],
+    }
 }
 
 /// How much finer a map is than asked for: first the refinements as a whole, then those around its
@@ -140,6 +177,7 @@ struct Driver<'a, M> {
     problem: &'a SeamlessProblem,
     effort: &'a UntangleOptions,
     maps: MapSolver<'a, M>,
+    monitor: &'a M,
     /// The factor of each face's size, once maps are made finer around faults.
     lengths: Vec<f64>,
 }
@@ -183,18 +221,25 @@ impl<'m, M: Fn() -> Monitor<'m>> Driver<'_, M> {
     /// A map of the current size.
     fn attempt(&mut self, size: Size) -> Result<FoldFreeMap> {
         let first = self.maps.solve()?;
-        let separated = self.maps.separate_cones(&first, self.effort.rounds)?;
+        let (maps, monitor) = (&mut self.maps, self.monitor);
+        let separated = optional(monitor, || maps.separate_cones(&first, self.effort.rounds))?;
         let mut effort = *self.effort;
         if size.gradings > 0 || size.refinements < effort.refinements {
             let faces = self.mesh.face_count().max(1);
             let few = PASSES_BEFORE_REFINING + FACES_BEFORE_REFINING / faces;
             effort.passes = effort.passes.min(few);
-            if separated.outcome > Outcome::default() {
+            let outcome = separated.as_ref().map(|separated| separated.outcome);
+            if outcome.is_some_and(|outcome| outcome > Outcome::default()) {
                 effort.passes /= PART_OF_PASSES;
             }
         }
-        let Solved { solution, map } = separated.better.unwrap_or(first);
-        let untangled = self.maps.untangle(&map, &effort)?;
+        let rounds = separated.as_ref().map_or(0, |separated| separated.rounds);
+        let better = separated.and_then(|separated| separated.better);
+        let Solved { solution, map } = better.unwrap_or(first);
+        let untangled = match optional(monitor, || maps.untangle(&map, &effort))? {
+            Some(untangled) => untangled,
+            None => self.maps.untouched(map)?,
+        };
         if size.gradings > 0 {
             // The next map is finer around the faults of this one.
             grow_around(self.mesh, self.problem, &untangled, &mut self.lengths);
@@ -202,7 +247,7 @@ impl<'m, M: Fn() -> Monitor<'m>> Driver<'_, M> {
         Ok(FoldFreeMap {
             untangled,
             solution,
-            rounds: separated.rounds,
+            rounds,
             refinements: size.refinements,
             gradings: size.gradings,
         })

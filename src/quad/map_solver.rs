@@ -8,7 +8,7 @@ use super::outcome::Outcome;
 use crate::error::Result;
 use crate::map::{SeamlessMap, SeamlessProblem, SeparationConstraint, solve_separated};
 use crate::mesh::TriangleMesh;
-use crate::monitor::Monitor;
+use crate::monitor::{Monitor, optional};
 use crate::search::{Options, Strategy};
 use crate::solve::{Solution, Solver};
 use crate::untangle::{Collapsed, Structure, UntangleOptions, Untangled};
@@ -32,6 +32,16 @@ pub(super) fn without_long_proof(options: &Options, variables: usize) -> Options
         }
     }
     options
+}
+
+/// A solution by options [`without_long_proof`]: where their limit of nodes is the library's, a budget has ended
+/// the proof, and no limit of the caller's.
+fn named_limit(solution: Solution, options: &Options) -> Solution {
+    let is_ours = options.strategy == Strategy::Auto && options.nodes == NODES;
+    match is_ours {
+        true => solution.within_budget(),
+        false => solution,
+    }
 }
 
 /// A solution, and its map.
@@ -106,6 +116,7 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> MapSolver<'a, M> {
     pub(super) fn solve(&mut self) -> Result<Solved> {
         self.forget_separation();
         let solution = self.solver.solve_with(self.options, (self.monitor)())?;
+        let solution = named_limit(solution, self.options);
         self.solved(solution)
     }
 
@@ -158,12 +169,14 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> MapSolver<'a, M> {
                 break;
             }
             let (solver, separation) = (&mut self.solver, &mut self.separation);
-            let Some(solution) = solve_separated(solver, separation, &options, self.monitor)?
-            else {
+            let solved = optional(self.monitor, || {
+                solve_separated(solver, separation, &options, self.monitor)
+            });
+            let Some(solution) = solved?.flatten() else {
                 break;
             };
             rounds += 1;
-            let found = self.solved(solution)?;
+            let found = self.solved(named_limit(solution, &options))?;
             let of_found;
             (of_found, wanted) = find(self, &found.map);
             if of_found < outcome {

@@ -29,6 +29,7 @@ mod quadrangulate;
 mod quadrangulation;
 mod refined_input;
 mod smaller;
+mod stage_ends;
 
 pub use compare::Compared;
 pub use fold_free::{FoldFreeMap, solve_fold_free};

@@ -7,10 +7,13 @@ use super::{QuadOptions, Quadrangulation};
 use crate::error::{Error, Result};
 use crate::field::Guidance;
 use crate::mesh::TriangleMesh;
-use crate::monitor::Monitor;
+use crate::monitor::{Monitor, Phase, optional};
 
 /// The angle of edges that become features where quads without features lose the surface: 40 degrees.
 const SHARP: f64 = 40.0 * std::f64::consts::PI / 180.0;
+
+/// The share of a run that its first try takes; most need no other.
+const FIRST: f64 = 0.97;
 
 /// Meshes of more faces are tried once.
 const FACES: usize = 50_000;
@@ -29,6 +32,9 @@ const FACES: usize = 50_000;
 /// it is tried once more with its sharp edges as features, if the options give no angle, and once more
 /// without refinement. The first of the best results is kept.
 ///
+/// A caller who [finishes](crate::Flow::Finish) the run after the field's first solution gets the quads of the
+/// best integers so far: nothing above is tried any more, and smoothing ends.
+///
 /// # Errors
 /// [`Error::InvalidArgument`] if there are no quads of any size that was tried. Otherwise
 /// those of [`solve_field`](crate::field::solve_field), [`solve`](crate::solve()),
@@ -39,20 +45,31 @@ pub fn quadrangulate<'a>(
     options: &QuadOptions,
     monitor: impl Fn() -> Monitor<'a>,
 ) -> Result<Quadrangulation> {
-    let first = by_options(mesh, options, &monitor);
+    let run = monitor().run();
+    let monitor = || monitor().of_run(&run);
+    let first = run.with_share([0.0, FIRST], || by_options(mesh, options, &monitor));
     let mut best = match first {
         Err(error) if is_final(&error) => return Err(error),
         first => first,
     };
     let mut rank = rank_of(mesh, &best);
-    if mesh.face_count() > FACES {
-        return best;
-    }
-    for other in others(mesh, options) {
+    let tries = match mesh.face_count() > FACES {
+        true => Vec::new(),
+        false => others(mesh, options),
+    };
+    for other in tries {
         if rank == BEST {
             break;
         }
-        let found = by_options(mesh, &other, &monitor);
+        let half = [0.0, 0.5].map(|part| run.share() + part * (1.0 - run.share()));
+        let found = optional(&monitor, || {
+            run.with_share(half, || by_options(mesh, &other, &monitor))
+        });
+        let found = match found {
+            Ok(None) => break,
+            Ok(Some(found)) => Ok(found),
+            Err(error) => Err(error),
+        };
         if found.as_ref().is_err_and(is_final) {
             break;
         }
@@ -61,6 +78,9 @@ pub fn quadrangulate<'a>(
             (best, rank) = (found, found_rank);
         }
     }
+    run.end_call();
+    // There is a result, whatever the caller wants.
+    let _ = monitor().progress(Phase::Quads, 1.0);
     best
 }
 

@@ -53,7 +53,7 @@ pub(crate) fn adaptive(
     }
     while passes.left > 0 {
         let done = 1.0 - passes.left as f64 / integers.len() as f64;
-        if search.monitor.progress(Phase::Round, done).is_err() {
+        if search.monitor.ends_at(Phase::Round, done) {
             break;
         }
         let batch = candidates.take(options.rounding_threshold, |i| passes.undecided(i));
@@ -102,7 +102,7 @@ impl Passes<'_> {
         while budget > 0 && !self.solve.is_settled() {
             let tolerance = options.gauss_seidel_tolerance;
             budget -= self.solve.relax(tolerance, budget.min(UPDATES_AT_A_TIME));
-            if search.monitor.check().is_err() {
+            if search.monitor.ends() {
                 return Ok(());
             }
         }
@@ -120,9 +120,9 @@ impl Passes<'_> {
                 iterations: options.cg_iterations,
                 tolerance: options.cg_tolerance,
             },
-            || search.monitor.check().is_ok(),
+            || !search.monitor.ends(),
         )?;
-        if !converged && options.exact_steps && search.monitor.check().is_ok() {
+        if !converged && options.exact_steps && !search.monitor.ends() {
             let (hessian, gradient) = (self.model.hessian(), self.model.gradient());
             point = minimise_fixed(hessian, gradient, &self.fixed, &point)?;
         }

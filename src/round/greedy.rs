@@ -27,7 +27,7 @@ pub(crate) fn greedy(
 ) -> Result<()> {
     let integers = model.integers();
     search.prepare(factors)?;
-    let go_on = || search.monitor.check().is_ok();
+    let go_on = || !search.monitor.ends();
     let Some(mut factor) = factors.updatable(model, go_on)? else {
         return round_all(model, factors, search);
     };
@@ -43,7 +43,7 @@ pub(crate) fn greedy(
     let mut free: Vec<u32> = (0..integers.len() as u32).collect();
     while !free.is_empty() {
         let done = 1.0 - free.len() as f64 / integers.len() as f64;
-        if search.monitor.progress(Phase::Round, done).is_err() {
+        if search.monitor.ends_at(Phase::Round, done) {
             for &place in &free {
                 rounded[place as usize] = nearest(place as usize, &solve);
             }

@@ -52,7 +52,7 @@ pub(crate) fn multiple(
     let mut left = integers.len();
     while left > 0 {
         let done = 1.0 - left as f64 / integers.len() as f64;
-        if search.monitor.progress(Phase::Round, done).is_err() {
+        if search.monitor.ends_at(Phase::Round, done) {
             break;
         }
         let batch = candidates.take(options.rounding_threshold, |i| {
@@ -117,7 +117,7 @@ impl Passes<'_> {
                     budget.min(LOOKS_AT_A_TIME),
                     &mut moved,
                 );
-                if search.monitor.check().is_err() {
+                if search.monitor.ends() {
                     return Ok(Changed::Anything);
                 }
             }
@@ -137,9 +137,9 @@ impl Passes<'_> {
             &self.fixed,
             &mut self.point,
             effort,
-            || search.monitor.check().is_ok(),
+            || !search.monitor.ends(),
         );
-        if !converged && options.exact_steps && search.monitor.check().is_ok() {
+        if !converged && options.exact_steps && !search.monitor.ends() {
             self.point = minimise_fixed(hessian, gradient, &self.fixed, &self.point)?;
         }
         Ok(Changed::Anything)

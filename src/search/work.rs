@@ -58,7 +58,7 @@ impl Work {
     /// monitor.
     pub fn ends(&mut self, multiplications: u64, monitor: &mut Monitor) -> bool {
         self.spend(multiplications);
-        self.left() == 0 || monitor.check().is_err()
+        self.left() == 0 || monitor.ends()
     }
 }
 

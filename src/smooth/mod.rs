@@ -49,7 +49,8 @@ impl Default for SmoothOptions {
 
 /// Moves the vertices of quads over the mesh that they were extracted from.
 ///
-/// Faces that are not quads have no effect. Connectivity and origins do not change.
+/// Faces that are not quads have no effect. A caller who [finishes](crate::Flow::Finish)
+/// gets quads of fewer rounds, or as they were. Connectivity and origins do not change.
 ///
 /// # Errors
 /// [`Error::IndexOutOfRange`] for a feature that is no edge, [`Error::InvalidArgument`] for a
@@ -61,12 +62,18 @@ pub fn smooth(
     monitor: &mut Monitor,
 ) -> Result<()> {
     check(options)?;
+    if monitor.finishes() {
+        return Ok(());
+    }
     let features = FeatureGraph::from_edges(mesh, &options.features)?;
     let features = features.with(mesh, &FeatureGraph::boundary(mesh))?;
     let mut surface = Surface::new(quads, mesh, &features);
     chains::close(quads, mesh, &mut surface);
     let home = quads.vertices.clone();
     for round in 0..options.rounds {
+        if monitor.finishes() {
+            break;
+        }
         monitor.progress(Phase::Quads, round as f64 / options.rounds as f64)?;
         let size = square::mean_edge(quads);
         let mut sum = vec![([0.0; 3], 0.0); quads.vertices.len()];

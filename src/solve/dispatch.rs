@@ -37,6 +37,8 @@ pub(super) fn search(
     }
     match options.strategy {
         Strategy::Relax => Ok(()),
+        // The caller wants what is found in the least time.
+        _ if search.monitor.ends() => round::direct(model, factors, search),
         Strategy::Direct => round::direct(model, factors, search),
         Strategy::Greedy => round::greedy(model, factors, search),
         Strategy::Adaptive => round::adaptive(model, options, factors, search),

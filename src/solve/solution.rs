@@ -91,6 +91,17 @@ impl Solution {
         self.stopped_by
     }
 
+    /// The same solution, whose limit of nodes was not the caller's but a budget.
+    pub(crate) fn within_budget(mut self) -> Self {
+        if self.stopped_by == StoppedBy::Nodes {
+            self.stopped_by = StoppedBy::Budget;
+        }
+        if self.status == SolveStatus::Limit && self.stopped_by == StoppedBy::Budget {
+            self.status = SolveStatus::Feasible;
+        }
+        self
+    }
+
     /// The multiplications of the relaxation and of the search, approximately. The relaxation counts as 50
     /// for each entry of the reduced Hessian; roundings do not count. The number is the same on every
     /// machine.

@@ -28,7 +28,7 @@ def test_every_exported_symbol_is_declared_and_found_in_the_library():
 
 def test_structs_have_the_sizes_that_the_layout_promises():
     ffi = parsed()
-    sizes = {"option": 64, "preset": 64, "counts": 128, "seconds": 128, "event": 64, "monitor": 32}
+    sizes = {"option": 64, "preset": 64, "counts": 128, "seconds": 128, "event": 80, "monitor": 32}
     assert {name: ffi.sizeof(f"roundel_{name}") for name in sizes} == sizes
 
 
@@ -36,6 +36,6 @@ def test_the_package_was_built_from_this_header():
     from roundel._declarations import ffi
 
     fresh = parsed()
-    enums = ("status", "solve_status", "stopped_by", "event_kind", "phase", "edit_kind")
+    enums = ("status", "solve_status", "stopped_by", "event_kind", "phase", "stage", "flow", "edit_kind")
     for name in (f"roundel_{enum}" for enum in enums):
         assert ffi.typeof(f"enum {name}").relements == fresh.typeof(f"enum {name}").relements

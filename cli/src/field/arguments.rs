@@ -6,6 +6,7 @@ use super::Directions;
 use crate::exit;
 use crate::mesh::MeshFlags;
 use crate::options::SolverOptions;
+use crate::outputs::OutputFlags;
 
 /// Compute the smoothest cross field of a triangle mesh.
 #[derive(clap::Args)]
@@ -54,6 +55,9 @@ pub struct Arguments {
     /// Print one JSON object instead of the summary
     #[arg(long)]
     pub json: bool,
+
+    #[command(flatten)]
+    pub output: OutputFlags,
 
     #[command(flatten)]
     pub input: MeshFlags,

@@ -62,6 +62,11 @@ pub struct Directions {
 }
 
 impl Directions {
+    /// The files that are read: feature lines, and the guide.
+    pub fn files(&self) -> [Option<&Path>; 2] {
+        [self.feature_lines.as_deref(), self.guide.as_deref()]
+    }
+
     /// The guidance of the command line, for a field of this symmetry, and the edges to follow.
     pub fn of(
         &self,

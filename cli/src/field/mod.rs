@@ -17,9 +17,10 @@ use roundel_pictures::{FieldModel, View, draw_field};
 
 use crate::exit::Exit;
 use crate::mesh::Input;
+use crate::output;
+use crate::outputs::{Content, Outputs, PICTURE, PROBLEM};
 use crate::progress::Progress;
 use crate::report::Preparation;
-use crate::{interrupt, output};
 pub use arguments::Arguments;
 pub use directions::{Directions, named};
 use report::FieldReport;
@@ -33,10 +34,11 @@ pub fn run(arguments: &Arguments) -> Exit {
 }
 
 fn solve(arguments: &Arguments) -> Result<Solved> {
-    let token = interrupt::cancel_token()?;
-    let progress = Progress::start();
-    let options = arguments.solver.over(Options::default())?;
     let started = Instant::now();
+    check_outputs(arguments)?;
+    let mut progress = Progress::start(arguments.output.quiet)?;
+    let mut options = arguments.solver.over(Options::default())?;
+    progress.limit(&mut options, started);
     let input = arguments.input.read(&arguments.mesh, arguments.json)?;
     arguments.directions.keep_numbers(&input)?;
     let Input { mesh, repair } = input;
@@ -55,7 +57,7 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
     if let Some(path) = &arguments.write_problem {
         mps::write(path, &MpsProblem::new(problem.problem().clone()))?;
     }
-    let monitor = || progress.monitor().cancel_token(token.clone());
+    let monitor = || progress.monitor();
     let (field, solution) = match follows.detail > 0.0 {
         true => solve_field(&mesh, &follows, &options, monitor)?,
         false => {
@@ -78,6 +80,18 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
         },
         written: started.elapsed().as_secs_f64(),
     })
+}
+
+/// Checks all that is to be written.
+fn check_outputs(arguments: &Arguments) -> Result<()> {
+    let [lines, guide] = arguments.directions.files();
+    let read = [Some(arguments.mesh.as_path()), lines, guide];
+    let outputs = Outputs::of(&read, arguments.output.force)
+        .write(arguments.out.as_ref(), Content::Field)?
+        .write(arguments.picture.as_ref(), PICTURE)?
+        .write(arguments.write_problem.as_ref(), PROBLEM)?;
+    outputs.tell(arguments.json || arguments.output.quiet);
+    Ok(())
 }
 
 fn is_text(path: &Path) -> bool {

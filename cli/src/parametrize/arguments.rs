@@ -9,13 +9,14 @@ use crate::exit;
 use crate::field::Directions;
 use crate::mesh::MeshFlags;
 use crate::options::SolverOptions;
+use crate::outputs::OutputFlags;
 
 /// Compute a seamless parametrization of a triangle mesh that follows a cross field.
 ///
 /// The field comes from a file, or is that of `roundel field` with the same flags. Features,
 /// and the boundary unless it is free, become isolines of integer value: chains of quads' edges.
-/// The solver's options are those of the parametrization; time limit and threads hold for each of
-/// the two solves.
+/// The solver's options are those of the parametrization; the time limit is that of the whole run,
+/// and the threads are also those of the field's solve.
 #[derive(clap::Args)]
 #[command(after_help = exit::HELP)]
 pub struct Arguments {
@@ -69,6 +70,9 @@ pub struct Arguments {
     /// Print one JSON object instead of the summary
     #[arg(long)]
     pub json: bool,
+
+    #[command(flatten)]
+    pub output: OutputFlags,
 
     #[command(flatten)]
     pub input: MeshFlags,

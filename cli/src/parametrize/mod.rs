@@ -17,15 +17,19 @@ use roundel::{Options, Result, Solution};
 
 use crate::exit::Exit;
 use crate::mesh::{Input, RepairCounts};
+use crate::output;
+use crate::outputs::{MAP, Outputs, PROBLEM};
 use crate::progress::Progress;
 use crate::refinement::Refinement;
 use crate::report::Preparation;
-use crate::{interrupt, output};
 pub use arguments::Arguments;
 use field::FieldSource;
 use report::MapReport;
 pub use sizing::SizingFlags;
 use summary::MapSummary;
+
+/// The share of a run that the field takes.
+const FIELD: f64 = 0.3;
 
 /// Runs the command and tells its outcome, once.
 pub fn run(arguments: &Arguments) -> Exit {
@@ -60,11 +64,12 @@ struct Solved {
 }
 
 fn solve(arguments: &Arguments) -> Result<Solved> {
-    let token = interrupt::cancel_token()?;
-    let progress = Progress::start();
-    let monitor = || progress.monitor().cancel_token(token.clone());
-    let options = arguments.solver.over(Options::default())?;
     let started = Instant::now();
+    check_outputs(arguments)?;
+    let mut progress = Progress::start(arguments.output.quiet)?;
+    let mut options = arguments.solver.over(Options::default())?;
+    progress.limit(&mut options, started);
+    let monitor = || progress.monitor();
     let input = arguments.input.read(&arguments.mesh, arguments.json)?;
     arguments.directions.keep_numbers(&input)?;
     input.keeps_numbers("--field", arguments.field.is_some())?;
@@ -88,6 +93,7 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
         None => (mesh, guidance, features, sizing),
     };
     let follows = (&guidance, &features, &sizing);
+    progress.next_call(0.0, FIELD);
     let (field, source) = field::of(arguments, &mesh, follows, &options, monitor)?;
     let started = Instant::now();
     let problem = SeamlessProblem::with_features(&mesh, &field, &sizing, &features)?;
@@ -97,6 +103,7 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
     if let Some(path) = &arguments.write_problem {
         mps::write(path, &MpsProblem::new(problem.problem().clone()))?;
     }
+    progress.next_call(FIELD, 1.0);
     let started = Instant::now();
     let fold_free = match arguments.no_untangle {
         true => {
@@ -145,6 +152,19 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
             assemble: Some(assemble),
         },
     })
+}
+
+/// Checks all that is to be written.
+fn check_outputs(arguments: &Arguments) -> Result<()> {
+    let [lines, guide] = arguments.directions.files();
+    let lengths = arguments.sizing.edge_lengths.as_deref();
+    let field = arguments.field.as_deref();
+    let read = [Some(arguments.mesh.as_path()), lines, guide, lengths, field];
+    let outputs = Outputs::of(&read, arguments.output.force)
+        .write(arguments.out.as_ref(), MAP)?
+        .write(arguments.write_problem.as_ref(), PROBLEM)?;
+    outputs.tell(arguments.json || arguments.output.quiet);
+    Ok(())
 }
 
 fn tell(arguments: &Arguments, solved: &Solved) -> Result<()> {

@@ -8,13 +8,14 @@ use crate::exit;
 use crate::field::Directions;
 use crate::mesh::MeshFlags;
 use crate::options::{QuadFlags, SolverOptions};
+use crate::outputs::OutputFlags;
 use crate::parametrize::SizingFlags;
 
 /// Turn a triangle mesh into quads: field, map and extraction in one.
 ///
-/// The solver's options apply to the map, whose default strategy is `lattice`; the time limit and the
-/// threads apply to each of the two solves. Features become chains of edges, and so does the boundary
-/// unless it is free.
+/// The solver's options apply to the solve of the map; the time limit is that of the whole run, and the
+/// threads are also those of the field's solve. Features become chains of edges, and so does the
+/// boundary unless it is free.
 #[derive(clap::Args)]
 #[command(after_help = exit::HELP)]
 pub struct Arguments {
@@ -53,6 +54,9 @@ pub struct Arguments {
     /// Print one JSON object instead of the summary
     #[arg(long)]
     pub json: bool,
+
+    #[command(flatten)]
+    pub output: OutputFlags,
 
     #[command(flatten)]
     pub input: MeshFlags,

@@ -11,7 +11,7 @@ use super::steps::Solved;
 use crate::mesh::RepairCounts;
 use crate::refinement::Refinement;
 use crate::report::{Preparation, Report};
-use crate::summary::{counted, thousands};
+use crate::summary::{counted, telling_bound, telling_gap, thousands};
 
 /// What `--json` prints of `roundel quad`: the solve of the map, and what came of it.
 #[derive(Serialize)]
@@ -70,8 +70,8 @@ impl Found {
             complete: solution.is_complete(),
             stopped_by: solution.stopped_by().name(),
             energy: solution.energy(),
-            lower_bound: solution.lower_bound(),
-            gap: solution.gap().filter(|gap| gap.is_finite()),
+            lower_bound: telling_bound(solution),
+            gap: telling_gap(solution.gap()),
             seconds: solution.seconds().total,
         }
     }

@@ -8,8 +8,9 @@ use roundel::{Options, Result};
 
 use super::Arguments;
 use crate::mesh::{Input, RepairCounts};
+use crate::output;
+use crate::outputs::{Content, Outputs, PAGE};
 use crate::progress::Progress;
-use crate::{interrupt, output};
 
 /// Quads, and what they were made from.
 pub(super) struct Solved {
@@ -21,12 +22,12 @@ pub(super) struct Solved {
 }
 
 pub(super) fn solve(arguments: &Arguments) -> Result<Solved> {
-    output::check_quads_file(arguments.out.as_deref())?;
-    let token = interrupt::cancel_token()?;
-    let progress = Progress::start();
-    let default = QuadOptions::default();
-    let map = arguments.solver.over(default.map.clone())?;
     let started = Instant::now();
+    check_outputs(arguments)?;
+    let mut progress = Progress::start(arguments.output.quiet)?;
+    let default = QuadOptions::default();
+    let mut map = arguments.solver.over(default.map.clone())?;
+    progress.limit(&mut map, started);
     let input = arguments.input.read(&arguments.mesh, arguments.json)?;
     arguments.directions.keep_numbers(&input)?;
     let Input { mesh, repair } = input;
@@ -47,8 +48,7 @@ pub(super) fn solve(arguments: &Arguments) -> Result<Solved> {
         ..default
     };
     let options = arguments.flags.over(options)?;
-    let monitor = || progress.monitor().cancel_token(token.clone());
-    let made = quadrangulate(&mesh, &options, monitor)?;
+    let made = quadrangulate(&mesh, &options, || progress.monitor())?;
     if let Some(path) = &arguments.out {
         output::write_quads(&made.quads, path)?;
     }
@@ -59,4 +59,16 @@ pub(super) fn solve(arguments: &Arguments) -> Result<Solved> {
         made,
         read_seconds,
     })
+}
+
+/// Checks all that is to be written.
+fn check_outputs(arguments: &Arguments) -> Result<()> {
+    let [lines, guide] = arguments.directions.files();
+    let lengths = arguments.sizing.edge_lengths.as_deref();
+    let read = [Some(arguments.mesh.as_path()), lines, guide, lengths];
+    let outputs = Outputs::of(&read, arguments.output.force)
+        .write(arguments.out.as_ref(), Content::Mesh)?
+        .write(arguments.report.as_ref(), PAGE)?;
+    outputs.tell(arguments.json || arguments.output.quiet);
+    Ok(())
 }

@@ -3,14 +3,17 @@
 mod book;
 mod evaluate;
 mod field;
+mod interrupt;
 mod outcome;
 mod output;
+mod outputs;
 mod parametrize;
 mod problem;
 mod quad;
 mod repair;
 mod run;
 mod same_quads;
+mod schema;
 mod shape;
 #[path = "../../../tests/common/skip.rs"]
 mod skip;

@@ -15,10 +15,15 @@ fn solve_json(test: &str, text: &str, flags: &[&str]) -> (i32, Value) {
 
 /// (A - I)^2 + (I - 0.4)^2 + J^2: rounding I from 0.4 to 0 costs 0.16.
 fn fractional() -> String {
+    fractional_above(0.0)
+}
+
+/// The same, and a constant.
+fn fractional_above(constant: f64) -> String {
     mps(
         &[],
         &[("I", "OBJ", -0.8)],
-        &[("OBJ", -0.16)],
+        &[("OBJ", -0.16 - constant)],
         &[
             ("A", "A", 2.0),
             ("I", "A", -2.0),
@@ -65,14 +70,30 @@ fn a_relaxation_is_relaxed() {
 fn rounding_that_costs_something_is_feasible() {
     for strategy in ["direct", "greedy"] {
         let test = format!("feasible-{strategy}");
-        let (code, report) = solve_json(&test, &fractional(), &["--strategy", strategy]);
+        let text = fractional_above(1.0);
+        let (code, report) = solve_json(&test, &text, &["--strategy", strategy]);
         assert_eq!((code, &report["status"]), (0, &json!("feasible")));
         let number = |key: &str| report[key].as_f64().unwrap();
         let (energy, bound) = (number("energy"), number("lower_bound"));
-        assert!((energy - 0.16).abs() < 1e-12, "{report}");
-        assert!(bound <= energy, "{report}");
+        assert!((energy - 1.16).abs() < 1e-12, "{report}");
+        assert!((bound - 1.0).abs() < 1e-6 && bound <= 1.0, "{report}");
         assert_eq!(number("gap"), (energy - bound) / energy);
     }
+}
+
+/// A sum of squares is at least 0, which nobody needs to be told.
+#[test]
+fn a_bound_that_says_nothing_is_not_told() {
+    let flags = ["--strategy", "direct"];
+    let (code, report) = solve_json("no-bound", &fractional(), &flags);
+    assert_eq!((code, &report["status"]), (0, &json!("feasible")));
+    let told = ["lower_bound", "gap"].map(|key| report.get(key));
+    assert_eq!(told, [Some(&Value::Null); 2], "{report}");
+    let scratch = Scratch::new("no-bound-plain");
+    let file = scratch.write("problem.mps", fractional());
+    let (_, output) = finish(solve(&file, &flags));
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert!(!text.contains("gap") && !text.contains("bound"), "{text}");
 }
 
 #[test]
@@ -93,7 +114,7 @@ fn nodes_that_the_caller_set_are_a_limit() {
     let file = scratch.write("problem.mps", fractional());
     let (_, output) = finish(solve(&file, &flags));
     let text = String::from_utf8(output.stdout).unwrap();
-    let words = "limit, no bound, stopped by the limit of nodes";
+    let words = "limit, stopped by the limit of nodes";
     assert!(text.contains(words), "{text}");
 }
 

@@ -41,6 +41,7 @@ fn the_report_has_every_field_with_its_type() {
     assert_eq!(code, 0);
     let report = only_object(&output);
     let mut expected = vec![
+        "schema",
         "file",
         "strategy",
         "status",
@@ -232,9 +233,35 @@ fn the_summary_tells_sizes_strategy_energy_and_status() {
 }
 
 #[test]
+fn the_short_help_leaves_the_flags_of_experts_to_the_long_one() {
+    let help = |flag: &str| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_roundel"));
+        let output = command.args(["quad", flag]).output().unwrap();
+        String::from_utf8(output.stdout).unwrap()
+    };
+    let (short, long) = (help("--help"), help("--help-all"));
+    for flag in [
+        "--quads",
+        "--strategy",
+        "--time-limit",
+        "--out",
+        "--help-all",
+    ] {
+        assert!(short.contains(flag), "{flag}");
+    }
+    for flag in ["--cg-iterations", "--stiffenings", "--preset"] {
+        assert!(!short.contains(flag) && long.contains(flag), "{flag}");
+    }
+    assert!(!short.contains("[default: auto]"), "{short}");
+    for text in [short, long] {
+        assert!(text.contains("Examples:\n  roundel quad "), "{text}");
+    }
+}
+
+#[test]
 fn the_help_tells_every_option_with_its_default_and_every_exit_code() {
     let help = Command::new(env!("CARGO_BIN_EXE_roundel"))
-        .args(["solve", "--help"])
+        .args(["solve", "--help-all"])
         .output()
         .unwrap();
     let text = String::from_utf8(help.stdout).unwrap();
@@ -246,7 +273,7 @@ fn the_help_tells_every_option_with_its_default_and_every_exit_code() {
             "{flag}"
         );
     }
-    for code in 0..=5 {
+    for code in 0..=7 {
         let line = format!("\n  {code}  ");
         assert!(text.contains(&line), "exit code {code}");
     }

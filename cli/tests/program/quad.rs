@@ -201,7 +201,7 @@ fn faults_are_told_by_number_on_one_line() {
     let (code, told) = run(&["extract", text(&map), "--json"]);
     assert_eq!((code, &told["conforming"]), (0, &json!(false)), "{told}");
     assert_eq!(told["faults"]["folded_triangles"], json!([1]), "{told}");
-    let (code, output) = finish(program(&["extract", text(&map)]));
+    let (code, output) = finish(program(&["extract", text(&map), "--quiet"]));
     let stderr = String::from_utf8(output.stderr).unwrap();
     assert_eq!((code, stderr.lines().count()), (0, 1), "{stderr}");
     assert!(stderr.contains("triangles folded by the map 1"), "{stderr}");

@@ -71,3 +71,43 @@ fn the_help_lists_every_shape() {
         assert!(text.contains(name) && text.contains(what), "{text}");
     }
 }
+
+#[test]
+fn a_shape_or_flag_or_command_that_is_misspelt_is_guessed() {
+    for (words, says) in [
+        (
+            &["quad", "shape:gaer:100", "--json"][..],
+            "did you mean 'gear'?",
+        ),
+        (&["shape", "tours", "-o", "x.obj"], "did you mean 'torus'?"),
+        (
+            &["quad", "shape:gear", "--edge-lenght", "1"],
+            "'--edge-length'",
+        ),
+        (&["quda", "shape:gear"], "'quad'"),
+    ] {
+        let (code, output) = finish(program(words));
+        assert_ne!(code, 0);
+        let text = [output.stdout, output.stderr].concat();
+        let text = String::from_utf8(text).unwrap();
+        assert!(text.contains(says), "{text}");
+    }
+}
+
+#[test]
+fn completions_and_manual_pages_know_every_command() {
+    let scratch = Scratch::new("generated");
+    let folder = scratch.path("");
+    let (code, _) = finish(program(&["generate", folder.to_str().unwrap()]));
+    assert_eq!(code, 0);
+    let read = |name: &str| std::fs::read_to_string(scratch.path(name)).unwrap();
+    for name in ["bash/roundel.bash", "zsh/_roundel", "fish/roundel.fish"] {
+        let text = read(&format!("completions/{name}"));
+        assert!(
+            text.contains("parametrize") && text.contains("edge-length"),
+            "{name}"
+        );
+    }
+    assert!(read("man1/roundel.1").contains("quad"));
+    assert!(read("man1/roundel-quad.1").contains("edge\\-length"));
+}

@@ -112,6 +112,7 @@ void bad_handles(fixture* f) {
     no_place(f);
     wrong_lengths(f);
     BAD(f, roundel_cancel_token_cancel(NULL), null, "cancel token", NONE);
+    BAD(f, roundel_cancel_token_finish(NULL), null, "cancel token", NONE);
     BAD(f, roundel_cancel_token_reset(NULL), null, "cancel token", NONE);
     /* An address that no handle can have. */
     BAD(f, roundel_problem_add_constant((roundel_problem*)((char*)f->problem + 1), 1.0),

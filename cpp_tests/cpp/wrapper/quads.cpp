@@ -17,6 +17,39 @@ bool same(const roundel::Quads& one, const roundel::Quads& other) {
            std::equal(c.begin(), c.end(), d.begin(), d.end());
 }
 
+/// The share of a run never falls and comes to 1, and a run is finished with its first integers.
+void runs_are_followed_and_finished(const roundel::Mesh& mesh) {
+    double share = 0.0;
+    auto stage = roundel::Stage::solve;
+    const auto follow = roundel::Options().set_on_event([&](const roundel::Event& event) {
+        CHECK(share <= event.share && event.share <= 1.0);
+        share = event.share;
+        stage = event.stage;
+        return roundel::go_on;
+    });
+    CHECK(roundel::quadrangulate(mesh, roundel::QuadOptions().set_solve(follow)));
+    CHECK(share == 1.0 && roundel::name(stage) == "smooth");
+
+    const auto hurry = roundel::Options().set_on_event([](const roundel::Event& event) {
+        return event.kind == roundel::EventKind::improved ? roundel::finish : roundel::go_on;
+    });
+    CHECK(roundel::quadrangulate(mesh, roundel::QuadOptions().set_solve(hurry)).size() > 0);
+
+    // A token does the same from the first integers on. Before them there is nothing to finish.
+    const roundel::CancelToken token;
+    const auto by_token = roundel::Options().set_cancel(token).set_on_event([&](const auto& event) {
+        if (event.kind == roundel::EventKind::improved) {
+            token.finish();
+        }
+        return roundel::go_on;
+    });
+    const auto given = roundel::QuadOptions().set_solve(by_token);
+    CHECK(roundel::quadrangulate(mesh, given).size() > 0 && !token.is_cancelled());
+    roundel::Status status;
+    CHECK(!roundel::quadrangulate(mesh, given, &status));
+    CHECK(status.code == ROUNDEL_ERROR_CANCELLED);
+}
+
 } // namespace
 
 void unset_quad_options_have_the_librarys_defaults() {
@@ -36,6 +69,7 @@ void unset_quad_options_have_the_librarys_defaults() {
     });
     const auto seen = QuadOptions().set_quads(150).set_solve(watched);
     CHECK(same(silent, roundel::quadrangulate(mesh, seen)) && events > 10);
+    runs_are_followed_and_finished(mesh);
 
     // Every option has an effect.
     const std::vector<QuadOptions> others = {

@@ -17,7 +17,7 @@
 
 ROUNDEL_NAMESPACE_BEGIN
 
-/// A flag by which any thread may cancel a solve.
+/// A flag by which any thread may cancel or finish a call.
 class CancelToken {
   public:
     explicit CancelToken(Status* status = nullptr) {
@@ -29,6 +29,11 @@ class CancelToken {
     /// Asks every solve with this token to end, including solves that have not begun.
     void cancel(Status* status = nullptr) const {
         detail::check(roundel_cancel_token_cancel(get()), status);
+    }
+
+    /// Asks every call with this token to finish with the best integers so far: see finish.
+    void finish(Status* status = nullptr) const {
+        detail::check(roundel_cancel_token_finish(get()), status);
     }
 
     /// Withdraws the request, so that the token can be used again.
@@ -49,11 +54,18 @@ class CancelToken {
 };
 
 /// The return value of a callback.
-enum class Flow : std::int32_t { go_on = 0, stop = 1 };
+enum class Flow : std::int32_t {
+    go_on = ROUNDEL_FLOW_CONTINUE,
+    stop = ROUNDEL_FLOW_CANCEL,
+    finish = ROUNDEL_FLOW_FINISH,
+};
 /// Continue the solve.
 inline constexpr Flow go_on = Flow::go_on;
 /// End the solve; the best solution so far is kept.
 inline constexpr Flow stop = Flow::stop;
+/// Finish the call with the best integers so far, also a call of several solves such as
+/// quadrangulate. Before a first solution this is stop.
+inline constexpr Flow finish = Flow::finish;
 
 /// The kinds of events.
 enum class EventKind : std::int32_t {
@@ -73,6 +85,32 @@ enum class Phase : std::int32_t {
     quads = ROUNDEL_PHASE_QUADS,
 };
 
+/// The stages of a call.
+enum class Stage : std::int32_t {
+    solve = ROUNDEL_STAGE_SOLVE,
+    field = ROUNDEL_STAGE_FIELD,
+    map = ROUNDEL_STAGE_MAP,
+    quads = ROUNDEL_STAGE_QUADS,
+    smooth = ROUNDEL_STAGE_SMOOTH,
+};
+
+/// The word for a stage, such as "field".
+inline std::string_view name(Stage stage) {
+    switch (stage) {
+    case Stage::field:
+        return "field";
+    case Stage::map:
+        return "map";
+    case Stage::quads:
+        return "quads";
+    case Stage::smooth:
+        return "smooth";
+    case Stage::solve:
+        break;
+    }
+    return "solve";
+}
+
 /// An event that the callback receives: the state of the solve.
 struct Event {
     EventKind kind;
@@ -90,6 +128,10 @@ struct Event {
     /// (energy - lower_bound) / |energy|: 0 where they are equal, and infinite while either is
     /// infinite or an energy of 0 is above the bound.
     double gap;
+    /// The share of the whole call that is done, from 0 to 1. It never falls.
+    double share;
+    /// The stage of the whole call.
+    Stage stage;
 };
 
 /// Options of a solve. Options that are not set have the library's defaults.

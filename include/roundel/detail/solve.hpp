@@ -32,7 +32,9 @@ struct Watcher {
                          event->seconds,
                          event->energy,
                          event->lower_bound,
-                         event->gap};
+                         event->gap,
+                         event->share,
+                         static_cast<Stage>(event->stage)};
 #if ROUNDEL_HPP_EXCEPTIONS
         try {
             return static_cast<std::int32_t>(self.on_event(view));

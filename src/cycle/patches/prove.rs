@@ -34,7 +34,7 @@ impl Watch for Watched<'_, '_, '_> {
         self.search.work.spend(work);
         self.left = self.left.saturating_sub(work);
         let is_enough = self.gap > 0.0 && self.search.is_within(self.gap);
-        self.left == 0 || is_enough || self.search.monitor.check().is_err()
+        self.left == 0 || is_enough || self.search.monitor.ends()
     }
 
     fn raised(&mut self, bound: f64) {
