@@ -1,5 +1,6 @@
 //! The `roundel` program: one command for each task, in a module of its name.
 
+mod changes;
 mod check;
 mod evaluate;
 mod exit;
@@ -9,6 +10,7 @@ mod interrupt;
 mod mesh;
 mod options;
 mod output;
+mod page;
 mod parametrize;
 mod progress;
 mod quad;

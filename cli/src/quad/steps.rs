@@ -7,6 +7,7 @@ use roundel::quad::{QuadOptions, Quadrangulation, quadrangulate};
 use roundel::{Options, Result};
 
 use super::Arguments;
+use crate::changes::Changes;
 use crate::mesh::{Input, RepairCounts};
 use crate::progress::Progress;
 use crate::{interrupt, output};
@@ -15,6 +16,7 @@ use crate::{interrupt, output};
 pub(super) struct Solved {
     pub(super) mesh: TriangleMesh,
     pub(super) repair: RepairCounts,
+    pub(super) changes: Changes,
     pub(super) options: QuadOptions,
     pub(super) made: Quadrangulation,
     pub(super) read_seconds: f64,
@@ -29,7 +31,11 @@ pub(super) fn solve(arguments: &Arguments) -> Result<Solved> {
     let started = Instant::now();
     let input = arguments.input.read(&arguments.mesh, arguments.json)?;
     arguments.directions.keep_numbers(&input)?;
-    let Input { mesh, repair } = input;
+    let Input {
+        mesh,
+        repair,
+        changes,
+    } = input;
     let read_seconds = started.elapsed().as_secs_f64();
     let (mut guidance, features) = arguments.directions.of_map(&mesh)?;
     // Those of the command line's file are among them.
@@ -55,6 +61,7 @@ pub(super) fn solve(arguments: &Arguments) -> Result<Solved> {
     Ok(Solved {
         mesh,
         repair,
+        changes,
         options,
         made,
         read_seconds,

@@ -5,6 +5,7 @@ mod evaluate;
 mod field;
 mod outcome;
 mod output;
+mod page;
 mod parametrize;
 mod problem;
 mod quad;
