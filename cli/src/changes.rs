@@ -23,6 +23,17 @@ impl Changes {
         Changes(made.map(|kind| Change::new(repaired, kind)).collect())
     }
 
+    /// The same on the faces that a refinement made of the mesh. It keeps the numbers of vertices.
+    pub fn on_refined(mut self, face_origin: &[u32]) -> Self {
+        for change in &mut self.0 {
+            let before = std::mem::take(&mut change.triangles);
+            let faces = face_origin.iter().zip(0..);
+            let parts = faces.filter(|(origin, _)| before.binary_search(origin).is_ok());
+            change.triangles = parts.map(|(_, face)| face).collect();
+        }
+        self
+    }
+
     /// The changes.
     pub fn iter(&self) -> impl Iterator<Item = &Change> {
         self.0.iter()
@@ -111,5 +122,9 @@ mod tests {
         assert_eq!(all[0].vertices, [at([1.0, 1.0, 0.0])]);
         assert_eq!(all[1].triangles, repaired.triangles_of(0));
         assert_eq!(all[2].triangles, repaired.triangles_of(2));
+        let turned = all[2].triangles[0];
+        let parts = changes.on_refined(&[turned, 1 - turned, turned]);
+        let parts: Vec<&[u32]> = parts.iter().map(|change| &*change.triangles).collect();
+        assert_eq!(parts, [&[][..], &[1], &[0, 2]]);
     }
 }

@@ -32,8 +32,7 @@ fn tables(solved: &Solved) -> Tables {
     rows.push(("faces of given direction", thousands(given)));
     let mut tables = Tables::default();
     tables.add("Input", &rows);
-    let mut rows = vec![("strategy", solved.strategy.name().into())];
-    rows.extend(solve_rows(&solved.solution));
+    let mut rows = solve_rows(solved.strategy, &solved.solution);
     rows.push(("sum of indices", field.index_sum(mesh).to_string()));
     tables.add("Field", &rows);
     let seconds = solved.solution.seconds();

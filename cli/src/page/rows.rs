@@ -1,7 +1,7 @@
 //! Rows that pages of different commands share.
 
-use roundel::Solution;
 use roundel::mesh::TriangleMesh;
+use roundel::{Solution, Strategy};
 
 use crate::changes::Changes;
 use crate::summary::{outcome, telling_gap, thousands};
@@ -27,21 +27,27 @@ pub fn mesh_rows(mesh: &TriangleMesh, changes: &Changes) -> Rows {
     rows
 }
 
-/// How a solve ended.
-pub fn solve_rows(solution: &Solution) -> Rows {
+/// How a solve ended. A bound that says nothing is left out.
+pub fn solve_rows(strategy: Strategy, solution: &Solution) -> Rows {
     let counts = solution.counts();
-    vec![
+    let mut rows = vec![
+        ("strategy", strategy.name().into()),
         ("outcome", outcome(solution)),
         ("energy", format!("{:.6}", solution.energy())),
-        ("lower bound", bound(solution)),
-        ("gap", gap(solution)),
+    ];
+    if telling_gap(solution.gap()).is_some() {
+        rows.push(("lower bound", bound(solution)));
+        rows.push(("gap", gap(solution)));
+    }
+    rows.extend([
         ("unknowns", thousands(counts.variables)),
         ("integers", thousands(counts.integers)),
         (
             "integers after elimination",
             thousands(counts.reduced_integers),
         ),
-    ]
+    ]);
+    rows
 }
 
 /// The seconds of steps, without those that were not taken.

@@ -35,7 +35,7 @@ pub struct Scene {
     map: Option<Map>,
     #[serde(skip_serializing_if = "Option::is_none")]
     quads: Option<Quads>,
-    /// What repair changed.
+    /// What repair changed on the mesh, refined if it was.
     changes: Vec<Marks>,
 }
 
@@ -74,7 +74,7 @@ struct Marks {
 }
 
 impl Scene {
-    /// The mesh that was given, or what it was refined to, and nothing on it yet.
+    /// The mesh that was given, or what it was refined to, with what repair changed on it, and nothing else yet.
     pub fn new(given: &TriangleMesh, refined: Option<&TriangleMesh>, changes: &Changes) -> Self {
         let mesh = refined.unwrap_or(given);
         let (grid, positions) = Grid::of(mesh.vertices());

@@ -43,6 +43,7 @@ struct Solved {
     /// The mesh of the map: that which was given, or what it was refined to.
     mesh: TriangleMesh,
     repair: RepairCounts,
+    /// On the mesh of the map.
     changes: Changes,
     refined: Option<Refinement>,
     field: FieldSource,
@@ -85,14 +86,15 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
         false => RefinedInput::new(&mesh, &guidance, &features, &sizing)?,
     };
     let refined = input.as_ref().map(|input| Refinement::new(&input.refined));
-    let (mesh, guidance, features, sizing) = match input {
+    let (mesh, guidance, features, sizing, changes) = match input {
         Some(input) => (
             input.refined.mesh,
             input.guidance,
             input.features,
             input.sizing,
+            changes.on_refined(&input.refined.face_origin),
         ),
-        None => (mesh, guidance, features, sizing),
+        None => (mesh, guidance, features, sizing, changes),
     };
     let follows = (&guidance, &features, &sizing);
     let field = field::of(arguments, &mesh, follows, &options, monitor)?;

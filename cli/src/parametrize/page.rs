@@ -45,8 +45,7 @@ fn tables(solved: &Solved) -> Tables {
         ("energy", format!("{:.6}", field.energy)),
     ];
     tables.add("Field", &rows);
-    let mut rows = vec![("strategy", solved.options.strategy.name().into())];
-    rows.extend(solve_rows(&solved.solution));
+    let mut rows = solve_rows(solved.options.strategy, &solved.solution);
     rows.push(("cut edges", thousands(untangled.map.transitions().len())));
     rows.push(("folds, at first", thousands(untangled.flipped_before)));
     rows.push(("folds, at last", thousands(untangled.map.flipped().len())));

@@ -45,8 +45,11 @@ fn tables(solved: &Solved) -> Tables {
         rows.push(("refined", Refinement::new(refined).to_string()));
     }
     tables.add("Input", &rows);
-    tables.add("Field", &solve_rows(&made.field_solution));
-    let mut rows = solve_rows(&made.solution);
+    tables.add(
+        "Field",
+        &solve_rows(solved.options.field.strategy, &made.field_solution),
+    );
+    let mut rows = solve_rows(solved.options.map.strategy, &made.solution);
     rows.push(("folds, at first", thousands(made.untangled.flipped_before)));
     rows.push(("folds, at last", thousands(made.untangled.flipped_after)));
     tables.add("Map", &rows);

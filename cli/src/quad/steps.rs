@@ -16,6 +16,7 @@ use crate::{interrupt, output};
 pub(super) struct Solved {
     pub(super) mesh: TriangleMesh,
     pub(super) repair: RepairCounts,
+    /// On the mesh of field and map.
     pub(super) changes: Changes,
     pub(super) options: QuadOptions,
     pub(super) made: Quadrangulation,
@@ -58,6 +59,10 @@ pub(super) fn solve(arguments: &Arguments) -> Result<Solved> {
     if let Some(path) = &arguments.out {
         output::write_quads(&made.quads, path)?;
     }
+    let changes = match &made.refined {
+        Some(refined) => changes.on_refined(&refined.face_origin),
+        None => changes,
+    };
     Ok(Solved {
         mesh,
         repair,

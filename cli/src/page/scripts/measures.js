@@ -39,18 +39,19 @@ function measuresOf(model) {
   const farthest = percent.reduce((a, b) => Math.max(a, b), 0);
   const degrees = (x) => `${x.toFixed(1)}°`;
   return [
-    { name: "Scaled Jacobian", values: corners.map(scaledJacobian), range: [1, 0.5], text: (x) => x.toFixed(3) },
+    { name: "Scaled Jacobian", brief: "Scaled Jacobian", values: corners.map(scaledJacobian), range: [1, 0.5], text: (x) => x.toFixed(3) },
     {
-      name: "Angle: largest deviation from 90°",
+      name: "Angle: largest deviation from 90°", brief: "Deviation from 90°",
       values: corners.map((quad) => Math.max(...anglesOf(quad).map((angle) => Math.abs(angle - 90)))),
       range: [0, 30], text: degrees,
     },
     {
-      name: "Edge length, relative to the mean", values: lengths.map((length) => length / mean),
+      name: "Edge length, relative to the mean", brief: "Edge length / mean",
+      values: lengths.map((length) => length / mean),
       range: [0.5, 2], isTwoSided: true, text: (x) => x.toFixed(2),
     },
     {
-      name: "Distance to input, % of the diagonal", values: percent,
+      name: "Distance to input, % of the diagonal", brief: "Distance, % of diagonal", values: percent,
       // Less is noise of rounding.
       range: [0, farthest || 1], text: (x) => short(x < 1e-9 ? 0 : x),
     },

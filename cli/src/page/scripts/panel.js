@@ -31,7 +31,7 @@ function layersOf({ triangles, given, isRefined, features, field, map, quads, ch
   return layers;
 }
 
-const KINDS = { quad: "quad", corner: "vertex of quads", triangle: "triangle", vertex: "vertex of triangles" };
+const KINDS = { quad: "quad", corner: "quad vertex", triangle: "triangle", vertex: "vertex" };
 
 /** What each button shows. */
 function presetsOf({ field, map, quads }) {
@@ -155,7 +155,7 @@ class Panel {
     element("measure").addEventListener("change", () => this.colour());
     element("fit").addEventListener("change", () => this.colour());
     element("worst").addEventListener("click", () => {
-      if (!this.measure) return;
+      if (!this.measure?.values.length) return;
       if (!this.boxes.quads.checked) this.show(this.presets[0].layers);
       this.goTo({ kind: "quad", number: worstOf(this.measure) });
     });

@@ -115,18 +115,18 @@ class Picker {
     if (number >= quads.length) return [["Face, not a quad", `${number}`], ["Vertices", face.join(", ")]];
     const corners = face.map((v) => vertices[v]);
     const rows = [["Quad", `${number}`], ["Vertices", face.join(", ")]];
-    for (const { name, values, text } of this.measures) rows.push([name, text(values[number])]);
+    for (const { brief, values, text } of this.measures) rows.push([brief, text(values[number])]);
     rows.push(["Angles", anglesOf(corners).map((angle) => `${angle.toFixed(1)}°`).join(", ")]);
     rows.push(["Edges", lengthsOf(corners).map(short).join(", ")]);
     return rows;
   }
 
   triangleRows(number) {
-    const { field, map, radius } = this.model;
+    const { field, map, radius, isRefined } = this.model;
     const corners = this.points({ kind: "triangle", number });
     const [a, b, c] = corners;
     const rows = [
-      ["Triangle", `${number}`],
+      [isRefined ? "Triangle, refined" : "Triangle", `${number}`],
       ["Vertices", this.triangles[number].join(", ")],
       ["Area", short((norm(cross(sub(b, a), sub(c, a))) / 2) * radius * radius)],
     ];
@@ -136,8 +136,7 @@ class Picker {
       rows.push(["Map at the corners", [0, 1, 2].map((k) => `(${uv(k)})`).join(" ")]);
       rows.push(["Folded by the map", map.folded.includes(number) ? "yes" : "no"]);
     }
-    const changes = this.model.isRefined ? [] : this.model.changes.filter((change) => change.triangles.includes(number));
-    for (const { name } of changes) rows.push(["Repair", name]);
+    for (const { name, triangles } of this.model.changes) if (triangles.includes(number)) rows.push(["Repair", name]);
     return rows;
   }
 

@@ -54,12 +54,12 @@ function surfaceBatch(gl, shader, model) {
   });
 }
 
-/** The mark of every corner. Changes are those of the mesh that was given. */
-function marksOf({ triangles, map, isRefined }, changes) {
+/** The mark of every corner. */
+function marksOf({ triangles, map }, changes) {
   const marks = new Uint8Array(triangles.length);
   const mark = (f, bit) => { for (let k = 0; k < 3; ++k) marks[3 * f + k] |= bit; };
   for (const f of map ? map.folded : []) mark(f, FOLDED);
-  if (!isRefined) for (const change of changes) for (const f of change.triangles) mark(f, REPAIRED);
+  for (const change of changes) for (const f of change.triangles) mark(f, REPAIRED);
   return marks;
 }
 

@@ -192,7 +192,7 @@ class View {
     this.crosses ??= crossesBatch(this.gl, this.shaders.crosses, this.model);
     const { batch, finest, isTwoSided } = this.crosses;
     const level = levelFor(APART / this.unitPixels);
-    const extent = 0.43 * spacingOf(level);
+    const extent = 0.37 * spacingOf(level);
     const isBare = this.ink() === COLOURS.chalk;
     batch.draw({
       ...this.shared, lift: Math.min(0.004, 0.2 * extent), width: 1.4 * this.ratio, extent,
