@@ -130,19 +130,12 @@ struct Window {
     is_dark: bool,
 }
 
-/// What the page's checks find in a window; none where there is no browser.
-fn found(scratch: &Scratch, page: &Path, window: &Window) -> Option<Value> {
+/// The document that a browser makes of a page, and what it complains of; none where there is no browser.
+fn drawn(scratch: &Scratch, page: &Path, window: &Window) -> Option<(String, String)> {
     if Command::new("chromium").arg("--version").output().is_err() {
         skip_unless_ci("chromium is not installed: the page is not drawn");
         return None;
     }
-    let checks = include_str!("page_checks.js");
-    let script = format!("<script type=\"module\">{checks}</script></body>");
-    let content = fs::read_to_string(page)
-        .unwrap()
-        .replacen("</body>", &script, 1);
-    let checked = scratch.path("checked.html");
-    fs::write(&checked, content).unwrap();
     let mut command = Command::new("chromium");
     command.args(["--headless", "--no-sandbox", "--disable-dev-shm-usage"]);
     command.args(["--use-angle=swiftshader", "--enable-unsafe-swiftshader"]);
@@ -154,10 +147,20 @@ fn found(scratch: &Scratch, page: &Path, window: &Window) -> Option<Value> {
     let profile = scratch.path("profile");
     command.arg(format!("--user-data-dir={}", profile.display()));
     command.args(["--virtual-time-budget=5000", "--dump-dom"]);
-    command.arg(format!("file://{}#{}", checked.display(), window.width));
+    command.arg(format!("file://{}#{}", page.display(), window.width));
     let output = command.output().unwrap();
-    let dom = String::from_utf8(output.stdout).unwrap();
-    let errors = String::from_utf8_lossy(&output.stderr);
+    let errors = String::from_utf8_lossy(&output.stderr).into_owned();
+    Some((String::from_utf8(output.stdout).unwrap(), errors))
+}
+
+/// What the checks find in a window of a browser.
+fn found(scratch: &Scratch, page: &Path, window: &Window) -> Option<Value> {
+    let checks = include_str!("page_checks.js");
+    let script = format!("<script type=\"module\">{checks}</script></body>");
+    let content = fs::read_to_string(page).unwrap();
+    let checked = scratch.path("checked.html");
+    fs::write(&checked, content.replacen("</body>", &script, 1)).unwrap();
+    let (dom, errors) = drawn(scratch, &checked, window)?;
     let found = dom.split("<pre id=\"found\">").nth(1);
     let found = found.unwrap_or_else(|| panic!("the checks ended early: {errors}"));
     let found = found.split("</pre>").next().unwrap();
@@ -345,5 +348,50 @@ fn a_page_fits_a_telephone_in_the_dark() {
         assert_eq!(found["dark"], is_dark);
         assert_eq!(found["background"], background);
         assert!(found["layers"]["drawn"]["layer-quads"].as_u64() > Some(10_000));
+    }
+}
+
+#[test]
+fn fields_and_maps_have_pages_of_what_they_have() {
+    let scratch = Scratch::new("page-others");
+    let page = scratch.path("report.html");
+    let field = ["field", "shape:sphere:800", "--symmetry", "6"];
+    let map = ["parametrize", "shape:rounded-cube:1200", "--quads", "150"];
+    let cases = [
+        (
+            &field[..],
+            "12 irregular vertices",
+            ["triangles", "field", "irregular"],
+            ["integers", "quads"],
+        ),
+        (
+            &map[..],
+            "8 irregular vertices",
+            ["field", "irregular", "integers"],
+            ["quads", "poles"],
+        ),
+    ];
+    for (words, summary, layers, others) in cases {
+        let (code, _) = finish(program(
+            &[words, &["--report", page.to_str().unwrap()]].concat(),
+        ));
+        assert_eq!(code, 0, "{words:?}");
+        let content = fs::read_to_string(&page).unwrap();
+        assert!(content.contains(&format!("<p>{summary}")), "{words:?}");
+        assert!(content.contains(&format!("<code>roundel {} {} ", words[0], words[1])));
+        let window = Window {
+            width: 1400,
+            is_dark: false,
+        };
+        let Some((dom, errors)) = drawn(&scratch, &page, &window) else {
+            return;
+        };
+        // The script sets the mark at its very end: nothing has thrown.
+        assert!(dom.contains("data-drawn=\"yes\""), "{errors}");
+        let has = |layer: &str| dom.contains(&format!("id=\"layer-{layer}\""));
+        assert!(
+            layers.into_iter().all(has) && !others.into_iter().any(has),
+            "{words:?}"
+        );
     }
 }
