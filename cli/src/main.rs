@@ -1,5 +1,6 @@
 //! The `roundel` program: one command for each task, in a module of its name.
 
+mod changes;
 mod check;
 mod evaluate;
 mod exit;
@@ -12,6 +13,7 @@ mod mesh;
 mod options;
 mod output;
 mod outputs;
+mod page;
 mod parametrize;
 mod progress;
 mod quad;

@@ -9,6 +9,7 @@ use roundel::soup::{EditKind, Edits, PolygonSoup, RepairOptions, Repaired, io as
 use roundel::{Error, Result};
 use serde::{Serialize, Serializer};
 
+use crate::changes::Changes;
 use crate::options::RepairFlags;
 use crate::output;
 use crate::shape::suggesting;
@@ -37,6 +38,7 @@ pub struct MeshFlags {
 pub struct Input {
     pub mesh: TriangleMesh,
     pub repair: RepairCounts,
+    pub changes: Changes,
 }
 
 /// How often each kind of repair was done; those that were not are left out.
@@ -89,12 +91,14 @@ impl MeshFlags {
             return Ok(Input {
                 mesh: suggesting(drawn)?,
                 repair: RepairCounts::default(),
+                changes: Changes::default(),
             });
         }
         if self.strict {
             return Ok(Input {
                 mesh: self.read_strictly(name)?,
                 repair: RepairCounts::default(),
+                changes: Changes::default(),
             });
         }
         let (mesh, repaired) = self.repaired(&self.read_soup(name)?)?;
@@ -104,6 +108,7 @@ impl MeshFlags {
         Ok(Input {
             mesh,
             repair: RepairCounts::new(&repaired.edits),
+            changes: Changes::new(&repaired),
         })
     }
 

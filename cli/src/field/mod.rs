@@ -2,6 +2,7 @@
 
 mod arguments;
 mod directions;
+mod page;
 mod report;
 mod solved;
 mod summary;
@@ -41,7 +42,11 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
     progress.limit(&mut options, started);
     let input = arguments.input.read(&arguments.mesh, arguments.json)?;
     arguments.directions.keep_numbers(&input)?;
-    let Input { mesh, repair } = input;
+    let Input {
+        mesh,
+        repair,
+        changes,
+    } = input;
     let read = started.elapsed().as_secs_f64();
     let started = Instant::now();
     if arguments.symmetry != 4 && draws(arguments) {
@@ -71,7 +76,8 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
         strategy: options.strategy,
         mesh,
         repair,
-        features: features.edges().count(),
+        changes,
+        features: features.edges().collect(),
         field,
         solution,
         before: Preparation {
@@ -124,6 +130,9 @@ fn write(arguments: &Arguments, mesh: &TriangleMesh, field: &OrientationField) -
 }
 
 fn tell(arguments: &Arguments, solved: &Solved) -> Result<()> {
+    if let Some(path) = &arguments.report {
+        page::write(path, arguments, solved)?;
+    }
     if arguments.json {
         output::print_json(&FieldReport::new(&arguments.mesh, solved))
     } else {

@@ -48,7 +48,7 @@ impl<'a> FieldReport<'a> {
             faces: mesh.face_count(),
             vertices: mesh.vertex_count(),
             symmetry: field.symmetry(),
-            feature_edges: solved.features,
+            feature_edges: solved.features.len(),
             irregular_vertices: index_counts.values().sum(),
             index_counts,
             index_sum: field.index_sum(mesh),

@@ -4,6 +4,7 @@ use roundel::field::OrientationField;
 use roundel::mesh::TriangleMesh;
 use roundel::{Solution, Strategy};
 
+use crate::changes::Changes;
 use crate::mesh::RepairCounts;
 use crate::report::Preparation;
 
@@ -12,8 +13,9 @@ pub(super) struct Solved {
     pub(super) strategy: Strategy,
     pub(super) mesh: TriangleMesh,
     pub(super) repair: RepairCounts,
-    /// The number of edges that it follows.
-    pub(super) features: usize,
+    pub(super) changes: Changes,
+    /// The edges that it follows.
+    pub(super) features: Vec<usize>,
     pub(super) field: OrientationField,
     pub(super) solution: Solution,
     pub(super) before: Preparation,

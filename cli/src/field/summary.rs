@@ -17,6 +17,7 @@ impl fmt::Display for FieldSummary<'_> {
         let Solved {
             mesh,
             repair: _,
+            changes: _,
             features,
             field,
             solution,
@@ -37,8 +38,8 @@ impl fmt::Display for FieldSummary<'_> {
             counted(counts.integers, "integer"),
             counted(given, "direction")
         );
-        if *features > 0 {
-            assemble += &format!(", {}", counted(*features, "feature edge"));
+        if !features.is_empty() {
+            assemble += &format!(", {}", counted(features.len(), "feature edge"));
         }
         let found = format!("{}, {}", energy(solution.energy()), verdict(solution));
         line(f, "read", &read, before.read)?;

@@ -67,6 +67,10 @@ pub struct Arguments {
     #[arg(long, value_name = "P.mps[.gz]")]
     pub write_problem: Option<PathBuf>,
 
+    /// Write a page for a browser with all figures and an interactive view of the map
+    #[arg(long, value_name = "REPORT.html")]
+    pub report: Option<PathBuf>,
+
     /// Print one JSON object instead of the summary
     #[arg(long)]
     pub json: bool,

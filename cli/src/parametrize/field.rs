@@ -12,8 +12,9 @@ use roundel::{Monitor, Options, Result};
 use super::Arguments;
 use crate::field::named;
 
-/// How a field was found.
+/// A field, and how it was found.
 pub(super) struct FieldSource {
+    pub(super) field: OrientationField,
     /// The strategy that decided it, if it was solved for.
     pub(super) strategy: Option<&'static str>,
     /// Sum of squared angles between matched crosses, as `roundel field` reports it.
@@ -29,7 +30,7 @@ pub(super) fn of<'a>(
     (guidance, features, sizing): (&Guidance, &FeatureGraph, &Sizing),
     options: &Options,
     monitor: impl Fn() -> Monitor<'a>,
-) -> Result<(OrientationField, FieldSource)> {
+) -> Result<FieldSource> {
     match &arguments.field {
         Some(path) => read(path, mesh),
         None => solve(
@@ -42,15 +43,15 @@ pub(super) fn of<'a>(
     }
 }
 
-fn read(path: &Path, mesh: &TriangleMesh) -> Result<(OrientationField, FieldSource)> {
+fn read(path: &Path, mesh: &TriangleMesh) -> Result<FieldSource> {
     let started = Instant::now();
     let field = OrientationField::read(mesh, path).map_err(|error| named(path, error))?;
-    let source = FieldSource {
+    Ok(FieldSource {
         strategy: None,
         energy: field.energy(mesh),
         seconds: started.elapsed().as_secs_f64(),
-    };
-    Ok((field, source))
+        field,
+    })
 }
 
 fn solve<'a>(
@@ -59,7 +60,7 @@ fn solve<'a>(
     (guidance, features, sizing): (&Guidance, &FeatureGraph, &Sizing),
     options: &Options,
     monitor: impl Fn() -> Monitor<'a>,
-) -> Result<(OrientationField, FieldSource)> {
+) -> Result<FieldSource> {
     let options = Options {
         strategy: arguments.field_strategy,
         ..options.clone()
@@ -67,10 +68,10 @@ fn solve<'a>(
     let follow = guidance.map_options(mesh, features, sizing.edge_length(mesh))?;
     let started = Instant::now();
     let (field, solution) = solve_field(mesh, &follow, &options, monitor)?;
-    let source = FieldSource {
+    Ok(FieldSource {
+        field,
         strategy: Some(options.strategy.name()),
         energy: solution.energy(),
         seconds: started.elapsed().as_secs_f64(),
-    };
-    Ok((field, source))
+    })
 }

@@ -2,6 +2,7 @@
 
 mod arguments;
 mod field;
+mod page;
 mod report;
 mod sizing;
 mod summary;
@@ -15,6 +16,7 @@ use roundel::quad::{FoldFreeMap, RefinedInput, solve_fold_free};
 use roundel::untangle::{UntangleOptions, Untangled};
 use roundel::{Options, Result, Solution};
 
+use crate::changes::Changes;
 use crate::exit::Exit;
 use crate::mesh::{Input, RepairCounts};
 use crate::output;
@@ -45,11 +47,13 @@ struct Solved {
     /// The mesh of the map: that which was given, or what it was refined to.
     mesh: TriangleMesh,
     repair: RepairCounts,
+    /// On the mesh of the map.
+    changes: Changes,
     refined: Option<Refinement>,
     field: FieldSource,
     sizing: Sizing,
     /// Edges that are isolines.
-    features: usize,
+    features: Vec<usize>,
     untangled: Untangled,
     /// The number of times that integers were decided anew.
     rounds: usize,
@@ -73,7 +77,11 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
     let input = arguments.input.read(&arguments.mesh, arguments.json)?;
     arguments.directions.keep_numbers(&input)?;
     input.keeps_numbers("--field", arguments.field.is_some())?;
-    let Input { mesh, repair } = input;
+    let Input {
+        mesh,
+        repair,
+        changes,
+    } = input;
     let read = started.elapsed().as_secs_f64();
     let (guidance, features) = arguments.directions.of_map(&mesh)?;
     let sizing = arguments.sizing.of()?;
@@ -83,22 +91,21 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
         false => RefinedInput::new(&mesh, &guidance, &features, &sizing)?,
     };
     let refined = input.as_ref().map(|input| Refinement::new(&input.refined));
-    let (mesh, guidance, features, sizing) = match input {
+    let (mesh, guidance, features, sizing, changes) = match input {
         Some(input) => (
             input.refined.mesh,
             input.guidance,
             input.features,
             input.sizing,
+            changes.on_refined(&input.refined.face_origin),
         ),
-        None => (mesh, guidance, features, sizing),
+        None => (mesh, guidance, features, sizing, changes),
     };
     let follows = (&guidance, &features, &sizing);
     progress.next_call(0.0, FIELD);
-    let (field, source) = field::of(arguments, &mesh, follows, &options, monitor)?;
+    let field = field::of(arguments, &mesh, follows, &options, monitor)?;
     let started = Instant::now();
-    let problem = SeamlessProblem::with_features(&mesh, &field, &sizing, &features)?;
-    // The problem holds what it needs of it.
-    drop(field);
+    let problem = SeamlessProblem::with_features(&mesh, &field.field, &sizing, &features)?;
     let assemble = started.elapsed().as_secs_f64();
     if let Some(path) = &arguments.write_problem {
         mps::write(path, &MpsProblem::new(problem.problem().clone()))?;
@@ -137,10 +144,11 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
         given_faces,
         mesh,
         repair,
+        changes,
         refined,
-        field: source,
+        field,
         sizing,
-        features: features.edges().count(),
+        features: features.edges().collect(),
         untangled,
         rounds,
         refinements,
@@ -168,6 +176,9 @@ fn check_outputs(arguments: &Arguments) -> Result<()> {
 }
 
 fn tell(arguments: &Arguments, solved: &Solved) -> Result<()> {
+    if let Some(path) = &arguments.report {
+        page::write(path, arguments, solved)?;
+    }
     if arguments.json {
         output::print_json(&MapReport::new(arguments, solved))
     } else {

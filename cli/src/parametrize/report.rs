@@ -80,7 +80,7 @@ impl<'a> MapReport<'a> {
                 _ => None,
             },
             edge_length: arguments.sizing.edge_length,
-            feature_edges: solved.features,
+            feature_edges: solved.features.len(),
             irregular_vertices: map.cones().len(),
             cut_edges: map.transitions().len(),
             gradient_energy: map.energy(),

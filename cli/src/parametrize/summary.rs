@@ -18,6 +18,7 @@ impl fmt::Display for MapSummary<'_> {
             given_faces,
             mesh: _,
             repair: _,
+            changes: _,
             refined,
             field,
             sizing: _,
@@ -48,8 +49,8 @@ impl fmt::Display for MapSummary<'_> {
             counted(counts.variables, "unknown"),
             counted(map.transitions().len(), "cut edge")
         );
-        if *features > 0 {
-            assemble += &format!(", {}", counted(*features, "feature edge"));
+        if !features.is_empty() {
+            assemble += &format!(", {}", counted(features.len(), "feature edge"));
         }
         line(f, "assemble", &assemble, before.assemble.unwrap_or(0.0))?;
         let reduced = format!(

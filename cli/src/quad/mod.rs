@@ -24,7 +24,7 @@ pub fn run(arguments: &Arguments) -> Exit {
 
 fn tell(arguments: &Arguments, solved: &Solved) -> roundel::Result<()> {
     if let Some(path) = &arguments.report {
-        page::write(path, &arguments.mesh.to_string_lossy(), solved)?;
+        page::write(path, arguments, solved)?;
     }
     if arguments.json {
         output::print_json(&QuadReport::new(arguments, solved))

@@ -1,83 +1,79 @@
-//! `--report`: one page that a browser turns and zooms, without network.
-//!
-//! The tables are written here, so that they are there without scripts; meshes go along as JSON and
-//! are drawn by WebGL.
+//! `--report`: the page of a run from a mesh to quads.
 
-use std::fmt::Write;
 use std::path::Path;
 
 use roundel::extract::QuadMesh;
 use roundel::quad::Compared;
-use roundel::{Error, Result};
-use serde::Serialize;
+use roundel::smooth::QuadQuality;
+use roundel::{Result, Solution};
 
+use super::Arguments;
 use super::steps::Solved;
 use super::words;
-use crate::summary::{counted, outcome, telling_gap, verdict};
-
-const PAGE: &str = include_str!("page.html");
-
-/// What the page draws.
-#[derive(Serialize)]
-struct Data<'a> {
-    vertices: &'a [[f64; 3]],
-    faces: &'a [[u32; 3]],
-    /// One arm of every face's cross, in space.
-    arms: Vec<[f64; 3]>,
-    /// Irregular vertices and their index in quarters.
-    irregular: Vec<(usize, i32)>,
-    uvs: Vec<[[f64; 2]; 3]>,
-    quad_vertices: &'a [[f64; 3]],
-    quads: &'a [[u32; 4]],
-}
+use crate::page::{Page, Rows, Scene, Tables, bound, gap, mesh_rows, seconds_rows, solve_rows};
+use crate::refinement::Refinement;
+use crate::summary::{outcome, thousands};
 
 /// Writes the page.
-pub(super) fn write(path: &Path, title: &str, solved: &Solved) -> Result<()> {
-    let failed = |reason: String| Error::Io {
-        message: format!("{}: {reason}", path.display()),
-    };
-    let text = page(title, solved).map_err(|error| failed(error.to_string()))?;
-    std::fs::write(path, text).map_err(|error| failed(error.to_string()))
-}
-
-fn page(title: &str, solved: &Solved) -> serde_json::Result<String> {
+pub(super) fn write(path: &Path, arguments: &Arguments, solved: &Solved) -> Result<()> {
     let made = &solved.made;
-    let mesh = made.mesh(&solved.mesh);
-    let quarters = made.field.vertex_index_steps(mesh).into_iter().enumerate();
-    let data = Data {
-        vertices: mesh.vertices(),
-        faces: mesh.triangles(),
-        arms: (0..mesh.face_count())
-            .map(|face| made.field.direction(mesh, face))
-            .collect(),
-        irregular: quarters.filter(|&(_, quarters)| quarters != 0).collect(),
-        uvs: made.untangled.map.corner_uvs(),
-        quad_vertices: &made.quads.vertices,
-        quads: &made.quads.quads,
+    let given = &solved.mesh;
+    let refined = made.refined.as_ref().map(|refined| &refined.mesh);
+    let mesh = refined.unwrap_or(given);
+    let scene = Scene::new(given, refined, &solved.changes)
+        .features(given, &made.features, &made.missed_features)
+        .field(mesh, &made.field)
+        .map(mesh, &made.untangled.map)
+        .quads(given, &made.quads);
+    let page = Page {
+        mesh: &arguments.mesh,
+        summary: words(&made.quads),
+        tables: tables(solved),
+        scene,
     };
-    // Nothing in JSON but a text could end the script; numbers cannot.
-    let data = serde_json::to_string(&data)?;
-    Ok(PAGE
-        .replace("@TITLE@", &escaped(title))
-        .replace("@TABLES@", &tables(solved))
-        .replace("@DATA@", &data))
+    page.write(path)
 }
 
-fn escaped(text: &str) -> String {
-    let text = text.replace('&', "&amp;").replace('<', "&lt;");
-    text.replace('>', "&gt;").replace('@', "&#64;")
-}
-
-fn tables(solved: &Solved) -> String {
+fn tables(solved: &Solved) -> Tables {
     let made = &solved.made;
-    let quality = roundel::smooth::QuadQuality::new(&made.quads);
-    let (solution, seconds) = (&made.solution, made.seconds);
-    let mut out = String::new();
-    let rows = [
-        ("outcome", words(&made.quads)),
+    let mut tables = Tables::default();
+    tables.add("Quads", &quad_rows(&made.quads));
+    let mut rows = mesh_rows(&solved.mesh, &solved.changes);
+    rows.push(("feature edges", thousands(made.features.len())));
+    rows.push(("of these missed", thousands(made.missed_features.len())));
+    if let Some(refined) = &made.refined {
+        rows.push(("refined", Refinement::new(refined).to_string()));
+    }
+    tables.add("Input", &rows);
+    tables.add(
+        "Field",
+        &solve_rows(solved.options.field.strategy, &made.field_solution),
+    );
+    let mut rows = solve_rows(solved.options.map.strategy, &made.solution);
+    rows.push(("folds, at first", thousands(made.untangled.flipped_before)));
+    rows.push(("folds, at last", thousands(made.untangled.flipped_after)));
+    tables.add("Map", &rows);
+    tables.add_bars("Seconds", &times(solved));
+    tables.add_bars("Edges at a vertex", &valences(&made.quads));
+    if !made.compared.is_empty() {
+        add_strategies(&mut tables, &made.compared);
+    }
+    tables
+}
+
+fn quad_rows(quads: &QuadMesh) -> Rows {
+    let (figures, quality) = (quads.figures(), QuadQuality::new(quads));
+    let conforming = if quads.is_conforming() { "yes" } else { "no" };
+    vec![
+        ("quads", thousands(quads.quads.len())),
+        ("other faces", thousands(quads.others.len())),
+        ("vertices", thousands(quads.vertices.len())),
+        ("irregular vertices", thousands(figures.irregular)),
+        ("conforming", conforming.into()),
+        ("Euler characteristic", figures.euler.to_string()),
         (
             "mean deviation from right angles",
-            format!("{:.2} degrees", quality.angle_deviation),
+            format!("{:.2}°", quality.angle_deviation),
         ),
         (
             "scaled Jacobian, 1st percentile",
@@ -87,97 +83,31 @@ fn tables(solved: &Solved) -> String {
             "scaled Jacobian, least",
             format!("{:.3}", quality.scaled_jacobian_min),
         ),
-        ("quads turned over", quality.inverted.to_string()),
+        ("quads turned over", thousands(quality.inverted)),
         (
             "spread of edge lengths",
             format!("{:.1} %", 100.0 * quality.edge_spread),
         ),
-    ];
-    table(&mut out, "Quads", &rows);
-    let field = &made.field_solution;
-    let solve = |name: &str, solution: &roundel::Solution| {
-        [
-            (format!("{name}: outcome"), verdict(solution)),
-            (
-                format!("{name}: integers"),
-                counted(solution.counts().reduced_integers, "integer"),
-            ),
-            (
-                format!("{name}: energy"),
-                format!("{:.6}", solution.energy()),
-            ),
-            (format!("{name}: lower bound"), bound(solution)),
-            (format!("{name}: gap"), gap(solution)),
-        ]
-    };
-    let rows = [solve("field", field), solve("map", solution)].concat();
-    table(&mut out, "Solver", &rows);
-    if !made.compared.is_empty() {
-        strategies(&mut out, &made.compared);
-    }
-    let rows = [
+    ]
+}
+
+/// The seconds of every step.
+fn times(solved: &Solved) -> Vec<(String, f64, String)> {
+    let seconds = solved.made.seconds;
+    let steps = [
         ("read", solved.read_seconds),
+        ("refine", seconds.refine),
         ("field", seconds.field),
         ("map", seconds.map),
         ("quads", seconds.extract),
         ("smooth", seconds.smooth),
+        ("other strategies", seconds.compare),
     ];
-    let rows = rows.map(|(name, seconds)| (name, format!("{seconds:.3} s")));
-    table(&mut out, "Times", &rows);
-    histogram(&mut out, &made.quads);
-    out
-}
-
-/// One row a strategy, of the field's problem and of the map's.
-fn strategies(out: &mut String, compared: &[Compared]) {
-    for problem in ["Field", "Map"] {
-        let _ = write!(
-            out,
-            "<table class=\"strategies\"><tr><th>{problem} by strategy</th><th>outcome</th>\
-             <th>energy</th><th>lower bound</th><th>gap</th><th>seconds</th></tr>"
-        );
-        for one in compared {
-            let solution = match problem {
-                "Field" => &one.field,
-                _ => &one.map,
-            };
-            let cells = [
-                one.strategy.name().to_string(),
-                outcome(solution),
-                format!("{:.6}", solution.energy()),
-                bound(solution),
-                gap(solution),
-                format!("{:.3}", solution.seconds().total),
-            ];
-            let cells = cells.map(|cell| format!("<td>{cell}</td>")).concat();
-            let _ = write!(out, "<tr>{cells}</tr>");
-        }
-        out.push_str("</table>\n");
-    }
-}
-
-/// The lower bound, if it says something.
-fn bound(solution: &roundel::Solution) -> String {
-    let telling = telling_gap(solution.gap()).and(solution.lower_bound());
-    telling.map_or_else(|| "none".into(), |bound| format!("{bound:.4}"))
-}
-
-fn gap(solution: &roundel::Solution) -> String {
-    let gap = telling_gap(solution.gap());
-    gap.map_or_else(|| "none".into(), |gap| format!("{:.4} %", 100.0 * gap))
-}
-
-fn table<N: AsRef<str>>(out: &mut String, title: &str, rows: &[(N, String)]) {
-    let _ = write!(out, "<table><tr><th>{title}</th><th></th></tr>");
-    for (name, value) in rows {
-        let name = escaped(name.as_ref());
-        let _ = write!(out, "<tr><td>{name}</td><td>{}</td></tr>", escaped(value));
-    }
-    out.push_str("</table>\n");
+    seconds_rows(&steps)
 }
 
 /// How many vertices have how many edges.
-fn histogram(out: &mut String, quads: &QuadMesh) {
+fn valences(quads: &QuadMesh) -> Vec<(String, f64, String)> {
     let mut edges: Vec<[u32; 2]> = Vec::new();
     for face in quads.faces() {
         let ends = face.iter().zip(face.iter().cycle().skip(1));
@@ -190,17 +120,45 @@ fn histogram(out: &mut String, quads: &QuadMesh) {
         valence[v as usize] += 1;
     }
     let most = valence.iter().copied().max().unwrap_or(0);
-    out.push_str("<table><tr><th>Valence</th><th>vertices</th><th></th></tr>");
-    for k in 1..=most {
-        let count = valence.iter().filter(|&&v| v == k).count();
-        if count > 0 {
-            let width = 12.0 * count as f64 / valence.len() as f64;
-            let _ = write!(
-                out,
-                "<tr><td>{k}</td><td>{count}</td><td style=\"text-align:left\">\
-                 <span class=\"bar\" style=\"width:{width:.2}em\"></span></td></tr>"
-            );
-        }
+    let count = |k: usize| valence.iter().filter(|&&v| v == k).count();
+    let counts = (1..=most).map(|k| (k, count(k))).filter(|&(_, n)| n > 0);
+    counts
+        .map(|(k, n)| (k.to_string(), n as f64, thousands(n)))
+        .collect()
+}
+
+/// A problem's name, and a strategy's solution of it.
+type Problem = (&'static str, fn(&Compared) -> &Solution);
+
+/// One row a strategy, of the field's problem and of the map's.
+fn add_strategies(tables: &mut Tables, compared: &[Compared]) {
+    let problems: [Problem; 2] = [
+        ("Field by other strategies", |one| &one.field),
+        ("Map by other strategies", |one| &one.map),
+    ];
+    for (title, of) in problems {
+        let row = |one: &Compared| {
+            let solution = of(one);
+            vec![
+                one.strategy.name().to_string(),
+                outcome(solution),
+                thousands(solution.counts().reduced_integers),
+                format!("{:.6}", solution.energy()),
+                bound(solution),
+                gap(solution),
+                format!("{:.3}", solution.seconds().total),
+            ]
+        };
+        let rows: Vec<_> = compared.iter().map(row).collect();
+        let head = [
+            "strategy",
+            "outcome",
+            "integers",
+            "energy",
+            "lower bound",
+            "gap",
+            "seconds",
+        ];
+        tables.add_wide(title, &head, &rows);
     }
-    out.push_str("</table>\n");
 }

@@ -7,6 +7,7 @@ use roundel::quad::{QuadOptions, Quadrangulation, quadrangulate};
 use roundel::{Options, Result};
 
 use super::Arguments;
+use crate::changes::Changes;
 use crate::mesh::{Input, RepairCounts};
 use crate::output;
 use crate::outputs::{Content, Outputs, PAGE};
@@ -16,6 +17,8 @@ use crate::progress::Progress;
 pub(super) struct Solved {
     pub(super) mesh: TriangleMesh,
     pub(super) repair: RepairCounts,
+    /// On the mesh of field and map.
+    pub(super) changes: Changes,
     pub(super) options: QuadOptions,
     pub(super) made: Quadrangulation,
     pub(super) read_seconds: f64,
@@ -30,7 +33,11 @@ pub(super) fn solve(arguments: &Arguments) -> Result<Solved> {
     progress.limit(&mut map, started);
     let input = arguments.input.read(&arguments.mesh, arguments.json)?;
     arguments.directions.keep_numbers(&input)?;
-    let Input { mesh, repair } = input;
+    let Input {
+        mesh,
+        repair,
+        changes,
+    } = input;
     let read_seconds = started.elapsed().as_secs_f64();
     let (mut guidance, features) = arguments.directions.of_map(&mesh)?;
     // Those of the command line's file are among them.
@@ -52,9 +59,14 @@ pub(super) fn solve(arguments: &Arguments) -> Result<Solved> {
     if let Some(path) = &arguments.out {
         output::write_quads(&made.quads, path)?;
     }
+    let changes = match &made.refined {
+        Some(refined) => changes.on_refined(&refined.face_origin),
+        None => changes,
+    };
     Ok(Solved {
         mesh,
         repair,
+        changes,
         options,
         made,
         read_seconds,

@@ -7,6 +7,7 @@ mod interrupt;
 mod outcome;
 mod output;
 mod outputs;
+mod page;
 mod parametrize;
 mod problem;
 mod quad;

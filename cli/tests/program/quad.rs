@@ -1,15 +1,11 @@
-//! `roundel quad` and `roundel extract`: what is told and written of quads, and the page.
+//! `roundel quad` and `roundel extract`: what is told and written of quads.
 
 use std::fs;
 use std::path::Path;
-use std::process::Command;
 
 use serde_json::{Value, json};
 
 use crate::run::{Scratch, finish, only_object, program};
-use crate::skip::skip_unless_ci;
-
-const GEAR: &str = "shape:gear:2000";
 
 fn run(words: &[&str]) -> (i32, Value) {
     let (code, output) = finish(program(words));
@@ -69,103 +65,6 @@ fn a_map_that_is_not_seamless_is_refused() {
     let (code, report) = run(&["extract", text(&map), "--json"]);
     assert_ne!(code, 0);
     assert_eq!(report["error"]["code"], json!("invalid_argument"));
-}
-
-/// The page of a gear and what was told of it.
-fn report(scratch: &Scratch) -> (std::path::PathBuf, Value) {
-    let page = scratch.path("report.html");
-    let words = ["quad", GEAR, "--quads", "400", "--features", "40", "--json"];
-    let more = ["--compare-strategies", "direct,relax", "--report"];
-    let (code, told) = run(&[&words[..], &more, &[text(&page)]].concat());
-    assert_eq!(code, 0, "{told}");
-    (page, told)
-}
-
-#[test]
-fn the_page_holds_its_numbers_and_asks_for_nothing_else() {
-    let scratch = Scratch::new("quad-page");
-    let (page, told) = report(&scratch);
-    let content = fs::read_to_string(page).unwrap();
-    for word in ["http:", "https:", "src=", "<link", "import ", "fetch("] {
-        assert!(!content.contains(word), "{word}");
-    }
-    let count = |key: &str| told[key].as_u64().unwrap();
-    assert!(content.contains(&format!("{} quads, ", count("quads"))));
-    let energy = told["energy"].as_f64().unwrap();
-    assert!(content.contains(&format!("{energy:.6}")), "{energy}");
-    let data = content.split("application/json\">").nth(1).unwrap();
-    let data: Value = serde_json::from_str(data.split("</script>").next().unwrap()).unwrap();
-    let length = |key: &str| data[key].as_array().unwrap().len() as u64;
-    assert_eq!(length("faces"), count("faces"));
-    assert_eq!(length("uvs"), count("faces"));
-    assert_eq!(length("quads"), count("quads"));
-    assert_eq!(length("quad_vertices"), count("vertices"));
-    assert_eq!(length("irregular"), count("field_irregular_vertices"));
-    // Pairs of a vertex and an integer of quarters, which the script compares.
-    let irregular = data["irregular"].as_array().unwrap().iter();
-    let quarters = irregular.map(|pair| pair[1].as_i64().unwrap());
-    assert_eq!(quarters.clone().sum::<i64>(), 0);
-    assert!(quarters.into_iter().all(|k| k.abs() == 1));
-    assert!(content.contains("quarters === 1 ?") && content.contains("quarters === -1 ?"));
-}
-
-/// Says so where there is no chromium.
-#[test]
-fn a_browser_draws_the_page() {
-    if Command::new("chromium").arg("--version").output().is_err() {
-        return skip_unless_ci("chromium is not installed: the page is not drawn");
-    }
-    let scratch = Scratch::new("quad-browser");
-    let (page, told) = report(&scratch);
-    let picture = scratch.path("page.png");
-    let browse = |what: &str| {
-        let mut command = Command::new("chromium");
-        command.args(["--headless", "--no-sandbox", "--disable-dev-shm-usage"]);
-        command.args(["--use-angle=swiftshader", "--enable-unsafe-swiftshader"]);
-        command.args([
-            "--host-resolver-rules=MAP * ~NOTFOUND",
-            "--window-size=1400,900",
-        ]);
-        command.arg(format!(
-            "--user-data-dir={}",
-            text(&scratch.path("profile"))
-        ));
-        command.args(["--virtual-time-budget=5000", what]);
-        command.arg(format!("file://{}", text(&page)));
-        command.output().unwrap()
-    };
-    // The script sets the mark at its very end: nothing has thrown.
-    let dom = String::from_utf8(browse("--dump-dom").stdout).unwrap();
-    assert!(dom.contains("data-drawn=\"yes\""));
-    for one in told["compared"].as_array().unwrap() {
-        for problem in ["field", "map"] {
-            let energy = one[problem]["energy"].as_f64().unwrap();
-            let cells = format!("<td>{energy:.6}</td>");
-            assert!(dom.contains(&cells), "{problem} {cells}");
-        }
-    }
-    browse(&format!("--screenshot={}", text(&picture)));
-    let file = std::io::BufReader::new(fs::File::open(&picture).unwrap());
-    let mut reader = png::Decoder::new(file).read_info().unwrap();
-    let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
-    let info = reader.next_frame(&mut pixels).unwrap();
-    let samples = info.color_type.samples();
-    let [width, height] = [info.width as usize, info.height as usize];
-    // The thirds of the page's upper half, where the three views are.
-    for third in 0..3 {
-        let mut colours = std::collections::BTreeSet::new();
-        for y in height / 8..height / 2 {
-            for x in (third * width / 3)..((third + 1) * width / 3) {
-                let at = samples * (y * width + x);
-                colours.insert([pixels[at], pixels[at + 1], pixels[at + 2]]);
-            }
-        }
-        assert!(
-            colours.len() > 100,
-            "view {third}: {} colours",
-            colours.len()
-        );
-    }
 }
 
 #[test]

@@ -1,0 +1,71 @@
+//! Rows that pages of different commands share.
+
+use roundel::mesh::TriangleMesh;
+use roundel::{Solution, Strategy};
+
+use crate::changes::Changes;
+use crate::summary::{outcome, telling_gap, thousands};
+
+/// Names and values.
+pub type Rows = Vec<(&'static str, String)>;
+
+/// The counts of a mesh that was given, and what repair did.
+pub fn mesh_rows(mesh: &TriangleMesh, changes: &Changes) -> Rows {
+    let euler = mesh.euler_characteristic().to_string();
+    let mut rows = vec![
+        ("triangles", thousands(mesh.face_count())),
+        ("vertices", thousands(mesh.vertex_count())),
+        ("edges", thousands(mesh.edge_count())),
+        ("boundary loops", thousands(mesh.boundary_loops().len())),
+        ("components", thousands(mesh.components().count)),
+        ("Euler characteristic", euler),
+    ];
+    let repaired: Vec<&str> = changes.iter().map(|change| &*change.words).collect();
+    if !repaired.is_empty() {
+        rows.push(("repaired", repaired.join(", ")));
+    }
+    rows
+}
+
+/// How a solve ended. A bound that says nothing is left out.
+pub fn solve_rows(strategy: Strategy, solution: &Solution) -> Rows {
+    let counts = solution.counts();
+    let mut rows = vec![
+        ("strategy", strategy.name().into()),
+        ("outcome", outcome(solution)),
+        ("energy", format!("{:.6}", solution.energy())),
+    ];
+    if telling_gap(solution.gap()).is_some() {
+        rows.push(("lower bound", bound(solution)));
+        rows.push(("gap", gap(solution)));
+    }
+    rows.extend([
+        ("unknowns", thousands(counts.variables)),
+        ("integers", thousands(counts.integers)),
+        (
+            "integers after elimination",
+            thousands(counts.reduced_integers),
+        ),
+    ]);
+    rows
+}
+
+/// The seconds of steps, without those that were not taken.
+pub fn seconds_rows(steps: &[(&str, f64)]) -> Vec<(String, f64, String)> {
+    let taken = steps.iter().filter(|&&(_, seconds)| seconds > 0.0);
+    taken
+        .map(|&(name, seconds)| (name.into(), seconds, format!("{seconds:.3}")))
+        .collect()
+}
+
+/// The lower bound, if it says something.
+pub fn bound(solution: &Solution) -> String {
+    let telling = telling_gap(solution.gap()).and(solution.lower_bound());
+    telling.map_or_else(|| "none".into(), |bound| format!("{bound:.4}"))
+}
+
+/// The gap, if it says something.
+pub fn gap(solution: &Solution) -> String {
+    let gap = telling_gap(solution.gap());
+    gap.map_or_else(|| "none".into(), |gap| format!("{:.4} %", 100.0 * gap))
+}
