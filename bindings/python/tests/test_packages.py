@@ -176,6 +176,8 @@ def test_pictures_show_something(cube, quads, tmp_path, monkeypatch, backend, wh
     background = picture[0, 0]
     inked = np.abs(picture - background).max(axis=2) > 0.1
     assert 0.05 < inked.mean() < 0.95
+    dark = (picture.max(axis=2) < 0.5) & (picture[:, :, 2] > picture[:, :, 0] + 0.1)
+    assert dark.sum() > 1000, "lines are on the surface, not behind it"
     red = (picture[:, :, 0] > 0.7) & (picture[:, :, 1] < 0.35) & (picture[:, :, 2] < 0.35)
     assert (red.sum() > 20) == (what in ("field", "map")), "irregular vertices are red"
 

@@ -19,7 +19,7 @@ from .guidance import GUIDANCE, split
 from .keywords import checked, takes
 from .mesh import pointer_of
 from .options import options_handle
-from .plot import Shown, draw, integer_lines
+from .plot import Shown, draw, integer_lines, lifted
 from .quads import Quads, extracted, lengths_of_faces, one_size
 from .solution import Solution, taken
 from .watch import CancelToken, Interrupted, Watch
@@ -194,7 +194,7 @@ class Map:
         """
         mesh = self.field.mesh
         vertices, faces, steps = mesh.vertices, mesh.faces, self.field.vertex_index_steps
-        lines = integer_lines(vertices[faces], self.uvs)
+        lines = integer_lines(lifted(vertices[faces]), self.uvs)
         shown = Shown(vertices, [faces], lines=lines, forth=vertices[steps > 0], back=vertices[steps < 0])
         return draw(shown, backend, show, file)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from importlib.util import find_spec
-from typing import Any, Optional, Sequence
+from typing import Any, Iterator, Optional, Sequence
 
 import numpy as np
 
@@ -14,6 +14,8 @@ from .packages import package, to_pyvista
 
 #: What is grey, the lines on it, and vertices that turn forth and back.
 SURFACE, LINE, FORTH, BACK = "#d9d9d9", "#1f3a5f", "#d62728", "#1f77b4"
+#: Where matplotlib looks from, in degrees.
+ELEVATION, AZIMUTH = 30.0, -60.0
 #: The largest number of crosses that are drawn: more of them are a grey surface.
 CROSSES = 4000
 
@@ -82,19 +84,14 @@ def _by_matplotlib(shown: Shown, show: bool, file: Optional[str]) -> Any:
     art = package("mpl_toolkits.mplot3d.art3d", "plot")
     figure = pyplot.figure(figsize=(7, 6))
     axes = figure.add_subplot(projection="3d")
-    corners = [shown.vertices[face] for block in shown.polygons for face in block]
-    edge = LINE if shown.edges else "none"
-    faces = art.Poly3DCollection(corners, facecolors=_colours(shown, corners), edgecolors=edge, linewidths=0.4)
-    axes.add_collection3d(faces)
-    if shown.lines is not None and len(shown.lines):
-        axes.add_collection3d(art.Line3DCollection(shown.lines, colors=LINE, linewidths=0.8))
-    for points, colour in shown.points():
-        axes.scatter(*points.T, color=colour, s=25, depthshade=False)
+    axes.set_proj_type("ortho")
+    axes.view_init(elev=ELEVATION, azim=AZIMUTH)
+    axes.add_collection3d(_sorted_by_depth(shown, art))
     low, high = shown.vertices.min(axis=0), shown.vertices.max(axis=0)
     around = np.maximum(high - low, 1e-3 * np.max(high - low))
     for set_limits, from_, to in zip((axes.set_xlim, axes.set_ylim, axes.set_zlim), low, low + around):
         set_limits(from_, to)
-    axes.set_box_aspect(around)
+    axes.set_box_aspect(around, zoom=1.05)
     axes.set_axis_off()
     if shown.values is not None:
         scale = pyplot.cm.ScalarMappable(pyplot.Normalize(*_limits(shown.values)), "viridis")
@@ -114,6 +111,40 @@ def _limits(values: np.ndarray) -> tuple[float, float]:
     return min(0.0, float(values.min(initial=0.0))), 1.0
 
 
+def _towards_camera() -> np.ndarray:
+    up, around = np.radians([ELEVATION, AZIMUTH])
+    return np.array([np.cos(up) * np.cos(around), np.cos(up) * np.sin(around), np.sin(up)])
+
+
+def _sorted_by_depth(shown: Shown, art: Any) -> Any:
+    """Faces, lines and points in one collection: matplotlib hides what is behind only within one.
+
+    Lines and points come a little towards the camera, which in an orthographic picture moves none of them.
+    """
+    faces = [shown.vertices[face] for block in shown.polygons for face in block]
+    length = np.median([np.linalg.norm(face[1] - face[0]) for face in faces])
+    lift = 2 * length * _towards_camera()
+    lines = [] if shown.lines is None else [np.array([a, b, a]) + lift for a, b in shown.lines]
+    dots = [(dot, colour) for points, colour in shown.points() for dot in _dots(points + 2 * lift, shown)]
+    clear, edge = (0.0, 0.0, 0.0, 0.0), LINE if shown.edges else "none"
+    fills = [*_colours(shown, faces), *[clear] * len(lines), *[colour for _, colour in dots]]
+    rims = [edge] * len(faces) + [LINE] * len(lines) + ["none"] * len(dots)
+    widths = [0.4] * len(faces) + [0.8] * len(lines) + [0.0] * len(dots)
+    polygons = [*faces, *lines, *[dot for dot, _ in dots]]
+    to_rgba = package("matplotlib.colors", "plot").to_rgba_array
+    return art.Poly3DCollection(polygons, facecolors=to_rgba(fills), edgecolors=to_rgba(rims), linewidths=widths)
+
+
+def _dots(points: np.ndarray, shown: Shown) -> Iterator[np.ndarray]:
+    """Discs that face the camera, of a hundredth of the mesh's diagonal."""
+    radius = 0.01 * np.linalg.norm(np.ptp(shown.vertices, axis=0))
+    right = np.array([-np.sin(np.radians(AZIMUTH)), np.cos(np.radians(AZIMUTH)), 0.0])
+    up = np.cross(_towards_camera(), right)
+    turns = np.linspace(0, 2 * np.pi, 12, endpoint=False)[:, None]
+    disc = radius * (np.cos(turns) * right + np.sin(turns) * up)
+    return (point + disc for point in points)
+
+
 def _colours(shown: Shown, corners: Sequence[np.ndarray]) -> np.ndarray:
     """The colour of every polygon, darker where it looks away from the light."""
     colours = package("matplotlib.colors", "plot")
@@ -125,7 +156,8 @@ def _colours(shown: Shown, corners: Sequence[np.ndarray]) -> np.ndarray:
     normals = np.array([np.cross(c[2] - c[0], c[-1] - c[1]) for c in corners])
     lengths = np.linalg.norm(normals, axis=1)
     towards = normals @ np.array([0.3, -0.5, 0.8]) / np.where(lengths > 0, lengths, 1)
-    return np.clip(base * (0.75 + 0.25 * towards[:, None]), 0, 1)
+    lit = np.clip(base * (0.75 + 0.25 * towards[:, None]), 0, 1)
+    return np.hstack([lit, np.ones((len(lit), 1))])
 
 
 def crosses(vertices: np.ndarray, faces: np.ndarray, directions: np.ndarray, symmetry: int) -> np.ndarray:
@@ -149,6 +181,14 @@ def integer_lines(corners: np.ndarray, uvs: np.ndarray) -> np.ndarray:
     """The lines of integer u and of integer v on triangles, given by their corners in space and in the plane."""
     both = [_levels(corners, uvs[:, :, axis]) for axis in (0, 1)]
     return np.concatenate(both)
+
+
+def lifted(corners: np.ndarray) -> np.ndarray:
+    """Triangles a little above themselves, so that lines on them are not hidden."""
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    lengths = np.linalg.norm(normals, axis=1, keepdims=True)
+    height = 0.002 * np.linalg.norm(np.ptp(corners.reshape(-1, 3), axis=0))
+    return corners + height * (normals / np.where(lengths > 0, lengths, 1))[:, None]
 
 
 def _levels(corners: np.ndarray, values: np.ndarray) -> np.ndarray:

@@ -194,7 +194,7 @@ class Repair:
 
     @property
     def edits(self) -> np.ndarray:
-        """Everything that was done, in order: an array with the fields `kind`, an `EditKind`, `element` and `other`.
+        """Everything that was done, in order: an array of `kind`, an `EditKind`, `element` and `other`.
 
         The kind says which numbers of the soup `element` and `other` are; `other` is -1 where there is none.
         """
@@ -249,9 +249,8 @@ def repair(vertices: Union[MeshLike, Soup], polygons: Any = None, **keywords: An
     """Makes an oriented manifold mesh of a soup, and says what it did.
 
     `vertices` has x, y, z of every vertex, and `polygons` the corners of every polygon, as for `Soup`; or
-    pointer_ = given._handle.pointer
-    return Repair(Handle.made("roundel_repair", lib.roundel_soup_repair, pointer_, how.pointer))
-    edges lie on each other: then they are welded.
+    `vertices` alone is a `Soup`, the path of a mesh file, or a mesh of another package. A soup that `Mesh`
+    accepts comes back as it is, unless its boundary edges lie on each other: then they are welded.
 
     >>> import roundel
     >>> square = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [5, 5, 5]]
