@@ -73,6 +73,104 @@ def test_the_three_errors_of_options_differ():
             roundel.solve(EYE, **keywords)
 
 
+MESH = roundel.Mesh.shape("sphere", 100)
+
+
+@pytest.mark.parametrize(
+    "call, keyword, nearest",
+    [
+        (lambda **given: roundel.quad(MESH, **given), "feature", "features"),
+        (lambda **given: roundel.quad(MESH, **given), "quad", "quads"),
+        (lambda **given: roundel.quad(MESH, **given), "progres", "progress"),
+        (lambda **given: roundel.field(MESH, **given), "simmetry", "symmetry"),
+        (lambda **given: roundel.map(MESH, **given), "edgelength", "edge_length"),
+        (lambda **given: roundel.map(MESH).solve(**given), "untangled", "untangle"),
+        (lambda **given: roundel.map(MESH).quads().smooth(MESH, **given), "feature_angel", "feature_angle"),
+        (lambda **given: roundel.solve(EYE, **given), "integer", "integers"),
+        (lambda **given: roundel.Solver(roundel.Problem(1)).solve(**given), "time", "time_limit"),
+        (lambda **given: roundel.repair(MESH, **given), "fill_hole", "fill_holes"),
+        (lambda **given: roundel.Mesh.from_soup(MESH, **given), "welds", "weld"),
+    ],
+)
+def test_an_unknown_keyword_names_the_nearest(call, keyword, nearest):
+    with pytest.raises(roundel.UnknownOptionError, match=f"{keyword}'.*did you mean '{nearest}'") as caught:
+        call(**{keyword: 1})
+    assert isinstance(caught.value, TypeError) and caught.value.code == "unknown_option"
+
+
+def test_an_unknown_word_names_the_nearest(tmp_path):
+    for keywords, nearest in (({"strategy": "exat"}, "exact"), ({"preset": "parametrisation"}, "parametrization")):
+        with pytest.raises(roundel.OptionRangeError, match=f"did you mean '{nearest}'"):
+            roundel.solve(EYE, **keywords)
+    with pytest.raises(roundel.UnknownOptionError, match="did you mean 'strategy'"):
+        roundel.Problem(1).save_replay(tmp_path / "replay", {"strategie": "exact"})
+    with pytest.raises(roundel.UnknownOptionError) as caught:
+        roundel.quad(MESH, xyzzy=1)
+    assert "did you mean" not in str(caught.value)
+
+
+@pytest.mark.parametrize("value", [-5, 0, 1.5, float("nan"), float("inf"), 10**30, -(10**30), "many", [1], 1j, {}])
+@pytest.mark.parametrize(
+    "call",
+    [
+        lambda value: roundel.quad(MESH, quads=value),
+        lambda value: roundel.map(MESH, quads=value),
+        lambda value: roundel.Mesh.shape("gear", value),
+        lambda value: roundel.field(MESH, symmetry=value),
+        lambda value: roundel.quad(MESH, beam_width=value),
+    ],
+)
+def test_wrong_numbers_are_errors_of_the_package(call, value):
+    with pytest.raises(roundel.Error) as caught:
+        call(value)
+    assert str(caught.value) and caught.value.code
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        lambda: roundel.map(MESH, edge_length=-1.0),
+        lambda: roundel.map(MESH, edge_length=[0.1, 0.2]),
+        lambda: roundel.map(MESH, edge_length="short"),
+        lambda: roundel.map(MESH, stiffenings=-1),
+        lambda: roundel.quad(MESH, edge_length=[0.1, 0.2]),
+        lambda: roundel.quad(MESH, edge_length=np.full(100, np.nan)),
+        lambda: roundel.quad(MESH, features="sharp"),
+        lambda: roundel.quad(MESH, features=[[0, 1, 2]]),
+        lambda: roundel.quad(MESH, curvature=0.5),
+        lambda: roundel.quad(MESH, constraints=([0, 1], [0.5])),
+        lambda: roundel.quad(MESH, constraints=([0.5], [0.5])),
+        lambda: roundel.quad(MESH, guides=([0], [0.5])),
+        lambda: roundel.field(MESH, indices=([0, 10**12], [1, 1])),
+        lambda: roundel.repair(MESH, weld=float("nan")),
+        lambda: roundel.repair(MESH, fill_holes=10**30),
+        lambda: roundel.Mesh([[0, 0, 0]], [[0, 1]]),
+        lambda: roundel.Mesh([["a", 0, 0]], [[0, 1, 2]]),
+        lambda: roundel.Mesh([[0, 0, 0], [1, 0]], [[0, 1, 2]]),
+        lambda: roundel.Mesh(np.zeros((3, 3))),
+        lambda: roundel.Soup([[0, 0, 0]], [[0.5]]),
+        lambda: roundel.extract(MESH),
+        lambda: roundel.Problem(-1),
+        lambda: roundel.Problem(1.5),
+        lambda: roundel.Problem(2).pin(10**12, 0.0),
+        lambda: roundel.Problem(2).pin(0, "one"),
+        lambda: roundel.Problem(2).unpin(-1),
+        lambda: roundel.Problem(2).constant("one"),
+        lambda: roundel.Problem(2).least_squares([0], [1.0], "one"),
+        lambda: roundel.Problem(2).constrain([0], [1.0], [1.0, 2.0]),
+        lambda: roundel.Problem(2).linear("no"),
+        lambda: roundel.Solver(roundel.Problem(2)).pin(0.5, 1.0),
+        lambda: roundel.solve(q=5.0),
+        lambda: roundel.solve(EYE, pins={7: 1.0}),
+        lambda: roundel.solve(EYE, time_limit="soon"),
+    ],
+)
+def test_wrong_arguments_are_errors_of_the_package(call):
+    with pytest.raises(roundel.Error) as caught:
+        call()
+    assert str(caught.value) and caught.value.code
+
+
 def test_a_file_names_its_line(tmp_path):
     (tmp_path / "bad.mps").write_text("NAME bad\nROWS\n N obj\n Z row\n")
     with pytest.raises(roundel.ParseError) as caught:

@@ -1,7 +1,5 @@
 """Fields, maps and quads, from arrays and from the meshes of other packages."""
 
-import inspect
-
 import numpy as np
 import pytest
 
@@ -109,15 +107,6 @@ def test_edges_of_half_the_length_make_four_times_the_quads(cube):
     assert 3 < fine / coarse < 5
     with pytest.raises(roundel.OptionRangeError):
         roundel.quad(cube, edge_length=0.0)
-
-
-def test_every_option_is_in_the_signature_and_the_help_of_what_takes_it():
-    tables = {**roundel.quad_options(), **roundel.guidance_options(), **roundel.options()}
-    told = inspect.signature(roundel.quad).parameters
-    for name, option in tables.items():
-        assert name in told and f"{name}: {option.text}" in roundel.quad.__doc__
-    with pytest.raises(roundel.OptionRangeError):
-        roundel.field(roundel.Mesh.shape("disk", 100), symmetry=3)
 
 
 def test_defaults_are_those_of_the_library(cube):

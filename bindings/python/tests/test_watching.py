@@ -2,6 +2,7 @@
 
 import os
 import signal
+import sys
 import threading
 import time
 
@@ -19,10 +20,34 @@ def test_events_report_progress_and_better_solutions(cube):
     assert all(0.0 <= event.fraction <= 1.0 and event.seconds >= 0.0 for event in heard)
 
 
-def test_the_line_of_progress_goes_to_stderr(cube, capfd):
-    roundel.field(cube, progress=True)
+@pytest.mark.parametrize("with_tqdm", [True, False])
+def test_the_line_of_progress_goes_to_stderr(cube, capfd, monkeypatch, with_tqdm):
+    if with_tqdm:
+        pytest.importorskip("tqdm")
+    else:
+        monkeypatch.setitem(sys.modules, "tqdm", None)
+    roundel.quad(cube, quads=100, progress=True)
     out, err = capfd.readouterr()
-    assert out == "" and "%" in err and err.endswith("\n")
+    assert out == "" and " %" in err and err.endswith("\n")
+    assert err.split("\r")[-1].startswith("done")
+    assert ("[00:0" in err) == with_tqdm
+
+
+def test_progress_tells_energies_and_gaps_that_mean_something():
+    from roundel.progress import told
+
+    def at(energy, bound, gap):
+        return told(roundel.Event("progress", "round", 0.25, "", 1.0, energy, bound, gap))
+
+    assert at(np.inf, -np.inf, np.inf) == "round   25 %"
+    assert at(8.0, 0.0, 1.0) == "round   25 %  energy 8"
+    assert at(8.0, 6.0, 0.25) == "round   25 %  energy 8  gap 25.00 %"
+
+
+def test_what_cannot_watch_is_refused(cube):
+    for keywords in ({"progress": "yes"}, {"cancel": True}):
+        with pytest.raises(roundel.ArgumentTypeError, match=next(iter(keywords))):
+            roundel.field(cube, **keywords)
 
 
 def test_a_callback_ends_the_solve_and_the_best_solution_is_kept(endless):
@@ -65,16 +90,78 @@ def interruptible():
     signal.signal(signal.SIGINT, before)
 
 
+def press_ctrl_c():
+    os.kill(os.getpid(), signal.SIGINT)
+
+
 @pytest.mark.parametrize("silent", [True, False])
-def test_ctrl_c_ends_the_solve_soon(endless, interruptible, silent):
-    timer = threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT))
+def test_ctrl_c_ends_the_solve_soon_and_keeps_the_best_solution(endless, interruptible, silent):
+    timer = threading.Timer(0.5, press_ctrl_c)
     timer.start()
     started = time.monotonic()
     progress = None if silent else lambda event: None
-    with pytest.raises(KeyboardInterrupt):
+    with pytest.raises(KeyboardInterrupt, match="the best so far is <Solution: cancelled") as caught:
         roundel.solve(**endless, strategy="exact", time_limit=60.0, progress=progress)
     timer.join()
     assert time.monotonic() - started < 10.0
+    found = caught.value.incumbent
+    assert isinstance(caught.value, roundel.Interrupted) and isinstance(found, roundel.Solution)
+    assert found.stopped_by == "cancel" and found.integrality_violation == 0.0
+    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+
+
+def test_ctrl_c_before_a_first_solution_has_no_incumbent(interruptible):
+    def pressed(event):
+        press_ctrl_c()
+
+    with pytest.raises(roundel.Interrupted, match="nothing was found yet") as caught:
+        roundel.solve(np.eye(2), progress=pressed)
+    assert caught.value.incumbent is None
+
+
+def test_a_solver_keeps_its_best_solution_too(endless, interruptible):
+    problem = roundel.Problem(90)
+    problem.least_squares_rows(endless["A"], endless["b"])
+    problem.integer(endless["integers"])
+    solver = roundel.Solver(problem)
+
+    def pressed(event):
+        if event.energy < np.inf:
+            press_ctrl_c()
+
+    with pytest.raises(roundel.Interrupted) as caught:
+        solver.solve(strategy="exact", nodes=10**13, progress=pressed)
+    assert caught.value.incumbent.status == "cancelled"
+
+
+def test_ctrl_c_in_the_map_keeps_the_field(cube, interruptible):
+    """Interrupted when the map's solve begins, which is the second that eliminates."""
+    phases = []
+
+    def pressed(event):
+        if event.phase and phases[-1:] != [event.phase]:
+            phases.append(event.phase)
+            if phases.count("eliminate") == 2:
+                press_ctrl_c()
+
+    with pytest.raises(roundel.Interrupted) as caught:
+        roundel.map(cube, quads=100, progress=pressed)
+    found = caught.value.incumbent
+    assert isinstance(found, roundel.Field) and roundel.map(found, quads=100).valid
+
+
+def test_a_handler_of_the_caller_is_left_alone(endless, interruptible):
+    def stops(*_):
+        raise KeyboardInterrupt("mine")
+
+    signal.signal(signal.SIGINT, stops)
+    timer = threading.Timer(0.3, press_ctrl_c)
+    timer.start()
+    with pytest.raises(KeyboardInterrupt) as caught:
+        roundel.solve(**endless, strategy="exact", time_limit=60.0)
+    timer.join()
+    assert caught.value.incumbent.status == "cancelled" and str(caught.value.__cause__) == "mine"
+    assert signal.getsignal(signal.SIGINT) is stops
 
 
 def test_other_threads_run_while_one_solves(endless):

@@ -4,14 +4,21 @@
     subject to C x = d, x_i integer for i in I
 
 `solve` solves a problem in matrices, `Problem` builds one part by part, and `Solver` solves one many
-times. `field`, `map` and `quad` work on triangle meshes, which `repair` makes of polygon soups. Elements
-are counted from 0. Angles are in radians and counter-clockwise, except for the angle of features, which
-is in degrees.
+times. `quad` makes quads of a triangle mesh, `field` and `map` the steps to them, and `repair` a mesh of
+a polygon soup. Elements are counted from 0. Angles are in radians and counter-clockwise, except for the
+angle of features, which is in degrees.
+
+    vertices, quads = roundel.quad("part.stl", quads=2000, features=40)
+
+`help` of each function lists its keywords with type, default and a sentence each. Failures are an `Error`
+that names the element at fault. Ctrl-C raises `Interrupted`, a KeyboardInterrupt that keeps the best
+result so far.
 """
 
 from . import errors as _errors
 from ._library import lib as _lib, text as _text
 from .errors import *  # noqa: F403: one class for each status
+from .events import Event
 from .field import Field, field
 from .map import Map
 
@@ -25,7 +32,8 @@ from .repair import EditKind, Repair, Soup, repair
 from .solution import Solution
 from .solve import solve
 from .solver import Solver
-from .watch import CancelToken, Event
+from .keywords import tidy as _tidy
+from .watch import CancelToken, Interrupted
 
 __version__: str = _text(_lib.roundel_version_string())
 
@@ -34,6 +42,7 @@ __all__ = [
     "EditKind",
     "Event",
     "Field",
+    "Interrupted",
     "Map",
     "Mesh",
     "Option",
@@ -55,3 +64,6 @@ __all__ = [
     "solve",
     *_errors.__all__,
 ]
+
+for _name in (*__all__, "map"):
+    _tidy(globals()[_name])

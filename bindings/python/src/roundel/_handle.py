@@ -15,7 +15,7 @@ class Handle:
         self.pointer = ffi.gc(pointer, getattr(lib, f"{kind}_free"))
 
     @classmethod
-    def made(cls, kind: str, call: Any, *arguments: Any) -> "Handle":
+    def made(cls, kind: str, call: Any, *arguments: Any) -> Handle:
         """The object that `call(*arguments, &object)` makes."""
         place = ffi.new(f"{kind} **")
         check(call(*arguments, place))

@@ -3,31 +3,62 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Sequence, Union
+from typing import Any
 
 import numpy as np
 
 from ._library import ffi
+from .errors import ArgumentTypeError, CountOverflowError, InvalidArgumentError, LengthMismatchError, refusal
 
-ArrayLike = Union[Sequence[float], np.ndarray, Any]
+
+def real(value: Any, what: str) -> float:
+    """A number for C."""
+    try:
+        return float(value)
+    except (TypeError, ValueError) as error:
+        raise refusal(ArgumentTypeError, f"{what}: {value!r} is not a number") from error
+
+
+def whole(value: Any, what: str, least: int = -(2**31), most: int = 2**31 - 1) -> int:
+    """A whole number for C, which takes those from `least` to `most`."""
+    if not hasattr(value, "__index__"):
+        raise refusal(ArgumentTypeError, f"{what}: {value!r} is not a whole number")
+    found: int = value.__index__()
+    if not least <= found <= most:
+        raise refusal(CountOverflowError, f"{what}: {found} is not in {least}..{most}")
+    return found
+
+
+def count(value: Any, what: str) -> int:
+    """A number of things for C, from 0 on."""
+    found = whole(value, what, -(2**63), 2**63 - 1)
+    if found < 0:
+        raise refusal(InvalidArgumentError, f"{what}: {found} is negative")
+    return found
 
 
 def reals(values: Any, what: str, shape: tuple[int, ...] = (-1,)) -> np.ndarray:
     """Doubles in C's order; -1 in `shape` takes any length."""
-    found = np.ascontiguousarray(values, dtype=np.float64)
+    try:
+        found = np.ascontiguousarray(values, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise refusal(ArgumentTypeError, f"{what}: {error}") from error
     _fits(found, what, shape)
     return found
 
 
 def indices(values: Any, what: str, shape: tuple[int, ...] = (-1,)) -> np.ndarray:
     """Indices of 32 or 64 bits in C's order. Fractions and booleans are refused."""
-    found = np.asarray(values)
+    try:
+        found = np.asarray(values)
+    except (TypeError, ValueError) as error:
+        raise refusal(ArgumentTypeError, f"{what}: {error}") from error
     if found.size == 0:
         found = found.astype(np.int32)
     if found.dtype.kind not in "iu":
-        raise TypeError(f"{what}: indices must be whole numbers, not {found.dtype}")
+        raise refusal(ArgumentTypeError, f"{what}: indices must be whole numbers, not {found.dtype}")
     if found.dtype == np.uint64 and found.max() > np.iinfo(np.int64).max:
-        raise OverflowError(f"{what}: an index is beyond 64 bits")
+        raise refusal(CountOverflowError, f"{what}: an index is beyond 64 bits")
     fits = found.dtype in (np.int32, np.int64)
     wide = found.dtype.itemsize > 4 or found.dtype == np.uint32
     found = np.ascontiguousarray(found, None if fits else np.int64 if wide else np.int32)
@@ -40,7 +71,7 @@ def indices32(values: Any, what: str, shape: tuple[int, ...] = (-1,)) -> np.ndar
     found = indices(values, what, shape)
     if found.dtype == np.int64:
         if found.size and (found.max() > 2**31 - 1 or found.min() < -(2**31)):
-            raise OverflowError(f"{what}: an index is beyond 32 bits")
+            raise refusal(CountOverflowError, f"{what}: an index is beyond 32 bits")
         found = found.astype(np.int32)
     return found
 
@@ -51,7 +82,7 @@ def _fits(found: np.ndarray, what: str, shape: tuple[int, ...]) -> None:
     )
     if not fits:
         wanted = " x ".join("n" if k < 0 else str(k) for k in shape)
-        raise ValueError(f"{what}: the shape is {found.shape}, and should be {wanted}")
+        raise refusal(LengthMismatchError, f"{what}: the shape is {found.shape}, and should be {wanted}")
 
 
 _C_TYPES = {"float64": "double", "int32": "int32_t", "int64": "int64_t", "int8": "int8_t"}

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Any, Optional
+from difflib import get_close_matches
+from typing import Any, Iterable, Optional
 
 from ._library import ffi, last_message, lib, text
 
 __all__ = [
     "Error",
+    "ArgumentTypeError",
     "CancelledError",
     "EmptyError",
     "InconsistentOrientationError",
@@ -17,6 +19,7 @@ __all__ = [
     "IoError",
     "IsolatedVertexError",
     "LengthMismatchError",
+    "MissingPackageError",
     "NoIntegerSolutionError",
     "NonManifoldEdgeError",
     "NonManifoldVertexError",
@@ -117,6 +120,10 @@ class InvalidArgumentError(Error, ValueError):
     """A value is not allowed."""
 
     element = "position"
+
+
+class ArgumentTypeError(InvalidArgumentError, TypeError):
+    """An argument has the wrong type, or arguments do not go together."""
 
 
 class LengthMismatchError(Error, ValueError):
@@ -245,6 +252,10 @@ class TimeLimitError(Error):
     """The time limit passed before a first solution was found."""
 
 
+class MissingPackageError(Error, ImportError):
+    """A package that the call needs, such as pyvista, is not installed."""
+
+
 class PanicError(Error):
     """A defect of the library was caught. The object that was used is no longer usable."""
 
@@ -302,6 +313,23 @@ def check(status: int, variables: int = 0) -> None:
         None if line < 0 else line,
         direction,
     )
+
+
+_STATUSES = {kind: status for status, kind in classes.items()}
+
+
+def refusal(kind: type[Error], message: str, index: Optional[int] = None) -> Error:
+    """The exception of an argument that this package refuses before the library sees it."""
+    of = next((of for of in kind.__mro__ if of in _STATUSES), None)
+    status = 0 if of is None else _STATUSES[of]
+    return kind(message, text(lib.roundel_status_name(status)) if of else "", status, index)
+
+
+def did_you_mean(word: str, words: Iterable[str]) -> str:
+    """A question that names the nearest of the words, or nothing where none is near."""
+    known = [other for other in words if other != word]
+    near = get_close_matches(word, known, 1) or [other for other in known if other.startswith(word)]
+    return f"did you mean {near[0]!r}?" if near else ""
 
 
 def _direction(variables: int) -> Any:

@@ -6,24 +6,37 @@ from typing import Any, Optional
 
 import numpy as np
 
+from . import packages
+from ._groups import SOLVE, TUNING, WATCH
 from ._handle import Handle, number
 from ._library import ffi, lib
+from ._types import ArrayLike, File, MeshLike
 from .arrays import pointer
 from .errors import check
-from .guidance import OPTIONS, guidance_handle, split
+from .events import Progress
+from .guidance import GUIDANCE, guidance_handle, split
+from .keywords import checked, takes
 from .mesh import Mesh, as_mesh, pointer_of
-from .options import options, options_handle, with_options
+from .options import options_handle
+from .plot import Shown, crosses, draw
 from .solution import Solution, taken
-from .watch import CancelToken, Progress, Watch
+from .watch import CancelToken, Watch
 
 
 class Field:
     """An N-symmetric field: N arms in every face (a cross for N = 4), matched over edges. Made by `field`."""
 
     def __init__(self, mesh: Mesh, handle: Handle, guidance: Optional[Handle]) -> None:
+        #: The mesh of the field.
         self.mesh = mesh
         self._handle = handle
         self._guidance = guidance
+
+    def __repr__(self) -> str:
+        arms = {1: "vectors", 2: "lines", 4: "crosses"}.get(self.symmetry, f"{self.symmetry} arms")
+        faces = self._count(lib.roundel_mesh_face_count)
+        irregular = f"{len(self.irregular)} irregular vertices"
+        return f"<Field: {arms} on {faces} triangles, {irregular}, energy {self.energy:.6g}>"
 
     def _array(self, call: Any, length: int, dtype: Any = np.float64) -> np.ndarray:
         found = np.empty(length, dtype=dtype)
@@ -105,34 +118,64 @@ class Field:
         call = lib.roundel_field_solution
         return taken(Handle.made("roundel_solution", call, self._handle.pointer).pointer)
 
+    def to_pyvista(self) -> Any:
+        """The mesh as a `pyvista.PolyData`, with `direction` a face and `index_steps` a vertex."""
+        return packages.to_pyvista(self.mesh.vertices, [self.mesh.faces], *self._data())
 
-@with_options(OPTIONS, options())
+    def to_meshio(self) -> Any:
+        """The mesh as a `meshio.Mesh`, with `direction` a face and `index_steps` a vertex."""
+        return packages.to_meshio(self.mesh.vertices, [self.mesh.faces], *self._data())
+
+    def _data(self) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray]]:
+        return {"index_steps": self.vertex_index_steps}, {"direction": self.directions}
+
+    def plot(
+        self, *, backend: Optional[str] = None, show: bool = True, file: Optional[File] = None
+    ) -> Any:
+        """Draws arms on the faces, vertices of positive index in red and of negative index in blue.
+
+        See `Quads.plot` for the keywords. Of very many faces, some are without arms.
+        """
+        vertices, faces, steps = self.mesh.vertices, self.mesh.faces, self.vertex_index_steps
+        arms = crosses(vertices, faces, self.directions, self.symmetry)
+        shown = Shown(vertices, [faces], lines=arms, forth=vertices[steps > 0], back=vertices[steps < 0])
+        return draw(shown, backend, show, file)
+
+
+@takes(GUIDANCE, SOLVE, WATCH, TUNING)
 def field(
-    V: Any,
-    F: Any = None,
+    V: MeshLike,
+    F: Optional[ArrayLike] = None,
     *,
     progress: Progress = None,
     cancel: Optional[CancelToken] = None,
     **keywords: Any,
 ) -> Field:
-    """The smoothest field of a mesh: a cross field, unless `symmetry` is given.
+    """The smoothest orientation field of a mesh: a cross of four directions in every triangle.
 
-    Keywords are the options below, and `features`, an angle in degrees from which on an edge is sharp
-    or pairs of vertices; `curvature`, (constrain_curvature, curvature_weight); `constraints`, (faces,
-    angles); `guides`, (faces, angles, weights); `indices`, (vertices, steps); and `guide_file`.
-    `progress` and `cancel` are as in `solve`. Without any the field follows the boundary.
+    `V` and `F` are vertices and triangles; or `V` alone is a `Mesh`, the path of a mesh file, or a mesh of
+    trimesh, pyvista, meshio, pymeshlab or openmesh: see `Mesh`. Every keyword may be left out. Then the
+    field is one of crosses that follows the boundary. Of several requests for one face, a given direction
+    comes first, then features and the boundary, then curvature.
+
+    Raises an `Error` that names the face or vertex at fault, or the option.
 
     >>> import roundel
     >>> cube = roundel.Mesh.shape("rounded-cube", 600)
     >>> field = roundel.field(cube.vertices, cube.faces)
     >>> len(field.irregular), float(field.vertex_indices.sum())
     (8, 2.0)
+    >>> gear = roundel.Mesh.shape("gear", 2000)
+    >>> field = roundel.field(gear, features=40)        # edges at which the surface turns by 40 degrees
+    >>> field.directions.shape == gear.faces.shape
+    True
     """
+    given, options = split(checked(field, keywords))
     mesh = as_mesh(V, F)
-    given, options = split(keywords)
     guidance = guidance_handle(mesh, given)
     handle, watch = options_handle(options), Watch(progress, cancel)
     place = ffi.new("roundel_field **")
     call, of = lib.roundel_field_solve, mesh._handle.pointer
-    watch.check(call(of, pointer_of(guidance), handle.pointer, watch.pointer, place))
-    return Field(mesh, Handle("roundel_field", place[0]), guidance)
+    with watch:
+        status = call(of, pointer_of(guidance), handle.pointer, watch.pointer, place)
+    return watch.result(status, lambda: Field(mesh, Handle("roundel_field", place[0]), guidance))

@@ -9,22 +9,69 @@ import numpy as np
 
 from ._handle import Handle
 from ._library import lib, path
-from .arrays import indices32, pointer, reals
-from .errors import check
+from .arrays import indices32, pointer, real, reals
+from .errors import ArgumentTypeError, LengthMismatchError, check, refusal
+from .keywords import Group, Keyword, of_table
 from .options import guidance_options, set_option
 
-#: The options of the library's guidance, which `field`, `map` and `quad` take as keywords. Beside them
-#: they take `features`: an angle in degrees, from which on an edge is sharp, or pairs of vertices
-#: whose edges are; `curvature`: (constrain_curvature, curvature_weight) in one; `constraints`: (faces,
-#: angles) that a field must have; `guides`: (faces, angles, weights) that it should have; `indices`:
-#: (vertices, steps), all irregular vertices with their index in steps of 1/4; `guide_file`: a file of
-#: guidance.
+#: The options of the library's guidance.
 OPTIONS = guidance_options()
+
+#: The keywords of what `field`, `map` and `quad` follow: the options of the library and those below.
+GUIDANCE = Group(
+    "What to follow",
+    (
+        Keyword(
+            "features",
+            "Union[float, ArrayLike, None]",
+            None,
+            "The sharp edges: an angle in degrees, and edges at which the surface turns by it or more are "
+            "sharp; or an array of pairs of vertices, one pair for each edge, of shape (edges, 2).",
+        ),
+        Keyword(
+            "curvature",
+            "Optional[tuple[float, float]]",
+            None,
+            "constrain_curvature and curvature_weight in one.",
+        ),
+        Keyword(
+            "constraints",
+            "Optional[tuple[ArrayLike, ArrayLike]]",
+            None,
+            "Directions that faces must have: (faces, angles), in radians, counter-clockwise from the "
+            "face's first edge.",
+        ),
+        Keyword(
+            "guides",
+            "Optional[tuple[ArrayLike, ArrayLike, ArrayLike]]",
+            None,
+            "Directions that faces should have: (faces, angles, weights), angles as those of constraints.",
+        ),
+        Keyword(
+            "indices",
+            "Optional[tuple[ArrayLike, ArrayLike]]",
+            None,
+            "All irregular vertices: (vertices, steps), an index in steps of 1/symmetry of a turn for each; "
+            "1 at the corner of a cube. With the boundary loops', they must sum to the Euler characteristic.",
+        ),
+        Keyword(
+            "guide_file",
+            "Optional[File]",
+            None,
+            "A text file of such requests, one a line, elements counted from 0: `direction FACE X Y Z "
+            "[WEIGHT]`, `edge VERTEX VERTEX`, `index VERTEX STEPS`.",
+        ),
+        *of_table(OPTIONS),
+    ),
+).but(
+    detail={"text": "Details smaller than this length attract no irregular vertices. None: all details count."},
+    feature_angle={"text": "As features with one angle, but in radians."},
+)
 
 
 def split(keywords: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]:
     """The keywords of the guidance, and the others, which are options."""
-    mine = {k: v for k, v in keywords.items() if k in _KEYWORDS and v is not None}
+    mine = {k: v for k, v in keywords.items() if k in _KEYWORDS}
     return mine, {k: v for k, v in keywords.items() if k not in _KEYWORDS}
 
 
@@ -52,36 +99,38 @@ def says_curvature(given: Mapping[str, Any]) -> bool:
 
 def _features(guidance: Any, _mesh: Any, value: Any) -> None:
     if np.ndim(value) == 0:
-        set_option(guidance, "guidance", "feature_angle", math.radians(float(value)))
+        set_option(guidance, "guidance", "feature_angle", math.radians(real(value, "features")))
         return
     pairs = indices32(value, "features", (-1, 2))
     check(lib.roundel_guidance_set_feature_lines(guidance, len(pairs), pointer(pairs)))
 
 
 def _curvature(guidance: Any, _mesh: Any, value: Any) -> None:
-    fraction, weight = value
+    fraction, weight = _parts(value, "curvature", "constrain_curvature", "curvature_weight")
     set_option(guidance, "guidance", "constrain_curvature", fraction)
     set_option(guidance, "guidance", "curvature_weight", weight)
 
 
 def _constraints(guidance: Any, _mesh: Any, value: Any) -> None:
-    faces, angles = indices32(value[0], "constraints"), reals(value[1], "constraints")
-    _same(faces, angles)
+    of, turned = _parts(value, "constraints", "faces", "angles")
+    faces, angles = indices32(of, "constraints"), reals(turned, "constraints")
+    _same("constraints", faces, angles)
     call = lib.roundel_guidance_set_constraints
     check(call(guidance, len(faces), pointer(faces), pointer(angles)))
 
 
 def _guides(guidance: Any, _mesh: Any, value: Any) -> None:
-    faces = indices32(value[0], "guides")
-    angles, weights = reals(value[1], "guides"), reals(value[2], "guides")
-    _same(faces, angles, weights)
+    of, turned, weighed = _parts(value, "guides", "faces", "angles", "weights")
+    faces, angles, weights = indices32(of, "guides"), reals(turned, "guides"), reals(weighed, "guides")
+    _same("guides", faces, angles, weights)
     call = lib.roundel_guidance_set_guides
     check(call(guidance, len(faces), pointer(faces), pointer(angles), pointer(weights)))
 
 
 def _indices(guidance: Any, _mesh: Any, value: Any) -> None:
-    vertices, steps = indices32(value[0], "indices"), indices32(value[1], "indices")
-    _same(vertices, steps)
+    at, turns = _parts(value, "indices", "vertices", "steps")
+    vertices, steps = indices32(at, "indices"), indices32(turns, "indices")
+    _same("indices", vertices, steps)
     call = lib.roundel_guidance_set_indices
     check(call(guidance, len(vertices), pointer(vertices), pointer(steps)))
 
@@ -90,9 +139,21 @@ def _guide_file(guidance: Any, mesh: Any, value: Any) -> None:
     check(lib.roundel_guidance_read(guidance, mesh._handle.pointer, path(value)))
 
 
-def _same(*arrays: np.ndarray) -> None:
+def _parts(value: Any, what: str, *names: str) -> tuple[Any, ...]:
+    """The parts of a keyword that takes several things in one."""
+    try:
+        parts = tuple(value)
+    except TypeError:
+        parts = ()
+    if len(parts) != len(names):
+        raise refusal(ArgumentTypeError, f"{what} should be ({', '.join(names)}), and is {value!r}")
+    return parts
+
+
+def _same(what: str, *arrays: np.ndarray) -> None:
     if len({len(array) for array in arrays}) > 1:
-        raise ValueError("arrays that belong together differ in length")
+        lengths = ", ".join(str(len(array)) for array in arrays)
+        raise refusal(LengthMismatchError, f"{what}: the arrays should have one length, and have {lengths}")
 
 
 _SETTERS = {

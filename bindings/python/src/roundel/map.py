@@ -2,70 +2,92 @@
 
 from __future__ import annotations
 
-from typing import Any, Optional
+from typing import Any, Optional, Union
 
 import numpy as np
 
+from . import packages
+from ._groups import SIZE, SOLVE, TUNING, WATCH
 from ._handle import Handle, number
 from ._library import lib, path
-from .arrays import pointer, reals
-from .errors import check
+from ._types import ArrayLike, File, MeshLike
+from .arrays import count, pointer, real
+from .errors import ArgumentTypeError, check, refusal
+from .events import Progress
 from .field import Field, field
-from .guidance import OPTIONS, split
+from .guidance import GUIDANCE, split
+from .keywords import checked, takes
 from .mesh import pointer_of
-from .options import options as solve_options, options_handle, with_options
-from .quads import Quads, extracted
+from .options import options_handle
+from .plot import Shown, draw, integer_lines, lifted
+from .quads import Quads, extracted, lengths_of_faces, one_size
 from .solution import Solution, taken
-from .watch import CancelToken, Progress, Watch
+from .watch import CancelToken, Interrupted, Watch
 
 
 class Map:
     """Coordinates (u, v) on a cut surface that match over cuts by quarter turns and integer shifts.
 
-    Made by `map`. `solve` solves it again for another size and reuses earlier work.
+    Made by `map`, or as `Map(field)` and then solved. `solve` solves it again for another size and reuses
+    earlier work.
     """
 
     def __init__(self, of: Field) -> None:
+        #: The field of the map, with its mesh.
         self.field = of
         mesh = of.mesh._handle.pointer
         arguments = (mesh, of._handle.pointer, pointer_of(of._guidance))
         self._handle = Handle.made("roundel_map", lib.roundel_map_new, *arguments)
+        self._solved = False
 
+    def __repr__(self) -> str:
+        if not self._solved:
+            return f"<Map of {self.field!r}, not solved>"
+        faces, cones = len(self.field.mesh.faces), len(self.cones)
+        folded = len(self.flipped)
+        return f"<Map: {faces} triangles, {folded} of them folded, {cones} cones, energy {self.energy:.6g}>"
+
+    @takes(SIZE, SOLVE, WATCH, TUNING)
     def solve(
         self,
         *,
         quads: Optional[int] = None,
-        edge_length: Any = None,
+        edge_length: Union[float, ArrayLike, None] = None,
         untangle: bool = True,
         stiffenings: int = 5,
         progress: Progress = None,
         cancel: Optional[CancelToken] = None,
         **options: Any,
     ) -> None:
-        """Solves for a size: a number of quads, or an edge length, or one or two lengths for each face.
+        """Solves the map for a size of quads, 1000 quads if nothing is said; its results are then replaced.
 
-        `untangle` makes the map fold-free: integers that collapse cones are decided anew, flipped
-        triangles are turned back, and the map is refined if some remain. Before that, the
-        surroundings of flipped triangles are stiffened `stiffenings` times.
+        >>> import roundel
+        >>> map = roundel.map(roundel.Mesh.shape("rounded-cube", 600), quads=100)
+        >>> map.solve(quads=400)
+        >>> map.valid
+        True
         """
+        options = checked(Map.solve, options)
         self._aim(quads, edge_length)
         handle, watch = options_handle(options), Watch(progress, cancel)
-        check(lib.roundel_map_set_stiffening_count(self._handle.pointer, stiffenings))
+        check(lib.roundel_map_set_stiffening_count(self._handle.pointer, count(stiffenings, "stiffenings")))
         call = lib.roundel_map_solve_fold_free if untangle else lib.roundel_map_solve
-        watch.check(call(self._handle.pointer, handle.pointer, watch.pointer))
+        with watch:
+            status = call(self._handle.pointer, handle.pointer, watch.pointer)
+        watch.result(status, self._now_solved)
+
+    def _now_solved(self) -> Map:
+        self._solved = True
+        return self
 
     def _aim(self, quads: Optional[int], edge_length: Any) -> None:
-        if quads is not None and edge_length is not None:
-            raise TypeError("quads and edge_length are two ways to say one thing")
+        one_size(quads, edge_length)
         if quads is not None:
-            check(lib.roundel_map_set_quads(self._handle.pointer, quads))
-        elif edge_length is not None and np.isscalar(edge_length):
-            check(lib.roundel_map_set_edge_length(self._handle.pointer, edge_length))
+            check(lib.roundel_map_set_quads(self._handle.pointer, count(quads, "quads")))
+        elif edge_length is not None and np.ndim(edge_length) == 0:
+            check(lib.roundel_map_set_edge_length(self._handle.pointer, real(edge_length, "edge_length")))
         elif edge_length is not None:
-            lengths = np.asarray(edge_length, dtype=np.float64)
-            if lengths.ndim == 1:
-                lengths = np.stack([lengths, lengths], axis=1)
-            lengths = reals(lengths, "edge_length", (-1, 2))
+            lengths = lengths_of_faces(edge_length)
             call = lib.roundel_map_set_edge_lengths
             check(call(self._handle.pointer, pointer(lengths), lengths.size))
 
@@ -140,9 +162,41 @@ class Map:
         """The quads of the map, not smoothed. Their vertices are the crossings of integer isolines."""
         return extracted(self._handle)
 
-    def write(self, file: Any) -> None:
+    def write(self, file: File) -> None:
         """Writes the mesh with its coordinates to an OBJ file."""
         check(lib.roundel_map_write(self._handle.pointer, path(file)))
+
+    def to_trimesh(self) -> Any:
+        """The cut surface as a `trimesh.Trimesh` with texture coordinates (u, v)."""
+        return packages.to_trimesh(self._cut_vertices(), self.vertex_corners, self.vertex_uvs)
+
+    def to_pyvista(self) -> Any:
+        """The cut surface as a `pyvista.PolyData` with texture coordinates (u, v)."""
+        made = packages.to_pyvista(self._cut_vertices(), [self.vertex_corners])
+        made.active_texture_coordinates = self.vertex_uvs
+        return made
+
+    def to_meshio(self) -> Any:
+        """The cut surface as a `meshio.Mesh` with `uv` a vertex."""
+        return packages.to_meshio(self._cut_vertices(), [self.vertex_corners], {"uv": self.vertex_uvs})
+
+    def _cut_vertices(self) -> np.ndarray:
+        found = np.empty((number(lib.roundel_map_vertex_count, self._handle.pointer), 3))
+        found[self.vertex_corners] = self.field.mesh.vertices[self.field.mesh.faces]
+        return found
+
+    def plot(
+        self, *, backend: Optional[str] = None, show: bool = True, file: Optional[File] = None
+    ) -> Any:
+        """Draws the lines of integer u and v on the surface, and the cones as `Field.plot` does.
+
+        See `Quads.plot` for the keywords.
+        """
+        mesh = self.field.mesh
+        vertices, faces, steps = mesh.vertices, mesh.faces, self.field.vertex_index_steps
+        lines = integer_lines(lifted(vertices[faces]), self.uvs)
+        shown = Shown(vertices, [faces], lines=lines, forth=vertices[steps > 0], back=vertices[steps < 0])
+        return draw(shown, backend, show, file)
 
     def _list(self, count: Any, call: Any) -> np.ndarray:
         found = np.empty(number(count, self._handle.pointer), dtype=np.int32)
@@ -150,22 +204,27 @@ class Map:
         return found
 
 
-@with_options(OPTIONS, solve_options())
+@takes(SIZE, GUIDANCE, SOLVE, WATCH, TUNING)
 def map(
-    V: Any,
-    F: Any = None,
+    V: Union[MeshLike, Field],
+    F: Optional[ArrayLike] = None,
     *,
     quads: Optional[int] = None,
-    edge_length: Any = None,
+    edge_length: Union[float, ArrayLike, None] = None,
     untangle: bool = True,
     stiffenings: int = 5,
     progress: Progress = None,
     cancel: Optional[CancelToken] = None,
     **keywords: Any,
 ) -> Map:
-    """A seamless map of a mesh or a `Field`, for a size of quads (by default, about 1000 quads).
+    """A seamless map of a mesh: coordinates (u, v), whose integer lines are quads on the surface.
 
-    Keywords are those of `field` and of `Map.solve`; the options are those of both solves.
+    `V` and `F` are vertices and triangles; or `V` alone is a `Mesh`, the path of a mesh file, a mesh of
+    another package (see `Mesh`), or a `Field`, which the map then follows. Of a mesh, the field is solved
+    for first, by the same options. On shapes with small details, ask for `detail` of about the edge of a
+    quad. Every keyword may be left out.
+
+    Whether all triangles are the right way round is told by `valid` of the map.
 
     >>> import roundel
     >>> cube = roundel.Mesh.shape("rounded-cube", 600)
@@ -173,14 +232,21 @@ def map(
     >>> map.uvs.shape == (len(cube.faces), 3, 2), map.valid
     (True, True)
     """
-    given, options = split(keywords)
+    given, options = split(checked(map, keywords))
     watched: dict[str, Any] = {"progress": progress, "cancel": cancel, **options}
+    one_size(quads, edge_length)
     if isinstance(V, Field):
         if F is not None or given:
-            raise TypeError("a field has its mesh and its guidance: give them to the field")
+            told = "a field has its mesh and its guidance: give them to the field"
+            raise refusal(ArgumentTypeError, told)
         made = Map(V)
     else:
         made = Map(field(V, F, **watched, **given))
     remedies: dict[str, Any] = {"untangle": untangle, "stiffenings": stiffenings}
-    made.solve(quads=quads, edge_length=edge_length, **remedies, **watched)
+    try:
+        made.solve(quads=quads, edge_length=edge_length, **remedies, **watched)
+    except Interrupted as stop:
+        # There is the field at least.
+        stop.incumbent = made.field if stop.incumbent is None else stop.incumbent
+        raise
     return made

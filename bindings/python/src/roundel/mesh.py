@@ -2,73 +2,160 @@
 
 from __future__ import annotations
 
-from typing import Any
+import sys
+import warnings
+from typing import Any, Optional
 
 import numpy as np
 
+from . import packages
+from ._groups import REPAIR
 from ._handle import Handle, number
 from ._library import ffi, lib, path
-from .arrays import indices, pointer, reals
-from .errors import check
+from ._types import ArrayLike, File, MeshLike
+from .arrays import count, indices, pointer, reals
+from .errors import (
+    InconsistentOrientationError,
+    IsolatedVertexError,
+    NonManifoldEdgeError,
+    NonManifoldVertexError,
+    NotATriangleError,
+    RepeatedVertexError,
+    ZeroAreaError,
+    check,
+)
+from .keywords import takes
+from .plot import Shown, draw
 
 
 class Mesh:
     """An oriented triangle mesh, with or without boundary, which is checked on construction.
 
-    Every function of this package that takes vertices and faces also takes a `Mesh`, a mesh of
-    `trimesh`, `pymeshlab` or `openmesh`, or any object with `vertices` and `faces`.
+    `V` has x, y, z of every vertex, of shape (vertices, 3), and `F` the three corners of every triangle,
+    counted from 0 and counter-clockwise seen from outside, of shape (faces, 3). In place of both, `V` is
+    the path of a file (as for `read`), or a mesh of trimesh, pyvista, meshio, pymeshlab or openmesh, or
+    any object with `vertices` and `faces`. Every function of this package that takes a mesh takes all of
+    these as well.
+
+    What is not an oriented manifold of triangles is refused, by an `Error` that names the face or the
+    vertex at fault: `Mesh.from_soup` repairs it, and `Mesh.from_trimesh` welds seams of textures.
 
     >>> import roundel
     >>> mesh = roundel.Mesh.shape("torus", 200)
-    >>> mesh.euler_characteristic
-    0
+    >>> mesh
+    <Mesh: 96 vertices, 192 triangles, closed, Euler characteristic 0>
     >>> roundel.Mesh(mesh.vertices, mesh.faces).faces.shape == mesh.faces.shape
     True
     """
 
-    def __init__(self, V: Any, F: Any = None) -> None:
-        vertices, faces = arrays_of(V, F)
+    def __init__(self, V: MeshLike, F: Optional[ArrayLike] = None) -> None:
+        if F is None and packages.is_path(V):
+            self._handle = _read(V)
+            return
+        vertices, faces = packages.arrays_of(V, F)
         points = reals(vertices, "vertices", (-1, 3))
         corners = indices(faces, "faces", (-1, 3))
         twin = "_i64" if corners.dtype == np.int64 else ""
         call = getattr(lib, f"roundel_mesh_new{twin}")
         arrays = (len(points), pointer(points), len(corners), pointer(corners))
-        self._handle = Handle.made("roundel_mesh", call, *arrays)
+        try:
+            self._handle = Handle.made("roundel_mesh", call, *arrays)
+        except _NOT_A_MANIFOLD as error:
+            error.args = (f"{error}: {_remedy(V)}",)
+            raise
+        if F is None and self.boundary_loops > 0:
+            self._warn_of_seams(V)
+
+    def _warn_of_seams(self, given: Any) -> None:
+        seams = packages.seams(self.vertices, self.faces)
+        if seams > 0:
+            told = f"the mesh is cut along {seams} edges, as textures cut it: {_remedy(given)}"
+            warnings.warn(told, stacklevel=_levels_to_caller())
+
+    def __repr__(self) -> str:
+        vertices = number(lib.roundel_mesh_vertex_count, self._handle.pointer)
+        triangles = number(lib.roundel_mesh_face_count, self._handle.pointer)
+        loops = self.boundary_loops
+        rim = f"{loops} boundary loop{'s' if loops > 1 else ''}" if loops else "closed"
+        euler = f"Euler characteristic {self.euler_characteristic}"
+        return f"<Mesh: {vertices} vertices, {triangles} triangles, {rim}, {euler}>"
 
     @classmethod
-    def _of(cls, handle: Handle) -> "Mesh":
+    def _of(cls, handle: Handle) -> Mesh:
         made = cls.__new__(cls)
         made._handle = handle
         return made
 
     @classmethod
-    def read(cls, file: Any, repair: bool = False) -> "Mesh":
-        """Reads an OBJ, OFF, PLY, STL, glTF or GLB file.
+    def read(cls, file: File, repair: bool = False) -> Mesh:
+        """Reads an OBJ, OFF, PLY, STL, glTF or GLB file, which may be compressed by gzip.
 
         It must hold an oriented manifold of triangles, unless `repair` is true: then the file may hold any
-        polygons. `roundel.repair(roundel.Soup.read(file))` does the same, and says what was done.
+        polygons, and vertices of equal position are welded. `roundel.repair(file)` does the same, and
+        says what was done.
         """
         if repair:
             from .repair import Soup
 
             return cls.from_soup(Soup.read(file))
-        return cls._of(Handle.made("roundel_mesh", lib.roundel_mesh_read, path(file)))
+        return cls._of(_read(file))
 
     @classmethod
-    def from_soup(cls, vertices: Any, polygons: Any = None, **keywords: Any) -> "Mesh":
-        """The mesh that `roundel.repair` makes of a soup, with its keywords."""
+    @takes(REPAIR)
+    def from_soup(cls, vertices: MeshLike, polygons: Any = None, **keywords: Any) -> Mesh:
+        """The mesh that `roundel.repair` makes of a soup, with its arguments and keywords.
+
+        >>> import roundel
+        >>> roundel.Mesh.from_soup([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2, 3]])
+        <Mesh: 4 vertices, 2 triangles, 1 boundary loop, Euler characteristic 1>
+        """
         from .repair import repair
 
         return repair(vertices, polygons, **keywords).mesh
 
     @classmethod
-    def shape(cls, name: str, faces: int) -> "Mesh":
-        """A procedural shape of about `faces` triangles: "rounded-cube", "sphere", "gear", ..."""
-        return cls._of(Handle.made("roundel_mesh", lib.roundel_mesh_make_shape, name.encode(), faces))
+    def from_trimesh(cls, mesh: Any, weld: float = 0.0) -> Mesh:
+        """The mesh of a `trimesh.Trimesh` or a `trimesh.Scene`, without the seams of its texture.
 
-    def write(self, file: Any) -> None:
-        """Writes an OBJ, OFF, binary PLY, binary STL, glTF, GLB or USD text file."""
+        trimesh has a vertex as often as it has texture coordinates, which cuts the surface open. Vertices
+        that lie on each other, or up to `weld` apart in units of the mesh, are welded, and what then is no
+        oriented manifold is repaired, as by `roundel.repair`.
+        """
+        from .repair import repair
+
+        return repair(mesh, weld=weld).mesh
+
+    @classmethod
+    def shape(cls, name: str, faces: int) -> Mesh:
+        """A procedural shape of about `faces` triangles.
+
+        Its name is "rounded-cube", "sphere", "torus", "genus-N" with a number N, "gear", "plane", "disk" or
+        "plate-with-holes".
+        """
+        wanted = count(faces, "faces")
+        return cls._of(Handle.made("roundel_mesh", lib.roundel_mesh_make_shape, str(name).encode(), wanted))
+
+    def write(self, file: File) -> None:
+        """Writes an OBJ, OFF, binary PLY, binary STL, glTF, GLB or USD text file, by the extension."""
         check(lib.roundel_mesh_write(self._handle.pointer, path(file)))
+
+    def to_trimesh(self) -> Any:
+        """The mesh as a `trimesh.Trimesh`."""
+        return packages.to_trimesh(self.vertices, self.faces)
+
+    def to_pyvista(self) -> Any:
+        """The mesh as a `pyvista.PolyData`."""
+        return packages.to_pyvista(self.vertices, [self.faces])
+
+    def to_meshio(self) -> Any:
+        """The mesh as a `meshio.Mesh`."""
+        return packages.to_meshio(self.vertices, [self.faces])
+
+    def plot(
+        self, *, backend: Optional[str] = None, show: bool = True, file: Optional[File] = None
+    ) -> Any:
+        """Draws the mesh. See `Quads.plot` for the keywords."""
+        return draw(Shown(self.vertices, [self.faces], edges=True), backend, show, file)
 
     @property
     def vertices(self) -> np.ndarray:
@@ -109,27 +196,43 @@ class Mesh:
         return found
 
 
+#: What repair does something about.
+_NOT_A_MANIFOLD = (
+    InconsistentOrientationError,
+    IsolatedVertexError,
+    NonManifoldEdgeError,
+    NonManifoldVertexError,
+    NotATriangleError,
+    RepeatedVertexError,
+    ZeroAreaError,
+)
+
+
+def _levels_to_caller() -> int:
+    """How many calls lie between the caller of this package and the caller of this function."""
+    frame, levels = sys._getframe(1), 1
+    while frame.f_back is not None and frame.f_globals.get("__name__", "").startswith(f"{__package__}."):
+        frame, levels = frame.f_back, levels + 1
+    return levels
+
+
+def _read(file: Any) -> Handle:
+    try:
+        return Handle.made("roundel_mesh", lib.roundel_mesh_read, path(file))
+    except _NOT_A_MANIFOLD as error:
+        error.args = (f"{error}: roundel.Mesh.read(file, repair=True) repairs it",)
+        raise
+
+
+def _remedy(given: Any) -> str:
+    if type(given).__module__.split(".")[0] == "trimesh":
+        return "roundel.Mesh.from_trimesh welds seams of textures and repairs the rest"
+    return "roundel.Mesh.from_soup welds vertices of equal position and repairs the rest"
+
+
 def as_mesh(V: Any, F: Any = None) -> Mesh:
     """The argument itself if it is a Mesh, otherwise a Mesh made of it."""
     return V if isinstance(V, Mesh) and F is None else Mesh(V, F)
-
-
-def arrays_of(V: Any, F: Any) -> tuple[Any, Any]:
-    """Vertices and faces of the arguments, or of a mesh of any package."""
-    if F is not None:
-        return V, F
-    # A MeshSet of pymeshlab stands for its current mesh.
-    mesh = V.current_mesh() if hasattr(V, "current_mesh") else V
-    for vertices, faces in (
-        ("vertex_matrix", "face_matrix"),
-        ("points", "face_vertex_indices"),
-        ("vertices", "faces"),
-    ):
-        if hasattr(mesh, vertices) and hasattr(mesh, faces):
-            found = getattr(mesh, vertices), getattr(mesh, faces)
-            points, corners = (part() if callable(part) else part for part in found)
-            return points, corners
-    raise TypeError(f"{type(V).__name__} has neither vertices and faces nor is it a known mesh")
 
 
 def pointer_of(handle: Any) -> Any:

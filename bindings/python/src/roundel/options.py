@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-import inspect
 from dataclasses import dataclass
-from typing import Any, Callable, Mapping, Optional, TypeVar, Union
+from typing import Any, Mapping, Union
 
 import numpy as np
 
 from ._handle import Handle
 from ._library import ffi, lib, text
-from .errors import check
-
-_Function = TypeVar("_Function", bound=Callable[..., Any])
+from .errors import OptionRangeError, OptionTypeError, UnknownOptionError, check, did_you_mean, refusal
 
 
 @dataclass(frozen=True)
@@ -84,26 +81,6 @@ def repair_options() -> dict[str, Option]:
     return _listed("repair_option")
 
 
-def with_options(*tables: Mapping[str, Option]) -> Callable[[_Function], _Function]:
-    """Gives a function that takes any keyword the signature and the documentation of these."""
-
-    def told(function: _Function) -> _Function:
-        signature = inspect.signature(function)
-        kept = [p for p in signature.parameters.values() if p.kind is not p.VAR_KEYWORD]
-        lines = []
-        for option in (option for table in tables for option in table.values()):
-            of = Optional[option.type]
-            kind = inspect.Parameter.KEYWORD_ONLY
-            kept.append(inspect.Parameter(option.name, kind, default=None, annotation=of))
-            lines.append(f"    {option.name}: {option.text}; {option.range}")
-        function.__signature__ = signature.replace(parameters=kept)  # type: ignore[attr-defined]
-        listed = "\n".join(lines)
-        function.__doc__ = f"{(function.__doc__ or '').rstrip()}\n\n    Options, with their values:\n\n{listed}\n"
-        return function
-
-    return told
-
-
 def presets() -> dict[str, str]:
     """Every value of the keyword `preset`, with its purpose.
 
@@ -122,22 +99,55 @@ def presets() -> dict[str, str]:
 def options_handle(given: Mapping[str, Any]) -> Handle:
     """The library's options for the keywords. A preset is applied before all others."""
     handle = Handle.made("roundel_options", lib.roundel_options_new)
-    if "preset" in given:
-        check(lib.roundel_options_set_preset(handle.pointer, str(given["preset"]).encode()))
+    preset = given.get("preset")
+    if preset is not None:
+        try:
+            check(lib.roundel_options_set_preset(handle.pointer, str(preset).encode()))
+        except OptionRangeError as error:
+            raise _nearer(error, str(preset), presets()) from None
     for name, value in given.items():
-        if name != "preset":
+        if name != "preset" and value is not None:
             set_option(handle.pointer, "options", name, value)
     return handle
 
 
+#: The tables of the handles' options.
+_TABLES = {
+    "options": options(),
+    "guidance": guidance_options(),
+    "quad_options": quad_options(),
+    "repair_options": repair_options(),
+}
+
+
 def set_option(pointer: Any, kind: str, name: str, value: Any) -> None:
     """Sets an option of a handle, `roundel_<kind>`, by the type of the value."""
-    if isinstance(value, str):
-        setter, given = "text", value.encode()
-    elif isinstance(value, np.bool_):
-        setter, given = "int", int(value)
-    elif hasattr(value, "__index__"):
-        setter, given = "int", value.__index__()
-    else:
-        setter, given = "real", float(value)
-    check(getattr(lib, f"roundel_{kind}_set_{setter}")(pointer, name.encode(), given))
+    given: Any
+    try:
+        if isinstance(value, str):
+            setter, given = "text", value.encode()
+        elif isinstance(value, np.bool_):
+            setter, given = "int", int(value)
+        elif hasattr(value, "__index__"):
+            setter, given = "int", value.__index__()
+        else:
+            setter, given = "real", float(value)
+    except (TypeError, ValueError) as error:
+        raise refusal(OptionTypeError, f"option {name}: {value!r} is not a number") from error
+    try:
+        check(getattr(lib, f"roundel_{kind}_set_{setter}")(pointer, name.encode(), given))
+    except OverflowError as error:
+        raise refusal(OptionRangeError, f"option {name}: {value!r} is beyond 64 bits") from error
+    except UnknownOptionError as error:
+        raise _nearer(error, name, _TABLES[kind]) from None
+    except OptionRangeError as error:
+        words = _TABLES[kind][name].range.split("|")
+        raise _nearer(error, str(value), words if len(words) > 1 else ()) from None
+
+
+def _nearer(error: Any, word: str, words: Any) -> Any:
+    """The same error; if one of the words is near the word, the message asks whether it was meant."""
+    question = did_you_mean(word, words)
+    if question:
+        error.args = (f"{error}; {question}",)
+    return error

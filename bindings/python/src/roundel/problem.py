@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Any, Mapping, Optional
+from typing import Any, Literal, Mapping, Optional
 
 import numpy as np
 
 from ._handle import Handle, number
 from ._library import ffi, lib, path
-from .arrays import compressed, indices, indices32, pointer, reals
-from .errors import check
+from ._types import ArrayLike, File, MatrixLike
+from .arrays import compressed, count, indices, indices32, pointer, real, reals, whole
+from .errors import InvalidArgumentError, LengthMismatchError, check, refusal
 from .options import options_handle
 
 _TRIANGLES = {
@@ -39,26 +40,28 @@ class Problem:
 
     def __init__(self, variables: int, _handle: Optional[Handle] = None) -> None:
         if _handle is None:
-            if variables < 0:
-                raise ValueError("a problem has no negative number of variables")
-            _handle = Handle.made("roundel_problem", lib.roundel_problem_new, variables)
+            wanted = count(variables, "variables")
+            _handle = Handle.made("roundel_problem", lib.roundel_problem_new, wanted)
         self._handle = _handle
 
+    def __repr__(self) -> str:
+        return f"<Problem: {self.variables} variables, {self.constraints} constraints>"
+
     @classmethod
-    def read_mps(cls, file: Any) -> "Problem":
+    def read_mps(cls, file: File) -> Problem:
         """Reads a problem from a file in free-format MPS, gzipped or not."""
         return cls(0, Handle.made("roundel_problem", lib.roundel_problem_read_mps, path(file)))
 
-    def write_mps(self, file: Any) -> None:
+    def write_mps(self, file: File) -> None:
         """Writes free-format MPS, gzipped if the file's name ends in ".gz"."""
         check(lib.roundel_problem_write_mps(self._handle.pointer, path(file)))
 
-    def save_replay(self, file: Any, options: Mapping[str, Any] = {}) -> None:
-        """Writes the problem and its options, so that the solve can be repeated elsewhere."""
+    def save_replay(self, file: File, options: Mapping[str, Any] = {}) -> None:
+        """Writes the problem and options of `solve`, by name, so that the solve can be repeated elsewhere."""
         handle = options_handle(options)
         check(lib.roundel_problem_save_replay(self._handle.pointer, handle.pointer, path(file)))
 
-    def copy(self) -> "Problem":
+    def copy(self) -> Problem:
         """An independent copy of the problem."""
         pointer_ = self._handle.pointer
         return Problem(0, Handle.made("roundel_problem", lib.roundel_problem_clone, pointer_))
@@ -73,98 +76,103 @@ class Problem:
         """The number of constraints so far, which is also the index of the next one."""
         return number(lib.roundel_problem_constraint_count, self._handle.pointer)
 
-    def quadratic(self, Q: Any, triangle: str = "full") -> None:
+    def quadratic(self, Q: MatrixLike, triangle: Literal["full", "upper", "lower"] = "full") -> None:
         """Adds 1/2 x'Qx. `triangle` says which entries are given: "full", "upper" or "lower"."""
         matrix = compressed(Q, "Q")
         if matrix.shape != (self.variables, self.variables):
-            raise ValueError(f"Q: the shape is {matrix.shape} for {self.variables} variables")
+            told = f"Q: the shape is {matrix.shape} for {self.variables} variables"
+            raise refusal(LengthMismatchError, told)
         if triangle not in _TRIANGLES:
-            raise ValueError(f"triangle: {triangle!r} is none of {', '.join(_TRIANGLES)}")
+            told = f"triangle: {triangle!r} is none of {', '.join(_TRIANGLES)}"
+            raise refusal(InvalidArgumentError, told)
         call = getattr(lib, f"roundel_problem_add_quadratic_{matrix.form}{matrix.twin}")
         check(call(self._handle.pointer, _TRIANGLES[triangle], *matrix.arguments()))
 
-    def linear(self, q: Any) -> None:
+    def linear(self, q: ArrayLike) -> None:
         """Adds q'x."""
         values = reals(q, "q")
         check(lib.roundel_problem_add_linear(self._handle.pointer, pointer(values), len(values)))
 
     def constant(self, c: float) -> None:
         """Adds a number to the objective."""
-        check(lib.roundel_problem_add_constant(self._handle.pointer, c))
+        check(lib.roundel_problem_add_constant(self._handle.pointer, real(c, "c")))
 
-    def least_squares(self, indices: Any, coefficients: Any, rhs: float, weight: float = 1.0) -> int:
+    def least_squares(
+        self, indices: ArrayLike, coefficients: ArrayLike, rhs: float, weight: float = 1.0
+    ) -> int:
         """Adds weight * (coefficients . x[indices] - rhs)^2 and returns the index of the row."""
         at = indices32(indices, "indices")
         values = reals(coefficients, "coefficients", (len(at),))
-        row = ffi.new("size_t *")
-        check(
-            lib.roundel_problem_add_least_squares(
-                self._handle.pointer, len(at), pointer(at), pointer(values), rhs, weight, row
-            )
-        )
-        return row[0]
+        numbers = (real(rhs, "rhs"), real(weight, "weight"))
+        call = lib.roundel_problem_add_least_squares
+        return number(call, self._handle.pointer, len(at), pointer(at), pointer(values), *numbers)
 
-    def least_squares_rows(self, A: Any, b: Any, weights: Any = None) -> int:
+    def least_squares_rows(self, A: MatrixLike, b: ArrayLike, weights: Optional[ArrayLike] = None) -> int:
         """Adds sum_k weights_k (A_k . x - b_k)^2 and returns the index of the first row.
 
         Weights are 1 by default.
         """
         matrix = compressed(A, "A")
         if matrix.shape[1] != self.variables:
-            raise ValueError(f"A: {matrix.shape[1]} columns for {self.variables} variables")
+            raise refusal(LengthMismatchError, _columns("A", matrix, self.variables))
         rhs = reals(b, "b", (matrix.shape[0],))
         factors = None if weights is None else reals(weights, "weights", rhs.shape)
         call = getattr(lib, f"roundel_problem_add_least_squares_{matrix.form}{matrix.twin}")
         given = ffi.NULL if factors is None else pointer(factors)
         return number(call, self._handle.pointer, *matrix.arguments(), len(rhs), pointer(rhs), given)
 
-    def constrain(self, indices: Any, coefficients: Any, rhs: float) -> int:
+    def constrain(self, indices: ArrayLike, coefficients: ArrayLike, rhs: float) -> int:
         """Adds the constraint coefficients . x[indices] = rhs and returns its index."""
         at = indices32(indices, "indices")
         values = reals(coefficients, "coefficients", (len(at),))
         number_ = self.constraints
         check(
             lib.roundel_problem_add_constraint(
-                self._handle.pointer, len(at), pointer(at), pointer(values), rhs
+                self._handle.pointer, len(at), pointer(at), pointer(values), real(rhs, "rhs")
             )
         )
         return number_
 
-    def constrain_rows(self, C: Any, d: Any) -> int:
+    def constrain_rows(self, C: MatrixLike, d: ArrayLike) -> int:
         """Adds the constraints C x = d, one for each row, and returns the index of the first."""
         matrix = compressed(C, "C")
         if matrix.shape[1] != self.variables:
-            raise ValueError(f"C: {matrix.shape[1]} columns for {self.variables} variables")
+            raise refusal(LengthMismatchError, _columns("C", matrix, self.variables))
         rhs = reals(d, "d")
         call = getattr(lib, f"roundel_problem_add_constraints_{matrix.form}{matrix.twin}")
         arguments = (*matrix.arguments(), len(rhs), pointer(rhs))
         return number(call, self._handle.pointer, *arguments)
 
-    def integer(self, variables: Any) -> None:
+    def integer(self, variables: ArrayLike) -> None:
         """Makes variables integer, given by their indices or by a boolean for each variable."""
         given = np.asarray(variables)
         if given.dtype == bool:
             if given.shape != (self.variables,):
-                raise ValueError(f"integers: the shape is {given.shape} for {self.variables} variables")
+                told = f"integers: the shape is {given.shape} for {self.variables} variables"
+                raise refusal(LengthMismatchError, told)
             given = np.flatnonzero(given)
         at = indices32(given, "integers")
         check(lib.roundel_problem_set_integers(self._handle.pointer, len(at), pointer(at)))
 
     def pin(self, variable: int, value: float) -> None:
         """Fixes a variable to a value."""
-        check(lib.roundel_problem_pin(self._handle.pointer, variable, value))
+        check(lib.roundel_problem_pin(self._handle.pointer, whole(variable, "variable"), real(value, "value")))
 
     def unpin(self, variable: int) -> None:
         """Releases a pinned variable. A free variable stays free."""
-        check(lib.roundel_problem_unpin(self._handle.pointer, variable))
+        check(lib.roundel_problem_unpin(self._handle.pointer, whole(variable, "variable")))
 
-    def guess(self, values: Any) -> None:
+    def guess(self, values: ArrayLike) -> None:
         """Sets the point whose values variables keep where the objective does not determine them."""
         given = reals(values, "guess")
         check(lib.roundel_problem_set_guess(self._handle.pointer, pointer(given), len(given)))
 
-    def hint_cycles(self, offsets: Any, rows: Any, signs: Any) -> None:
-        """Adds a hint about short cycles of least-squares rows: see roundel_problem_hint_cycles."""
+    def hint_cycles(self, offsets: ArrayLike, rows: ArrayLike, signs: ArrayLike) -> None:
+        """Adds a hint: a basis of short cycles of least-squares rows, in compressed rows.
+
+        The rows of cycle k are `rows[offsets[k]:offsets[k + 1]]`, and `signs` tells for each whether the
+        cycle passes it forth (1) or back (-1). A wrong hint is ignored, with a log event.
+        """
         starts, at = indices(offsets, "offsets"), indices(rows, "rows")
         if starts.dtype != at.dtype:
             starts, at = starts.astype(np.int64), at.astype(np.int64)
@@ -172,6 +180,10 @@ class Problem:
         call = getattr(lib, f"roundel_problem_hint_cycles{twin}")
         turns = np.ascontiguousarray(signs, dtype=np.int8)
         if turns.shape != at.shape:
-            raise ValueError("signs: there must be one for each of the rows")
+            raise refusal(LengthMismatchError, "signs: there must be one for each of the rows")
         arrays = (len(starts), pointer(starts), len(at), pointer(at), pointer(turns))
         check(call(self._handle.pointer, *arrays))
+
+
+def _columns(what: str, matrix: Any, variables: int) -> str:
+    return f"{what}: {matrix.shape[1]} columns for {variables} variables"

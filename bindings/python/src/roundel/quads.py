@@ -6,17 +6,20 @@ from typing import Any, Iterator, Optional
 
 import numpy as np
 
+from . import packages
+from ._groups import QUADS, SOLVE, TUNING, WATCH
 from ._handle import Handle, number
 from ._library import ffi, lib, path
+from ._types import ArrayLike, File, MeshLike
 from .arrays import pointer, reals
-from .errors import check
-from .guidance import OPTIONS as GUIDANCE, guidance_handle, says_curvature, split
-from .mesh import Mesh, as_mesh, pointer_of
-from .options import options, options_handle, quad_options, set_option, with_options
-from .watch import CancelToken, Progress, Watch
-
-#: The options that quads have beside those of their guidance and of the solves.
-OPTIONS = quad_options()
+from .errors import ArgumentTypeError, check, refusal
+from .events import Progress
+from .guidance import GUIDANCE, guidance_handle, says_curvature, split
+from .keywords import checked, takes
+from .mesh import as_mesh, pointer_of
+from .options import options_handle, set_option
+from .plot import Shown, draw
+from .watch import CancelToken, Watch
 
 
 class Quads:
@@ -31,7 +34,18 @@ class Quads:
     def __iter__(self) -> Iterator[np.ndarray]:
         return iter((self.vertices, self.faces))
 
+    def __repr__(self) -> str:
+        others = len(self.others)
+        told = [f"{len(self)} quads", f"{len(self.vertices)} vertices", f"{self.irregular_count} irregular"]
+        told += [f"{others} other faces"] if others else []
+        told.append("conforming" if self.conforming else "not conforming")
+        quality = self.scaled_jacobians
+        if len(quality):
+            told.append(f"scaled Jacobian {quality.min():.2f} at least, {quality.mean():.2f} on average")
+        return f"<Quads: {', '.join(told)}>"
+
     def __len__(self) -> int:
+        """The number of quads."""
         return number(lib.roundel_quads_count, self._handle.pointer)
 
     @property
@@ -59,6 +73,18 @@ class Quads:
         return np.split(corners, np.cumsum(sizes)[:-1]) if len(sizes) else []
 
     @property
+    def scaled_jacobians(self) -> np.ndarray:
+        """The quality of every quad: 1 for a rectangle, 0 or less for one that is inverted.
+
+        It is the least over its corners of the sine of the angle.
+        """
+        corners = self.vertices[self.faces]
+        normals = _unit(np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1]))
+        forth = _unit(np.roll(corners, -1, axis=1) - corners)
+        back = _unit(np.roll(corners, 1, axis=1) - corners)
+        return (np.cross(forth, back) * normals[:, None]).sum(axis=2).min(axis=1, initial=1.0)
+
+    @property
     def irregular_count(self) -> int:
         """The number of vertices with other than four edges, or other than three on the boundary."""
         return number(lib.roundel_quads_irregular_count, self._handle.pointer)
@@ -75,15 +101,92 @@ class Quads:
         call = lib.roundel_quads_is_conforming
         return bool(number(call, self._handle.pointer, kind="int32_t"))
 
-    def smooth(self, mesh: Mesh, **keywords: Any) -> None:
-        """Moves the vertices on `mesh` to make the quads more like squares of one size."""
-        guidance = guidance_handle(mesh, keywords)
-        arguments = (mesh._handle.pointer, pointer_of(guidance), ffi.NULL)
+    @takes(GUIDANCE.only("features", "feature_angle", "align_boundary", "guide_file"))
+    def smooth(self, mesh: MeshLike, **keywords: Any) -> None:
+        """Moves the vertices on `mesh` to make the quads more like squares of one size.
+
+        Of what the quads follow, features and the boundary count: vertices on them slide along them.
+
+        >>> import roundel
+        >>> cube = roundel.Mesh.shape("rounded-cube", 600)
+        >>> quads = roundel.map(cube, quads=100).quads()
+        >>> before = quads.scaled_jacobians.mean()
+        >>> quads.smooth(cube)
+        >>> bool(quads.scaled_jacobians.mean() > before)
+        True
+        """
+        given = checked(Quads.smooth, keywords)
+        surface = as_mesh(mesh)
+        guidance = guidance_handle(surface, given)
+        arguments = (surface._handle.pointer, pointer_of(guidance), ffi.NULL)
         check(lib.roundel_quads_smooth(self._handle.pointer, *arguments))
 
-    def write(self, file: Any) -> None:
+    def write(self, file: File) -> None:
         """Writes the faces as OBJ, OFF, PLY or USD text, by extension; as STL or glTF, triangles."""
         check(lib.roundel_quads_write(self._handle.pointer, path(file)))
+
+    def to_trimesh(self) -> Any:
+        """The faces split into triangles, as a `trimesh.Trimesh`, which has no quads.
+
+        Quads are split along their shorter diagonal. Vertices keep their numbers.
+        """
+        points, quads = self.vertices, self.faces
+        across = np.linalg.norm(points[quads[:, 2]] - points[quads[:, 0]], axis=1)
+        other = np.linalg.norm(points[quads[:, 3]] - points[quads[:, 1]], axis=1)
+        turned = np.where((across <= other)[:, None], quads, np.roll(quads, -1, axis=1))
+        fans = [turned[:, [0, 1, 2]], turned[:, [0, 2, 3]]]
+        for face in self.others:
+            fans.append(np.array([[face[0], *pair] for pair in zip(face[1:-1], face[2:])]).reshape(-1, 3))
+        return packages.to_trimesh(points, np.concatenate(fans))
+
+    def to_pyvista(self) -> Any:
+        """The faces as a `pyvista.PolyData`, with `scaled_jacobian` a face: NaN if it is no quad."""
+        return packages.to_pyvista(self.vertices, *self._polygons())
+
+    def to_meshio(self) -> Any:
+        """The faces as a `meshio.Mesh`, with `scaled_jacobian` a face: NaN if it is no quad."""
+        return packages.to_meshio(self.vertices, *self._polygons())
+
+    def _polygons(self) -> tuple[list[np.ndarray], dict[str, np.ndarray], dict[str, np.ndarray]]:
+        """The faces by their number of corners, and numbers of vertices and of faces."""
+        blocks, others = [self.faces], self.others
+        for size in sorted({len(face) for face in others}):
+            blocks.append(np.stack([face for face in others if len(face) == size]))
+        quality = np.concatenate([self.scaled_jacobians, np.full(len(others), np.nan)])
+        return blocks, {}, {"scaled_jacobian": quality}
+
+    def plot(
+        self, *, backend: Optional[str] = None, show: bool = True, file: Optional[File] = None
+    ) -> Any:
+        """Draws the quads, coloured by their scaled Jacobians.
+
+        `backend` is "pyvista", which can be turned with the mouse, or "matplotlib"; by default, the first
+        of them that is installed. `file` names a picture to write (PNG). With `show=False` no window is
+        opened. Returns pyvista's plotter or matplotlib's axes.
+        """
+        blocks, _, numbers = self._polygons()
+        quality = numbers["scaled_jacobian"]
+        shown = Shown(self.vertices, blocks, edges=True, values=quality, label="scaled Jacobian")
+        return draw(shown, backend, show, file)
+
+
+def _unit(vectors: np.ndarray) -> np.ndarray:
+    lengths = np.linalg.norm(vectors, axis=-1, keepdims=True)
+    return vectors / np.where(lengths > 0, lengths, 1)
+
+
+def one_size(quads: Any, edge_length: Any) -> None:
+    """Refuses a number of quads beside a length of their edges."""
+    if quads is not None and edge_length is not None:
+        raise refusal(ArgumentTypeError, "quads and edge_length are two ways to say one thing")
+
+
+def lengths_of_faces(given: Any) -> np.ndarray:
+    """Two lengths for each face, where one or two are given."""
+    lengths = np.asarray(given)
+    if lengths.ndim == 1:
+        lengths = np.stack([lengths, lengths], axis=1)
+    return reals(lengths, "edge_length", (-1, 2))
 
 
 def extracted(map_: Handle) -> Quads:
@@ -91,8 +194,12 @@ def extracted(map_: Handle) -> Quads:
     return Quads(Handle.made("roundel_quads", lib.roundel_quads_extract, map_.pointer))
 
 
-def extract(V: Any, F: Any, uvs: Any) -> Quads:
-    """The quads of any integer-grid map, given by u and v of the corners, of shape (faces, 3, 2).
+def extract(V: MeshLike, F: Optional[ArrayLike] = None, uvs: Optional[ArrayLike] = None) -> Quads:
+    """The quads of any integer-grid map, such as one of another program. They are not smoothed.
+
+    `V` and `F` are vertices and triangles; or `V` alone is a `Mesh`, the path of a mesh file, or a mesh of
+    another package. `uvs` has u and v of the three corners of every triangle, of shape (faces, 3, 2). It is
+    needed. Triangles that are flipped are coped with.
 
     >>> import roundel
     >>> mesh = roundel.Mesh.shape("plane", 200)
@@ -100,40 +207,72 @@ def extract(V: Any, F: Any, uvs: Any) -> Quads:
     >>> uvs = 4 * (flat - flat.min(axis=(0, 1)))
     >>> len(roundel.extract(mesh.vertices, mesh.faces, uvs)) > 0
     True
+    >>> len(roundel.extract(mesh, uvs=uvs)) > 0
+    True
     """
+    if uvs is None:
+        raise refusal(ArgumentTypeError, "uvs, the coordinates of the corners, must be given")
     mesh = as_mesh(V, F)
     given = reals(uvs, "uvs", (-1, 3, 2))
     arguments = (mesh._handle.pointer, pointer(given), given.size)
     return Quads(Handle.made("roundel_quads", lib.roundel_quads_extract_from_uvs, *arguments))
 
 
-@with_options(OPTIONS, GUIDANCE, options())
+_UNSAID = " None: {} or less, as several fields are tried (see vary_curvature); what is said holds."
+_CURVATURE = {"constrain_curvature": 0.005, "curvature_weight": 0.07}
+_DETAIL = (
+    "Details smaller than this length attract no irregular vertices. None: a quarter of an edge of the quads."
+)
+_OF_QUADS = GUIDANCE.but(
+    detail={"text": _DETAIL},
+    **{
+        k.name: {
+            "type": "Optional[float]",
+            "default": None,
+            "text": k.text + _UNSAID.format(_CURVATURE[k.name]),
+        }
+        for k in GUIDANCE.only(*_CURVATURE).keywords
+    },
+)
+
+
+@takes(QUADS, _OF_QUADS, SOLVE.but(strategy={"default": "lattice"}), WATCH, TUNING)
 def quad(
-    V: Any,
-    F: Any = None,
+    V: MeshLike,
+    F: Optional[ArrayLike] = None,
     *,
     progress: Progress = None,
     cancel: Optional[CancelToken] = None,
     **keywords: Any,
 ) -> Quads:
-    """Quadrangulates a mesh with about `quads` quads (1000 by default) or edges of about `edge_length`.
+    """Makes quads of a triangle mesh: field, map, extraction and smoothing in one call.
 
-    Field, map, extraction and smoothing in one call, as the program `roundel quad` does it. Keywords
-    are those of `field`; quads follow the boundary and the curvature unless these say otherwise.
-    Options are those of the map's solve, `lattice` without a strategy; and but for the strategy of the
-    field's, which is `field_strategy`.
+    `V` and `F` are vertices and triangles; or `V` alone is a `Mesh`, the path of a mesh file, or a mesh of
+    trimesh, pyvista, meshio, pymeshlab or openmesh: see `Mesh`. Every keyword may be left out: then there
+    are about 1000 quads, which follow the boundary and, where it is clear, the curvature. `features=40`
+    makes the edges of a machine part edges of quads.
+
+    The result unpacks into vertices and quads, and its `conforming` tells whether there is nothing but
+    quads, closed where the triangles are. The quads are those of the program `roundel quad`. Options of the
+    solve hold for the map and the field, but for the strategy: that of the field is `field_strategy`.
+
+    Raises an `Error` that names the face or vertex at fault, or the option.
 
     >>> import roundel
     >>> cube = roundel.Mesh.shape("rounded-cube", 600)
     >>> vertices, quads = found = roundel.quad(cube.vertices, cube.faces, quads=100)
     >>> found.conforming, len(vertices) - len(quads)
     (True, 2)
+    >>> gear = roundel.Mesh.shape("gear", 1500)
+    >>> sharp = roundel.quad(gear, quads=400, features=40)
+    >>> sharp.conforming
+    True
     """
+    keywords = checked(quad, keywords)
+    own = {name: keywords.pop(name) for name in QUADS.names() & keywords.keys()}
+    length = own.get("edge_length")
+    one_size(own.get("quads"), length)
     mesh = as_mesh(V, F)
-    own = {name: keywords.pop(name) for name in OPTIONS if name in keywords}
-    own = {name: value for name, value in own.items() if value is not None}
-    if {"quads", "edge_length"} <= own.keys():
-        raise TypeError("quads and edge_length are two ways to say one thing")
     given, solve = split(keywords)
     guidance = guidance_handle(mesh, given, of_quads=True)
     own.setdefault("vary_curvature", not says_curvature(given))
@@ -145,9 +284,13 @@ def quad(
         (lib.roundel_quad_options_set_field_options, {**solve, "strategy": "adaptive"}),
     ):
         check(call(how.pointer, options_handle(given).pointer))
+    if length is not None and np.ndim(length) > 0:
+        lengths = lengths_of_faces(own.pop("edge_length"))
+        check(lib.roundel_quad_options_set_edge_lengths(how.pointer, pointer(lengths), lengths.size))
     for name, value in own.items():
         set_option(how.pointer, "quad_options", name, value)
     watch = Watch(progress, cancel)
     place = ffi.new("roundel_quads **")
-    watch.check(lib.roundel_quads_make(mesh._handle.pointer, how.pointer, watch.pointer, place))
-    return Quads(Handle("roundel_quads", place[0]))
+    with watch:
+        status = lib.roundel_quads_make(mesh._handle.pointer, how.pointer, watch.pointer, place)
+    return watch.result(status, lambda: Quads(Handle("roundel_quads", place[0])))

@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 from enum import IntEnum
-from typing import Any, Optional
+from typing import Any, Optional, Union
 
 import numpy as np
 
+from ._groups import REPAIR
 from ._handle import Handle, number
 from ._library import ffi, lib, path
+from ._types import File, MeshLike
 from .arrays import indices, indices32, pointer, reals
 from .errors import check
-from .mesh import Mesh, arrays_of
-from .options import repair_options, set_option, with_options
-
-#: The options of repair.
-OPTIONS = repair_options()
+from .keywords import checked, takes
+from .mesh import Mesh
+from .options import set_option
+from .packages import arrays_of, is_path
 
 
 class EditKind(IntEnum):
@@ -84,8 +85,9 @@ class EditKind(IntEnum):
     #: Element: lowest polygon of the component; other: number of triangles.
     COMPONENT_DROPPED = 18
     #: A hole was filled.
-    #: Element: an vertex on its rim; other: number of edges.
+    #: Element: a vertex on its rim; other: number of edges.
     HOLE_FILLED = 19
+
 
 #: The type of an entry of `Repair.edits`.
 EDIT = np.dtype([("kind", np.int32), ("element", np.int32), ("other", np.int32)])
@@ -94,8 +96,10 @@ EDIT = np.dtype([("kind", np.int32), ("element", np.int32), ("other", np.int32)]
 class Soup:
     """A polygon soup: vertices, and polygons with any number of corners, of which nothing is assumed.
 
-    `polygons` is a list of lists of corners, an array with as many columns as a polygon has corners, or
-    missing for a mesh of another package. Corners that name no vertex are kept, for repair to tell.
+    `vertices` has x, y, z of every vertex. `polygons` is a list of lists of corners, counted from 0, or an
+    array with as many columns as a polygon has corners. It is left out where `vertices` is the path of a
+    file (as for `read`) or a mesh of another package: see `Mesh`. Corners that name no vertex are kept,
+    for repair to tell.
 
     >>> import roundel
     >>> square = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
@@ -104,7 +108,10 @@ class Soup:
     (1, 4)
     """
 
-    def __init__(self, vertices: Any, polygons: Any = None) -> None:
+    def __init__(self, vertices: MeshLike, polygons: Any = None) -> None:
+        if polygons is None and is_path(vertices):
+            self._handle = Handle.made("roundel_soup", lib.roundel_soup_read, path(vertices))
+            return
         vertices, polygons = arrays_of(vertices, polygons)
         points = reals(vertices, "vertices", (-1, 3))
         corners, sizes = _lists(polygons)
@@ -114,8 +121,11 @@ class Soup:
         self._handle = Handle.made("roundel_soup", call, *arrays, len(corners), pointer(corners))
 
     @classmethod
-    def read(cls, file: Any, format: Optional[str] = None) -> "Soup":
-        """Reads an OBJ, OFF, PLY, STL, glTF or GLB file; its extension tells the format if `format` does not."""
+    def read(cls, file: File, format: Optional[str] = None) -> Soup:
+        """Reads an OBJ, OFF, PLY, STL, glTF or GLB file, which may be compressed by gzip.
+
+        `format` is "obj", "off", "ply", "stl", "gltf" or "glb"; without it, the extension tells.
+        """
         made = cls.__new__(cls)
         if format is None:
             made._handle = Handle.made("roundel_soup", lib.roundel_soup_read, path(file))
@@ -124,7 +134,12 @@ class Soup:
             made._handle = Handle.made("roundel_soup", call, path(file), format.encode())
         return made
 
+    def __repr__(self) -> str:
+        vertices = number(lib.roundel_soup_vertex_count, self._handle.pointer)
+        return f"<Soup: {vertices} vertices, {len(self)} polygons>"
+
     def __len__(self) -> int:
+        """The number of polygons."""
         return self._counts()[0]
 
     @property
@@ -166,6 +181,9 @@ class Repair:
         self._handle = handle
         self._mesh: Optional[Mesh] = None
 
+    def __repr__(self) -> str:
+        return f"<Repair: {self.summary or 'nothing to do'}; {self.mesh!r}>"
+
     @property
     def mesh(self) -> Mesh:
         """The mesh."""
@@ -176,7 +194,7 @@ class Repair:
 
     @property
     def edits(self) -> np.ndarray:
-        """Everything that was done, in order: an array with the fields `kind`, an `EditKind`, `element` and `other`.
+        """Everything that was done, in order: an array of `kind`, an `EditKind`, `element` and `other`.
 
         The kind says which numbers of the soup `element` and `other` are; `other` is -1 where there is none.
         """
@@ -226,12 +244,13 @@ class Repair:
         return found
 
 
-@with_options(OPTIONS)
-def repair(vertices: Any, polygons: Any = None, **keywords: Any) -> Repair:
+@takes(REPAIR)
+def repair(vertices: Union[MeshLike, Soup], polygons: Any = None, **keywords: Any) -> Repair:
     """Makes an oriented manifold mesh of a soup, and says what it did.
 
-    Takes a `Soup`, or what makes one. A soup that `Mesh` accepts comes back as it is, unless its boundary
-    edges lie on each other: then they are welded.
+    `vertices` has x, y, z of every vertex, and `polygons` the corners of every polygon, as for `Soup`; or
+    `vertices` alone is a `Soup`, the path of a mesh file, or a mesh of another package. A soup that `Mesh`
+    accepts comes back as it is, unless its boundary edges lie on each other: then they are welded.
 
     >>> import roundel
     >>> square = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [5, 5, 5]]
@@ -243,9 +262,9 @@ def repair(vertices: Any, polygons: Any = None, **keywords: Any) -> Repair:
     >>> done.counts
     {'polygon_triangulated': 1, 'vertex_unused': 1}
     """
+    options = checked(repair, keywords)
     given = vertices if isinstance(vertices, Soup) and polygons is None else Soup(vertices, polygons)
     how = Handle.made("roundel_repair_options", lib.roundel_repair_options_new)
-    for name, value in keywords.items():
-        if value is not None:
-            set_option(how.pointer, "repair_options", name, value)
+    for name, value in options.items():
+        set_option(how.pointer, "repair_options", name, value)
     return Repair(Handle.made("roundel_repair", lib.roundel_soup_repair, given._handle.pointer, how.pointer))

@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any, Optional
 
 import numpy as np
 
-from ._handle import number
+from ._handle import Handle, number
 from ._library import ffi, lib, text
 from .arrays import pointer
 from .errors import check
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Solution:
     """The result of a solve.
 
@@ -24,7 +24,7 @@ class Solution:
     """
 
     #: One value for each variable. Integers are exact, except after a relaxation.
-    values: np.ndarray = field(repr=False)
+    values: np.ndarray
     #: The objective at the values, recomputed from the original problem.
     energy: float
     #: A lower bound on the energy of all integer solutions, or None if there is no bound.
@@ -44,9 +44,14 @@ class Solution:
     #: The largest distance of an integer variable from an integer.
     integrality_violation: float
     #: Sizes before and after elimination: variables, integers, constraints, ...
-    counts: dict[str, int] = field(repr=False)
+    counts: dict[str, int]
     #: Wall-clock seconds by phase: eliminate, factor, round, total.
-    seconds: dict[str, float] = field(repr=False)
+    seconds: dict[str, float]
+
+    def __repr__(self) -> str:
+        sizes = f"{self.counts['variables']} variables, {self.counts['integers']} integer"
+        gap = "" if self.gap is None or self.proved or self.gap >= 1 else f", gap {100 * self.gap:.2f} %"
+        return f"<Solution: {self.status}, energy {self.energy:.6g}{gap}, {sizes}>"
 
     @property
     def proved(self) -> bool:
@@ -75,6 +80,11 @@ def taken(pointer_: Any) -> Solution:
         counts=_members("roundel_counts", lib.roundel_solution_counts, pointer_),
         seconds=_members("roundel_seconds", lib.roundel_solution_seconds, pointer_),
     )
+
+
+def taken_from(place: Any) -> Solution:
+    """Copies the solution that a call has put into this place, and frees it."""
+    return taken(Handle("roundel_solution", place[0]).pointer)
 
 
 def _if_known(call: Any, pointer_: Any) -> Optional[float]:

@@ -2,48 +2,57 @@
 
 from __future__ import annotations
 
-from typing import Any, Mapping, Optional, Union
+from typing import Any, Literal, Mapping, Optional, Union
 
+from ._groups import SOLVE, TUNING, WATCH
 from ._handle import Handle
 from ._library import ffi, lib
-from .arrays import compressed
-from .options import options as solve_options, options_handle, with_options
+from ._types import ArrayLike, MatrixLike
+from .arrays import compressed, reals
+from .errors import ArgumentTypeError, refusal
+from .events import Progress
+from .keywords import checked, takes
+from .options import options_handle
 from .problem import Problem
-from .solution import Solution, taken
-from .watch import CancelToken, Progress, Watch
+from .solution import Solution, taken_from
+from .watch import CancelToken, Watch
 
 
-@with_options(solve_options())
+@takes(SOLVE, WATCH, TUNING)
 def solve(
-    Q: Union[Problem, Any] = None,
-    q: Any = None,
+    Q: Union[Problem, MatrixLike, None] = None,
+    q: Optional[ArrayLike] = None,
     c: float = 0.0,
     *,
-    A: Any = None,
-    b: Any = None,
-    weights: Any = None,
-    C: Any = None,
-    d: Any = None,
-    integers: Any = None,
+    A: Optional[MatrixLike] = None,
+    b: Optional[ArrayLike] = None,
+    weights: Optional[ArrayLike] = None,
+    C: Optional[MatrixLike] = None,
+    d: Optional[ArrayLike] = None,
+    integers: Optional[ArrayLike] = None,
     pins: Optional[Mapping[int, float]] = None,
-    guess: Any = None,
-    triangle: str = "full",
+    guess: Optional[ArrayLike] = None,
+    triangle: Literal["full", "upper", "lower"] = "full",
     progress: Progress = None,
     cancel: Optional[CancelToken] = None,
     **options: Any,
 ) -> Solution:
     """Minimises 1/2 x'Qx + q'x + c + sum_k weights_k (A_k x - b_k)^2 subject to C x = d.
 
-    Instead of all these, the first argument may be a `Problem`. Matrices are dense or SciPy matrices
-    with one column for each variable; those not given are zero. `integers` are indices of variables,
-    or a boolean for each variable. `pins` fixes variables to values. Where the objective does not
-    determine variables, they keep the values of `guess`. `triangle` says which entries of Q are given.
+    The sum over k is that over the rows of A. Matrices are NumPy arrays or SciPy matrices with one column
+    for each variable; what is not given is zero, and one of Q, q and A must be given.
 
-    `progress` is True for a progress line on stderr, or a function that is called with an `Event`. If
-    it returns a true value, the solve ends with the best solution so far. An exception from it ends
-    the solve and is raised again. Ctrl-C ends the solve and raises KeyboardInterrupt. `cancel` may be
-    set from another thread, because the solve releases Python's lock. `options` are those of the
-    library (see `roundel.options()`), and `preset`.
+      Q: a symmetric matrix, without a direction in which the objective curves downwards; or a `Problem`, in
+          place of all arguments up to `triangle`.
+      q, c: the linear term and the constant.
+      A, b, weights: rows of least squares, their right sides, and their weights, 1 by default.
+      C, d: equations that hold exactly.
+      integers: the variables that must be integer, as indices or as a boolean for each variable.
+      pins: variables and the values that they are fixed to.
+      guess: the values that variables keep where the objective does not determine them.
+      triangle: which entries of Q are given, "full", "upper" or "lower".
+
+    Python's lock is free during the solve. An exception of `progress` ends it and is raised again.
 
     >>> import numpy as np, roundel
     >>> Q = np.array([[4.0, -2.0], [-2.0, 2.0]])
@@ -62,18 +71,20 @@ def solve(
     ...
     roundel.errors.IndexOutOfRangeError: integer variables: entry 1 is 2, outside 0..2
     """
+    options = checked(solve, options)
     if isinstance(Q, Problem):
         if any(part is not None for part in (q, A, b, weights, C, d, integers, pins, guess)):
-            raise TypeError("a problem stands for all arguments: change the problem")
+            told = "a problem stands for all arguments: change the problem"
+            raise refusal(ArgumentTypeError, told)
         problem = Q
     else:
         problem = _assembled(Q, q, c, A, b, weights, C, d, integers, pins, guess, triangle)
     handle, watch = options_handle(options), Watch(progress, cancel)
     place = ffi.new("roundel_solution **")
     pointer = problem._handle.pointer
-    status = lib.roundel_problem_solve(pointer, handle.pointer, watch.pointer, place)
-    watch.check(status, problem.variables)
-    return taken(Handle("roundel_solution", place[0]).pointer)
+    with watch:
+        status = lib.roundel_problem_solve(pointer, handle.pointer, watch.pointer, place)
+    return watch.result(status, lambda: taken_from(place), problem.variables)
 
 
 def _assembled(
@@ -88,22 +99,23 @@ def _assembled(
     integers: Any,
     pins: Optional[Mapping[int, float]],
     guess: Any,
-    triangle: str,
+    triangle: Literal["full", "upper", "lower"],
 ) -> Problem:
     if (A is None) != (b is None) or (A is None and weights is not None):
-        raise TypeError("A and b belong together, and weights with them")
+        raise refusal(ArgumentTypeError, "A and b belong together, and weights with them")
     if (C is None) != (d is None):
-        raise TypeError("C and d belong together")
+        raise refusal(ArgumentTypeError, "C and d belong together")
     if Q is not None:
         Q = compressed(Q, "Q")
         variables = Q.shape[1]
     elif q is not None:
+        q = reals(q, "q")
         variables = len(q)
     elif A is not None:
         A = compressed(A, "A")
         variables = A.shape[1]
     else:
-        raise TypeError("one of Q, q and A must be given")
+        raise refusal(ArgumentTypeError, "one of Q, q and A must be given")
     problem = Problem(variables)
     if Q is not None:
         problem.quadratic(Q, triangle)

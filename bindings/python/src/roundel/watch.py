@@ -1,54 +1,52 @@
-"""Watches a solve: the caller's function, the progress line on the terminal, and Ctrl-C."""
+"""Watches a call: the caller's function, the display on the terminal, cancelling and Ctrl-C."""
 
 from __future__ import annotations
 
-import sys
-from dataclasses import dataclass
-from typing import Any, Callable, Optional, Union
+import signal
+import threading
+from typing import Any, Callable, Optional, TypeVar
 
 from ._handle import Handle
-from ._library import ffi, lib, text
-from .errors import check
+from ._library import ffi, lib
+from .errors import ArgumentTypeError, check, refusal
+from .events import Progress, event_of
+from .progress import Display, display
+
+_Made = TypeVar("_Made")
 
 
-@dataclass(frozen=True)
-class Event:
-    """An event of a solve, with the state of the solve."""
+class Interrupted(KeyboardInterrupt):
+    """Ctrl-C during a call of this package: a KeyboardInterrupt that keeps the best result so far.
 
-    #: "progress", "log", "improved" or "raised"; later versions may add others.
-    kind: str
-    #: "eliminate", "factor", "round", "untangle", "quads", or "" if the event is not progress.
-    phase: str
-    #: The fraction of the phase that is done, from 0 to 1.
-    fraction: float
-    #: A line of text, or an empty string.
-    text: str
-    #: Seconds since the solve began.
-    seconds: float
-    #: Energy of the best solution so far; infinite before the first.
-    energy: float
-    #: The best lower bound so far; minus infinity before the first.
-    lower_bound: float
-    #: (energy - lower_bound) / abs(energy): 0 where they are equal, and infinite while either is
-    #: infinite or an energy of 0 is above the bound.
-    gap: float
+    `incumbent` is what the call would have returned, made from the best integers so far: a `Solution`, a
+    `Field`, a `Map` or `Quads`. It is None if the call had no result yet. `map`, interrupted while it
+    worked on the field, has the `Field`, of which `roundel.map(field)` makes the map. A second Ctrl-C
+    while the result is finished changes nothing.
 
+    Example::
 
-#: A function of an event that returns a true value to end the solve, or True for a progress line on
-#: stderr.
-Progress = Union[bool, Callable[[Event], Any], None]
+        try:
+            quads = roundel.quad("large.obj", quads=20000)
+        except KeyboardInterrupt as stop:
+            quads = stop.incumbent
 
+    >>> import roundel
+    >>> issubclass(roundel.Interrupted, KeyboardInterrupt)
+    True
+    """
 
-def _words(prefix: str, *words: str) -> dict[int, str]:
-    return {getattr(lib, f"ROUNDEL_{prefix}_{word.upper()}"): word for word in words}
+    def __init__(self, incumbent: Any = None) -> None:
+        super().__init__()
+        #: The best result so far, or None.
+        self.incumbent = incumbent
 
-
-_KINDS = _words("EVENT", "progress", "log", "improved", "raised")
-_PHASES = _words("PHASE", "eliminate", "factor", "round", "untangle", "quads")
+    def __str__(self) -> str:
+        found = "nothing was found yet" if self.incumbent is None else f"the best so far is {self.incumbent!r}"
+        return f"interrupted; {found}"
 
 
 class CancelToken:
-    """A flag by which any thread may cancel a solve.
+    """A flag by which any thread may cancel a solve: give it as the keyword `cancel`.
 
     >>> import roundel
     >>> token = roundel.CancelToken()
@@ -59,6 +57,9 @@ class CancelToken:
 
     def __init__(self) -> None:
         self._handle = Handle.made("roundel_cancel_token", lib.roundel_cancel_token_new)
+
+    def __repr__(self) -> str:
+        return f"<CancelToken: {'set' if self.is_cancelled else 'not set'}>"
 
     def cancel(self) -> None:
         """Asks every solve with this token to end."""
@@ -79,66 +80,62 @@ class CancelToken:
 class Watch:
     """The monitor of one call. The call releases Python's lock and takes it again for each event.
 
-    Python runs a signal handler when the main thread next runs Python code, which is this callback.
-    So a KeyboardInterrupt is raised in the callback, ends the solve, and is raised again by `check`.
+    Python runs a signal handler when the main thread next runs Python code, which is the callback here.
+    While the call lasts, the handler of Ctrl-C takes a note instead of raising KeyboardInterrupt, and the
+    callback ends the call. So the library can finish a result, and none is lost between two lines.
     """
 
     def __init__(self, progress: Progress, cancel: Optional[CancelToken]) -> None:
-        self._line = Line() if progress is True else None
-        self._tell = self._line or (progress if callable(progress) else None)
+        if cancel is not None and not isinstance(cancel, CancelToken):
+            raise refusal(ArgumentTypeError, f"cancel should be a CancelToken, and is {cancel!r}")
+        if progress not in (None, True, False) and not callable(progress):
+            raise refusal(ArgumentTypeError, f"progress should be True or a function, and is {progress!r}")
+        self._display: Optional[Display] = display() if progress is True else None
+        self._tell = self._display or (progress if callable(progress) else None)
         self._caught: Optional[BaseException] = None
+        self._interrupted = False
+        self._replaced: Any = None
         self._cancel = cancel
         self._callback = ffi.callback("roundel_callback", self._hear, error=1, onerror=self._catch)
         token = cancel._handle.pointer if cancel is not None else ffi.NULL
         size = ffi.sizeof("roundel_monitor")
         self.pointer = ffi.new("roundel_monitor *", [size, self._callback, ffi.NULL, token])
 
+    def __enter__(self) -> Watch:
+        # Handlers belong to the main thread, and one that is not Python's own to whoever set it.
+        main = threading.current_thread() is threading.main_thread()
+        if main and signal.getsignal(signal.SIGINT) is signal.default_int_handler:
+            self._replaced = signal.signal(signal.SIGINT, self._interrupt)
+        return self
+
+    def __exit__(self, *_: Any) -> None:
+        if self._replaced is not None:
+            signal.signal(signal.SIGINT, self._replaced)
+
+    def _interrupt(self, _signal: int, _frame: Any) -> None:
+        self._interrupted = True
+
     def _hear(self, event: Any, _: Any) -> int:
-        if self._caught is not None:
+        if self._caught is not None or self._interrupted:
             return 1
         if self._tell is None:
             return 0
-        return 1 if self._tell(_event(event)) else 0
+        return 1 if self._tell(event_of(event)) else 0
 
     def _catch(self, _kind: Any, error: BaseException, _trace: Any) -> None:
         self._caught = error
 
-    def check(self, status: int, variables: int = 0) -> None:
-        """Raises the exception of the callback, or else that of the status."""
-        if self._line is not None:
-            self._line.end()
+    def result(self, status: int, made: Callable[[], _Made], variables: int = 0) -> _Made:
+        """What the call made. Raises the exception of the callback, that of Ctrl-C, or that of the status.
+
+        Called after the end of the context. `variables` is the length of a direction, as for `check`.
+        """
+        if self._display is not None:
+            self._display.end(status == lib.ROUNDEL_OK and self._caught is None and not self._interrupted)
+        if self._interrupted or isinstance(self._caught, KeyboardInterrupt):
+            incumbent = made() if status == lib.ROUNDEL_OK else None
+            raise Interrupted(incumbent) from self._caught
         if self._caught is not None:
             raise self._caught
         check(status, variables)
-
-
-def _event(event: Any) -> Event:
-    return Event(
-        _KINDS.get(event.kind, "unknown"),
-        _PHASES.get(event.phase, ""),
-        event.fraction,
-        text(event.text),
-        event.seconds,
-        event.energy,
-        event.lower_bound,
-        event.gap,
-    )
-
-
-class Line:
-    """A progress line on stderr that is overwritten by each event."""
-
-    def __init__(self) -> None:
-        self._width = 0
-
-    def __call__(self, event: Event) -> bool:
-        if event.kind == "progress":
-            line = f"{event.phase:9} {100 * event.fraction:3.0f} %  {event.seconds:.1f} s"
-            sys.stderr.write("\r" + line.ljust(self._width))
-            sys.stderr.flush()
-            self._width = len(line)
-        return False
-
-    def end(self) -> None:
-        if self._width > 0:
-            sys.stderr.write("\n")
+        return made()

@@ -1,0 +1,92 @@
+"""Groups of keywords that several functions take."""
+
+from __future__ import annotations
+
+from .keywords import Group, Keyword, of_table
+from .options import options, presets, quad_options, repair_options
+
+_PRESETS = presets()
+
+_STRATEGIES = (
+    "How integers are decided: 'relax', not at all: they stay real; 'direct', rounded at once; 'greedy', "
+    "one by one, the rest solved anew each time; 'adaptive' and 'multiple', the same with less work; "
+    "'lattice', as a close point of a lattice, best for maps; 'exact', with a proof that nothing is "
+    "better, if time allows; 'auto', by what suits the problem."
+)
+
+_PRESET = Keyword(
+    "preset",
+    f"Optional[Literal[{', '.join(repr(name) for name in _PRESETS)}]]",
+    None,
+    "Several options at once, of which those given one by one are excepted: "
+    + "; ".join(f"{name!r}, {text}" for name, text in _PRESETS.items())
+    + ".",
+)
+
+_ALL = Group("How it is solved", (*of_table(options()), _PRESET)).but(strategy={"text": _STRATEGIES})
+_USUAL = ("strategy", "time_limit", "gap", "threads", "preset")
+
+#: The options of a solve that many callers want.
+SOLVE = _ALL.only(*_USUAL)
+
+#: The options of single strategies, for experts.
+TUNING = Group(
+    "For experts (those that begin with names of strategies count for these alone)",
+    _ALL.without(*_USUAL).keywords,
+)
+
+#: Progress and its end.
+WATCH = Group(
+    "Watching it",
+    (
+        Keyword(
+            "progress",
+            "Progress",
+            None,
+            "True for a line on stderr (a bar of tqdm if it is installed), or a function that is called "
+            "with an `Event`: if it returns something true, the best result so far is returned.",
+        ),
+        Keyword(
+            "cancel",
+            "Optional[CancelToken]",
+            None,
+            "A token by which another thread ends the call; the best result so far is returned. Ctrl-C "
+            "raises `Interrupted`, a KeyboardInterrupt whose `incumbent` is the best result so far.",
+        ),
+    ),
+)
+
+_LENGTHS = (
+    "The length of the edges of quads, in units of the mesh, instead of their number; or lengths for each "
+    "face, one or two of them: along the field's arm and across it."
+)
+
+#: The size of quads and the remedies of a map.
+SIZE = Group(
+    "The size of the quads",
+    (
+        Keyword("quads", "Optional[int]", None, "The approximate number of quads; 1000 if nothing is said."),
+        Keyword("edge_length", "Union[float, ArrayLike, None]", None, _LENGTHS),
+        Keyword(
+            "untangle",
+            "bool",
+            True,
+            "If true, free the map of folds: integers that collapse cones are decided anew, flipped "
+            "triangles are turned back, and the map is refined if some remain.",
+        ),
+        Keyword(
+            "stiffenings",
+            "int",
+            5,
+            "The number of times that untangling first stiffens the surroundings of folded triangles.",
+        ),
+    ),
+)
+
+#: The options of quads.
+QUADS = Group("The quads", of_table(quad_options())).but(
+    edge_length={"type": "Union[float, ArrayLike, None]", "text": _LENGTHS}
+)
+
+#: The options of repair.
+REPAIR = Group("What may be done beyond what a mesh needs", of_table(repair_options()))
