@@ -19,7 +19,7 @@ use roundel_pictures::{FieldModel, View, draw_field};
 use crate::exit::Exit;
 use crate::mesh::Input;
 use crate::output;
-use crate::outputs::{Content, Outputs, PICTURE, PROBLEM};
+use crate::outputs::{Content, Outputs, PAGE, PICTURE, PROBLEM};
 use crate::progress::Progress;
 use crate::report::Preparation;
 pub use arguments::Arguments;
@@ -95,6 +95,7 @@ fn check_outputs(arguments: &Arguments) -> Result<()> {
     let outputs = Outputs::of(&read, arguments.output.force)
         .write(arguments.out.as_ref(), Content::Field)?
         .write(arguments.picture.as_ref(), PICTURE)?
+        .write(arguments.report.as_ref(), PAGE)?
         .write(arguments.write_problem.as_ref(), PROBLEM)?;
     outputs.tell(arguments.json || arguments.output.quiet);
     Ok(())

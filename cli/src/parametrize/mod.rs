@@ -20,7 +20,7 @@ use crate::changes::Changes;
 use crate::exit::Exit;
 use crate::mesh::{Input, RepairCounts};
 use crate::output;
-use crate::outputs::{MAP, Outputs, PROBLEM};
+use crate::outputs::{MAP, Outputs, PAGE, PROBLEM};
 use crate::progress::Progress;
 use crate::refinement::Refinement;
 use crate::report::Preparation;
@@ -170,6 +170,7 @@ fn check_outputs(arguments: &Arguments) -> Result<()> {
     let read = [Some(arguments.mesh.as_path()), lines, guide, lengths, field];
     let outputs = Outputs::of(&read, arguments.output.force)
         .write(arguments.out.as_ref(), MAP)?
+        .write(arguments.report.as_ref(), PAGE)?
         .write(arguments.write_problem.as_ref(), PROBLEM)?;
     outputs.tell(arguments.json || arguments.output.quiet);
     Ok(())

@@ -53,7 +53,11 @@ impl Proof {
         Proof {
             recipes: vec![recipe],
             trials: 0,
-            work: if edges > MOST { 0 } else { BRIEF.min(PER_EDGE * edges as u64) },
+            work: if edges > MOST {
+                0
+            } else {
+                BRIEF.min(PER_EDGE * edges as u64)
+            },
             conditions: false,
         }
     }
