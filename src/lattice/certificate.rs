@@ -26,6 +26,7 @@
 use super::Piece;
 use crate::eliminate::ReducedModel;
 use crate::error::Result;
+use crate::linalg::sum_below;
 use crate::search::{Factors, Search};
 
 /// The number of random vectors in the measurement of the factor's error.
@@ -123,7 +124,7 @@ impl Certificate {
             return self.relaxation;
         }
         let distance = square.sqrt() * (1.0 - self.relative) - self.shift;
-        self.relaxation + 0.5 * distance.max(0.0).powi(2)
+        sum_below(&[self.relaxation, 0.5 * distance.max(0.0).powi(2)])
     }
 
     /// The least squared distance for which `energy_bound` is at least `energy`.

@@ -65,6 +65,23 @@ impl CompensatedSum {
     }
 }
 
+/// A float that is not above the exact sum of `terms`: the nearest float, or the one below it.
+pub fn sum_below(terms: &[f64]) -> f64 {
+    let mut sum = CompensatedSum::new(0.0);
+    terms.iter().for_each(|&term| sum.add(term));
+    if sum.error == 0.0 || !sum.error.is_finite() {
+        return terms.iter().sum();
+    }
+    let size: f64 = terms.iter().map(|t| t.abs()).sum();
+    // The errors were summed up in the working precision.
+    let unknown = terms.len() as f64 * f64::EPSILON * f64::EPSILON * size;
+    let TwoFold { high, low } = sum.two_fold();
+    match low > unknown {
+        true => high,
+        false => high.next_down(),
+    }
+}
+
 /// A number of twice the working precision: the unevaluated sum of two floats (`dekker1971`). The lower one
 /// is at most half a unit in the last place of the higher one.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -83,7 +100,7 @@ impl From<f64> for TwoFold {
 
 #[cfg(test)]
 mod tests {
-    use super::{CompensatedSum, TwoFold};
+    use super::{CompensatedSum, TwoFold, sum_below};
 
     fn sum(terms: &[f64]) -> f64 {
         let mut sum = CompensatedSum::new(0.0);
@@ -97,6 +114,21 @@ mod tests {
         assert_eq!(sum(&[1e16, 1.0, -1e16]), 1.0);
         assert_eq!(sum(&[1.0, 1e100, -1e100]), 1.0);
         assert_eq!(sum(&[1.0, 1e100, 1.0, -1e100]), 2.0);
+    }
+
+    #[test]
+    fn a_sum_from_below_is_never_above_the_exact_one() {
+        let ulp = 2f64.powi(-52);
+        for (terms, below) in [
+            (vec![1.0, 2.0, -0.5], 2.5),
+            (vec![1.0, 0.25 * ulp], 1.0),
+            (vec![1.0, 0.75 * ulp], 1.0),
+            (vec![1.0, -0.1 * ulp], 1.0 - 0.5 * ulp),
+            (vec![1e16, 1.0, -1e16], 1f64.next_down()),
+            (vec![0.0, f64::NEG_INFINITY], f64::NEG_INFINITY),
+        ] {
+            assert_eq!(sum_below(&terms), below, "{terms:?}");
+        }
     }
 
     #[test]

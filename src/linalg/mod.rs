@@ -32,7 +32,7 @@ pub mod vector;
 pub(crate) use accumulator::Accumulator;
 pub use analysis::Analysis;
 pub use cholesky::Cholesky;
-pub use compensated::{CompensatedSum, TwoFold};
+pub use compensated::{CompensatedSum, TwoFold, sum_below};
 pub use conjugate_gradient::{Effort, conjugate_gradient};
 pub(crate) use disjoint_sets::DisjointSets;
 pub use fix::FixedSolve;

@@ -28,6 +28,7 @@ pub(crate) use work::{ALWAYS, Work, of_relaxation};
 
 use crate::eliminate::ReducedModel;
 use crate::error::{Error, Result};
+use crate::linalg::sum_below;
 use crate::monitor::{Monitor, Phase, Stop};
 
 /// Integers are kept as floats, which are exact up to this size.
@@ -186,7 +187,7 @@ impl<'s, 'm> Search<'s, 'm> {
             point = factors.follow(model, &point)?;
         }
         let (mut energy, error) = model.energy(&point);
-        let at_least = energy - error;
+        let at_least = sum_below(&[energy, -error]);
         if let Some(exact) = self
             .exact
             .as_ref()

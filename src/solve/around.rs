@@ -9,6 +9,7 @@ use super::eliminated::EliminatedProblem;
 use super::relax::{Relaxation, relax};
 use crate::eliminate::{Centre, ReducedModel};
 use crate::error::{Error, Result};
+use crate::linalg::sum_below;
 use crate::round;
 use crate::search::Strategy;
 
@@ -87,7 +88,7 @@ fn moved(centre: Centre, relaxation: Relaxation, at: &[f64]) -> (Centre, Relaxat
         .map(|(y, a)| y - a)
         .collect();
     let (energy, error) = centre.model().energy(&step);
-    let lower_bound = energy - 2.0 * relaxation.excess - error;
+    let lower_bound = sum_below(&[energy, -2.0 * relaxation.excess, -error]);
     let relaxation = Relaxation {
         point: step,
         lower_bound,

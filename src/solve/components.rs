@@ -9,7 +9,7 @@ use super::eliminated::EliminatedProblem;
 use super::relax::Relaxation;
 use crate::eliminate::{Centre, Component, ReducedModel, components};
 use crate::error::{Error, Result};
-use crate::linalg::{TwoFold, places};
+use crate::linalg::{TwoFold, places, sum_below};
 use crate::monitor::{Monitor, relative_gap};
 use crate::problem::{Model, Objective, Problem};
 use crate::search::{
@@ -89,7 +89,8 @@ pub(super) fn by_components(
         }
         always = always.saturating_sub(own.work);
         found.energy += own.energy;
-        found.lower_bound += own.lower_bound - of_part.highest;
+        let terms = [found.lower_bound, own.lower_bound, -of_part.highest];
+        found.lower_bound = sum_below(&terms);
         found.work += own.work;
         found.status = worse(found.status, own.status);
         found.complete &= own.complete;
@@ -122,9 +123,9 @@ impl Relaxed {
             energy,
             lower_bound: match whole.lower_bound {
                 f64::NEG_INFINITY => f64::NEG_INFINITY,
-                _ => energy - 2.0 * whole.excess - error,
+                _ => sum_below(&[energy, -2.0 * whole.excess, -error]),
             },
-            highest: energy + error,
+            highest: -sum_below(&[-energy, -error]),
         }
     }
 }

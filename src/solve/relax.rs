@@ -2,7 +2,7 @@
 
 use crate::eliminate::ReducedModel;
 use crate::error::{Error, Result};
-use crate::linalg::{Lowest, Minimum};
+use crate::linalg::{Lowest, Minimum, sum_below};
 use crate::problem::Model;
 use crate::search::{Factors, Strategy};
 
@@ -38,7 +38,7 @@ pub(crate) fn relax(
             Ok(Relaxation {
                 point,
                 excess,
-                lower_bound: energy - 2.0 * excess - error,
+                lower_bound: sum_below(&[energy, -2.0 * excess, -error]),
             })
         }
         Minimum::Unbounded(v) => Err(unbounded(model, &v)),

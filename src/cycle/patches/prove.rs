@@ -9,6 +9,7 @@ use super::tree::{PatchTree, System};
 use crate::cycle::space::CycleSpace;
 use crate::eliminate::ReducedModel;
 use crate::error::Result;
+use crate::linalg::sum_below;
 use crate::search::{Factors, Search};
 
 /// The number of charges that are evaluated where the list of the root ends a proof.
@@ -39,7 +40,7 @@ impl Watch for Watched<'_, '_, '_> {
 
     fn raised(&mut self, bound: f64) {
         if let Some(account) = &self.account {
-            let bound = self.base + account.lower(bound);
+            let bound = sum_below(&[self.base, account.lower(bound)]);
             // The energies of the search have errors of their own, so no proof goes beyond the incumbent.
             let most = self.search.best().map_or(f64::INFINITY, |b| b.at_least);
             self.search.raise_bound(bound.min(most));
