@@ -18,6 +18,9 @@ def test_events_report_progress_and_better_solutions(cube):
     assert {"progress", "improved"} <= {event.kind for event in heard}
     assert {"eliminate", "factor", "quads"} <= {event.phase for event in heard}
     assert all(0.0 <= event.fraction <= 1.0 and event.seconds >= 0.0 for event in heard)
+    shares = [event.share for event in heard]
+    assert shares == sorted(shares) and 0.0 <= shares[0] and shares[-1] <= 1.0
+    assert {"field", "map", "quads"} <= {event.stage for event in heard}
 
 
 @pytest.mark.parametrize("with_tqdm", [True, False])
@@ -37,11 +40,11 @@ def test_progress_tells_energies_and_gaps_that_mean_something():
     from roundel.progress import told
 
     def at(energy, bound, gap):
-        return told(roundel.Event("progress", "round", 0.25, "", 1.0, energy, bound, gap))
+        return told(roundel.Event("progress", "round", 0.25, "", 1.0, energy, bound, gap, 0.5, "map"))
 
-    assert at(np.inf, -np.inf, np.inf) == "round   25 %"
-    assert at(8.0, 0.0, 1.0) == "round   25 %  energy 8"
-    assert at(8.0, 6.0, 0.25) == "round   25 %  energy 8  gap 25.00 %"
+    assert at(np.inf, -np.inf, np.inf) == "map   50 %"
+    assert at(8.0, 0.0, 1.0) == "map   50 %  energy 8"
+    assert at(8.0, 6.0, 0.25) == "map   50 %  energy 8  gap 25.00 %"
 
 
 def test_what_cannot_watch_is_refused(cube):

@@ -38,6 +38,10 @@ class Event:
     #: (energy - lower_bound) / abs(energy): 0 where they are equal, and infinite while either is
     #: infinite or an energy of 0 is above the bound.
     gap: float
+    #: The share of the whole call that is done, from 0 to 1. It never falls.
+    share: float
+    #: What the call works on: "solve", "field", "map", "quads" or "smooth".
+    stage: str
 
 
 #: A function of an event that returns a true value to end the solve, or True for a progress line on
@@ -50,6 +54,7 @@ def _words(prefix: str, *words: str) -> dict[int, str]:
 
 
 _KINDS = _words("EVENT", "progress", "log", "improved", "raised")
+_STAGES = _words("STAGE", "solve", "field", "map", "quads", "smooth")
 _PHASES = _words("PHASE", "eliminate", "factor", "round", "untangle", "quads")
 
 
@@ -64,4 +69,6 @@ def event_of(event: Any) -> Event:
         event.energy,
         event.lower_bound,
         event.gap,
+        event.share,
+        _STAGES.get(event.stage, "unknown"),
     )

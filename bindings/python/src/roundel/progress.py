@@ -31,7 +31,7 @@ def display() -> Display:
 
 def told(event: Event) -> str:
     """What is known of a call, in a few words."""
-    words = [event.phase, f"{100 * event.fraction:3.0f} %"]
+    words = [event.stage, f"{100 * event.share:3.0f} %"]
     if math.isfinite(event.energy):
         words.append(f"energy {event.energy:.6g}")
     # A gap of 100 % and more says no more than that there is a bound of no use.
@@ -41,10 +41,9 @@ def told(event: Event) -> str:
 
 
 class Bar:
-    """A line of tqdm: the phase, the share of it that is done, energy and gap, and the time."""
+    """A line of tqdm: the stage, the share of the call that is done, energy and gap, and the time."""
 
     def __init__(self, tqdm: Any) -> None:
-        # The share is that of a phase, and phases follow each other: a bar of it would fall back.
         self._bar = tqdm(bar_format="{desc} [{elapsed}]", leave=True, file=sys.stderr)
         self._shown = -math.inf
 

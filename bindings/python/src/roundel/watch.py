@@ -77,6 +77,12 @@ class CancelToken:
         return bool(place[0])
 
 
+def _ended_by(error: BaseException) -> int:
+    """How a call goes on after an exception of the callback: Ctrl-C finishes a result."""
+    is_interrupt = isinstance(error, KeyboardInterrupt)
+    return lib.ROUNDEL_FLOW_FINISH if is_interrupt else lib.ROUNDEL_FLOW_CANCEL
+
+
 class Watch:
     """The monitor of one call. The call releases Python's lock and takes it again for each event.
 
@@ -116,14 +122,16 @@ class Watch:
         self._interrupted = True
 
     def _hear(self, event: Any, _: Any) -> int:
-        if self._caught is not None or self._interrupted:
-            return 1
-        if self._tell is None:
-            return 0
-        return 1 if self._tell(event_of(event)) else 0
+        if self._caught is not None:
+            return _ended_by(self._caught)
+        if self._interrupted:
+            return lib.ROUNDEL_FLOW_FINISH
+        ends = self._tell is not None and self._tell(event_of(event))
+        return lib.ROUNDEL_FLOW_CANCEL if ends else lib.ROUNDEL_FLOW_CONTINUE
 
-    def _catch(self, _kind: Any, error: BaseException, _trace: Any) -> None:
+    def _catch(self, _kind: Any, error: BaseException, _trace: Any) -> int:
         self._caught = error
+        return _ended_by(error)
 
     def result(self, status: int, made: Callable[[], _Made], variables: int = 0) -> _Made:
         """What the call made. Raises the exception of the callback, that of Ctrl-C, or that of the status.
