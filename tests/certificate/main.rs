@@ -12,6 +12,7 @@ mod rational;
 use num_rational::BigRational;
 use random::Random;
 use rational::{Quadratic, exact, zero};
+use roundel::problem::mps::{self, MpsProblem};
 use roundel::{Options, Problem, Solution, SolveStatus, Strategy, solve};
 
 /// A problem in the caller's numbers: the first `integers` unknowns are integer.
@@ -131,13 +132,20 @@ impl Case {
         exact(sum)
     }
 
+    /// The problem as a file states it.
+    fn through_a_file(&self) -> Problem {
+        let mut text = Vec::new();
+        mps::write_to(&mut text, &MpsProblem::new(self.problem())).unwrap();
+        mps::parse(text.as_slice()).unwrap().into_problem()
+    }
+
     /// Solves the problem and holds everything that the solution claims against exact arithmetic.
-    fn check(&self, strategy: Strategy, of: &str) -> Option<Solution> {
+    fn check(&self, problem: &Problem, strategy: Strategy, of: &str) -> Option<Solution> {
         let options = Options {
             strategy,
             ..Options::default()
         };
-        let Ok(solution) = solve(&self.problem(), &options) else {
+        let Ok(solution) = solve(problem, &options) else {
             return None;
         };
         let quadratic = self.exact();
@@ -291,9 +299,15 @@ fn check_all(kind: fn(u64) -> Case, seeds: std::ops::Range<u64>) -> u64 {
             continue;
         }
         for strategy in [Strategy::Exact, Strategy::Auto, Strategy::Direct] {
-            let solution = case.check(strategy, &format!("seed {seed}, {strategy:?}"));
+            let of = format!("seed {seed}, {strategy:?}");
+            let solution = case.check(&case.problem(), strategy, &of);
             let is_optimal = solution.is_some_and(|s| s.status() == SolveStatus::Optimal);
             optimal += u64::from(is_optimal && strategy == Strategy::Exact);
+        }
+        // A file holds sums, not rows.
+        if case.squared {
+            let of = format!("seed {seed}, from a file");
+            case.check(&case.through_a_file(), Strategy::Exact, &of);
         }
     }
     optimal
