@@ -191,7 +191,8 @@ class View {
   drawCrosses() {
     this.crosses ??= crossesBatch(this.gl, this.shaders.crosses, this.model);
     const { batch, finest, isTwoSided } = this.crosses;
-    const level = levelFor(APART / this.unitPixels);
+    // Nearer still, where every face has its cross, crosses grow with their faces.
+    const level = Math.min(levelFor(APART / this.unitPixels), finest);
     const extent = 0.37 * spacingOf(level);
     const isBare = this.ink() === COLOURS.chalk;
     batch.draw({
