@@ -65,12 +65,11 @@ pub(crate) fn adaptive(
         candidates.push(i, search.relaxed()[i as usize]);
     }
     while passes.left > 0 {
-        if search.monitor.finishes() {
-            passes.finish(&mut candidates);
-            break;
-        }
         let done = 1.0 - passes.left as f64 / integers.len() as f64;
         if search.monitor.ends_at(Phase::Round, done) {
+            if search.monitor.finishes() {
+                passes.finish(&mut candidates);
+            }
             break;
         }
         let batch = candidates.take(options.rounding_threshold, |i| passes.undecided(i));
