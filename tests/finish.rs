@@ -5,12 +5,13 @@ use std::time::{Duration, Instant};
 
 use roundel::field::{FieldOptions, FieldProblem, solve_field};
 use roundel::map::{SeamlessOptions, SeamlessProblem};
-use roundel::mesh::{TriangleMesh, shape};
-use roundel::monitor::EventKind;
+use roundel::mesh::{TriangleMesh, jitter, shape};
+use roundel::monitor::{EventKind, Phase};
 use roundel::quad::{QuadOptions, Quadrangulation, quadrangulate, solve_fold_free};
 use roundel::untangle::UntangleOptions;
 use roundel::{
-    CancelToken, Error, Flow, Monitor, Options, Result, SolveStatus, StoppedBy, solve_with,
+    CancelToken, Error, Flow, Monitor, Options, Result, SolveStatus, StoppedBy, Strategy,
+    solve_with,
 };
 
 /// A shape that is tried several times: with features, folds, and other fields.
@@ -143,4 +144,34 @@ fn a_single_solve_that_is_finished_keeps_its_best_solution() {
     let solution = solve_with(field.problem(), &Options::default(), monitor).unwrap();
     assert_eq!(solution.status(), SolveStatus::Cancelled);
     assert_eq!(solution.max_integrality_violation(), 0.0);
+}
+
+#[test]
+fn a_field_that_is_finished_at_once_loses_less_than_half_of_what_direct_rounding_loses() {
+    let mesh = shape::by_name("genus-2", 10_000).unwrap();
+    let mesh = jitter(&mesh, 0.1, 5).unwrap();
+    let field = FieldProblem::with_options(&mesh, &FieldOptions::default()).unwrap();
+    let energy = |strategy, flow| {
+        let options = Options {
+            strategy,
+            ..Options::default()
+        };
+        let monitor = Monitor::default().on_event(|event| match event.kind {
+            EventKind::Progress {
+                phase: Phase::Round,
+                ..
+            } => flow,
+            _ => Flow::Continue,
+        });
+        let solution = solve_with(field.problem(), &options, monitor).unwrap();
+        assert_eq!(solution.max_integrality_violation(), 0.0);
+        solution.energy()
+    };
+    let whole = energy(Strategy::Adaptive, Flow::Continue);
+    let finished = energy(Strategy::Adaptive, Flow::Finish);
+    let direct = energy(Strategy::Direct, Flow::Continue);
+    assert!(
+        finished - whole < 0.5 * (direct - whole),
+        "{whole} {finished} {direct}"
+    );
 }

@@ -1,14 +1,16 @@
 //! Progress: one line on stderr if it is a terminal, nothing otherwise.
 //!
 //! The line tells the stage, how much of the whole run is done, the energy and the gap where they mean
-//! something, the time so far and about how long the rest takes. What is done never falls.
+//! something, the time so far and about how long the rest takes. What is done never falls. How long further
+//! tries take is not known, so once a stage is tried again the line says so instead of telling the rest.
 
+use std::cell::Cell;
 use std::fmt::Write;
 use std::ops::Range;
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
-use roundel::monitor::{EventKind, Run};
+use roundel::monitor::{EventKind, Run, Stage};
 use roundel::{CancelToken, Event, Flow, Monitor, Options, Result};
 
 use crate::interrupt;
@@ -20,6 +22,7 @@ pub struct Progress {
     run: Run,
     token: CancelToken,
     finish_at: Option<Instant>,
+    tries: Tries,
 }
 
 /// Often enough to look alive, seldom enough to cost nothing.
@@ -46,8 +49,7 @@ impl Progress {
             false => ProgressDrawTarget::stderr(),
         };
         let bar = ProgressBar::with_draw_target(Some(LENGTH), target);
-        let style = ProgressStyle::with_template(LINE).expect("a template of indicatif");
-        bar.set_style(style.with_key("rest", rest).progress_chars("=> "));
+        bar.set_style(style(true));
         bar.set_prefix("repair");
         if !bar.is_hidden() {
             bar.enable_steady_tick(TICK);
@@ -59,6 +61,7 @@ impl Progress {
             run,
             token: interrupt::cancel_token()?,
             finish_at: None,
+            tries: Tries::default(),
         })
     }
 
@@ -93,6 +96,9 @@ impl Progress {
             if let EventKind::Log(line) = event.kind {
                 self.bar.println(line);
             }
+            if self.tries.enter(event.stage) {
+                self.bar.set_style(style(false));
+            }
             self.bar.set_prefix(event.stage.name());
             self.bar.set_position((event.share * LENGTH as f64) as u64);
             self.bar.set_message(found(event));
@@ -104,6 +110,41 @@ impl Progress {
 impl Drop for Progress {
     fn drop(&mut self) {
         self.bar.finish_and_clear();
+    }
+}
+
+/// The style of the line, with or without the rest.
+fn style(tells_rest: bool) -> ProgressStyle {
+    let style = ProgressStyle::with_template(LINE).expect("a template of indicatif");
+    let style = match tells_rest {
+        true => style.with_key("rest", rest),
+        false => style.with_key("rest", |_: &ProgressState, line: &mut dyn Write| {
+            // The line is drawn without it.
+            let _ = line.write_str(", trying again");
+        }),
+    };
+    style.progress_chars("=> ")
+}
+
+/// Whether a stage is tried again.
+#[derive(Debug, Default)]
+struct Tries {
+    /// The rank of the last stage.
+    last: Cell<usize>,
+    are_several: Cell<bool>,
+}
+
+impl Tries {
+    /// Enters a stage. Returns whether this is the first time that an earlier one is entered again.
+    fn enter(&self, stage: Stage) -> bool {
+        let rank = match stage {
+            Stage::Map => 1,
+            Stage::Quads => 2,
+            Stage::Smooth => 3,
+            _ => 0,
+        };
+        let is_again = rank < self.last.replace(rank);
+        is_again && !self.are_several.replace(true)
     }
 }
 
@@ -139,7 +180,18 @@ fn found(event: &Event) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::duration;
+    use super::*;
+
+    #[test]
+    fn only_a_stage_before_the_last_one_is_another_try() {
+        let tries = Tries::default();
+        let first = [Stage::Field, Stage::Field, Stage::Map, Stage::Quads];
+        assert_eq!(first.map(|stage| tries.enter(stage)), [false; 4]);
+        assert!(tries.enter(Stage::Map));
+        // It is told once.
+        let others = [Stage::Quads, Stage::Field, Stage::Smooth];
+        assert_eq!(others.map(|stage| tries.enter(stage)), [false; 3]);
+    }
 
     #[test]
     fn an_estimate_is_told_in_seconds_minutes_or_hours() {

@@ -105,3 +105,10 @@ def test_reprs_tell_counts_and_quality(cube):
         (token, "<CancelToken: not set>"),
     ):
         assert words in repr(thing)
+
+
+@pytest.mark.parametrize("kind", (roundel.Solution, roundel.Event, roundel.Option, roundel.EditKind))
+def test_every_member_without_a_documentation_of_its_own_is_told_by_its_class(kind):
+    names = getattr(kind, "__dataclass_fields__", None) or kind.__members__
+    for name in names:
+        assert f"\n      {name}" in kind.__doc__, name

@@ -32,17 +32,18 @@ pub struct Directions {
     pub free_boundary: bool,
 
     /// Constrain this fraction of the faces, those with the most reliable curvature, to the
-    /// direction of least curvature; from 0 to 1 [default: 0.1, for a map or quads 0.005; 0 with
-    /// features, indices or --symmetry 1]
+    /// direction of least curvature; from 0 to 1 [default: for a map or quads without
+    /// --curvature-weight 0.005; otherwise 0.1, and 0 with features, indices or --symmetry 1]
     #[arg(long, value_name = "FRACTION", value_parser = fraction)]
     #[arg(allow_negative_numbers = true)]
     pub constrain_curvature: Option<f64>,
 
     /// Pull all other faces towards the direction of least curvature, with this weight for an area of
-    /// 1 and a difference of curvatures of 1
-    #[arg(long, value_name = "WEIGHT", default_value_t = 0.0, value_parser = weight)]
+    /// 1 and a difference of curvatures of 1 [default: for a map or quads without
+    /// --constrain-curvature and indices 0.07; otherwise 0]
+    #[arg(long, value_name = "WEIGHT", value_parser = weight)]
     #[arg(allow_negative_numbers = true)]
-    pub curvature_weight: f64,
+    pub curvature_weight: Option<f64>,
 
     /// Ignore details smaller than this length, in units of the mesh, so that they attract no irregular
     /// vertices [default: 0; for a map, the edge length of its quads; for quads, a quarter of it]
@@ -76,7 +77,7 @@ impl Directions {
         let mut guidance = Guidance {
             symmetry,
             constraints: self.fix.clone(),
-            curvature_weight: self.curvature_weight,
+            curvature_weight: self.curvature_weight.unwrap_or(0.0),
             feature_angle: self.features.map(f64::to_radians),
             align_boundary: !self.free_boundary,
             detail: self.detail,
@@ -125,7 +126,7 @@ impl Directions {
 
     /// Whether the command line has flags for curvature.
     pub fn says_curvature(&self) -> bool {
-        self.constrain_curvature.is_some() || self.curvature_weight != 0.0
+        self.constrain_curvature.is_some() || self.curvature_weight.is_some()
     }
 }
 

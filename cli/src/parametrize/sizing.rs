@@ -18,7 +18,7 @@ pub struct SizingFlags {
     pub edge_length: Option<f64>,
 
     /// Take the edge lengths from this file, one line for each face: one number, or two, along the arm
-    /// that the field of --field stores there and across it
+    /// that the field has there and across it
     #[arg(long, value_name = "SIZES.txt")]
     pub edge_lengths: Option<PathBuf>,
 }

@@ -6,9 +6,15 @@ use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 use crate::run::{Scratch, only_object, program};
+#[cfg(target_os = "linux")]
+use crate::skip::skip_unless_ci;
 
 /// A mesh whose quads take some seconds.
 const MESH: &str = "shape:rounded-cube:60000";
+
+/// A mesh whose map has too many integers for a proof.
+#[cfg(target_os = "linux")]
+const PROVED: &str = "shape:gear:6000";
 
 fn interrupt(id: u32) {
     let kill = Command::new("kill")
@@ -76,30 +82,35 @@ fn a_second_ctrl_c_ends_at_once() {
     assert!(matches!(code, Some(130 | 5 | 7)), "{code:?}");
 }
 
-/// The percentages that a run draws on a terminal, which `script` makes.
+/// What a run draws on a terminal, which `script` makes, and the percentages in it; none without `script`.
 #[cfg(target_os = "linux")]
-fn drawn(words: &str) -> (String, Vec<u32>) {
+fn drawn(words: &str) -> Option<(String, Vec<u32>)> {
     let command = format!("stty cols 150; {} {words}", env!("CARGO_BIN_EXE_roundel"));
     let output = Command::new("script")
         .args(["-qec", &command, "/dev/null"])
         .stdin(Stdio::null())
-        .output()
-        .unwrap();
-    assert!(output.status.success());
+        .output();
+    let Ok(output) = output else {
+        skip_unless_ci("script is not installed: no terminal to draw the progress on");
+        return None;
+    };
     let text = String::from_utf8(output.stdout).unwrap();
+    assert!(output.status.success(), "{text}");
     let numbers = text.split(" %").filter_map(|before| {
         let number = before.rsplit(' ').next()?;
         number.parse().ok()
     });
     let numbers = numbers.collect();
-    (text, numbers)
+    Some((text, numbers))
 }
 
 #[cfg(target_os = "linux")]
 #[test]
 fn the_line_on_a_terminal_never_falls_and_names_every_stage() {
     // The JSON object has no percentages.
-    let (text, shares) = drawn(&format!("quad {MESH} --json"));
+    let Some((text, shares)) = drawn(&format!("quad {MESH} --json")) else {
+        return;
+    };
     assert!(shares.len() > 10, "{text}");
     assert!(shares.is_sorted(), "{shares:?}");
     for stage in ["repair", "field", "map"] {
@@ -107,10 +118,42 @@ fn the_line_on_a_terminal_never_falls_and_names_every_stage() {
     }
 }
 
+/// Draws the line of a run whose field, map and proof take this long, and holds it to growing to the end.
+#[cfg(target_os = "linux")]
+fn grows_for(seconds: u64) {
+    let started = Instant::now();
+    let words = format!("quad {PROVED} --strategy exact --time-limit {seconds} --json");
+    let Some((_, shares)) = drawn(&words) else {
+        return;
+    };
+    let took = started.elapsed();
+    assert!(took >= Duration::from_secs(seconds), "{took:?}");
+    // Ten times a second, as long as it takes.
+    assert!(shares.len() as u64 > 4 * seconds, "{}", shares.len());
+    assert!(shares.is_sorted(), "{shares:?}");
+    let (first, last) = (shares[0], shares[shares.len() - 1]);
+    assert!(first <= 5 && last >= 80, "{first} to {last}");
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn the_line_grows_through_field_map_and_an_unfinished_proof() {
+    grows_for(6);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+#[ignore = "takes a minute"]
+fn the_line_grows_for_a_minute() {
+    grows_for(60);
+}
+
 #[cfg(target_os = "linux")]
 #[test]
 fn quiet_draws_nothing() {
-    let (text, shares) = drawn("quad shape:rounded-cube:20000 --quiet --json");
+    let Some((text, shares)) = drawn("quad shape:rounded-cube:20000 --quiet --json") else {
+        return;
+    };
     assert!(shares.is_empty(), "{text}");
     assert!(text.trim_start().starts_with('{'), "{text}");
 }

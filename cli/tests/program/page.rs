@@ -395,3 +395,28 @@ fn fields_and_maps_have_pages_of_what_they_have() {
         );
     }
 }
+
+#[test]
+fn a_browser_without_webgl_is_told_so_and_shows_the_figures() {
+    let scratch = Scratch::new("page-without-webgl");
+    let Made { page, .. } = make(&scratch, &["shape:rounded-cube:600", "--quads", "100"]);
+    let content = fs::read_to_string(&page).unwrap();
+    let without = "<body><script>HTMLCanvasElement.prototype.getContext = () => null</script>";
+    let parts = "['#view', 'aside', '.bar', '#failure', '.figures']";
+    let after = format!(
+        "<script>addEventListener('load', () => {{ document.body.dataset.seen = {parts}\
+        .map((one) => document.querySelector(one).getClientRects().length).join(' ') }})</script></body>"
+    );
+    let content = content.replacen("<body>", without, 1);
+    fs::write(&page, content.replacen("</body>", &after, 1)).unwrap();
+    let window = Window {
+        width: 1400,
+        is_dark: false,
+    };
+    let Some((dom, errors)) = drawn(&scratch, &page, &window) else {
+        return;
+    };
+    assert!(dom.contains("data-drawn=\"no\""), "{errors}");
+    assert!(dom.contains("this browser has no WebGL 2"), "{errors}");
+    assert!(dom.contains("data-seen=\"0 0 0 1 1\""), "{dom}");
+}

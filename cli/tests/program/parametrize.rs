@@ -300,3 +300,22 @@ fn a_field_of_something_else_is_an_error_with_its_line() {
     let both = ["parametrize", CUBE, "--field", text(&short), "--fix", "1:2"];
     assert_eq!(finish(program(&both)).0, 2);
 }
+
+#[test]
+fn a_weight_of_curvature_of_zero_is_taken_at_its_word() {
+    let energy = |flags: &[&str]| {
+        let words = [
+            "parametrize",
+            "shape:genus-2:1500",
+            "--quads",
+            "200",
+            "--json",
+        ];
+        let (code, output) = finish(program(&[&words[..], flags].concat()));
+        assert_eq!(code, 0, "{flags:?}");
+        only_object(&output)["energy"].as_f64().unwrap()
+    };
+    let said = energy(&["--curvature-weight", "0"]);
+    assert_eq!(said, energy(&["--constrain-curvature", "0.1"]));
+    assert_ne!(said, energy(&[]));
+}

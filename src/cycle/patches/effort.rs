@@ -2,6 +2,7 @@
 
 use super::dissect::Recipe;
 use crate::cycle::space::CycleSpace;
+use crate::search::Options;
 
 /// `auto`: the most multiplications of a proof, about three seconds.
 const BRIEF: u64 = 800_000_000;
@@ -16,7 +17,8 @@ const SEVERAL: usize = 60_000;
 /// `auto`: systems of more edges get no bound.
 const MOST: usize = 250_000;
 
-/// `exact`: the multiplications of a node.
+/// `exact`: the multiplications for each node that may be visited. They include those that prepare the
+/// enumerations, and those of the first tests of pairs.
 const PER_NODE: u64 = 20;
 
 /// `exact`: the number of trees that are tried.
@@ -34,6 +36,8 @@ pub(in crate::cycle) struct Proof {
     pub trials: u64,
     /// The largest number of multiplications.
     pub work: u64,
+    /// The largest number of nodes.
+    pub nodes: u64,
     /// Whether charges that violate conditions of optimality are dropped.
     pub conditions: bool,
 }
@@ -58,16 +62,22 @@ impl Proof {
             } else {
                 BRIEF.min(PER_EDGE * edges as u64)
             },
+            nodes: u64::MAX,
             conditions: false,
         }
     }
 
-    /// That of `exact`, with this many nodes.
+    /// That of `exact`, with the option `nodes`.
     pub fn thorough(nodes: usize) -> Self {
         Proof {
             recipes: (0..TREES).map(recipe).collect(),
             trials: TRIALS,
             work: (nodes as u64).saturating_mul(PER_NODE),
+            // The library's own budget is one of work.
+            nodes: match nodes == Options::default().nodes {
+                true => u64::MAX,
+                false => nodes as u64,
+            },
             conditions: true,
         }
     }

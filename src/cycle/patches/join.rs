@@ -34,7 +34,10 @@ pub(super) struct Limits<'a> {
     pub entries: usize,
     /// Multiplications, about.
     pub work: u64,
-    pub stop: &'a mut dyn FnMut(u64) -> bool,
+    /// The nodes that may be visited.
+    pub nodes: u64,
+    /// Gets the multiplications and the nodes since the last call, and says whether to end.
+    pub stop: &'a mut dyn FnMut(u64, u64) -> bool,
 }
 
 /// All entries with at most this energy, of pairs that are worth at most as much.
@@ -46,7 +49,7 @@ pub(super) fn join(
 ) -> Result<Found, Overflow> {
     let n = local.own;
     let mut found = Found::default();
-    let mut walk = Walk::new(local);
+    let mut walk = Walk::new(local, limits.nodes);
     let Some(&least) = b.worth.first() else {
         return Ok(found);
     };
@@ -83,21 +86,25 @@ pub(super) fn join(
                     found.push(energy + distance, [i as u32, j as u32], z);
                     found.energy.len() <= limits.entries
                 });
+                if walk.left == 0 {
+                    (limits.stop)(spent - reported, walk.take_nodes());
+                    return Err(Overflow::Ended);
+                }
                 if found.energy.len() > limits.entries || spent > limits.work {
-                    (limits.stop)(spent - reported);
+                    (limits.stop)(spent - reported, walk.take_nodes());
                     return Err(Overflow::Full);
                 }
             }
             from = to;
             if spent - reported > 1 << 20 {
-                if (limits.stop)(spent - reported) {
+                if (limits.stop)(spent - reported, walk.take_nodes()) {
                     return Err(Overflow::Ended);
                 }
                 reported = spent;
             }
         }
     }
-    match (limits.stop)(spent - reported) {
+    match (limits.stop)(spent - reported, walk.take_nodes()) {
         true => Err(Overflow::Ended),
         false => Ok(found),
     }
@@ -174,10 +181,14 @@ pub(super) struct Walk<'a> {
     /// By level: the squared distance of the levels above, and the next step of the zigzag.
     distance: Vec<f64>,
     step: Vec<f64>,
+    /// The nodes that may still be visited, now and at the last report.
+    left: u64,
+    left_before: u64,
 }
 
 impl<'a> Walk<'a> {
-    pub fn new(local: &'a Local) -> Self {
+    /// A walk that visits up to `nodes` nodes.
+    pub fn new(local: &'a Local, nodes: u64) -> Self {
         let n = local.own;
         Walk {
             local,
@@ -185,7 +196,16 @@ impl<'a> Walk<'a> {
             centre: vec![0.0; n],
             distance: vec![0.0; n + 1],
             step: vec![0.0; n],
+            left: nodes,
+            left_before: nodes,
         }
+    }
+
+    /// The nodes visited since the last call: candidates for one coordinate after those above it were
+    /// decided, kept or not.
+    pub fn take_nodes(&mut self) -> u64 {
+        let before = std::mem::replace(&mut self.left_before, self.left);
+        before - self.left
     }
 
     fn enter(&mut self, k: usize, y: f64) {
@@ -207,7 +227,7 @@ impl<'a> Walk<'a> {
     }
 
     /// Calls `take` with all `z` with `|R z - y|^2 <= bound`, where y is the sum of `base` and `image`, until
-    /// it returns false or the work exceeds `most`. Returns the work.
+    /// it returns false, the work exceeds `most`, or no nodes are left. Returns the work.
     pub fn run(
         &mut self,
         base: &[f64],
@@ -225,6 +245,10 @@ impl<'a> Walk<'a> {
         let mut k = n - 1;
         self.enter(k, base[k] + image[k]);
         loop {
+            if self.left == 0 {
+                return work;
+            }
+            self.left -= 1;
             let off = self.local.r[k * n + k] * (self.centre[k] - self.z[k]);
             let distance = self.distance[k + 1] + off * off;
             if distance <= bound {
@@ -260,15 +284,18 @@ pub(super) fn enumerate(
     limits: &mut Limits,
 ) -> Result<Found, Overflow> {
     let mut found = Found::default();
-    let mut walk = Walk::new(local);
+    let mut walk = Walk::new(local, limits.nodes);
     let none = vec![0.0; local.own];
     let (entries, most) = (limits.entries, limits.work);
     let work = walk.run(&local.target, &none, threshold, most, &mut |z, distance| {
         found.push(distance, [0, 0], z);
         found.energy.len() <= entries
     });
-    let ended = (limits.stop)(work);
-    match (ended, found.energy.len() > entries || work > most) {
+    let ended = (limits.stop)(work, walk.take_nodes());
+    match (
+        ended || walk.left == 0,
+        found.energy.len() > entries || work > most,
+    ) {
         (true, _) => Err(Overflow::Ended),
         (_, true) => Err(Overflow::Full),
         _ => Ok(found),

@@ -25,6 +25,8 @@ const TRIAL_ROUNDS: usize = 2;
 struct Watched<'a, 's, 'm> {
     search: &'a mut Search<'s, 'm>,
     left: u64,
+    /// The nodes that may still be visited.
+    nodes: u64,
     base: f64,
     gap: f64,
     account: Option<Account>,
@@ -36,6 +38,14 @@ impl Watch for Watched<'_, '_, '_> {
         self.left = self.left.saturating_sub(work);
         let is_enough = self.gap > 0.0 && self.search.is_within(self.gap);
         self.left == 0 || is_enough || self.search.monitor.ends()
+    }
+
+    fn nodes(&self) -> u64 {
+        self.nodes
+    }
+
+    fn visited(&mut self, nodes: u64) {
+        self.nodes -= nodes;
     }
 
     fn raised(&mut self, bound: f64) {
@@ -85,6 +95,7 @@ pub(in crate::cycle) fn prove(
     let mut watch = Watched {
         search,
         left: effort.work,
+        nodes: effort.nodes,
         base,
         gap,
         account: None,

@@ -38,6 +38,10 @@ const MEMORY: usize = 1 << 30;
 pub(super) trait Watch {
     /// Counts multiplications. Returns whether to end.
     fn ends(&mut self, work: u64) -> bool;
+    /// The nodes that may still be visited.
+    fn nodes(&self) -> u64;
+    /// Counts nodes.
+    fn visited(&mut self, nodes: u64);
     /// No charges have less energy.
     fn raised(&mut self, bound: f64);
 }
@@ -237,7 +241,11 @@ impl<'a> Rounds<'a> {
             let mut limits = Limits {
                 entries,
                 work,
-                stop: &mut |work| watch.ends(work),
+                nodes: watch.nodes(),
+                stop: &mut |work, nodes| {
+                    watch.visited(nodes);
+                    watch.ends(work)
+                },
             };
             let found = enumerate(local, threshold, &mut limits)?;
             let list = List::new(&found, threshold, &self.data(at), &[]);
@@ -257,7 +265,11 @@ impl<'a> Rounds<'a> {
         let mut limits = Limits {
             entries,
             work,
-            stop: &mut |work| watch.ends(work),
+            nodes: watch.nodes(),
+            stop: &mut |work, nodes| {
+                watch.visited(nodes);
+                watch.ends(work)
+            },
         };
         let found = join(local, [&targets[0], &targets[1]], threshold, &mut limits)?;
         let tested = self.conditions[at]

@@ -33,6 +33,7 @@ fn proof(leaf: usize, work: u64, seed: u64, conditions: bool) -> Proof {
         recipes: vec![recipe],
         trials: 0,
         work,
+        nodes: u64::MAX,
         conditions,
     }
 }
@@ -157,11 +158,15 @@ fn a_proof_that_ends_early_has_a_bound_below_the_optimum() {
         };
         let expected = flat(&problem);
         let work = 1 << (10 + random.below(9));
-        let (_, bound, complete) = by_tree(
-            &problem,
-            &space,
-            &proof(3, work, round as u64, round % 2 == 0),
-        );
+        let whole = proof(3, work, round as u64, round % 2 == 0);
+        // Every third ends for its nodes alone.
+        let limited = Proof {
+            work: UNLIMITED,
+            nodes: work >> 8,
+            ..whole.clone()
+        };
+        let effort = [&whole, &whole, &limited][round % 3];
+        let (_, bound, complete) = by_tree(&problem, &space, effort);
         assert!(bound <= expected, "round {round}: {bound} {expected}");
         assert_eq!(reduced.integers().len(), space.origin.len());
         open += usize::from(!complete);

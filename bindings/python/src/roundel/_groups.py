@@ -18,7 +18,7 @@ _PRESET = Keyword(
     "preset",
     f"Optional[Literal[{', '.join(repr(name) for name in _PRESETS)}]]",
     None,
-    "Several options at once, of which those given one by one are excepted: "
+    "Sets several options at once; a keyword that is given too takes precedence. One of "
     + "; ".join(f"{name!r}, {text}" for name, text in _PRESETS.items())
     + ".",
 )
@@ -31,7 +31,7 @@ SOLVE = _ALL.only(*_USUAL)
 
 #: The options of single strategies, for experts.
 TUNING = Group(
-    "For experts (those that begin with names of strategies count for these alone)",
+    "For experts (where a text begins with names of strategies, only these use the option)",
     _ALL.without(*_USUAL).keywords,
 )
 
@@ -78,7 +78,8 @@ SIZE = Group(
             "stiffenings",
             "int",
             5,
-            "The number of times that untangling first stiffens the surroundings of folded triangles.",
+            "How often untangling solves again with more weight around folded triangles, before it moves "
+            "vertices.",
         ),
     ),
 )

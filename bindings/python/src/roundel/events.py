@@ -19,28 +19,43 @@ class Event:
     >>> field = roundel.field(roundel.Mesh.shape("torus", 200), progress=lambda event: seen.append(event.kind))
     >>> "progress" in seen
     True
+
+    Attributes:
+
+      kind: str
+          "progress": a phase has gone on; "log": there is a line of text; "improved": there is a
+          better solution than before; "raised": there is a better bound. Later versions may add
+          others.
+      phase: str
+          "eliminate", "factor", "round", "untangle", "quads", or "" if the event is not progress.
+      fraction: float
+          The fraction of the phase that is done, from 0 to 1.
+      text: str
+          A line of text, or an empty string.
+      seconds: float
+          Seconds since the solve began.
+      energy: float
+          Energy of the best solution so far; infinite before the first.
+      lower_bound: float
+          The best lower bound so far; minus infinity before the first.
+      gap: float
+          (energy - lower_bound) / abs(energy): 0 where they are equal, and infinite while either is
+          infinite or an energy of 0 is above the bound.
+      share: float
+          The share of the whole call that is done, from 0 to 1. It never falls.
+      stage: str
+          What the call works on: "solve", "field", "map", "quads" or "smooth".
     """
 
-    #: "progress", "log", "improved" or "raised"; later versions may add others.
     kind: str
-    #: "eliminate", "factor", "round", "untangle", "quads", or "" if the event is not progress.
     phase: str
-    #: The fraction of the phase that is done, from 0 to 1.
     fraction: float
-    #: A line of text, or an empty string.
     text: str
-    #: Seconds since the solve began.
     seconds: float
-    #: Energy of the best solution so far; infinite before the first.
     energy: float
-    #: The best lower bound so far; minus infinity before the first.
     lower_bound: float
-    #: (energy - lower_bound) / abs(energy): 0 where they are equal, and infinite while either is
-    #: infinite or an energy of 0 is above the bound.
     gap: float
-    #: The share of the whole call that is done, from 0 to 1. It never falls.
     share: float
-    #: What the call works on: "solve", "field", "map", "quads" or "smooth".
     stage: str
 
 

@@ -32,7 +32,7 @@ GUIDANCE = Group(
             "curvature",
             "Optional[tuple[float, float]]",
             None,
-            "constrain_curvature and curvature_weight in one.",
+            "constrain_curvature and curvature_weight, which see below, in one.",
         ),
         Keyword(
             "constraints",
@@ -58,8 +58,9 @@ GUIDANCE = Group(
             "guide_file",
             "Optional[File]",
             None,
-            "A text file of such requests, one a line, elements counted from 0: `direction FACE X Y Z "
-            "[WEIGHT]`, `edge VERTEX VERTEX`, `index VERTEX STEPS`.",
+            "A text file of what to follow, one request a line, elements counted from 0: `direction FACE X Y Z "
+            "[WEIGHT]` is a guide, or a constraint without a weight; `edge VERTEX VERTEX` is a feature; "
+            "`index VERTEX STEPS` is an irregular vertex.",
         ),
         *of_table(OPTIONS),
     ),

@@ -14,16 +14,30 @@ from .errors import OptionRangeError, OptionTypeError, UnknownOptionError, check
 
 @dataclass(frozen=True)
 class Option:
-    """One option of the library."""
+    """One option of the library.
+
+    >>> import roundel
+    >>> roundel.options()["gap"].type
+    <class 'float'>
+
+    Attributes:
+
+      name: str
+          Its name, which is that of the keyword.
+      type: type
+          int, float or str.
+      default: Union[int, float, str, None]
+          None where it has none.
+      range: str
+          The values allowed: an interval, or words with a bar between them.
+      text: str
+          Its description.
+    """
 
     name: str
-    #: int, float or str.
     type: type
-    #: None where it has none.
     default: Union[int, float, str, None]
-    #: The values allowed: an interval, or words with a bar between them.
     range: str
-    #: Its description.
     text: str
 
 

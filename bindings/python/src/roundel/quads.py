@@ -105,7 +105,7 @@ class Quads:
     def smooth(self, mesh: MeshLike, **keywords: Any) -> None:
         """Moves the vertices on `mesh` to make the quads more like squares of one size.
 
-        Of what the quads follow, features and the boundary count: vertices on them slide along them.
+        Vertices on features and on the boundary slide along them. The keywords say what is a feature.
 
         >>> import roundel
         >>> cube = roundel.Mesh.shape("rounded-cube", 600)
@@ -218,7 +218,7 @@ def extract(V: MeshLike, F: Optional[ArrayLike] = None, uvs: Optional[ArrayLike]
     return Quads(Handle.made("roundel_quads", lib.roundel_quads_extract_from_uvs, *arguments))
 
 
-_UNSAID = " None: {} or less, as several fields are tried (see vary_curvature); what is said holds."
+_UNSAID = " None: {} at first; fields with less are tried as well (see vary_curvature)."
 _CURVATURE = {"constrain_curvature": 0.005, "curvature_weight": 0.07}
 _DETAIL = (
     "Details smaller than this length attract no irregular vertices. None: a quarter of an edge of the quads."

@@ -25,67 +25,84 @@ class EditKind(IntEnum):
     >>> import roundel
     >>> roundel.EditKind.VERTEX_WELDED.name.lower()
     'vertex_welded'
+
+    Kinds, and what `element` and `other` of such an edit are, which count from 0:
+
+      VERTEX_NOT_FINITE = 0
+          A vertex with a coordinate that is no finite number was dropped. `element`: vertex.
+      POLYGON_NOT_FINITE = 1
+          A polygon with such a vertex was dropped. `element`: polygon; `other`: vertex that is not
+          finite.
+      POLYGON_OUT_OF_RANGE = 2
+          A polygon that names a vertex that is not there was dropped. `element`: polygon; `other`:
+          corner that names no vertex.
+      VERTEX_WELDED = 3
+          A vertex was welded to another one. `element`: vertex; `other`: vertex that stays.
+      CORNERS_REMOVED = 4
+          Corners of a polygon that repeat were removed. `element`: polygon; `other`: number of
+          corners removed.
+      POLYGON_DEGENERATE = 5
+          A polygon of fewer than three different corners was dropped. `element`: polygon.
+      POLYGON_TRIANGULATED = 6
+          A polygon of more than three corners was triangulated. `element`: polygon; `other`: number
+          of triangles.
+      DUPLICATE_DROPPED = 7
+          A triangle with the corners and the direction of an earlier one was dropped. `element`:
+          polygon; `other`: polygon that stays.
+      OPPOSITE_DROPPED = 8
+          A triangle that runs against one with the same corners was dropped. `element`: polygon;
+          `other`: polygon that it runs against.
+      EDGE_COLLAPSED = 9
+          A vertex of a triangle without area was merged with the vertex next to it. `element`:
+          vertex; `other`: vertex that stays.
+      CAP_FLIPPED = 10
+          A triangle with a vertex on its opposite edge gave way: the others at that edge were split
+          there. `element`: polygon; `other`: vertex on the edge.
+      SLIVER_DROPPED = 11
+          A triangle without area that could not be collapsed or flipped was dropped. `element`:
+          polygon.
+      POLYGON_TURNED = 12
+          A polygon was turned, so that it runs like its neighbors. `element`: polygon.
+      COMPONENT_TURNED = 13
+          A closed component in which polygons were turned was turned outwards as a whole.
+          `element`: lowest polygon of the component; `other`: number of triangles.
+      EDGE_CUT = 14
+          An edge was cut open: it had more than two faces, or its faces cannot run alike.
+          `element`: vertex at one end; `other`: vertex at the other end.
+      VERTEX_SPLIT = 15
+          A vertex became several, one for each fan of its faces. `element`: vertex; `other`: number
+          of vertices that it became.
+      EDGE_HALVED = 16
+          A second edge between the same vertices got a vertex in its middle. `element`: vertex at
+          one end; `other`: vertex at the other end.
+      VERTEX_UNUSED = 17
+          A vertex without faces was dropped. `element`: vertex.
+      COMPONENT_DROPPED = 18
+          A component below the share of the area that was asked for was dropped. `element`: lowest
+          polygon of the component; `other`: number of triangles.
+      HOLE_FILLED = 19
+          A hole was filled. `element`: a vertex on its rim; `other`: number of edges.
     """
 
-    #: A vertex with a coordinate that is no finite number was dropped.
-    #: Element: vertex.
     VERTEX_NOT_FINITE = 0
-    #: A polygon with such a vertex was dropped.
-    #: Element: polygon; other: vertex that is not finite.
     POLYGON_NOT_FINITE = 1
-    #: A polygon that names a vertex that is not there was dropped.
-    #: Element: polygon; other: corner that names no vertex.
     POLYGON_OUT_OF_RANGE = 2
-    #: A vertex was welded to another one.
-    #: Element: vertex; other: vertex that stays.
     VERTEX_WELDED = 3
-    #: Corners of a polygon that repeat were removed.
-    #: Element: polygon; other: number of corners removed.
     CORNERS_REMOVED = 4
-    #: A polygon of fewer than three different corners was dropped.
-    #: Element: polygon.
     POLYGON_DEGENERATE = 5
-    #: A polygon of more than three corners was triangulated.
-    #: Element: polygon; other: number of triangles.
     POLYGON_TRIANGULATED = 6
-    #: A triangle with the corners and the direction of an earlier one was dropped.
-    #: Element: polygon; other: polygon that stays.
     DUPLICATE_DROPPED = 7
-    #: A triangle that runs against one with the same corners was dropped.
-    #: Element: polygon; other: polygon that it runs against.
     OPPOSITE_DROPPED = 8
-    #: A vertex of a triangle without area was merged with the vertex next to it.
-    #: Element: vertex; other: vertex that stays.
     EDGE_COLLAPSED = 9
-    #: A triangle with a vertex on its opposite edge gave way: the others at that edge were split there.
-    #: Element: polygon; other: vertex on the edge.
     CAP_FLIPPED = 10
-    #: A triangle without area that could not be collapsed or flipped was dropped.
-    #: Element: polygon.
     SLIVER_DROPPED = 11
-    #: A polygon was turned, so that it runs like its neighbors.
-    #: Element: polygon.
     POLYGON_TURNED = 12
-    #: A closed component in which polygons were turned was turned outwards as a whole.
-    #: Element: lowest polygon of the component; other: number of triangles.
     COMPONENT_TURNED = 13
-    #: An edge was cut open: it had more than two faces, or its faces cannot run alike.
-    #: Element: vertex at one end; other: vertex at the other end.
     EDGE_CUT = 14
-    #: A vertex became several, one for each fan of its faces.
-    #: Element: vertex; other: number of vertices that it became.
     VERTEX_SPLIT = 15
-    #: A second edge between the same vertices got a vertex in its middle.
-    #: Element: vertex at one end; other: vertex at the other end.
     EDGE_HALVED = 16
-    #: A vertex without faces was dropped.
-    #: Element: vertex.
     VERTEX_UNUSED = 17
-    #: A component below the share of the area that was asked for was dropped.
-    #: Element: lowest polygon of the component; other: number of triangles.
     COMPONENT_DROPPED = 18
-    #: A hole was filled.
-    #: Element: a vertex on its rim; other: number of edges.
     HOLE_FILLED = 19
 
 

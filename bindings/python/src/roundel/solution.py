@@ -21,31 +21,49 @@ class Solution:
     >>> s = roundel.solve(A=[[1.0, 0.0], [1.0, -1.0]], b=[0.4, 0.0], integers=[1])
     >>> s.status, s.proved, round(s.energy, 12)
     ('optimal', True, 0.08)
+
+    Attributes:
+
+      values: np.ndarray
+          One value for each variable. Integers are exact, except after a relaxation.
+      energy: float
+          The objective at the values, recomputed from the original problem.
+      lower_bound: Optional[float]
+          A lower bound on the energy of all integer solutions, or None if there is no bound.
+      gap: Optional[float]
+          (energy - lower_bound) / abs(energy), or None if there is no bound. It is 0 where they are
+          equal, and infinite for an energy of 0 above the bound.
+      status: str
+          "optimal": proved; "feasible": a better solution may exist; "limit" and "cancelled": the
+          same, ended early by a limit that the caller set or by the caller; "relaxed": integers may
+          be fractions, as the strategy "relax" leaves them.
+      complete: bool
+          Whether the search has visited everything that could be better; always True without
+          integers.
+      stopped_by: str
+          Why the search ended before it was complete: "none", "nodes", "time", "memory", "cancel"
+          or "budget" (one of the library's own).
+      constraint_violation: float
+          The largest relative violation of a constraint.
+      integrality_violation: float
+          The largest distance of an integer variable from an integer.
+      counts: dict[str, int]
+          Sizes: "variables", "integers" and "constraints" of the problem, "reduced_integers" and
+          "reduced_continuous" after the constraints are eliminated, and "factor_nonzeros".
+      seconds: dict[str, float]
+          Wall-clock seconds by phase: eliminate, factor, round, total.
     """
 
-    #: One value for each variable. Integers are exact, except after a relaxation.
     values: np.ndarray
-    #: The objective at the values, recomputed from the original problem.
     energy: float
-    #: A lower bound on the energy of all integer solutions, or None if there is no bound.
     lower_bound: Optional[float]
-    #: (energy - lower_bound) / abs(energy), or None if there is no bound. It is 0 where they are equal,
-    #: and infinite for an energy of 0 above the bound.
     gap: Optional[float]
-    #: "optimal", "feasible", "limit", "cancelled" or "relaxed".
     status: str
-    #: Whether the search has visited everything that could be better; always True without integers.
     complete: bool
-    #: Why the search ended before it was complete: "none", "nodes", "time", "memory", "cancel" or
-    #: "budget" (one of the library's own).
     stopped_by: str
-    #: The largest relative violation of a constraint.
     constraint_violation: float
-    #: The largest distance of an integer variable from an integer.
     integrality_violation: float
-    #: Sizes before and after elimination: variables, integers, constraints, ...
     counts: dict[str, int]
-    #: Wall-clock seconds by phase: eliminate, factor, round, total.
     seconds: dict[str, float]
 
     def __repr__(self) -> str:

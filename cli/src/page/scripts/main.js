@@ -15,5 +15,6 @@ try {
 } catch (error) {
   element("failure").textContent = error.message;
   element("failure").hidden = false;
+  document.body.dataset.drawn = "no";
   throw error;
 }

@@ -11,7 +11,7 @@ class View {
     this.layers = {};
     this.isWireframe = false;
     const gl = canvas.getContext("webgl2", { antialias: true, alpha: true, preserveDrawingBuffer: true });
-    if (!gl) throw new Error("This browser has no WebGL 2: the mesh cannot be drawn, but all figures are below.");
+    if (!gl) throw new Error("The mesh cannot be drawn: this browser has no WebGL 2, or hardware acceleration is off. All figures are below.");
     this.gl = gl;
     this.shaders = {
       surface: build(gl, SURFACE), lines: build(gl, LINES), crosses: build(gl, CROSSES), balls: build(gl, BALLS),
@@ -191,7 +191,8 @@ class View {
   drawCrosses() {
     this.crosses ??= crossesBatch(this.gl, this.shaders.crosses, this.model);
     const { batch, finest, isTwoSided } = this.crosses;
-    const level = levelFor(APART / this.unitPixels);
+    // Nearer still, where every face has its cross, crosses grow with their faces.
+    const level = Math.min(levelFor(APART / this.unitPixels), finest);
     const extent = 0.37 * spacingOf(level);
     const isBare = this.ink() === COLOURS.chalk;
     batch.draw({
