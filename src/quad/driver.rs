@@ -8,7 +8,7 @@
 //! quads       are extracted from the map
 //! next try    while quads have holes or miss features: smaller quads on small parts that have lost
 //!             theirs; untangle the map; separate collapsed cones; do not separate feature curves;
-//!             use a field that sees fewer details
+//!             use a field that sees fewer details; smaller quads around folds
 //! smoothing
 //! ```
 //!
@@ -22,6 +22,7 @@ use std::time::Instant;
 use super::attempt::{Attempt, is_hopeless};
 use super::compare::compare;
 use super::field_map::FieldMap;
+use super::final_error::is_final;
 use super::missed::missed;
 use super::options::QuadOptions;
 use super::quadrangulation::timed;
@@ -47,6 +48,15 @@ const DETAILS: [f64; 3] = [0.25, 1.0, 2.0];
 /// The most passes over the mesh of all untangling together: a mesh where folds cannot be removed, as
 /// around holes smaller than a quad, takes no longer than a few that untangle.
 const PASSES: usize = 240;
+
+/// The most times that quads around folds are made smaller.
+const GRADINGS: usize = 4;
+
+/// The most passes over the mesh that untangling makes after that, each time.
+const PASSES_GRADED: usize = 30;
+
+/// Quads around folds are not made smaller if there are more than so many for each that was asked for.
+const MOST_QUADS: f64 = 2.0;
 
 /// Meshes of more faces have as many visits of faces in all, and so fewer passes.
 const FACES: usize = 20_000;
@@ -121,6 +131,8 @@ fn of_mesh<'a>(
         sizing: options.sizing.clone(),
         sizes: 0,
         details: 0,
+        gradings: 0,
+        current: 0,
         visits: most,
         features,
         monitor,
@@ -131,9 +143,12 @@ fn of_mesh<'a>(
     let mut best = driver.follow()?;
     let mut last = Try::SmallerQuads;
     while let Some(next) = driver.next(last, &best) {
-        let tried = optional(monitor, || driver.attempt(next, &best));
-        let Some(found) = tried? else {
-            break;
+        let found = match optional(monitor, || driver.attempt(next, &best)) {
+            Ok(None) => break,
+            Ok(Some(found)) => found,
+            Err(error) if is_final(&error) => return Err(error),
+            // The quads that there are remain.
+            Err(_) => None,
         };
         if let Some(found) = found
             && found.outcome < best.outcome
@@ -146,7 +161,7 @@ fn of_mesh<'a>(
 }
 
 /// The tries, in this order; untangling and the separation of cones follow again after each of the last
-/// two.
+/// three.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Try {
     /// Use smaller quads on parts of the mesh that have lost theirs.
@@ -159,6 +174,8 @@ enum Try {
     FeaturesAsRounded,
     /// Use another field, which sees fewer details, and its map.
     LessDetail,
+    /// Use smaller quads around the folds of the best map.
+    Graded,
 }
 
 /// The data that all tries share.
@@ -171,6 +188,10 @@ struct Driver<'a, M> {
     sizes: usize,
     /// The place in [`DETAILS`] of the next field.
     details: usize,
+    /// How often quads around folds were made smaller.
+    gradings: usize,
+    /// The field whose map is at hand.
+    current: usize,
     /// The faces that untangling may still visit.
     visits: usize,
     features: FeatureGraph,
@@ -184,11 +205,11 @@ struct Driver<'a, M> {
 impl<'a, 'm, M: Fn() -> Monitor<'m>> Driver<'a, M> {
     /// The next try, if there is one.
     fn next(&self, last: Try, best: &Attempt) -> Option<Try> {
-        let at_hand = self.fields.last()?;
+        let at_hand = self.fields.get(self.current)?;
         match last {
             _ if best.outcome.is_whole() => None,
             Try::SmallerQuads if self.smaller(best).is_some() => Some(Try::SmallerQuads),
-            Try::SmallerQuads | Try::LessDetail | Try::FeaturesAsRounded
+            Try::SmallerQuads | Try::LessDetail | Try::FeaturesAsRounded | Try::Graded
                 if self.options.untangle
                     && self.passes() > 0
                     && !at_hand.is_hopeless(self.mesh) =>
@@ -204,9 +225,23 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Driver<'a, M> {
                     && self.details + 1 < DETAILS.len()
                     && !best.outcome.conforms()
                     && !is_hopeless(self.mesh, &best.map.map);
-                may_see_less.then_some(Try::LessDetail)
+                match may_see_less && self.gradings == 0 {
+                    true => Some(Try::LessDetail),
+                    false => self.may_grade(best).then_some(Try::Graded),
+                }
             }
         }
+    }
+
+    /// Whether smaller quads around folds may help.
+    fn may_grade(&self, best: &Attempt) -> bool {
+        let edge = self.options.sizing.edge_length(self.mesh);
+        let asked = self.mesh.surface_area() / (edge * edge);
+        self.gradings < GRADINGS
+            && !best.outcome.conforms()
+            && best.map.faults() > 0
+            && best.quads.quads.len() as f64 <= MOST_QUADS * asked
+            && self.options.compare.is_empty()
     }
 
     /// The quads of a try, if it can be made.
@@ -242,6 +277,14 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Driver<'a, M> {
                 self.details += 1;
                 Some(self.follow()?)
             }
+            Try::Graded => {
+                self.gradings += 1;
+                self.current = best.field;
+                self.visits = self.visits.max(PASSES_GRADED * self.mesh.face_count());
+                self.enter(Stage::Map);
+                self.fields[best.field].grade(self.mesh, &best.map)?;
+                Some(self.as_solved()?)
+            }
         })
     }
 
@@ -256,6 +299,7 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Driver<'a, M> {
         let of_both = [&mut self.seconds.field, &mut self.seconds.map];
         let (features, monitor) = (&self.features, self.monitor);
         let next = FieldMap::new(mesh, &given, of_map, features, detail, monitor, of_both)?;
+        self.current = self.fields.len();
         self.fields.push(next);
         self.as_solved()
     }
@@ -282,7 +326,7 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Driver<'a, M> {
     fn quads(&mut self, (solution, map): (Solution, Untangled)) -> Result<Attempt> {
         self.visits = self.visits.saturating_sub(map.visited);
         self.enter(Stage::Quads);
-        let field = self.fields.len() - 1;
+        let field = self.current;
         let features: Vec<usize> = self.features.edges().collect();
         let monitor = (self.monitor)();
         Attempt::new(self.mesh, &features, field, solution, map, monitor)
@@ -292,10 +336,9 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Driver<'a, M> {
         (self.monitor)().run().enter(stage, 0, 1);
     }
 
-    /// The field that was followed last.
+    /// The field whose map is at hand.
     fn at_hand(&mut self) -> &mut FieldMap<'a, M> {
-        let last = self.fields.len() - 1;
-        &mut self.fields[last]
+        &mut self.fields[self.current]
     }
 
     /// Smooths the quads, and compares strategies if the options ask for it.
@@ -351,6 +394,7 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Driver<'a, M> {
             compared,
             seconds,
             refined: None,
+            apart: Vec::new(),
         })
     }
 }

@@ -14,7 +14,7 @@ use crate::mesh::features::FeatureGraph;
 use crate::monitor::{Monitor, Stage};
 use crate::search::{Options, Strategy};
 use crate::solve::Solution;
-use crate::untangle::{UntangleOptions, Untangled};
+use crate::untangle::{UntangleOptions, Untangled, grow_around};
 
 /// The most passes of untangling over the mesh if the quads conform and only miss features.
 const PASSES_FOR_FEATURES: usize = 10;
@@ -62,19 +62,7 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> FieldMap<'a, M> {
         let problem = Cow::Owned(chosen.problem);
         let mut maps = MapSolver::new(mesh, problem, chosen.solver, of_map_solve, monitor);
         monitor().run().enter(Stage::Map, 0, 1);
-        let (at_hand, features_as_rounded) = timed(of_map, || {
-            let first = maps.solve()?;
-            if is_hopeless(mesh, &first.map) {
-                return Ok((first, None));
-            }
-            Ok(match maps.separate_features(&first)?.better {
-                Some(apart) => (apart, Some(first)),
-                None => {
-                    maps.forget_separation();
-                    (first, None)
-                }
-            })
-        })?;
+        let (at_hand, features_as_rounded) = timed(of_map, || solved(mesh, &mut maps))?;
         Ok(FieldMap {
             options: chosen.options,
             field: chosen.field,
@@ -88,6 +76,15 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> FieldMap<'a, M> {
             },
             is_relaxed: of_map_solve.strategy == Strategy::Relax,
         })
+    }
+
+    /// Goes on to a map with smaller quads around the faults of one.
+    pub(super) fn grade(&mut self, mesh: &TriangleMesh, faulty: &Untangled) -> Result<()> {
+        let mut factors = vec![1.0; mesh.face_count()];
+        grow_around(mesh, self.maps.problem(), faulty, &mut factors);
+        self.maps.grade(&factors)?;
+        (self.at_hand, self.features_as_rounded) = solved(mesh, &mut self.maps)?;
+        Ok(())
     }
 
     /// Whether so much of the current map is folded that it is given up.
@@ -155,4 +152,22 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> FieldMap<'a, M> {
         let map = self.maps.untangle(&map, &self.within(passes))?;
         Ok(Some((solution, map)))
     }
+}
+
+/// A map with feature curves separated, and the one without where they differ.
+fn solved<'m, M: Fn() -> Monitor<'m>>(
+    mesh: &TriangleMesh,
+    maps: &mut MapSolver<'_, M>,
+) -> Result<(Solved, Option<Solved>)> {
+    let first = maps.solve()?;
+    if is_hopeless(mesh, &first.map) {
+        return Ok((first, None));
+    }
+    Ok(match maps.separate_features(&first)?.better {
+        Some(apart) => (apart, Some(first)),
+        None => {
+            maps.forget_separation();
+            (first, None)
+        }
+    })
 }

@@ -18,9 +18,14 @@ use crate::search::{Factors, Options, Search};
 /// Gauss-Seidel updates between two checks of the monitor.
 const UPDATES_AT_A_TIME: usize = 10_000;
 
+/// The most Gauss-Seidel updates of all passes, for each unknown. Meshes of tens of thousands of faces take
+/// a few; where many passes each move much of the problem, there would be no end.
+const UPDATES_PER_UNKNOWN: usize = 128;
+
 /// Rounds by passes.
 ///
-/// If it has to stop early, it offers the integers decided so far and rounds the others.
+/// If it has to stop early, or after [`UPDATES_PER_UNKNOWN`], it offers the integers decided so far and
+/// rounds the others.
 ///
 /// # Errors
 /// [`Error::OutOfMemory`](crate::Error::OutOfMemory), and the errors of [`Search::offer`].
@@ -46,12 +51,13 @@ pub(crate) fn adaptive(
         )?,
         fixed: vec![false; model.dim()],
         left: integers.len(),
+        updates: UPDATES_PER_UNKNOWN * model.dim(),
     };
     let mut candidates = Candidates::new(model.dim());
     for &i in integers {
         candidates.push(i, search.relaxed()[i as usize]);
     }
-    while passes.left > 0 {
+    while passes.left > 0 && passes.updates > 0 {
         let done = 1.0 - passes.left as f64 / integers.len() as f64;
         if search.monitor.ends_at(Phase::Round, done) {
             break;
@@ -78,6 +84,8 @@ struct Passes<'a> {
     solve: LocalSolve<'a>,
     fixed: Vec<bool>,
     left: usize,
+    /// The updates that are left.
+    updates: usize,
 }
 
 impl Passes<'_> {
@@ -101,7 +109,9 @@ impl Passes<'_> {
         let mut budget = options.gauss_seidel_updates;
         while budget > 0 && !self.solve.is_settled() {
             let tolerance = options.gauss_seidel_tolerance;
-            budget -= self.solve.relax(tolerance, budget.min(UPDATES_AT_A_TIME));
+            let made = self.solve.relax(tolerance, budget.min(UPDATES_AT_A_TIME));
+            budget -= made;
+            self.updates = self.updates.saturating_sub(made);
             if search.monitor.ends() {
                 return Ok(());
             }

@@ -1,0 +1,131 @@
+//! Tries after the first: a mesh whose quads are not good, by other options.
+
+use super::driver::by_options;
+use super::final_error::is_final;
+use super::rank::Rank;
+use super::{QuadOptions, Quadrangulation};
+use crate::error::Result;
+use crate::field::Guidance;
+use crate::mesh::TriangleMesh;
+use crate::monitor::{Monitor, optional};
+
+/// The angle of edges that become features where quads without features lose the surface: 40 degrees.
+const SHARP: f64 = 40.0 * std::f64::consts::PI / 180.0;
+
+/// Larger meshes are tried once.
+const MOST_FACES: usize = 50_000;
+
+/// The faces that the tries of components may have together.
+const FACES_APART: usize = 60_000;
+
+/// What tries share.
+pub(super) struct Tries<'a, M> {
+    /// The distance from quads at which a point of the surface is lost.
+    pub(super) far: f64,
+    pub(super) monitor: &'a M,
+    /// The faces that tries of components may still have.
+    left: usize,
+    /// Whether the caller wants what there is.
+    has_ended: bool,
+}
+
+impl<'a, 'm, M: Fn() -> Monitor<'m>> Tries<'a, M> {
+    pub(super) fn new(far: f64, monitor: &'a M) -> Self {
+        Tries {
+            far,
+            monitor,
+            left: FACES_APART,
+            has_ended: false,
+        }
+    }
+
+    /// Whether there is work left for a component.
+    pub(super) fn may_take(&self, part: &TriangleMesh) -> bool {
+        !self.has_ended && part.face_count() <= self.left
+    }
+
+    /// One try, which takes half of what is left of the run. `None` if the caller wants what there is, or if
+    /// an error ends the call.
+    pub(super) fn one(
+        &mut self,
+        mesh: &TriangleMesh,
+        options: &QuadOptions,
+    ) -> Option<Result<Quadrangulation>> {
+        let (run, monitor) = ((self.monitor)().run(), self.monitor);
+        let half = [0.0, 0.5].map(|part| run.share() + part * (1.0 - run.share()));
+        let found = optional(monitor, || {
+            run.with_share(half, || by_options(mesh, options, monitor))
+        });
+        let faces = match &found {
+            Ok(Some(made)) => made.mesh(mesh).face_count(),
+            _ => mesh.face_count(),
+        };
+        self.left = self.left.saturating_sub(faces);
+        match found.transpose() {
+            Some(Err(error)) if is_final(&error) => {
+                self.has_ended = true;
+                None
+            }
+            found => {
+                self.has_ended = found.is_none();
+                found
+            }
+        }
+    }
+
+    /// The first of the best results: the first try, and those with sharp edges as features, and with the
+    /// mesh as it is, while none is good.
+    pub(super) fn others(
+        &mut self,
+        mesh: &TriangleMesh,
+        options: &QuadOptions,
+        first: Result<Quadrangulation>,
+    ) -> Result<Quadrangulation> {
+        let mut rank = Rank::of(mesh, options, self.far, &first);
+        let mut best = first;
+        if mesh.face_count() > MOST_FACES {
+            return best;
+        }
+        for other in others(mesh, options) {
+            if rank.is_good() || self.has_ended {
+                break;
+            }
+            let Some(found) = self.one(mesh, &other) else {
+                break;
+            };
+            let found_rank = Rank::of(mesh, options, self.far, &found);
+            if found_rank < rank {
+                (best, rank) = (found, found_rank);
+            }
+        }
+        best
+    }
+}
+
+/// What else to try: sharp edges as features, and the mesh as it is.
+fn others(mesh: &TriangleMesh, options: &QuadOptions) -> Vec<QuadOptions> {
+    let mut others = Vec::new();
+    if !has_features(mesh, &options.guidance) {
+        let guidance = Guidance {
+            feature_angle: Some(SHARP),
+            ..options.guidance.clone()
+        };
+        others.push(QuadOptions {
+            guidance,
+            ..options.clone()
+        });
+    }
+    if options.refine {
+        others.push(QuadOptions {
+            refine: false,
+            ..options.clone()
+        });
+    }
+    others
+}
+
+/// Whether the caller says which edges are features; those of the boundary do not count.
+fn has_features(mesh: &TriangleMesh, guidance: &Guidance) -> bool {
+    let is_inner = |&edge: &usize| mesh.edge(edge).second.is_some();
+    guidance.feature_angle.is_some() || guidance.feature_edges.iter().any(is_inner)
+}
