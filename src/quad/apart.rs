@@ -9,59 +9,113 @@ use super::part::Part;
 use super::rank::Rank;
 use super::tries::Tries;
 use super::{QuadOptions, QuadSeconds, Quadrangulation};
+use crate::extract::QuadMesh;
 use crate::mesh::TriangleMesh;
 use crate::monitor::Monitor;
 
-/// Tries the components whose quads are not good, those of the fewest faces first, and keeps what is better.
-pub(super) fn apart<'a, M: Fn() -> Monitor<'a>>(
+/// Tries the components whose quads do not conform, those of the fewest faces first, and then, if the surface
+/// is not covered, those that do not cover theirs. What is better is kept.
+pub(super) fn apart<'m, M: Fn() -> Monitor<'m>>(
     tries: &mut Tries<'_, M>,
     mesh: &TriangleMesh,
     options: &QuadOptions,
     components: &Components,
-    mut made: Quadrangulation,
+    made: Quadrangulation,
 ) -> Quadrangulation {
-    let mut quads = components.split(mesh, &made.quads);
     let faces = components.faces();
     let mut order: Vec<usize> = (0..components.count).collect();
     order.sort_by_key(|&c| faces[c].len());
-    let is_refined = made.refined.is_some();
-    let mut replaced = Vec::new();
-    for c in order {
-        let Ok(part) = Part::new(mesh, faces[c].clone()) else {
-            continue;
+    let mut apart = Apart {
+        mesh,
+        options,
+        components,
+        faces,
+        quads: components.split(mesh, &made.quads),
+        replaced: Vec::new(),
+        made,
+    };
+    for &c in &order {
+        if !apart.quads[c].is_conforming() {
+            apart.take(tries, c);
+        }
+    }
+    let joined = join(apart.quads.clone());
+    let is_refined = apart.made.refined.is_some();
+    if !Rank::of_quads(mesh, options, tries.far, &joined, is_refined).is_good() {
+        for &c in &order {
+            if apart.quads[c].is_conforming() {
+                apart.take(tries, c);
+            }
+        }
+    }
+    apart.finish()
+}
+
+/// The quads of all components so far.
+struct Apart<'a> {
+    mesh: &'a TriangleMesh,
+    options: &'a QuadOptions,
+    components: &'a Components,
+    /// The faces of each component.
+    faces: Vec<Vec<usize>>,
+    /// The quads of each component.
+    quads: Vec<QuadMesh>,
+    /// The components whose quads are their own.
+    replaced: Vec<usize>,
+    made: Quadrangulation,
+}
+
+impl Apart<'_> {
+    /// Tries a component if its quads are not good, and keeps what is better.
+    fn take<'m, M: Fn() -> Monitor<'m>>(&mut self, tries: &mut Tries<'_, M>, c: usize) {
+        let (mesh, is_refined) = (self.mesh, self.made.refined.is_some());
+        let Ok(part) = Part::new(mesh, self.faces[c].clone()) else {
+            return;
         };
-        let given = part.options(mesh, options);
-        let rank = Rank::of_quads(&part.mesh, &given, tries.far, &quads[c], is_refined);
+        let given = part.options(mesh, self.options);
+        let rank = Rank::of_quads(&part.mesh, &given, tries.far, &self.quads[c], is_refined);
         if rank.is_good() || !tries.may_take(&part.mesh) {
-            continue;
+            return;
         }
         let Some(first) = tries.one(&part.mesh, &given) else {
-            break;
+            return;
         };
         let found = tries.others(&part.mesh, &given, first);
-        if Rank::of(&part.mesh, &given, tries.far, &found) < rank
-            && let Ok(found) = found
+        let found_rank = Rank::of(&part.mesh, &given, tries.far, &found);
+        if let Ok(found) = found
+            && found_rank < rank
         {
-            made.seconds = sum(made.seconds, found.seconds);
-            made.features
-                .extend(part.edges_of_whole(mesh, &found.features));
-            let is_elsewhere = |edge: &usize| components.of_face[mesh.edge(*edge).first.0] != c;
-            made.missed_features.retain(is_elsewhere);
-            let missed = part.edges_of_whole(mesh, &found.missed_features);
-            made.missed_features.extend(missed);
-            quads[c] = part.on_whole(found.quads);
-            replaced.extend(&faces[c]);
+            self.keep(c, &part, found);
         }
     }
-    if !replaced.is_empty() {
-        replaced.sort_unstable();
-        made.quads = join(quads);
-        made.features.sort_unstable();
-        made.features.dedup();
-        made.missed_features.sort_unstable();
-        made.apart = replaced;
+
+    /// Keeps the quads that a component has alone.
+    fn keep(&mut self, c: usize, part: &Part, found: Quadrangulation) {
+        let (mesh, of_face, made) = (self.mesh, &self.components.of_face, &mut self.made);
+        let is_elsewhere = |edge: &usize| of_face[mesh.edge(*edge).first.0] != c;
+        for (all, own) in [
+            (&mut made.features, &found.features),
+            (&mut made.missed_features, &found.missed_features),
+        ] {
+            all.retain(is_elsewhere);
+            all.extend(part.edges_of_whole(mesh, own));
+            all.sort_unstable();
+        }
+        made.seconds = sum(made.seconds, found.seconds);
+        self.quads[c] = part.on_whole(found.quads);
+        self.replaced.push(c);
     }
-    made
+
+    /// All quads as one mesh.
+    fn finish(mut self) -> Quadrangulation {
+        if !self.replaced.is_empty() {
+            let own = self.replaced.iter().flat_map(|&c| &self.faces[c]);
+            self.made.apart = own.copied().collect();
+            self.made.apart.sort_unstable();
+            self.made.quads = join(self.quads);
+        }
+        self.made
+    }
 }
 
 fn sum(a: QuadSeconds, b: QuadSeconds) -> QuadSeconds {
