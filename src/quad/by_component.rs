@@ -120,7 +120,9 @@ pub(super) fn join(parts: Vec<QuadMesh>) -> QuadMesh {
         whole.vertices.extend(part.vertices);
         whole.origins.extend(part.origins);
         let quads = part.quads.into_iter();
-        whole.quads.extend(quads.map(|quad| quad.map(|v| v + first)));
+        whole
+            .quads
+            .extend(quads.map(|quad| quad.map(|v| v + first)));
         let others = part.others.into_iter();
         let moved = |polygon: Vec<u32>| polygon.into_iter().map(|v| v + first).collect();
         whole.others.extend(others.map(moved));
@@ -133,4 +135,42 @@ pub(super) fn join(parts: Vec<QuadMesh>) -> QuadMesh {
     whole.folded.sort_unstable();
     whole.folded.dedup();
     whole
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::quadrangulate;
+    use super::*;
+    use crate::mesh::shape::by_name;
+    use crate::monitor::Monitor;
+    use crate::quad::QuadOptions;
+
+    /// A torus, and a cube beside it.
+    fn two() -> TriangleMesh {
+        let [torus, cube] = ["torus", "rounded-cube"].map(|name| by_name(name, 600).unwrap());
+        let first = torus.vertex_count() as u32;
+        let mut points = torus.vertices().to_vec();
+        points.extend(cube.vertices().iter().map(|p| [p[0] + 9.0, p[1], p[2]]));
+        let mut triangles = torus.triangles().to_vec();
+        triangles.extend(cube.triangles().iter().map(|t| t.map(|v| v + first)));
+        TriangleMesh::new(points, triangles).unwrap()
+    }
+
+    #[test]
+    fn quads_that_are_split_conform_apart_and_joined() {
+        let mesh = two();
+        let made = quadrangulate(&mesh, &QuadOptions::default(), Monitor::default).unwrap();
+        let components = Components::new(&mesh);
+        let parts = components.split(&mesh, &made.quads);
+        assert_eq!(
+            parts.iter().map(|p| p.expected_euler).collect::<Vec<_>>(),
+            [0, 2]
+        );
+        assert!(parts.iter().all(QuadMesh::is_conforming));
+        let joined = join(parts);
+        assert!(joined.is_conforming());
+        assert_eq!(joined.quads.len(), made.quads.quads.len());
+        assert_eq!(joined.figures(), made.quads.figures());
+        assert_eq!(joined.repaired, made.quads.repaired);
+    }
 }

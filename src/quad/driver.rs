@@ -53,13 +53,33 @@ const PASSES: usize = 240;
 const GRADINGS: usize = 4;
 
 /// The most passes over the mesh that untangling makes after that, each time.
-const PASSES_GRADED: usize = 30;
+const PASSES_GRADED: usize = 12;
 
 /// Quads around folds are not made smaller if there are more than so many for each that was asked for.
-const MOST_QUADS: f64 = 2.0;
+const MOST_QUADS: f64 = 4.0;
+
+/// Of more folds than one in so many faces, untangling seldom leaves none: quads around them are made smaller
+/// first.
+const TANGLED_PART: usize = 20;
 
 /// Meshes of more faces have as many visits of faces in all, and so fewer passes.
-const FACES: usize = 20_000;
+const FACES: usize = 10_000;
+
+/// The same for a mesh that was tried before.
+const FACES_AGAIN: usize = 4_000;
+
+/// How much is tried.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Effort {
+    /// All of it.
+    Full,
+    /// The mesh has several components. Those whose quads do not conform are tried alone, so that only
+    /// smaller quads are tried here.
+    OfSeveral,
+    /// The mesh, or all of which it is a component, was tried before: untangling makes fewer passes, and
+    /// integers are not decided anew for features alone.
+    Again,
+}
 
 /// The quads by one set of options: [`quadrangulate`](super::quadrangulate()) tells what is tried.
 ///
@@ -68,6 +88,7 @@ const FACES: usize = 20_000;
 pub(super) fn by_options<'a>(
     mesh: &TriangleMesh,
     options: &QuadOptions,
+    effort: Effort,
     monitor: &impl Fn() -> Monitor<'a>,
 ) -> Result<Quadrangulation> {
     options.sizing.check(mesh)?;
@@ -75,7 +96,7 @@ pub(super) fn by_options<'a>(
     let mut seconds = 0.0;
     let input = timed(&mut seconds, || refined(mesh, &features, options))?;
     let Some(input) = input else {
-        return of_mesh(mesh, features, options, monitor);
+        return of_mesh(mesh, features, options, effort, monitor);
     };
     let smooth = match &options.smooth {
         Some(given) => {
@@ -93,7 +114,8 @@ pub(super) fn by_options<'a>(
         smooth,
         ..options.clone()
     };
-    let mut made = of_mesh(&input.refined.mesh, input.features.clone(), &given, monitor)?;
+    let features = input.features.clone();
+    let mut made = of_mesh(&input.refined.mesh, features, &given, effort, monitor)?;
     made.seconds.refine = seconds;
     Ok(input.result_for(mesh, made))
 }
@@ -120,14 +142,20 @@ fn of_mesh<'a>(
     mesh: &TriangleMesh,
     features: FeatureGraph,
     options: &QuadOptions,
+    effort: Effort,
     monitor: &impl Fn() -> Monitor<'a>,
 ) -> Result<Quadrangulation> {
     let features = features.with_two_of_each_face(mesh);
     monitor().run().plan(stage_ends(mesh, options));
-    let most = PASSES * mesh.face_count().min(FACES);
+    let faces = match effort {
+        Effort::Again => FACES_AGAIN,
+        Effort::Full | Effort::OfSeveral => FACES,
+    };
+    let most = PASSES * mesh.face_count().min(faces);
     let mut driver = Driver {
         mesh,
         options,
+        effort,
         sizing: options.sizing.clone(),
         sizes: 0,
         details: 0,
@@ -182,6 +210,7 @@ enum Try {
 struct Driver<'a, M> {
     mesh: &'a TriangleMesh,
     options: &'a QuadOptions,
+    effort: Effort,
     /// The current size of the quads.
     sizing: Sizing,
     /// How often it was changed.
@@ -209,6 +238,10 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Driver<'a, M> {
         match last {
             _ if best.outcome.is_whole() => None,
             Try::SmallerQuads if self.smaller(best).is_some() => Some(Try::SmallerQuads),
+            _ if self.effort == Effort::OfSeveral && !best.outcome.conforms() => None,
+            Try::SmallerQuads | Try::Graded if self.is_tangled(best) && self.may_grade(best) => {
+                Some(Try::Graded)
+            }
             Try::SmallerQuads | Try::LessDetail | Try::FeaturesAsRounded | Try::Graded
                 if self.options.untangle
                     && self.passes() > 0
@@ -216,7 +249,11 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Driver<'a, M> {
             {
                 Some(Try::Untangled)
             }
-            Try::Untangled if self.passes() > 0 && at_hand.may_decide_anew() => {
+            Try::Untangled
+                if self.passes() > 0
+                    && at_hand.may_decide_anew()
+                    && !(self.effort == Effort::Again && best.outcome.conforms()) =>
+            {
                 Some(Try::ConesApart)
             }
             _ if at_hand.holds_features_apart() => Some(Try::FeaturesAsRounded),
@@ -231,6 +268,11 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Driver<'a, M> {
                 }
             }
         }
+    }
+
+    /// Whether the best map has so many folds that untangling has to wait.
+    fn is_tangled(&self, best: &Attempt) -> bool {
+        TANGLED_PART * best.map.flipped_after > self.mesh.face_count()
     }
 
     /// Whether smaller quads around folds may help.

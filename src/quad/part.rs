@@ -140,3 +140,73 @@ impl Part {
         quads
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::field::Constraint;
+    use crate::mesh::shape::by_name;
+
+    /// Two tetrahedra, whose faces alternate.
+    fn two() -> TriangleMesh {
+        let tetrahedron = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
+        let corners = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        let points = [0.0, 5.0].map(|x| corners.map(|p: [f64; 3]| [p[0] + x, p[1], p[2]]));
+        let both = tetrahedron.map(|t: [u32; 3]| [t, t.map(|v| v + 4)]);
+        TriangleMesh::new(points.concat(), both.concat()).unwrap()
+    }
+
+    #[test]
+    fn what_is_given_for_elements_is_given_for_those_of_the_part() {
+        let mesh = two();
+        let part = Part::new(&mesh, vec![1, 3, 5, 7]).unwrap();
+        assert_eq!(part.vertices, [4, 5, 6, 7]);
+        let of = |face: usize| Constraint { face, angle: 0.5 };
+        let edges: Vec<usize> = (0..mesh.edge_count()).collect();
+        let options = QuadOptions {
+            sizing: Sizing::Lengths((0..8).map(|f| [1.0 + f as f64; 2]).collect()),
+            guidance: Guidance {
+                constraints: vec![of(2), of(5)],
+                feature_lines: vec![[0, 1], [5, 4]],
+                feature_edges: edges.clone(),
+                indices: Some(vec![PrescribedIndex {
+                    vertex: 6,
+                    steps: 1,
+                }]),
+                ..Guidance::default()
+            },
+            ..QuadOptions::default()
+        };
+        let own = part.options(&mesh, &options);
+        assert_eq!(
+            own.sizing,
+            Sizing::Lengths([2.0, 4.0, 6.0, 8.0].map(|l| [l; 2]).to_vec())
+        );
+        assert_eq!(own.guidance.constraints, [of(2)]);
+        assert_eq!(own.guidance.feature_lines, [[1, 0]]);
+        assert_eq!(own.guidance.indices.unwrap()[0].vertex, 2);
+        let mut features = own.guidance.feature_edges;
+        assert_eq!(features.len(), 6);
+        features.sort_unstable();
+        let back: Vec<usize> = part.edges_of_whole(&mesh, &features).collect();
+        assert!(
+            back.iter()
+                .all(|&e| mesh.edge(e).vertices.iter().all(|&v| v >= 4))
+        );
+    }
+
+    #[test]
+    fn a_part_has_room_for_a_few_quads() {
+        let mesh = two();
+        let part = Part::new(&mesh, vec![0, 2, 4, 6]).unwrap();
+        let options = QuadOptions {
+            sizing: Sizing::Quads(4),
+            ..QuadOptions::default()
+        };
+        assert_eq!(part.options(&mesh, &options).sizing, Sizing::Quads(8));
+        let large = by_name("sphere", 200).unwrap();
+        let all = Part::new(&large, (0..large.face_count()).collect()).unwrap();
+        let options = QuadOptions::default();
+        assert_eq!(all.options(&large, &options).sizing, Sizing::Quads(1000));
+    }
+}

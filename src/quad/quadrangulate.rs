@@ -1,10 +1,10 @@
-//! From a mesh to quads: [`quadrangulate`], by the options, and once more by others where they lose the
-//! surface.
+//! From a mesh to quads: [`quadrangulate`], by the options, and again, by others or a component at a time,
+//! where they do not conform or lose the surface.
 
 use super::apart::apart;
 use super::by_component::Components;
 use super::coverage::far;
-use super::driver::by_options;
+use super::driver::{Effort, by_options};
 use super::final_error::is_final;
 use super::rank::Rank;
 use super::tries::Tries;
@@ -26,9 +26,17 @@ const FIRST: f64 = 0.97;
 /// mesh that are lost get smaller quads, and so does a mesh without any quads
 /// ([`Sizing::Lengths`](crate::map::Sizing::Lengths)).
 ///
+/// Where quads still do not conform, those around the folds of the map are made smaller, at most four times,
+/// until there are more than four for each that was asked for. Where more than one triangle in twenty is folded,
+/// that is tried before untangling.
+///
 /// If a mesh that had to be refined, or whose quads do not conform, is still not covered by quads that conform,
 /// it is tried once more with its sharp edges as features, if the options give no angle, and once more
-/// without refinement. The first of the best results is kept.
+/// without refinement. The first of the best results is kept. Of a mesh of several components, only those
+/// are tried again whose quads do not conform, and then, if the surface is not covered, those that do not cover
+/// theirs: each alone, as it is and in these two ways, and their quads replace those of the first try if
+/// they are better. These tries have 100,000 triangles in all.
+/// [`Quadrangulation::apart`] names the triangles of components that have quads of their own.
 ///
 /// A caller who [finishes](crate::Flow::Finish) the run after the field's first solution gets the quads of the
 /// best integers so far: nothing above is tried any more, and smoothing ends.
@@ -45,7 +53,12 @@ pub fn quadrangulate<'a>(
 ) -> Result<Quadrangulation> {
     let run = monitor().run();
     let monitor = || monitor().of_run(&run);
-    let first = run.with_share([0.0, FIRST], || by_options(mesh, options, &monitor));
+    let components = Components::new(mesh);
+    let effort = match components.count {
+        1 => Effort::Full,
+        _ => Effort::OfSeveral,
+    };
+    let first = run.with_share([0.0, FIRST], || by_options(mesh, options, effort, &monitor));
     let mut best = match first {
         Err(error) if is_final(&error) => return Err(error),
         first => first,
@@ -53,7 +66,6 @@ pub fn quadrangulate<'a>(
     let far = far(mesh);
     if !Rank::of(mesh, options, far, &best).is_good() {
         let mut tries = Tries::new(far, &monitor);
-        let components = Components::new(mesh);
         if best.is_err() || components.count == 1 {
             best = tries.others(mesh, options, best);
         }

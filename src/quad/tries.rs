@@ -1,10 +1,9 @@
 //! Tries after the first: a mesh whose quads are not good, by other options.
 
-use super::driver::by_options;
-use super::final_error::is_final;
+use super::driver::{Effort, by_options};
 use super::rank::Rank;
 use super::{QuadOptions, Quadrangulation};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::field::Guidance;
 use crate::mesh::TriangleMesh;
 use crate::monitor::{Monitor, optional};
@@ -16,7 +15,7 @@ const SHARP: f64 = 40.0 * std::f64::consts::PI / 180.0;
 const MOST_FACES: usize = 50_000;
 
 /// The faces that the tries of components may have together.
-const FACES_APART: usize = 60_000;
+const FACES_APART: usize = 100_000;
 
 /// What tries share.
 pub(super) struct Tries<'a, M> {
@@ -45,7 +44,7 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Tries<'a, M> {
     }
 
     /// One try, which takes half of what is left of the run. `None` if the caller wants what there is, or if
-    /// an error ends the call.
+    /// the call is stopped.
     pub(super) fn one(
         &mut self,
         mesh: &TriangleMesh,
@@ -54,7 +53,7 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Tries<'a, M> {
         let (run, monitor) = ((self.monitor)().run(), self.monitor);
         let half = [0.0, 0.5].map(|part| run.share() + part * (1.0 - run.share()));
         let found = optional(monitor, || {
-            run.with_share(half, || by_options(mesh, options, monitor))
+            run.with_share(half, || by_options(mesh, options, Effort::Again, monitor))
         });
         let faces = match &found {
             Ok(Some(made)) => made.mesh(mesh).face_count(),
@@ -62,7 +61,7 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Tries<'a, M> {
         };
         self.left = self.left.saturating_sub(faces);
         match found.transpose() {
-            Some(Err(error)) if is_final(&error) => {
+            Some(Err(Error::Cancelled | Error::TimeLimit | Error::OutOfMemory { .. })) => {
                 self.has_ended = true;
                 None
             }

@@ -314,5 +314,9 @@ fn a_polygon_that_runs_several_times_round_is_taken_once() {
     let repaired = by_default(&soup);
     assert_eq!(repaired.triangles.len(), 2);
     let removed = edit(EditKind::CornersRemoved, 0, Some(16));
-    assert!(repaired.edits.list().contains(&removed), "{:?}", repaired.edits);
+    assert!(
+        repaired.edits.list().contains(&removed),
+        "{:?}",
+        repaired.edits
+    );
 }

@@ -93,7 +93,8 @@ fn close(corners: &mut Vec<[u32; 2]>) {
 /// Of a polygon that runs several times round the same corners, once.
 fn once_round(corners: &mut Vec<[u32; 2]>) {
     let n = corners.len();
-    let repeats = |p: usize| n.is_multiple_of(p) && (p..n).all(|i| corners[i][0] == corners[i - p][0]);
+    let repeats =
+        |p: usize| n.is_multiple_of(p) && (p..n).all(|i| corners[i][0] == corners[i - p][0]);
     if let Some(period) = (3..=n / 2).find(|&p| repeats(p)) {
         corners.truncate(period);
     }
