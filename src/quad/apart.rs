@@ -81,7 +81,7 @@ impl Apart<'_> {
             return;
         };
         let found = tries.others(&part.mesh, &given, first);
-        let found_rank = Rank::of(&part.mesh, &given, tries.far, &found);
+        let found_rank = Rank::of(&part.mesh, &given, tries.far, &found, is_refined);
         if let Ok(found) = found
             && found_rank < rank
         {

@@ -1,4 +1,4 @@
-//! Whether quads cover the surface that they are to replace.
+//! How much quads lose of the surface that they are to replace.
 //!
 //! Quads much larger than a solid's details cut off its edges and corners. Where that loses more than a small
 //! part of the surface, quads along its sharp edges may do better.
@@ -17,7 +17,7 @@ pub(super) fn far(mesh: &TriangleMesh) -> f64 {
 }
 
 /// The part of the surface that may be lost.
-const LOST: f64 = 0.01;
+pub(super) const LOST: f64 = 0.01;
 
 /// The number of points that stand for the surface.
 const POINTS: f64 = 4000.0;
@@ -26,8 +26,8 @@ const POINTS: f64 = 4000.0;
 /// the plastic number and of its square.
 const EVENLY: [f64; 2] = [0.754_877_666_246_692_8, 0.569_840_290_998_053_3];
 
-/// Whether at most [`LOST`] of the surface is farther than this from the quads.
-pub(super) fn covers(quads: &QuadMesh, mesh: &TriangleMesh, far: f64) -> bool {
+/// The part of the surface that is farther than this from the quads.
+pub(super) fn lost(quads: &QuadMesh, mesh: &TriangleMesh, far: f64) -> f64 {
     let at = |v: u32| quads.vertices[v as usize];
     let triangles = quads.faces().flat_map(|face| {
         let fan = face.windows(2).skip(1);
@@ -47,7 +47,7 @@ pub(super) fn covers(quads: &QuadMesh, mesh: &TriangleMesh, far: f64) -> bool {
             lost += usize::from(is_lost);
         }
     }
-    lost as f64 <= LOST * count as f64
+    lost as f64 / count.max(1) as f64
 }
 
 /// The point of a triangle that belongs to a number: even over all numbers.
@@ -78,11 +78,11 @@ mod tests {
             folded: Vec::new(),
             expected_euler: 2,
         };
-        assert!(covers(&whole, &mesh, far(&mesh)));
+        assert_eq!(lost(&whole, &mesh, far(&mesh)), 0.0);
         let half = QuadMesh {
             others: whole.others[..mesh.face_count() / 2].to_vec(),
             ..whole
         };
-        assert!(!covers(&half, &mesh, far(&mesh)));
+        assert!(lost(&half, &mesh, far(&mesh)) > 0.3);
     }
 }

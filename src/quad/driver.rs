@@ -38,7 +38,7 @@ use crate::mesh::features::FeatureGraph;
 use crate::monitor::{Monitor, Stage, optional};
 use crate::smooth::{SmoothOptions, smooth};
 use crate::solve::Solution;
-use crate::untangle::Untangled;
+use crate::untangle::{FINER, Untangled};
 
 /// The default size of details, as a part of a quad's edge, try after try: smaller details attract no
 /// irregular vertices. Extraction copes with folds, and quads are more even where details have irregular
@@ -51,6 +51,10 @@ const PASSES: usize = 240;
 
 /// The most times that quads around folds are made smaller.
 const GRADINGS: usize = 4;
+
+/// The length of the longest boundary loop around which quads are made smaller as well, in edges of quads
+/// around it: the quads at a hole may close it where it is shorter.
+const SMALL_HOLE: f64 = 8.0;
 
 /// The most passes over the mesh that untangling makes after that, each time.
 const PASSES_GRADED: usize = 12;
@@ -281,7 +285,6 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Driver<'a, M> {
         let asked = self.mesh.surface_area() / (edge * edge);
         self.gradings < GRADINGS
             && !best.outcome.conforms()
-            && best.map.faults() > 0
             && best.quads.quads.len() as f64 <= MOST_QUADS * asked
             && self.options.compare.is_empty()
     }
@@ -324,8 +327,13 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Driver<'a, M> {
                 self.current = best.field;
                 self.visits = self.visits.max(PASSES_GRADED * self.mesh.face_count());
                 self.enter(Stage::Map);
-                self.fields[best.field].grade(self.mesh, &best.map)?;
-                Some(self.as_solved()?)
+                let edge =
+                    self.sizing.edge_length(self.mesh) / FINER.powi(self.gradings as i32 - 1);
+                let at_hand = &mut self.fields[best.field];
+                match at_hand.grade(self.mesh, &best.map, SMALL_HOLE * edge)? {
+                    true => Some(self.as_solved()?),
+                    false => None,
+                }
             }
         })
     }

@@ -14,7 +14,7 @@ use crate::mesh::features::FeatureGraph;
 use crate::monitor::{Monitor, Stage};
 use crate::search::{Options, Strategy};
 use crate::solve::Solution;
-use crate::untangle::{UntangleOptions, Untangled, grow_around};
+use crate::untangle::{UntangleOptions, Untangled, faulty, grow_around};
 
 /// The most passes of untangling over the mesh if the quads conform and only miss features.
 const PASSES_FOR_FEATURES: usize = 10;
@@ -78,13 +78,23 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> FieldMap<'a, M> {
         })
     }
 
-    /// Goes on to a map with smaller quads around the faults of one.
-    pub(super) fn grade(&mut self, mesh: &TriangleMesh, faulty: &Untangled) -> Result<()> {
+    /// Goes on to a map with smaller quads around the faults of one, and around the boundary loops that are
+    /// not longer than this; `false` if there are neither.
+    pub(super) fn grade(
+        &mut self,
+        mesh: &TriangleMesh,
+        faulty_map: &Untangled,
+        longest: f64,
+    ) -> Result<bool> {
+        let faults = faulty(mesh, faulty_map).chain(small_holes(mesh, longest));
         let mut factors = vec![1.0; mesh.face_count()];
-        grow_around(mesh, self.maps.problem(), faulty, &mut factors);
+        grow_around(mesh, self.maps.problem(), faults, &mut factors);
+        if factors.iter().all(|&factor| factor == 1.0) {
+            return Ok(false);
+        }
         self.maps.grade(&factors)?;
         (self.at_hand, self.features_as_rounded) = solved(mesh, &mut self.maps)?;
-        Ok(())
+        Ok(true)
     }
 
     /// Whether so much of the current map is folded that it is given up.
@@ -170,4 +180,15 @@ fn solved<'m, M: Fn() -> Monitor<'m>>(
             (first, None)
         }
     })
+}
+
+/// The vertices of boundary loops that are not longer than this.
+fn small_holes(mesh: &TriangleMesh, longest: f64) -> impl Iterator<Item = usize> {
+    let is_small = |sides: &Vec<(usize, usize)>| {
+        let length: f64 = sides.iter().map(|&(f, k)| mesh.edge_length(f, k)).sum();
+        length <= longest
+    };
+    let loops = mesh.boundary_loops().into_iter().filter(is_small);
+    let small: Vec<(usize, usize)> = loops.flatten().collect();
+    small.into_iter().map(|(f, k)| mesh.corners(f)[k])
 }

@@ -5,11 +5,15 @@ use super::rank::Rank;
 use super::{QuadOptions, Quadrangulation};
 use crate::error::{Error, Result};
 use crate::field::Guidance;
+use crate::map::Sizing;
 use crate::mesh::TriangleMesh;
 use crate::monitor::{Monitor, optional};
 
 /// The angle of edges that become features where quads without features lose the surface: 40 degrees.
 const SHARP: f64 = 40.0 * std::f64::consts::PI / 180.0;
+
+/// How many times as many quads are tried.
+const MORE: f64 = 1.5;
 
 /// Larger meshes are tried once.
 const MOST_FACES: usize = 50_000;
@@ -72,27 +76,28 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Tries<'a, M> {
         }
     }
 
-    /// The first of the best results: the first try, and those with sharp edges as features, and with the
-    /// mesh as it is, while none is good.
+    /// The first of the best results: the first try and, while none is good, those with sharp edges as
+    /// features, with the mesh as it is, and with more quads.
     pub(super) fn others(
         &mut self,
         mesh: &TriangleMesh,
         options: &QuadOptions,
         first: Result<Quadrangulation>,
     ) -> Result<Quadrangulation> {
-        let mut rank = Rank::of(mesh, options, self.far, &first);
+        let mut rank = Rank::of_first(mesh, options, self.far, &first);
+        let may_lose = first.as_ref().map_or(true, |made| made.refined.is_some());
         let mut best = first;
         if mesh.face_count() > MOST_FACES {
             return best;
         }
         for other in others(mesh, options) {
-            if rank.is_good() || self.has_ended {
+            if rank.is_good() || self.has_ended || self.left == 0 {
                 break;
             }
             let Some(found) = self.one(mesh, &other) else {
                 break;
             };
-            let found_rank = Rank::of(mesh, options, self.far, &found);
+            let found_rank = Rank::of(mesh, options, self.far, &found, may_lose);
             if found_rank < rank {
                 (best, rank) = (found, found_rank);
             }
@@ -101,7 +106,7 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Tries<'a, M> {
     }
 }
 
-/// What else to try: sharp edges as features, and the mesh as it is.
+/// What else to try: sharp edges as features, the mesh as it is, and more quads.
 fn others(mesh: &TriangleMesh, options: &QuadOptions) -> Vec<QuadOptions> {
     let mut others = Vec::new();
     if !has_features(mesh, &options.guidance) {
@@ -120,7 +125,23 @@ fn others(mesh: &TriangleMesh, options: &QuadOptions) -> Vec<QuadOptions> {
             ..options.clone()
         });
     }
+    others.push(QuadOptions {
+        sizing: finer(&options.sizing),
+        ..options.clone()
+    });
     others
+}
+
+/// The sizes with [`MORE`] quads.
+fn finer(sizing: &Sizing) -> Sizing {
+    let shorter = |length: f64| length / MORE.sqrt();
+    match sizing {
+        Sizing::Quads(quads) => Sizing::Quads((MORE * *quads as f64).ceil() as usize),
+        Sizing::EdgeLength(length) => Sizing::EdgeLength(shorter(*length)),
+        Sizing::Lengths(lengths) => {
+            Sizing::Lengths(lengths.iter().map(|pair| pair.map(shorter)).collect())
+        }
+    }
 }
 
 /// Whether the caller says which edges are features; those of the boundary do not count.
