@@ -18,8 +18,9 @@ use crate::search::{Factors, Options, Search};
 /// Gauss-Seidel updates between two checks of the monitor.
 const UPDATES_AT_A_TIME: usize = 10_000;
 
-/// The most Gauss-Seidel updates of all passes, for each unknown. Meshes of tens of thousands of faces take
-/// a few; where many passes each move much of the problem, there would be no end.
+/// The most Gauss-Seidel updates of all passes, for each unknown, unless a single pass may make more.
+/// Meshes of tens of thousands of faces take a few; where many passes each move much of the problem, there
+/// would be no end.
 const UPDATES_PER_UNKNOWN: usize = 128;
 
 /// Rounds by passes.
@@ -51,7 +52,7 @@ pub(crate) fn adaptive(
         )?,
         fixed: vec![false; model.dim()],
         left: integers.len(),
-        updates: UPDATES_PER_UNKNOWN * model.dim(),
+        updates: (UPDATES_PER_UNKNOWN * model.dim()).max(options.gauss_seidel_updates),
     };
     let mut candidates = Candidates::new(model.dim());
     for &i in integers {
