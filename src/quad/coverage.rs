@@ -1,4 +1,4 @@
-//! Whether quads cover the surface that they are to replace.
+//! How much quads lose of the surface that they are to replace.
 //!
 //! Quads much larger than a solid's details cut off its edges and corners. Where that loses more than a small
 //! part of the surface, quads along its sharp edges may do better.
@@ -11,8 +11,13 @@ use crate::mesh::{ClosestPoint, TriangleMesh};
 /// A point of the surface is lost if it is farther from the quads than this part of the diagonal.
 const FAR: f64 = 0.015;
 
+/// The distance beyond which a point of a mesh is lost.
+pub(super) fn far(mesh: &TriangleMesh) -> f64 {
+    FAR * diagonal(mesh)
+}
+
 /// The part of the surface that may be lost.
-const LOST: f64 = 0.01;
+pub(super) const LOST: f64 = 0.01;
 
 /// The number of points that stand for the surface.
 const POINTS: f64 = 4000.0;
@@ -21,15 +26,14 @@ const POINTS: f64 = 4000.0;
 /// the plastic number and of its square.
 const EVENLY: [f64; 2] = [0.754_877_666_246_692_8, 0.569_840_290_998_053_3];
 
-/// Whether at most [`LOST`] of the surface is farther than [`FAR`] from the quads.
-pub(super) fn covers(quads: &QuadMesh, mesh: &TriangleMesh) -> bool {
+/// The part of the surface that is farther than this from the quads.
+pub(super) fn lost(quads: &QuadMesh, mesh: &TriangleMesh, far: f64) -> f64 {
     let at = |v: u32| quads.vertices[v as usize];
     let triangles = quads.faces().flat_map(|face| {
         let fan = face.windows(2).skip(1);
         fan.map(|pair| [at(face[0]), at(pair[0]), at(pair[1])])
     });
     let tree = ClosestPoint::of_triangles(triangles.collect());
-    let far = FAR * diagonal(mesh);
     let spacing = mesh.surface_area() / POINTS;
     let (mut count, mut lost, mut due) = (0usize, 0usize, 0.0);
     for face in 0..mesh.face_count() {
@@ -43,7 +47,7 @@ pub(super) fn covers(quads: &QuadMesh, mesh: &TriangleMesh) -> bool {
             lost += usize::from(is_lost);
         }
     }
-    lost as f64 <= LOST * count as f64
+    lost as f64 / count.max(1) as f64
 }
 
 /// The point of a triangle that belongs to a number: even over all numbers.
@@ -74,11 +78,11 @@ mod tests {
             folded: Vec::new(),
             expected_euler: 2,
         };
-        assert!(covers(&whole, &mesh));
+        assert_eq!(lost(&whole, &mesh, far(&mesh)), 0.0);
         let half = QuadMesh {
             others: whole.others[..mesh.face_count() / 2].to_vec(),
             ..whole
         };
-        assert!(!covers(&half, &mesh));
+        assert!(lost(&half, &mesh, far(&mesh)) > 0.3);
     }
 }

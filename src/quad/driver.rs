@@ -8,7 +8,7 @@
 //! quads       are extracted from the map
 //! next try    while quads have holes or miss features: smaller quads on small parts that have lost
 //!             theirs; untangle the map; separate collapsed cones; do not separate feature curves;
-//!             use a field that sees fewer details
+//!             use a field that sees fewer details; smaller quads around folds
 //! smoothing
 //! ```
 //!
@@ -22,6 +22,7 @@ use std::time::Instant;
 use super::attempt::{Attempt, is_hopeless};
 use super::compare::compare;
 use super::field_map::FieldMap;
+use super::final_error::is_final;
 use super::missed::missed;
 use super::options::QuadOptions;
 use super::quadrangulation::timed;
@@ -37,7 +38,7 @@ use crate::mesh::features::FeatureGraph;
 use crate::monitor::{Monitor, Stage, optional};
 use crate::smooth::{SmoothOptions, smooth};
 use crate::solve::Solution;
-use crate::untangle::Untangled;
+use crate::untangle::{FINER, Untangled};
 
 /// The default size of details, as a part of a quad's edge, try after try: smaller details attract no
 /// irregular vertices. Extraction copes with folds, and quads are more even where details have irregular
@@ -48,8 +49,41 @@ const DETAILS: [f64; 3] = [0.25, 1.0, 2.0];
 /// around holes smaller than a quad, takes no longer than a few that untangle.
 const PASSES: usize = 240;
 
+/// The most times that quads around folds are made smaller.
+const GRADINGS: usize = 4;
+
+/// The length of the longest boundary loop around which quads are made smaller as well, in edges of quads
+/// around it: the quads at a hole may close it where it is shorter.
+const SMALL_HOLE: f64 = 8.0;
+
+/// The most passes over the mesh that untangling makes after that, each time.
+const PASSES_GRADED: usize = 12;
+
+/// Quads around folds are not made smaller if there are more than so many for each that was asked for.
+const MOST_QUADS: f64 = 4.0;
+
+/// Of more folds than one in so many faces, untangling seldom leaves none: quads around them are made smaller
+/// first.
+const TANGLED_PART: usize = 20;
+
 /// Meshes of more faces have as many visits of faces in all, and so fewer passes.
-const FACES: usize = 20_000;
+const FACES: usize = 10_000;
+
+/// The same for a mesh that was tried before.
+const FACES_AGAIN: usize = 4_000;
+
+/// How much is tried.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Effort {
+    /// All of it.
+    Full,
+    /// The mesh has several components. Those whose quads do not conform are tried alone, so that only
+    /// smaller quads are tried here.
+    OfSeveral,
+    /// The mesh, or all of which it is a component, was tried before: untangling makes fewer passes, and
+    /// integers are not decided anew for features alone.
+    Again,
+}
 
 /// The quads by one set of options: [`quadrangulate`](super::quadrangulate()) tells what is tried.
 ///
@@ -58,6 +92,7 @@ const FACES: usize = 20_000;
 pub(super) fn by_options<'a>(
     mesh: &TriangleMesh,
     options: &QuadOptions,
+    effort: Effort,
     monitor: &impl Fn() -> Monitor<'a>,
 ) -> Result<Quadrangulation> {
     options.sizing.check(mesh)?;
@@ -65,7 +100,7 @@ pub(super) fn by_options<'a>(
     let mut seconds = 0.0;
     let input = timed(&mut seconds, || refined(mesh, &features, options))?;
     let Some(input) = input else {
-        return of_mesh(mesh, features, options, monitor);
+        return of_mesh(mesh, features, options, effort, monitor);
     };
     let smooth = match &options.smooth {
         Some(given) => {
@@ -83,7 +118,8 @@ pub(super) fn by_options<'a>(
         smooth,
         ..options.clone()
     };
-    let mut made = of_mesh(&input.refined.mesh, input.features.clone(), &given, monitor)?;
+    let features = input.features.clone();
+    let mut made = of_mesh(&input.refined.mesh, features, &given, effort, monitor)?;
     made.seconds.refine = seconds;
     Ok(input.result_for(mesh, made))
 }
@@ -110,17 +146,25 @@ fn of_mesh<'a>(
     mesh: &TriangleMesh,
     features: FeatureGraph,
     options: &QuadOptions,
+    effort: Effort,
     monitor: &impl Fn() -> Monitor<'a>,
 ) -> Result<Quadrangulation> {
     let features = features.with_two_of_each_face(mesh);
     monitor().run().plan(stage_ends(mesh, options));
-    let most = PASSES * mesh.face_count().min(FACES);
+    let faces = match effort {
+        Effort::Again => FACES_AGAIN,
+        Effort::Full | Effort::OfSeveral => FACES,
+    };
+    let most = PASSES * mesh.face_count().min(faces);
     let mut driver = Driver {
         mesh,
         options,
+        effort,
         sizing: options.sizing.clone(),
         sizes: 0,
         details: 0,
+        gradings: 0,
+        current: 0,
         visits: most,
         features,
         monitor,
@@ -131,9 +175,12 @@ fn of_mesh<'a>(
     let mut best = driver.follow()?;
     let mut last = Try::SmallerQuads;
     while let Some(next) = driver.next(last, &best) {
-        let tried = optional(monitor, || driver.attempt(next, &best));
-        let Some(found) = tried? else {
-            break;
+        let found = match optional(monitor, || driver.attempt(next, &best)) {
+            Ok(None) => break,
+            Ok(Some(found)) => found,
+            Err(error) if is_final(&error) => return Err(error),
+            // The quads that there are remain.
+            Err(_) => None,
         };
         if let Some(found) = found
             && found.outcome < best.outcome
@@ -146,7 +193,7 @@ fn of_mesh<'a>(
 }
 
 /// The tries, in this order; untangling and the separation of cones follow again after each of the last
-/// two.
+/// three.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Try {
     /// Use smaller quads on parts of the mesh that have lost theirs.
@@ -159,18 +206,25 @@ enum Try {
     FeaturesAsRounded,
     /// Use another field, which sees fewer details, and its map.
     LessDetail,
+    /// Use smaller quads around the folds of the best map.
+    Graded,
 }
 
 /// The data that all tries share.
 struct Driver<'a, M> {
     mesh: &'a TriangleMesh,
     options: &'a QuadOptions,
+    effort: Effort,
     /// The current size of the quads.
     sizing: Sizing,
     /// How often it was changed.
     sizes: usize,
     /// The place in [`DETAILS`] of the next field.
     details: usize,
+    /// How often quads around folds were made smaller.
+    gradings: usize,
+    /// The field whose map is at hand.
+    current: usize,
     /// The faces that untangling may still visit.
     visits: usize,
     features: FeatureGraph,
@@ -184,18 +238,26 @@ struct Driver<'a, M> {
 impl<'a, 'm, M: Fn() -> Monitor<'m>> Driver<'a, M> {
     /// The next try, if there is one.
     fn next(&self, last: Try, best: &Attempt) -> Option<Try> {
-        let at_hand = self.fields.last()?;
+        let at_hand = self.fields.get(self.current)?;
         match last {
             _ if best.outcome.is_whole() => None,
             Try::SmallerQuads if self.smaller(best).is_some() => Some(Try::SmallerQuads),
-            Try::SmallerQuads | Try::LessDetail | Try::FeaturesAsRounded
+            _ if self.effort == Effort::OfSeveral && !best.outcome.conforms() => None,
+            Try::SmallerQuads | Try::Graded if self.is_tangled(best) && self.may_grade(best) => {
+                Some(Try::Graded)
+            }
+            Try::SmallerQuads | Try::LessDetail | Try::FeaturesAsRounded | Try::Graded
                 if self.options.untangle
                     && self.passes() > 0
                     && !at_hand.is_hopeless(self.mesh) =>
             {
                 Some(Try::Untangled)
             }
-            Try::Untangled if self.passes() > 0 && at_hand.may_decide_anew() => {
+            Try::Untangled
+                if self.passes() > 0
+                    && at_hand.may_decide_anew()
+                    && !(self.effort == Effort::Again && best.outcome.conforms()) =>
+            {
                 Some(Try::ConesApart)
             }
             _ if at_hand.holds_features_apart() => Some(Try::FeaturesAsRounded),
@@ -204,9 +266,27 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Driver<'a, M> {
                     && self.details + 1 < DETAILS.len()
                     && !best.outcome.conforms()
                     && !is_hopeless(self.mesh, &best.map.map);
-                may_see_less.then_some(Try::LessDetail)
+                match may_see_less && self.gradings == 0 {
+                    true => Some(Try::LessDetail),
+                    false => self.may_grade(best).then_some(Try::Graded),
+                }
             }
         }
+    }
+
+    /// Whether the best map has so many folds that untangling has to wait.
+    fn is_tangled(&self, best: &Attempt) -> bool {
+        TANGLED_PART * best.map.flipped_after > self.mesh.face_count()
+    }
+
+    /// Whether smaller quads around folds may help.
+    fn may_grade(&self, best: &Attempt) -> bool {
+        let edge = self.options.sizing.edge_length(self.mesh);
+        let asked = self.mesh.surface_area() / (edge * edge);
+        self.gradings < GRADINGS
+            && !best.outcome.conforms()
+            && best.quads.quads.len() as f64 <= MOST_QUADS * asked
+            && self.options.compare.is_empty()
     }
 
     /// The quads of a try, if it can be made.
@@ -242,6 +322,19 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Driver<'a, M> {
                 self.details += 1;
                 Some(self.follow()?)
             }
+            Try::Graded => {
+                self.gradings += 1;
+                self.current = best.field;
+                self.visits = self.visits.max(PASSES_GRADED * self.mesh.face_count());
+                self.enter(Stage::Map);
+                let edge =
+                    self.sizing.edge_length(self.mesh) / FINER.powi(self.gradings as i32 - 1);
+                let at_hand = &mut self.fields[best.field];
+                match at_hand.grade(self.mesh, &best.map, SMALL_HOLE * edge)? {
+                    true => Some(self.as_solved()?),
+                    false => None,
+                }
+            }
         })
     }
 
@@ -256,6 +349,7 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Driver<'a, M> {
         let of_both = [&mut self.seconds.field, &mut self.seconds.map];
         let (features, monitor) = (&self.features, self.monitor);
         let next = FieldMap::new(mesh, &given, of_map, features, detail, monitor, of_both)?;
+        self.current = self.fields.len();
         self.fields.push(next);
         self.as_solved()
     }
@@ -282,7 +376,7 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Driver<'a, M> {
     fn quads(&mut self, (solution, map): (Solution, Untangled)) -> Result<Attempt> {
         self.visits = self.visits.saturating_sub(map.visited);
         self.enter(Stage::Quads);
-        let field = self.fields.len() - 1;
+        let field = self.current;
         let features: Vec<usize> = self.features.edges().collect();
         let monitor = (self.monitor)();
         Attempt::new(self.mesh, &features, field, solution, map, monitor)
@@ -292,10 +386,9 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Driver<'a, M> {
         (self.monitor)().run().enter(stage, 0, 1);
     }
 
-    /// The field that was followed last.
+    /// The field whose map is at hand.
     fn at_hand(&mut self) -> &mut FieldMap<'a, M> {
-        let last = self.fields.len() - 1;
-        &mut self.fields[last]
+        &mut self.fields[self.current]
     }
 
     /// Smooths the quads, and compares strategies if the options ask for it.
@@ -351,6 +444,7 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Driver<'a, M> {
             compared,
             seconds,
             refined: None,
+            apart: Vec::new(),
         })
     }
 }

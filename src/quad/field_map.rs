@@ -14,7 +14,7 @@ use crate::mesh::features::FeatureGraph;
 use crate::monitor::{Monitor, Stage};
 use crate::search::{Options, Strategy};
 use crate::solve::Solution;
-use crate::untangle::{UntangleOptions, Untangled};
+use crate::untangle::{UntangleOptions, Untangled, faulty, grow_around};
 
 /// The most passes of untangling over the mesh if the quads conform and only miss features.
 const PASSES_FOR_FEATURES: usize = 10;
@@ -62,19 +62,7 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> FieldMap<'a, M> {
         let problem = Cow::Owned(chosen.problem);
         let mut maps = MapSolver::new(mesh, problem, chosen.solver, of_map_solve, monitor);
         monitor().run().enter(Stage::Map, 0, 1);
-        let (at_hand, features_as_rounded) = timed(of_map, || {
-            let first = maps.solve()?;
-            if is_hopeless(mesh, &first.map) {
-                return Ok((first, None));
-            }
-            Ok(match maps.separate_features(&first)?.better {
-                Some(apart) => (apart, Some(first)),
-                None => {
-                    maps.forget_separation();
-                    (first, None)
-                }
-            })
-        })?;
+        let (at_hand, features_as_rounded) = timed(of_map, || solved(mesh, &mut maps))?;
         Ok(FieldMap {
             options: chosen.options,
             field: chosen.field,
@@ -88,6 +76,25 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> FieldMap<'a, M> {
             },
             is_relaxed: of_map_solve.strategy == Strategy::Relax,
         })
+    }
+
+    /// Goes on to a map with smaller quads around the faults of one, and around the boundary loops that are
+    /// not longer than this; `false` if there are neither.
+    pub(super) fn grade(
+        &mut self,
+        mesh: &TriangleMesh,
+        faulty_map: &Untangled,
+        longest: f64,
+    ) -> Result<bool> {
+        let faults = faulty(mesh, faulty_map).chain(small_holes(mesh, longest));
+        let mut factors = vec![1.0; mesh.face_count()];
+        grow_around(mesh, self.maps.problem(), faults, &mut factors);
+        if factors.iter().all(|&factor| factor == 1.0) {
+            return Ok(false);
+        }
+        self.maps.grade(&factors)?;
+        (self.at_hand, self.features_as_rounded) = solved(mesh, &mut self.maps)?;
+        Ok(true)
     }
 
     /// Whether so much of the current map is folded that it is given up.
@@ -155,4 +162,33 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> FieldMap<'a, M> {
         let map = self.maps.untangle(&map, &self.within(passes))?;
         Ok(Some((solution, map)))
     }
+}
+
+/// A map with feature curves separated, and the one without where they differ.
+fn solved<'m, M: Fn() -> Monitor<'m>>(
+    mesh: &TriangleMesh,
+    maps: &mut MapSolver<'_, M>,
+) -> Result<(Solved, Option<Solved>)> {
+    let first = maps.solve()?;
+    if is_hopeless(mesh, &first.map) {
+        return Ok((first, None));
+    }
+    Ok(match maps.separate_features(&first)?.better {
+        Some(apart) => (apart, Some(first)),
+        None => {
+            maps.forget_separation();
+            (first, None)
+        }
+    })
+}
+
+/// The vertices of boundary loops that are not longer than this.
+fn small_holes(mesh: &TriangleMesh, longest: f64) -> impl Iterator<Item = usize> {
+    let is_small = |sides: &Vec<(usize, usize)>| {
+        let length: f64 = sides.iter().map(|&(f, k)| mesh.edge_length(f, k)).sum();
+        length <= longest
+    };
+    let loops = mesh.boundary_loops().into_iter().filter(is_small);
+    let small: Vec<(usize, usize)> = loops.flatten().collect();
+    small.into_iter().map(|(f, k)| mesh.corners(f)[k])
 }

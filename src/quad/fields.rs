@@ -8,9 +8,10 @@
 
 use super::QuadOptions;
 use super::aim::aim;
+use super::final_error::is_final;
 use super::outcome::Outcome;
 use super::quadrangulation::timed;
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::field::{FieldOptions, Guidance, OrientationField, solve_field};
 use crate::map::SeamlessProblem;
 use crate::mesh::TriangleMesh;
@@ -81,8 +82,9 @@ pub(super) fn choose_field<'a>(
             Ok(None) => break,
             Ok(Some(found)) if found.outcome < best.outcome => best = found,
             // The guidance that the caller asked for works, so a failure of another one is no error.
-            Ok(_) | Err(Error::Infeasible { .. } | Error::NoIntegerSolution { .. }) => {}
-            Err(error) => return Err(error),
+            Ok(_) => {}
+            Err(error) if is_final(&error) => return Err(error),
+            Err(_) => {}
         }
     }
     Ok(best)

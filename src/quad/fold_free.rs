@@ -20,7 +20,7 @@ use crate::mesh::TriangleMesh;
 use crate::monitor::{Monitor, Phase, Stage, optional};
 use crate::search::{Options, Strategy};
 use crate::solve::{Solution, Solver};
-use crate::untangle::{UntangleOptions, Untangled, grow_around};
+use crate::untangle::{UntangleOptions, Untangled, faulty, grow_around};
 
 /// The factor of a refinement in the lengths of the map: about twice as many quads.
 const REFINEMENT: f64 = std::f64::consts::SQRT_2;
@@ -210,7 +210,8 @@ impl<'m, M: Fn() -> Monitor<'m>> Driver<'_, M> {
         let factor = REFINEMENT.powi(size.refinements as i32);
         if size.gradings == 1 {
             self.lengths = vec![factor; mesh.face_count()];
-            grow_around(mesh, problem, &best.untangled, &mut self.lengths);
+            let faults = faulty(mesh, &best.untangled);
+            grow_around(mesh, problem, faults, &mut self.lengths);
         }
         self.maps.resize(|solver| match size.gradings {
             0 => problem.refined(mesh, factor, solver),
@@ -242,7 +243,8 @@ impl<'m, M: Fn() -> Monitor<'m>> Driver<'_, M> {
         };
         if size.gradings > 0 {
             // The next map is finer around the faults of this one.
-            grow_around(self.mesh, self.problem, &untangled, &mut self.lengths);
+            let faults = faulty(self.mesh, &untangled);
+            grow_around(self.mesh, self.problem, faults, &mut self.lengths);
         }
         Ok(FoldFreeMap {
             untangled,

@@ -107,6 +107,13 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> MapSolver<'a, M> {
         Ok(())
     }
 
+    /// Makes the lengths of the map larger by a factor for every face.
+    pub(super) fn grade(&mut self, factors: &[f64]) -> Result<()> {
+        let graded = self.problem.graded(self.mesh, factors, &mut self.solver)?;
+        self.problem = Cow::Owned(graded);
+        Ok(())
+    }
+
     /// Drops all separation constraints.
     pub(super) fn forget_separation(&mut self) {
         self.separation.clear();

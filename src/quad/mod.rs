@@ -2,7 +2,9 @@
 //!
 //! | idea | file |
 //! | --- | --- |
-//! | quads, from a mesh | `quadrangulate`, `coverage` |
+//! | quads, from a mesh | `quadrangulate`, `rank`, `coverage` |
+//! | other options, where quads are not good | `tries`, `final_error` |
+//! | components whose quads are not good | `apart`, `part`, `by_component` |
 //! | quads, by one set of options | `driver` |
 //! | a mesh that is refined first | `refined_input` |
 //! | a map without folds, from its problem | `fold_free` |
@@ -14,22 +16,28 @@
 //! | the ordering of results | `outcome` |
 
 mod aim;
+mod apart;
 mod attempt;
+mod by_component;
 mod compare;
 mod coverage;
 mod driver;
 mod field_map;
 mod fields;
+mod final_error;
 mod fold_free;
 mod map_solver;
 mod missed;
 mod options;
 mod outcome;
+mod part;
 mod quadrangulate;
 mod quadrangulation;
+mod rank;
 mod refined_input;
 mod smaller;
 mod stage_ends;
+mod tries;
 
 pub use compare::Compared;
 pub use fold_free::{FoldFreeMap, solve_fold_free};

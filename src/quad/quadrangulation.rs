@@ -35,6 +35,9 @@ pub struct Quadrangulation {
     /// The refined mesh, if the mesh was refined first. Then field and map are its field and map; features,
     /// and the origins of the quads, are those of the mesh that was given.
     pub refined: Option<Refined>,
+    /// The faces of the mesh that was given whose components were tried alone, in increasing order. Their
+    /// quads follow fields and maps of their own, and not those above.
+    pub apart: Vec<usize>,
 }
 
 impl Quadrangulation {

@@ -18,6 +18,11 @@ use crate::search::{Factors, Options, Search};
 /// Gauss-Seidel updates between two checks of the monitor.
 const UPDATES_AT_A_TIME: usize = 10_000;
 
+/// The most Gauss-Seidel updates of all passes, for each unknown, unless a single pass may make more.
+/// Meshes of tens of thousands of faces take a few; where many passes each move much of the problem, there
+/// would be no end.
+const UPDATES_PER_UNKNOWN: usize = 128;
+
 /// Where the caller wants a result, what is left is rounded in passes whose deviations may sum up to this for
 /// each integer left, ...
 const HASTE: f64 = 0.003;
@@ -32,8 +37,8 @@ const HASTY_UPDATES: usize = 20;
 
 /// Rounds by passes.
 ///
-/// If the caller wants a result, few and large passes round what is left. If it has to stop for another reason, it
-/// offers the integers decided so far and rounds the others.
+/// If the caller wants a result, few and large passes round what is left. If it has to stop for another reason,
+/// or after [`UPDATES_PER_UNKNOWN`], it offers the integers decided so far and rounds the others.
 ///
 /// # Errors
 /// [`Error::OutOfMemory`](crate::Error::OutOfMemory), and the errors of [`Search::offer`].
@@ -59,12 +64,13 @@ pub(crate) fn adaptive(
         )?,
         fixed: vec![false; model.dim()],
         left: integers.len(),
+        updates: (UPDATES_PER_UNKNOWN * model.dim()).max(options.gauss_seidel_updates),
     };
     let mut candidates = Candidates::new(model.dim());
     for &i in integers {
         candidates.push(i, search.relaxed()[i as usize]);
     }
-    while passes.left > 0 {
+    while passes.left > 0 && passes.updates > 0 {
         let done = 1.0 - passes.left as f64 / integers.len() as f64;
         if search.monitor.ends_at(Phase::Round, done) {
             if search.monitor.finishes() {
@@ -94,6 +100,8 @@ struct Passes<'a> {
     solve: LocalSolve<'a>,
     fixed: Vec<bool>,
     left: usize,
+    /// The updates that are left.
+    updates: usize,
 }
 
 impl Passes<'_> {
@@ -135,7 +143,9 @@ impl Passes<'_> {
         let mut budget = options.gauss_seidel_updates;
         while budget > 0 && !self.solve.is_settled() {
             let tolerance = options.gauss_seidel_tolerance;
-            budget -= self.solve.relax(tolerance, budget.min(UPDATES_AT_A_TIME));
+            let made = self.solve.relax(tolerance, budget.min(UPDATES_AT_A_TIME));
+            budget -= made;
+            self.updates = self.updates.saturating_sub(made);
             if search.monitor.ends() {
                 return Ok(());
             }

@@ -303,3 +303,20 @@ fn what_holds_no_surface_is_refused() {
         assert!(matches!(refused, SoupError::NoSurface { .. }), "{refused}");
     }
 }
+
+#[test]
+fn a_polygon_that_runs_several_times_round_is_taken_once() {
+    let mut soup = PolygonSoup::default();
+    for p in [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]] {
+        soup.add_vertex([p[0], p[1], 0.0]);
+    }
+    soup.add_polygon([0, 1, 2, 3].repeat(5));
+    let repaired = by_default(&soup);
+    assert_eq!(repaired.triangles.len(), 2);
+    let removed = edit(EditKind::CornersRemoved, 0, Some(16));
+    assert!(
+        repaired.edits.list().contains(&removed),
+        "{:?}",
+        repaired.edits
+    );
+}

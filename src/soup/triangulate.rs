@@ -1,6 +1,7 @@
 //! Step 3: polygons become triangles.
 //!
-//! Corners that repeat the one before are removed, as are spikes, which run out to a vertex and back.
+//! Corners that repeat the one before are removed, as are spikes, which run out to a vertex and back, and
+//! further rounds of a polygon that runs several times round the same corners.
 //! A quad is cut along the diagonal with the better worst triangle, a larger polygon by ear
 //! clipping. Which triangles come out does not depend on the corner with which a polygon begins, nor on its
 //! direction, so that equal polygons become equal triangles.
@@ -30,6 +31,7 @@ pub(super) fn triangulate(soup: &PolygonSoup, stands_for: &[u32], surface: &mut 
             push(&mut corners, [stands_for[v as usize], v as u32]);
         }
         close(&mut corners);
+        once_round(&mut corners);
         if corners.len() < 3 {
             surface.edits.add(EditKind::PolygonDegenerate, number, None);
             continue;
@@ -86,6 +88,16 @@ fn close(corners: &mut Vec<[u32; 2]>) {
         }
     }
     corners.drain(..first);
+}
+
+/// Of a polygon that runs several times round the same corners, once.
+fn once_round(corners: &mut Vec<[u32; 2]>) {
+    let n = corners.len();
+    let repeats =
+        |p: usize| n.is_multiple_of(p) && (p..n).all(|i| corners[i][0] == corners[i - p][0]);
+    if let Some(period) = (3..=n / 2).find(|&p| repeats(p)) {
+        corners.truncate(period);
+    }
 }
 
 /// Triangles as triples of corners, in the polygon's direction.

@@ -11,7 +11,7 @@ use crate::map::SeamlessProblem;
 use crate::mesh::TriangleMesh;
 
 /// The factor by which lengths grow at a fault, each time.
-const FINER: f64 = 1.5;
+pub(crate) const FINER: f64 = 1.5;
 
 /// The distance in quads beyond which lengths do not grow.
 const REACH: f64 = 3.0;
@@ -19,19 +19,23 @@ const REACH: f64 = 3.0;
 /// The least distance beyond which lengths do not grow, in edges of triangles.
 const LEAST_EDGES: f64 = 4.0;
 
-/// Multiplies the lengths of faces, one a face, around the faults of a map.
+/// The vertices at the faults of a map: corners of folded faces, and winding defects.
+pub(crate) fn faulty<'a>(
+    mesh: &'a TriangleMesh,
+    untangled: &'a Untangled,
+) -> impl Iterator<Item = usize> + 'a {
+    let corners = untangled.map.flipped().iter();
+    let corners = corners.flat_map(|&f| mesh.corners(f));
+    untangled.winding_defects.iter().copied().chain(corners)
+}
+
+/// Multiplies the lengths of faces, one a face, around these vertices.
 pub(crate) fn grow_around(
     mesh: &TriangleMesh,
     problem: &SeamlessProblem,
-    untangled: &Untangled,
+    faults: impl Iterator<Item = usize>,
     lengths: &mut [f64],
 ) {
-    let corners = untangled
-        .map
-        .flipped()
-        .iter()
-        .flat_map(|&f| mesh.corners(f));
-    let faults = untangled.winding_defects.iter().copied().chain(corners);
     let reach = (REACH / problem.mean_aim(mesh)).max(LEAST_EDGES);
     let edges = edges_from(mesh, faults, reach as usize);
     for (face, length) in lengths.iter_mut().enumerate() {

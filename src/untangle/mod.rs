@@ -40,7 +40,7 @@ mod system;
 mod unwind;
 
 pub(crate) use collapsed::Collapsed;
-pub(crate) use grading::grow_around;
+pub(crate) use grading::{FINER, faulty, grow_around};
 pub(crate) use held_elements::HeldElements;
 
 use crate::error::Result;

@@ -1,0 +1,151 @@
+//! Tries after the first: a mesh whose quads are not good, by other options.
+
+use super::driver::{Effort, by_options};
+use super::rank::Rank;
+use super::{QuadOptions, Quadrangulation};
+use crate::error::{Error, Result};
+use crate::field::Guidance;
+use crate::map::Sizing;
+use crate::mesh::TriangleMesh;
+use crate::monitor::{Monitor, optional};
+
+/// The angle of edges that become features where quads without features lose the surface: 40 degrees.
+const SHARP: f64 = 40.0 * std::f64::consts::PI / 180.0;
+
+/// How many times as many quads are tried.
+const MORE: f64 = 1.5;
+
+/// Larger meshes are tried once.
+const MOST_FACES: usize = 50_000;
+
+/// The faces that the tries of components may have together.
+const FACES_APART: usize = 100_000;
+
+/// What tries share.
+pub(super) struct Tries<'a, M> {
+    /// The distance from quads at which a point of the surface is lost.
+    pub(super) far: f64,
+    pub(super) monitor: &'a M,
+    /// The faces that tries of components may still have.
+    left: usize,
+    /// Whether the caller wants what there is.
+    has_ended: bool,
+}
+
+impl<'a, 'm, M: Fn() -> Monitor<'m>> Tries<'a, M> {
+    pub(super) fn new(far: f64, monitor: &'a M) -> Self {
+        Tries {
+            far,
+            monitor,
+            left: FACES_APART,
+            has_ended: false,
+        }
+    }
+
+    /// Whether there is work left for a component.
+    pub(super) fn may_take(&self, part: &TriangleMesh) -> bool {
+        !self.has_ended && part.face_count() <= self.left
+    }
+
+    /// One try, which takes half of what is left of the run. `None` if the caller wants what there is, or if
+    /// the call is stopped.
+    pub(super) fn one(
+        &mut self,
+        mesh: &TriangleMesh,
+        options: &QuadOptions,
+    ) -> Option<Result<Quadrangulation>> {
+        let (run, monitor) = ((self.monitor)().run(), self.monitor);
+        let half = [0.0, 0.5].map(|part| run.share() + part * (1.0 - run.share()));
+        let found = optional(monitor, || {
+            run.with_share(half, || by_options(mesh, options, Effort::Again, monitor))
+        });
+        let faces = match &found {
+            Ok(Some(made)) => made.mesh(mesh).face_count(),
+            _ => mesh.face_count(),
+        };
+        self.left = self.left.saturating_sub(faces);
+        match found.transpose() {
+            Some(Err(Error::Cancelled | Error::TimeLimit | Error::OutOfMemory { .. })) => {
+                self.has_ended = true;
+                None
+            }
+            found => {
+                self.has_ended = found.is_none();
+                found
+            }
+        }
+    }
+
+    /// The first of the best results: the first try and, while none is good, those with sharp edges as
+    /// features, with the mesh as it is, and with more quads.
+    pub(super) fn others(
+        &mut self,
+        mesh: &TriangleMesh,
+        options: &QuadOptions,
+        first: Result<Quadrangulation>,
+    ) -> Result<Quadrangulation> {
+        let mut rank = Rank::of_first(mesh, options, self.far, &first);
+        let may_lose = first.as_ref().map_or(true, |made| made.refined.is_some());
+        let mut best = first;
+        if mesh.face_count() > MOST_FACES {
+            return best;
+        }
+        for other in others(mesh, options) {
+            if rank.is_good() || self.has_ended || self.left == 0 {
+                break;
+            }
+            let Some(found) = self.one(mesh, &other) else {
+                break;
+            };
+            let found_rank = Rank::of(mesh, options, self.far, &found, may_lose);
+            if found_rank < rank {
+                (best, rank) = (found, found_rank);
+            }
+        }
+        best
+    }
+}
+
+/// What else to try: sharp edges as features, the mesh as it is, and more quads.
+fn others(mesh: &TriangleMesh, options: &QuadOptions) -> Vec<QuadOptions> {
+    let mut others = Vec::new();
+    if !has_features(mesh, &options.guidance) {
+        let guidance = Guidance {
+            feature_angle: Some(SHARP),
+            ..options.guidance.clone()
+        };
+        others.push(QuadOptions {
+            guidance,
+            ..options.clone()
+        });
+    }
+    if options.refine {
+        others.push(QuadOptions {
+            refine: false,
+            ..options.clone()
+        });
+    }
+    others.push(QuadOptions {
+        sizing: finer(&options.sizing),
+        ..options.clone()
+    });
+    others
+}
+
+/// The sizes with [`MORE`] quads.
+fn finer(sizing: &Sizing) -> Sizing {
+    let shorter = |length: f64| length / MORE.sqrt();
+    match sizing {
+        Sizing::Quads(quads) => Sizing::Quads((MORE * *quads as f64).ceil() as usize),
+        Sizing::EdgeLength(length) => Sizing::EdgeLength(shorter(*length)),
+        Sizing::Lengths(lengths) => {
+            Sizing::Lengths(lengths.iter().map(|pair| pair.map(shorter)).collect())
+        }
+    }
+}
+
+/// Whether the caller says which edges are features; those of the boundary do not count.
+fn has_features(mesh: &TriangleMesh, guidance: &Guidance) -> bool {
+    let is_inner = |&edge: &usize| mesh.edge(edge).second.is_some();
+    guidance.feature_angle.is_some() || guidance.feature_edges.iter().any(is_inner)
+}
