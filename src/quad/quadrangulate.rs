@@ -31,11 +31,11 @@ const FIRST: f64 = 0.97;
 /// that is tried before untangling.
 ///
 /// If a mesh that had to be refined, or whose quads do not conform, is still not covered by quads that conform,
-/// it is tried once more with its sharp edges as features, if the options give no angle, once more
-/// without refinement, and once more with half as many quads again as were asked for. The first of the best results is kept. Of a mesh of several components, only those
-/// are tried again whose quads do not conform, and then, if the surface is not covered, those that do not cover
-/// theirs: each alone, as it is and in these ways, and their quads replace those of the first try if
-/// they are better. These tries have 100,000 triangles in all.
+/// it is tried once more with its sharp edges as features, if the options give no angle, once more without
+/// refinement, and once more with half as many quads again as were asked for. The first of the best results is
+/// kept. Of a mesh of several components, only those are tried again whose quads do not conform, and then, if
+/// the surface is not covered, those that do not cover theirs: each alone, as it is and in these ways, and
+/// their quads replace those of the first try if they are better. These tries have 100,000 triangles in all.
 /// [`Quadrangulation::apart`] names the triangles of components that have quads of their own.
 ///
 /// A caller who [finishes](crate::Flow::Finish) the run after the field's first solution gets the quads of the
