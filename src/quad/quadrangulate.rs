@@ -42,7 +42,7 @@ const FIRST: f64 = 0.97;
 /// best integers so far: nothing above is tried any more, and smoothing ends.
 ///
 /// # Errors
-/// [`Error::InvalidArgument`] if there are no quads of any size that was tried. Otherwise
+/// [`Error::InvalidArgument`](crate::Error::InvalidArgument) if there are no quads of any size that was tried. Otherwise
 /// those of [`solve_field`](crate::field::solve_field), [`solve`](crate::solve()),
 /// [`SeamlessProblem::with_features`](crate::map::SeamlessProblem::with_features),
 /// [`untangle`](crate::untangle::untangle), [`extract`](crate::extract) and [`smooth`](crate::smooth::smooth).
