@@ -120,6 +120,44 @@ fn a_square_of_units_gives_each_unit_square_as_a_quad() {
     }
 }
 
+/// A plate with holes of one unit each, in half units.
+#[test]
+fn holes_of_one_unit_square_stay_open() {
+    let (whole, _) = plane(14);
+    let in_hole = |t: &[u32; 3]| {
+        let middle = [0, 1].map(|i| {
+            t.iter()
+                .map(|&v| whole.position(v as usize)[i])
+                .sum::<f64>()
+                / 6.0
+        });
+        [[2.0, 2.0], [4.0, 3.0], [1.0, 5.0]]
+            .iter()
+            .any(|low: &[f64; 2]| (0..2).all(|i| (low[i]..low[i] + 1.0).contains(&middle[i])))
+    };
+    let triangles = whole.triangles().iter().filter(|t| !in_hole(t)).copied();
+    let used: Vec<[u32; 3]> = triangles.collect();
+    let mut number = vec![u32::MAX; whole.vertex_count()];
+    let mut points = Vec::new();
+    for &v in used.as_flattened() {
+        if number[v as usize] == u32::MAX {
+            number[v as usize] = points.len() as u32;
+            points.push(whole.position(v as usize).map(|x| 0.5 * x));
+        }
+    }
+    let triangles = used.iter().map(|t| t.map(|v| number[v as usize])).collect();
+    let mesh = TriangleMesh::new(points, triangles).unwrap();
+    let uvs: Corners = mesh
+        .triangles()
+        .iter()
+        .map(|t| t.map(|v| flat(&mesh, v)))
+        .collect();
+    let quads = quads_of(&mesh, &uvs);
+    assert_eq!(mesh.euler_characteristic(), -2);
+    assert!(quads.is_conforming(), "{:?}", quads.figures());
+    assert_eq!(quads.quads.len(), 7 * 7 - 3);
+}
+
 #[test]
 fn partial_cells_at_a_boundary_off_the_isolines_are_reported() {
     let (mesh, uvs) = plane(4);

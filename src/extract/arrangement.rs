@@ -27,6 +27,8 @@ pub(super) struct Arrangement {
     pub(super) half_edge: Vec<u32>,
     pub(super) rays: Vec<Ray>,
     pub(super) points: Graph,
+    /// For each edge from a boundary vertex, the side of its first crossing, as 2 c + side.
+    pub(super) near_boundary: Vec<u32>,
 }
 
 impl Arrangement {
@@ -39,11 +41,18 @@ impl Arrangement {
             half_edge: vec![NONE; sides],
             rays: Vec::new(),
             points: Graph::default(),
+            near_boundary: Vec::new(),
         };
+        let is_bounding = mesh.regular_boundary_vertices();
         for h in 0..mesh.twin.len() {
             let side = u32::from(mesh.twin[h] < h as u32);
-            for (crossing, _) in crossings.of(mesh, h) {
-                this.half_edge[(2 * crossing + side) as usize] = h as u32;
+            let mut sides = crossings.of(mesh, h).map(|(c, _)| 2 * c + side);
+            let first = sides.next();
+            for side in first.into_iter().chain(sides) {
+                this.half_edge[side as usize] = h as u32;
+            }
+            if is_bounding[mesh.vertices[h / 3][h % 3] as usize] {
+                this.near_boundary.extend(first);
             }
         }
         let mut triangle = Triangle::default();

@@ -12,6 +12,7 @@ use crate::mesh::vector::{Vec3, add, scale};
 pub(super) fn quad_mesh(mesh: &TriangleMesh, refined: &Refined, graph: &Graph) -> QuadMesh {
     let mut quads = Vec::new();
     let mut others = Vec::new();
+    let mut holes = Vec::new();
     let mut partial_cells = 0;
     graph.for_each_cell(|cell, end| {
         partial_cells += usize::from(end == Walk::Cut);
@@ -20,7 +21,12 @@ pub(super) fn quad_mesh(mesh: &TriangleMesh, refined: &Refined, graph: &Graph) -
         }
         let corners: Vec<u32> = cell.iter().map(|&port| graph.vertex(port)).collect();
         match <[u32; 4]>::try_from(corners) {
-            Ok(quad) => quads.push(quad),
+            Ok(quad) => {
+                if graph.is_open(cell) {
+                    holes.push(quads.len());
+                }
+                quads.push(quad);
+            }
             Err(corners) => others.push(corners),
         }
     });
@@ -36,7 +42,24 @@ pub(super) fn quad_mesh(mesh: &TriangleMesh, refined: &Refined, graph: &Graph) -
         expected_euler: mesh.euler_characteristic(),
     };
     place(mesh, refined, graph, &mut result);
+    open_holes(&mut result, &holes);
     result
+}
+
+/// Removes the cells around holes of one unit square, where the Euler characteristic says that they are holes:
+/// no line ends at their sides, so that they look like quads. Where folds were removed, the boundary may have been
+/// in another cell.
+fn open_holes(quads: &mut QuadMesh, holes: &[usize]) {
+    let filled = quads.figures().euler - quads.expected_euler;
+    if !holes.is_empty() && filled == holes.len() as i64 {
+        let mut holes = holes.iter().peekable();
+        let mut number = 0;
+        quads.quads.retain(|_| {
+            let is_hole = holes.next_if(|&&hole| hole == number).is_some();
+            number += 1;
+            !is_hole
+        });
+    }
 }
 
 /// Numbers the vertices that have faces, and computes their positions.

@@ -43,6 +43,9 @@ pub(super) struct Graph {
     pub(super) turn: Vec<u8>,
     /// Where the line goes, in the coordinates of the port's face: 0 to 3 for +u, +v, -u, -v.
     pub(super) direction: Vec<u8>,
+    /// Whether the cell to the left of the line, as it was traced, contains a part of the boundary. Ports that
+    /// were added later are not in the list.
+    pub(super) is_open: Vec<bool>,
 }
 
 impl Graph {
@@ -95,6 +98,12 @@ impl Graph {
         };
         let p = port as usize;
         (self.direction[p] + self.turn[p]) % 4 == self.direction[mate as usize]
+    }
+
+    /// Whether a cell contains a part of the boundary, as it was traced.
+    pub(super) fn is_open(&self, cell: &[u32]) -> bool {
+        let is_open = |&port: &u32| self.is_open.get(port as usize).is_some_and(|&open| open);
+        cell.iter().any(is_open)
     }
 
     pub(super) fn next(&self, port: u32) -> u32 {

@@ -53,6 +53,18 @@ impl Refined {
         self.corners.len()
     }
 
+    /// Whether each vertex is one of the boundary and off the integer lines.
+    pub(super) fn regular_boundary_vertices(&self) -> Vec<bool> {
+        let mut found = vec![false; self.is_irregular.len()];
+        for h in (0..self.twin.len()).filter(|&h| self.twin[h] == NONE) {
+            for h in [h, next(h)] {
+                let vertex = self.vertices[h / 3][h % 3] as usize;
+                found[vertex] = !self.is_irregular[vertex];
+            }
+        }
+        found
+    }
+
     /// Coordinates of the corner at which a half-edge starts.
     pub(super) fn start(&self, h: usize) -> [i64; 2] {
         self.corners[h / 3][h % 3]

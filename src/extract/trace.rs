@@ -29,6 +29,12 @@ pub(super) fn graph(mesh: &Refined, arrangement: &mut Arrangement) -> Graph {
             tracer.join(&mut graph, port, piece, 1 - usize::from(ray.end));
         }
     }
+    graph.is_open = vec![false; graph.port_count()];
+    for &side in &arrangement.near_boundary {
+        if let Some(port) = tracer.cell_left_of(&graph, side) {
+            graph.is_open[port as usize] = true;
+        }
+    }
     graph
 }
 
@@ -49,8 +55,22 @@ impl Tracer<'_> {
         }
     }
 
-    /// The port reached and the quarter turns on the way, or `None` if the line leaves the surface.
+    /// A port of the cell to the left of a line that enters a triangle by this side of a crossing, if the line
+    /// comes from an integer point.
+    fn cell_left_of(&self, graph: &Graph, side: u32) -> Option<u32> {
+        let at = self.arrangement.at_crossing[side as usize] as usize;
+        let (piece, end) = (at / 2, at % 2);
+        let ahead = match self.arrangement.pieces[piece].ports[end] {
+            NONE => self.follow(piece, 1 - end)?.0,
+            port => port,
+        };
+        graph.mate(ahead)
+    }
+
+    /// The port reached and the quarter turns on the way, or `None` if the line leaves the surface or returns to
+    /// the piece without a port.
     fn follow(&self, mut piece: usize, mut end: usize) -> Option<(u32, u8)> {
+        let start = (piece, end);
         let mut turn = 0;
         loop {
             let side = self.arrangement.pieces[piece].ends[end];
@@ -69,6 +89,9 @@ impl Tracer<'_> {
                 return Some((port, turn));
             }
             end = 1 - end;
+            if (piece, end) == start {
+                return None;
+            }
         }
     }
 }

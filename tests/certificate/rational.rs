@@ -86,6 +86,7 @@ impl Quadratic {
             self = self.without_last();
         }
         self.reduce();
+        self.sort();
         // The objective with the unknowns from k on at their minimum, for each k.
         let mut levels = vec![self];
         while levels.last().unwrap().gradient.len() > 1 {
@@ -128,6 +129,16 @@ impl Quadratic {
                 return;
             }
         }
+    }
+
+    /// Puts the longest basis vectors first, which leave few integers to try for the first unknowns.
+    fn sort(&mut self) {
+        let mut order: Vec<usize> = (0..self.gradient.len()).collect();
+        order.sort_by(|&i, &j| self.hessian[j][j].cmp(&self.hessian[i][i]));
+        let row = |i: &usize| order.iter().map(|&j| self.hessian[*i][j].clone()).collect();
+        let hessian = order.iter().map(row).collect();
+        self.gradient = order.iter().map(|&i| self.gradient[i].clone()).collect();
+        self.hessian = hessian;
     }
 }
 
