@@ -31,8 +31,8 @@ const HASTE: f64 = 0.003;
 const HASTY_TOLERANCE: f64 = 10.0;
 
 /// ... and this many updates for each unknown in all. A field of 200,000 faces then gets twice as many irregular
-/// vertices, for a tenth of the updates. Rounding the relaxation once gives it fifty times as many, and no
-/// map follows it in a reasonable time.
+/// vertices, for a tenth of the updates. Rounding the relaxation once gives it fifty times as many, and rounding
+/// the map of that field takes minutes.
 const HASTY_UPDATES: usize = 20;
 
 /// Rounds by passes.

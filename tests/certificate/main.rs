@@ -344,19 +344,23 @@ fn nearly_singular_problems_have_no_false_certificates() {
     check_all(nearly_singular, 0..300);
 }
 
-#[test]
-#[ignore = "100,000 problems of each kind in exact arithmetic: minutes"]
-fn a_hundred_thousand_problems_of_each_kind() {
-    let kinds = [
-        far_from_zero,
-        scaled,
-        ill_conditioned,
-        nearly_singular,
-        constrained,
-    ];
-    std::thread::scope(|scope| {
-        for kind in kinds {
-            scope.spawn(move || check_all(kind, 1_000..101_000));
-        }
-    });
+/// For each kind a test that tries 100,000 problems in exact arithmetic.
+macro_rules! a_hundred_thousand {
+    ($($name:ident: $kind:path,)*) => {
+        $(
+            #[test]
+            #[ignore = "100,000 problems in exact arithmetic: minutes"]
+            fn $name() {
+                check_all($kind, 1_000..101_000);
+            }
+        )*
+    };
+}
+
+a_hundred_thousand! {
+    a_hundred_thousand_far_from_zero: far_from_zero,
+    a_hundred_thousand_scaled: scaled,
+    a_hundred_thousand_ill_conditioned: ill_conditioned,
+    a_hundred_thousand_nearly_singular: nearly_singular,
+    a_hundred_thousand_constrained: constrained,
 }
