@@ -122,12 +122,18 @@ impl Case {
         rest
     }
 
-    /// What the rounding of the values to floats may add to an energy.
+    /// What the rounding of the values to floats may add to an energy: its second order, and where a constraint
+    /// leads values away from the least of the energy, its first.
     fn rounding_of_values(&self, x: &[f64]) -> BigRational {
         let mut sum = 0.0;
-        for (row, _, weight) in &self.rows {
-            let size: f64 = row.iter().zip(x).map(|(a, x)| (a * x).abs()).sum();
-            sum += weight * (size * f64::EPSILON).powi(2);
+        for (row, rhs, weight) in &self.rows {
+            let terms = || row.iter().zip(x).map(|(a, x)| a * x);
+            let size = f64::EPSILON * terms().map(f64::abs).sum::<f64>();
+            let slope = match self.constraint {
+                Some(_) => 2.0 * (terms().sum::<f64>() - rhs).abs(),
+                None => 0.0,
+            };
+            sum += weight * size * (size + slope);
         }
         exact(sum)
     }
@@ -163,14 +169,20 @@ impl Case {
             );
         }
 
+        let bound = solution.lower_bound().unwrap();
+        let is_optimal = solution.status() == SolveStatus::Optimal;
+        if !bound.is_finite() && !is_optimal {
+            // Nothing is claimed, and a problem that floats cannot tell from a singular one may have too many
+            // integers to try.
+            return Some(solution);
+        }
         let start = quadratic.energy(&x[..free]);
         let least = quadratic.least_energy(self.integers, &start);
-        let bound = solution.lower_bound().unwrap();
         assert!(
             !bound.is_finite() || exact(bound) <= least,
             "{of}: bound {bound} above {least}"
         );
-        if solution.status() == SolveStatus::Optimal {
+        if is_optimal {
             let above = exact(solution.energy()) - &least;
             let most = exact(1e-9) * magnitude(&least) + self.rounding_of_values(solution.values());
             assert!(
