@@ -19,6 +19,7 @@ mod figures;
 mod fold_removal;
 mod graph;
 mod grid_map;
+mod manifold;
 mod place;
 mod quad_mesh;
 mod quad_obj;

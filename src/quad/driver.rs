@@ -17,6 +17,7 @@
 //! [`Driver::next`] alone decides what is tried next. Among all quads with the best
 //! [`Outcome`](super::outcome::Outcome) the first are kept.
 
+use std::cell::Cell;
 use std::time::Instant;
 
 use super::attempt::{Attempt, is_hopeless};
@@ -72,6 +73,9 @@ const FACES: usize = 10_000;
 /// The same for a mesh that was tried before.
 const FACES_AGAIN: usize = 4_000;
 
+/// The faces that take as long as the dense lattice of this many integers, cubed.
+const CUBE_OF_INTEGERS: u64 = 24_000;
+
 /// How much is tried.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Effort {
@@ -85,7 +89,8 @@ pub(super) enum Effort {
     Again,
 }
 
-/// The quads by one set of options: [`quadrangulate`](super::quadrangulate()) tells what is tried.
+/// The quads by one set of options: [`quadrangulate`](super::quadrangulate()) tells what is tried. The first
+/// try spends `work` as the others do, but is made in any case.
 ///
 /// # Errors
 /// Those of [`quadrangulate`](super::quadrangulate()).
@@ -93,6 +98,7 @@ pub(super) fn by_options<'a>(
     mesh: &TriangleMesh,
     options: &QuadOptions,
     effort: Effort,
+    work: &Cell<u64>,
     monitor: &impl Fn() -> Monitor<'a>,
 ) -> Result<Quadrangulation> {
     options.sizing.check(mesh)?;
@@ -100,7 +106,7 @@ pub(super) fn by_options<'a>(
     let mut seconds = 0.0;
     let input = timed(&mut seconds, || refined(mesh, &features, options))?;
     let Some(input) = input else {
-        return of_mesh(mesh, features, options, effort, monitor);
+        return of_mesh(mesh, features, options, effort, work, monitor);
     };
     let smooth = match &options.smooth {
         Some(given) => {
@@ -119,7 +125,7 @@ pub(super) fn by_options<'a>(
         ..options.clone()
     };
     let features = input.features.clone();
-    let mut made = of_mesh(&input.refined.mesh, features, &given, effort, monitor)?;
+    let mut made = of_mesh(&input.refined.mesh, features, &given, effort, work, monitor)?;
     made.seconds.refine = seconds;
     Ok(input.result_for(mesh, made))
 }
@@ -147,6 +153,7 @@ fn of_mesh<'a>(
     features: FeatureGraph,
     options: &QuadOptions,
     effort: Effort,
+    work: &Cell<u64>,
     monitor: &impl Fn() -> Monitor<'a>,
 ) -> Result<Quadrangulation> {
     let features = features.with_two_of_each_face(mesh);
@@ -160,6 +167,7 @@ fn of_mesh<'a>(
         mesh,
         options,
         effort,
+        work,
         sizing: options.sizing.clone(),
         sizes: 0,
         details: 0,
@@ -215,6 +223,8 @@ struct Driver<'a, M> {
     mesh: &'a TriangleMesh,
     options: &'a QuadOptions,
     effort: Effort,
+    /// What may still be spent, in faces whose field, map and quads are computed.
+    work: &'a Cell<u64>,
     /// The current size of the quads.
     sizing: Sizing,
     /// How often it was changed.
@@ -240,7 +250,7 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Driver<'a, M> {
     fn next(&self, last: Try, best: &Attempt) -> Option<Try> {
         let at_hand = self.fields.get(self.current)?;
         match last {
-            _ if best.outcome.is_whole() => None,
+            _ if best.outcome.is_whole() || self.work.get() == 0 => None,
             Try::SmallerQuads if self.smaller(best).is_some() => Some(Try::SmallerQuads),
             _ if self.effort == Effort::OfSeveral && !best.outcome.conforms() => None,
             Try::SmallerQuads | Try::Graded if self.is_tangled(best) && self.may_grade(best) => {
@@ -375,6 +385,9 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Driver<'a, M> {
 
     fn quads(&mut self, (solution, map): (Solution, Untangled)) -> Result<Attempt> {
         self.visits = self.visits.saturating_sub(map.visited);
+        let integers = solution.counts().reduced_integers as u64;
+        let spent = self.mesh.face_count() as u64 + integers.pow(3) / CUBE_OF_INTEGERS;
+        self.work.set(self.work.get().saturating_sub(spent));
         self.enter(Stage::Quads);
         let field = self.current;
         let features: Vec<usize> = self.features.edges().collect();

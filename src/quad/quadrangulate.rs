@@ -1,6 +1,8 @@
 //! From a mesh to quads: [`quadrangulate`], by the options, and again, by others or a component at a time,
 //! where they do not conform or lose the surface.
 
+use std::cell::Cell;
+
 use super::apart::apart;
 use super::by_component::Components;
 use super::coverage::far;
@@ -35,8 +37,13 @@ const FIRST: f64 = 0.97;
 /// refinement, and once more with half as many quads again as were asked for. The first of the best results is
 /// kept. Of a mesh of several components, only those are tried again whose quads do not conform, and then, if
 /// the surface is not covered, those that do not cover theirs: each alone, as it is and in these ways, and
-/// their quads replace those of the first try if they are better. These tries have 100,000 triangles in all.
+/// their quads replace those of the first try if they are better. These tries end when they have made fields, maps and quads of 200,000 triangles in all, or
+/// what takes as long.
 /// [`Quadrangulation::apart`] names the triangles of components that have quads of their own.
+///
+/// Quads that do not conform even then are quads only, manifold and oriented: faces that contain a vertex twice
+/// are dropped, those that are no quads are split, and all are cut apart at edges with more than two faces, or
+/// with two that run the same way.
 ///
 /// A caller who [finishes](crate::Flow::Finish) the run after the field's first solution gets the quads of the
 /// best integers so far: nothing above is tried any more, and smoothing ends.
@@ -58,7 +65,10 @@ pub fn quadrangulate<'a>(
         1 => Effort::Full,
         _ => Effort::OfSeveral,
     };
-    let first = run.with_share([0.0, FIRST], || by_options(mesh, options, effort, &monitor));
+    let any_work = Cell::new(u64::MAX);
+    let first = run.with_share([0.0, FIRST], || {
+        by_options(mesh, options, effort, &any_work, &monitor)
+    });
     let mut best = match first {
         Err(error) if is_final(&error) => return Err(error),
         first => first,
@@ -74,6 +84,11 @@ pub fn quadrangulate<'a>(
         {
             best = Ok(apart(&mut tries, mesh, options, &components, made));
         }
+    }
+    if let Ok(made) = &mut best
+        && !made.quads.is_conforming()
+    {
+        made.quads.make_manifold();
     }
     run.end_call();
     // There is a result, whatever the caller wants.

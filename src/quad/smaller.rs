@@ -2,9 +2,11 @@
 //!
 //! A component smaller than a few quads may round to nothing, or to quads of another topology. The quads of
 //! such components get shorter edges, and all others keep theirs. That is bounded: the shorter edges may add
-//! as many quads as were wanted in all, unless there are no quads whatsoever.
+//! as many quads as were wanted in all, or a few, unless there are no quads whatsoever, or none without a vertex
+//! that it has twice.
 
-use crate::extract::{Origin, QuadMesh};
+use super::by_component::Components;
+use crate::extract::QuadMesh;
 use crate::map::Sizing;
 use crate::mesh::TriangleMesh;
 
@@ -17,16 +19,20 @@ const SHORTER: f64 = 0.5;
 /// The least number of quads that a component has room for once its quads were lost.
 const LEAST: f64 = 8.0;
 
-/// The sizes with shorter edges where components have no quads, or quads of another Euler characteristic or
-/// with holes; `None` if there are no such components, or too large ones.
+/// The number of quads that may be added in any case.
+const FEW: f64 = 500.0;
+
+/// The sizes with shorter edges where components have no quads, or quads that do not conform; `None` if there
+/// are no such components, or too large ones.
 pub(super) fn smaller_quads(
     mesh: &TriangleMesh,
     sizing: &Sizing,
     quads: &QuadMesh,
 ) -> Option<Sizing> {
-    let components = mesh.components();
-    let of_face: Vec<usize> = components.of_face.iter().map(|&c| c as usize).collect();
-    let is_lost = lost(mesh, quads, &of_face, components.count);
+    let components = Components::new(mesh);
+    let of_face = &components.of_face;
+    let parts = components.split(mesh, quads);
+    let is_lost: Vec<bool> = parts.iter().map(|part| !part.is_conforming()).collect();
     let lengths: Vec<[f64; 2]> = match sizing {
         Sizing::Lengths(lengths) => lengths.clone(),
         other => vec![[other.edge_length(mesh); 2]; mesh.face_count()],
@@ -44,62 +50,22 @@ pub(super) fn smaller_quads(
     let (wanted, added) = (0..components.count).fold((0.0, 0.0), |(wanted, added), component| {
         (wanted + room[component], added + more(component))
     });
-    let has_none = quads.faces().next().is_none();
-    if added == 0.0 || added > wanted && !has_none {
+    let has_none = quads.figures().degenerate == quads.faces().count();
+    if added == 0.0 || added > wanted.max(FEW) && !has_none {
         return None;
     }
-    let shorter = lengths.iter().zip(&of_face).map(|(pair, &component)| {
+    let shorter = lengths.iter().zip(of_face).map(|(pair, &component)| {
         let factor = factor(component);
         pair.map(|length| factor * length)
     });
     Some(Sizing::Lengths(shorter.collect()))
 }
 
-/// For each component, whether its quads are not those of its surface.
-fn lost(mesh: &TriangleMesh, quads: &QuadMesh, of_face: &[usize], count: usize) -> Vec<bool> {
-    let of_vertex = |vertex: usize| mesh.ring(vertex).next().map(|(face, _)| of_face[face]);
-    let of_origin = |origin: Origin| match origin {
-        Origin::Vertex(vertex) => of_vertex(vertex),
-        Origin::Face(face, _) => Some(of_face[face]),
-        Origin::Middle => None,
-    };
-    let mut component: Vec<Option<usize>> = quads.origins.iter().map(|&o| of_origin(o)).collect();
-    let mut is_lost = vec![false; count];
-    let mut edges = Vec::new();
-    // Vertices less edges plus faces: those of the mesh less those of the quads.
-    let mut euler = vec![0i64; count];
-    for quad in quads.faces() {
-        let Some(here) = quad.iter().find_map(|&v| component[v as usize]) else {
-            continue;
-        };
-        is_lost[here] |= quad.len() != 4;
-        euler[here] -= 1;
-        for (&a, &b) in quad.iter().zip(quad.iter().cycle().skip(1)) {
-            component[a as usize].get_or_insert(here);
-            edges.push((a.min(b), a.max(b), here));
-        }
-    }
-    edges.sort_unstable();
-    for same in edges.chunk_by(|a, b| a == b) {
-        euler[same[0].2] += 1;
-        is_lost[same[0].2] |= same.len() > 2;
-    }
-    component.iter().flatten().for_each(|&c| euler[c] -= 1);
-    of_face.iter().for_each(|&c| euler[c] += 1);
-    mesh.edges()
-        .for_each(|edge| euler[of_face[edge.first.0]] -= 1);
-    for vertex in 0..mesh.vertex_count() {
-        of_vertex(vertex).into_iter().for_each(|c| euler[c] += 1);
-    }
-    let differs = euler.iter().zip(&mut is_lost);
-    differs.for_each(|(&euler, lost)| *lost |= euler != 0);
-    is_lost
-}
-
 #[cfg(test)]
 mod tests {
     use super::super::{QuadOptions, quadrangulate};
     use super::*;
+    use crate::extract::Origin;
     use crate::mesh::shape::by_name;
     use crate::monitor::Monitor;
 
@@ -133,13 +99,7 @@ mod tests {
         assert!(quads.is_conforming());
         assert_eq!(quads.figures().euler, 4);
         assert!((100..400).contains(&quads.quads.len()));
-        let of_face: Vec<usize> = mesh
-            .components()
-            .of_face
-            .iter()
-            .map(|&c| c as usize)
-            .collect();
-        assert_eq!(lost(&mesh, &quads, &of_face, 2), [false; 2]);
+        assert!(smaller_quads(&mesh, &Sizing::Quads(200), &quads).is_none());
     }
 
     #[test]
@@ -163,5 +123,19 @@ mod tests {
         assert!(second.iter().all(|pair| pair[0] <= 0.5 * edge));
         quads.quads.clear();
         assert!(smaller_quads(&mesh, &Sizing::Quads(200), &quads).is_some());
+    }
+
+    /// Rings round a tube of one quad have its vertex twice.
+    #[test]
+    fn quads_that_have_a_vertex_twice_are_lost() {
+        let mesh = by_name("sphere", 200).unwrap();
+        let mut quads = made(&mesh);
+        let sizing = Sizing::Quads(600);
+        assert!(smaller_quads(&mesh, &sizing, &quads).is_none());
+        let ring = |quad: &mut [u32; 4]| *quad = [quad[0], quad[0], quad[1], quad[1]];
+        quads.quads.iter_mut().take(1).for_each(ring);
+        assert!(smaller_quads(&mesh, &sizing, &quads).is_none());
+        quads.quads.iter_mut().for_each(ring);
+        assert!(smaller_quads(&mesh, &sizing, &quads).is_some());
     }
 }

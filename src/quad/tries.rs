@@ -1,5 +1,7 @@
 //! Tries after the first: a mesh whose quads are not good, by other options.
 
+use std::cell::Cell;
+
 use super::driver::{Effort, by_options};
 use super::rank::Rank;
 use super::{QuadOptions, Quadrangulation};
@@ -18,16 +20,16 @@ const MORE: f64 = 1.5;
 /// Larger meshes are tried once.
 const MOST_FACES: usize = 50_000;
 
-/// The faces that the tries of components may have together.
-const FACES_APART: usize = 100_000;
+/// What the tries may spend together, in faces whose field, map and quads are computed.
+const WORK: u64 = 200_000;
 
 /// What tries share.
 pub(super) struct Tries<'a, M> {
     /// The distance from quads at which a point of the surface is lost.
     pub(super) far: f64,
     pub(super) monitor: &'a M,
-    /// The faces that tries of components may still have.
-    left: usize,
+    /// What may still be spent.
+    work: Cell<u64>,
     /// Whether the caller wants what there is.
     has_ended: bool,
 }
@@ -37,14 +39,14 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Tries<'a, M> {
         Tries {
             far,
             monitor,
-            left: FACES_APART,
+            work: Cell::new(WORK),
             has_ended: false,
         }
     }
 
     /// Whether there is work left for a component.
     pub(super) fn may_take(&self, part: &TriangleMesh) -> bool {
-        !self.has_ended && part.face_count() <= self.left
+        !self.has_ended && part.face_count() as u64 <= self.work.get()
     }
 
     /// One try, which takes half of what is left of the run. `None` if the caller wants what there is, or if
@@ -57,13 +59,10 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Tries<'a, M> {
         let (run, monitor) = ((self.monitor)().run(), self.monitor);
         let half = [0.0, 0.5].map(|part| run.share() + part * (1.0 - run.share()));
         let found = optional(monitor, || {
-            run.with_share(half, || by_options(mesh, options, Effort::Again, monitor))
+            run.with_share(half, || {
+                by_options(mesh, options, Effort::Again, &self.work, monitor)
+            })
         });
-        let faces = match &found {
-            Ok(Some(made)) => made.mesh(mesh).face_count(),
-            _ => mesh.face_count(),
-        };
-        self.left = self.left.saturating_sub(faces);
         match found.transpose() {
             Some(Err(Error::Cancelled | Error::TimeLimit | Error::OutOfMemory { .. })) => {
                 self.has_ended = true;
@@ -91,7 +90,7 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Tries<'a, M> {
             return best;
         }
         for other in others(mesh, options) {
-            if rank.is_good() || self.has_ended || self.left == 0 {
+            if rank.is_good() || self.has_ended || self.work.get() == 0 {
                 break;
             }
             let Some(found) = self.one(mesh, &other) else {
