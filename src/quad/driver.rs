@@ -73,8 +73,8 @@ const FACES: usize = 10_000;
 /// The same for a mesh that was tried before.
 const FACES_AGAIN: usize = 4_000;
 
-/// The faces that take as long as the dense lattice of this many integers, cubed.
-const CUBE_OF_INTEGERS: u64 = 24_000;
+/// The dense lattice of m integers takes as long as m^3 divided by this many faces.
+const INTEGERS_OF_A_FACE: u64 = 24_000;
 
 /// How much is tried.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -385,8 +385,10 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Driver<'a, M> {
 
     fn quads(&mut self, (solution, map): (Solution, Untangled)) -> Result<Attempt> {
         self.visits = self.visits.saturating_sub(map.visited);
-        let integers = solution.counts().reduced_integers as u64;
-        let spent = self.mesh.face_count() as u64 + integers.pow(3) / CUBE_OF_INTEGERS;
+        let most = self.options.map.dense_integers;
+        let dense = Some(solution.counts().reduced_integers).filter(|&m| m <= most);
+        let dense = dense.unwrap_or(0) as u64;
+        let spent = self.mesh.face_count() as u64 + dense.pow(3) / INTEGERS_OF_A_FACE;
         self.work.set(self.work.get().saturating_sub(spent));
         self.enter(Stage::Quads);
         let field = self.current;

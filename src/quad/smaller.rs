@@ -2,7 +2,7 @@
 //!
 //! A component smaller than a few quads may round to nothing, or to quads of another topology. The quads of
 //! such components get shorter edges, and all others keep theirs. That is bounded: the shorter edges may add
-//! as many quads as were wanted in all, or a few, unless there are no quads whatsoever, or none without a vertex
+//! as many quads as were wanted in all, unless there are no quads whatsoever, or none without a vertex
 //! that it has twice.
 
 use super::by_component::Components;
@@ -18,9 +18,6 @@ const SHORTER: f64 = 0.5;
 
 /// The least number of quads that a component has room for once its quads were lost.
 const LEAST: f64 = 8.0;
-
-/// The number of quads that may be added in any case.
-const FEW: f64 = 500.0;
 
 /// The sizes with shorter edges where components have no quads, or quads that do not conform; `None` if there
 /// are no such components, or too large ones.
@@ -51,7 +48,7 @@ pub(super) fn smaller_quads(
         (wanted + room[component], added + more(component))
     });
     let has_none = quads.figures().degenerate == quads.faces().count();
-    if added == 0.0 || added > wanted.max(FEW) && !has_none {
+    if added == 0.0 || added > wanted && !has_none {
         return None;
     }
     let shorter = lengths.iter().zip(of_face).map(|(pair, &component)| {

@@ -17,6 +17,9 @@ const SHARP: f64 = 40.0 * std::f64::consts::PI / 180.0;
 /// How many times as many quads are tried.
 const MORE: f64 = 1.5;
 
+/// The number of quads that is tried in any case, which a small part of a thin solid may need.
+const ENOUGH: f64 = 500.0;
+
 /// Larger meshes are tried once.
 const MOST_FACES: usize = 50_000;
 
@@ -105,7 +108,7 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Tries<'a, M> {
     }
 }
 
-/// What else to try: sharp edges as features, the mesh as it is, and more quads.
+/// What else to try: sharp edges as features, the mesh as it is, more quads, and enough of them for any shape.
 fn others(mesh: &TriangleMesh, options: &QuadOptions) -> Vec<QuadOptions> {
     let mut others = Vec::new();
     if !has_features(mesh, &options.guidance) {
@@ -124,18 +127,24 @@ fn others(mesh: &TriangleMesh, options: &QuadOptions) -> Vec<QuadOptions> {
             ..options.clone()
         });
     }
-    others.push(QuadOptions {
-        sizing: finer(&options.sizing),
-        ..options.clone()
-    });
+    let edge = options.sizing.edge_length(mesh);
+    let asked = mesh.surface_area() / (edge * edge);
+    let factors = [MORE, ENOUGH / asked].into_iter();
+    let finer = factors
+        .filter(|&more| more >= MORE)
+        .map(|more| QuadOptions {
+            sizing: finer(&options.sizing, more),
+            ..options.clone()
+        });
+    others.extend(finer);
     others
 }
 
-/// The sizes with [`MORE`] quads.
-fn finer(sizing: &Sizing) -> Sizing {
-    let shorter = |length: f64| length / MORE.sqrt();
+/// The sizes with so many times as many quads.
+fn finer(sizing: &Sizing, more: f64) -> Sizing {
+    let shorter = |length: f64| length / more.sqrt();
     match sizing {
-        Sizing::Quads(quads) => Sizing::Quads((MORE * *quads as f64).ceil() as usize),
+        Sizing::Quads(quads) => Sizing::Quads((more * *quads as f64).ceil() as usize),
         Sizing::EdgeLength(length) => Sizing::EdgeLength(shorter(*length)),
         Sizing::Lengths(lengths) => {
             Sizing::Lengths(lengths.iter().map(|pair| pair.map(shorter)).collect())
