@@ -99,16 +99,18 @@ fn is_parted(corners: &[[u32; 3]]) -> bool {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
+    use super::super::Origin;
     use super::*;
 
-    fn mesh(quads: &[[u32; 4]], others: &[&[u32]]) -> QuadMesh {
+    /// A mesh of these faces, whose vertices lie on a line.
+    pub(in super::super) fn mesh(quads: &[[u32; 4]], others: &[&[u32]]) -> QuadMesh {
         let faces = quads.iter().map(|q| q.as_slice());
         let most = faces.chain(others.iter().copied()).flatten().max();
         let count = most.map_or(0, |&v| v as usize + 1);
         QuadMesh {
-            vertices: vec![[0.0; 3]; count],
-            origins: Vec::new(),
+            vertices: (0..count).map(|v| [v as f64, 0.0, 0.0]).collect(),
+            origins: (0..count).map(Origin::Vertex).collect(),
             quads: quads.to_vec(),
             others: others.iter().map(|face| face.to_vec()).collect(),
             partial_cells: 0,

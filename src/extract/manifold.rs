@@ -17,7 +17,8 @@ type Side = ([u32; 2], bool, [usize; 2]);
 impl QuadMesh {
     /// Makes the mesh one of quads, manifold and oriented. Conforming quads do not change.
     pub(crate) fn make_manifold(&mut self) {
-        self.drop_degenerate();
+        self.quads.retain(|quad| !has_twice(quad));
+        self.others.retain(|face| !has_twice(face));
         self.split_others();
         self.cut();
     }
@@ -41,20 +42,6 @@ impl QuadMesh {
                     .push([face[0], face[k], face[k + 1], face[k + 2]]);
             }
         }
-        self.renumber_used();
-    }
-
-    /// Drops the faces that contain a vertex twice, and the vertices that only they have.
-    fn drop_degenerate(&mut self) {
-        self.quads.retain(|quad| !has_twice(quad));
-        self.others.retain(|face| !has_twice(face));
-        self.renumber_used();
-    }
-
-    /// Drops the vertices that no face has.
-    fn renumber_used(&mut self) {
-        let corners: Vec<usize> = self.faces().flatten().map(|&v| v as usize).collect();
-        self.renumber(&corners);
     }
 
     /// Gives every fan of faces around a vertex a vertex of its own. Faces are connected over edges with two
@@ -85,21 +72,18 @@ impl QuadMesh {
             }
         }
         // The first fan of a vertex keeps its number.
-        let mut fan_of: Vec<Option<usize>> = vec![None; self.vertices.len()];
+        let mut is_taken = vec![false; self.vertices.len()];
         let mut vertex_of = vec![None; corners.len()];
         let mut cut = Vec::with_capacity(corners.len());
         for (corner, &v) in corners.iter().enumerate() {
             let fan = fans.root(corner);
-            let vertex = vertex_of[fan].unwrap_or_else(|| match fan_of[v] {
-                None => {
-                    fan_of[v] = Some(fan);
-                    v
+            let vertex = vertex_of[fan].unwrap_or_else(|| {
+                if !std::mem::replace(&mut is_taken[v], true) {
+                    return v;
                 }
-                Some(_) => {
-                    self.vertices.push(self.vertices[v]);
-                    self.origins.push(self.origins[v]);
-                    self.vertices.len() - 1
-                }
+                self.vertices.push(self.vertices[v]);
+                self.origins.push(self.origins[v]);
+                self.vertices.len() - 1
             });
             vertex_of[fan] = Some(vertex);
             cut.push(vertex);
@@ -129,24 +113,9 @@ impl QuadMesh {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Origin;
+    use super::super::faults::tests::mesh;
     use super::*;
     use crate::linalg::Random;
-
-    fn mesh(quads: &[[u32; 4]], others: &[&[u32]]) -> QuadMesh {
-        let most = quads.iter().flatten().max().map_or(0, |&v| v as usize + 1);
-        QuadMesh {
-            vertices: (0..most).map(|v| [v as f64, 0.0, 0.0]).collect(),
-            origins: (0..most).map(Origin::Vertex).collect(),
-            quads: quads.to_vec(),
-            others: others.iter().map(|face| face.to_vec()).collect(),
-            partial_cells: 0,
-            folds_removed: 0,
-            repaired: 0,
-            folded: Vec::new(),
-            expected_euler: 1,
-        }
-    }
 
     #[test]
     fn other_faces_become_quads_without_the_smallest_corner_of_odd_ones() {

@@ -73,8 +73,8 @@ const FACES: usize = 10_000;
 /// The same for a mesh that was tried before.
 const FACES_AGAIN: usize = 4_000;
 
-/// The dense lattice of m integers takes as long as m^3 divided by this many faces.
-const INTEGERS_OF_A_FACE: u64 = 24_000;
+/// A dense lattice takes as long as one face for each of so many in the cube of its number of integers.
+const CUBES_PER_FACE: u64 = 24_000;
 
 /// How much is tried.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -388,7 +388,7 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Driver<'a, M> {
         let most = self.options.map.dense_integers;
         let dense = Some(solution.counts().reduced_integers).filter(|&m| m <= most);
         let dense = dense.unwrap_or(0) as u64;
-        let spent = self.mesh.face_count() as u64 + dense.pow(3) / INTEGERS_OF_A_FACE;
+        let spent = self.mesh.face_count() as u64 + dense.pow(3) / CUBES_PER_FACE;
         self.work.set(self.work.get().saturating_sub(spent));
         self.enter(Stage::Quads);
         let field = self.current;

@@ -43,7 +43,8 @@ const FIRST: f64 = 0.97;
 ///
 /// Quads that do not conform even then are quads only, manifold and oriented: faces that contain a vertex twice
 /// are dropped, those that are no quads are split, and all are cut apart at edges with more than two faces, or
-/// with two that run the same way.
+/// with two that run the same way. Where nothing would be left, or the result could be taken for quads that
+/// conform, they stay as they are.
 ///
 /// A caller who [finishes](crate::Flow::Finish) the run after the field's first solution gets the quads of the
 /// best integers so far: nothing above is tried any more, and smoothing ends.
@@ -65,9 +66,9 @@ pub fn quadrangulate<'a>(
         1 => Effort::Full,
         _ => Effort::OfSeveral,
     };
-    let any_work = Cell::new(u64::MAX);
+    let unlimited = Cell::new(u64::MAX);
     let first = run.with_share([0.0, FIRST], || {
-        by_options(mesh, options, effort, &any_work, &monitor)
+        by_options(mesh, options, effort, &unlimited, &monitor)
     });
     let mut best = match first {
         Err(error) if is_final(&error) => return Err(error),
@@ -88,7 +89,12 @@ pub fn quadrangulate<'a>(
     if let Ok(made) = &mut best
         && !made.quads.is_conforming()
     {
-        made.quads.make_manifold();
+        let mut cut = made.quads.clone();
+        cut.make_manifold();
+        // The Euler characteristic may become right by chance: quads that do not conform never seem to.
+        if !cut.quads.is_empty() && !cut.is_conforming() {
+            made.quads = cut;
+        }
     }
     run.end_call();
     // There is a result, whatever the caller wants.
