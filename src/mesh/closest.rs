@@ -100,6 +100,16 @@ impl ClosestPoint {
     ///
     /// A `hint`, a triangle that may be near such as that of the last search, shortens the search.
     pub fn find(&self, p: Vec3, hint: Option<usize>) -> Option<(usize, Vec3)> {
+        self.find_counted(p, hint, &mut 0)
+    }
+
+    /// As [`Self::find`]. Adds the number of triangles that were looked at to `work`.
+    pub(crate) fn find_counted(
+        &self,
+        p: Vec3,
+        hint: Option<usize>,
+        work: &mut u64,
+    ) -> Option<(usize, Vec3)> {
         let start = hint.unwrap_or(0);
         let mut best = (start, closest(*self.triangles.get(start)?, p));
         let mut least = squared(sub(best.1, p));
@@ -110,6 +120,7 @@ impl ClosestPoint {
                 continue;
             }
             if bounds.second == 0 {
+                *work += u64::from(bounds.last - bounds.first);
                 for &t in &self.order[bounds.first as usize..bounds.last as usize] {
                     let point = closest(self.triangles[t as usize], p);
                     let found = squared(sub(point, p));

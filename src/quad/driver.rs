@@ -73,8 +73,14 @@ const FACES: usize = 10_000;
 /// The same for a mesh that was tried before.
 const FACES_AGAIN: usize = 4_000;
 
+/// What a map takes besides what follows, in faces.
+const FACES_OF_ANY: u64 = 100;
+
 /// A dense lattice takes as long as one face for each of so many in the cube of its number of integers.
-const CUBES_PER_FACE: u64 = 24_000;
+const CUBES_PER_FACE: u64 = 10_000;
+
+/// Integers that are too many for a dense lattice take as long as so many times the faces.
+const FACES_OF_MANY: u64 = 6;
 
 /// How much is tried.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -385,16 +391,23 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Driver<'a, M> {
 
     fn quads(&mut self, (solution, map): (Solution, Untangled)) -> Result<Attempt> {
         self.visits = self.visits.saturating_sub(map.visited);
-        let most = self.options.map.dense_integers;
-        let dense = Some(solution.counts().reduced_integers).filter(|&m| m <= most);
-        let dense = dense.unwrap_or(0) as u64;
-        let spent = self.mesh.face_count() as u64 + dense.pow(3) / CUBES_PER_FACE;
+        let spent = self.effort_of(solution.counts().reduced_integers);
         self.work.set(self.work.get().saturating_sub(spent));
         self.enter(Stage::Quads);
         let field = self.current;
         let features: Vec<usize> = self.features.edges().collect();
         let monitor = (self.monitor)();
         Attempt::new(self.mesh, &features, field, solution, map, monitor)
+    }
+
+    /// What a map with this number of integers takes, in faces.
+    fn effort_of(&self, integers: usize) -> u64 {
+        let faces = self.mesh.face_count() as u64;
+        let of_integers = match integers <= self.options.map.dense_integers {
+            true => (integers as u64).pow(3) / CUBES_PER_FACE,
+            false => FACES_OF_MANY * faces,
+        };
+        FACES_OF_ANY + faces + of_integers
     }
 
     fn enter(&self, stage: Stage) {

@@ -38,7 +38,7 @@ const FIRST: f64 = 0.97;
 /// results is kept. Of a mesh of several components, only those are tried again whose quads do not conform, and
 /// then, if the surface is not covered, those that do not cover theirs: each alone, as it is and in these ways,
 /// and their quads replace those of the first try if they are better. These tries end when they have made
-/// fields, maps and quads of 200,000 triangles in all, or what takes as long.
+/// fields, maps and quads of 1,200,000 triangles in all, or what takes as long.
 /// [`Quadrangulation::apart`] names the triangles of components that have quads of their own.
 ///
 /// Quads that do not conform even then are quads only, manifold and oriented: faces that contain a vertex twice

@@ -24,7 +24,7 @@ const ENOUGH: f64 = 500.0;
 const MOST_FACES: usize = 50_000;
 
 /// What the tries may spend together, in faces whose field, map and quads are computed.
-const WORK: u64 = 200_000;
+const WORK: u64 = 1_200_000;
 
 /// What tries share.
 pub(super) struct Tries<'a, M> {

@@ -23,6 +23,11 @@ const UPDATES_AT_A_TIME: usize = 10_000;
 /// would be no end.
 const UPDATES_PER_UNKNOWN: usize = 128;
 
+/// The most unknowns of all systems that conjugate gradients and factorizations solve, unless it is one system.
+/// A factorization takes as long as a hundred updates an unknown. After that, passes go on from values that
+/// Gauss-Seidel has not brought to rest.
+const GLOBAL_UNKNOWNS: usize = 1 << 20;
+
 /// Where the caller wants a result, what is left is rounded in passes whose deviations may sum up to this for
 /// each integer left, ...
 const HASTE: f64 = 0.003;
@@ -64,6 +69,7 @@ pub(crate) fn adaptive(
         )?,
         fixed: vec![false; model.dim()],
         left: integers.len(),
+        global_steps: (GLOBAL_UNKNOWNS / model.dim().max(1)).max(1),
         updates: (UPDATES_PER_UNKNOWN * model.dim()).max(options.gauss_seidel_updates),
     };
     let mut candidates = Candidates::new(model.dim());
@@ -102,6 +108,8 @@ struct Passes<'a> {
     left: usize,
     /// The updates that are left.
     updates: usize,
+    /// The systems that may still be solved.
+    global_steps: usize,
 }
 
 impl Passes<'_> {
@@ -150,9 +158,10 @@ impl Passes<'_> {
                 return Ok(());
             }
         }
-        if self.solve.is_settled() {
+        if self.solve.is_settled() || self.global_steps == 0 {
             return Ok(());
         }
+        self.global_steps -= 1;
         let mut point = self.solve.point();
         let converged = conjugate_gradient(
             self.model.hessian(),

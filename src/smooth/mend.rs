@@ -78,6 +78,9 @@ fn mend_on(quads: &mut QuadMesh, surface: &mut Surface, around: &[Vec<u32>]) {
             if quality(quads, q) >= POOR {
                 continue;
             }
+            if surface.has_spent_its_work() {
+                return;
+            }
             for v in quads.quads[q] {
                 is_better |= improve(quads, surface, v as usize, &around[v as usize]);
             }

@@ -5,6 +5,9 @@
 //! mean of its targets, and from there to the closest point of the surface. Vertices on the
 //! boundary and on features slide along them; a vertex where these end, meet or turn is fixed.
 //! Quads that are still inverted are improved one vertex at a time.
+//!
+//! Closest points are looked for among thousands of triangles each where these are long needles. Smoothing ends
+//! early there.
 
 mod chains;
 mod curve;
@@ -71,7 +74,7 @@ pub fn smooth(
     chains::close(quads, mesh, &mut surface);
     let home = quads.vertices.clone();
     for round in 0..options.rounds {
-        if monitor.finishes() {
+        if monitor.finishes() || surface.has_spent_its_work() {
             break;
         }
         monitor.progress(Phase::Quads, round as f64 / options.rounds as f64)?;

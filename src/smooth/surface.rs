@@ -15,6 +15,10 @@ pub(super) enum Bond {
     Fixed,
 }
 
+/// The most triangles that closest points are looked for among, for each vertex of the quads. On other meshes
+/// than those of needles across the axes, sixty rounds take about 500.
+const WORK_PER_VERTEX: u64 = 20_000;
+
 /// The surface with its curves: boundary and features.
 pub(super) struct Surface {
     faces: ClosestPoint,
@@ -26,6 +30,8 @@ pub(super) struct Surface {
     /// The triangle or segment in which each vertex was last found.
     hints: Vec<Option<usize>>,
     pub(super) fixed: Vec<Vec3>,
+    /// The triangles of the surface that were looked at so far.
+    work: u64,
 }
 
 impl Surface {
@@ -50,14 +56,20 @@ impl Surface {
             node,
             hints: quads.origins.iter().map(|_| None).collect(),
             fixed: quads.vertices.clone(),
+            work: 0,
         }
+    }
+
+    /// Whether closest points have taken so long that no more may be looked for.
+    pub(super) fn has_spent_its_work(&self) -> bool {
+        self.work > WORK_PER_VERTEX * self.fixed.len() as u64
     }
 
     /// The point nearest to `p` that satisfies the constraint of the vertex.
     pub(super) fn project(&mut self, vertex: usize, p: Vec3) -> Vec3 {
         let hint = self.hints[vertex];
         let found = match self.bonds[vertex] {
-            Bond::Surface => self.faces.find(p, hint),
+            Bond::Surface => self.faces.find_counted(p, hint, &mut self.work),
             Bond::Curve(number) => self.curves[number as usize].closest(p, hint),
             Bond::Fixed => None,
         };
@@ -102,4 +114,55 @@ fn place(
 
 fn curve(bond: Bond) -> Option<Bond> {
     (bond != Bond::Surface).then_some(bond)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::shape::by_name;
+
+    /// Quads whose only use is their vertices, which are those of the mesh.
+    fn vertices_of(mesh: &TriangleMesh) -> QuadMesh {
+        QuadMesh {
+            vertices: mesh.vertices().to_vec(),
+            origins: vec![Origin::Middle; mesh.vertex_count()],
+            quads: Vec::new(),
+            others: Vec::new(),
+            partial_cells: 0,
+            folds_removed: 0,
+            repaired: 0,
+            folded: Vec::new(),
+            expected_euler: 0,
+        }
+    }
+
+    /// Whether the closest points of sixty rounds take so long that no more are looked for.
+    fn takes_too_long(mesh: &TriangleMesh) -> bool {
+        let quads = vertices_of(mesh);
+        let mut surface = Surface::new(&quads, mesh, &FeatureGraph::none(mesh));
+        for round in 0..60 {
+            for (v, &p) in quads.vertices.iter().enumerate() {
+                let beside = p.map(|x| x + 0.01 * f64::from(round));
+                surface.project(v, beside);
+            }
+        }
+        surface.has_spent_its_work()
+    }
+
+    #[test]
+    fn only_the_closest_points_of_needles_take_too_long() {
+        assert!(!takes_too_long(&by_name("genus-2", 2_000).unwrap()));
+        // A ribbon of needles from each of two ends to the points of the other side, across the axes.
+        let count = 800;
+        let along = |k: u32, side: f64| {
+            let x = 9_000.0 * f64::from(k) / f64::from(count - 1);
+            [x + side, x - side, 0.3 * x]
+        };
+        let points = (0..count).map(|k| along(k, 1.0));
+        let points: Vec<Vec3> = points.chain((0..count).map(|k| along(k, -1.0))).collect();
+        let first = (0..count - 1).map(|k| [count, k + 1, k]);
+        let second = (0..count - 1).map(|k| [count - 1, count + k, count + k + 1]);
+        let mesh = TriangleMesh::new(points, first.chain(second).collect()).unwrap();
+        assert!(takes_too_long(&mesh));
+    }
 }
