@@ -23,12 +23,18 @@ fn strategies(criterion: &mut Criterion) {
         for (family, problem) in problems(triangles).expect("procedural shapes are valid") {
             let mut group = criterion.benchmark_group(family);
             group.sample_size(10);
-            for strategy in Strategy::ALL {
+            for (strategy, threads) in Strategy::ALL
+                .map(|s| (s, 1))
+                .into_iter()
+                .chain([(Strategy::Auto, 2)])
+            {
                 let options = Options {
                     strategy,
+                    threads,
                     ..Options::default()
                 };
-                let id = BenchmarkId::new(strategy.name(), triangles);
+                let name = format!("{}, {threads} threads", strategy.name());
+                let id = BenchmarkId::new(name, triangles);
                 group.bench_function(id, |b| b.iter(|| solve(&problem, &options)));
             }
             group.finish();

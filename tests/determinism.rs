@@ -5,7 +5,8 @@ mod common;
 use roundel::field::{FieldProblem, curvature_constraints};
 use roundel::map::{SeamlessOptions, SeamlessProblem};
 use roundel::mesh::{jitter, shape};
-use roundel::{Options, Problem, Strategy, solve};
+use roundel::quad::{QuadOptions, quadrangulate};
+use roundel::{Monitor, Options, Problem, Strategy, solve};
 
 fn problems() -> Vec<Problem> {
     let mut problems: Vec<Problem> = (1..4)
@@ -58,4 +59,17 @@ fn every_strategy_gives_the_same_bits_at_any_number_of_threads() {
             assert!(same, "problem {k}, {}: {digests:x?}", strategy.name());
         }
     }
+}
+
+#[test]
+fn quads_have_the_same_bits_at_any_number_of_threads() {
+    // Three fields are tried.
+    let mesh = shape::by_name("genus-2", 12_000).unwrap();
+    let digests = [1, 2, 3, 16].map(|threads| {
+        let mut options = QuadOptions::default();
+        options.field.threads = threads;
+        let made = quadrangulate(&mesh, &options, Monitor::default).unwrap();
+        digest(&made.quads.vertices.concat())
+    });
+    assert!(digests.iter().all(|d| *d == digests[0]), "{digests:x?}");
 }

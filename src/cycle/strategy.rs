@@ -2,7 +2,8 @@
 //!
 //! Both strategies start from nearest plane, which costs one triangular solve. Then they improve blocks.
 //! The budget of multiplications is proportional to the entries of the factor of A. `auto` also improves
-//! the result of adaptive greedy rounding, which is the better start where many angles are known.
+//! the result of adaptive greedy rounding, which is the better start where many angles are known, at the same
+//! time as that of nearest plane.
 
 use super::block::Growth;
 use super::detect::AngleSystem;
@@ -12,6 +13,7 @@ use super::patches::{Proof, prove};
 use super::space::CycleSpace;
 use crate::eliminate::ReducedModel;
 use crate::error::Result;
+use crate::monitor::Monitor;
 use crate::problem::Model;
 use crate::round;
 use crate::search::{Factors, Options, Search, StoppedBy, Strategy};
@@ -24,6 +26,10 @@ const THOROUGH_WORK: usize = 10_000;
 
 /// Multiplications that the budget grants in any case, besides these.
 const LEAST_WORK: usize = 500_000;
+
+/// The least number of entries of the factor for which nearest plane gets a thread of its own: what it starts
+/// takes about a millisecond.
+const WORTH_A_THREAD: usize = 5_000;
 
 const fn effort(growth: Growth, size: usize, residual: f64) -> Effort {
     Effort {
@@ -63,7 +69,9 @@ pub(crate) fn lattice(
     };
     search.prepare(factors)?;
     let start = space.nearest_plane();
-    improve(&space, start, &QUICK, QUICK_WORK, 1, factors, search)?;
+    let work = work(&space, QUICK_WORK).min(search.work.left() as usize);
+    let found = improved(&space, start, &QUICK, work, search.monitor)?;
+    offer(&space, found, factors, search)?;
     Ok(true)
 }
 
@@ -148,7 +156,9 @@ fn conclude(
     Ok(())
 }
 
-/// Adaptive rounding, and improvement from there and from nearest plane.
+/// Adaptive rounding and improvement from there and, on another thread, improvement from nearest plane.
+///
+/// Each has half of the work, so that neither has to wait for the other.
 fn find(
     reduced: &ReducedModel,
     space: &CycleSpace,
@@ -156,25 +166,28 @@ fn find(
     factors: &mut Factors,
     search: &mut Search,
 ) -> Result<()> {
-    round::adaptive(reduced, options, factors, search)?;
-    let mut starts = Vec::from_iter(search.incumbent_integers().map(|z| space.charges(&z)));
-    starts.push(space.nearest_plane());
-    let count = starts.len();
-    for (done, start) in starts.into_iter().enumerate() {
-        if !search.ends(0) {
-            let share = count - done;
-            improve(
-                space,
-                start,
-                &THOROUGH,
-                THOROUGH_WORK,
-                share,
-                factors,
-                search,
-            )?;
+    let work = work(space, THOROUGH_WORK).min(search.work.left() as usize / 2);
+    let threads = match space.factor.len() < WORTH_A_THREAD {
+        true => 1,
+        false => options.threads,
+    };
+    let worker = search.monitor.worker();
+    let improved =
+        |start: Vec<f64>, monitor: &mut Monitor| improved(space, start, &THOROUGH, work, monitor);
+    std::thread::scope(|scope| {
+        let beside = worker.start(scope, threads, |monitor: &mut Monitor| {
+            improved(space.nearest_plane(), monitor)
+        });
+        round::adaptive(reduced, options, factors, search)?;
+        if let Some(start) = search.incumbent_integers().map(|z| space.charges(&z))
+            && !search.ends(0)
+        {
+            let found = improved(start, search.monitor)?;
+            offer(space, found, factors, search)?;
         }
-    }
-    Ok(())
+        let found = beside.wait(search.monitor)?;
+        offer(space, found, factors, search)
+    })
 }
 
 fn space(model: &Model, reduced: &ReducedModel, search: &Search) -> Result<Option<CycleSpace>> {
@@ -188,24 +201,44 @@ fn space(model: &Model, reduced: &ReducedModel, search: &Search) -> Result<Optio
     CycleSpace::new(system, &relaxed, hinted).map(Some)
 }
 
-/// Improves `start` and offers the result. It spends at most one `share`-th of the remaining work.
-fn improve(
+/// The multiplications that an improvement may take, `of_entry` for each entry of the factor.
+fn work(space: &CycleSpace, of_entry: usize) -> usize {
+    LEAST_WORK.saturating_add(of_entry.saturating_mul(space.factor.len()))
+}
+
+/// Charges that were improved, and the multiplications that it took.
+struct Improved {
+    charges: Vec<f64>,
+    work: usize,
+}
+
+/// Improves `start` until this many multiplications are spent.
+fn improved(
     space: &CycleSpace,
     start: Vec<f64>,
     efforts: &[Effort],
     work: usize,
-    share: usize,
+    monitor: &mut Monitor,
+) -> Result<Improved> {
+    let mut improvement = Improvement::new(space, start)?;
+    for &effort in efforts {
+        improvement.run(effort, work, monitor)?;
+    }
+    Ok(Improved {
+        work: improvement.work(),
+        charges: improvement.charges,
+    })
+}
+
+/// Counts the work of an improvement and offers its result.
+fn offer(
+    space: &CycleSpace,
+    improved: Improved,
     factors: &mut Factors,
     search: &mut Search,
 ) -> Result<()> {
-    let work = LEAST_WORK.saturating_add(work.saturating_mul(space.factor.len()));
-    let work = work.min(search.work.left() as usize / share);
-    let mut improvement = Improvement::new(space, start)?;
-    for &effort in efforts {
-        improvement.run(effort, work, search.monitor)?;
-    }
-    search.work.spend(improvement.work() as u64);
-    if let Some(integers) = space.integers(&improvement.charges) {
+    search.work.spend(improved.work as u64);
+    if let Some(integers) = space.integers(&improved.charges) {
         search.offer(factors, &integers)?;
     }
     Ok(())

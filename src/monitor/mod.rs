@@ -7,6 +7,7 @@
 mod cancel;
 mod event;
 mod run;
+mod worker;
 
 use std::time::{Duration, Instant};
 
@@ -15,6 +16,7 @@ pub use cancel::CancelToken;
 pub(crate) use cancel::Stop;
 pub use event::{Event, EventKind, Flow, Phase, Stage};
 pub use run::Run;
+pub(crate) use worker::side_by_side;
 
 type Callback<'a> = Box<dyn FnMut(&Event) -> Flow + 'a>;
 

@@ -6,17 +6,20 @@
 //! decided: its energy measures how far quads are from squares of one size. So several fields are tried
 //! on meshes that are not large.
 
+use std::time::Instant;
+
 use super::QuadOptions;
 use super::aim::aim;
 use super::final_error::is_final;
 use super::outcome::Outcome;
 use super::quadrangulation::timed;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::field::{FieldOptions, Guidance, OrientationField, solve_field};
 use crate::map::SeamlessProblem;
 use crate::mesh::TriangleMesh;
 use crate::mesh::features::FeatureGraph;
-use crate::monitor::{Monitor, Stage, optional};
+use crate::monitor::{Monitor, Stage, optional, side_by_side};
+use crate::search::Options;
 use crate::solve::{Solution, Solver};
 
 /// Another use of curvature.
@@ -62,7 +65,8 @@ pub(super) struct ChosenField {
     outcome: Outcome,
 }
 
-/// The best of the fields that may be tried. The times of fields and maps are added to `seconds`.
+/// The best of the fields that may be tried, several at a time. The times of fields and maps are added to
+/// `seconds`.
 pub(super) fn choose_field<'a>(
     mesh: &TriangleMesh,
     options: &QuadOptions,
@@ -71,23 +75,58 @@ pub(super) fn choose_field<'a>(
     [of_field, of_map]: [&mut f64; 2],
 ) -> Result<ChosenField> {
     let (run, count) = (monitor().run(), field_count(mesh, options));
-    run.enter(Stage::Field, 0, count);
-    let mut best = follow(mesh, options, features, monitor, [of_field, of_map])?;
-    for (k, other) in others(mesh, options).enumerate() {
-        run.enter(Stage::Field, k + 1, count);
-        let found = optional(monitor, || {
-            follow(mesh, &other, features, monitor, [of_field, of_map])
-        });
-        match found {
-            Ok(None) => break,
-            Ok(Some(found)) if found.outcome < best.outcome => best = found,
-            // The guidance that the caller asked for works, so a failure of another one is no error.
-            Ok(_) => {}
-            Err(error) if is_final(&error) => return Err(error),
-            Err(_) => {}
+    let all: Vec<QuadOptions> = std::iter::once(options.clone())
+        .chain(others(mesh, options))
+        .map(|of_field| alone(of_field, count))
+        .collect();
+    let started = Instant::now();
+    let found = side_by_side(
+        count,
+        options.field.threads,
+        monitor,
+        |done| run.enter(Stage::Field, done, count),
+        |k, monitor| {
+            let follow = || follow(mesh, &all[k], features, &monitor);
+            if k == 0 {
+                return follow().map(Some);
+            }
+            match optional(&monitor, follow) {
+                // The guidance that the caller asked for works, so a failure of another one is no error.
+                Err(error) if !is_final(&error) => Ok(None),
+                other => other,
+            }
+        },
+    )?;
+    let (seconds, mut best) = (started.elapsed().as_secs_f64(), None::<Followed>);
+    let mut spent = [0.0; 2];
+    for found in found.into_iter().flatten() {
+        spent = [0, 1].map(|k| spent[k] + found.seconds[k]);
+        if best
+            .as_ref()
+            .is_none_or(|best| found.chosen.outcome < best.chosen.outcome)
+        {
+            best = Some(found);
         }
     }
-    Ok(best)
+    // Tasks at the same time share the seconds that passed.
+    let scale = seconds / (spent[0] + spent[1]).max(f64::MIN_POSITIVE);
+    *of_field += scale * spent[0];
+    *of_map += scale * spent[1];
+    best.map(|best| best.chosen).ok_or(Error::Cancelled)
+}
+
+/// The options of a field when this many are tried: as many threads work on fields, and each on one.
+fn alone(options: QuadOptions, count: usize) -> QuadOptions {
+    if count == 1 {
+        return options;
+    }
+    QuadOptions {
+        field: Options {
+            threads: 1,
+            ..options.field
+        },
+        ..options
+    }
 }
 
 /// The number of fields that are tried.
@@ -116,19 +155,26 @@ fn others(mesh: &TriangleMesh, options: &QuadOptions) -> impl Iterator<Item = Qu
     OTHERS.iter().take(count.saturating_sub(1)).map(of)
 }
 
+/// A field, and how long it and the relaxation of its map took.
+struct Followed {
+    chosen: ChosenField,
+    seconds: [f64; 2],
+}
+
 /// The field that follows this guidance, and the problem of its map.
 fn follow<'a>(
     mesh: &TriangleMesh,
     options: &QuadOptions,
     features: &FeatureGraph,
     monitor: &impl Fn() -> Monitor<'a>,
-    [of_field, of_map]: [&mut f64; 2],
-) -> Result<ChosenField> {
+) -> Result<Followed> {
+    let mut seconds = [0.0; 2];
+    let [of_field, of_map] = &mut seconds;
     let field_options = options.guidance.field_options(mesh, features)?;
     let (field, solution) = timed(of_field, || {
         solve_field(mesh, &field_options, &options.field, monitor)
     })?;
-    timed(of_map, || {
+    let chosen = timed(of_map, || {
         let sizing = &options.sizing;
         let mut problem = SeamlessProblem::with_features(mesh, &field, sizing, features)?;
         let mut solver = Solver::new(problem.problem())?;
@@ -141,5 +187,6 @@ fn follow<'a>(
             problem,
             solver,
         })
-    })
+    })?;
+    Ok(Followed { chosen, seconds })
 }

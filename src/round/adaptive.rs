@@ -26,7 +26,7 @@ const UPDATES_PER_UNKNOWN: usize = 128;
 /// The most unknowns of all systems that conjugate gradients and factorizations solve, unless it is one system.
 /// A factorization takes as long as a hundred updates an unknown. After that, passes go on from values that
 /// Gauss-Seidel has not brought to rest.
-const GLOBAL_UNKNOWNS: usize = 1 << 20;
+const GLOBAL_UNKNOWNS: usize = 1 << 18;
 
 /// Where the caller wants a result, what is left is rounded in passes whose deviations may sum up to this for
 /// each integer left, ...

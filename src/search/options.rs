@@ -17,8 +17,8 @@ options! {
         time_limit: f64 = f64::INFINITY, "inf" in "[0, inf]",
             "the seconds after which the best solution so far is returned";
         /// The result does not depend on it.
-        threads: usize = 1, "1" in "[0, 1024]",
-            "the largest number of threads, of which one is used so far; 0: one for each core";
+        threads: usize = 0, "0" in "[0, 1024]",
+            "the largest number of threads; 0: one for each core";
         rounding_threshold: f64 = 0.5, "0.5" in "[0, inf]",
             "adaptive, multiple: integers are rounded together while the sum of their deviations is at most this";
         exact_integers: usize = 1000, "1000" in "[0, 2147483647]",

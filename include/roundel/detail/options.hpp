@@ -144,8 +144,7 @@ struct Options {
     std::optional<std::string> strategy = std::nullopt;
     /// The seconds after which the best solution so far is returned. In [0, inf]; inf by default.
     std::optional<double> time_limit = std::nullopt;
-    /// The largest number of threads, of which one is used so far; 0: one for each core. In [0,
-    /// 1024]; 1 by default.
+    /// The largest number of threads; 0: one for each core. In [0, 1024]; 0 by default.
     std::optional<std::int64_t> threads = std::nullopt;
     /// Adaptive, multiple: integers are rounded together while the sum of their deviations is at
     /// most this. In [0, inf]; 0.5 by default.

@@ -1,0 +1,343 @@
+//! Work on other threads, while the thread of the call does its own part.
+//!
+//! A monitor belongs to the thread of the call, and so does its callback. A worker therefore has monitors of its
+//! own, which know the limits of the call's monitor and a flag that the thread of the call sets when its own
+//! monitor asks to end. What is computed never depends on the number of threads: each task has its own result,
+//! and results are joined in the order of the tasks.
+
+use std::panic::resume_unwind;
+use std::sync::atomic::AtomicUsize;
+use std::sync::atomic::Ordering::Relaxed;
+use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
+use std::thread::{Builder, Scope, ScopedJoinHandle, available_parallelism};
+use std::time::{Duration, Instant};
+
+use super::Monitor;
+use super::cancel::{CancelToken, Stop};
+use super::run::Run;
+use crate::error::Result;
+
+/// How often the thread of the call asks its monitor while it waits.
+const WAIT: Duration = Duration::from_millis(5);
+
+/// The number of threads for the option `threads`, where 0 stands for one for each core.
+fn thread_count(threads: usize) -> usize {
+    match threads {
+        0 => available_parallelism().map_or(1, usize::from),
+        given => given,
+    }
+}
+
+/// What the monitors of other threads have of the call's monitor.
+#[derive(Debug, Clone)]
+pub(crate) struct Worker {
+    token: CancelToken,
+    started: Instant,
+    limit: Option<Duration>,
+    finish_at: Option<Instant>,
+    is_optional: bool,
+    has_solution: bool,
+}
+
+impl Worker {
+    /// What is done with these monitors is optional, because the run has a result without it as well.
+    pub(crate) fn optional(mut self) -> Self {
+        (self.is_optional, self.has_solution) = (true, true);
+        self
+    }
+
+    /// A monitor of the worker's thread.
+    fn monitor(&self, run: &Run) -> Monitor<'static> {
+        Monitor {
+            token: Some(self.token.clone()),
+            started: self.started,
+            limit: self.limit,
+            finish_at: self.finish_at,
+            ..Monitor::default().of_run(run)
+        }
+    }
+
+    /// The run of the worker's monitors.
+    fn run(&self) -> Run {
+        let run = Run::new();
+        run.set_optional(self.is_optional);
+        if self.has_solution {
+            run.has_solved();
+        }
+        run
+    }
+
+    /// Starts a task on a thread of its own. The thread that waits for it does it instead if only one thread may
+    /// be used, or if no other can be started.
+    pub(crate) fn start<'scope, T, F>(
+        self,
+        scope: &'scope Scope<'scope, '_>,
+        threads: usize,
+        task: F,
+    ) -> Started<'scope, T, F>
+    where
+        T: Send + 'scope,
+        F: FnOnce(&mut Monitor) -> T + Send + Clone + 'scope,
+    {
+        if thread_count(threads) == 1 {
+            return Started::Here(task);
+        }
+        let (sender, result) = channel();
+        let token = Ends(self.token.clone());
+        let there = task.clone();
+        let there = move || {
+            // Nobody receives it where nobody waits.
+            let _ = sender.send(there(&mut self.monitor(&self.run())));
+        };
+        match Builder::new().spawn_scoped(scope, there) {
+            Ok(handle) => Started::There(result, handle, token),
+            Err(_) => Started::Here(task),
+        }
+    }
+}
+
+/// Ends the tasks of a token that nobody waits for.
+pub(crate) struct Ends(CancelToken);
+
+impl Drop for Ends {
+    fn drop(&mut self) {
+        self.0.cancel();
+    }
+}
+
+/// A task that another thread does, or that is left to the one that waits for it.
+pub(crate) enum Started<'scope, T, F> {
+    There(Receiver<T>, ScopedJoinHandle<'scope, ()>, Ends),
+    Here(F),
+}
+
+impl<T, F: FnOnce(&mut Monitor) -> T> Started<'_, T, F> {
+    /// The result, once there is one. The worker hears what the monitor asks for until then.
+    pub(crate) fn wait(self, monitor: &mut Monitor) -> T {
+        let (result, handle, token) = match self {
+            Started::Here(task) => return task(monitor),
+            Started::There(result, handle, token) => (result, handle, token),
+        };
+        loop {
+            match result.recv_timeout(WAIT) {
+                Ok(found) => return found,
+                Err(RecvTimeoutError::Timeout) => monitor.pass_on(&token.0),
+                Err(RecvTimeoutError::Disconnected) => match handle.join() {
+                    Err(panic) => resume_unwind(panic),
+                    Ok(()) => unreachable!("a worker sends its result"),
+                },
+            }
+        }
+    }
+}
+
+/// Does `count` tasks on up to so many threads and gives their results in the order of the tasks. A task gets
+/// its number, and a function that makes its monitors. An error of one ends all.
+///
+/// The thread of the call does the first one, with monitors of the call. All others are optional, because the
+/// run has a result without them as well. `begins` hears, on the thread of the call, how many are done.
+///
+/// # Errors
+/// Those of the tasks.
+pub(crate) fn side_by_side<'m, T: Send>(
+    count: usize,
+    threads: usize,
+    monitor: &impl Fn() -> Monitor<'m>,
+    begins: impl Fn(usize),
+    task: impl for<'x> Fn(usize, &dyn Fn() -> Monitor<'x>) -> Result<T> + Sync,
+) -> Result<Vec<T>> {
+    let mut of_call = monitor();
+    let worker = of_call.worker().optional();
+    let token = Ends(worker.token.clone());
+    let [next, done] = [AtomicUsize::new(1), AtomicUsize::new(0)];
+    let take = || Some(next.fetch_add(1, Relaxed)).filter(|&k| k < count);
+    let (sender, results) = channel();
+    let mut found: Vec<(usize, Result<T>)> = Vec::with_capacity(count);
+    std::thread::scope(|scope| {
+        for _ in 1..thread_count(threads).min(count) {
+            let (sender, worker) = (sender.clone(), worker.clone());
+            let (task, take, done) = (&task, &take, &done);
+            let there = move || {
+                while let Some(k) = take() {
+                    let run = worker.run();
+                    let result = task(k, &|| worker.monitor(&run));
+                    done.fetch_add(1, Relaxed);
+                    let is_last = result.is_err();
+                    if sender.send((k, result)).is_err() || is_last {
+                        break;
+                    }
+                }
+            };
+            if Builder::new().spawn_scoped(scope, there).is_err() {
+                break;
+            }
+        }
+        drop(sender);
+        let mut own = (count > 0).then_some(0);
+        while let Some(k) = own {
+            begins(done.load(Relaxed));
+            match task(k, &|| monitor()) {
+                Ok(result) => found.push((k, Ok(result))),
+                Err(error) => {
+                    token.0.cancel();
+                    return Err(error);
+                }
+            }
+            done.fetch_add(1, Relaxed);
+            of_call.pass_on(&token.0);
+            own = take();
+        }
+        loop {
+            match results.recv_timeout(WAIT) {
+                Ok(result) => found.push(result),
+                Err(RecvTimeoutError::Timeout) => of_call.pass_on(&token.0),
+                Err(RecvTimeoutError::Disconnected) => break,
+            }
+        }
+        Ok(())
+    })?;
+    found.sort_by_key(|(k, _)| *k);
+    found.into_iter().map(|(_, result)| result).collect()
+}
+
+impl Monitor<'_> {
+    /// What monitors of other threads have of this one.
+    pub(crate) fn worker(&mut self) -> Worker {
+        let token = CancelToken::new();
+        self.pass_on(&token);
+        Worker {
+            token,
+            started: self.started,
+            limit: self.limit,
+            finish_at: self.finish_at,
+            is_optional: self.run.is_optional(),
+            has_solution: self.run.has_solution(),
+        }
+    }
+
+    /// Tells a worker what is asked for. It knows the limits of time itself.
+    fn pass_on(&mut self, to: &CancelToken) {
+        let is_cancelled = self.token.as_ref().is_some_and(CancelToken::is_cancelled);
+        if is_cancelled || self.stopped == Some(Stop::Cancelled) {
+            to.cancel();
+        } else if self.finishes() {
+            to.finish();
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::error::Error;
+    use crate::monitor::{Event, Flow, Phase};
+    use std::collections::HashSet;
+    use std::sync::{Barrier, Mutex};
+    use std::thread::{current, scope};
+
+    #[test]
+    fn tasks_run_at_the_same_time_and_keep_their_order() {
+        // Each waits for the other three.
+        let barrier = Barrier::new(4);
+        let seen = Mutex::new(HashSet::new());
+        let squares = side_by_side(
+            4,
+            4,
+            &Monitor::default,
+            |_| {},
+            |k, _| {
+                barrier.wait();
+                seen.lock().unwrap().insert(current().id());
+                Ok(k * k)
+            },
+        );
+        assert_eq!(squares, Ok(vec![0, 1, 4, 9]));
+        assert_eq!(seen.lock().unwrap().len(), 4);
+        for threads in [0, 1, 2, 16] {
+            let squares = side_by_side(9, threads, &Monitor::default, |_| {}, |k, _| Ok(k * k));
+            assert_eq!(squares, Ok(vec![0, 1, 4, 9, 16, 25, 36, 49, 64]));
+        }
+        let none = side_by_side(0, 2, &Monitor::default, |_| {}, |k, _| Ok(k));
+        assert_eq!(none, Ok(Vec::new()));
+    }
+
+    #[test]
+    fn the_callback_stays_on_the_thread_of_the_call_and_stops_all() {
+        let caller = current().id();
+        let on_event = |_: &Event| {
+            assert_eq!(current().id(), caller);
+            Flow::Cancel
+        };
+        let run = Run::new();
+        let monitor = || Monitor::default().of_run(&run).on_event(on_event);
+        let ends: Result<Vec<()>> = side_by_side(
+            2,
+            2,
+            &monitor,
+            |_| {},
+            |_, monitor| {
+                let mut monitor = monitor();
+                loop {
+                    monitor.progress(Phase::Round, 0.0)?;
+                    std::thread::yield_now();
+                }
+            },
+        );
+        assert_eq!(ends, Err(Error::Cancelled));
+    }
+
+    #[test]
+    fn a_token_stops_the_tasks_of_all_threads() {
+        let token = CancelToken::new();
+        let monitor = || Monitor::default().cancel_token(token.clone());
+        let ends = side_by_side(
+            2,
+            2,
+            &monitor,
+            |_| {},
+            |k, monitor| {
+                let mut monitor = monitor();
+                if k == 0 {
+                    token.cancel();
+                }
+                while monitor.check().is_ok() {
+                    std::thread::yield_now();
+                }
+                Ok(monitor.stopped())
+            },
+        );
+        assert_eq!(ends, Ok(vec![Some(Stop::Cancelled); 2]));
+    }
+
+    #[test]
+    fn a_task_beside_another_ends_with_it_or_is_waited_for() {
+        for threads in [1, 2] {
+            let mut monitor = Monitor::default();
+            let worker = monitor.worker();
+            let sum = scope(|scope| {
+                let there = worker.clone().start(scope, threads, |_: &mut Monitor| 40);
+                2 + there.wait(&mut monitor)
+            });
+            assert_eq!(sum, 42);
+            // Nobody waits: it would never end by itself.
+            scope(|scope| {
+                worker.start(scope, threads, |monitor: &mut Monitor| {
+                    while monitor.check().is_ok() {
+                        std::thread::yield_now();
+                    }
+                });
+            });
+        }
+    }
+
+    #[test]
+    #[should_panic(expected = "a task that panics")]
+    fn a_panic_reaches_the_thread_that_waits() {
+        let mut monitor = Monitor::default();
+        let worker = monitor.worker();
+        scope(|scope| {
+            let there = worker.start(scope, 2, |_: &mut Monitor| panic!("a task that panics"));
+            there.wait(&mut monitor);
+        });
+    }
+}
