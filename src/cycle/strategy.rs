@@ -92,7 +92,7 @@ pub(crate) fn auto(
     };
     let relaxation = search.lower_bound();
     find(reduced, &space, options, factors, search)?;
-    let proof = Proof::brief(&space);
+    let proof = Proof::brief(&space, options.threads);
     conclude(
         reduced, &space, relaxation, &proof, options, factors, search,
     )?;
@@ -115,7 +115,7 @@ pub(crate) fn exact(
     };
     let relaxation = search.lower_bound();
     find(reduced, &space, options, factors, search)?;
-    let proof = Proof::thorough(options.nodes);
+    let proof = Proof::thorough(options.nodes, options.threads);
     conclude(
         reduced, &space, relaxation, &proof, options, factors, search,
     )?;

@@ -5,6 +5,7 @@
 //! monitor asks to end. What is computed never depends on the number of threads: each task has its own result,
 //! and results are joined in the order of the tasks.
 
+use std::ops::Range;
 use std::panic::resume_unwind;
 use std::sync::atomic::AtomicUsize;
 use std::sync::atomic::Ordering::Relaxed;
@@ -200,6 +201,29 @@ pub(crate) fn side_by_side<'m, T: Send>(
     found.into_iter().map(|(_, result)| result).collect()
 }
 
+/// Does parts of `0..count`, each of the same number of items, on up to so many threads, and gives their results
+/// in order. The thread of the call does the first one.
+pub(crate) fn in_parts<T: Send>(
+    count: usize,
+    threads: usize,
+    part: impl Fn(Range<usize>) -> T + Sync,
+) -> Vec<T> {
+    let threads = thread_count(threads).min(count.max(1));
+    let of = |k: usize| k * count / threads..(k + 1) * count / threads;
+    let part = &part;
+    std::thread::scope(|scope| {
+        let others: Vec<_> = (1..threads)
+            .map(|k| (k, Builder::new().spawn_scoped(scope, move || part(of(k)))))
+            .collect();
+        let mut found = vec![part(of(0))];
+        found.extend(others.into_iter().map(|(k, other)| match other {
+            Ok(handle) => handle.join().unwrap_or_else(|panic| resume_unwind(panic)),
+            Err(_) => part(of(k)),
+        }));
+        found
+    })
+}
+
 impl Monitor<'_> {
     /// What monitors of other threads have of this one.
     pub(crate) fn worker(&mut self) -> Worker {
@@ -327,6 +351,14 @@ mod tests {
                     }
                 });
             });
+        }
+    }
+
+    #[test]
+    fn parts_cover_everything_once_and_in_order() {
+        for (count, threads) in [(0, 4), (1, 4), (10, 3), (10, 1), (1000, 0)] {
+            let parts = in_parts(count, threads, |part| part.collect::<Vec<_>>());
+            assert_eq!(parts.concat(), (0..count).collect::<Vec<_>>());
         }
     }
 

@@ -47,9 +47,53 @@ pub(super) struct Conditions {
     edges: Vec<u32>,
     /// By own cycle: the flow of each edge for a unit of w.
     gain: Vec<f32>,
-    single: Vec<Condition>,
-    /// Two places among the edges, the sign, and the condition.
-    pairs: Vec<(u32, u32, f32, Condition)>,
+    single: Prices,
+    /// Two places among the edges, and the sign.
+    pairs: Vec<(u32, u32, f32)>,
+    of_pairs: Prices,
+}
+
+/// Flows that are priced at a time.
+const LANES: usize = 8;
+
+/// Sums of pairs that are formed at a time.
+const SUMS: usize = 8 * LANES;
+
+/// Conditions by member, so that several are evaluated at once.
+#[derive(Debug, Clone, Default)]
+struct Prices {
+    most: Vec<f32>,
+    inverse: Vec<f32>,
+}
+
+impl Prices {
+    fn push(&mut self, condition: Condition) {
+        self.most.push(condition.most);
+        self.inverse.push(condition.inverse);
+    }
+
+    /// Raises each lane to the greatest price of its flows, which belong to the conditions from `first` on.
+    fn raise(&self, lanes: &mut [f32; LANES], flows: &[f32], first: usize) {
+        // Unlike `f32::max`, this is one instruction for several lanes.
+        let larger = |a: f32, b: f32| if a > b { a } else { b };
+        let price = |flow: f32, most: f32, inverse: f32| {
+            let excess = larger(flow.abs() - most, 0.0);
+            excess * excess * inverse
+        };
+        let of = first..first + flows.len();
+        let (most, inverse) = (&self.most[of.clone()], &self.inverse[of]);
+        let blocks = flows.chunks_exact(LANES);
+        let rest = flows.len() - blocks.remainder().len();
+        let conditions = most.chunks_exact(LANES).zip(inverse.chunks_exact(LANES));
+        for (flows, (most, inverse)) in blocks.zip(conditions) {
+            for k in 0..LANES {
+                lanes[k] = larger(price(flows[k], most[k], inverse[k]), lanes[k]);
+            }
+        }
+        for k in rest..flows.len() {
+            lanes[0] = larger(price(flows[k], most[k], inverse[k]), lanes[0]);
+        }
+    }
 }
 
 impl Conditions {
@@ -71,18 +115,17 @@ impl Conditions {
 
     /// What the harmonic part must be worth at least.
     pub fn price(&self, flows: &[f32]) -> f64 {
-        let price = |flow: f32, c: &Condition| {
-            let excess = (flow.abs() - c.most).max(0.0);
-            excess * excess * c.inverse
-        };
-        let mut most: f32 = 0.0;
-        for (&flow, condition) in flows.iter().zip(&self.single) {
-            most = most.max(price(flow, condition));
+        let mut lanes = [0.0; LANES];
+        self.single.raise(&mut lanes, flows, 0);
+        let mut sums = [0.0; SUMS];
+        for (block, pairs) in self.pairs.chunks(SUMS).enumerate() {
+            for (sum, &(i, j, sign)) in sums.iter_mut().zip(pairs) {
+                *sum = flows[i as usize] + sign * flows[j as usize];
+            }
+            let sums = &sums[..pairs.len()];
+            self.of_pairs.raise(&mut lanes, sums, block * SUMS);
         }
-        for &(i, j, sign, condition) in &self.pairs {
-            let flow = flows[i as usize] + sign * flows[j as usize];
-            most = most.max(price(flow, &condition));
-        }
+        let most = lanes.into_iter().fold(0.0, f32::max);
         // A few roundings to single precision.
         f64::from(most) * (1.0 - 1e-6)
     }
@@ -303,28 +346,21 @@ impl Make<'_> {
         for &e in &edges {
             self.place[e as usize] = u32::MAX;
         }
-        let (gain, single, pairs) = made?;
-        Some(Conditions {
-            edges,
-            gain,
-            single,
-            pairs,
-        })
+        Some(Conditions { edges, ..made? })
     }
 
-    #[allow(clippy::type_complexity)]
-    fn within(
-        &self,
-        at: usize,
-        edges: &[u32],
-    ) -> Option<(Vec<f32>, Vec<Condition>, Vec<(u32, u32, f32, Condition)>)> {
+    /// The conditions on these edges, which are still to be named.
+    fn within(&self, at: usize, edges: &[u32]) -> Option<Conditions> {
         let graph = self.system.graph;
         let inner = Inner::new(graph, edges, &self.place)?;
         let n = self.tree.locals[at].own;
-        let mut gain = vec![0.0; n * edges.len()];
+        let mut made = Conditions {
+            gain: vec![0.0; n * edges.len()],
+            ..Conditions::default()
+        };
         for (k, &e) in edges.iter().enumerate() {
             for (i, v) in self.vectors.part(e, at).iter().enumerate() {
-                gain[i * edges.len() + k] = *v as f32;
+                made.gain[i * edges.len() + k] = *v as f32;
             }
         }
         // The squares of the projections on the cycles of the patch: all but what lies above it.
@@ -336,13 +372,12 @@ impl Make<'_> {
         };
         let weight = |e: u32| graph.edges[e as usize].weight;
         let mut squares = Vec::with_capacity(edges.len());
-        let mut single = Vec::with_capacity(edges.len());
         for &e in edges {
             let square = weight(e) - on_cycles(e, e) - inner.product(graph, e, e);
             squares.push(square);
-            single.push(self.condition(self.rho[e as usize], square, weight(e), &inner));
+            let condition = self.condition(self.rho[e as usize], square, weight(e), &inner);
+            made.single.push(condition);
         }
-        let mut pairs = Vec::new();
         for pair in self.pairs {
             let [e, f] = pair.edges;
             let (i, j) = (self.place[e as usize], self.place[f as usize]);
@@ -350,10 +385,11 @@ impl Make<'_> {
                 let mixed = -on_cycles(e, f) - inner.product(graph, e, f);
                 let square = squares[i as usize] + squares[j as usize] + 2.0 * pair.sign * mixed;
                 let condition = self.condition(pair.rho, square, weight(e) + weight(f), &inner);
-                pairs.push((i, j, pair.sign as f32, condition));
+                made.pairs.push((i, j, pair.sign as f32));
+                made.of_pairs.push(condition);
             }
         }
-        Some((gain, single, pairs))
+        Some(made)
     }
 
     /// The condition for given rho and `H_f`, of edges with this sum of weights.

@@ -1,8 +1,15 @@
 //! The list of a patch: all charges of its cycles whose energy in the patch is at most a threshold.
 
+use std::ops::Range;
+
 use super::conditions::Conditions;
 use super::factor::Front;
 use super::local::{Local, dot};
+use crate::monitor::in_parts;
+
+/// The least number of multiplications for which entries are divided among threads: they take about a
+/// millisecond.
+const WORTH_A_THREAD: usize = 1 << 20;
 
 /// The charges of a patch, sorted by what they are worth. An entry refers to entries of the children's
 /// lists. These are sorted in the same way however far they go, so the references stay valid when a list
@@ -63,24 +70,39 @@ impl List {
             energy: order.iter().map(|&k| found.energy[k as usize]).collect(),
             from: order.iter().map(|&k| found.from[k as usize]).collect(),
             steps: order.iter().flat_map(|&k| steps(k)).copied().collect(),
-            sent: vec![0.0; order.len() * width],
+            sent: Vec::new(),
             flows: Vec::with_capacity(order.len() * edges),
         };
         for &k in &order {
             let own = k as usize * edges;
             list.flows.extend_from_slice(&flows[own..own + edges]);
         }
-        let mut all = vec![0.0; n + width];
-        for (k, sent) in list.sent.chunks_exact_mut(width.max(1)).enumerate() {
-            patch.receive(&mut all, list.from[k], children);
-            let (own, above) = all.split_at_mut(n);
-            patch.own_values(own, &list.steps[k * n..(k + 1) * n]);
-            for (i, (sent, before)) in sent.iter_mut().zip(above).enumerate() {
-                *sent = *before + dot(&front.below[i * n..(i + 1) * n], own);
+        let sent = |part: Range<usize>| {
+            let mut sent = vec![0.0; part.len() * width];
+            let mut all = vec![0.0; n + width];
+            for (k, sent) in part.zip(sent.chunks_exact_mut(width.max(1))) {
+                patch.receive(&mut all, list.from[k], children);
+                let (own, above) = all.split_at_mut(n);
+                patch.own_values(own, &list.steps[k * n..(k + 1) * n]);
+                for (i, (sent, before)) in sent.iter_mut().zip(above).enumerate() {
+                    *sent = *before + dot(&front.below[i * n..(i + 1) * n], own);
+                }
             }
-        }
+            sent
+        };
+        let threads = patch.threads_for(order.len());
+        list.sent = joined(in_parts(order.len(), threads, sent));
         list
     }
+}
+
+/// The parts as one vector, which is the first one grown.
+fn joined<T>(parts: Vec<Vec<T>>) -> Vec<T> {
+    let grown = parts.into_iter().reduce(|mut whole, part| {
+        whole.extend(part);
+        whole
+    });
+    grown.unwrap_or_default()
 }
 
 /// What the entries of a patch are computed with.
@@ -91,6 +113,8 @@ pub(super) struct PatchData<'a> {
     pub conditions: Option<&'a Conditions>,
     /// Whether the parent has conditions too.
     pub passes_flows: bool,
+    /// The threads that may be used, as in the options.
+    pub threads: usize,
 }
 
 impl PatchData<'_> {
@@ -105,15 +129,39 @@ impl PatchData<'_> {
         entries * each
     }
 
+    /// The threads that so many entries are worth.
+    fn threads_for(&self, entries: usize) -> usize {
+        let edges = self.conditions.map_or(0, Conditions::len);
+        let each = self.local.own * self.local.own + self.front.above.len() + edges;
+        match entries.saturating_mul(each) < WORTH_A_THREAD {
+            true => 1,
+            false => self.threads,
+        }
+    }
+
     /// By entry, what it is worth, and its flows if the parent needs them.
     fn worths(&self, found: &Found, children: &[&List]) -> (Vec<f64>, Vec<f32>) {
-        let n = self.local.own;
         let count = found.energy.len();
-        let mut worth = Vec::with_capacity(count);
-        let mut kept = Vec::with_capacity(count * self.kept_flows());
+        let parts = in_parts(count, self.threads_for(count), |part| {
+            self.worths_of(found, part, children)
+        });
+        let (worth, kept): (Vec<_>, Vec<_>) = parts.into_iter().unzip();
+        (joined(worth), joined(kept))
+    }
+
+    /// The same of some entries.
+    fn worths_of(
+        &self,
+        found: &Found,
+        part: Range<usize>,
+        children: &[&List],
+    ) -> (Vec<f64>, Vec<f32>) {
+        let n = self.local.own;
+        let mut worth = Vec::with_capacity(part.len());
+        let mut kept = Vec::with_capacity(part.len() * self.kept_flows());
         let mut all = vec![0.0; n + self.front.above.len()];
         let mut flows: Vec<f32> = Vec::new();
-        for k in 0..count {
+        for k in part {
             let from = found.from[k];
             let of_children = children.iter().zip(from);
             let below: f64 = of_children.map(|(c, at)| c.worth[at as usize]).sum();

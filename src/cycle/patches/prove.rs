@@ -119,7 +119,7 @@ pub(in crate::cycle) fn prove(
             best = Some((0.0, tree, account));
             break;
         }
-        let mut rounds = Rounds::new(&tree, cap, unit);
+        let mut rounds = Rounds::new(&tree, cap, unit, effort.threads);
         let standing = rounds.run(TRIAL_ROUNDS, &mut watch);
         let bound = rounds.bound();
         let decided = standing == Standing::Decided;
@@ -138,7 +138,7 @@ pub(in crate::cycle) fn prove(
     let Some(cap) = account.upper(energy) else {
         return Ok(false);
     };
-    let mut rounds = Rounds::new(&tree, cap, unit);
+    let mut rounds = Rounds::new(&tree, cap, unit, effort.threads);
     if effort.conditions && tree.basis.len() <= CONDITIONED {
         let stop = &mut |w| watch.ends(w);
         let conditions = conditions(system, &tree, &account, cap, stop);

@@ -70,6 +70,7 @@ pub(super) struct Rounds<'a> {
     bytes: usize,
     round: usize,
     entries: usize,
+    threads: usize,
 }
 
 #[derive(Debug, Clone, Default)]
@@ -85,8 +86,8 @@ struct State {
 
 impl<'a> Rounds<'a> {
     /// A proof about the charges with energy at most `cap`. `unit` is the squared step times a typical
-    /// weight.
-    pub fn new(tree: &'a PatchTree, cap: f64, unit: f64) -> Self {
+    /// weight, and `threads` is as in the options.
+    pub fn new(tree: &'a PatchTree, cap: f64, unit: f64, threads: usize) -> Self {
         let mut order: Vec<usize> = (0..tree.patches.len()).collect();
         order.sort_by_key(|&at| (tree.cycles[at], at));
         let state = State {
@@ -101,6 +102,7 @@ impl<'a> Rounds<'a> {
             bytes: 0,
             round: 0,
             entries: 0,
+            threads,
             conditions: vec![None; tree.patches.len()],
             tree,
         }
@@ -298,6 +300,7 @@ impl<'a> Rounds<'a> {
             local: &self.tree.locals[at],
             conditions: self.conditions[at].as_ref(),
             passes_flows: parent != NO_PATCH && self.conditions[parent].is_some(),
+            threads: self.threads,
         }
     }
 
