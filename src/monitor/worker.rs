@@ -22,7 +22,7 @@ use crate::error::Result;
 const WAIT: Duration = Duration::from_millis(5);
 
 /// The number of threads for the option `threads`, where 0 stands for one for each core.
-fn thread_count(threads: usize) -> usize {
+pub(crate) fn thread_count(threads: usize) -> usize {
     match threads {
         0 => available_parallelism().map_or(1, usize::from),
         given => given,

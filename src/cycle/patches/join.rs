@@ -7,9 +7,16 @@
 
 use super::list::Found;
 use super::local::Local;
+use crate::monitor::{in_parts, thread_count};
 
 /// The pairs tested at a time.
 const BLOCK: usize = 256;
+
+/// The pairs after which a chunk ends.
+const CHUNK: usize = 1 << 18;
+
+/// The most chunks that each thread computes before they are joined.
+const AHEAD: usize = 8;
 
 /// Why a list is not complete.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -41,72 +48,174 @@ pub(super) struct Limits<'a> {
 }
 
 /// All entries with at most this energy, of pairs that are worth at most as much.
+///
+/// Pairs are divided into chunks by their number alone. Threads compute some chunks beyond those that have been
+/// joined. A chunk that would exceed a limit is computed again with what the chunks before it have left, so that
+/// work and nodes do not depend on the number of threads.
 pub(super) fn join(
     local: &Local,
-    [a, b]: [&Targets; 2],
+    targets: [&Targets; 2],
     threshold: f64,
+    threads: usize,
     limits: &mut Limits,
 ) -> Result<Found, Overflow> {
-    let n = local.own;
-    let mut found = Found::default();
-    let mut walk = Walk::new(local, limits.nodes);
-    let Some(&least) = b.worth.first() else {
-        return Ok(found);
+    let pairs = Pairs {
+        local,
+        targets,
+        threshold,
+        most: limits.work,
+        first_test: FirstTest::new(local, targets[0], targets[1]),
     };
-    let first_test = FirstTest::new(local, a, b);
-    let mut end = b.energy.len();
-    let mut spent: u64 = 0;
-    let mut reported: u64 = 0;
-    let mut passed = Vec::with_capacity(BLOCK);
-    let mut base = vec![0.0; n];
-    for i in 0..a.energy.len() {
-        let left = threshold - a.worth[i];
-        if left < least {
-            break;
-        }
-        while end > 0 && b.worth[end - 1] > left {
-            end -= 1;
-        }
-        let left = threshold - a.energy[i];
-        for (k, base) in base.iter_mut().enumerate() {
-            *base = local.target[k] + a.image[i * n + k];
-        }
-        let mut from = 0;
-        while from < end {
-            let to = (from + BLOCK).min(end);
-            passed.clear();
-            first_test.pass(i, from..to, left, &mut passed);
-            spent += (to - from) as u64;
-            for &j in &passed {
-                let j = j as usize;
-                let energy = a.energy[i] + b.energy[j];
-                let image = &b.image[j * n..(j + 1) * n];
-                let rest = threshold - energy;
-                spent += walk.run(&base, image, rest, limits.work, &mut |z, distance| {
-                    found.push(energy + distance, [i as u32, j as u32], z);
-                    found.energy.len() <= limits.entries
-                });
-                if walk.left == 0 {
-                    (limits.stop)(spent - reported, walk.take_nodes());
-                    return Err(Overflow::Ended);
-                }
-                if found.energy.len() > limits.entries || spent > limits.work {
-                    (limits.stop)(spent - reported, walk.take_nodes());
-                    return Err(Overflow::Full);
-                }
+    let (chunks, threads) = (pairs.chunks(), thread_count(threads));
+    let mut found = Found::default();
+    let mut left = Left {
+        entries: limits.entries,
+        work: limits.work,
+        nodes: limits.nodes,
+    };
+    let (mut first, mut window) = (0, 1);
+    while first < chunks.len() {
+        let ahead = &chunks[first..chunks.len().min(first + window)];
+        let share = |k: usize| ahead.iter().skip(k).step_by(threads);
+        let parts = in_parts(threads.min(ahead.len()), threads, |of_thread| {
+            let compute = |chunk: &Chunk| pairs.join(chunk, left);
+            of_thread
+                .flat_map(|k| share(k).map(compute))
+                .collect::<Vec<_>>()
+        });
+        let mut parts: Vec<_> = parts.into_iter().map(Vec::into_iter).collect();
+        for (k, chunk) in ahead.iter().enumerate() {
+            let mut joined = parts[k % threads].next().unwrap_or_default();
+            if k > 0 && !left.covers(&joined) {
+                joined = pairs.join(chunk, left);
             }
-            from = to;
-            if spent - reported > 1 << 20 {
-                if (limits.stop)(spent - reported, walk.take_nodes()) {
-                    return Err(Overflow::Ended);
-                }
-                reported = spent;
+            let is_covered = left.covers(&joined);
+            if (limits.stop)(joined.work, joined.nodes) || joined.nodes >= left.nodes {
+                return Err(Overflow::Ended);
             }
+            if !is_covered {
+                return Err(Overflow::Full);
+            }
+            left.entries -= joined.found.energy.len();
+            left.work -= joined.work;
+            left.nodes -= joined.nodes;
+            found.extend(joined.found);
         }
+        first += ahead.len();
+        window = (2 * window).min(AHEAD * threads);
     }
-    match (limits.stop)(spent - reported, walk.take_nodes()) {
-        true => Err(Overflow::Ended),
-        false => Ok(found),
+    Ok(found)
+}
+
+/// Some first entries, each with the number of second entries that are worth a test.
+struct Chunk {
+    first: usize,
+    ends: Vec<usize>,
+}
+
+/// What is left of the limits.
+#[derive(Clone, Copy)]
+struct Left {
+    entries: usize,
+    work: u64,
+    nodes: u64,
+}
+
+impl Left {
+    /// Whether a chunk exceeds nothing.
+    fn covers(&self, joined: &Joined) -> bool {
+        joined.found.energy.len() <= self.entries
+            && joined.work <= self.work
+            && joined.nodes < self.nodes
+    }
+}
+
+/// The entries of a chunk, and what it took.
+#[derive(Default)]
+struct Joined {
+    found: Found,
+    work: u64,
+    nodes: u64,
+}
+
+/// All pairs.
+struct Pairs<'a> {
+    local: &'a Local,
+    targets: [&'a Targets; 2],
+    threshold: f64,
+    /// The most work of one walk.
+    most: u64,
+    first_test: FirstTest,
+}
+
+impl Pairs<'_> {
+    /// The pairs that are worth a test.
+    fn chunks(&self) -> Vec<Chunk> {
+        let [a, b] = self.targets;
+        let Some(&least) = b.worth.first() else {
+            return Vec::new();
+        };
+        let mut chunks: Vec<Chunk> = Vec::new();
+        let (mut end, mut pairs) = (b.energy.len(), CHUNK);
+        for (i, &worth) in a.worth.iter().enumerate() {
+            let left = self.threshold - worth;
+            if left < least {
+                break;
+            }
+            while end > 0 && b.worth[end - 1] > left {
+                end -= 1;
+            }
+            if pairs >= CHUNK {
+                pairs = 0;
+                let ends = Vec::new();
+                chunks.push(Chunk { first: i, ends });
+            }
+            pairs += end;
+            if let Some(chunk) = chunks.last_mut() {
+                chunk.ends.push(end);
+            }
+        }
+        chunks
+    }
+
+    /// The entries of a chunk, until a limit is exceeded.
+    fn join(&self, chunk: &Chunk, left: Left) -> Joined {
+        let ([a, b], n) = (self.targets, self.local.own);
+        let mut joined = Joined::default();
+        let mut walk = Walk::new(self.local, left.nodes);
+        let mut passed = Vec::with_capacity(BLOCK);
+        let mut base = vec![0.0; n];
+        for (k, &end) in chunk.ends.iter().enumerate() {
+            let i = chunk.first + k;
+            let rest = self.threshold - a.energy[i];
+            for (k, base) in base.iter_mut().enumerate() {
+                *base = self.local.target[k] + a.image[i * n + k];
+            }
+            let mut from = 0;
+            while from < end {
+                let to = (from + BLOCK).min(end);
+                passed.clear();
+                self.first_test.pass(i, from..to, rest, &mut passed);
+                joined.work += (to - from) as u64;
+                for &j in &passed {
+                    let j = j as usize;
+                    let energy = a.energy[i] + b.energy[j];
+                    let image = &b.image[j * n..(j + 1) * n];
+                    let rest = self.threshold - energy;
+                    let found = &mut joined.found;
+                    joined.work += walk.run(&base, image, rest, self.most, &mut |z, distance| {
+                        found.push(energy + distance, [i as u32, j as u32], z);
+                        found.energy.len() <= left.entries
+                    });
+                    joined.nodes = left.nodes - walk.left;
+                    if !left.covers(&joined) {
+                        return joined;
+                    }
+                }
+                from = to;
+            }
+        }
+        joined
     }
 }
 

@@ -42,6 +42,12 @@ impl Found {
         self.from.push(from);
         self.steps.extend(steps.iter().map(|&z| z as i32));
     }
+
+    pub fn extend(&mut self, other: Found) {
+        self.energy.extend(other.energy);
+        self.from.extend(other.from);
+        self.steps.extend(other.steps);
+    }
 }
 
 impl List {

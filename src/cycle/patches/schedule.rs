@@ -273,7 +273,8 @@ impl<'a> Rounds<'a> {
                 watch.ends(work)
             },
         };
-        let found = join(local, [&targets[0], &targets[1]], threshold, &mut limits)?;
+        let both = [&targets[0], &targets[1]];
+        let found = join(local, both, threshold, self.threads, &mut limits)?;
         let tested = self.conditions[at]
             .as_ref()
             .map_or(0, |c| c.len() * (local.own + 16));
