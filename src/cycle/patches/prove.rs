@@ -3,13 +3,15 @@
 
 use super::account::Account;
 use super::conditions::conditions;
+use super::dissect::Recipe;
 use super::effort::Proof;
 use super::schedule::{Rounds, Standing, Watch};
 use super::tree::{PatchTree, System};
 use crate::cycle::space::CycleSpace;
 use crate::eliminate::ReducedModel;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::linalg::sum_below;
+use crate::monitor::{Monitor, thread_count};
 use crate::search::{Factors, Search};
 
 /// The number of charges that are evaluated where the list of the root ends a proof.
@@ -100,41 +102,23 @@ pub(in crate::cycle) fn prove(
         gap,
         account: None,
     };
-    let mut best: Option<(f64, PatchTree, Account)> = None;
-    for recipe in &effort.recipes {
-        if best.is_some() && effort.work - watch.left > effort.trials {
-            break;
-        }
-        let tree = PatchTree::new(system, &residuals, recipe, &mut |w| watch.ends(w))?;
-        let Some(tree) = tree else {
-            break;
-        };
-        let account = Account::new(system, &tree, 2.0 * energy, offsets);
-        let Some(cap) = account.upper(energy) else {
-            continue;
-        };
-        watch.account = Some(account);
-        watch.raised(0.0);
-        if effort.recipes.len() == 1 {
-            best = Some((0.0, tree, account));
-            break;
-        }
-        let mut rounds = Rounds::new(&tree, cap, unit, effort.threads);
-        let standing = rounds.run(TRIAL_ROUNDS, &mut watch);
-        let bound = rounds.bound();
-        let decided = standing == Standing::Decided;
-        drop(rounds);
-        if decided || best.as_ref().is_none_or(|b| bound > b.0) {
-            best = Some((bound, tree, account));
-        }
-        if standing != Standing::Open {
-            break;
-        }
-    }
-    let Some((_, tree, account)) = best else {
+    let trials = Trials {
+        system,
+        residuals: &residuals,
+        energy,
+        offsets,
+        unit,
+        threads: effort.threads,
+    };
+    let best = match &effort.recipes[..] {
+        [recipe] => trials.tree(recipe, &mut watch)?,
+        _ => trials.best(effort, &mut watch)?,
+    };
+    let Some((tree, account)) = best else {
         return Ok(false);
     };
     watch.account = Some(account);
+    watch.raised(0.0);
     let Some(cap) = account.upper(energy) else {
         return Ok(false);
     };
@@ -160,6 +144,158 @@ pub(in crate::cycle) fn prove(
         watch.search.offer(factors, &integers)?;
     }
     Ok(rivals <= CANDIDATES)
+}
+
+/// The watch of a trial on another thread, which counts what it takes.
+struct Counted<'a, 'm> {
+    monitor: &'a mut Monitor<'m>,
+    /// What the proof may spend in all.
+    most: (u64, u64),
+    work: u64,
+    nodes: u64,
+}
+
+impl Watch for Counted<'_, '_> {
+    fn ends(&mut self, work: u64) -> bool {
+        self.work += work;
+        self.work >= self.most.0 || self.monitor.ends()
+    }
+
+    fn nodes(&self) -> u64 {
+        self.most.1 - self.nodes
+    }
+
+    fn visited(&mut self, nodes: u64) {
+        self.nodes += nodes;
+    }
+
+    fn raised(&mut self, _: f64) {}
+}
+
+/// The trees that are tried.
+#[derive(Clone, Copy)]
+struct Trials<'a> {
+    system: System<'a>,
+    residuals: &'a [f64],
+    energy: f64,
+    offsets: f64,
+    unit: f64,
+    threads: usize,
+}
+
+/// A tree, and what the first rounds on it prove.
+struct Trial {
+    tree: PatchTree,
+    account: Account,
+    bound: f64,
+    standing: Standing,
+}
+
+/// A trial, with its work and its nodes. There is none if the watch ended it, or if the tree has no cap.
+struct Tried {
+    trial: Option<Trial>,
+    work: u64,
+    nodes: u64,
+}
+
+impl Trials<'_> {
+    /// A tree. `None` if the watch ends it.
+    fn tree(&self, recipe: &Recipe, watch: &mut dyn Watch) -> Result<Option<(PatchTree, Account)>> {
+        let tree = PatchTree::new(self.system, self.residuals, recipe, &mut |w| watch.ends(w))?;
+        Ok(tree.map(|tree| {
+            let account = Account::new(self.system, &tree, 2.0 * self.energy, self.offsets);
+            (tree, account)
+        }))
+    }
+
+    /// The first rounds on the tree of a recipe, with at most so much work and so many nodes.
+    fn run(&self, recipe: &Recipe, most: (u64, u64), monitor: &mut Monitor) -> Result<Tried> {
+        let mut watch = Counted {
+            monitor,
+            most,
+            work: 0,
+            nodes: 0,
+        };
+        let mut trial = None;
+        if let Some((tree, account)) = self.tree(recipe, &mut watch)?
+            && let Some(cap) = account.upper(self.energy)
+        {
+            let mut rounds = Rounds::new(&tree, cap, self.unit, 1);
+            let standing = rounds.run(TRIAL_ROUNDS, &mut watch);
+            let bound = rounds.bound();
+            trial = Some(Trial {
+                tree,
+                account,
+                bound,
+                standing,
+            });
+        }
+        Ok(Tried {
+            trial,
+            work: watch.work,
+            nodes: watch.nodes,
+        })
+    }
+
+    /// The tree with the best bound, or the first on which the proof ends.
+    ///
+    /// After the first one, which often suffices, threads try trees beyond those that have been compared. A trial
+    /// that exceeds what the trials before it have left is made again with that.
+    fn best(
+        &self,
+        effort: &Proof,
+        watch: &mut Watched<'_, '_, '_>,
+    ) -> Result<Option<(PatchTree, Account)>> {
+        let mut best: Option<Trial> = None;
+        let (first, others) = effort.recipes.split_at(effort.recipes.len().min(1));
+        let others = others.chunks(thread_count(self.threads));
+        for ahead in std::iter::once(first).chain(others) {
+            let most = (watch.left, watch.nodes);
+            let is_over = std::thread::scope(|scope| {
+                let mut started = Vec::with_capacity(ahead.len());
+                for (k, recipe) in ahead.iter().enumerate() {
+                    // The first one is left to this thread.
+                    let threads = if k == 0 { 1 } else { self.threads };
+                    let worker = watch.search.monitor.worker();
+                    let run = move |monitor: &mut Monitor| self.run(recipe, most, monitor);
+                    started.push((recipe, worker.start(scope, threads, run)));
+                }
+                for (recipe, started) in started {
+                    if best.is_some() && effort.work - watch.left > effort.trials {
+                        return Ok(true);
+                    }
+                    let mut tried = started.wait(watch.search.monitor)?;
+                    let most = (watch.left, watch.nodes);
+                    if tried.work >= most.0 || tried.nodes > most.1 {
+                        tried = self.run(recipe, most, watch.search.monitor)?;
+                    }
+                    watch.visited(tried.nodes);
+                    let ends = watch.ends(tried.work);
+                    let Some(trial) = tried.trial else {
+                        if ends {
+                            return Ok(true);
+                        }
+                        continue;
+                    };
+                    watch.account = Some(trial.account);
+                    watch.raised(trial.bound);
+                    let standing = trial.standing;
+                    let is_decided = standing == Standing::Decided;
+                    if is_decided || best.as_ref().is_none_or(|b| trial.bound > b.bound) {
+                        best = Some(trial);
+                    }
+                    if standing != Standing::Open || watch.ends(0) {
+                        return Ok(true);
+                    }
+                }
+                Ok::<bool, Error>(false)
+            })?;
+            if is_over {
+                break;
+            }
+        }
+        Ok(best.map(|best| (best.tree, best.account)))
+    }
 }
 
 /// The least energy of the integers that couple to nothing.

@@ -35,6 +35,7 @@ fn proof(leaf: usize, work: u64, seed: u64, conditions: bool) -> Proof {
         work,
         nodes: u64::MAX,
         conditions,
+        threads: 2,
     }
 }
 
