@@ -4,6 +4,8 @@
 //! component that is hard takes what all need. Alone, each has a field and a map of its own, and other
 //! options for it change no other component.
 
+use std::time::Instant;
+
 use super::by_component::{Components, join};
 use super::part::Part;
 use super::rank::Rank;
@@ -11,7 +13,10 @@ use super::tries::Tries;
 use super::{QuadOptions, QuadSeconds, Quadrangulation};
 use crate::extract::QuadMesh;
 use crate::mesh::TriangleMesh;
-use crate::monitor::Monitor;
+use crate::monitor::{Monitor, side_by_side, thread_count};
+
+/// The components that each thread may try before they are compared.
+const AHEAD: usize = 4;
 
 /// Tries the components whose quads do not conform, those of the fewest faces first, and then, if the surface
 /// is not covered, those that do not cover theirs. What is better is kept.
@@ -34,21 +39,29 @@ pub(super) fn apart<'m, M: Fn() -> Monitor<'m>>(
         replaced: Vec::new(),
         made,
     };
-    for &c in &order {
-        if !apart.quads[c].is_conforming() {
-            apart.take(tries, c);
-        }
-    }
+    let lost: Vec<usize> = order
+        .iter()
+        .copied()
+        .filter(|&c| !apart.quads[c].is_conforming())
+        .collect();
+    apart.take(tries, &lost);
     let joined = join(apart.quads.clone());
     let is_refined = apart.made.refined.is_some();
     if !Rank::of_quads(mesh, options, tries.far, &joined, is_refined).is_good() {
-        for &c in &order {
-            if apart.quads[c].is_conforming() {
-                apart.take(tries, c);
-            }
-        }
+        order.retain(|&c| apart.quads[c].is_conforming());
+        apart.take(tries, &order);
     }
     apart.finish()
+}
+
+/// A component that was tried.
+struct Taken {
+    /// Its quads, if they are better.
+    better: Option<(Part, Quadrangulation)>,
+    /// The work.
+    spent: u64,
+    has_ended: bool,
+    seconds: f64,
 }
 
 /// The quads of all components so far.
@@ -66,31 +79,90 @@ struct Apart<'a> {
 }
 
 impl Apart<'_> {
-    /// Tries a component if its quads are not good, and keeps what is better.
-    fn take<'m, M: Fn() -> Monitor<'m>>(&mut self, tries: &mut Tries<'_, M>, c: usize) {
-        let (mesh, is_refined) = (self.mesh, self.made.refined.is_some());
-        let Ok(part) = Part::new(mesh, self.faces[c].clone()) else {
-            return;
-        };
-        let given = part.options(mesh, self.options);
-        let rank = Rank::of_quads(&part.mesh, &given, tries.far, &self.quads[c], is_refined);
-        if rank.is_good() || !tries.may_take(&part.mesh) {
-            return;
-        }
-        let Some(first) = tries.one(&part.mesh, &given) else {
-            return;
-        };
-        let found = tries.others(&part.mesh, &given, first);
-        let found_rank = Rank::of(&part.mesh, &given, tries.far, &found, is_refined);
-        if let Ok(found) = found
-            && found_rank < rank
-        {
-            self.keep(c, &part, found);
+    /// Tries those of these components whose quads are not good, several at a time, and keeps what is better.
+    ///
+    /// Threads try components beyond those that have been compared. What spends more than the components before
+    /// it have left is tried again with that.
+    fn take<'m, M: Fn() -> Monitor<'m>>(&mut self, tries: &mut Tries<'_, M>, components: &[usize]) {
+        let threads = thread_count(self.options.field.threads);
+        let ahead = if threads == 1 { 1 } else { AHEAD * threads };
+        for window in components.chunks(ahead) {
+            let (left, monitor, far) = (tries.left(), tries.monitor, tries.far);
+            let (this, of_each) = (&*self, if window.len() == 1 { threads } else { 1 });
+            let started = Instant::now();
+            let taken = side_by_side(
+                window.len(),
+                threads,
+                monitor,
+                |_| {},
+                |k, monitor| Ok(this.tried(window[k], far, left, of_each, &monitor)),
+            );
+            let Ok(taken) = taken else {
+                return;
+            };
+            let all: f64 = taken.iter().map(|taken| taken.seconds).sum();
+            let scale = started.elapsed().as_secs_f64() / all.max(f64::MIN_POSITIVE);
+            for (&c, mut taken) in window.iter().zip(taken) {
+                if tries.has_ended() {
+                    return;
+                }
+                let left = tries.left();
+                if window[0] != c && taken.spent >= left {
+                    taken = self.tried(c, far, left, threads, monitor);
+                }
+                tries.count(taken.spent, taken.has_ended);
+                if let Some((part, found)) = taken.better {
+                    self.keep(c, &part, found, scale);
+                }
+            }
         }
     }
 
-    /// Keeps the quads that a component has alone.
-    fn keep(&mut self, c: usize, part: &Part, found: Quadrangulation) {
+    /// Tries a component if its quads are not good, with this much work and so many threads.
+    fn tried<'m>(
+        &self,
+        c: usize,
+        far: f64,
+        work: u64,
+        threads: usize,
+        monitor: &impl Fn() -> Monitor<'m>,
+    ) -> Taken {
+        let started = Instant::now();
+        let mut tries = Tries::with_work(far, monitor, work);
+        let better = self.better(c, threads, &mut tries);
+        Taken {
+            better,
+            spent: work - tries.left(),
+            has_ended: tries.has_ended(),
+            seconds: started.elapsed().as_secs_f64(),
+        }
+    }
+
+    /// Better quads of a component, if its quads are not good.
+    fn better<'m, M: Fn() -> Monitor<'m>>(
+        &self,
+        c: usize,
+        threads: usize,
+        tries: &mut Tries<'_, M>,
+    ) -> Option<(Part, Quadrangulation)> {
+        let (mesh, is_refined) = (self.mesh, self.made.refined.is_some());
+        let part = Part::new(mesh, self.faces[c].clone()).ok()?;
+        let mut given = part.options(mesh, self.options);
+        given.field.threads = threads;
+        given.map.threads = threads;
+        let rank = Rank::of_quads(&part.mesh, &given, tries.far, &self.quads[c], is_refined);
+        if rank.is_good() || !tries.may_take(&part.mesh) {
+            return None;
+        }
+        let first = tries.one(&part.mesh, &given)?;
+        let found = tries.others(&part.mesh, &given, first);
+        let found_rank = Rank::of(&part.mesh, &given, tries.far, &found, is_refined);
+        let found = found.ok()?;
+        (found_rank < rank).then_some((part, found))
+    }
+
+    /// Keeps the quads that a component has alone. Its seconds count by the factor `scale`.
+    fn keep(&mut self, c: usize, part: &Part, found: Quadrangulation, scale: f64) {
         let (mesh, of_face, made) = (self.mesh, &self.components.of_face, &mut self.made);
         let is_elsewhere = |edge: &usize| of_face[mesh.edge(*edge).first.0] != c;
         for (all, own) in [
@@ -101,7 +173,7 @@ impl Apart<'_> {
             all.extend(part.edges_of_whole(mesh, own));
             all.sort_unstable();
         }
-        made.seconds = sum(made.seconds, found.seconds);
+        made.seconds = sum(made.seconds, found.seconds, scale);
         self.quads[c] = part.on_whole(found.quads);
         self.replaced.push(c);
     }
@@ -118,13 +190,14 @@ impl Apart<'_> {
     }
 }
 
-fn sum(a: QuadSeconds, b: QuadSeconds) -> QuadSeconds {
+/// The seconds `a`, and those of `b` by the factor `scale`.
+fn sum(a: QuadSeconds, b: QuadSeconds, scale: f64) -> QuadSeconds {
     QuadSeconds {
-        refine: a.refine + b.refine,
-        field: a.field + b.field,
-        map: a.map + b.map,
-        extract: a.extract + b.extract,
-        smooth: a.smooth + b.smooth,
-        compare: a.compare + b.compare,
+        refine: a.refine + scale * b.refine,
+        field: a.field + scale * b.field,
+        map: a.map + scale * b.map,
+        extract: a.extract + scale * b.extract,
+        smooth: a.smooth + scale * b.smooth,
+        compare: a.compare + scale * b.compare,
     }
 }

@@ -12,6 +12,7 @@ use super::rank::Rank;
 use super::tries::Tries;
 use super::{QuadOptions, Quadrangulation};
 use crate::error::Result;
+use crate::extract::QuadMesh;
 use crate::mesh::TriangleMesh;
 use crate::monitor::{Monitor, Phase};
 
@@ -87,17 +88,66 @@ pub fn quadrangulate<'a>(
         }
     }
     if let Ok(made) = &mut best
-        && !made.quads.is_conforming()
+        && let Some(cut) = cut_apart(&made.quads)
     {
-        let mut cut = made.quads.clone();
-        cut.make_manifold();
-        // The Euler characteristic may become right by chance: quads that do not conform never seem to.
-        if !cut.quads.is_empty() && !cut.is_conforming() {
-            made.quads = cut;
-        }
+        made.quads = cut;
     }
     run.end_call();
     // There is a result, whatever the caller wants.
     let _ = monitor().progress(Phase::Quads, 1.0);
     best
+}
+
+/// Quads that do not conform as manifold ones. `None` for those that conform, and where nothing would be left or
+/// the result would seem to conform: the Euler characteristic may become right by chance.
+fn cut_apart(quads: &QuadMesh) -> Option<QuadMesh> {
+    if quads.is_conforming() {
+        return None;
+    }
+    let mut cut = quads.clone();
+    cut.make_manifold();
+    (!cut.quads.is_empty() && !cut.is_conforming()).then_some(cut)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::extract::Origin;
+
+    /// Three quads at one edge. Cut apart, they have an Euler characteristic of three.
+    fn book(expected_euler: i64) -> QuadMesh {
+        let page = |k: u32| [[1.0, f64::from(k), 0.0], [1.0, f64::from(k), 1.0]];
+        let spine = [[0.0, 0.0, 0.0], [0.0, 0.0, 1.0]];
+        QuadMesh {
+            vertices: [spine, page(0), page(1), page(2)].concat(),
+            origins: vec![Origin::Middle; 8],
+            quads: vec![[0, 2, 3, 1], [0, 4, 5, 1], [0, 6, 7, 1]],
+            others: Vec::new(),
+            partial_cells: 0,
+            folds_removed: 0,
+            repaired: 0,
+            folded: Vec::new(),
+            expected_euler,
+        }
+    }
+
+    #[test]
+    fn quads_that_are_cut_apart_never_seem_to_conform() {
+        let cut = cut_apart(&book(1)).expect("three quads are left");
+        assert_eq!((cut.quads.len(), cut.figures().euler), (3, 3));
+        assert_eq!(cut.figures().bad_edges, 0);
+        assert!(!cut.is_conforming());
+        assert!(cut_apart(&book(3)).is_none());
+    }
+
+    #[test]
+    fn quads_that_conform_stay_and_so_do_those_of_which_nothing_would_be_left() {
+        let mut one = book(1);
+        one.quads.truncate(1);
+        one.vertices.truncate(4);
+        one.origins.truncate(4);
+        assert!(one.is_conforming() && cut_apart(&one).is_none());
+        one.quads[0] = [0, 0, 1, 1];
+        assert!(!one.is_conforming() && cut_apart(&one).is_none());
+    }
 }

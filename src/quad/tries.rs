@@ -39,12 +39,33 @@ pub(super) struct Tries<'a, M> {
 
 impl<'a, 'm, M: Fn() -> Monitor<'m>> Tries<'a, M> {
     pub(super) fn new(far: f64, monitor: &'a M) -> Self {
+        Self::with_work(far, monitor, WORK)
+    }
+
+    /// Tries that may spend so much.
+    pub(super) fn with_work(far: f64, monitor: &'a M, work: u64) -> Self {
         Tries {
             far,
             monitor,
-            work: Cell::new(WORK),
+            work: Cell::new(work),
             has_ended: false,
         }
+    }
+
+    /// What may still be spent.
+    pub(super) fn left(&self) -> u64 {
+        self.work.get()
+    }
+
+    /// Counts what other tries have spent, and whether they ended because the caller wants what there is.
+    pub(super) fn count(&mut self, spent: u64, has_ended: bool) {
+        self.work.set(self.left().saturating_sub(spent));
+        self.has_ended |= has_ended;
+    }
+
+    /// Whether the caller wants what there is.
+    pub(super) fn has_ended(&self) -> bool {
+        self.has_ended
     }
 
     /// Whether there is work left for a component.
