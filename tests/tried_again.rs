@@ -73,3 +73,24 @@ fn a_hard_component_has_quads_of_its_own_and_the_other_keeps_its_quads() {
     // Once more, the same.
     assert_eq!(quads(&mesh, 20).quads, made.quads);
 }
+
+#[test]
+fn components_tried_side_by_side_have_the_same_quads_as_one_after_the_other() {
+    let mut mesh = shape::by_name("rounded-cube", 600).unwrap();
+    for (k, n) in [9, 6, 12, 9].into_iter().enumerate() {
+        mesh = beside(&mesh, &sieve(n), 20.0 * (1.0 + k as f64));
+    }
+    let [one, two, five] = [1, 2, 5].map(|threads| {
+        let mut options = QuadOptions {
+            sizing: Sizing::Quads(30),
+            ..QuadOptions::default()
+        };
+        options.field.threads = threads;
+        quadrangulate(&mesh, &options, Monitor::default).unwrap()
+    });
+    assert!(one.apart.len() > sieve(9).face_count());
+    for other in [two, five] {
+        assert_eq!(other.quads, one.quads);
+        assert_eq!(other.apart, one.apart);
+    }
+}
