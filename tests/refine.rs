@@ -124,6 +124,16 @@ fn quads_of_coarse_solids_conform_and_are_well_shaped() {
     }
 }
 
+/// The map of the first size puts two edges of teeth on one line.
+#[test]
+fn features_that_are_missed_are_tried_with_smaller_quads() {
+    let made = quads_of(&gear(16), &options(700));
+    assert!(made.quads.is_conforming() && made.missed_features.is_empty());
+    let found = made.quads.quads.len();
+    assert!(found < 1_400, "{found}");
+    assert!(QuadQuality::new(&made.quads).scaled_jacobian_min > 0.3);
+}
+
 #[test]
 fn results_name_elements_of_the_mesh_that_was_given() {
     let mesh = cuboid([10.0, 1.0, 2.0]);

@@ -34,9 +34,9 @@ const FIRST: f64 = 0.97;
 /// that is tried before untangling.
 ///
 /// If a mesh that had to be refined, or whose quads do not conform, is still not covered by quads that conform,
-/// it is tried once more with its sharp edges as features, if the options give no angle, once more without
-/// refinement, once more with half as many quads again as were asked for, and with 500. The first of the best
-/// results is kept. Of a mesh of several components, only those are tried again whose quads do not conform, and
+/// or if it had to be refined and its quads miss features that were asked for, it is tried once more with its
+/// sharp edges as features, if the options give no angle, once more without refinement, once more with half as
+/// many quads again as were asked for, and with 500. The first of the best results is kept. Of a mesh of several components, only those are tried again whose quads do not conform, and
 /// then, if the surface is not covered, those that do not cover theirs: each alone, as it is and in these ways,
 /// and their quads replace those of the first try if they are better. These tries end when they have made
 /// fields, maps and quads of 1,200,000 triangles in all, or what takes as long.

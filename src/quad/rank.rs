@@ -5,6 +5,7 @@ use super::coverage::{LOST, lost};
 use super::{QuadOptions, Quadrangulation};
 use crate::error::Result;
 use crate::extract::QuadMesh;
+use crate::field::Guidance;
 use crate::mesh::TriangleMesh;
 
 /// The largest factor between the number of quads and what was asked for.
@@ -17,6 +18,8 @@ pub(super) struct Rank {
     does_not_conform: bool,
     /// Thousandths of the surface that are lost, where they are more than may be.
     lost: u32,
+    /// Features of a mesh that had to be refined that the quads miss, if the caller asked for features.
+    missed: usize,
     /// There are more than twice as many quads as were asked for, or less than half as many.
     is_off: bool,
 }
@@ -27,6 +30,7 @@ impl Rank {
         has_none: true,
         does_not_conform: true,
         lost: 1000,
+        missed: usize::MAX,
         is_off: true,
     };
 
@@ -57,6 +61,7 @@ impl Rank {
                 true => 0,
                 false => (1000.0 * lost).round() as u32,
             },
+            missed: 0,
             is_off: !(1.0 / FACTOR..=FACTOR).contains(&more),
         }
     }
@@ -70,7 +75,13 @@ impl Rank {
         may_lose: bool,
     ) -> Self {
         match made {
-            Ok(made) => Self::of_quads(mesh, options, far, &made.quads, may_lose),
+            Ok(made) => Rank {
+                missed: match may_lose && has_features(mesh, &options.guidance) {
+                    true => made.missed_features.len(),
+                    false => 0,
+                },
+                ..Self::of_quads(mesh, options, far, &made.quads, may_lose)
+            },
             Err(_) => Self::WORST,
         }
     }
@@ -86,8 +97,14 @@ impl Rank {
         Self::of(mesh, options, far, made, may_lose)
     }
 
-    /// Whether quads conform and cover the surface, so that nothing else is tried.
+    /// Whether quads conform, cover the surface and follow its features, so that nothing else is tried.
     pub(super) fn is_good(self) -> bool {
-        !self.has_none && !self.does_not_conform && self.lost == 0
+        !self.has_none && !self.does_not_conform && self.lost == 0 && self.missed == 0
     }
+}
+
+/// Whether the caller says which edges are features; those of the boundary do not count.
+pub(super) fn has_features(mesh: &TriangleMesh, guidance: &Guidance) -> bool {
+    let is_inner = |&edge: &usize| mesh.edge(edge).second.is_some();
+    guidance.feature_angle.is_some() || guidance.feature_edges.iter().any(is_inner)
 }

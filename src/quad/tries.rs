@@ -3,7 +3,7 @@
 use std::cell::Cell;
 
 use super::driver::{Effort, by_options};
-use super::rank::Rank;
+use super::rank::{Rank, has_features};
 use super::{QuadOptions, Quadrangulation};
 use crate::error::{Error, Result};
 use crate::field::Guidance;
@@ -171,10 +171,4 @@ fn finer(sizing: &Sizing, more: f64) -> Sizing {
             Sizing::Lengths(lengths.iter().map(|pair| pair.map(shorter)).collect())
         }
     }
-}
-
-/// Whether the caller says which edges are features; those of the boundary do not count.
-fn has_features(mesh: &TriangleMesh, guidance: &Guidance) -> bool {
-    let is_inner = |&edge: &usize| mesh.edge(edge).second.is_some();
-    guidance.feature_angle.is_some() || guidance.feature_edges.iter().any(is_inner)
 }
