@@ -13,7 +13,7 @@ use super::patches::{Proof, prove};
 use super::space::CycleSpace;
 use crate::eliminate::ReducedModel;
 use crate::error::Result;
-use crate::monitor::Monitor;
+use crate::monitor::{Monitor, thread_count};
 use crate::problem::Model;
 use crate::round;
 use crate::search::{Factors, Options, Search, StoppedBy, Strategy};
@@ -167,27 +167,40 @@ fn find(
     search: &mut Search,
 ) -> Result<()> {
     let work = work(space, THOROUGH_WORK).min(search.work.left() as usize / 2);
-    let threads = match space.factor.len() < WORTH_A_THREAD {
-        true => 1,
-        false => options.threads,
-    };
+    let second =
+        |monitor: &mut Monitor| improved(space, space.nearest_plane(), &THOROUGH, work, monitor);
+    if thread_count(options.threads) == 1 || space.factor.len() < WORTH_A_THREAD {
+        from_adaptive(reduced, space, options, work, factors, search)?;
+        let found = second(search.monitor)?;
+        return offer(space, found, factors, search);
+    }
     let worker = search.monitor.worker();
-    let improved =
-        |start: Vec<f64>, monitor: &mut Monitor| improved(space, start, &THOROUGH, work, monitor);
     std::thread::scope(|scope| {
-        let beside = worker.start(scope, threads, |monitor: &mut Monitor| {
-            improved(space.nearest_plane(), monitor)
-        });
-        round::adaptive(reduced, options, factors, search)?;
-        if let Some(start) = search.incumbent_integers().map(|z| space.charges(&z))
-            && !search.ends(0)
-        {
-            let found = improved(start, search.monitor)?;
-            offer(space, found, factors, search)?;
-        }
+        let beside = worker.start(scope, second);
+        from_adaptive(reduced, space, options, work, factors, search)?;
         let found = beside.wait(search.monitor)?;
         offer(space, found, factors, search)
     })
+}
+
+/// Adaptive rounding, and improvement from there by this many multiplications.
+fn from_adaptive(
+    reduced: &ReducedModel,
+    space: &CycleSpace,
+    options: &Options,
+    work: usize,
+    factors: &mut Factors,
+    search: &mut Search,
+) -> Result<()> {
+    round::adaptive(reduced, options, factors, search)?;
+    let start = search.incumbent_integers().map(|z| space.charges(&z));
+    if let Some(start) = start
+        && !search.ends(0)
+    {
+        let found = improved(space, start, &THOROUGH, work, search.monitor)?;
+        offer(space, found, factors, search)?;
+    }
+    Ok(())
 }
 
 fn space(model: &Model, reduced: &ReducedModel, search: &Search) -> Result<Option<CycleSpace>> {

@@ -68,21 +68,17 @@ impl Worker {
         run
     }
 
-    /// Starts a task on a thread of its own. The thread that waits for it does it instead if only one thread may
-    /// be used, or if no other can be started.
+    /// Starts a task on a thread of its own. The thread that waits for it does it instead if no other can be
+    /// started.
     pub(crate) fn start<'scope, T, F>(
         self,
         scope: &'scope Scope<'scope, '_>,
-        threads: usize,
         task: F,
     ) -> Started<'scope, T, F>
     where
         T: Send + 'scope,
         F: FnOnce(&mut Monitor) -> T + Send + Clone + 'scope,
     {
-        if thread_count(threads) == 1 {
-            return Started::Here(task);
-        }
         let (sender, result) = channel();
         let token = Ends(self.token.clone());
         let there = task.clone();
@@ -147,6 +143,14 @@ pub(crate) fn side_by_side<'m, T: Send>(
     begins: impl Fn(usize),
     task: impl for<'x> Fn(usize, &dyn Fn() -> Monitor<'x>) -> Result<T> + Sync,
 ) -> Result<Vec<T>> {
+    let threads = thread_count(threads).min(count);
+    if threads <= 1 {
+        let each = |k: usize| {
+            begins(k);
+            task(k, &|| monitor())
+        };
+        return (0..count).map(each).collect();
+    }
     let mut of_call = monitor();
     let worker = of_call.worker().optional();
     let token = Ends(worker.token.clone());
@@ -155,7 +159,7 @@ pub(crate) fn side_by_side<'m, T: Send>(
     let (sender, results) = channel();
     let mut found: Vec<(usize, Result<T>)> = Vec::with_capacity(count);
     std::thread::scope(|scope| {
-        for _ in 1..thread_count(threads).min(count) {
+        for _ in 1..threads {
             let (sender, worker) = (sender.clone(), worker.clone());
             let (task, take, done) = (&task, &take, &done);
             let there = move || {
@@ -174,7 +178,7 @@ pub(crate) fn side_by_side<'m, T: Send>(
             }
         }
         drop(sender);
-        let mut own = (count > 0).then_some(0);
+        let mut own = Some(0);
         while let Some(k) = own {
             begins(done.load(Relaxed));
             match task(k, &|| monitor()) {
@@ -209,6 +213,9 @@ pub(crate) fn in_parts<T: Send>(
     part: impl Fn(Range<usize>) -> T + Sync,
 ) -> Vec<T> {
     let threads = thread_count(threads).min(count.max(1));
+    if threads == 1 {
+        return vec![part(0..count)];
+    }
     let of = |k: usize| k * count / threads..(k + 1) * count / threads;
     let part = &part;
     std::thread::scope(|scope| {
@@ -335,23 +342,22 @@ mod tests {
 
     #[test]
     fn a_task_beside_another_ends_with_it_or_is_waited_for() {
-        for threads in [1, 2] {
-            let mut monitor = Monitor::default();
-            let worker = monitor.worker();
-            let sum = scope(|scope| {
-                let there = worker.clone().start(scope, threads, |_: &mut Monitor| 40);
-                2 + there.wait(&mut monitor)
+        let mut monitor = Monitor::default();
+        let sum = scope(|scope| {
+            let there = monitor.worker().start(scope, |_: &mut Monitor| 40);
+            2 + there.wait(&mut monitor)
+        });
+        assert_eq!(sum, 42);
+        let here = Started::Here(|_: &mut Monitor| 40);
+        assert_eq!(here.wait(&mut monitor), 40);
+        // Nobody waits: it would never end by itself.
+        scope(|scope| {
+            monitor.worker().start(scope, |monitor: &mut Monitor| {
+                while monitor.check().is_ok() {
+                    std::thread::yield_now();
+                }
             });
-            assert_eq!(sum, 42);
-            // Nobody waits: it would never end by itself.
-            scope(|scope| {
-                worker.start(scope, threads, |monitor: &mut Monitor| {
-                    while monitor.check().is_ok() {
-                        std::thread::yield_now();
-                    }
-                });
-            });
-        }
+        });
     }
 
     #[test]
@@ -368,7 +374,7 @@ mod tests {
         let mut monitor = Monitor::default();
         let worker = monitor.worker();
         scope(|scope| {
-            let there = worker.start(scope, 2, |_: &mut Monitor| panic!("a task that panics"));
+            let there = worker.start(scope, |_: &mut Monitor| panic!("a task that panics"));
             there.wait(&mut monitor);
         });
     }

@@ -88,6 +88,8 @@ fn drawn(words: &str) -> Option<(String, Vec<u32>)> {
     let command = format!("stty cols 150; {} {words}", env!("CARGO_BIN_EXE_roundel"));
     let output = Command::new("script")
         .args(["-qec", &command, "/dev/null"])
+        // A machine that builds may have no terminal at all.
+        .env("TERM", "xterm")
         .stdin(Stdio::null())
         .output();
     let Ok(output) = output else {

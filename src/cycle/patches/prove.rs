@@ -9,9 +9,9 @@ use super::schedule::{Rounds, Standing, Watch};
 use super::tree::{PatchTree, System};
 use crate::cycle::space::CycleSpace;
 use crate::eliminate::ReducedModel;
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::linalg::sum_below;
-use crate::monitor::{Monitor, thread_count};
+use crate::monitor::{Monitor, Started, thread_count};
 use crate::search::{Factors, Search};
 
 /// The number of charges that are evaluated where the list of the root ends a proof.
@@ -241,9 +241,9 @@ impl Trials<'_> {
     ///
     /// After the first one, which often suffices, threads try trees beyond those that have been compared. A trial
     /// that exceeds what the trials before it have left is made again with that.
-    fn best(
+    fn best<'r>(
         &self,
-        effort: &Proof,
+        effort: &'r Proof,
         watch: &mut Watched<'_, '_, '_>,
     ) -> Result<Option<(PatchTree, Account)>> {
         let mut best: Option<Trial> = None;
@@ -251,50 +251,72 @@ impl Trials<'_> {
         let others = others.chunks(thread_count(self.threads));
         for ahead in std::iter::once(first).chain(others) {
             let most = (watch.left, watch.nodes);
-            let is_over = std::thread::scope(|scope| {
-                let mut started = Vec::with_capacity(ahead.len());
-                for (k, recipe) in ahead.iter().enumerate() {
-                    // The first one is left to this thread.
-                    let threads = if k == 0 { 1 } else { self.threads };
-                    let worker = watch.search.monitor.worker();
-                    let run = move |monitor: &mut Monitor| self.run(recipe, most, monitor);
-                    started.push((recipe, worker.start(scope, threads, run)));
-                }
-                for (recipe, started) in started {
-                    if best.is_some() && effort.work - watch.left > effort.trials {
-                        return Ok(true);
-                    }
-                    let mut tried = started.wait(watch.search.monitor)?;
-                    let most = (watch.left, watch.nodes);
-                    if tried.work >= most.0 || tried.nodes > most.1 {
-                        tried = self.run(recipe, most, watch.search.monitor)?;
-                    }
-                    watch.visited(tried.nodes);
-                    let ends = watch.ends(tried.work);
-                    let Some(trial) = tried.trial else {
-                        if ends {
-                            return Ok(true);
+            let run =
+                |recipe: &'r Recipe| move |monitor: &mut Monitor| self.run(recipe, most, monitor);
+            let is_over = match ahead {
+                [only] => self.compare(
+                    vec![(only, Started::Here(run(only)))],
+                    effort,
+                    &mut best,
+                    watch,
+                )?,
+                _ => std::thread::scope(|scope| {
+                    let start = |(k, recipe): (usize, &'r Recipe)| match k {
+                        // The first one is left to this thread.
+                        0 => (recipe, Started::Here(run(recipe))),
+                        _ => {
+                            let worker = watch.search.monitor.worker();
+                            (recipe, worker.start(scope, run(recipe)))
                         }
-                        continue;
                     };
-                    watch.account = Some(trial.account);
-                    watch.raised(trial.bound);
-                    let standing = trial.standing;
-                    let is_decided = standing == Standing::Decided;
-                    if is_decided || best.as_ref().is_none_or(|b| trial.bound > b.bound) {
-                        best = Some(trial);
-                    }
-                    if standing != Standing::Open || watch.ends(0) {
-                        return Ok(true);
-                    }
-                }
-                Ok::<bool, Error>(false)
-            })?;
+                    let started = ahead.iter().enumerate().map(start).collect();
+                    self.compare(started, effort, &mut best, watch)
+                })?,
+            };
             if is_over {
                 break;
             }
         }
         Ok(best.map(|best| (best.tree, best.account)))
+    }
+
+    /// Compares trials with the best one in their order. Returns whether no others follow.
+    fn compare<F: FnOnce(&mut Monitor) -> Result<Tried>>(
+        &self,
+        started: Vec<(&Recipe, Started<'_, Result<Tried>, F>)>,
+        effort: &Proof,
+        best: &mut Option<Trial>,
+        watch: &mut Watched<'_, '_, '_>,
+    ) -> Result<bool> {
+        for (recipe, started) in started {
+            if best.is_some() && effort.work - watch.left > effort.trials {
+                return Ok(true);
+            }
+            let mut tried = started.wait(watch.search.monitor)?;
+            let most = (watch.left, watch.nodes);
+            if tried.work >= most.0 || tried.nodes > most.1 {
+                tried = self.run(recipe, most, watch.search.monitor)?;
+            }
+            watch.visited(tried.nodes);
+            let ends = watch.ends(tried.work);
+            let Some(trial) = tried.trial else {
+                if ends {
+                    return Ok(true);
+                }
+                continue;
+            };
+            watch.account = Some(trial.account);
+            watch.raised(trial.bound);
+            let standing = trial.standing;
+            let is_decided = standing == Standing::Decided;
+            if is_decided || best.as_ref().is_none_or(|b| trial.bound > b.bound) {
+                *best = Some(trial);
+            }
+            if standing != Standing::Open || watch.ends(0) {
+                return Ok(true);
+            }
+        }
+        Ok(false)
     }
 }
 
