@@ -7,6 +7,7 @@
 
 use std::ops::Range;
 use std::panic::resume_unwind;
+use std::sync::OnceLock;
 use std::sync::atomic::AtomicUsize;
 use std::sync::atomic::Ordering::Relaxed;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
@@ -23,8 +24,10 @@ const WAIT: Duration = Duration::from_millis(5);
 
 /// The number of threads for the option `threads`, where 0 stands for one for each core.
 pub(crate) fn thread_count(threads: usize) -> usize {
+    // The system is asked once, because that takes longer than many a task.
+    static CORES: OnceLock<usize> = OnceLock::new();
     match threads {
-        0 => available_parallelism().map_or(1, usize::from),
+        0 => *CORES.get_or_init(|| available_parallelism().map_or(1, usize::from)),
         given => given,
     }
 }
