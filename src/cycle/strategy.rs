@@ -256,3 +256,37 @@ fn offer(
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::field::{FieldProblem, curvature_constraints};
+    use crate::mesh::jitter;
+    use crate::mesh::shape::by_name;
+    use crate::monitor::spawned;
+    use crate::search::{Options, Strategy};
+    use crate::solve::solve;
+
+    #[test]
+    fn both_starts_and_the_trees_of_a_proof_have_threads_if_they_are_allowed() {
+        let mesh = jitter(&by_name("genus-2", 1_500).unwrap(), 1e-3, 3).unwrap();
+        let constraints = curvature_constraints(&mesh, 0.05).unwrap();
+        let field = FieldProblem::new(&mesh, &constraints).unwrap();
+        let started = |strategy: Strategy, threads: usize| {
+            let options = Options {
+                strategy,
+                threads,
+                nodes: 10_000_000,
+                ..Options::default()
+            };
+            spawned(|| {
+                solve(field.problem(), &options).unwrap();
+            })
+        };
+        assert_eq!(started(Strategy::Exact, 1), 0);
+        let of_starts = started(Strategy::Auto, 2);
+        assert!(of_starts >= 1);
+        // Trees are tried after the first.
+        let of_all = started(Strategy::Exact, 2);
+        assert!(of_all > of_starts, "{of_all} {of_starts}");
+    }
+}

@@ -16,6 +16,8 @@ pub use cancel::CancelToken;
 pub(crate) use cancel::Stop;
 pub use event::{Event, EventKind, Flow, Phase, Stage};
 pub use run::Run;
+#[cfg(test)]
+pub(crate) use worker::spawned;
 pub(crate) use worker::{Started, in_parts, side_by_side, thread_count};
 
 type Callback<'a> = Box<dyn FnMut(&Event) -> Flow + 'a>;

@@ -32,6 +32,30 @@ pub(crate) fn thread_count(threads: usize) -> usize {
     }
 }
 
+#[cfg(test)]
+thread_local! {
+    /// The threads that this one has started.
+    static SPAWNED: std::cell::Cell<usize> = const { std::cell::Cell::new(0) };
+}
+
+/// The threads that the calls of a test have started.
+#[cfg(test)]
+pub(crate) fn spawned(calls: impl FnOnce()) -> usize {
+    let before = SPAWNED.get();
+    calls();
+    SPAWNED.get() - before
+}
+
+fn spawn<'scope, T: Send + 'scope>(
+    scope: &'scope Scope<'scope, '_>,
+    task: impl FnOnce() -> T + Send + 'scope,
+) -> std::io::Result<ScopedJoinHandle<'scope, T>> {
+    let handle = Builder::new().spawn_scoped(scope, task)?;
+    #[cfg(test)]
+    SPAWNED.set(SPAWNED.get() + 1);
+    Ok(handle)
+}
+
 /// What the monitors of other threads have of the call's monitor.
 #[derive(Debug, Clone)]
 pub(crate) struct Worker {
@@ -89,7 +113,7 @@ impl Worker {
             // Nobody receives it where nobody waits.
             let _ = sender.send(there(&mut self.monitor(&self.run())));
         };
-        match Builder::new().spawn_scoped(scope, there) {
+        match spawn(scope, there) {
             Ok(handle) => Started::There(result, handle, token),
             Err(_) => Started::Here(task),
         }
@@ -164,19 +188,22 @@ pub(crate) fn side_by_side<'m, T: Send>(
     std::thread::scope(|scope| {
         for _ in 1..threads {
             let (sender, worker) = (sender.clone(), worker.clone());
-            let (task, take, done) = (&task, &take, &done);
+            let (task, take, next, done) = (&task, &take, &next, &done);
             let there = move || {
                 while let Some(k) = take() {
                     let run = worker.run();
                     let result = task(k, &|| worker.monitor(&run));
                     done.fetch_add(1, Relaxed);
                     let is_last = result.is_err();
+                    if is_last {
+                        next.store(count, Relaxed);
+                    }
                     if sender.send((k, result)).is_err() || is_last {
                         break;
                     }
                 }
             };
-            if Builder::new().spawn_scoped(scope, there).is_err() {
+            if spawn(scope, there).is_err() {
                 break;
             }
         }
@@ -223,7 +250,7 @@ pub(crate) fn in_parts<T: Send>(
     let part = &part;
     std::thread::scope(|scope| {
         let others: Vec<_> = (1..threads)
-            .map(|k| (k, Builder::new().spawn_scoped(scope, move || part(of(k)))))
+            .map(|k| (k, spawn(scope, move || part(of(k)))))
             .collect();
         let mut found = vec![part(of(0))];
         found.extend(others.into_iter().map(|(k, other)| match other {

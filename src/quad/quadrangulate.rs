@@ -113,6 +113,8 @@ fn cut_apart(quads: &QuadMesh) -> Option<QuadMesh> {
 mod tests {
     use super::*;
     use crate::extract::Origin;
+    use crate::mesh::shape::by_name;
+    use crate::monitor::spawned;
 
     /// Three quads at one edge. Cut apart, they have an Euler characteristic of three.
     fn book(expected_euler: i64) -> QuadMesh {
@@ -128,6 +130,23 @@ mod tests {
             repaired: 0,
             folded: Vec::new(),
             expected_euler,
+        }
+    }
+
+    #[test]
+    fn fields_are_tried_on_as_many_threads_as_are_allowed() {
+        let mesh = by_name("genus-2", 6_000).unwrap();
+        for (threads, started) in [(1, 0), (2, 1), (3, 2)] {
+            let mut options = QuadOptions::default();
+            options.field.threads = threads;
+            options.map.threads = 1;
+            let found = spawned(|| {
+                quadrangulate(&mesh, &options, Monitor::default).unwrap();
+            });
+            assert!(
+                found >= started && (threads > 1 || found == 0),
+                "{threads}: {found}"
+            );
         }
     }
 
