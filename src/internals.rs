@@ -11,6 +11,7 @@ pub mod eliminate {
 pub mod linalg {
     pub use crate::linalg::{
         Cholesky, Effort, EliminationTree, FixedSolve, Ldl, LocalSolve, Lowest, Minimum,
-        RelaxedFactor, Sparse, conjugate_gradient, equilibrate, minimise_fixed, minimum_degree,
+        RelaxedFactor, Sparse, Wave, conjugate_gradient, equilibrate, minimise_fixed,
+        minimum_degree,
     };
 }

@@ -1,13 +1,20 @@
 //! Cancelling a solve from another thread, at any moment of any phase.
 
+use std::cell::Cell;
 use std::time::{Duration, Instant};
 
-use roundel::field::{FieldProblem, curvature_constraints};
-use roundel::mesh::{jitter, shape};
-use roundel::monitor::EventKind;
+use roundel::extract::{IntegerGridMap, extract};
+use roundel::field::{FieldOptions, FieldProblem, curvature_constraints, solve_field};
+use roundel::map::{SeamlessOptions, SeamlessProblem};
+use roundel::mesh::features::FeatureGraph;
+use roundel::mesh::refine::{RefineOptions, refine};
+use roundel::mesh::{io, jitter, shape};
+use roundel::monitor::{EventKind, Run};
+use roundel::quad::{QuadOptions, quadrangulate};
+use roundel::smooth::{SmoothOptions, smooth};
 use roundel::{
-    CancelToken, Error, Event, Flow, Monitor, Options, Problem, SolveStatus, Solver, Strategy,
-    WarmStart, solve, solve_with,
+    CancelToken, Error, Event, Flow, Model, Monitor, Options, Problem, SolveStatus, Solver,
+    Strategy, WarmStart, solve, solve_with,
 };
 
 fn field(triangles: usize) -> Problem {
@@ -140,6 +147,136 @@ fn at_200_000_triangles_cancelling_takes_at_most_100_milliseconds() {
                 ended.latency,
                 if ended.solved { "a solution" } else { "none" },
             );
+        }
+    }
+    assert!(late.is_empty(), "{late:?}");
+}
+
+/// A step that ends by itself or by the limits of the call.
+type Step<'a> = Box<dyn FnMut() -> Result<(), Error> + 'a>;
+
+/// What has no monitor ends with the call that it is a part of.
+#[test]
+fn steps_without_a_monitor_end_with_their_call() {
+    let mesh = shape::by_name("torus", 2_000).unwrap();
+    let (field, _) = solve_field(
+        &mesh,
+        &FieldOptions::default(),
+        &Options::default(),
+        Monitor::default,
+    )
+    .unwrap();
+    let sizing = SeamlessOptions { quads: 60 };
+    let map = SeamlessProblem::new(&mesh, &field, &sizing).unwrap();
+    let solution = solve(map.problem(), &Options::default()).unwrap();
+    let seamless = map.map(&mesh, &solution).unwrap();
+    let grid = IntegerGridMap::from_seamless(&mesh, &seamless).unwrap();
+    let mut quads = extract(&mesh, &grid, &mut Monitor::default()).unwrap();
+    let features = FeatureGraph::none(&mesh);
+    let finer = RefineOptions::new(&mesh, 0.5 * mesh.mean_edge_length(), 10_000);
+    let mut steps: Vec<(&str, Step)> = vec![
+        (
+            "the problem of a field",
+            Box::new(|| FieldProblem::new(&mesh, &[]).map(drop)),
+        ),
+        (
+            "the problem of a map",
+            Box::new(|| SeamlessProblem::new(&mesh, &field, &sizing).map(drop)),
+        ),
+        ("a map", Box::new(|| map.map(&mesh, &solution).map(drop))),
+        (
+            "defects",
+            Box::new(|| map.winding_defects(&mesh, &seamless).map(drop)),
+        ),
+        (
+            "a grid map",
+            Box::new(|| IntegerGridMap::from_seamless(&mesh, &seamless).map(drop)),
+        ),
+        (
+            "extraction",
+            Box::new(|| extract(&mesh, &grid, &mut Monitor::default()).map(drop)),
+        ),
+        (
+            "smoothing",
+            Box::new(|| {
+                let options = SmoothOptions::default();
+                smooth(&mut quads, &mesh, &options, &mut Monitor::default())
+            }),
+        ),
+        (
+            "refinement",
+            Box::new(|| refine(&mesh, &features, &finer).map(drop)),
+        ),
+        ("a model", Box::new(|| Model::new(map.problem()).map(drop))),
+    ];
+    let token = CancelToken::new();
+    for (name, step) in &mut steps {
+        let watch = Monitor::default().cancel_token(token.clone()).watch();
+        assert_eq!(step(), Ok(()), "{name}");
+        token.cancel();
+        assert_eq!(step(), Err(Error::Cancelled), "{name}");
+        token.reset();
+        drop(watch);
+    }
+}
+
+/// A generator of numbers in [0, 1), for moments that nobody chose (`steele2014`).
+struct Moments(u64);
+
+impl Moments {
+    fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
+    }
+}
+
+/// Cancels runs from a mesh to quads at random moments, for as many minutes as `ROUNDEL_MINUTES` says, ten if
+/// it says nothing, and tells by stage how long they go on. The mesh is that of `ROUNDEL_MESH`, or a torus of
+/// 800,000 triangles. Run it alone on a quiet machine:
+/// `cargo test --release --test cancel -- --ignored --nocapture random_moments`.
+#[test]
+#[ignore = "takes ten minutes and a quiet machine"]
+fn at_random_moments_cancelling_takes_at_most_100_milliseconds() {
+    let given = |name: &str| std::env::var(name).ok();
+    let minutes: f64 = given("ROUNDEL_MINUTES").map_or(10.0, |text| text.parse().unwrap());
+    let mesh = match given("ROUNDEL_MESH") {
+        Some(path) => io::read(path).unwrap(),
+        None => shape::by_name("torus", 800_000).unwrap(),
+    };
+    let options = QuadOptions::default();
+    let started = Instant::now();
+    quadrangulate(&mesh, &options, Monitor::default).unwrap();
+    let whole = started.elapsed();
+    println!("{} triangles, {whole:.2?}", mesh.face_count());
+    let (mut moments, mut late) = (Moments(2009), Vec::new());
+    let started = Instant::now();
+    while started.elapsed().as_secs_f64() < 60.0 * minutes {
+        let delay = whole.mul_f64(moments.next());
+        let (token, run) = (CancelToken::new(), Run::new());
+        let from_outside = token.clone();
+        let canceller = std::thread::spawn(move || {
+            std::thread::sleep(delay);
+            from_outside.cancel();
+            Instant::now()
+        });
+        let last = Cell::new(None);
+        let monitor = || {
+            let watched = Monitor::default().of_run(&run).cancel_token(token.clone());
+            watched.on_event(|event| {
+                last.set(Some((event.stage, event.share)));
+                Flow::Continue
+            })
+        };
+        let made = quadrangulate(&mesh, &options, monitor);
+        let ended = Instant::now();
+        let latency = ended.saturating_duration_since(canceller.join().unwrap());
+        assert!(matches!(made, Ok(_) | Err(Error::Cancelled)));
+        println!("{delay:.2?}: {latency:.0?} later, after {:?}", last.get());
+        if latency > Duration::from_millis(100) {
+            late.push((delay, latency, last.get()));
         }
     }
     assert!(late.is_empty(), "{late:?}");

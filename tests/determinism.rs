@@ -73,3 +73,27 @@ fn quads_have_the_same_bits_at_any_number_of_threads() {
     });
     assert!(digests.iter().all(|d| *d == digests[0]), "{digests:x?}");
 }
+
+/// Adaptive rounding divides this field into regions, and threads share the factorizations of field and map. On a
+/// smoother mesh, any order of rounding would end at the same integers.
+#[test]
+fn threads_that_share_one_large_problem_change_no_bit() {
+    let mesh = jitter(&shape::by_name("genus-2", 40_000).unwrap(), 0.1, 3).unwrap();
+    let made = |threads: usize| {
+        let mut options = QuadOptions::default();
+        options.field.threads = threads;
+        let made = quadrangulate(&mesh, &options, Monitor::default).unwrap();
+        assert!(made.refined.is_none());
+        let solutions = [&made.field_solution, &made.solution].map(|solution| {
+            let bounds = [solution.energy(), solution.lower_bound().unwrap()];
+            [solution.values(), &bounds].map(digest)
+        });
+        let vertices = digest(&made.quads.vertices.concat());
+        (solutions, vertices, made.quads.quads)
+    };
+    let alone = made(1);
+    assert!(alone.2.len() > 500);
+    for threads in [2, 3, 8] {
+        assert!(made(threads) == alone, "{threads} threads");
+    }
+}

@@ -8,11 +8,12 @@ use roundel::mesh::shape;
 use roundel::{Error, Model, Monitor, Options, Problem, Result, solve};
 
 /// The number of faces of the mesh.
-pub const TRIANGLES: usize = 10_000;
+pub const TRIANGLES: usize = 40_000;
 
 /// A problem, its reduced model after elimination, and the minimiser of that model.
 pub struct Case {
-    pub family: &'static str,
+    /// The family and the threads.
+    pub family: String,
     pub problem: Problem,
     pub reduced: ReducedModel,
     pub relaxed: Vec<f64>,
@@ -21,20 +22,20 @@ pub struct Case {
 
 /// An orientation field (many integers, each of local influence) and a map (few integers, each of
 /// global influence).
-pub fn cases() -> Result<[Case; 2]> {
+pub fn cases(threads: usize) -> Result<[Case; 2]> {
     let mesh = shape::by_name("genus-2", TRIANGLES)?;
     let field = FieldProblem::new(&mesh, &curvature_constraints(&mesh, 0.1)?)?;
     let solution = solve(field.problem(), &Options::orientation_field())?;
     let options = SeamlessOptions { quads: 1000 };
     let map = SeamlessProblem::new(&mesh, &field.field(&mesh, &solution)?, &options)?;
     Ok([
-        Case::new("field", field.problem().clone())?,
-        Case::new("map", map.problem().clone())?,
+        Case::new(format!("field, {threads} threads"), field.problem().clone())?,
+        Case::new(format!("map, {threads} threads"), map.problem().clone())?,
     ])
 }
 
 impl Case {
-    fn new(family: &'static str, problem: Problem) -> Result<Self> {
+    fn new(family: String, problem: Problem) -> Result<Self> {
         let model = Model::new(&problem)?;
         let reduced = eliminate(&model, &mut Monitor::default())?;
         let factor = RelaxedFactor::new(reduced.hessian(), reduced.integers())?;

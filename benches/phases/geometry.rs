@@ -9,9 +9,9 @@ use roundel::{Options, Result, solve};
 
 use crate::case::TRIANGLES;
 
-pub fn bench(criterion: &mut Criterion) {
+pub fn bench(criterion: &mut Criterion, threads: usize) {
     let mesh = shape::by_name("genus-2", TRIANGLES).expect("there is such a shape");
-    let mut group = criterion.benchmark_group("geometry");
+    let mut group = criterion.benchmark_group(format!("geometry, {threads} threads"));
     #[cfg(feature = "mesh-io")]
     for format in ["obj", "off", "ply"] {
         let file =

@@ -1,4 +1,5 @@
-//! The time of every phase by itself, on procedural shapes: `cargo bench --bench phases -- PHASE`.
+//! The time of every phase by itself, on procedural shapes, with one thread and with two:
+//! `cargo bench --bench phases -- PHASE`.
 //!
 //! | file | phases |
 //! | --- | --- |
@@ -7,6 +8,7 @@
 //! | `factors` | orderings, supernodal and simplicial factors, solves |
 //! | `rounding` | updates after one rounding: fixing, Gauss-Seidel, conjugate gradients |
 //! | `after` | the continuous unknowns of an incumbent, expansion, verification |
+//! | `whole` | adaptive rounding of a field, quads from a map, smoothing, and all steps from a mesh to quads |
 
 mod after;
 mod before;
@@ -14,16 +16,23 @@ mod case;
 mod factors;
 mod geometry;
 mod rounding;
+mod whole;
 
 use criterion::{Criterion, criterion_group, criterion_main};
+use roundel::monitor::with_threads;
 
 fn phases(criterion: &mut Criterion) {
-    geometry::bench(criterion);
-    for case in case::cases().expect("procedural shapes are valid") {
-        before::bench(criterion, &case);
-        factors::bench(criterion, &case);
-        rounding::bench(criterion, &case);
-        after::bench(criterion, &case);
+    for threads in [1, 2] {
+        with_threads(threads, || {
+            geometry::bench(criterion, threads);
+            for case in case::cases(threads).expect("procedural shapes are valid") {
+                before::bench(criterion, &case);
+                factors::bench(criterion, &case);
+                rounding::bench(criterion, &case);
+                after::bench(criterion, &case);
+            }
+            whole::bench(criterion, threads);
+        });
     }
 }
 

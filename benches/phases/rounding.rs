@@ -3,7 +3,7 @@
 use criterion::{BatchSize, Criterion};
 use roundel::Options;
 use roundel::internals::linalg::{
-    Effort, FixedSolve, Ldl, LocalSolve, conjugate_gradient, minimum_degree,
+    Effort, FixedSolve, Ldl, LocalSolve, Wave, conjugate_gradient, minimum_degree,
 };
 
 use crate::case::Case;
@@ -34,8 +34,10 @@ pub fn bench(criterion: &mut Criterion, case: &Case) {
                     .expect("memory for a queue")
             },
             |local| {
-                local.fix(unknown, value);
-                local.relax(options.gauss_seidel_tolerance, options.gauss_seidel_updates)
+                let (mut wave, updates) = (Wave::default(), options.gauss_seidel_updates);
+                local.fix(unknown, value, &mut wave);
+                let tolerance = options.gauss_seidel_tolerance;
+                local.relax(&mut wave, tolerance, updates, |_| true)
             },
             BatchSize::LargeInput,
         )

@@ -23,6 +23,7 @@ mod report;
 mod shape;
 mod solve;
 mod summary;
+mod threads;
 
 use std::process::ExitCode;
 

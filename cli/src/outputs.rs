@@ -41,6 +41,8 @@ pub enum Content {
 pub const MAP: Content = Content::Only(&["obj"]);
 /// A problem.
 pub const PROBLEM: Content = Content::Only(&["mps", "mps.gz"]);
+/// A trace.
+pub const TRACE: Content = Content::Only(&["json"]);
 /// A picture.
 pub const PICTURE: Content = Content::Only(&["png"]);
 /// A page for a browser.

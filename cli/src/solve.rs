@@ -10,10 +10,11 @@ use roundel::{Options, Result, Solution, Strategy};
 use crate::exit::{self, Exit};
 use crate::options::SolverOptions;
 use crate::output;
-use crate::outputs::{Content, OutputFlags, Outputs};
+use crate::outputs::{Content, OutputFlags, Outputs, TRACE};
 use crate::progress::Progress;
 use crate::report::{Preparation, Report};
 use crate::summary::Summary;
+use crate::threads::TraceFlags;
 
 /// Solve a problem from an MPS file.
 #[derive(clap::Args)]
@@ -40,12 +41,17 @@ pub struct Arguments {
     output: OutputFlags,
 
     #[command(flatten)]
+    tracing: TraceFlags,
+
+    #[command(flatten)]
     solver: SolverOptions,
 }
 
 /// Runs the command and tells its outcome, once.
 pub fn run(arguments: &Arguments) -> Exit {
-    let told = solve(arguments).and_then(|solved| tell(arguments, &solved));
+    let run = || solve(arguments);
+    let solved = arguments.tracing.around(&arguments.solver, run);
+    let told = solved.and_then(|solved| tell(arguments, &solved));
     output::conclude(&arguments.file, arguments.json, told)
 }
 
@@ -83,7 +89,8 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
     let started = Instant::now();
     let read_only = [Some(arguments.file.as_path())];
     Outputs::of(&read_only, arguments.output.force)
-        .write(arguments.solution.as_ref(), Content::Text)?;
+        .write(arguments.solution.as_ref(), Content::Text)?
+        .write(arguments.tracing.trace.as_ref(), TRACE)?;
     let mut progress = Progress::start(arguments.output.quiet)?;
     let mut input = read(arguments)?;
     progress.limit(&mut input.options, started);

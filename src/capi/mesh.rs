@@ -9,6 +9,7 @@ use super::output::{Out, copy_numbers};
 use super::status::roundel_status;
 use crate::error::{Error, Result};
 use crate::mesh::{TriangleMesh, jitter, shape};
+use crate::monitor::room_for;
 
 /// An oriented triangle mesh, with or without boundary, of any genus and any number of components.
 /// It does not change once made.
@@ -19,6 +20,9 @@ use crate::mesh::{TriangleMesh, jitter, shape};
 pub struct roundel_mesh(Guarded<TriangleMesh>);
 
 object!(roundel_mesh, TriangleMesh, "mesh");
+
+/// The bytes that a mesh takes while it is made, for each face.
+pub(super) const MESH: usize = 400;
 
 /// Makes room for `count` values, or fails.
 pub(super) fn reserved<T>(what: &'static str, count: usize) -> Result<Vec<T>> {
@@ -74,6 +78,7 @@ unsafe fn triangles<I: Index>(
             index: None,
         })?;
     }
+    room_for("the mesh", face_count, MESH)?;
     let mut vertices = reserved("the vertices", vertex_count)?;
     vertices.extend(given.as_chunks::<3>().0);
     let mut triangles = reserved("the faces", face_count)?;
@@ -136,6 +141,9 @@ pub unsafe extern "C" fn roundel_mesh_make_shape(
     boundary(None, || {
         // SAFETY: the caller gives a text and a place for the handle, or NULL.
         let (name, out) = unsafe { (text("shape", name)?, Out::new("mesh", mesh)?) };
+        if faces <= shape::MAX_TRIANGLES {
+            room_for("the mesh", faces, MESH)?;
+        }
         let made = shape::by_name(name, faces).map_err(Error::from)?;
         out.set(guard::handle(made));
         Ok(())

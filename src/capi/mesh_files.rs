@@ -10,6 +10,7 @@ use super::output::Out;
 use super::status::roundel_status;
 use crate::error::{Error, Result};
 use crate::mesh::TriangleMesh;
+use crate::monitor::room_for;
 
 #[cfg(feature = "mesh-io")]
 fn read(file: &Path) -> Result<TriangleMesh> {
@@ -41,6 +42,18 @@ fn write(file: &Path, _: &TriangleMesh) -> Result<()> {
     without_files(file)
 }
 
+/// The bytes that reading takes for each byte of a file, about: those of its numbers, and of one in ten that
+/// was compressed.
+const READING: [usize; 2] = [6, 60];
+
+/// Fails where a file does not fit into memory while it is read. What cannot be asked for its length is not asked.
+pub(super) fn room_to_read(file: &Path) -> Result<()> {
+    let length = file.metadata().map_or(0, |file| file.len());
+    let is_compressed = file.extension().is_some_and(|extension| extension == "gz");
+    let length = usize::try_from(length).unwrap_or(usize::MAX);
+    room_for("the file", length, READING[usize::from(is_compressed)])
+}
+
 /// Makes a mesh from a file in OBJ, OFF, PLY, STL, glTF or GLB, according to its extension; a further
 /// extension .gz is passed over. Only triangles are read. roundel_soup_read and roundel_soup_repair take
 /// any polygons.
@@ -56,6 +69,7 @@ pub unsafe extern "C" fn roundel_mesh_read(
     boundary(None, || {
         // SAFETY: the caller gives a text and a place for the handle, or NULL.
         let (file, out) = unsafe { (path("file", file)?, Out::new("mesh", mesh)?) };
+        room_to_read(file)?;
         out.set(guard::handle(read(file)?));
         Ok(())
     })

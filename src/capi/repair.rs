@@ -10,6 +10,7 @@ use super::soup::roundel_soup;
 use super::status::roundel_status;
 use crate::error::Error;
 use crate::mesh::TriangleMesh;
+use crate::monitor::room_for;
 use crate::soup::{EditKind, PolygonSoup, RepairOptions, Repaired};
 
 /// What repair makes of a soup: an oriented manifold mesh, a list of edits that says what was done, and where
@@ -45,6 +46,7 @@ pub unsafe extern "C" fn roundel_soup_repair(
                 Out::new("repair", repair)?,
             )
         };
+        room_for("the repaired mesh", soup.corners().len(), REPAIR)?;
         let (mesh, repaired) = TriangleMesh::from_soup(soup, options).map_err(Error::from)?;
         out.set(guard::handle(Made { mesh, repaired }));
         Ok(())
@@ -52,6 +54,9 @@ pub unsafe extern "C" fn roundel_soup_repair(
     // SAFETY: the caller gives a live handle, or NULL.
     unsafe { guard::read(soup, body) }
 }
+
+/// The bytes that repair takes, for each corner.
+const REPAIR: usize = 600;
 
 /// Frees what repair made. NULL is allowed.
 #[unsafe(no_mangle)]

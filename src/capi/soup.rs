@@ -152,6 +152,7 @@ pub unsafe extern "C" fn roundel_soup_read(
     boundary(None, || {
         // SAFETY: the caller gives a text and a place for the handle, or NULL.
         let (file, out) = unsafe { (path("file", file)?, Out::new("soup", soup)?) };
+        super::mesh_files::room_to_read(file)?;
         out.set(guard::handle(read(file, None)?));
         Ok(())
     })
@@ -173,6 +174,7 @@ pub unsafe extern "C" fn roundel_soup_read_as(
                 Out::new("soup", soup)?,
             )
         };
+        super::mesh_files::room_to_read(file)?;
         out.set(guard::handle(read(file, Some(format))?));
         Ok(())
     })

@@ -15,7 +15,9 @@ use super::forest::Forest;
 use super::fundamental::fundamental_cycle;
 use super::graph::{Graph, NONE};
 use super::short::{LONGEST, short_cycles};
+use crate::error::Result;
 use crate::linalg::Accumulator;
+use crate::monitor::{may_continue, may_continue_at};
 
 /// A candidate whose reduction takes more additions is refused. There are enough other candidates.
 const PATIENCE: usize = 20_000;
@@ -26,11 +28,12 @@ const LARGEST: i64 = 1 << 20;
 
 /// An integral basis of the cycles of `graph`, with the shortest cycles first. The `hinted` cycles are
 /// among its candidates.
-pub(super) fn cycle_basis(graph: &Graph, hinted: Cycles) -> Cycles {
+pub(super) fn cycle_basis(graph: &Graph, hinted: Cycles) -> Result<Cycles> {
     let forest = Forest::shortest(graph);
-    let mut candidates = short_cycles(graph, hinted);
+    let mut candidates = short_cycles(graph, hinted)?;
     let chords = (0..graph.edges.len() as u32).filter(|&e| !forest.holds(graph, e));
-    for e in chords {
+    for (k, e) in chords.enumerate() {
+        may_continue_at(k)?;
         if let Some(cycle) = fundamental_cycle(graph, &forest, e, LONGEST) {
             candidates.push(cycle.into_iter());
         }
@@ -39,21 +42,24 @@ pub(super) fn cycle_basis(graph: &Graph, hinted: Cycles) -> Cycles {
     order.sort_by_key(|&k| candidates.get(k as usize).len());
     let mut reduction = Reduction::new(graph, &forest);
     let mut basis = Cycles::new();
-    for k in order {
+    for (done, k) in order.into_iter().enumerate() {
+        may_continue_at(done)?;
         let cycle = candidates.get(k as usize);
         if reduction.accepts(cycle) {
             basis.push(cycle.iter().copied());
         }
     }
     let missing = (0..graph.edges.len() as u32).filter(|&e| reduction.is_missing(e));
-    let mut rest: Vec<_> = missing
-        .filter_map(|e| fundamental_cycle(graph, &forest, e, usize::MAX))
-        .collect();
+    let mut rest = Vec::new();
+    for e in missing {
+        may_continue()?;
+        rest.extend(fundamental_cycle(graph, &forest, e, usize::MAX));
+    }
     rest.sort_by_key(Vec::len);
     for cycle in rest {
         basis.push(cycle.into_iter());
     }
-    basis
+    Ok(basis)
 }
 
 /// The accepted cycles, each with a pivot chord of its own.

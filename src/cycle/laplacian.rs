@@ -4,6 +4,7 @@ use super::cycles::Cycles;
 use super::graph::Graph;
 use crate::error::Result;
 use crate::linalg::{Ldl, Sparse, minimum_degree};
+use crate::monitor::{Stop, may_continue};
 
 /// Cycles of more edges are eliminated last, so that nearest plane rounds them after all others. Rings of
 /// meshes and arcs through the ground are shorter. Cycles around handles are longer, except on the smallest
@@ -35,5 +36,10 @@ pub(super) fn laplacian(graph: &Graph, through: &Sparse) -> Result<Sparse> {
 pub(super) fn factor(laplacian: &Sparse, basis: &Cycles) -> Result<Ldl> {
     let mut order = minimum_degree(laplacian)?;
     order.sort_by_key(|&k| basis.get(k as usize).len() > LONG);
-    Ldl::new(laplacian, &order)
+    let mut ended = None;
+    let factor = Ldl::new_while(laplacian, &order, || {
+        ended = may_continue().err();
+        ended.is_none()
+    })?;
+    factor.ok_or_else(|| ended.unwrap_or(Stop::Cancelled).into())
 }

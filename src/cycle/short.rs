@@ -7,6 +7,8 @@
 
 use super::cycles::Cycles;
 use super::graph::{Graph, NONE};
+use crate::error::Result;
+use crate::monitor::may_continue_at;
 
 /// The largest number of edges of a short cycle.
 pub(super) const LONGEST: usize = 12;
@@ -15,7 +17,7 @@ pub(super) const LONGEST: usize = 12;
 const PAIRED: usize = 8;
 
 /// The `hinted` cycles, and the shortest cycles through the pairs of edges that no cycle contains yet.
-pub(super) fn short_cycles(graph: &Graph, hinted: Cycles) -> Cycles {
+pub(super) fn short_cycles(graph: &Graph, hinted: Cycles) -> Result<Cycles> {
     let mut search = Search {
         graph,
         cycles: hinted,
@@ -26,9 +28,11 @@ pub(super) fn short_cycles(graph: &Graph, hinted: Cycles) -> Cycles {
         queue: Vec::new(),
     };
     for k in 0..search.cycles.len() {
+        may_continue_at(k)?;
         search.cover(k);
     }
     for node in 0..graph.ground() {
+        may_continue_at(node as usize)?;
         let edges = graph.incident(node);
         for q in 1..edges.len().min(PAIRED) {
             for p in 0..q {
@@ -38,7 +42,7 @@ pub(super) fn short_cycles(graph: &Graph, hinted: Cycles) -> Cycles {
             }
         }
     }
-    search.cycles
+    Ok(search.cycles)
 }
 
 /// The bit of an unordered pair of places.

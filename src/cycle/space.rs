@@ -18,6 +18,7 @@ use super::graph::NONE;
 use super::laplacian::{factor, incidence, laplacian};
 use crate::error::Result;
 use crate::linalg::{Ldl, Sparse};
+use crate::monitor::{may_continue, span};
 use crate::round::nearest;
 
 /// A system, an integral basis of its cycles, and the factor of A.
@@ -43,13 +44,16 @@ impl CycleSpace {
     /// candidates for the basis.
     ///
     /// # Errors
-    /// For lack of memory.
+    /// For lack of memory, and the end of the call.
     pub fn new(system: AngleSystem, relaxed: &[f64], hinted: Cycles) -> Result<Self> {
+        let _span = span("cycle space");
         let graph = &system.graph;
-        let basis = cycle_basis(graph, hinted);
+        let basis = cycle_basis(graph, hinted)?;
         let through = incidence(graph, &basis)?;
         let laplacian = laplacian(graph, &through)?;
+        may_continue()?;
         let factor = factor(&laplacian, &basis)?;
+        may_continue()?;
         let origin: Vec<f64> = relaxed.iter().map(|&p| nearest(p)).collect();
         let offset = |p: usize| {
             let turn = system.step * f64::from(system.sign[p]);

@@ -13,7 +13,7 @@ use super::patches::{Proof, prove};
 use super::space::CycleSpace;
 use crate::eliminate::ReducedModel;
 use crate::error::Result;
-use crate::monitor::{Monitor, thread_count};
+use crate::monitor::{Monitor, allowed_threads, may_continue, span};
 use crate::problem::Model;
 use crate::round;
 use crate::search::{Factors, Options, Search, StoppedBy, Strategy};
@@ -92,7 +92,7 @@ pub(crate) fn auto(
     };
     let relaxation = search.lower_bound();
     find(reduced, &space, options, factors, search)?;
-    let proof = Proof::brief(&space, options.threads);
+    let proof = Proof::brief(&space);
     conclude(
         reduced, &space, relaxation, &proof, options, factors, search,
     )?;
@@ -115,7 +115,7 @@ pub(crate) fn exact(
     };
     let relaxation = search.lower_bound();
     find(reduced, &space, options, factors, search)?;
-    let proof = Proof::thorough(options.nodes, options.threads);
+    let proof = Proof::thorough(options.nodes);
     conclude(
         reduced, &space, relaxation, &proof, options, factors, search,
     )?;
@@ -169,14 +169,14 @@ fn find(
     let work = work(space, THOROUGH_WORK).min(search.work.left() as usize / 2);
     let second =
         |monitor: &mut Monitor| improved(space, space.nearest_plane(), &THOROUGH, work, monitor);
-    if thread_count(options.threads) == 1 || space.factor.len() < WORTH_A_THREAD {
+    if allowed_threads() == 1 || space.factor.len() < WORTH_A_THREAD {
         from_adaptive(reduced, space, options, work, factors, search)?;
         let found = second(search.monitor)?;
         return offer(space, found, factors, search);
     }
     let worker = search.monitor.worker();
     std::thread::scope(|scope| {
-        let beside = worker.start(scope, second);
+        let beside = worker.start(scope, 1, second);
         from_adaptive(reduced, space, options, work, factors, search)?;
         let found = beside.wait(search.monitor)?;
         offer(space, found, factors, search)
@@ -204,9 +204,11 @@ fn from_adaptive(
 }
 
 fn space(model: &Model, reduced: &ReducedModel, search: &Search) -> Result<Option<CycleSpace>> {
+    let _watch = search.monitor.watch();
     let Some(system) = AngleSystem::detect(reduced) else {
         return Ok(None);
     };
+    may_continue()?;
     let relaxed = search.relaxed();
     let integers = reduced.integers().iter();
     let relaxed: Vec<f64> = integers.map(|&i| relaxed[i as usize]).collect();
@@ -233,6 +235,7 @@ fn improved(
     work: usize,
     monitor: &mut Monitor,
 ) -> Result<Improved> {
+    let _span = span("improve");
     let mut improvement = Improvement::new(space, start)?;
     for &effort in efforts {
         improvement.run(effort, work, monitor)?;

@@ -8,7 +8,7 @@ use super::unknowns::Unknowns;
 use crate::error::{Error, Result};
 use crate::linalg::sparse::reserve;
 use crate::linalg::{Accumulator, Sparse};
-use crate::monitor::Monitor;
+use crate::monitor::{Monitor, may_continue_at};
 
 /// Computes `T` and the list of remaining unknowns, in increasing order.
 pub(super) fn substitute_back(
@@ -99,6 +99,7 @@ impl Known {
         let mut values = reserve(n + self.entries.len())?;
         offsets.push(0);
         for i in 0..n {
+            may_continue_at(i)?;
             match tableau.unknowns.replaced[i] {
                 Unknowns::FREE => {
                     indices.push(reduced[i]);

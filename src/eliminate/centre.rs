@@ -10,8 +10,9 @@ use std::sync::Arc;
 
 use super::rounding::{curvature, roundings_of_expansion};
 use super::{Elimination, Expansion, ReducedModel, Rounding, right_sides};
+use crate::error::Result;
 use crate::linalg::{CompensatedSum, TwoFold};
-use crate::monitor::Monitor;
+use crate::monitor::{Monitor, collect_in_parts, in_parts, joined, may_continue, span};
 use crate::problem::{Model, Objective, Problem};
 
 /// The rounding error of a null direction, for each unknown.
@@ -22,39 +23,41 @@ const FLAT: f64 = 8.0 * f64::EPSILON;
 pub struct Centre {
     /// The caller's unknowns at the point.
     point: Vec<TwoFold>,
+    /// The objective at the point.
+    energy: TwoFold,
     model: ReducedModel,
 }
 
+/// The least number of unknowns that are worth a thread.
+const LEAST: usize = 1 << 13;
+
 impl Centre {
     /// The model of `problem` around the point where the unknowns of `reduced` are `y`.
+    ///
+    /// # Errors
+    /// The end of the call.
     pub fn new(
         problem: &Problem,
         model: &Model,
         elimination: &Elimination,
         reduced: &ReducedModel,
         y: &[f64],
-    ) -> Self {
+    ) -> Result<Self> {
+        let _span = span("centre");
         let mut point = expand(reduced, y);
+        may_continue()?;
         if model.constraints().rows() > 0 {
             satisfy(&mut point, model, elimination);
         }
+        may_continue()?;
         let at = |i: usize| point[i];
         let energy = Objective(problem).energy(at);
-        let slopes = Objective(problem).gradient(at);
-        let matrix = reduced.expansion.matrix();
-        let mut gradient = vec![CompensatedSum::new(0.0); reduced.dim()];
-        let mut slope = vec![0.0; reduced.dim()];
-        let relative = roundings_of_expansion(reduced) as f64 * 0.5 * f64::EPSILON;
-        for (i, a, t) in matrix.entries() {
-            let g = slopes[i as usize];
-            gradient[a as usize].add_multiple(t, g);
-            slope[a as usize] += relative * (t * g.high).abs();
-        }
-        let gradient: Vec<f64> = gradient.iter().map(CompensatedSum::value).collect();
-        for (s, g) in slope.iter_mut().zip(&gradient) {
-            *s += 0.5 * f64::EPSILON * g.abs();
-        }
+        may_continue()?;
+        let slopes = Objective(problem).gradient(at)?;
+        may_continue()?;
+        let (gradient, slope) = reduced_gradient(reduced, &slopes);
         let guess = reduced.guess.iter().zip(y).map(|(g, y)| g - y).collect();
+        may_continue()?;
         let origin = (0..y.len()).map(|a| reduced.origin(a) + y[a]).collect();
         let moved = ReducedModel {
             hessian: Arc::clone(&reduced.hessian),
@@ -75,10 +78,12 @@ impl Centre {
                 point.iter().map(|x| x.high).collect(),
             ),
         };
-        Centre {
+        may_continue()?;
+        Ok(Centre {
             point,
+            energy: energy.value,
             model: moved,
-        }
+        })
     }
 
     /// Whether the objective of `problem` has no curvature along the direction `y`, up to the rounding of the
@@ -99,17 +104,46 @@ impl Centre {
         &self.model
     }
 
+    /// The objective at the point, from the caller's numbers.
+    pub(crate) fn energy(&self) -> TwoFold {
+        self.energy
+    }
+
     /// The caller's unknowns at the step `y` from the point.
     pub fn expand(&self, y: &[f64]) -> Vec<TwoFold> {
         let matrix = self.model.expansion.matrix();
-        let unknown = |(i, x): (usize, &TwoFold)| {
+        collect_in_parts(matrix.rows(), LEAST, |i| {
+            let x = self.point[i];
             let mut sum = CompensatedSum::new(x.high);
             sum.add(x.low);
             matrix.row(i).for_each(|(a, t)| sum.add_product(t, y[a]));
             sum.two_fold()
-        };
-        self.point.iter().enumerate().map(unknown).collect()
+        })
     }
+}
+
+/// The gradient in the reduced unknowns from that in the caller's, and the error of each entry.
+fn reduced_gradient(reduced: &ReducedModel, slopes: &[TwoFold]) -> (Vec<f64>, Vec<f64>) {
+    let matrix = reduced.expansion.matrix();
+    let relative = roundings_of_expansion(reduced) as f64 * 0.5 * f64::EPSILON;
+    // Each part looks at all entries and adds those of its own unknowns.
+    let parts = in_parts(reduced.dim(), LEAST, |part| {
+        let mut sums = vec![(CompensatedSum::new(0.0), 0.0); part.len()];
+        for (i, g) in slopes.iter().enumerate() {
+            for (a, t) in matrix.row(i) {
+                if let Some((sum, error)) = sums.get_mut(a.wrapping_sub(part.start)) {
+                    sum.add_multiple(t, *g);
+                    *error += relative * (t * g.high).abs();
+                }
+            }
+        }
+        let entry = |(sum, error): &(CompensatedSum, f64)| {
+            let g = sum.value();
+            (g, error + 0.5 * f64::EPSILON * g.abs())
+        };
+        sums.iter().map(entry).collect()
+    });
+    joined(parts).into_iter().unzip()
 }
 
 /// The direction in the caller's unknowns of the direction `y` in those of `reduced`.
@@ -126,18 +160,12 @@ fn direction(reduced: &ReducedModel, y: &[f64]) -> Vec<TwoFold> {
 /// The caller's unknowns at `y`, up to the rounding errors of the expansion.
 fn expand(reduced: &ReducedModel, y: &[f64]) -> Vec<TwoFold> {
     let matrix = reduced.expansion.matrix();
-    let unknown = |(i, t): (usize, &f64)| {
-        let mut sum = CompensatedSum::new(*t);
+    let offset = reduced.expansion.offset();
+    collect_in_parts(offset.len(), LEAST, |i| {
+        let mut sum = CompensatedSum::new(offset[i]);
         matrix.row(i).for_each(|(a, t)| sum.add_product(t, y[a]));
         sum.two_fold()
-    };
-    reduced
-        .expansion
-        .offset()
-        .iter()
-        .enumerate()
-        .map(unknown)
-        .collect()
+    })
 }
 
 /// Moves `point` by the solution of the constraints for its own remainders, as iterative refinement does. A

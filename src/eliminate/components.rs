@@ -6,6 +6,7 @@ use std::sync::Arc;
 use super::{Expansion, ReducedModel};
 use crate::error::Result;
 use crate::linalg::{DisjointSets, NO_PLACE, Sparse};
+use crate::monitor::{may_continue, may_continue_at};
 
 /// One component: some unknowns of a model, and the model in these alone.
 #[derive(Debug, Clone)]
@@ -16,28 +17,51 @@ pub struct Component {
     pub model: ReducedModel,
 }
 
+/// The sets of unknowns that the Hessian couples.
+fn coupled(model: &ReducedModel) -> Result<DisjointSets> {
+    let mut sets = DisjointSets::new(model.dim());
+    for (k, (i, j, v)) in model.hessian().entries().enumerate() {
+        may_continue_at(k)?;
+        if i != j && v != 0.0 {
+            sets.join(i as usize, j as usize);
+        }
+    }
+    may_continue()?;
+    Ok(sets)
+}
+
+/// Whether integers are in different sets.
+fn divides(sets: &mut DisjointSets, integers: &[u32]) -> bool {
+    let mut roots = integers.iter().map(|&i| sets.root(i as usize));
+    let first = roots.next();
+    roots.any(|root| Some(root) != first)
+}
+
+/// Whether `model` has several components that have integers.
+///
+/// # Errors
+/// For lack of memory.
+pub fn has_several_components(model: &ReducedModel) -> Result<bool> {
+    Ok(divides(&mut coupled(model)?, model.integers()))
+}
+
 /// The components of `model` that have integers, in the order of their first unknowns. None if there is
 /// only one.
 ///
 /// # Errors
 /// For lack of memory.
 pub fn components(model: &ReducedModel) -> Result<Option<Vec<Component>>> {
-    let mut sets = DisjointSets::new(model.dim());
-    for (i, j, v) in model.hessian().entries() {
-        if i != j && v != 0.0 {
-            sets.join(i as usize, j as usize);
-        }
-    }
-    let mut is_integer = vec![false; model.dim()];
-    model
-        .integers()
-        .iter()
-        .for_each(|&i| is_integer[i as usize] = true);
-    let mut sets = sets.sets();
-    sets.retain(|set| set.iter().any(|&i| is_integer[i]));
-    if sets.len() <= 1 {
+    let mut sets = coupled(model)?;
+    if !divides(&mut sets, model.integers()) {
         return Ok(None);
     }
+    let mut is_integer = vec![false; model.dim()];
+    for &i in model.integers() {
+        is_integer[i as usize] = true;
+    }
+    let mut sets = sets.sets();
+    may_continue()?;
+    sets.retain(|set| set.iter().any(|&i| is_integer[i]));
     let mut component = vec![NO_PLACE; model.dim()];
     let mut place = vec![NO_PLACE; model.dim()];
     for (k, set) in sets.iter().enumerate() {
@@ -46,6 +70,7 @@ pub fn components(model: &ReducedModel) -> Result<Option<Vec<Component>>> {
         }
     }
     let mut entries = vec![Vec::new(); sets.len()];
+    may_continue()?;
     for (i, j, v) in model.hessian().entries() {
         let (k, other) = (component[i as usize], component[j as usize]);
         if k != NO_PLACE && k == other {

@@ -6,37 +6,44 @@
 //! 1/2 y' (T'QT) y + (T'(Qt + q))' y + (c + q't + 1/2 t'Qt).
 //! ```
 
+use std::ops::Range;
+
 use super::Expansion;
 use crate::error::{Error, Result};
 use crate::linalg::sparse::reserve;
 use crate::linalg::{Accumulator, CompensatedSum, Sparse, TwoFold};
-use crate::monitor::Monitor;
+use crate::monitor::{Monitor, both, in_parts, may_continue, may_continue_at};
 use crate::problem::Model;
+
+/// The least number of rows that are worth a thread.
+const LEAST: usize = 1 << 13;
+
+/// The most rows that are summed up before the monitor is asked again.
+const UNASKED: usize = 1 << 17;
 
 /// The lower triangle of `T'QT` by rows, with every diagonal entry stored (`gustavson1978`). It first
 /// computes `W = QT`, in twice the working precision, since an integer of a map may couple a thousand
 /// unknowns whose terms nearly cancel. Row `a` of the result is the combination of the rows of `W` with the entries of column
 /// `a` of `T`.
 pub(super) fn hessian(lower: &Sparse, expansion: &Sparse, monitor: &mut Monitor) -> Result<Sparse> {
-    let upper = lower.transpose();
-    let by_unknown = expansion.transpose();
+    let (upper, by_unknown) = both(
+        expansion.rows() >= LEAST,
+        || lower.transpose(),
+        || expansion.transpose(),
+    );
     let dim = expansion.cols();
-    let mut row: Accumulator<Entry> = Accumulator::new(dim);
-    let mut w = Rows::new(expansion.rows(), lower.len())?;
-    for i in 0..expansion.rows() {
-        monitor.check()?;
+    let times_expansion = |i: usize, row: &mut Accumulator<Entry>| {
         let mirrored = upper.row(i).filter(|&(j, _)| j > i);
         for (j, q) in lower.row(i).chain(mirrored) {
             for (b, t) in expansion.row(j) {
                 row.slot(b as u32).add(q, t.into(), t.abs());
             }
         }
-        w.push(&mut row, |entry| (entry.sum.two_fold(), entry.size))?;
-    }
+    };
+    let both_parts = |entry: Entry| (entry.sum.two_fold(), entry.size);
+    let w = Rows::summed(expansion.rows(), dim, monitor, times_expansion, both_parts)?;
     let is_rounded = expansion.values().iter().any(|t| *t != t.round());
-    let mut h = Rows::new(dim, lower.len())?;
-    for a in 0..dim {
-        monitor.check()?;
+    let lower_part = |a: usize, row: &mut Accumulator<Entry>| {
         row.slot(a as u32);
         for (i, t) in by_unknown.row(a) {
             for (&b, &(v, size)) in w.indices[w.offsets[i]..w.offsets[i + 1]]
@@ -49,8 +56,9 @@ pub(super) fn hessian(lower: &Sparse, expansion: &Sparse, monitor: &mut Monitor)
             }
         }
         row.sort();
-        h.push(&mut row, |entry| entry.value(is_rounded))?;
-    }
+    };
+    let value = |entry: Entry| entry.value(is_rounded);
+    let h = Rows::summed(dim, dim, monitor, lower_part, value)?;
     if h.values.iter().any(|v| !v.is_finite()) {
         return Err(overflow());
     }
@@ -65,6 +73,7 @@ pub(super) fn with_diagonal(lower: &Sparse) -> Result<Sparse> {
     let mut values = reserve(lower.len() + n)?;
     offsets.push(0);
     for i in 0..n {
+        may_continue_at(i)?;
         let range = lower.offsets()[i]..lower.offsets()[i + 1];
         let row = &lower.indices()[range.clone()];
         indices.extend_from_slice(row);
@@ -82,9 +91,11 @@ pub(super) fn with_diagonal(lower: &Sparse) -> Result<Sparse> {
 pub(super) fn linear(model: &Model, expansion: &Expansion) -> Result<(Vec<f64>, f64)> {
     let offset = expansion.offset();
     let pulled = model.hessian().mul_symmetric(offset);
+    may_continue()?;
     let mut gradient = vec![CompensatedSum::new(0.0); expansion.matrix().cols()];
     let mut constant = CompensatedSum::new(model.constant());
     for (i, (&q, &qt)) in model.gradient().iter().zip(&pulled).enumerate() {
+        may_continue_at(i)?;
         for (a, t) in expansion.matrix().row(i) {
             gradient[a].add_product(t, q);
             gradient[a].add_product(t, qt);
@@ -154,30 +165,113 @@ struct Rows<T> {
     values: Vec<T>,
 }
 
-impl<T> Rows<T> {
-    fn new(rows: usize, entries: usize) -> Result<Self> {
+impl<T: Send> Rows<T> {
+    /// Rows of length `dim`. `sum` sums up the row of a number, and `value` is what is kept of an entry.
+    fn summed(
+        rows: usize,
+        dim: usize,
+        monitor: &mut Monitor,
+        sum: impl Fn(usize, &mut Accumulator<Entry>) + Sync,
+        value: impl Fn(Entry) -> T + Sync,
+    ) -> Result<Self> {
+        let some = |numbers: Range<usize>| -> Result<Self> {
+            let mut row: Accumulator<Entry> = Accumulator::new(dim);
+            let mut some = Rows::new(numbers.len())?;
+            for i in numbers {
+                sum(i, &mut row);
+                some.push(&mut row, &value)?;
+            }
+            Ok(some)
+        };
+        let mut all = Rows::new(rows)?;
+        for start in (0..rows).step_by(UNASKED) {
+            monitor.check()?;
+            let count = UNASKED.min(rows - start);
+            let parts = in_parts(count, LEAST, |part| {
+                some(start + part.start..start + part.end)
+            });
+            for part in parts {
+                all.append(part?)?;
+            }
+        }
+        Ok(all)
+    }
+
+    fn new(rows: usize) -> Result<Self> {
         let mut offsets = reserve(rows + 1)?;
         offsets.push(0);
         Ok(Rows {
             offsets,
-            indices: reserve(entries)?,
-            values: reserve(entries)?,
+            indices: Vec::new(),
+            values: Vec::new(),
         })
     }
 
     /// Appends `row` in the order of its list, and empties it.
     fn push(&mut self, row: &mut Accumulator<Entry>, value: impl Fn(Entry) -> T) -> Result<()> {
-        let out_of_memory = |_| Error::OutOfMemory {
-            what: "the reduced Hessian",
-        };
-        let more = row.len();
-        self.indices.try_reserve(more).map_err(out_of_memory)?;
-        self.values.try_reserve(more).map_err(out_of_memory)?;
+        self.reserve(row.len())?;
         row.drain(|j, v| {
             self.indices.push(j);
             self.values.push(value(v));
         });
         self.offsets.push(self.indices.len());
         Ok(())
+    }
+
+    /// Appends the rows of `other`.
+    fn append(&mut self, mut other: Self) -> Result<()> {
+        let before = self.indices.len();
+        if before == 0 {
+            (self.indices, self.values) = (other.indices, other.values);
+        } else {
+            self.reserve(other.indices.len())?;
+            self.indices.append(&mut other.indices);
+            self.values.append(&mut other.values);
+        }
+        self.offsets
+            .extend(other.offsets[1..].iter().map(|at| before + at));
+        Ok(())
+    }
+
+    /// Makes room for more entries.
+    fn reserve(&mut self, entries: usize) -> Result<()> {
+        let out_of_memory = |_| Error::OutOfMemory {
+            what: "the reduced Hessian",
+        };
+        self.indices.try_reserve(entries).map_err(out_of_memory)?;
+        self.values.try_reserve(entries).map_err(out_of_memory)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::monitor::{spawned, with_threads};
+
+    #[test]
+    fn any_number_of_threads_gives_the_same_hessian() {
+        let n = 3 * LEAST as u32;
+        let band =
+            (0..n).flat_map(|i| (i.saturating_sub(2)..=i).map(move |j| (i, j, f64::from(1 + j))));
+        let lower = Sparse::from_triplets(n as usize, n as usize, band).unwrap();
+        // Unknowns 2 a and 2 a + 1 are y_a and y_a / 3 + y_0.
+        let rows = (0..n).flat_map(|i| match i % 2 {
+            0 => vec![(i, i / 2, 1.0)],
+            _ => vec![(i, i / 2, 1.0 / 3.0), (i, 0, 1.0)],
+        });
+        let expansion = Sparse::from_triplets(n as usize, n as usize / 2, rows).unwrap();
+        let of = |threads| {
+            let projected = || hessian(&lower, &expansion, &mut Monitor::default());
+            with_threads(threads, projected).unwrap()
+        };
+        let one = of(1);
+        assert!(spawned(|| assert_eq!(of(3), one)) > 2);
+        let y: Vec<f64> = (0..n / 2).map(|a| f64::from(a % 7)).collect();
+        let energy = |matrix: &Sparse, x: &[f64]| -> f64 {
+            let slopes = matrix.mul_symmetric(x);
+            slopes.iter().zip(x).map(|(s, x)| s * x).sum()
+        };
+        let whole = energy(&lower, &expansion.mul(&y));
+        assert!((energy(&one, &y) - whole).abs() < 1e-10 * whole);
     }
 }

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::{Expansion, Rounding, project};
 use crate::linalg::{CANCELLED, CompensatedSum, Sparse};
+use crate::monitor::in_blocks;
 use crate::problem::Model;
 
 /// Half a unit in the last place of 1.
@@ -110,16 +111,22 @@ impl ReducedModel {
     pub fn energy(&self, y: &[f64]) -> (f64, f64) {
         let mut sum = CompensatedSum::new(self.constant);
         let mut size = self.constant.abs();
-        for (g, y) in self.gradient.iter().zip(y) {
-            sum.add_product(*g, *y);
-            size += (g * y).abs();
-        }
-        for i in 0..self.dim() {
-            for (j, v) in self.hessian.row(i) {
-                let v = if i == j { 0.5 * v } else { v };
-                sum.add_product_of_three(v, y[i], y[j]);
-                size += (v * y[i] * y[j]).abs();
+        let blocks = in_blocks(self.dim(), |block| {
+            let (mut sum, mut size) = (CompensatedSum::new(0.0), 0.0);
+            for i in block {
+                sum.add_product(self.gradient[i], y[i]);
+                size += (self.gradient[i] * y[i]).abs();
+                for (j, v) in self.hessian.row(i) {
+                    let v = if i == j { 0.5 * v } else { v };
+                    sum.add_product_of_three(v, y[i], y[j]);
+                    size += (v * y[i] * y[j]).abs();
+                }
             }
+            (sum, size)
+        });
+        for (of_block, its_size) in &blocks {
+            sum.add_sum(of_block);
+            size += its_size;
         }
         let gamma = (2 * self.hessian.len() + self.dim() + 4) as f64 * UNIT;
         let error = UNIT * sum.value().abs() + 2.0 * gamma * gamma * size;

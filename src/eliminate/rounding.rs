@@ -10,10 +10,14 @@
 
 use super::ReducedModel;
 use crate::linalg::Sparse;
+use crate::monitor::both;
 use crate::problem::{Model, Problem};
 
 /// Half a unit in the last place of 1.
 const UNIT: f64 = 0.5 * f64::EPSILON;
+
+/// The least number of unknowns whose bounds are worth a thread.
+const LEAST: usize = 1 << 15;
 
 /// Bounds on the errors of a reduced model's numbers.
 #[derive(Debug, Clone, Default)]
@@ -63,8 +67,11 @@ pub(super) fn curvature(problem: &Problem, model: &Model, reduced: &ReducedModel
     let roundings = roundings_in_q(problem, model) + 2 * roundings_of_expansion(reduced);
     if roundings > 0 {
         let relative = roundings as f64 * UNIT / (1.0 - roundings as f64 * UNIT);
-        let entries = entries_by_row(model.hessian());
-        let diagonal = diagonal(problem);
+        let (entries, diagonal) = both(
+            problem.variables() >= LEAST,
+            || entries_by_row(model.hessian()),
+            || diagonal(problem),
+        );
         let expansion = reduced.expansion().matrix();
         for i in 0..expansion.rows() {
             let row = expansion.row(i);

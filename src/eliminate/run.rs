@@ -11,7 +11,7 @@ use super::{
 };
 use crate::error::Result;
 use crate::linalg::{Ordering, Sparse, principal_submatrix};
-use crate::monitor::{Monitor, Phase};
+use crate::monitor::{Monitor, Phase, may_continue, span};
 use crate::problem::Model;
 
 /// Eliminates the equality constraints and the pinned unknowns of `model`, in an order that keeps the reduced
@@ -55,6 +55,7 @@ impl Elimination {
     /// coefficients, [`Overflow`](crate::Error::Overflow) where integers beyond 2^53 would be
     /// needed, [`OutOfMemory`](crate::Error::OutOfMemory), and what `monitor` asks for.
     pub fn new(model: &Model, ordering: Ordering, monitor: &mut Monitor) -> Result<Self> {
+        let _span = span("eliminate");
         monitor.progress(Phase::Eliminate, 0.0)?;
         let mut tableau = Tableau::new(model, ordering)?;
         let rows = tableau.rows.len().max(1) as f64;
@@ -72,6 +73,7 @@ impl Elimination {
             eliminate_row(&mut tableau, r)?;
         }
         let (matrix, free) = back::substitute_back(&tableau, monitor)?;
+        may_continue()?;
         let pins = model.pinned().iter().flatten().count();
         let hessian = if tableau.stack.len() == 0 {
             project::with_diagonal(model.hessian())?
@@ -80,6 +82,7 @@ impl Elimination {
         } else {
             project::hessian(model.hessian(), &matrix, monitor)?
         };
+        may_continue()?;
         let mut in_constraints = vec![false; model.variables()];
         for (_, j, _) in model.constraints().entries() {
             in_constraints[j as usize] = true;
@@ -113,6 +116,7 @@ impl Elimination {
     /// [`Overflow`](crate::Error::Overflow), and what `monitor` asks for.
     pub fn reduce(&self, model: &Model, monitor: &mut Monitor) -> Result<ReducedModel> {
         let offset = right_sides::offset(&self.record, model, monitor)?;
+        may_continue()?;
         let held: Vec<(u32, f64)> = (self.free.iter().enumerate())
             .filter_map(|(y, &u)| {
                 let pin = model.pinned().get(u as usize)?;
@@ -139,6 +143,7 @@ impl Elimination {
     ) -> Result<ReducedModel> {
         let expansion = Expansion::new(Arc::clone(matrix), offset);
         let (gradient, constant) = project::linear(model, &expansion)?;
+        may_continue()?;
         let is_integer = |&y: &u32| self.record.unknowns.integer[free[y as usize] as usize];
         let (integers, continuous) = (0..free.len() as u32).partition(is_integer);
         let guess = self.definitions.evaluate(model.guess());

@@ -13,6 +13,10 @@ use super::place::doubled_area;
 use crate::error::{Error, Result};
 use crate::map::SeamlessMap;
 use crate::mesh::{TriangleMesh, angle_at, turned};
+use crate::monitor::{collect_in_parts, may_continue};
+
+/// The least number of edges or vertices that are worth a thread.
+const LEAST: usize = 1 << 13;
 
 /// The largest absolute value of a coordinate. Products of differences then fit into 128 bits.
 pub const RANGE: f64 = (1u64 << 28) as f64;
@@ -61,8 +65,12 @@ impl IntegerGridMap {
     /// # Errors
     /// As [`new`](Self::new).
     pub fn from_seamless(mesh: &TriangleMesh, map: &SeamlessMap) -> Result<Self> {
+        let _memory = mesh.watch_memory();
+        may_continue()?;
         let uvs = map.corner_uvs();
+        may_continue()?;
         check(mesh, &uvs)?;
+        may_continue()?;
         let mut quarters = vec![0; mesh.edge_count()];
         for transition in map.transitions() {
             quarters[transition.edge] = transition.quarters;
@@ -95,76 +103,80 @@ impl IntegerGridMap {
     fn exact(
         mesh: &TriangleMesh,
         uvs: &[[[f64; 2]; 3]],
-        quarters: impl Fn([(usize, usize); 2]) -> u8,
+        quarters: impl Fn([(usize, usize); 2]) -> u8 + Sync,
     ) -> Result<Self> {
+        let over_edges = collect_in_parts(mesh.edge_count(), LEAST, |e| {
+            let edge = mesh.edge(e);
+            let sides = [edge.first, edge.second?];
+            Some((sides, step(uvs, sides, quarters(sides))))
+        });
+        may_continue()?;
         let mut steps = vec![[Step::default(); 3]; mesh.face_count()];
-        for (e, edge) in mesh.edges().enumerate() {
-            let Some(second) = edge.second else { continue };
-            let sides = [edge.first, second];
-            let step = step(uvs, sides, quarters(sides)).ok_or_else(|| Error::InvalidArgument {
+        for (e, over_edge) in over_edges.into_iter().enumerate() {
+            let Some((sides, step)) = over_edge else {
+                continue;
+            };
+            let step = step.ok_or_else(|| Error::InvalidArgument {
                 what: format!(
                     "over edge {e}, between faces {} and {}, the map does not change by a quarter turn and integers",
                     sides[0].0, sides[1].0
                 ),
                 index: Some(e),
             })?;
-            steps[edge.first.0][edge.first.1] = step;
-            steps[second.0][second.1] = step.inverse();
+            let [(first, k), (second, l)] = sides;
+            steps[first][k] = step;
+            steps[second][l] = step.inverse();
         }
         let mut map = IntegerGridMap {
             corners: vec![[[0; 2]; 3]; mesh.face_count()],
             turns: steps.iter().map(|s| s.map(|s| s.quarters)).collect(),
             is_irregular: vec![false; mesh.vertex_count()],
         };
-        for v in 0..mesh.vertex_count() {
-            map.settle(mesh, uvs, &steps, v)?;
+        let settled = collect_in_parts(mesh.vertex_count(), LEAST, |v| {
+            settled(mesh, uvs, &steps, v)
+        });
+        may_continue()?;
+        for (v, settled) in settled.into_iter().enumerate() {
+            let (mut at, is_irregular) = settled?;
+            map.is_irregular[v] = is_irregular;
+            for (f, k) in mesh.ring(v) {
+                map.corners[f][k] = at;
+                at = steps[f][(k + 2) % 3].apply(at, ONE);
+            }
         }
         Ok(map)
     }
+}
 
-    /// Chooses the coordinates of one corner of a vertex and carries them to the others.
-    fn settle(
-        &mut self,
-        mesh: &TriangleMesh,
-        uvs: &[[[f64; 2]; 3]],
-        steps: &[[Step; 3]],
-        v: usize,
-    ) -> Result<()> {
-        let (face, corner) = mesh.ring(v).next().unwrap_or_default();
-        let given = uvs[face][corner];
-        let mut at = match mesh.is_boundary_vertex(v) {
-            true => {
-                let outward = outward(mesh, uvs, steps, v);
-                [0, 1].map(|axis| off_line(given[axis], outward[axis]))
-            }
-            false => {
-                let around = mesh.ring(v).fold(Step::default(), |sum, (f, k)| {
-                    sum.then(steps[f][(k + 2) % 3])
-                });
-                let fixed = around.fixed_point().ok_or_else(|| Error::InvalidArgument {
-                    what: format!("the transitions around vertex {v} have no integer fixed point"),
-                    index: Some(v),
-                })?;
-                let branch = || is_on_lines(given) && winding(mesh, uvs, v) != 4;
-                match fixed {
-                    Some(point) => {
-                        self.is_irregular[v] = true;
-                        point.map(|x| x * ONE)
-                    }
-                    None if branch() => {
-                        self.is_irregular[v] = true;
-                        given.map(|x| x.round() as i64 * ONE)
-                    }
-                    None => given.map(|x| off_line(x, 1)),
-                }
-            }
-        };
-        for (f, k) in mesh.ring(v) {
-            self.corners[f][k] = at;
-            at = steps[f][(k + 2) % 3].apply(at, ONE);
-        }
-        Ok(())
+/// The coordinates of a vertex in its first corner, and whether it is irregular.
+fn settled(
+    mesh: &TriangleMesh,
+    uvs: &[[[f64; 2]; 3]],
+    steps: &[[Step; 3]],
+    v: usize,
+) -> Result<([i64; 2], bool)> {
+    let (face, corner) = mesh.ring(v).next().unwrap_or_default();
+    let given = uvs[face][corner];
+    if mesh.is_boundary_vertex(v) {
+        let outward = outward(mesh, uvs, steps, v);
+        return Ok((
+            [0, 1].map(|axis| off_line(given[axis], outward[axis])),
+            false,
+        ));
     }
+    let around = mesh.ring(v).fold(Step::default(), |sum, (f, k)| {
+        sum.then(steps[f][(k + 2) % 3])
+    });
+    let fixed = around.fixed_point().ok_or_else(|| Error::InvalidArgument {
+        what: format!("the transitions around vertex {v} have no integer fixed point"),
+        index: Some(v),
+    })?;
+    let is_branch = || is_on_lines(given) && winding(mesh, uvs, v) != 4;
+    Ok(match fixed {
+        Some(point) => (point.map(|x| x * ONE), true),
+        None if is_branch() => (given.map(|x| x.round() as i64 * ONE), true),
+        None => (given.map(|x| off_line(x, 1)), false),
+    })
 }
 
 impl Step {

@@ -36,8 +36,8 @@ pub use quad_mesh::{Origin, QuadMesh};
 
 use crate::error::Result;
 use crate::mesh::TriangleMesh;
-use crate::monitor::Monitor;
-use crate::monitor::Phase;
+use crate::monitor::{Monitor, may_continue};
+use crate::monitor::{Phase, span};
 use arrangement::Arrangement;
 use refined::Refined;
 
@@ -55,8 +55,12 @@ pub fn extract(
     map: &IntegerGridMap,
     monitor: &mut Monitor,
 ) -> Result<QuadMesh> {
+    let _span = span("extract");
+    let (_watch, _memory) = (monitor.watch(), mesh.watch_memory());
+    may_continue()?;
     map.check_mesh(mesh)?;
     let refined = Refined::new(mesh, map);
+    may_continue()?;
     let mut arrangement = Arrangement::new(&refined)?;
     monitor.progress(Phase::Quads, 0.2)?;
     let mut graph = trace::graph(&refined, &mut arrangement);

@@ -9,8 +9,9 @@
 use super::FieldOptions;
 use crate::error::{Error, Result};
 use crate::linalg::{Cholesky, Sparse};
+use crate::mesh::TriangleMesh;
 use crate::mesh::vector::{cotangent, norm, sub};
-use crate::mesh::{Edge, TriangleMesh};
+use crate::monitor::{collect_in_parts, may_continue, span};
 
 /// Steps of diffusion: a single one leaves a peak where all curvature was at one vertex.
 const STEPS: usize = 2;
@@ -19,6 +20,9 @@ const STEPS: usize = 2;
 /// its signs.
 const WEIGHTS: [f64; 2] = [0.1, 10.0];
 
+/// The least number of faces or edges that are worth a thread.
+const LEAST: usize = 1 << 12;
+
 /// The additional turn of the transport over every edge, from its first to its second face, after
 /// curvature has flowed as far as the length of details in `options`.
 ///
@@ -26,22 +30,25 @@ const WEIGHTS: [f64; 2] = [0.1, 10.0];
 /// there is not noise.
 ///
 /// # Errors
-/// [`Error::NotFinite`], and [`Error::InvalidArgument`] for a negative length.
+/// [`Error::NotFinite`], [`Error::InvalidArgument`] for a negative length, and those of
+/// [`FieldOptions::fixed_angles`].
 pub(super) fn detail(mesh: &TriangleMesh, options: &FieldOptions) -> Result<Vec<f64>> {
+    let _span = span("detail");
     let mut flow = vec![0.0; mesh.edge_count()];
     let length = length(mesh, options)?;
     if length == 0.0 {
         return Ok(flow);
     }
-    let flowing = flowing(mesh, options);
+    let flowing = flowing(mesh, options)?;
     let vertices = mesh.vertex_count();
     let time = length * length / STEPS as f64;
     let mut mass = vec![0.0; vertices];
     let mut curvature = vec![std::f64::consts::TAU; vertices];
-    for face in 0..mesh.face_count() {
-        for (k, v) in mesh.corners(face).into_iter().enumerate() {
-            mass[v] += mesh.area(face) / 3.0;
-            curvature[v] -= mesh.angle(face, k);
+    let areas = collect_in_parts(mesh.face_count(), LEAST, |face| mesh.area(face));
+    for (face, (area, angles)) in areas.into_iter().zip(mesh.angles()).enumerate() {
+        for (v, angle) in mesh.corners(face).into_iter().zip(angles) {
+            mass[v] += area / 3.0;
+            curvature[v] -= angle;
         }
     }
     let mut diagonal = mass.clone();
@@ -51,13 +58,16 @@ pub(super) fn detail(mesh: &TriangleMesh, options: &FieldOptions) -> Result<Vec<
         diagonal[b] += time * weight;
         pairs.push((a.max(b) as u32, a.min(b) as u32, -time * weight));
     }
+    may_continue()?;
     let diagonal = diagonal.iter().enumerate();
     let diagonal = diagonal.map(|(v, &d)| (v as u32, v as u32, d));
     let system = Sparse::from_triplets(vertices, vertices, diagonal.chain(pairs.iter().copied()))?;
     let factor = Cholesky::new(&system)?;
     for _ in 0..STEPS {
         let mut density = curvature.clone();
+        may_continue()?;
         factor.solve(&mut density)?;
+        may_continue()?;
         for (e, [a, b]) in ends(mesh).enumerate() {
             let moved = time * flowing[e] * (density[a] - density[b]);
             flow[e] += moved;
@@ -89,32 +99,27 @@ fn length(mesh: &TriangleMesh, options: &FieldOptions) -> Result<f64> {
 
 /// The ends of each edge, in the direction of its first face.
 fn ends(mesh: &TriangleMesh) -> impl Iterator<Item = [usize; 2]> + '_ {
-    mesh.edges().map(|edge| {
-        let (face, k) = edge.first;
-        let corners = mesh.corners(face);
-        [corners[k], corners[(k + 1) % 3]]
-    })
+    mesh.edges().map(|edge| edge.vertices)
 }
 
 /// How easily curvature flows along each edge: cotangent weights.
-fn flowing(mesh: &TriangleMesh, options: &FieldOptions) -> Vec<f64> {
+fn flowing(mesh: &TriangleMesh, options: &FieldOptions) -> Result<Vec<f64>> {
     let mut is_kept: Vec<bool> = (0..mesh.vertex_count())
         .map(|v| mesh.is_boundary_vertex(v))
         .collect();
-    let mut is_given = vec![false; mesh.face_count()];
-    for (k, constraint) in options.constraints.iter().enumerate() {
-        is_given[constraint.face] = true;
-        if k < options.firm {
-            for v in mesh.corners(constraint.face) {
-                is_kept[v] = true;
-            }
+    let fixed = options.fixed_angles(mesh)?;
+    for constraint in options.constraints.iter().take(options.firm) {
+        for v in mesh.corners(constraint.face) {
+            is_kept[v] = true;
         }
     }
-    let weight = |(edge, [a, b]): (Edge, [usize; 2])| {
+    let weight = |e: usize| {
+        let edge = mesh.edge(e);
+        let [a, b] = edge.vertices;
         let Some(second) = edge.second else {
             return 0.0;
         };
-        if is_kept[a] || is_kept[b] || is_given[edge.first.0] && is_given[second.0] {
+        if is_kept[a] || is_kept[b] || fixed[edge.first.0].is_some() && fixed[second.0].is_some() {
             return 0.0;
         }
         let sum: f64 = [edge.first, second]
@@ -123,7 +128,9 @@ fn flowing(mesh: &TriangleMesh, options: &FieldOptions) -> Vec<f64> {
             .sum();
         (0.5 * sum).clamp(WEIGHTS[0], WEIGHTS[1])
     };
-    mesh.edges().zip(ends(mesh)).map(weight).collect()
+    let weights = collect_in_parts(mesh.edge_count(), LEAST, weight);
+    may_continue()?;
+    Ok(weights)
 }
 
 /// The cotangent of the angle opposite to a local edge.

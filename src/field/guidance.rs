@@ -10,8 +10,9 @@ use super::{
 };
 use crate::error::{Error, Result};
 use crate::mesh::TriangleMesh;
-use crate::mesh::curvature::{SMOOTHING_ROUNDS, smoothed_curvature};
+use crate::mesh::curvature::{SMOOTHING_ROUNDS, watched_curvature};
 use crate::mesh::features::FeatureGraph;
+use crate::monitor::may_continue;
 use crate::search::table::options;
 
 options! {
@@ -133,11 +134,14 @@ impl Guidance {
             _ => edge_constraints(mesh, features)?,
         });
         options.firm = options.constraints.len();
+        may_continue()?;
         let count = curvature_guidance::count(mesh, self.constrain_curvature)?;
         curvature_guidance::check_weight(self.curvature_weight)?;
         if count > 0 || self.curvature_weight > 0.0 {
-            let curvature = smoothed_curvature(mesh, smoothing_rounds(mesh, detail));
+            let curvature = watched_curvature(mesh, smoothing_rounds(mesh, detail))?;
+            may_continue()?;
             options.constrain_others(curvature_guidance::most_reliable(&curvature, count));
+            may_continue()?;
             let guides = curvature_guidance::all_guides(mesh, &curvature, self.curvature_weight);
             options.guide_others(guides);
         }

@@ -24,19 +24,25 @@ use std::ops::Neg;
 use super::OrientationField;
 use crate::linalg::CompensatedSum;
 use crate::mesh::TriangleMesh;
+use crate::monitor::collect_in_parts;
+
+/// The least number of vertices that are worth a thread.
+const LEAST: usize = 1 << 12;
 
 impl OrientationField {
     /// The index of every vertex in steps of 1/N of a turn, quarters for crosses: 1 at the corner of a
     /// cube. Vertices of the boundary have none: 0.
     pub fn vertex_index_steps(&self, mesh: &TriangleMesh) -> Vec<i32> {
-        let steps = |v| match mesh.is_boundary_vertex(v) {
+        let steps = |v: usize| match mesh.is_boundary_vertex(v) {
             true => 0,
             false => {
                 let free = steps_without_jumps(mesh, &self.kappa, self.step(), v);
                 narrowed(free - self.jumps_around(mesh, v))
             }
         };
-        (0..mesh.vertex_count()).map(steps).collect()
+        // All threads need the angles, so they are not left to one of them.
+        mesh.angles();
+        collect_in_parts(mesh.vertex_count(), LEAST, steps)
     }
 
     /// The index of every vertex in full turns: [`vertex_index_steps`](Self::vertex_index_steps) over N.

@@ -17,8 +17,12 @@ use super::spanning_forest::spanning_forest;
 use super::{Constraint, FieldOptions, Guide, OrientationField};
 use crate::error::{Error, Result};
 use crate::mesh::TriangleMesh;
-use crate::problem::Problem;
+use crate::monitor::{in_parts, may_continue, may_continue_at, span};
+use crate::problem::{Layout, MatrixRef, Problem};
 use crate::solve::Solution;
+
+/// The least number of faces, edges or vertices that are worth a thread.
+const LEAST: usize = 1 << 12;
 
 /// What is known of one interior edge.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -66,12 +70,17 @@ impl FieldProblem {
     /// vertex, where constrained faces alone decide an index and it is another, or for a negative
     /// length of details.
     pub fn with_options(mesh: &TriangleMesh, options: &FieldOptions) -> Result<Self> {
+        let _span = span("assemble field");
+        let _memory = mesh.watch_memory();
+        may_continue()?;
         let step = options.step()?;
         let fixed = options.fixed_angles(mesh)?;
         let guided = options.guided(mesh, &fixed)?;
         let is_named = (0..mesh.face_count()).map(|f| fixed[f].is_some() || guided[f].is_some());
-        let in_forest = spanning_forest(mesh, &is_named.collect::<Vec<_>>());
-        let (jumps, kappa) = jumps(mesh, step, &fixed, &in_forest);
+        may_continue()?;
+        let is_named = is_named.collect::<Vec<_>>();
+        let (jumps, kappa) = jumps(mesh, step, &fixed, &spanning_forest(mesh, &is_named))?;
+        let ignored = detail(mesh, options)?;
         let unknown = |j: &&Jump| matches!(j, Jump::Unknown(_));
         let faces = mesh.face_count();
         let mut this = FieldProblem {
@@ -83,7 +92,6 @@ impl FieldProblem {
         for c in &options.constraints {
             this.problem.pin(c.face, c.angle)?;
         }
-        let ignored = detail(mesh, options)?;
         let row_of_edge = this.add_edges(mesh, step, &fixed, &ignored)?;
         for Guide {
             face,
@@ -91,12 +99,14 @@ impl FieldProblem {
             weight,
         } in guided.into_iter().flatten()
         {
+            may_continue_at(face)?;
             this.problem
                 .add_least_squares(&[face], &[1.0], angle, weight)?;
         }
         if let Some(given) = &options.indices {
             this.prescribe(mesh, step, &steps(mesh, options.symmetry, given)?)?;
         }
+        may_continue()?;
         hint_rings(mesh, &row_of_edge, &mut this.problem)?;
         Ok(this)
     }
@@ -111,23 +121,34 @@ impl FieldProblem {
         ignored: &[f64],
     ) -> Result<Vec<Option<usize>>> {
         let mut row_of_edge = vec![None; mesh.edge_count()];
+        let (mut offsets, mut indices, mut values) = (vec![0], Vec::new(), Vec::new());
+        let (mut rhs, mut integers) = (Vec::new(), Vec::new());
         for (e, edge) in mesh.edges().enumerate() {
+            may_continue_at(e)?;
             let Some((j, _)) = edge.second else { continue };
             let i = edge.first.0;
             if fixed[i].is_some() && fixed[j].is_some() {
                 continue;
             }
-            let kappa = -(self.kappa[e] + ignored[e]);
-            let problem = &mut self.problem;
-            row_of_edge[e] = Some(match self.jumps[e] {
-                Jump::Unknown(p) => {
-                    let p = p as usize;
-                    problem.set_integers(&[p])?;
-                    problem.add_least_squares(&[i, j, p], &[1.0, -1.0, step], kappa, 1.0)?
-                }
-                _ => problem.add_least_squares(&[i, j], &[1.0, -1.0], kappa, 1.0)?,
-            });
+            row_of_edge[e] = Some(rhs.len());
+            indices.extend([i, j]);
+            values.extend([1.0, -1.0]);
+            if let Jump::Unknown(p) = self.jumps[e] {
+                indices.push(p as usize);
+                values.push(step);
+                integers.push(p as usize);
+            }
+            offsets.push(indices.len());
+            rhs.push(-(self.kappa[e] + ignored[e]));
         }
+        let rows = MatrixRef {
+            layout: Layout::Rows,
+            offsets: &offsets,
+            indices: &indices,
+            values: &values,
+        };
+        self.problem.set_integers(&integers)?;
+        self.problem.add_least_squares_matrix(&rows, &rhs, None)?;
         Ok(row_of_edge)
     }
 
@@ -135,6 +156,7 @@ impl FieldProblem {
     fn prescribe(&mut self, mesh: &TriangleMesh, step: f64, steps: &[i32]) -> Result<()> {
         let (mut unknowns, mut signs) = (Vec::new(), Vec::new());
         for v in (0..mesh.vertex_count()).filter(|&v| !mesh.is_boundary_vertex(v)) {
+            may_continue_at(v)?;
             let mut sum = ring_sum(mesh, &self.kappa, step, v, steps[v]);
             unknowns.clear();
             signs.clear();
@@ -170,8 +192,9 @@ impl FieldProblem {
         &self.problem
     }
 
-    /// The right sides of the least-squares rows of the same field with all details.
-    pub(super) fn right_sides_with_details(&self, mesh: &TriangleMesh) -> Vec<f64> {
+    /// The right sides of the least-squares rows of the same field where the transport over each edge turns by
+    /// `ignored` in addition.
+    pub(super) fn right_sides(&self, mesh: &TriangleMesh, ignored: &[f64]) -> Vec<f64> {
         let mut rhs = self.problem.least_squares().0.rhs().to_vec();
         let is_fixed = |face: usize| self.problem.pins()[face].is_some();
         let inner = mesh.edges().enumerate().filter(|(_, edge)| {
@@ -179,7 +202,7 @@ impl FieldProblem {
             second.is_some_and(|second| !(is_fixed(edge.first.0) && is_fixed(second)))
         });
         for (row, (e, _)) in rhs.iter_mut().zip(inner) {
-            *row = -self.kappa[e];
+            *row = -(self.kappa[e] + ignored[e]);
         }
         rhs
     }
@@ -234,23 +257,23 @@ fn jumps(
     step: f64,
     fixed: &[Option<f64>],
     in_forest: &[bool],
-) -> (Vec<Jump>, Vec<f64>) {
+) -> Result<(Vec<Jump>, Vec<f64>)> {
+    let kappa = mesh.transports();
     // A mesh has fewer than 2^32 half-edges, and so fewer faces and edges together.
     let mut unknowns = mesh.face_count() as u32..;
-    let mut kappa = Vec::with_capacity(mesh.edge_count());
     let jumps = mesh.edges().enumerate().map(|(e, edge)| {
-        let (i, k) = edge.first;
-        kappa.push(mesh.transport(i, k).unwrap_or(0.0));
+        may_continue_at(e)?;
+        let i = edge.first.0;
         let Some((j, _)) = edge.second else {
-            return Jump::Boundary;
+            return Ok(Jump::Boundary);
         };
-        match (fixed[i], fixed[j]) {
+        Ok(match (fixed[i], fixed[j]) {
             (Some(a), Some(b)) => Jump::Known(((b - a - kappa[e]) / step).round() as i32),
             _ if in_forest[e] => Jump::Known(0),
             _ => unknowns.next().map_or(Jump::Known(0), Jump::Unknown),
-        }
+        })
     });
-    (jumps.collect(), kappa)
+    Ok((jumps.collect::<Result<_>>()?, kappa))
 }
 
 /// Gives the rings of interior vertices to the solver as short cycles. They are a basis but for one
@@ -260,24 +283,37 @@ fn hint_rings(
     row_of_edge: &[Option<usize>],
     problem: &mut Problem,
 ) -> Result<()> {
-    let (mut offsets, mut rows, mut signs) = (vec![0], Vec::new(), Vec::new());
-    for v in (0..mesh.vertex_count()).filter(|&v| !mesh.is_boundary_vertex(v)) {
-        let start = rows.len();
-        for (face, corner) in mesh.ring(v) {
-            let k = (corner + 2) % 3;
-            let e = mesh.edge_of(face, k);
-            if let Some(row) = row_of_edge[e] {
-                rows.push(row);
-                signs.push(mesh.out_of(face, k, 1));
+    let parts = in_parts(mesh.vertex_count(), LEAST, |part| {
+        let (mut lengths, mut rows, mut signs) = (Vec::new(), Vec::new(), Vec::new());
+        for v in part.filter(|&v| !mesh.is_boundary_vertex(v)) {
+            let start = rows.len();
+            for (face, corner) in mesh.ring(v) {
+                let k = (corner + 2) % 3;
+                let e = mesh.edge_of(face, k);
+                if let Some(row) = row_of_edge[e] {
+                    rows.push(row);
+                    signs.push(mesh.out_of(face, k, 1));
+                }
+            }
+            if rows.len() - start == mesh.face_degree(v) {
+                lengths.push(rows.len() - start);
+            } else {
+                // A ring through constrained faces is no cycle of the problem's rows.
+                rows.truncate(start);
+                signs.truncate(start);
             }
         }
-        if rows.len() - start == mesh.face_degree(v) {
-            offsets.push(rows.len());
-        } else {
-            // A ring through constrained faces is no cycle of the problem's rows.
-            rows.truncate(start);
-            signs.truncate(start);
-        }
+        (lengths, rows, signs)
+    });
+    let (mut offsets, mut rows, mut signs) = (vec![0], Vec::new(), Vec::new());
+    let mut end = 0;
+    for (lengths, some_rows, some_signs) in parts {
+        offsets.extend(lengths.iter().map(|length| {
+            end += length;
+            end
+        }));
+        rows.extend(some_rows);
+        signs.extend(some_signs);
     }
     problem.hint_cycles(&offsets, &rows, &signs)
 }

@@ -4,13 +4,17 @@
 //! ([`super::feasible_indices`]). A second solve also follows when the indices are decided without the
 //! details of the surface ([`super::detail`]).
 
+use super::detail::detail;
 use super::feasible_indices::feasible_indices;
 use super::{Constraint, FieldOptions, FieldProblem, OrientationField, PrescribedIndex};
 use crate::error::{Error, Result};
 use crate::mesh::TriangleMesh;
-use crate::monitor::{Monitor, Stage};
+use crate::monitor::{Monitor, Stage, both, may_continue};
 use crate::search::{Options, WarmStart};
 use crate::solve::{Solution, Solver, solve_with};
+
+/// The least number of faces that are worth a thread.
+const LEAST: usize = 1 << 12;
 
 /// The smoothest field, whether or not a map can follow it, and the solution that it was read from.
 ///
@@ -38,9 +42,39 @@ fn solve_stated(
     solver: &Options,
     monitor: Monitor,
 ) -> Result<(OrientationField, Solution)> {
+    let watch = monitor.watch();
     let problem = FieldProblem::with_options(mesh, options)?;
+    drop(watch);
     let solution = solve_with(problem.problem(), solver, monitor)?;
     Ok((problem.field(mesh, &solution)?, solution))
+}
+
+/// The problem of a field and its solver, up to the elimination. Details change only right sides, and so they are
+/// found at the same time.
+fn prepared(
+    mesh: &TriangleMesh,
+    options: &FieldOptions,
+    solver: &Options,
+    monitor: Monitor,
+) -> Result<(FieldProblem, Solver)> {
+    let with_all = FieldOptions {
+        detail: 0.0,
+        ..options.clone()
+    };
+    let is_large = options.detail > 0.0 && mesh.face_count() >= LEAST;
+    let (made, ignored): (Result<_>, _) = both(
+        is_large,
+        || {
+            let problem = FieldProblem::with_options(mesh, &with_all)?;
+            let mut kept = Solver::new(problem.problem())?;
+            kept.eliminate(solver, monitor)?;
+            Ok((problem, kept))
+        },
+        || detail(mesh, options),
+    );
+    let (problem, mut kept) = made?;
+    kept.set_least_squares_right_sides(&problem.right_sides(mesh, &ignored?))?;
+    Ok((problem, kept))
 }
 
 /// The smoothest field for the surface with all details, with the period jumps of the solver's last
@@ -52,7 +86,9 @@ fn smoothest_with(
     options: &Options,
     monitor: Monitor,
 ) -> Result<(OrientationField, Solution)> {
-    solver.set_least_squares_right_sides(&problem.right_sides_with_details(mesh))?;
+    may_continue()?;
+    let nothing = vec![0.0; mesh.edge_count()];
+    solver.set_least_squares_right_sides(&problem.right_sides(mesh, &nothing))?;
     let keep = Options {
         warm_start: WarmStart::Keep,
         ..options.clone()
@@ -82,15 +118,20 @@ pub fn solve_field<'a>(
     let run = monitor().run();
     run.name_stage(Stage::Field);
     let monitor = || monitor().of_run(&run);
-    let problem = FieldProblem::with_options(mesh, options)?;
-    let mut kept = Solver::new(problem.problem())?;
+    let watch = monitor().watch();
+    let (problem, mut kept) = prepared(mesh, options, solver, monitor())?;
+    // The best solution of a solve that ends early has a field, too.
+    drop(watch);
     let solution = kept.solve_with(solver, monitor())?;
+    let _memory = mesh.watch_memory();
     let field = problem.field(mesh, &solution)?;
+    may_continue()?;
     if options.indices.is_some() || options.symmetry != 4 {
         return Ok((field, solution));
     }
     let found = field.vertex_index_steps(mesh);
     let steps = feasible_indices(mesh, found.clone());
+    may_continue()?;
     if steps == found {
         return match options.detail > 0.0 {
             true => smoothest_with(mesh, &problem, &mut kept, solver, monitor()),

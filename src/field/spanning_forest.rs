@@ -20,11 +20,10 @@ pub(super) fn spanning_forest(mesh: &TriangleMesh, rooted: &[bool]) -> Vec<bool>
     let mut lowest = 0;
     loop {
         while let Some(face) = queue.pop_front() {
-            let mut next: Vec<(usize, usize)> = (0..3)
-                .filter_map(|k| Some((mesh.neighbor(face, k)?.0, mesh.edge_of(face, k))))
-                .collect();
+            let across = |k| Some((mesh.neighbor(face, k)?.0, mesh.edge_of(face, k)));
+            let mut next = [0, 1, 2].map(across);
             next.sort_unstable();
-            for (neighbor, edge) in next {
+            for (neighbor, edge) in next.into_iter().flatten() {
                 if !reached[neighbor] {
                     reached[neighbor] = true;
                     in_forest[edge] = true;

@@ -17,7 +17,7 @@ use faer::{Mat, MatRef};
 
 use super::{Gram, Transform};
 use crate::error::Result;
-use crate::linalg::CompensatedSum;
+use crate::linalg::{CompensatedSum, with_wide_registers};
 
 /// The additional coordinate of a dependent vector, relative to its length.
 const REGULAR: f64 = 1e-6;
@@ -304,7 +304,8 @@ impl Basis {
                 u[(i, k)] = v;
             }
         }
-        MatRef::from_column_major_slice(&self.original, n, n) * u
+        let original = MatRef::from_column_major_slice(&self.original, n, n);
+        with_wide_registers(|| original * u)
     }
 
     /// The triangular factor of the first `rank` columns of `R0 U`. If `apart`, the columns have the
@@ -324,7 +325,7 @@ impl Basis {
                 }
             }
         }
-        let qr = tall.qr();
+        let qr = with_wide_registers(|| tall.qr());
         let factor = qr.thin_R();
         let mut r = vec![0.0; n * n];
         for i in 0..factor.nrows() {

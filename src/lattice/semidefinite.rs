@@ -11,6 +11,8 @@ use faer::linalg::solvers::Llt;
 use faer::prelude::Solve;
 use faer::{Mat, Scale, Side};
 
+use crate::linalg::with_wide_registers;
+
 /// A step ends at most at this part of the way to the boundary.
 const INSIDE: f64 = 0.95;
 
@@ -120,7 +122,7 @@ impl Program {
         for i in 0..slack.nrows() {
             slack[(i, i)] -= margin;
         }
-        slack.llt(Side::Lower).is_ok()
+        factor(&slack).is_some()
     }
 
     /// The slack for these multipliers. Only its lower triangle is valid.
@@ -142,7 +144,7 @@ impl Program {
     fn step(&mut self, reduction: f64) -> Option<(f64, f64)> {
         let k = self.terms.len();
         let slack = self.slack(|j| self.terms[j].multiplier);
-        let inverse = inverse(&slack.llt(Side::Lower).ok()?, slack.nrows());
+        let inverse = inverse(&factor(&slack)?, slack.nrows());
         let share = reduction * self.share(&slack);
         let change = self.direction(&inverse, share)?;
         let price = |t: &Term, s: f64| (share - t.price * s) / t.multiplier - t.price;
@@ -181,7 +183,8 @@ impl Program {
             let own = term.sign() * term.product(&by_inverse);
             right[(j, 0)] = term.gain - share * (own - 1.0 / term.multiplier);
         }
-        let change = system.llt(Side::Lower).ok()?.solve(&right);
+        let factor = factor(&system)?;
+        let change = with_wide_registers(|| factor.solve(&right));
         Some((0..k).map(|j| change[(j, 0)]).collect())
     }
 
@@ -196,7 +199,7 @@ impl Program {
                 }
             }
         }
-        let product = &self.dual * lowered * inverse;
+        let product = with_wide_registers(|| &self.dual * lowered * inverse);
         Mat::from_fn(n, n, |i, j| {
             let mean = 0.5 * (product[(i, j)] + product[(j, i)]);
             share * inverse[(i, j)] - self.dual[(i, j)] + mean
@@ -215,8 +218,13 @@ impl Program {
     }
 }
 
+/// The Cholesky factor of a matrix whose lower triangle is valid. None if it is not positive definite.
+fn factor(matrix: &Mat<f64>) -> Option<Llt<f64>> {
+    with_wide_registers(|| matrix.llt(Side::Lower)).ok()
+}
+
 fn inverse(factor: &Llt<f64>, n: usize) -> Mat<f64> {
-    factor.solve(Mat::<f64>::identity(n, n))
+    with_wide_registers(|| factor.solve(Mat::<f64>::identity(n, n)))
 }
 
 /// The longest step, before [`INSIDE`], that keeps all values positive and ends at a full step.
@@ -230,7 +238,7 @@ fn within(values: impl Iterator<Item = f64>, change: &[f64]) -> f64 {
 fn longest(largest: f64, matrix: impl Fn(f64) -> Mat<f64>) -> Option<f64> {
     let mut length = largest;
     for _ in 0..60 {
-        if matrix(length).llt(Side::Lower).is_ok() {
+        if factor(&matrix(length)).is_some() {
             return Some(INSIDE * length);
         }
         length *= SHORTER;

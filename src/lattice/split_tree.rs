@@ -18,6 +18,7 @@ use super::enumerate::{Enumerated, Limits, WATCH, whole};
 use super::near_points::NearPoints;
 use super::splits::Splits;
 use super::{Basis, Target};
+use crate::linalg::with_wide_registers;
 
 /// Sums are computed in this many parts, for vector instructions.
 const LANES: usize = 8;
@@ -278,6 +279,6 @@ impl<'a> SplitTree<'a> {
 
 /// The upper triangular U with `U'U` equal to the matrix, whose lower triangle is read.
 fn upper_factor(matrix: &Mat<f64>) -> Option<Mat<f64>> {
-    let lower = matrix.llt(faer::Side::Lower).ok()?;
+    let lower = with_wide_registers(|| matrix.llt(faer::Side::Lower)).ok()?;
     Some(lower.L().transpose().to_owned())
 }

@@ -9,7 +9,7 @@ use super::prove::{FIRST, GROWTH, radius_for};
 use super::{Diagonals, Limits, Piece, Splits, assemble, beam, improve_blocks, pieces};
 use crate::eliminate::ReducedModel;
 use crate::error::{Error, Result};
-use crate::monitor::Phase;
+use crate::monitor::{Phase, span};
 use crate::round;
 use crate::search::{Factors, Options, Search, StoppedBy, Strategy};
 
@@ -49,6 +49,7 @@ pub(crate) fn lattice(
     factors: &mut Factors,
     search: &mut Search,
 ) -> Result<()> {
+    let _span = span("lattice");
     let found = decode(model, options, factors, search);
     or_rounded(found.map(drop), model, options, factors, search)
 }

@@ -7,16 +7,32 @@ use faer::Side;
 use faer::sparse::SymbolicSparseColMatRef;
 use faer::sparse::linalg::SupernodalThreshold;
 use faer::sparse::linalg::cholesky::{
-    CholeskySymbolicParams, SymbolicCholesky, SymmetricOrdering, factorize_symbolic_cholesky,
+    CholeskySymbolicParams, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
+    factorize_symbolic_cholesky,
 };
 
 use super::Sparse;
+use super::assembly_tree::AssemblyTree;
+use super::tree_solve::SolveParts;
 use crate::error::{Error, Result};
+use crate::monitor::span;
+
+/// A factor of at least so many unknowns is computed and used by several threads. Smaller ones take a millisecond.
+const SHARED: usize = 8_000;
 
 /// The order of elimination and the pattern of the factor, for all matrices of one pattern.
 #[derive(Debug, Clone)]
 pub struct Analysis {
     pub(super) symbolic: Arc<SymbolicCholesky<u32>>,
+    /// How threads share the work, if they do.
+    pub(super) shared: Option<Arc<Shared>>,
+}
+
+/// The tasks of a factorization, and those of a solve.
+#[derive(Debug)]
+pub(super) struct Shared {
+    pub tree: AssemblyTree,
+    pub solve: SolveParts,
 }
 
 impl Analysis {
@@ -30,6 +46,16 @@ impl Analysis {
     }
 
     pub(super) fn ordered(lower: &Sparse, ordering: SymmetricOrdering<u32>) -> Result<Self> {
+        let _span = span("order");
+        Self::shared_from(SHARED, lower, ordering)
+    }
+
+    /// As [`ordered`](Self::ordered), and threads share the work from so many unknowns on.
+    pub(super) fn shared_from(
+        least: usize,
+        lower: &Sparse,
+        ordering: SymmetricOrdering<u32>,
+    ) -> Result<Self> {
         let col_ptr = offsets_u32(lower)?;
         let symbolic = factorize_symbolic_cholesky(
             pattern(lower, &col_ptr),
@@ -40,8 +66,18 @@ impl Analysis {
                 ..Default::default()
             },
         );
+        let symbolic = symbolic.map_err(|_| too_large())?;
+        let shared = match symbolic.raw() {
+            SymbolicCholeskyRaw::Supernodal(factor) if lower.rows() >= least => {
+                let tree = AssemblyTree::new(factor);
+                let solve = SolveParts::new(&tree, factor);
+                Some(Arc::new(Shared { tree, solve }))
+            }
+            _ => None,
+        };
         Ok(Analysis {
-            symbolic: Arc::new(symbolic.map_err(|_| too_large())?),
+            symbolic: Arc::new(symbolic),
+            shared,
         })
     }
 }

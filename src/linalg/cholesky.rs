@@ -1,4 +1,5 @@
-//! The supernodal factor `A = L D L'` of a positive semi-definite matrix, computed by faer.
+//! The supernodal factor `A = L D L'` of a positive semi-definite matrix, in the layout of faer, which also computes
+//! it. The factor of a large matrix is computed front by front instead (`multifrontal.rs`).
 //!
 //! A pivot vanishes if the unknowns eliminated earlier determine its unknown. The whole column of the Schur
 //! complement then vanishes too. Each such pivot is replaced by [`NULL_PIVOT`]. The result is the factor of
@@ -22,10 +23,13 @@ use faer::sparse::linalg::cholesky::{
 use faer::{Conj, MatMut, Par, Side};
 
 use super::Sparse;
-use super::analysis::{Analysis, offsets_u32, pattern};
+use super::analysis::{Analysis, Shared, offsets_u32, pattern};
+use super::multifrontal::{Columns, factorize};
 use super::ordering::Ordering;
 use super::scaling::equilibrate;
+use super::wide_registers::leave_wide_registers;
 use crate::error::{Error, Result};
+use crate::monitor::{change_in_parts, collect_in_parts, span};
 
 /// A pivot of the scaled matrix (diagonal in [1/2, 2)) at or below this counts as zero.
 ///
@@ -46,10 +50,14 @@ pub const NULL_PIVOT: f64 = 9.0;
 /// twice [`PIVOT_TOLERANCE`]. This bound is ten times as large.
 const COUPLED: f64 = 1.5e-5;
 
+/// The least number of unknowns that are worth a thread.
+const LEAST: usize = 1 << 14;
+
 /// `A = L D L'` of the scaled and permuted matrix.
 #[derive(Debug)]
 pub struct Cholesky {
     pub(super) symbolic: Arc<SymbolicCholesky<u32>>,
+    shared: Option<Arc<Shared>>,
     pub(super) values: Vec<f64>,
     pub(super) scale: Vec<f64>,
     null: Vec<u32>,
@@ -60,7 +68,8 @@ impl Cholesky {
     /// Factors the symmetric matrix with lower triangle `lower`. Every diagonal entry must be stored.
     ///
     /// # Errors
-    /// [`Error::OutOfMemory`], and [`Error::Overflow`] if the factor would have more than 2^32 entries.
+    /// [`Error::OutOfMemory`], [`Error::Overflow`] if the factor would have more than 2^32 entries, and for a large
+    /// matrix the reason to end the current step.
     pub fn new(lower: &Sparse) -> Result<Self> {
         Self::ordered(lower, Ordering::FillReducing)
     }
@@ -98,47 +107,36 @@ impl Cholesky {
     /// # Errors
     /// As [`new`](Self::new).
     pub fn with(analysis: &Analysis, lower: &Sparse) -> Result<Self> {
+        let _span = span("factor");
         let symbolic = Arc::clone(&analysis.symbolic);
-        let n = lower.rows();
         let scale = equilibrate(lower);
-        let col_ptr = offsets_u32(lower)?;
-        let mut scaled = super::sparse::reserve(lower.len())?;
-        for i in 0..n {
-            scaled.extend(lower.row(i).map(|(j, v)| v * scale[i] * scale[j]));
-        }
-        let mut values = super::sparse::reserve(symbolic.len_val())?;
-        values.resize(symbolic.len_val(), 0.0);
-        let mut memory = MemBuffer::try_new(
-            symbolic.factorize_numeric_ldlt_scratch::<f64>(Par::Seq, Default::default()),
-        )
-        .map_err(|_| out_of_memory())?;
-        let signs = vec![1; n];
-        let regularization = LdltRegularization {
-            dynamic_regularization_signs: Some(&signs),
-            dynamic_regularization_delta: NULL_PIVOT,
-            dynamic_regularization_epsilon: pivot_tolerance(n),
+        let mut values = zeros(symbolic.len_val())?;
+        let tolerance = pivot_tolerance(lower.rows());
+        let has_null = match (&analysis.shared, symbolic.raw()) {
+            (Some(shared), SymbolicCholeskyRaw::Supernodal(factor)) => {
+                let places = symbolic.perm().map(|perm| perm.arrays().1);
+                let position = |i: usize| places.map_or(i as u32, |places| places[i]);
+                let columns = Columns::new(lower, &scale, position)?;
+                factorize(factor, &shared.tree, &columns, tolerance, &mut values)?
+            }
+            _ => {
+                factorize_serially(&symbolic, lower, &scale, tolerance, &mut values)?;
+                // What faer counts is not returned.
+                true
+            }
         };
-        symbolic
-            .factorize_numeric_ldlt(
-                &mut values,
-                SparseColMatRef::new(pattern(lower, &col_ptr), &scaled),
-                Side::Upper,
-                regularization,
-                Par::Seq,
-                MemStack::new(&mut memory),
-                Default::default(),
-            )
-            .map_err(|_| Error::Overflow {
-                what: "the factorization of the objective overflows".into(),
-                index: None,
-            })?;
+        leave_wide_registers();
         let mut factor = Cholesky {
             symbolic,
+            shared: analysis.shared.clone(),
             values,
             scale,
             null: Vec::new(),
             coupled: Vec::new(),
         };
+        if !has_null {
+            return Ok(factor);
+        }
         let (mut null, mut coupled) = (Vec::new(), Vec::new());
         factor.for_each_column(|k, pivot, entries| {
             if pivot == NULL_PIVOT {
@@ -259,7 +257,7 @@ impl Cholesky {
     }
 
     /// Calls `visit` with each position, its pivot, and its column of L below the diagonal.
-    fn for_each_column(
+    pub(super) fn for_each_column(
         &self,
         mut visit: impl FnMut(usize, f64, &mut dyn Iterator<Item = (usize, f64)>),
     ) {
@@ -296,9 +294,13 @@ impl Cholesky {
     /// Solves `A x = b` in place. Null unknowns get 0 if the system is consistent.
     ///
     /// # Errors
-    /// [`Error::OutOfMemory`].
+    /// [`Error::OutOfMemory`], and the end of the call.
     pub fn solve(&self, b: &mut [f64]) -> Result<()> {
+        let _span = span("substitute");
         let n = self.dim();
+        if self.solve_by_subtrees(b, n)? {
+            return Ok(());
+        }
         for (b, s) in b.iter_mut().zip(&self.scale) {
             *b *= s;
         }
@@ -311,14 +313,94 @@ impl Cholesky {
             Par::Seq,
             MemStack::new(&mut memory),
         );
+        leave_wide_registers();
         for (b, s) in b.iter_mut().zip(&self.scale) {
             *b *= s;
         }
         Ok(())
     }
+
+    /// Solves by the subtrees of a factor that threads share, with the unknowns from the given position on held at
+    /// zero. Their entries of `b` are neither read nor changed. The result says whether the factor is shared.
+    ///
+    /// # Errors
+    /// The end of the call.
+    pub(super) fn solve_by_subtrees(&self, b: &mut [f64], held: usize) -> Result<bool> {
+        let (Some(shared), SymbolicCholeskyRaw::Supernodal(raw)) =
+            (&self.shared, self.symbolic.raw())
+        else {
+            return Ok(false);
+        };
+        let n = self.dim();
+        let arrays = self.symbolic.perm().map(|perm| perm.arrays());
+        let mut x = collect_in_parts(n, LEAST, |k| {
+            let i = arrays.map_or(k, |(order, _)| order[k] as usize);
+            if k < held { b[i] * self.scale[i] } else { 0.0 }
+        });
+        let factor = SupernodalLdltRef::new(raw, &self.values);
+        shared.solve.solve(&factor, &mut x, held)?;
+        leave_wide_registers();
+        change_in_parts(b, LEAST, |i, b| {
+            let k = arrays.map_or(i, |(_, place)| place[i] as usize);
+            if k < held {
+                *b = x[k] * self.scale[i];
+            }
+        });
+        Ok(true)
+    }
 }
 
-fn out_of_memory() -> Error {
+/// Computes the factor of the scaled matrix on one thread, by faer.
+fn factorize_serially(
+    symbolic: &SymbolicCholesky<u32>,
+    lower: &Sparse,
+    scale: &[f64],
+    tolerance: f64,
+    values: &mut [f64],
+) -> Result<()> {
+    let n = lower.rows();
+    let col_ptr = offsets_u32(lower)?;
+    let mut scaled = super::sparse::reserve(lower.len())?;
+    for i in 0..n {
+        scaled.extend(lower.row(i).map(|(j, v)| v * scale[i] * scale[j]));
+    }
+    let mut memory = MemBuffer::try_new(
+        symbolic.factorize_numeric_ldlt_scratch::<f64>(Par::Seq, Default::default()),
+    )
+    .map_err(|_| out_of_memory())?;
+    let signs = vec![1; n];
+    let regularization = LdltRegularization {
+        dynamic_regularization_signs: Some(&signs),
+        dynamic_regularization_delta: NULL_PIVOT,
+        dynamic_regularization_epsilon: tolerance,
+    };
+    let done = symbolic.factorize_numeric_ldlt(
+        values,
+        SparseColMatRef::new(pattern(lower, &col_ptr), &scaled),
+        Side::Upper,
+        regularization,
+        Par::Seq,
+        MemStack::new(&mut memory),
+        Default::default(),
+    );
+    done.map(|_| ()).map_err(|_| overflow())
+}
+
+/// So many zeros. The system makes the zeros of a large array page by page, for the thread that uses a page first.
+fn zeros(len: usize) -> Result<Vec<f64>> {
+    // The macro would end the process if there is no memory.
+    super::sparse::reserve::<f64>(len)?;
+    Ok(vec![0.0; len])
+}
+
+pub(super) fn overflow() -> Error {
+    Error::Overflow {
+        what: "the factorization of the objective overflows".into(),
+        index: None,
+    }
+}
+
+pub(super) fn out_of_memory() -> Error {
     Error::OutOfMemory {
         what: "a factorization",
     }

@@ -48,6 +48,12 @@ impl CompensatedSum {
         self.error += a * x.low;
     }
 
+    /// Adds another sum together with its rounding error.
+    pub fn add_sum(&mut self, other: &CompensatedSum) {
+        self.add(other.sum);
+        self.error += other.error;
+    }
+
     /// The sum.
     pub fn value(&self) -> f64 {
         self.sum + self.error
@@ -139,6 +145,16 @@ mod tests {
         sum.add_product(factor, factor);
         sum.add(-2f64.powi(-29));
         assert_eq!(sum.value(), 2f64.powi(-60));
+    }
+
+    #[test]
+    fn a_sum_of_sums_keeps_the_errors_of_both() {
+        let mut sum = CompensatedSum::new(1e100);
+        sum.add(1.0);
+        let mut other = CompensatedSum::new(1.0);
+        other.add(-1e100);
+        sum.add_sum(&other);
+        assert_eq!(sum.value(), 2.0);
     }
 
     #[test]

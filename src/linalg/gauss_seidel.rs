@@ -7,10 +7,16 @@
 //! - *Local* integers couple to a few unknowns, none of them integer. They are not relaxed; they follow
 //!   exactly, see [`super::static_condensation`].
 //! - The updates are over-relaxed (`young1954`) by [`OVERRELAXATION`].
+//!
+//! Threads may relax regions of one problem at the same time. They share it without locks: what a region reads and
+//! writes belongs to it alone, see [`LocalSolve::relax`].
 
 use std::collections::VecDeque;
+use std::sync::atomic::AtomicBool;
+use std::sync::atomic::Ordering::Relaxed;
 
 use super::Sparse;
+use super::shared_float::SharedFloat;
 use super::static_condensation::{Entry, StaticCondensation};
 use crate::error::Result;
 
@@ -28,20 +34,49 @@ pub struct LocalSolve<'a> {
     system: StaticCondensation,
     integer: Vec<bool>,
     unknowns: Vec<Unknown>,
+}
+
+/// What is left of a re-optimisation.
+#[derive(Debug, Default)]
+pub struct Wave {
+    /// The unknowns that may have to move.
     queue: VecDeque<u32>,
+    /// Those of the queue that were not allowed to move.
+    held: Vec<u32>,
+    /// The unknowns that have moved.
     moved: Vec<u32>,
 }
 
+impl Wave {
+    /// A wave that goes on with what others have left.
+    pub fn from_left(left: impl IntoIterator<Item = u32>) -> Self {
+        Wave {
+            queue: left.into_iter().collect(),
+            ..Wave::default()
+        }
+    }
+
+    /// The unknowns that may still have to move.
+    pub fn into_left(self) -> impl Iterator<Item = u32> {
+        self.queue.into_iter().chain(self.held)
+    }
+
+    /// Whether the queue is empty.
+    pub fn is_settled(&self) -> bool {
+        self.queue.is_empty()
+    }
+}
+
 /// The data of one unknown that an update reads, stored next to each other.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug)]
 struct Unknown {
     /// The current value, except for a free local integer, whose value is computed on demand.
-    value: f64,
+    value: SharedFloat,
     /// The slope of the condensed objective. Unused for local integers.
-    residual: f64,
-    fixed: bool,
-    queued: bool,
-    moved: bool,
+    residual: SharedFloat,
+    fixed: AtomicBool,
+    queued: AtomicBool,
+    moved: AtomicBool,
 }
 
 impl<'a> LocalSolve<'a> {
@@ -63,20 +98,37 @@ impl<'a> LocalSolve<'a> {
             system: StaticCondensation::new(lower, &integer)?,
             integer,
             unknowns: point.iter().map(|&x| Unknown::at(x)).collect(),
-            queue: VecDeque::new(),
-            moved: Vec::new(),
         })
+    }
+
+    /// Whether an unknown is a local integer.
+    pub fn is_local(&self, unknown: u32) -> bool {
+        self.system.is_local(unknown as usize)
+    }
+
+    /// The unknowns that an unknown couples to: for a local integer those of its row, for any other one those that
+    /// it couples to while local integers are free or once they are fixed.
+    pub fn neighbours(&self, unknown: u32) -> impl Iterator<Item = u32> + '_ {
+        let i = unknown as usize;
+        let (own, condensed) = match self.system.is_local(i) {
+            true => (self.system.coupling_range(i), &[][..]),
+            false => (0..0, self.system.row(i)),
+        };
+        let of_row = own.map(|at| self.system.coupling(at).0 as u32);
+        of_row.chain(condensed.iter().map(|entry| entry.column))
     }
 
     /// The current value of an unknown.
     pub fn value(&self, unknown: u32) -> f64 {
         let i = unknown as usize;
-        let Unknown { value, fixed, .. } = self.unknowns[i];
-        if fixed || !self.system.is_local(i) {
-            return value;
+        let own = &self.unknowns[i];
+        if own.fixed.load(Relaxed) || !self.system.is_local(i) {
+            return own.value.get();
         }
         let couplings = self.system.couplings(i);
-        let pull: f64 = couplings.map(|(j, v)| v * self.unknowns[j].value).sum();
+        let pull: f64 = couplings
+            .map(|(j, v)| v * self.unknowns[j].value.get())
+            .sum();
         -(self.gradient[i] + pull) / self.system.diagonal(i)
     }
 
@@ -87,105 +139,124 @@ impl<'a> LocalSolve<'a> {
             .collect()
     }
 
+    /// Whether an unknown is fixed.
+    pub fn is_fixed(&self, unknown: u32) -> bool {
+        self.unknowns[unknown as usize].fixed.load(Relaxed)
+    }
+
     /// Fixes an unknown to `value` for good and queues its neighbours.
-    pub fn fix(&mut self, unknown: u32, value: f64) {
+    pub fn fix(&self, unknown: u32, value: f64, wave: &mut Wave) {
         let k = unknown as usize;
         let step = value - self.value(unknown);
-        self.unknowns[k].value = value;
-        self.unknowns[k].fixed = true;
+        self.unknowns[k].value.set(value);
+        self.unknowns[k].fixed.store(true, Relaxed);
         if self.system.is_local(k) {
             for at in self.system.coupling_range(k) {
                 let (j, value) = self.system.coupling(at);
-                let column = j as u32;
-                self.unknowns[j].pull(&Entry { column, value }, step, &mut self.queue);
+                self.unknowns[j].pull(j as u32, value * step, &mut wave.queue);
             }
             self.system.release(k);
         } else {
-            self.spread(k, step);
+            self.spread(k, step, wave);
         }
     }
 
-    /// Relaxes the queued unknowns until no step exceeds `tolerance` or `updates` updates were made. Returns
-    /// the number of updates.
-    pub fn relax(&mut self, tolerance: f64, updates: usize) -> usize {
+    /// Relaxes the queued unknowns that may move until no step exceeds `tolerance` or `updates` updates were made.
+    /// Returns the number of updates.
+    ///
+    /// Several threads may do so at the same time if what may move for one of them, or is fixed by it, has no
+    /// [neighbour](Self::neighbours) in common with what may move or is fixed for another one.
+    pub fn relax(
+        &self,
+        wave: &mut Wave,
+        tolerance: f64,
+        updates: usize,
+        may_move: impl Fn(u32) -> bool,
+    ) -> usize {
         let mut done = 0;
         while done < updates {
-            let Some(i) = self.queue.pop_front() else {
+            let Some(i) = wave.queue.pop_front() else {
                 break;
             };
+            if !may_move(i) {
+                wave.held.push(i);
+                continue;
+            }
             let i = i as usize;
             let curvature = self.system.curvature(i);
-            let unknown = &mut self.unknowns[i];
-            unknown.queued = false;
-            if unknown.fixed || unknown.residual.abs() <= tolerance * curvature {
+            let unknown = &self.unknowns[i];
+            unknown.queued.store(false, Relaxed);
+            let residual = unknown.residual.get();
+            if unknown.fixed.load(Relaxed) || residual.abs() <= tolerance * curvature {
                 continue;
             }
             if curvature > UNDECIDED * self.system.diagonal(i) {
-                let step = -OVERRELAXATION * unknown.residual / curvature;
-                unknown.value += step;
-                unknown.residual += curvature * step;
-                self.spread(i, step);
+                let step = -OVERRELAXATION * residual / curvature;
+                unknown.value.add(step);
+                unknown.residual.set(residual + curvature * step);
+                self.spread(i, step, wave);
                 done += 1;
             }
         }
         done
     }
 
-    /// Whether the queue is empty.
-    pub fn is_settled(&self) -> bool {
-        self.queue.is_empty()
-    }
-
     /// Takes over `point`, which was computed elsewhere as the minimiser for the unknowns fixed so far.
-    pub fn settle_at(&mut self, point: &[f64]) {
+    pub fn settle_at(&self, point: &[f64], wave: &mut Wave) {
         for (i, &value) in point.iter().enumerate() {
-            let unknown = &mut self.unknowns[i];
-            unknown.residual = 0.0;
-            unknown.queued = false;
-            if !unknown.fixed && unknown.value != value {
-                unknown.value = value;
-                self.mark_moved(i);
+            let unknown = &self.unknowns[i];
+            unknown.residual.set(0.0);
+            unknown.queued.store(false, Relaxed);
+            if !unknown.fixed.load(Relaxed) && unknown.value.get() != value {
+                unknown.value.set(value);
+                self.mark_moved(i, wave);
             }
         }
-        self.queue.clear();
+        wave.queue.clear();
+        wave.held.clear();
     }
 
     /// The free integers that may have moved since the last call, without repetition.
-    pub fn take_moved(&mut self) -> Vec<u32> {
+    pub fn take_moved(&self, wave: &mut Wave) -> Vec<u32> {
         let mut integers = Vec::new();
-        for i in std::mem::take(&mut self.moved) {
+        for i in std::mem::take(&mut wave.moved) {
             let k = i as usize;
-            self.unknowns[k].moved = false;
-            if self.integer[k] && !self.unknowns[k].fixed {
+            let unknown = &self.unknowns[k];
+            unknown.moved.store(false, Relaxed);
+            if self.integer[k] && !unknown.fixed.load(Relaxed) {
                 integers.push(i);
             }
-            for &j in self.system.followers(k) {
-                let follower = &mut self.unknowns[j as usize];
-                if !follower.moved {
-                    follower.moved = true;
+            for j in self.system.followers(k) {
+                let follower = &self.unknowns[j as usize];
+                if !follower.moved.load(Relaxed) {
+                    follower.moved.store(true, Relaxed);
                     integers.push(j);
                 }
             }
         }
         for &i in &integers {
-            self.unknowns[i as usize].moved = false;
+            self.unknowns[i as usize].moved.store(false, Relaxed);
         }
         integers
     }
 
     /// Applies a step of unknown `i` to the slopes of its neighbours.
-    fn spread(&mut self, i: usize, step: f64) {
-        self.mark_moved(i);
-        for entry in self.system.row(i).iter().filter(|e| e.value != 0.0) {
-            let neighbour = &mut self.unknowns[entry.column as usize];
-            neighbour.pull(entry, step, &mut self.queue);
+    fn spread(&self, i: usize, step: f64, wave: &mut Wave) {
+        self.mark_moved(i, wave);
+        for Entry { column, value } in self.system.row(i) {
+            let value = value.get();
+            if value != 0.0 {
+                let neighbour = &self.unknowns[*column as usize];
+                neighbour.pull(*column, value * step, &mut wave.queue);
+            }
         }
     }
 
-    fn mark_moved(&mut self, i: usize) {
-        if !self.unknowns[i].moved {
-            self.unknowns[i].moved = true;
-            self.moved.push(i as u32);
+    fn mark_moved(&self, i: usize, wave: &mut Wave) {
+        let moved = &self.unknowns[i].moved;
+        if !moved.load(Relaxed) {
+            moved.store(true, Relaxed);
+            wave.moved.push(i as u32);
         }
     }
 }
@@ -193,20 +264,20 @@ impl<'a> LocalSolve<'a> {
 impl Unknown {
     fn at(value: f64) -> Self {
         Unknown {
-            value,
-            residual: 0.0,
-            fixed: false,
-            queued: false,
-            moved: false,
+            value: SharedFloat::new(value),
+            residual: SharedFloat::new(0.0),
+            fixed: AtomicBool::new(false),
+            queued: AtomicBool::new(false),
+            moved: AtomicBool::new(false),
         }
     }
 
-    /// Applies the step of a neighbour to the unknown of `entry`.
-    fn pull(&mut self, entry: &Entry, step: f64, queue: &mut VecDeque<u32>) {
-        self.residual += entry.value * step;
-        if !self.queued && !self.fixed {
-            self.queued = true;
-            queue.push_back(entry.column);
+    /// Changes the slope of unknown `i`, which is this one, by the step of a neighbour.
+    fn pull(&self, i: u32, change: f64, queue: &mut VecDeque<u32>) {
+        self.residual.add(change);
+        if !self.queued.load(Relaxed) && !self.fixed.load(Relaxed) {
+            self.queued.store(true, Relaxed);
+            queue.push_back(i);
         }
     }
 }
@@ -235,17 +306,18 @@ mod tests {
         let n = a.rows();
         let integers: Vec<u32> = (40..80).collect();
         let zero = vec![0.0; n];
-        let mut local = LocalSolve::new(&a, &zero, &zero, &integers).unwrap();
+        let local = LocalSolve::new(&a, &zero, &zero, &integers).unwrap();
         // The reference fixes unknowns by a very large diagonal entry and a matching gradient.
         let (mut held, mut gradient) = (Vec::new(), vec![0.0; n]);
+        let mut wave = Wave::default();
         for (k, &i) in integers.iter().step_by(3).enumerate() {
             let value = (k as f64).sin() * 4.0;
-            local.fix(i, value);
-            local.relax(1e-12, usize::MAX);
+            local.fix(i, value, &mut wave);
+            local.relax(&mut wave, 1e-12, usize::MAX, |_| true);
             held.push((i, i, 1e9));
             gradient[i as usize] = -1e9 * value;
         }
-        assert!(local.is_settled());
+        assert!(wave.is_settled());
         let stiff = Sparse::from_triplets(n, n, a.entries().chain(held.iter().copied())).unwrap();
         let factor = Cholesky::new(&stiff).unwrap();
         let guess = vec![0.0; n];
@@ -259,11 +331,12 @@ mod tests {
     fn what_has_moved_is_told_once_and_only_while_it_is_free() {
         let a = ring(10);
         let integers: Vec<u32> = (10..20).collect();
-        let mut local = LocalSolve::new(&a, &[0.0; 20], &[0.0; 20], &integers).unwrap();
-        local.fix(10, 1.0);
-        local.relax(1e-9, usize::MAX);
-        let moved = local.take_moved();
+        let local = LocalSolve::new(&a, &[0.0; 20], &[0.0; 20], &integers).unwrap();
+        let mut wave = Wave::default();
+        local.fix(10, 1.0, &mut wave);
+        local.relax(&mut wave, 1e-9, usize::MAX, |_| true);
+        let moved = local.take_moved(&mut wave);
         assert!(!moved.is_empty() && !moved.contains(&10));
-        assert!(local.take_moved().is_empty());
+        assert!(local.take_moved(&mut wave).is_empty());
     }
 }

@@ -6,13 +6,20 @@
 use faer::sparse::linalg::cholesky::{SymbolicCholeskyRaw, supernodal::SupernodalLdltRef};
 
 use super::Cholesky;
+use crate::error::Result;
 
 impl Cholesky {
     /// Solves in place for all but the last `m` unknowns in the order of elimination. These last unknowns are
     /// held at zero, and their entries of `b` are neither read nor changed. The factor must have no [null
     /// unknowns](Self::null_unknowns).
-    pub fn solve_leading(&self, b: &mut [f64], m: usize) {
+    ///
+    /// # Errors
+    /// The end of the call.
+    pub fn solve_leading(&self, b: &mut [f64], m: usize) -> Result<()> {
         let first = self.dim() - m;
+        if self.solve_by_subtrees(b, first)? {
+            return Ok(());
+        }
         let scaled = |k: usize| b[self.unknown(k)] * self.scale[self.unknown(k)];
         let mut x: Vec<f64> = (0..first).map(scaled).collect();
         match self.symbolic.raw() {
@@ -39,6 +46,7 @@ impl Cholesky {
         for (k, x) in x.into_iter().enumerate() {
             b[self.unknown(k)] = x * self.scale[self.unknown(k)];
         }
+        Ok(())
     }
 }
 

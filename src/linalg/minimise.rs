@@ -2,6 +2,7 @@
 
 use super::{Cholesky, Sparse};
 use crate::error::Result;
+use crate::monitor::may_continue;
 
 /// The quadratic is not convex if its curvature along some direction is below minus this. The direction is
 /// scaled to a largest entry of one in the scaled unknowns.
@@ -44,7 +45,7 @@ pub struct Lowest {
 /// must not count as a slope. It is called only if the result depends on it.
 ///
 /// # Errors
-/// Only for lack of memory. Every other outcome is a [`Minimum`].
+/// Only for lack of memory and at the end of the call. Every other outcome is a [`Minimum`].
 pub fn minimise(
     lower: &Sparse,
     gradient: &[f64],
@@ -53,7 +54,9 @@ pub fn minimise(
     factor: &Cholesky,
 ) -> Result<Minimum> {
     let mut step = residual(lower, gradient, guess);
+    may_continue()?;
     factor.solve(&mut step)?;
+    may_continue()?;
     if !factor.null_unknowns().is_empty() {
         if let Some(direction) = downward_curvature(lower, factor)? {
             return Ok(Minimum::NotConvex(direction));
@@ -77,7 +80,9 @@ pub fn minimise_bounded(
     factor: &Cholesky,
 ) -> Result<Vec<f64>> {
     let mut step = residual(lower, gradient, guess);
+    may_continue()?;
     factor.solve(&mut step)?;
+    may_continue()?;
     descend(lower, gradient, guess, &step, factor).map(|lowest| lowest.point)
 }
 
@@ -96,7 +101,9 @@ fn descend(
     // One step of iterative refinement recovers the digits that an ill-conditioned factor loses.
     let r = residual(lower, gradient, &point);
     let mut step = r.clone();
+    may_continue()?;
     factor.solve(&mut step)?;
+    may_continue()?;
     let excess = 0.5 * r.iter().zip(&step).map(|(r, s)| r * s).sum::<f64>().abs();
     for (x, s) in point.iter_mut().zip(&step) {
         *x += s;
@@ -134,6 +141,7 @@ fn downward_curvature(lower: &Sparse, factor: &Cholesky) -> Result<Option<Vec<f6
         .collect();
     let mut s = b.clone();
     factor.solve(&mut s)?;
+    may_continue()?;
     let product = lower.mul_symmetric(&s);
     let mut suspects: Vec<(f64, u32)> = factor
         .null_unknowns()

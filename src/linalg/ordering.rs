@@ -115,8 +115,8 @@ impl EliminationTree {
     /// post-ordered afterwards, which changes neither fill nor work.
     pub fn new(lower: &Sparse, order: &[u32]) -> Self {
         let position = inverse(order);
-        let permuted = permute_pattern(lower, &position);
-        let parent = parents(&permuted);
+        let (offsets, columns) = permute_pattern(lower, &position);
+        let parent = parents(&offsets, &columns);
         let post = post_order(&parent);
         let place = inverse(&post);
         let parent: Vec<u32> = post
@@ -151,24 +151,38 @@ fn inverse(order: &[u32]) -> Vec<u32> {
     position
 }
 
-/// For each position, the lower positions with which it shares an entry.
-fn permute_pattern(lower: &Sparse, position: &[u32]) -> Vec<Vec<u32>> {
-    let mut rows: Vec<Vec<u32>> = vec![Vec::new(); position.len()];
-    for (i, j, _) in lower.entries() {
-        let (a, b) = (position[i as usize], position[j as usize]);
-        if a != b {
-            rows[a.max(b) as usize].push(a.min(b));
-        }
+/// For each position, the lower positions with which it shares an entry. Those of position `k` are
+/// `columns[offsets[k]..offsets[k + 1]]`.
+fn permute_pattern(lower: &Sparse, position: &[u32]) -> (Vec<usize>, Vec<u32>) {
+    let pairs = || {
+        let pairs = lower
+            .entries()
+            .map(|(i, j, _)| [i, j].map(|i| position[i as usize]));
+        pairs
+            .filter(|[a, b]| a != b)
+            .map(|[a, b]| (a.max(b) as usize, a.min(b)))
+    };
+    let mut offsets = vec![0; position.len() + 1];
+    pairs().for_each(|(k, _)| offsets[k + 1] += 1);
+    for k in 0..position.len() {
+        offsets[k + 1] += offsets[k];
     }
-    rows
+    let mut next = offsets.clone();
+    let mut columns = vec![0; offsets[position.len()]];
+    pairs().for_each(|(k, column)| {
+        columns[next[k]] = column;
+        next[k] += 1;
+    });
+    (offsets, columns)
 }
 
 /// The parents of all positions by path compression through virtual ancestors (`liu1990`, algorithm 4.2).
-fn parents(rows: &[Vec<u32>]) -> Vec<u32> {
-    let mut parent = vec![NONE; rows.len()];
-    let mut ancestor = vec![NONE; rows.len()];
-    for (i, row) in rows.iter().enumerate() {
-        for &j in row {
+fn parents(offsets: &[usize], columns: &[u32]) -> Vec<u32> {
+    let n = offsets.len() - 1;
+    let mut parent = vec![NONE; n];
+    let mut ancestor = vec![NONE; n];
+    for i in 0..n {
+        for &j in &columns[offsets[i]..offsets[i + 1]] {
             let mut j = j as usize;
             while ancestor[j] != NONE && ancestor[j] != i as u32 {
                 let next = ancestor[j] as usize;

@@ -4,11 +4,17 @@
 //! complement is ordered and factored. On an orientation field the complement is the Laplacian of a forest,
 //! whose factor has no fill.
 
+use std::ops::Range;
+
 use super::cholesky::pivot_tolerance;
 use super::local_integers::local_integers;
 use super::minimise::{CANCELLED, Lowest, Minimum, minimise};
 use super::{Cholesky, NO_PLACE, Ordering, Sparse, coupling, places};
 use crate::error::Result;
+use crate::monitor::{collect_in_parts, in_parts, may_continue, may_continue_at};
+
+/// The least number of rows that are worth a thread.
+const LEAST: usize = 1 << 13;
 
 /// A factor of `A` in two steps: first the local integers, then the other unknowns.
 #[derive(Debug)]
@@ -48,6 +54,7 @@ impl RelaxedFactor {
         let mut integer = vec![false; n];
         integers.iter().for_each(|&i| integer[i as usize] = true);
         let is_local = local_integers(lower, &integer);
+        may_continue()?;
         let all = 0..n as u32;
         let (local, rest): (Vec<u32>, Vec<u32>) = all.partition(|&i| is_local[i as usize]);
         let mut diagonal = vec![0.0; n];
@@ -60,7 +67,7 @@ impl RelaxedFactor {
         let schur = if local.is_empty() {
             lower.clone()
         } else {
-            schur(lower, &place, rest.len(), &coupling, &curvature)?
+            schur(lower, &place, &rest, &coupling, &curvature)?
         };
         Ok(RelaxedFactor {
             factor: Cholesky::ordered(&schur, ordering)?,
@@ -177,40 +184,49 @@ impl RelaxedFactor {
 fn schur(
     lower: &Sparse,
     place: &[u32],
-    dim: usize,
+    rest: &[u32],
     coupling: &Sparse,
     curvature: &[f64],
 ) -> Result<Sparse> {
-    let mut terms = super::sparse::reserve(lower.len() + 6 * coupling.rows())?;
-    let mut size = vec![0.0; dim];
-    for i in (0..lower.rows()).filter(|&i| place[i] != NO_PLACE) {
-        for (j, v) in lower.row(i).filter(|&(j, _)| place[j] != NO_PLACE) {
-            terms.push((place[i], place[j], v));
-            if i == j {
-                size[place[i] as usize] = v.abs();
-            }
-        }
-    }
-    for (k, d) in curvature.iter().enumerate() {
-        for (i, u) in coupling.row(k) {
-            let lower = coupling.row(k).take_while(|&(j, _)| j <= i);
-            terms.extend(lower.map(|(j, v)| (i as u32, j as u32, -u * v / d)));
-        }
-    }
-    let sum = Sparse::from_triplets(dim, dim, terms.iter().copied())?;
+    let dim = rest.len();
+    let by_unknown = coupling.transpose();
+    let size = collect_in_parts(dim, LEAST, |a| {
+        let i = rest[a] as usize;
+        let diagonal = lower.row(i).find(|&(j, _)| j == i);
+        diagonal.map_or(0.0, |(_, v)| v.abs())
+    });
     let tolerance = pivot_tolerance(dim);
-    let (mut offsets, mut indices, mut values) = (vec![0], Vec::new(), Vec::new());
-    for i in 0..dim {
-        for (j, v) in sum.row(i) {
-            let cancelled = v * v <= tolerance * tolerance * size[i] * size[j];
-            if i == j || !cancelled {
-                indices.push(j as u32);
-                values.push(if cancelled { 0.0 } else { v });
+    let is_cancelled =
+        |a: usize, b: usize, v: f64| v * v <= tolerance * tolerance * size[a] * size[b];
+    let rows = |rows: Range<usize>| {
+        let (mut offsets, mut indices, mut values) = (vec![0], Vec::new(), Vec::new());
+        let mut row: Vec<(usize, f64)> = Vec::new();
+        for a in rows {
+            may_continue_at(a)?;
+            let given = lower.row(rest[a] as usize);
+            let given = given.filter(|&(j, _)| place[j] != NO_PLACE);
+            row.clear();
+            row.extend(given.map(|(j, v)| (place[j] as usize, v)));
+            for (k, u) in by_unknown.row(a) {
+                let lower = coupling.row(k).take_while(|&(b, _)| b <= a);
+                row.extend(lower.map(|(b, v)| (b, -u * v / curvature[k])));
             }
+            // Terms of one entry are summed in their order.
+            row.sort_by_key(|&(b, _)| b);
+            for terms in row.chunk_by(|x, y| x.0 == y.0) {
+                let (b, first) = terms[0];
+                let v = terms[1..].iter().fold(first, |sum, (_, v)| sum + v);
+                let cancelled = is_cancelled(a, b, v);
+                if a == b || !cancelled {
+                    indices.push(b as u32);
+                    values.push(if cancelled { 0.0 } else { v });
+                }
+            }
+            offsets.push(indices.len());
         }
-        offsets.push(indices.len());
-    }
-    Ok(Sparse::from_parts(dim, offsets, indices, values))
+        Ok(Sparse::from_parts(dim, offsets, indices, values))
+    };
+    Sparse::stacked(in_parts(dim, LEAST, rows))
 }
 
 #[cfg(test)]

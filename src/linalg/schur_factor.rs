@@ -11,6 +11,7 @@
 
 use super::{Cholesky, EliminationTree, Sparse, minimum_degree, principal_submatrix};
 use crate::error::Result;
+use crate::monitor::may_continue;
 
 /// The factor and its trailing block.
 #[derive(Debug)]
@@ -28,7 +29,10 @@ impl SchurFactor {
     /// As [`Cholesky::new`].
     pub fn new(lower: &Sparse, continuous: &[u32], integers: &[u32]) -> Result<Self> {
         let block = principal_submatrix(lower, continuous)?;
-        let tree = EliminationTree::new(&block, &minimum_degree(&block)?);
+        let order = minimum_degree(&block)?;
+        may_continue()?;
+        let tree = EliminationTree::new(&block, &order);
+        may_continue()?;
         let mut order: Vec<u32> = tree.order.iter().map(|&k| continuous[k as usize]).collect();
         order.extend(integers);
         let factor = Cholesky::in_order(lower, &order)?;
@@ -59,8 +63,11 @@ impl SchurFactor {
 
     /// Solves `A_cc x_c = b_c` in place. The entries of integers are neither read nor changed. The factor
     /// must be [definite](Self::is_definite).
-    pub fn solve_continuous(&self, b: &mut [f64]) {
-        self.factor.solve_leading(b, self.integers);
+    ///
+    /// # Errors
+    /// The end of the call.
+    pub fn solve_continuous(&self, b: &mut [f64]) -> Result<()> {
+        self.factor.solve_leading(b, self.integers)
     }
 }
 
@@ -96,7 +103,7 @@ mod tests {
         integers.iter().for_each(|&i| held[i as usize] = 0.0);
         let mut b = a.mul_symmetric(&held);
         integers.iter().for_each(|&i| b[i as usize] = 77.0);
-        schur_factor.solve_continuous(&mut b);
+        schur_factor.solve_continuous(&mut b).unwrap();
         for &i in &continuous {
             let (b, x) = (b[i as usize], x[i as usize]);
             assert!((b - x).abs() < 1e-10, "{b} {x}");
@@ -117,7 +124,7 @@ mod tests {
             let mut x = vec![0.0; 40];
             x[i as usize] = 1.0;
             let mut follow: Vec<f64> = a.mul_symmetric(&x).iter().map(|f| -f).collect();
-            schur_factor.solve_continuous(&mut follow);
+            schur_factor.solve_continuous(&mut follow).unwrap();
             continuous
                 .iter()
                 .for_each(|&c| x[c as usize] = follow[c as usize]);

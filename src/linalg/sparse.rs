@@ -5,6 +5,13 @@
 //! keys; on matrices of meshes that is several times slower than the counting sort below.
 
 use crate::error::{Error, Result};
+use crate::monitor::{for_each_part, may_continue, parts_of};
+
+/// The least number of rows that are worth a thread.
+const LEAST: usize = 1 << 14;
+
+/// Rows with at most this many entries are sorted by insertion.
+const SHORT: usize = 24;
 
 /// A sparse matrix by rows. The columns of row `i` are `indices[offsets[i]..offsets[i + 1]]`, increasing and
 /// without repetition.
@@ -44,57 +51,93 @@ impl Sparse {
         }
     }
 
+    /// The rows of all matrices, which have the same number of columns, one below the other.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`], and that of the first part that has one.
+    pub(crate) fn stacked(parts: Vec<Result<Sparse>>) -> Result<Sparse> {
+        let mut parts = parts.into_iter();
+        let mut all = parts.next().unwrap_or_else(|| Ok(Sparse::zeros(0, 0)))?;
+        for part in parts {
+            let part = part?;
+            let above = all.len();
+            more(&mut all.offsets, part.rows())?;
+            more(&mut all.indices, part.len())?;
+            more(&mut all.values, part.len())?;
+            all.offsets
+                .extend(part.offsets[1..].iter().map(|at| above + at));
+            all.indices.extend_from_slice(&part.indices);
+            all.values.extend_from_slice(&part.values);
+        }
+        Ok(all)
+    }
+
     /// A matrix from entries `(row, column, value)` in any order. Duplicates are summed in the order given.
     /// Indices must be in range.
     ///
     /// # Errors
-    /// [`Error::OutOfMemory`].
+    /// [`Error::OutOfMemory`], and the end of the call.
     pub fn from_triplets(
         rows: usize,
         cols: usize,
         entries: impl Iterator<Item = (u32, u32, f64)> + Clone,
     ) -> Result<Self> {
-        // Two stable counting sorts, first by column and then by row, leave each row sorted.
-        let mut by_col = vec![0usize; cols + 1];
-        let mut count = 0usize;
-        for (_, j, _) in entries.clone() {
-            by_col[j as usize + 1] += 1;
-            count += 1;
-        }
-        for j in 0..cols {
-            by_col[j + 1] += by_col[j];
-        }
-        let mut sorted: Vec<(u32, u32, f64)> = reserve(count)?;
-        sorted.resize(count, (0, 0, 0.0));
+        // A stable counting sort by row, and a stable sort of each row by column.
         let mut offsets = vec![0usize; rows + 1];
-        for (i, j, v) in entries {
-            let at = &mut by_col[j as usize];
-            sorted[*at] = (i, j, v);
-            *at += 1;
-            offsets[i as usize + 1] += 1;
-        }
+        let counted = entries.clone();
+        counted.for_each(|(i, _, _)| offsets[i as usize + 1] += 1);
+        may_continue()?;
         for i in 0..rows {
             offsets[i + 1] += offsets[i];
         }
+        let count = offsets[rows];
         let mut next = offsets.clone();
         let mut indices: Vec<u32> = reserve(count)?;
         indices.resize(count, 0);
         let mut values: Vec<f64> = reserve(count)?;
         values.resize(count, 0.0);
-        for (i, j, v) in sorted {
+        entries.for_each(|(i, j, v)| {
             let at = &mut next[i as usize];
             indices[*at] = j;
             values[*at] = v;
             *at += 1;
-        }
+        });
+        drop(next);
+        may_continue()?;
         let mut result = Sparse {
             cols,
             offsets,
             indices,
             values,
         };
+        result.sort_rows();
+        may_continue()?;
         result.sum_duplicates();
         Ok(result)
+    }
+
+    /// Sorts each row by column. Entries of the same column keep their order.
+    fn sort_rows(&mut self) {
+        let offsets = &self.offsets;
+        let mut rest = (&mut self.indices[..], &mut self.values[..]);
+        let parts = parts_of(self.offsets.len() - 1, LEAST)
+            .into_iter()
+            .map(|rows| {
+                let len = offsets[rows.end] - offsets[rows.start];
+                let (indices, values) = std::mem::take(&mut rest);
+                let (indices, other_indices) = indices.split_at_mut(len);
+                let (values, other_values) = values.split_at_mut(len);
+                rest = (other_indices, other_values);
+                (rows, indices, values)
+            });
+        for_each_part(parts.collect(), |(rows, indices, values)| {
+            let start = offsets[rows.start];
+            let mut row: Vec<(u32, f64)> = Vec::new();
+            for i in rows {
+                let range = offsets[i] - start..offsets[i + 1] - start;
+                sort_row(&mut indices[range.clone()], &mut values[range], &mut row);
+            }
+        });
     }
 
     fn sum_duplicates(&mut self) {
@@ -224,21 +267,49 @@ impl Sparse {
     }
 }
 
+/// Sorts the entries of a row by column. Entries of the same column keep their order. `row` is room for a long row.
+fn sort_row(indices: &mut [u32], values: &mut [f64], row: &mut Vec<(u32, f64)>) {
+    if indices.len() <= SHORT {
+        for k in 1..indices.len() {
+            let (j, v) = (indices[k], values[k]);
+            let mut at = k;
+            while at > 0 && indices[at - 1] > j {
+                (indices[at], values[at]) = (indices[at - 1], values[at - 1]);
+                at -= 1;
+            }
+            (indices[at], values[at]) = (j, v);
+        }
+    } else if !indices.is_sorted() {
+        row.clear();
+        row.extend(indices.iter().copied().zip(values.iter().copied()));
+        row.sort_by_key(|&(j, _)| j);
+        for ((index, value), &(j, v)) in indices.iter_mut().zip(values).zip(row.iter()) {
+            (*index, *value) = (j, v);
+        }
+    }
+}
+
 /// An empty vector with room for `len` elements.
 ///
 /// # Errors
 /// [`Error::OutOfMemory`].
 pub(crate) fn reserve<T>(len: usize) -> Result<Vec<T>> {
     let mut v = Vec::new();
+    more(&mut v, len)?;
+    Ok(v)
+}
+
+/// Makes room for `len` more elements.
+fn more<T>(v: &mut Vec<T>, len: usize) -> Result<()> {
     v.try_reserve_exact(len).map_err(|_| Error::OutOfMemory {
         what: "a sparse matrix",
-    })?;
-    Ok(v)
+    })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::monitor::{spawned, with_threads};
 
     #[test]
     fn duplicates_are_summed_and_rows_sorted() {
@@ -246,6 +317,35 @@ mod tests {
         let a = Sparse::from_triplets(2, 3, entries.into_iter()).unwrap();
         assert_eq!(a.row(0).collect::<Vec<_>>(), [(1, 2.0)]);
         assert_eq!(a.row(1).collect::<Vec<_>>(), [(0, 3.0), (2, 5.0)]);
+    }
+
+    #[test]
+    fn long_rows_are_sorted_as_short_ones_are() {
+        // Sums whose terms must be added in the order given: 1 is lost beside 2^60, and 2^60 - 2^60 is not.
+        let row = |i: u32| {
+            let terms = [2f64.powi(60), 1.0, -(2f64.powi(60))].into_iter();
+            let columns = move |v| (0..7 + 40 * i).rev().map(move |j| (i, j, v));
+            terms.flat_map(columns)
+        };
+        let a = Sparse::from_triplets(3, 100, (0..3).flat_map(row)).unwrap();
+        for i in 0..3 {
+            let expected: Vec<_> = (0..7 + 40 * i).map(|j| (j, 0.0)).collect();
+            assert_eq!(a.row(i).collect::<Vec<_>>(), expected);
+        }
+    }
+
+    #[test]
+    fn any_number_of_threads_sorts_alike() {
+        let n = 3 * LEAST as u32;
+        let entries = (0..4 * n).map(|k| (k % n, k.wrapping_mul(2_654_435_761) % n, f64::from(k)));
+        let one = with_threads(1, || {
+            Sparse::from_triplets(n as usize, n as usize, entries.clone())
+        });
+        let started = spawned(|| {
+            let three = || Sparse::from_triplets(n as usize, n as usize, entries);
+            assert_eq!(with_threads(3, three), one);
+        });
+        assert_eq!(started, 2);
     }
 
     #[test]

@@ -1,7 +1,14 @@
 //! Submatrices of a symmetric matrix that is given by its lower triangle.
 
+use std::ops::Range;
+
 use super::Sparse;
+use super::sparse::reserve;
 use crate::error::Result;
+use crate::monitor::in_parts;
+
+/// The least number of rows that are worth a thread.
+const LEAST: usize = 1 << 14;
 
 /// The place of an unknown that is no member.
 pub const NO_PLACE: u32 = u32::MAX;
@@ -21,11 +28,27 @@ pub fn places(dim: usize, members: &[u32]) -> Vec<u32> {
 /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
 pub fn principal_submatrix(lower: &Sparse, members: &[u32]) -> Result<Sparse> {
     let place = places(lower.rows(), members);
-    let entries = lower.entries().filter_map(|(i, j, v)| {
-        let (a, b) = (place[i as usize], place[j as usize]);
-        (a != NO_PLACE && b != NO_PLACE).then_some((a, b, v))
-    });
-    Sparse::from_triplets(members.len(), members.len(), entries)
+    let of_rows = |part: Range<usize>| {
+        let rows = &members[part];
+        let most = match (rows.first(), rows.last()) {
+            (Some(&a), Some(&b)) => lower.offsets()[b as usize + 1] - lower.offsets()[a as usize],
+            _ => 0,
+        };
+        let mut offsets = reserve(rows.len() + 1)?;
+        let (mut indices, mut values) = (reserve(most)?, reserve(most)?);
+        offsets.push(0);
+        for &i in rows {
+            for (j, v) in lower.row(i as usize) {
+                if place[j] != NO_PLACE {
+                    indices.push(place[j]);
+                    values.push(v);
+                }
+            }
+            offsets.push(indices.len());
+        }
+        Ok(Sparse::from_parts(members.len(), offsets, indices, values))
+    };
+    Sparse::stacked(in_parts(members.len(), LEAST, of_rows))
 }
 
 /// The block with the rows `rows` and the columns `cols`, which must have no member in common.
@@ -50,6 +73,7 @@ pub fn coupling(lower: &Sparse, rows: &[u32], cols: &[u32]) -> Result<Sparse> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::monitor::{spawned, with_threads};
 
     #[test]
     fn parts_hold_the_entries_of_the_whole() {
@@ -69,5 +93,18 @@ mod tests {
         for (a, b, v) in mixed.entries() {
             assert_eq!(v, value(some[a as usize], others[b as usize]));
         }
+    }
+
+    #[test]
+    fn any_number_of_threads_takes_the_same_rows() {
+        let n = 4 * LEAST as u32;
+        let band =
+            (0..n).flat_map(|i| (i.saturating_sub(2)..=i).map(move |j| (i, j, f64::from(i + j))));
+        let a = Sparse::from_triplets(n as usize, n as usize, band).unwrap();
+        let members: Vec<u32> = (0..n).filter(|i| i % 5 != 1).collect();
+        let of_members = |threads| with_threads(threads, || principal_submatrix(&a, &members));
+        let one = of_members(1).unwrap();
+        assert_eq!((one.rows(), one.cols()), (members.len(), members.len()));
+        assert_eq!(spawned(|| assert_eq!(of_members(3).unwrap(), one)), 2);
     }
 }

@@ -8,10 +8,15 @@
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
+use crate::error::Result;
 use crate::mesh::TriangleMesh;
+use crate::monitor::{collect_in_parts, may_continue_at};
+
+/// The least number of edges that are worth a thread.
+const LEAST: usize = 1 << 14;
 
 /// Adds the paths to `is_cut`.
-pub(super) fn join_cones(mesh: &TriangleMesh, cones: &[usize], is_cut: &mut [bool]) {
+pub(super) fn join_cones(mesh: &TriangleMesh, cones: &[usize], is_cut: &mut [bool]) -> Result<()> {
     let mut sweep = Sweep::new(mesh, cones);
     for (e, edge) in mesh.edges().enumerate() {
         if is_cut[e] || edge.second.is_none() {
@@ -19,7 +24,7 @@ pub(super) fn join_cones(mesh: &TriangleMesh, cones: &[usize], is_cut: &mut [boo
         }
     }
     let seeds = sweep.seed_closed_spheres(cones);
-    sweep.run(is_cut);
+    sweep.run(is_cut)?;
     for seed in seeds {
         // A sphere is a disk only when an edge is cut, not when a vertex is marked.
         let mut spokes = mesh.ring(seed).map(|(f, k)| mesh.edge_of(f, k));
@@ -29,10 +34,13 @@ pub(super) fn join_cones(mesh: &TriangleMesh, cones: &[usize], is_cut: &mut [boo
             is_cut[lowest] = true;
         }
     }
+    Ok(())
 }
 
 struct Sweep<'a> {
     mesh: &'a TriangleMesh,
+    /// The length of every edge.
+    length: Vec<f64>,
     distance: Vec<f64>,
     /// The edge over which a vertex is reached.
     via: Vec<u32>,
@@ -46,8 +54,13 @@ impl<'a> Sweep<'a> {
     fn new(mesh: &'a TriangleMesh, cones: &[usize]) -> Self {
         let mut is_open = vec![false; mesh.vertex_count()];
         cones.iter().for_each(|&v| is_open[v] = true);
+        let length = |e| {
+            let (face, k) = mesh.edge(e).first;
+            mesh.edge_length(face, k)
+        };
         Sweep {
             mesh,
+            length: collect_in_parts(mesh.edge_count(), LEAST, length),
             distance: vec![f64::INFINITY; mesh.vertex_count()],
             via: vec![0; mesh.vertex_count()],
             is_open,
@@ -93,9 +106,12 @@ impl<'a> Sweep<'a> {
         seeds
     }
 
-    fn run(&mut self, is_cut: &mut [bool]) {
+    fn run(&mut self, is_cut: &mut [bool]) -> Result<()> {
         let mut open = self.is_open.iter().filter(|&&c| c).count();
+        let mut settled = 0;
         while open > 0 {
+            may_continue_at(settled)?;
+            settled += 1;
             let Some(Reverse((bits, v))) = self.heap.pop() else {
                 break;
             };
@@ -110,15 +126,17 @@ impl<'a> Sweep<'a> {
                 self.relax(v, distance);
             }
         }
+        Ok(())
     }
 
     fn relax(&mut self, v: usize, distance: f64) {
         let mesh = self.mesh;
         for (face, k) in mesh.ring(v) {
             let tip = mesh.corners(face)[(k + 1) % 3];
-            let farther = distance + mesh.edge_length(face, k);
+            let edge = mesh.edge_of(face, k);
+            let farther = distance + self.length[edge];
             if farther < self.distance[tip] {
-                self.via[tip] = mesh.edge_of(face, k) as u32;
+                self.via[tip] = edge as u32;
                 self.reach(tip, farther);
             }
         }

@@ -10,6 +10,7 @@ use std::collections::VecDeque;
 use super::cone_paths::join_cones;
 use crate::error::{Error, Result};
 use crate::mesh::TriangleMesh;
+use crate::monitor::{may_continue, may_continue_at};
 
 /// A set of interior edges that cuts each component into one disk without a cone in its interior.
 ///
@@ -35,9 +36,11 @@ impl CutGraph {
                 len: vertices,
             });
         }
-        let mut is_cut = edges_off_the_dual_tree(mesh);
-        prune(mesh, &mut is_cut);
-        join_cones(mesh, cones, &mut is_cut);
+        let mut is_cut = edges_off_the_dual_tree(mesh)?;
+        may_continue()?;
+        prune(mesh, &mut is_cut)?;
+        may_continue()?;
+        join_cones(mesh, cones, &mut is_cut)?;
         Ok(CutGraph { is_cut })
     }
 
@@ -58,7 +61,7 @@ impl CutGraph {
 }
 
 /// Interior edges that a breadth-first tree of the dual graph does not cross.
-fn edges_off_the_dual_tree(mesh: &TriangleMesh) -> Vec<bool> {
+fn edges_off_the_dual_tree(mesh: &TriangleMesh) -> Result<Vec<bool>> {
     let mut off: Vec<bool> = mesh.edges().map(|e| e.second.is_some()).collect();
     let mut reached = vec![false; mesh.face_count()];
     let mut queue = VecDeque::new();
@@ -69,6 +72,7 @@ fn edges_off_the_dual_tree(mesh: &TriangleMesh) -> Vec<bool> {
         reached[root] = true;
         queue.push_back(root);
         while let Some(face) = queue.pop_front() {
+            may_continue_at(face)?;
             for k in 0..3 {
                 let Some((across, _)) = mesh.neighbor(face, k) else {
                     continue;
@@ -81,17 +85,18 @@ fn edges_off_the_dual_tree(mesh: &TriangleMesh) -> Vec<bool> {
             }
         }
     }
-    off
+    Ok(off)
 }
 
 /// Removes edges with a loose end until there is none. An end on the boundary is not loose.
-fn prune(mesh: &TriangleMesh, is_cut: &mut [bool]) {
+fn prune(mesh: &TriangleMesh, is_cut: &mut [bool]) -> Result<()> {
     let mut degree = degrees(mesh, is_cut);
     let is_loose = |v: usize, degree: u32| degree == 1 && !mesh.is_boundary_vertex(v);
     let mut loose: Vec<usize> = (0..degree.len())
         .filter(|&v| is_loose(v, degree[v]))
         .collect();
     while let Some(v) = loose.pop() {
+        may_continue_at(v)?;
         let mut spokes = mesh.ring(v);
         let Some((face, k)) = spokes.find(|&(f, k)| is_cut[mesh.edge_of(f, k)]) else {
             continue;
@@ -105,6 +110,7 @@ fn prune(mesh: &TriangleMesh, is_cut: &mut [bool]) {
             loose.push(tip);
         }
     }
+    Ok(())
 }
 
 fn degrees(mesh: &TriangleMesh, is_cut: &[bool]) -> Vec<u32> {

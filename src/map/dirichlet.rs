@@ -19,7 +19,11 @@ use super::sectors::Sectors;
 use crate::error::Result;
 use crate::mesh::TriangleMesh;
 use crate::mesh::vector::{Vec3, cotangent, cross, dot, norm, sub};
+use crate::monitor::{collect_in_parts, may_continue, may_continue_at};
 use crate::problem::{Problem, Triangle};
+
+/// The least number of faces that are worth a thread.
+const LEAST: usize = 1 << 12;
 
 /// The least height of a triangle, over its longest edge, that counts in full: weights stay below a
 /// million times those of a right angle, which leaves half of the digits of the others.
@@ -50,26 +54,33 @@ impl Dirichlet {
         sectors: &Sectors,
         cut: &CutGraph,
         unknowns: usize,
-        targets: impl Fn(usize) -> [Vec3; 2],
-    ) -> Self {
+        targets: impl Fn(usize) -> [Vec3; 2] + Sync,
+    ) -> Result<Self> {
         let mut sum = Dirichlet {
             diagonal: vec![0.0; sectors.count()],
             pairs: Vec::with_capacity(mesh.edge_count() + 1000),
             linear: vec![0.0; unknowns],
             constant: 0.0,
         };
-        // The weight of an edge that is not cut waits here for its second face.
-        let mut pending = vec![0.0; mesh.edge_count()];
-        for face in 0..mesh.face_count() {
-            let copy = sectors.copy[face];
+        // By local edge, the weight and how far its ends are to be apart.
+        let edges = collect_in_parts(mesh.face_count(), LEAST, |face| {
             let targets = targets(face);
             let corners = mesh.corner_positions(face);
             let relief = relief(corners);
-            for k in 0..3 {
-                let ends = [copy[k], copy[(k + 1) % 3]];
+            [0, 1, 2].map(|k| {
                 let [a, b, c] = [0, 1, 2].map(|i| corners[(k + i) % 3]);
                 let weight = relief * 0.5 * cotangent(sub(a, c), sub(b, c));
-                let aims = targets.map(|target| dot(target, sub(b, a)));
+                (weight, targets.map(|target| dot(target, sub(b, a))))
+            })
+        });
+        may_continue()?;
+        // The weight of an edge that is not cut waits here for its second face.
+        let mut pending = vec![0.0; mesh.edge_count()];
+        for (face, edges) in edges.into_iter().enumerate() {
+            may_continue_at(face)?;
+            let copy = sectors.copy[face];
+            for (k, (weight, aims)) in edges.into_iter().enumerate() {
+                let ends = [copy[k], copy[(k + 1) % 3]];
                 sum.add_edge(ends, weight, aims);
 
                 let e = mesh.edge_of(face, k);
@@ -83,7 +94,7 @@ impl Dirichlet {
                 }
             }
         }
-        sum
+        Ok(sum)
     }
 
     fn add_edge(&mut self, [a, b]: [u32; 2], weight: f64, aims: [f64; 2]) {
@@ -109,12 +120,14 @@ impl Dirichlet {
                 values.push(2.0 * value);
             }
         };
+        may_continue()?;
         for (i, &weight) in self.diagonal.iter().enumerate() {
             add(i, i, weight);
         }
         for &([a, b], weight) in &self.pairs {
             add(a as usize, b as usize, -weight);
         }
+        may_continue()?;
         problem.add_quadratic_triplets(Triangle::Lower, &rows, &cols, &values)?;
         problem.add_linear(&self.linear)?;
         problem.add_constant(self.constant)

@@ -8,9 +8,11 @@ use std::collections::{BTreeSet, VecDeque};
 
 use super::SeamlessProblem;
 use super::separation::SeparationConstraint;
+use crate::error::Result;
 use crate::linalg::DisjointSets;
 use crate::mesh::TriangleMesh;
 use crate::mesh::vector::{dot, sub};
+use crate::monitor::may_continue;
 
 /// Strips narrower than this part of a quad stay collapsed: quads in them would be slivers.
 const NARROWEST: f64 = 0.2;
@@ -24,7 +26,10 @@ const LEVEL: f64 = 0.5;
 
 impl SeamlessProblem {
     /// The constraints that keep neighbouring curves apart, one for each pair and chart.
-    pub(crate) fn feature_strips(&self, mesh: &TriangleMesh) -> Vec<SeparationConstraint> {
+    ///
+    /// # Errors
+    /// The end of the call.
+    pub(crate) fn feature_strips(&self, mesh: &TriangleMesh) -> Result<Vec<SeparationConstraint>> {
         let lines = Lines::new(self);
         let mut found = Vec::new();
         let mut known = BTreeSet::new();
@@ -32,6 +37,7 @@ impl SeamlessProblem {
             for copy in self.sectors.first[v]..self.sectors.first[v + 1] {
                 for axis in 0..2 {
                     if lines.of(copy, axis).is_some() {
+                        may_continue()?;
                         self.strips_from(mesh, &lines, (v, copy, axis), |strip, curves| {
                             if known.insert(curves) {
                                 found.push(strip);
@@ -41,7 +47,7 @@ impl SeamlessProblem {
                 }
             }
         }
-        found
+        Ok(found)
     }
 
     /// Searches breadth-first from a vertex on a curve across to other curves of the same coordinate.

@@ -6,7 +6,11 @@ use crate::error::{Error, Result};
 use crate::linalg::CompensatedSum;
 use crate::mesh::vector::{Vec3, add, cross, dot, scale, sub};
 use crate::mesh::{TriangleMesh, orientation};
+use crate::monitor::{filter_in_parts, in_blocks, may_continue, span};
 use crate::solve::Solution;
+
+/// The least number of faces that are worth a thread.
+const LEAST: usize = 1 << 14;
 
 impl SeamlessProblem {
     /// The map that belongs to a solution of the problem.
@@ -39,6 +43,9 @@ impl SeamlessMap {
         mesh: &TriangleMesh,
         values: &[f64],
     ) -> Result<Self> {
+        let _span = span("map");
+        let _memory = mesh.watch_memory();
+        may_continue()?;
         let expected = problem.translation(problem.seams.len());
         if values.len() != expected {
             return Err(Error::LengthMismatch {
@@ -56,9 +63,11 @@ impl SeamlessMap {
             flipped: Vec::new(),
             energy: 0.0,
         };
-        map.flipped = (0..mesh.face_count())
-            .filter(|&face| orientation(map.uv(face)) <= 0.0)
-            .collect();
+        may_continue()?;
+        map.flipped = filter_in_parts(mesh.face_count(), LEAST, |face| {
+            orientation(map.uv(face)) <= 0.0
+        });
+        may_continue()?;
         map.energy = energy(problem, mesh, &map);
         Ok(map)
     }
@@ -90,15 +99,20 @@ fn transitions(problem: &SeamlessProblem, mesh: &TriangleMesh, values: &[f64]) -
 /// The energy by gradients in space, and so by other formulas than those of the problem.
 fn energy(problem: &SeamlessProblem, mesh: &TriangleMesh, map: &SeamlessMap) -> f64 {
     let mut sum = CompensatedSum::new(0.0);
-    for face in 0..mesh.face_count() {
-        let (uv, area) = (map.uv(face), mesh.area(face));
-        let targets = problem.targets(mesh, face);
-        for (axis, target) in targets.into_iter().enumerate() {
-            let gradient = gradient(mesh, face, uv.map(|corner| corner[axis]));
-            let error = sub(gradient, target);
-            sum.add_product(area, dot(error, error));
+    let blocks = in_blocks(mesh.face_count(), |faces| {
+        let mut sum = CompensatedSum::new(0.0);
+        for face in faces {
+            let (uv, area) = (map.uv(face), mesh.area(face));
+            let targets = problem.targets(mesh, face);
+            for (axis, target) in targets.into_iter().enumerate() {
+                let gradient = gradient(mesh, face, uv.map(|corner| corner[axis]));
+                let error = sub(gradient, target);
+                sum.add_product(area, dot(error, error));
+            }
         }
-    }
+        sum
+    });
+    blocks.iter().for_each(|block| sum.add_sum(block));
     sum.value()
 }
 

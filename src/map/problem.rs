@@ -27,6 +27,7 @@ use crate::error::{Error, Result};
 use crate::field::OrientationField;
 use crate::mesh::features::FeatureGraph;
 use crate::mesh::{TriangleMesh, turned};
+use crate::monitor::{may_continue, span};
 use crate::problem::{Problem, Triangle};
 use crate::solve::Solver;
 
@@ -98,7 +99,11 @@ impl SeamlessProblem {
         sizing: &Sizing,
         features: &FeatureGraph,
     ) -> Result<Self> {
+        let _span = span("assemble map");
+        let _memory = mesh.watch_memory();
+        may_continue()?;
         let density = Density::new(mesh, sizing)?;
+        may_continue()?;
         field.check_mesh(mesh)?;
         features.check_mesh(mesh)?;
         let features = &features.with_two_of_each_face(mesh);
@@ -111,11 +116,17 @@ impl SeamlessProblem {
                 index: None,
             });
         }
-        let cones = field.irregular_vertices(mesh);
+        let steps = field.vertex_index_steps(mesh);
+        may_continue()?;
+        let cones: Vec<usize> = (0..steps.len()).filter(|&v| steps[v] != 0).collect();
         let cut = CutGraph::new(mesh, &cones)?;
+        may_continue()?;
         let combing = Combing::new(mesh, field, &cut)?;
+        may_continue()?;
         let sectors = Sectors::new(mesh, &cut);
+        may_continue()?;
         let seams = seams(mesh, &cut, &cones);
+        may_continue()?;
         let isolines = isolines(mesh, field, &combing, &sectors, features);
         let mut this = SeamlessProblem {
             problem: Problem::new(2 * (sectors.count() + seams.len()))?,
@@ -142,7 +153,9 @@ impl SeamlessProblem {
             let row = isoline.unknowns();
             self.problem.add_constraint(&row, &[1.0, -1.0], 0.0)?;
         }
+        may_continue()?;
         self.set_integers(mesh)?;
+        may_continue()?;
         self.pin_origins(mesh)
     }
 
@@ -161,7 +174,7 @@ impl SeamlessProblem {
     ) -> Result<()> {
         self.field.check_mesh(mesh)?;
         let before = std::mem::replace(&mut self.density, Density::new(mesh, sizing)?);
-        let energy = self.dirichlet(mesh);
+        let energy = self.dirichlet(mesh)?;
         let told = solver.set_linear(&energy.linear);
         if let Err(error) = told.and_then(|()| solver.set_constant(energy.constant)) {
             self.density = before;
@@ -200,7 +213,7 @@ impl SeamlessProblem {
     ) -> Result<Self> {
         let mut this = self.clone();
         this.density = density;
-        let energy = this.dirichlet(mesh);
+        let energy = this.dirichlet(mesh)?;
         solver.set_linear(&energy.linear)?;
         solver.set_constant(energy.constant)?;
         this.problem.set_linear(&energy.linear)?;
@@ -240,14 +253,15 @@ impl SeamlessProblem {
         2 * (self.sectors.count() + seam)
     }
 
-    fn dirichlet(&self, mesh: &TriangleMesh) -> Dirichlet {
+    fn dirichlet(&self, mesh: &TriangleMesh) -> Result<Dirichlet> {
         let unknowns = self.translation(self.seams.len());
         let targets = |face| self.targets(mesh, face);
         Dirichlet::new(mesh, &self.sectors, &self.cut, unknowns, targets)
     }
 
     fn add_energy(&mut self, mesh: &TriangleMesh) -> Result<()> {
-        let energy = self.dirichlet(mesh);
+        let energy = self.dirichlet(mesh)?;
+        may_continue()?;
         energy.add_to(&mut self.problem)?;
         let translations: Vec<usize> =
             (self.translation(0)..self.translation(self.seams.len())).collect();
@@ -291,11 +305,10 @@ impl SeamlessProblem {
     }
 
     /// The quarter turns of a map around every interior vertex; none at the boundary.
-    pub(crate) fn quarters(&self, mesh: &TriangleMesh) -> Vec<Option<i32>> {
-        let steps = self.field.vertex_index_steps(mesh).into_iter().enumerate();
-        steps
-            .map(|(v, steps)| (!mesh.is_boundary_vertex(v)).then_some(4 - steps))
-            .collect()
+    pub(crate) fn quarters(&self, mesh: &TriangleMesh) -> Result<Vec<Option<i32>>> {
+        let steps = self.field.vertex_index_steps(mesh);
+        let quarters = |(v, steps)| (!mesh.is_boundary_vertex(v)).then_some(4 - steps);
+        Ok(steps.into_iter().enumerate().map(quarters).collect())
     }
 
     /// Makes the coordinates of cones, the translations and the values of isolines integer, and the

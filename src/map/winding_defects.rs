@@ -9,6 +9,10 @@ use std::f64::consts::FRAC_PI_2;
 use super::{SeamlessMap, SeamlessProblem};
 use crate::error::Result;
 use crate::mesh::{TriangleMesh, angle_at, orientation};
+use crate::monitor::{filter_in_parts, may_continue};
+
+/// The least number of vertices that are worth a thread.
+const LEAST: usize = 1 << 12;
 
 impl SeamlessProblem {
     /// The interior vertices at which the winding of a map of this problem differs from that of the
@@ -20,9 +24,12 @@ impl SeamlessProblem {
     /// [`LengthMismatch`](crate::Error::LengthMismatch) for the map of another problem or mesh.
     pub fn winding_defects(&self, mesh: &TriangleMesh, map: &SeamlessMap) -> Result<Vec<usize>> {
         self.check_map(mesh, map)?;
-        Ok(winding_defects(mesh, &self.quarters(mesh), |face| {
-            map.uv(face)
-        }))
+        let _memory = mesh.watch_memory();
+        let quarters = self.quarters(mesh)?;
+        may_continue()?;
+        let defects = winding_defects(mesh, &quarters, |face| map.uv(face));
+        may_continue()?;
+        Ok(defects)
     }
 }
 
@@ -30,12 +37,11 @@ impl SeamlessProblem {
 pub(crate) fn winding_defects(
     mesh: &TriangleMesh,
     quarters: &[Option<i32>],
-    uv: impl Fn(usize) -> [[f64; 2]; 3],
+    uv: impl Fn(usize) -> [[f64; 2]; 3] + Sync,
 ) -> Vec<usize> {
-    let has_winding_defect = |&v: &usize| has_winding_defect(mesh, quarters, &uv, v);
-    (0..mesh.vertex_count())
-        .filter(has_winding_defect)
-        .collect()
+    filter_in_parts(mesh.vertex_count(), LEAST, |v| {
+        has_winding_defect(mesh, quarters, &uv, v)
+    })
 }
 
 /// Whether a map makes another number of quarter turns around a vertex than is given for it.

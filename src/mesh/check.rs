@@ -8,7 +8,11 @@
 
 use super::MeshError;
 use super::vector::Vec3;
+use crate::monitor::in_parts;
 use crate::soup::has_no_area;
+
+/// The least number of faces that are worth a thread.
+const LEAST: usize = 1 << 13;
 
 /// Checks sizes, coordinates and faces one by one.
 pub(super) fn check(vertices: &[Vec3], triangles: &[[u32; 3]]) -> Result<(), MeshError> {
@@ -40,8 +44,9 @@ pub(super) fn check(vertices: &[Vec3], triangles: &[[u32; 3]]) -> Result<(), Mes
             return Err(MeshError::RepeatedVertex { face, vertex });
         }
     }
-    let flat = |&corners: &[u32; 3]| has_no_area(corners.map(|v| vertices[v as usize]));
-    match triangles.iter().position(flat) {
+    let is_flat = |&f: &usize| has_no_area(triangles[f].map(|v| vertices[v as usize]));
+    let flat = in_parts(triangles.len(), LEAST, |mut part| part.find(is_flat));
+    match flat.into_iter().flatten().next() {
         Some(face) => Err(MeshError::ZeroArea { face }),
         None => Ok(()),
     }

@@ -6,9 +6,10 @@
 
 use super::TriangleMesh;
 use super::vector::{Vec3, add, dot, scale, sub};
+use crate::monitor::{allowed_threads, both, is_wanted};
 
 /// Triangles in boxes.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct ClosestPoint {
     triangles: Vec<[Vec3; 3]>,
     /// Numbers of triangles, those of a box next to each other.
@@ -16,7 +17,7 @@ pub struct ClosestPoint {
     boxes: Vec<Node>,
 }
 
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 struct Node {
     low: Vec3,
     high: Vec3,
@@ -30,6 +31,12 @@ struct Node {
 /// A box with at most this many triangles is not divided.
 const LEAF: usize = 4;
 
+/// A half with fewer triangles is not worth a thread.
+const LEAST: usize = 1 << 11;
+
+/// Before the division of a box with as many triangles or more, the call is asked whether it ends.
+const ASKED: usize = 1 << 12;
+
 impl ClosestPoint {
     /// The tree of the faces of a mesh.
     pub fn new(mesh: &TriangleMesh) -> Self {
@@ -42,57 +49,15 @@ impl ClosestPoint {
 
     /// The tree of any triangles, those without area included.
     pub fn of_triangles(triangles: Vec<[Vec3; 3]>) -> Self {
-        let mut tree = ClosestPoint {
-            order: (0..triangles.len() as u32).collect(),
-            boxes: Vec::with_capacity(triangles.len()),
+        let mut order: Vec<u32> = (0..triangles.len() as u32).collect();
+        let boxes = match triangles.is_empty() {
+            true => Vec::new(),
+            false => boxes(&triangles, &mut order, 0),
+        };
+        ClosestPoint {
             triangles,
-        };
-        if !tree.triangles.is_empty() {
-            tree.build(0, tree.triangles.len());
-        }
-        tree
-    }
-
-    fn build(&mut self, first: usize, last: usize) {
-        let node = self.boxes.len();
-        let members = &mut self.order[first..last];
-        let corners = members.iter().flat_map(|&t| self.triangles[t as usize]);
-        let [mut low, mut high] = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
-        for corner in corners {
-            for axis in 0..3 {
-                low[axis] = low[axis].min(corner[axis]);
-                high[axis] = high[axis].max(corner[axis]);
-            }
-        }
-        let size = sub(high, low);
-        let longest = (1..3).fold(
-            0,
-            |best, axis| if size[axis] > size[best] { axis } else { best },
-        );
-        let triangles = &self.triangles;
-        let center = |&t: &u32| {
-            triangles[t as usize]
-                .iter()
-                .map(|p| p[longest])
-                .sum::<f64>()
-        };
-        let middle = (last - first) / 2;
-        if last - first > LEAF {
-            members.select_nth_unstable_by(middle, |a, b| {
-                center(a).total_cmp(&center(b)).then(a.cmp(b))
-            });
-        }
-        self.boxes.push(Node {
-            low,
-            high,
-            first: first as u32,
-            last: last as u32,
-            second: 0,
-        });
-        if last - first > LEAF {
-            self.build(first, first + middle);
-            self.boxes[node].second = self.boxes.len() as u32;
-            self.build(first + middle, last);
+            order,
+            boxes,
         }
     }
 
@@ -140,6 +105,74 @@ impl ClosestPoint {
         }
         Some(best)
     }
+}
+
+/// The boxes of the triangles `members`, from the largest one on, each first half before the second. `first` is the
+/// place of the members in the order of all.
+fn boxes(triangles: &[[Vec3; 3]], members: &mut [u32], first: usize) -> Vec<Node> {
+    let mut boxes = Vec::with_capacity(members.len());
+    append_boxes(&mut boxes, triangles, members, first);
+    boxes
+}
+
+fn append_boxes(boxes: &mut Vec<Node>, triangles: &[[Vec3; 3]], members: &mut [u32], first: usize) {
+    let corners = members.iter().flat_map(|&t| triangles[t as usize]);
+    let [mut low, mut high] = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
+    for corner in corners {
+        for axis in 0..3 {
+            low[axis] = low[axis].min(corner[axis]);
+            high[axis] = high[axis].max(corner[axis]);
+        }
+    }
+    let node = boxes.len();
+    boxes.push(Node {
+        low,
+        high,
+        first: first as u32,
+        last: (first + members.len()) as u32,
+        second: 0,
+    });
+    // A call that ends needs no smaller boxes.
+    if members.len() <= LEAF || members.len() >= ASKED && is_wanted().is_err() {
+        return;
+    }
+    let size = sub(high, low);
+    let longest = (1..3).fold(
+        0,
+        |best, axis| if size[axis] > size[best] { axis } else { best },
+    );
+    let center = |&t: &u32| {
+        triangles[t as usize]
+            .iter()
+            .map(|p| p[longest])
+            .sum::<f64>()
+    };
+    let middle = members.len() / 2;
+    members.select_nth_unstable_by(middle, |a, b| {
+        center(a).total_cmp(&center(b)).then(a.cmp(b))
+    });
+    let (one, other) = members.split_at_mut(middle);
+    if other.len() < LEAST || allowed_threads() < 2 {
+        append_boxes(boxes, triangles, one, first);
+        boxes[node].second = boxes.len() as u32;
+        append_boxes(boxes, triangles, other, first + middle);
+        return;
+    }
+    let (one, other) = both(
+        true,
+        || self::boxes(triangles, one, first),
+        || self::boxes(triangles, other, first + middle),
+    );
+    let moved = |by: usize| {
+        move |mut inner: Node| {
+            inner.second += if inner.second > 0 { by as u32 } else { 0 };
+            inner
+        }
+    };
+    boxes.extend(one.into_iter().map(moved(node + 1)));
+    let second = boxes.len();
+    boxes[node].second = second as u32;
+    boxes.extend(other.into_iter().map(moved(second)));
 }
 
 fn squared(v: Vec3) -> f64 {
@@ -194,6 +227,7 @@ fn closest([a, b, c]: [Vec3; 3], p: Vec3) -> Vec3 {
 mod tests {
     use super::*;
     use crate::mesh::shape;
+    use crate::monitor::{spawned, with_threads};
 
     #[test]
     fn the_tree_finds_what_a_search_of_all_triangles_finds() {
@@ -213,6 +247,16 @@ mod tests {
             assert_eq!(distance(point), least);
             assert_eq!(closest(mesh.corner_positions(face), p), point);
         }
+    }
+
+    #[test]
+    fn any_number_of_threads_builds_the_same_tree() {
+        let mesh = shape::by_name("genus-2", 6 * LEAST).unwrap();
+        let tree = |threads| with_threads(threads, || ClosestPoint::new(&mesh));
+        let one = tree(1);
+        assert_eq!(spawned(|| assert_eq!(tree(2), one)), 1);
+        // Of the three threads, the first half has two.
+        assert_eq!(spawned(|| assert_eq!(tree(3), one)), 2);
     }
 
     #[test]

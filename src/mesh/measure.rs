@@ -2,6 +2,10 @@
 
 use super::TriangleMesh;
 use super::vector::{Vec3, add, cross, dot, norm, normalize, scale, sub};
+use crate::monitor::collect_in_parts;
+
+/// The least number of faces or edges that are worth a thread.
+const LEAST: usize = 1 << 12;
 
 impl TriangleMesh {
     /// Unit normal of a face.
@@ -18,9 +22,20 @@ impl TriangleMesh {
     ///
     /// By arctangent of the cross and dot products, which keeps its digits at every angle.
     pub fn angle(&self, face: usize, k: usize) -> f64 {
-        let p = self.corner_positions(face);
-        let (u, v) = (sub(p[(k + 1) % 3], p[k]), sub(p[(k + 2) % 3], p[k]));
-        norm(cross(u, v)).atan2(dot(u, v))
+        self.angles()[face][k]
+    }
+
+    /// The angles at the corners of every face. They are measured when they are first asked for.
+    pub(crate) fn angles(&self) -> &[[f64; 3]] {
+        let of_face = |face: usize| {
+            let p = self.corner_positions(face);
+            [0, 1, 2].map(|k| {
+                let (u, v) = (sub(p[(k + 1) % 3], p[k]), sub(p[(k + 2) % 3], p[k]));
+                norm(cross(u, v)).atan2(dot(u, v))
+            })
+        };
+        let measure = || collect_in_parts(self.face_count(), LEAST, of_face);
+        self.angles.get_or_init(measure)
     }
 
     /// Length of local edge `k` of a face.
@@ -44,9 +59,10 @@ impl TriangleMesh {
         scale(add(add(a, b), c), 1.0 / 3.0)
     }
 
-    /// Area of the surface.
+    /// Area of the surface. It is measured when it is first asked for.
     pub fn surface_area(&self) -> f64 {
-        (0..self.face_count()).map(|f| self.area(f)).sum()
+        let measure = || (0..self.face_count()).map(|f| self.area(f)).sum();
+        *self.area.get_or_init(measure)
     }
 
     /// Centroid of the surface: of its faces, weighted by area.
@@ -97,6 +113,16 @@ impl TriangleMesh {
         let turn = self.edge_angle(across, j) + PI - self.edge_angle(face, k);
         let turn = turn.rem_euclid(TAU);
         Some(if turn > PI { turn - TAU } else { turn })
+    }
+
+    /// The [transport](Self::transport) over every edge from its first face; 0 at the boundary.
+    pub(crate) fn transports(&self) -> Vec<f64> {
+        // All threads need the angles, so they are not left to one of them.
+        self.angles();
+        collect_in_parts(self.edge_count(), LEAST, |e| {
+            let (face, k) = self.edge(e).first;
+            self.transport(face, k).unwrap_or(0.0)
+        })
     }
 
     fn doubled_area_vector(&self, face: usize) -> Vec3 {

@@ -1,11 +1,16 @@
 //! The mesh itself: vertices, faces and their adjacency.
 
 use std::ops::Neg;
+use std::sync::OnceLock;
 
 use super::connectivity::{Connectivity, NONE, connect};
 use super::rings::{Rings, rings};
 use super::vector::Vec3;
 use super::{MeshError, check};
+use crate::monitor::{Watch, span, watch_memory};
+
+/// The problems of a mesh have about so many unknowns and coefficients for each face.
+const PARTS: usize = 8;
 
 /// An oriented triangle mesh, with or without boundary, that is known to be a 2-manifold.
 #[derive(Clone)]
@@ -17,6 +22,10 @@ pub struct TriangleMesh {
     half_edge: Vec<u32>,
     ring_start: Vec<u32>,
     ring: Vec<u32>,
+    /// The angles of all faces, once they are asked for.
+    pub(super) angles: OnceLock<Vec<[f64; 3]>>,
+    /// The area of all faces, once it is asked for.
+    pub(super) area: OnceLock<f64>,
 }
 
 /// An undirected edge.
@@ -41,6 +50,7 @@ impl TriangleMesh {
     /// than two faces, inconsistent orientation, isolated vertices, vertices whose faces form
     /// more than one fan.
     pub fn new(vertices: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> Result<TriangleMesh, MeshError> {
+        let _span = span("half-edges");
         check::check(&vertices, &triangles)?;
         let Connectivity {
             twin,
@@ -56,6 +66,8 @@ impl TriangleMesh {
             half_edge,
             ring_start: start,
             ring: corner,
+            angles: OnceLock::new(),
+            area: OnceLock::new(),
         })
     }
 
@@ -67,6 +79,11 @@ impl TriangleMesh {
     /// Number of faces.
     pub fn face_count(&self) -> usize {
         self.triangles.len()
+    }
+
+    /// Lets the current call end where there is no memory for its next step on this mesh.
+    pub(crate) fn watch_memory(&self) -> Watch {
+        watch_memory(PARTS * self.face_count())
     }
 
     /// Number of undirected edges.

@@ -54,6 +54,8 @@ impl CancelToken {
 pub(crate) enum Stop {
     Cancelled,
     TimeLimit,
+    /// There is no memory for the next step.
+    OutOfMemory,
 }
 
 impl From<Stop> for Error {
@@ -61,6 +63,9 @@ impl From<Stop> for Error {
         match stop {
             Stop::Cancelled => Error::Cancelled,
             Stop::TimeLimit => Error::TimeLimit,
+            Stop::OutOfMemory => Error::OutOfMemory {
+                what: "the next step",
+            },
         }
     }
 }

@@ -3,10 +3,17 @@
 //! There are two kinds of ends. A loop that has no result yet asks `Monitor::check`, and its error ends the
 //! call. A search, which has a result at any time, asks `Monitor::ends`. They differ when the caller wants
 //! a run to finish with what it has: then searches end, and all that a result needs goes on.
+//!
+//! Loops without a monitor, as those of meshes, ask `may_continue`, whose error ends the call as well. It knows the
+//! monitor by `Monitor::watch`.
 
 mod cancel;
 mod event;
+mod parts;
 mod run;
+mod threads;
+mod trace;
+mod watch;
 mod worker;
 
 use std::time::{Duration, Instant};
@@ -15,10 +22,21 @@ use crate::error::Error;
 pub use cancel::CancelToken;
 pub(crate) use cancel::Stop;
 pub use event::{Event, EventKind, Flow, Phase, Stage};
+pub(crate) use parts::{
+    both, change_in_parts, collect_in_parts, collect_in_turn, filter_in_parts, for_each_part,
+    in_blocks, joined, parts_of,
+};
 pub use run::Run;
+pub use threads::{allowed_threads, with_threads};
+pub use trace::{Span, Trace, traced};
+pub(crate) use trace::{is_simulated, simulate_graph, span};
+pub use watch::Watch;
+pub(crate) use watch::{
+    is_wanted, may_continue, may_continue_at, room_for, room_up_to, watch_memory,
+};
 #[cfg(test)]
 pub(crate) use worker::spawned;
-pub(crate) use worker::{Started, in_parts, side_by_side, thread_count};
+pub(crate) use worker::{Started, in_parts, side_by_side, tasks};
 
 type Callback<'a> = Box<dyn FnMut(&Event) -> Flow + 'a>;
 

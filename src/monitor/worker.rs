@@ -5,32 +5,25 @@
 //! monitor asks to end. What is computed never depends on the number of threads: each task has its own result,
 //! and results are joined in the order of the tasks.
 
+use std::io::ErrorKind;
 use std::ops::Range;
 use std::panic::resume_unwind;
-use std::sync::OnceLock;
 use std::sync::atomic::AtomicUsize;
 use std::sync::atomic::Ordering::Relaxed;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
-use std::thread::{Builder, Scope, ScopedJoinHandle, available_parallelism};
+use std::thread::{Builder, Scope, ScopedJoinHandle};
 use std::time::{Duration, Instant};
 
 use super::Monitor;
 use super::cancel::{CancelToken, Stop};
 use super::run::Run;
+use super::threads::{allowed_threads, with_threads};
+use super::trace;
+use super::watch::Limits;
 use crate::error::Result;
 
 /// How often the thread of the call asks its monitor while it waits.
 const WAIT: Duration = Duration::from_millis(5);
-
-/// The number of threads for the option `threads`, where 0 stands for one for each core.
-pub(crate) fn thread_count(threads: usize) -> usize {
-    // The system is asked once, because that takes longer than many a task.
-    static CORES: OnceLock<usize> = OnceLock::new();
-    match threads {
-        0 => *CORES.get_or_init(|| available_parallelism().map_or(1, usize::from)),
-        given => given,
-    }
-}
 
 #[cfg(test)]
 thread_local! {
@@ -46,11 +39,20 @@ pub(crate) fn spawned(calls: impl FnOnce()) -> usize {
     SPAWNED.get() - before
 }
 
-fn spawn<'scope, T: Send + 'scope>(
+pub(super) fn spawn<'scope, T: Send + 'scope>(
     scope: &'scope Scope<'scope, '_>,
+    number: usize,
     task: impl FnOnce() -> T + Send + 'scope,
 ) -> std::io::Result<ScopedJoinHandle<'scope, T>> {
-    let handle = Builder::new().spawn_scoped(scope, task)?;
+    if !Limits::current().has_room_for_a_thread() {
+        return Err(ErrorKind::OutOfMemory.into());
+    }
+    let (task, limits) = (trace::on_thread(number, task), Limits::current());
+    let there = move || {
+        let _watch = limits.watch();
+        task()
+    };
+    let handle = Builder::new().spawn_scoped(scope, there)?;
     #[cfg(test)]
     SPAWNED.set(SPAWNED.get() + 1);
     Ok(handle)
@@ -95,25 +97,32 @@ impl Worker {
         run
     }
 
-    /// Starts a task on a thread of its own. The thread that waits for it does it instead if no other can be
-    /// started.
+    /// Starts a task on a thread of its own, `number` after this one. The thread that waits for it does it instead if
+    /// no other can be started.
     pub(crate) fn start<'scope, T, F>(
         self,
         scope: &'scope Scope<'scope, '_>,
+        number: usize,
         task: F,
     ) -> Started<'scope, T, F>
     where
         T: Send + 'scope,
         F: FnOnce(&mut Monitor) -> T + Send + Clone + 'scope,
     {
+        if trace::is_simulated() {
+            return Started::Simulated(task, number, trace::start_of_thread());
+        }
         let (sender, result) = channel();
         let token = Ends(self.token.clone());
         let there = task.clone();
         let there = move || {
+            let mut monitor = self.monitor(&self.run());
+            let _watch = monitor.watch();
+            let done = with_threads(1, || there(&mut monitor));
             // Nobody receives it where nobody waits.
-            let _ = sender.send(there(&mut self.monitor(&self.run())));
+            let _ = sender.send(done);
         };
-        match spawn(scope, there) {
+        match spawn(scope, number, there) {
             Ok(handle) => Started::There(result, handle, token),
             Err(_) => Started::Here(task),
         }
@@ -133,6 +142,8 @@ impl Drop for Ends {
 pub(crate) enum Started<'scope, T, F> {
     There(Receiver<T>, ScopedJoinHandle<'scope, ()>, Ends),
     Here(F),
+    /// As another thread would do it from this time on.
+    Simulated(F, usize, f64),
 }
 
 impl<T, F: FnOnce(&mut Monitor) -> T> Started<'_, T, F> {
@@ -140,6 +151,12 @@ impl<T, F: FnOnce(&mut Monitor) -> T> Started<'_, T, F> {
     pub(crate) fn wait(self, monitor: &mut Monitor) -> T {
         let (result, handle, token) = match self {
             Started::Here(task) => return task(monitor),
+            Started::Simulated(task, number, start) => {
+                let there = || with_threads(1, || task(monitor));
+                let (found, end) = trace::as_thread(number, start, there);
+                trace::wait_until(end);
+                return found;
+            }
             Started::There(result, handle, token) => (result, handle, token),
         };
         loop {
@@ -155,8 +172,9 @@ impl<T, F: FnOnce(&mut Monitor) -> T> Started<'_, T, F> {
     }
 }
 
-/// Does `count` tasks on up to so many threads and gives their results in the order of the tasks. A task gets
-/// its number, and a function that makes its monitors. An error of one ends all.
+/// Does `count` tasks on the threads that are allowed and gives their results in the order of the tasks. A task
+/// gets its number, and a function that makes its monitors. An error of one ends all. Tasks at the same time share
+/// the threads.
 ///
 /// The thread of the call does the first one, with monitors of the call. All others are optional, because the
 /// run has a result without them as well. `begins` hears, on the thread of the call, how many are done.
@@ -165,12 +183,11 @@ impl<T, F: FnOnce(&mut Monitor) -> T> Started<'_, T, F> {
 /// Those of the tasks.
 pub(crate) fn side_by_side<'m, T: Send>(
     count: usize,
-    threads: usize,
     monitor: &impl Fn() -> Monitor<'m>,
     begins: impl Fn(usize),
     task: impl for<'x> Fn(usize, &dyn Fn() -> Monitor<'x>) -> Result<T> + Sync,
 ) -> Result<Vec<T>> {
-    let threads = thread_count(threads).min(count);
+    let threads = allowed_threads().min(count);
     if threads <= 1 {
         let each = |k: usize| {
             begins(k);
@@ -178,21 +195,34 @@ pub(crate) fn side_by_side<'m, T: Send>(
         };
         return (0..count).map(each).collect();
     }
+    let share = allowed_threads() / threads;
+    if trace::is_simulated() {
+        let each = |k: usize| {
+            begins(k);
+            with_threads(share, || task(k, &|| monitor()))
+        };
+        let done = trace::simulate(count, threads, share, each);
+        return done.into_iter().collect();
+    }
     let mut of_call = monitor();
     let worker = of_call.worker().optional();
+    let limits = Limits::current();
     let token = Ends(worker.token.clone());
     let [next, done] = [AtomicUsize::new(1), AtomicUsize::new(0)];
     let take = || Some(next.fetch_add(1, Relaxed)).filter(|&k| k < count);
     let (sender, results) = channel();
     let mut found: Vec<(usize, Result<T>)> = Vec::with_capacity(count);
     std::thread::scope(|scope| {
-        for _ in 1..threads {
+        for number in 1..threads {
             let (sender, worker) = (sender.clone(), worker.clone());
+            let limits = limits.clone();
             let (task, take, next, done) = (&task, &take, &next, &done);
             let there = move || {
+                let _watch = limits.watch();
                 while let Some(k) = take() {
                     let run = worker.run();
-                    let result = task(k, &|| worker.monitor(&run));
+                    let _watch = worker.monitor(&run).watch();
+                    let result = with_threads(share, || task(k, &|| worker.monitor(&run)));
                     done.fetch_add(1, Relaxed);
                     let is_last = result.is_err();
                     if is_last {
@@ -203,7 +233,7 @@ pub(crate) fn side_by_side<'m, T: Send>(
                     }
                 }
             };
-            if spawn(scope, there).is_err() {
+            if spawn(scope, number * share, there).is_err() {
                 break;
             }
         }
@@ -211,7 +241,7 @@ pub(crate) fn side_by_side<'m, T: Send>(
         let mut own = Some(0);
         while let Some(k) = own {
             begins(done.load(Relaxed));
-            match task(k, &|| monitor()) {
+            match with_threads(share, || task(k, &|| monitor())) {
                 Ok(result) => found.push((k, Ok(result))),
                 Err(error) => {
                     token.0.cancel();
@@ -235,27 +265,76 @@ pub(crate) fn side_by_side<'m, T: Send>(
     found.into_iter().map(|(_, result)| result).collect()
 }
 
-/// Does parts of `0..count`, each of the same number of items, on up to so many threads, and gives their results
-/// in order. The thread of the call does the first one.
+/// Does `count` tasks on the threads that are allowed, and gives their results in the order of the tasks. A task
+/// gets its number and a monitor.
+pub(crate) fn tasks<T: Send>(
+    count: usize,
+    monitor: &mut Monitor,
+    task: impl Fn(usize, &mut Monitor) -> T + Sync,
+) -> Vec<T> {
+    let threads = allowed_threads().min(count);
+    if threads <= 1 {
+        return (0..count).map(|k| task(k, monitor)).collect();
+    }
+    if trace::is_simulated() {
+        let each = |k: usize| with_threads(1, || task(k, monitor));
+        return trace::simulate(count, threads, 1, each);
+    }
+    let next = AtomicUsize::new(0);
+    let share = |monitor: &mut Monitor| {
+        let mut done = Vec::new();
+        loop {
+            let k = next.fetch_add(1, Relaxed);
+            if k >= count {
+                return done;
+            }
+            done.push((k, task(k, monitor)));
+        }
+    };
+    let share = &share;
+    let mut done = std::thread::scope(|scope| {
+        // Each has a token of its own, which ends it when nobody waits for it any more.
+        let others: Vec<_> = (1..threads)
+            .map(|number| monitor.worker().start(scope, number, share))
+            .collect();
+        let mut done = with_threads(1, || share(monitor));
+        for other in others {
+            done.extend(other.wait(monitor));
+        }
+        done
+    });
+    done.sort_unstable_by_key(|(k, _)| *k);
+    done.into_iter().map(|(_, result)| result).collect()
+}
+
+/// Does parts of `0..count` on the threads that are allowed, and gives their results in order. Each part has at
+/// least so many items, and the thread of the call does the first one.
 pub(crate) fn in_parts<T: Send>(
     count: usize,
-    threads: usize,
+    least: usize,
     part: impl Fn(Range<usize>) -> T + Sync,
 ) -> Vec<T> {
-    let threads = thread_count(threads).min(count.max(1));
+    let threads = allowed_threads().min(count / least.max(1)).max(1);
     if threads == 1 {
         return vec![part(0..count)];
     }
     let of = |k: usize| k * count / threads..(k + 1) * count / threads;
+    let part = |k: usize| {
+        let _part = trace::span("part");
+        with_threads(1, || part(of(k)))
+    };
+    if trace::is_simulated() {
+        return trace::simulate(threads, threads, 1, part);
+    }
     let part = &part;
     std::thread::scope(|scope| {
         let others: Vec<_> = (1..threads)
-            .map(|k| (k, spawn(scope, move || part(of(k)))))
+            .map(|k| (k, spawn(scope, k, move || part(k))))
             .collect();
-        let mut found = vec![part(of(0))];
+        let mut found = vec![part(0)];
         found.extend(others.into_iter().map(|(k, other)| match other {
             Ok(handle) => handle.join().unwrap_or_else(|panic| resume_unwind(panic)),
-            Err(_) => part(of(k)),
+            Err(_) => part(k),
         }));
         found
     })
@@ -301,24 +380,27 @@ mod tests {
         // Each waits for the other three.
         let barrier = Barrier::new(4);
         let seen = Mutex::new(HashSet::new());
-        let squares = side_by_side(
-            4,
-            4,
-            &Monitor::default,
-            |_| {},
-            |k, _| {
-                barrier.wait();
-                seen.lock().unwrap().insert(current().id());
-                Ok(k * k)
-            },
-        );
+        let squares = with_threads(4, || {
+            side_by_side(
+                4,
+                &Monitor::default,
+                |_| {},
+                |k, _| {
+                    assert_eq!(allowed_threads(), 1);
+                    barrier.wait();
+                    seen.lock().unwrap().insert(current().id());
+                    Ok(k * k)
+                },
+            )
+        });
         assert_eq!(squares, Ok(vec![0, 1, 4, 9]));
         assert_eq!(seen.lock().unwrap().len(), 4);
         for threads in [0, 1, 2, 16] {
-            let squares = side_by_side(9, threads, &Monitor::default, |_| {}, |k, _| Ok(k * k));
+            let squares = || side_by_side(9, &Monitor::default, |_| {}, |k, _| Ok(k * k));
+            let squares = with_threads(threads, squares);
             assert_eq!(squares, Ok(vec![0, 1, 4, 9, 16, 25, 36, 49, 64]));
         }
-        let none = side_by_side(0, 2, &Monitor::default, |_| {}, |k, _| Ok(k));
+        let none = side_by_side(0, &Monitor::default, |_| {}, |k, _| Ok(k));
         assert_eq!(none, Ok(Vec::new()));
     }
 
@@ -331,19 +413,20 @@ mod tests {
         };
         let run = Run::new();
         let monitor = || Monitor::default().of_run(&run).on_event(on_event);
-        let ends: Result<Vec<()>> = side_by_side(
-            2,
-            2,
-            &monitor,
-            |_| {},
-            |_, monitor| {
-                let mut monitor = monitor();
-                loop {
-                    monitor.progress(Phase::Round, 0.0)?;
-                    std::thread::yield_now();
-                }
-            },
-        );
+        let ends: Result<Vec<()>> = with_threads(2, || {
+            side_by_side(
+                2,
+                &monitor,
+                |_| {},
+                |_, monitor| {
+                    let mut monitor = monitor();
+                    loop {
+                        monitor.progress(Phase::Round, 0.0)?;
+                        std::thread::yield_now();
+                    }
+                },
+            )
+        });
         assert_eq!(ends, Err(Error::Cancelled));
     }
 
@@ -351,22 +434,23 @@ mod tests {
     fn a_token_stops_the_tasks_of_all_threads() {
         let token = CancelToken::new();
         let monitor = || Monitor::default().cancel_token(token.clone());
-        let ends = side_by_side(
-            2,
-            2,
-            &monitor,
-            |_| {},
-            |k, monitor| {
-                let mut monitor = monitor();
-                if k == 0 {
-                    token.cancel();
-                }
-                while monitor.check().is_ok() {
-                    std::thread::yield_now();
-                }
-                Ok(monitor.stopped())
-            },
-        );
+        let ends = with_threads(2, || {
+            side_by_side(
+                2,
+                &monitor,
+                |_| {},
+                |k, monitor| {
+                    let mut monitor = monitor();
+                    if k == 0 {
+                        token.cancel();
+                    }
+                    while monitor.check().is_ok() {
+                        std::thread::yield_now();
+                    }
+                    Ok(monitor.stopped())
+                },
+            )
+        });
         assert_eq!(ends, Ok(vec![Some(Stop::Cancelled); 2]));
     }
 
@@ -374,7 +458,7 @@ mod tests {
     fn a_task_beside_another_ends_with_it_or_is_waited_for() {
         let mut monitor = Monitor::default();
         let sum = scope(|scope| {
-            let there = monitor.worker().start(scope, |_: &mut Monitor| 40);
+            let there = monitor.worker().start(scope, 1, |_: &mut Monitor| 40);
             2 + there.wait(&mut monitor)
         });
         assert_eq!(sum, 42);
@@ -382,7 +466,7 @@ mod tests {
         assert_eq!(here.wait(&mut monitor), 40);
         // Nobody waits: it would never end by itself.
         scope(|scope| {
-            monitor.worker().start(scope, |monitor: &mut Monitor| {
+            monitor.worker().start(scope, 1, |monitor: &mut Monitor| {
                 while monitor.check().is_ok() {
                     std::thread::yield_now();
                 }
@@ -391,9 +475,38 @@ mod tests {
     }
 
     #[test]
+    fn no_thread_ends_before_its_tasks_are_done() {
+        // Each thread does one task, and waits until all have begun. The thread of the call is done at once, and waits
+        // for the others in the order in which they were started. They are done one after another, in both orders of
+        // the tasks, so that the first one is not always the last to be done.
+        let (caller, barrier) = (current().id(), Barrier::new(8));
+        for is_reversed in [false, true, false, true] {
+            let is_ended = |k: usize, monitor: &mut Monitor| {
+                barrier.wait();
+                let steps = match is_reversed {
+                    _ if current().id() == caller => 0,
+                    true => 8 - k,
+                    false => k + 1,
+                };
+                let until = Instant::now() + Duration::from_millis(8 * steps as u64);
+                let mut ends = false;
+                while Instant::now() < until {
+                    ends |= monitor.ends();
+                    std::thread::sleep(Duration::from_millis(1));
+                }
+                ends
+            };
+            let ended = with_threads(8, || tasks(8, &mut Monitor::default(), is_ended));
+            assert_eq!(ended, [false; 8]);
+        }
+    }
+
+    #[test]
     fn parts_cover_everything_once_and_in_order() {
         for (count, threads) in [(0, 4), (1, 4), (10, 3), (10, 1), (1000, 0)] {
-            let parts = in_parts(count, threads, |part| part.collect::<Vec<_>>());
+            let parts = || in_parts(count, 2, |part| part.collect::<Vec<_>>());
+            let parts = with_threads(threads, parts);
+            assert!(parts.len() <= (count / 2).max(1));
             assert_eq!(parts.concat(), (0..count).collect::<Vec<_>>());
         }
     }
@@ -404,7 +517,7 @@ mod tests {
         let mut monitor = Monitor::default();
         let worker = monitor.worker();
         scope(|scope| {
-            let there = worker.start(scope, |_: &mut Monitor| panic!("a task that panics"));
+            let there = worker.start(scope, 1, |_: &mut Monitor| panic!("a task that panics"));
             there.wait(&mut monitor);
         });
     }

@@ -3,9 +3,13 @@
 use super::RowList;
 use super::check::{in_range, same_length};
 use crate::error::{Error, Result};
+use crate::monitor::in_parts;
 
 /// An unknown has cancelled if its coefficient is at most this, relative to the coefficients in the sum.
 const CANCELLED: f64 = 1e-12;
+
+/// The least number of cycles that are worth a thread.
+const LEAST: usize = 1 << 13;
 
 /// Cycles, as signed sums of least-squares rows in which all continuous unknowns cancel.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -63,19 +67,23 @@ impl CycleHint {
 
     /// The first cycle in which a continuous unknown does not cancel.
     pub(super) fn fault(&self, rows: &RowList, integer: &[bool]) -> Option<usize> {
-        let mut sum = vec![0.0; integer.len()];
-        (0..self.len()).find(|&k| {
+        let parts = in_parts(self.len(), LEAST, |mut part| {
+            let mut sum = vec![0.0; integer.len()];
             let mut touched = Vec::new();
-            for (row, sign) in self.cycle(k) {
-                for (i, a) in rows.row(row).filter(|&(i, _)| !integer[i]) {
-                    sum[i] += sign * a;
-                    touched.push((i, a.abs()));
+            part.find(|&k| {
+                touched.clear();
+                for (row, sign) in self.cycle(k) {
+                    for (i, a) in rows.row(row).filter(|&(i, _)| !integer[i]) {
+                        sum[i] += sign * a;
+                        touched.push((i, a.abs()));
+                    }
                 }
-            }
-            let stays = touched.iter().any(|&(i, a)| sum[i].abs() > CANCELLED * a);
-            touched.iter().for_each(|&(i, _)| sum[i] = 0.0);
-            stays
-        })
+                let stays = touched.iter().any(|&(i, a)| sum[i].abs() > CANCELLED * a);
+                touched.iter().for_each(|&(i, _)| sum[i] = 0.0);
+                stays
+            })
+        });
+        parts.into_iter().flatten().next()
     }
 }
 

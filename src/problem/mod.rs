@@ -79,6 +79,12 @@ impl Problem {
         self.variables
     }
 
+    /// The number of unknowns and coefficients, by which memory is estimated.
+    pub(crate) fn size(&self) -> usize {
+        let rows = [&self.least_squares, &self.constraints].map(RowList::entries);
+        self.variables + self.quadratic.len() + rows[0] + rows[1]
+    }
+
     /// Entries of the lower triangle of Q as given. Duplicates are not summed.
     pub(crate) fn quadratic(&self) -> &[(u32, u32, f64)] {
         &self.quadratic

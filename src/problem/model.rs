@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::{CycleHint, Problem, RowList};
 use crate::error::{Error, Result};
 use crate::linalg::Sparse;
-use crate::linalg::sparse::reserve;
+use crate::monitor::{may_continue, may_continue_at, span};
 
 /// A problem that was checked and assembled. It does not change afterwards.
 ///
@@ -34,34 +34,40 @@ impl Model {
     /// [`Error::InvalidArgument`] for an integer unknown pinned
     /// to a fraction, [`Error::Overflow`] where sums overflow, [`Error::OutOfMemory`].
     pub fn new(problem: &Problem) -> Result<Self> {
+        let _span = span("model");
         pins_are_integer(problem)?;
         let n = problem.variables;
-        let mut entries = reserve(problem.quadratic.len() + 3 * problem.least_squares.len())?;
-        entries.extend_from_slice(&problem.quadratic);
-        for (k, &w) in problem.weights.iter().enumerate() {
-            let row = problem.least_squares.row(k);
-            for (a, (i, u)) in row.clone().enumerate() {
+        let rows = &problem.least_squares;
+        let products = problem.weights.iter().enumerate().flat_map(|(k, &w)| {
+            let row = rows.row(k);
+            row.clone().enumerate().flat_map(move |(a, (i, u))| {
                 // Each unordered pair once. A repeated variable is paired with itself twice.
-                entries.push((i as u32, i as u32, 2.0 * w * u * u));
-                for (j, v) in row.clone().take(a) {
+                let square = (i as u32, i as u32, 2.0 * w * u * u);
+                let others = row.clone().take(a).map(move |(j, v)| {
                     let twice = if i == j { 2.0 } else { 1.0 };
-                    entries.push((i.max(j) as u32, i.min(j) as u32, twice * 2.0 * w * u * v));
-                }
-            }
-        }
-        let hessian = Sparse::from_triplets(n, n, entries.iter().copied())?;
-        for (i, j, v) in hessian.entries() {
-            if !v.is_finite() {
-                return Err(Error::Overflow {
-                    what: format!("the sum of quadratic entries ({i}, {j}) overflows"),
-                    index: Some(i as usize),
+                    (i.max(j) as u32, i.min(j) as u32, twice * 2.0 * w * u * v)
                 });
-            }
+                std::iter::once(square).chain(others)
+            })
+        });
+        let entries = problem.quadratic.iter().copied().chain(products);
+        let hessian = Sparse::from_triplets(n, n, entries)?;
+        may_continue()?;
+        if let Some(at) = hessian.values().iter().position(|v| !v.is_finite()) {
+            let i = hessian.offsets().partition_point(|&start| start <= at) - 1;
+            let j = hessian.indices()[at];
+            return Err(Error::Overflow {
+                what: format!("the sum of quadratic entries ({i}, {j}) overflows"),
+                index: Some(i),
+            });
         }
+        may_continue()?;
         let (gradient, constant) = linear_part(problem)?;
+        may_continue()?;
         let ignored_hint = problem
             .cycles
             .fault(&problem.least_squares, &problem.integer);
+        may_continue()?;
         let constraints = problem.constraints.to_sparse(n)?;
         if let Some((i, j, _)) = constraints.entries().find(|(_, _, v)| !v.is_finite()) {
             return Err(Error::Overflow {
@@ -200,6 +206,7 @@ fn linear_part(problem: &Problem) -> Result<(Vec<f64>, f64)> {
     let mut gradient = problem.linear.clone();
     let mut constant = problem.constant;
     for (k, &w) in problem.weights.iter().enumerate() {
+        may_continue_at(k)?;
         let rhs = problem.least_squares.rhs()[k];
         for (i, u) in problem.least_squares.row(k) {
             gradient[i] -= 2.0 * w * rhs * u;

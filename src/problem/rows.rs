@@ -33,6 +33,11 @@ impl RowList {
         self.rhs.len()
     }
 
+    /// Number of entries of all rows.
+    pub(super) fn entries(&self) -> usize {
+        self.indices.len()
+    }
+
     /// Whether there is no row.
     pub fn is_empty(&self) -> bool {
         self.rhs.is_empty()

@@ -7,7 +7,7 @@
 use crate::error::Result;
 use crate::map::{SeamlessMap, SeamlessProblem, Sizing};
 use crate::mesh::TriangleMesh;
-use crate::monitor::Monitor;
+use crate::monitor::{Monitor, may_continue};
 use crate::search::{Options, Strategy};
 use crate::solve::Solver;
 
@@ -28,6 +28,7 @@ pub(super) fn aim(
         ..Options::default()
     };
     let solution = solver.solve_with(&options, monitor)?;
+    may_continue()?;
     let squares = area(mesh, &problem.map(mesh, &solution)?);
     let &Sizing::Quads(wanted) = sizing else {
         return Ok(solution.energy());

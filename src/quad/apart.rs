@@ -13,7 +13,7 @@ use super::tries::Tries;
 use super::{QuadOptions, QuadSeconds, Quadrangulation};
 use crate::extract::QuadMesh;
 use crate::mesh::TriangleMesh;
-use crate::monitor::{Monitor, side_by_side, thread_count};
+use crate::monitor::{Monitor, allowed_threads, side_by_side};
 
 /// The components that each thread may try before they are compared.
 const AHEAD: usize = 4;
@@ -84,18 +84,17 @@ impl Apart<'_> {
     /// Threads try components beyond those that have been compared. What spends more than the components before
     /// it have left is tried again with that.
     fn take<'m, M: Fn() -> Monitor<'m>>(&mut self, tries: &mut Tries<'_, M>, components: &[usize]) {
-        let threads = thread_count(self.options.field.threads);
+        let threads = allowed_threads();
         let ahead = if threads == 1 { 1 } else { AHEAD * threads };
         for window in components.chunks(ahead) {
             let (left, monitor, far) = (tries.left(), tries.monitor, tries.far);
-            let (this, of_each) = (&*self, if window.len() == 1 { threads } else { 1 });
+            let this = &*self;
             let started = Instant::now();
             let taken = side_by_side(
                 window.len(),
-                threads,
                 monitor,
                 |_| {},
-                |k, monitor| Ok(this.tried(window[k], far, left, of_each, &monitor)),
+                |k, monitor| Ok(this.tried(window[k], far, left, &monitor)),
             );
             let Ok(taken) = taken else {
                 return;
@@ -108,7 +107,7 @@ impl Apart<'_> {
                 }
                 let left = tries.left();
                 if window[0] != c && taken.spent >= left {
-                    taken = self.tried(c, far, left, threads, monitor);
+                    taken = self.tried(c, far, left, monitor);
                 }
                 tries.count(taken.spent, taken.has_ended);
                 if let Some((part, found)) = taken.better {
@@ -118,18 +117,17 @@ impl Apart<'_> {
         }
     }
 
-    /// Tries a component if its quads are not good, with this much work and so many threads.
+    /// Tries a component if its quads are not good, with this much work.
     fn tried<'m>(
         &self,
         c: usize,
         far: f64,
         work: u64,
-        threads: usize,
         monitor: &impl Fn() -> Monitor<'m>,
     ) -> Taken {
         let started = Instant::now();
         let mut tries = Tries::with_work(far, monitor, work);
-        let better = self.better(c, threads, &mut tries);
+        let better = self.better(c, &mut tries);
         Taken {
             better,
             spent: work - tries.left(),
@@ -142,14 +140,11 @@ impl Apart<'_> {
     fn better<'m, M: Fn() -> Monitor<'m>>(
         &self,
         c: usize,
-        threads: usize,
         tries: &mut Tries<'_, M>,
     ) -> Option<(Part, Quadrangulation)> {
         let (mesh, is_refined) = (self.mesh, self.made.refined.is_some());
         let part = Part::new(mesh, self.faces[c].clone()).ok()?;
-        let mut given = part.options(mesh, self.options);
-        given.field.threads = threads;
-        given.map.threads = threads;
+        let given = part.options(mesh, self.options);
         let rank = Rank::of_quads(&part.mesh, &given, tries.far, &self.quads[c], is_refined);
         if rank.is_good() || !tries.may_take(&part.mesh) {
             return None;

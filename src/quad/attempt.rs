@@ -6,7 +6,7 @@ use crate::error::Result;
 use crate::extract::{IntegerGridMap, QuadMesh, extract};
 use crate::map::SeamlessMap;
 use crate::mesh::TriangleMesh;
-use crate::monitor::Monitor;
+use crate::monitor::{Monitor, may_continue};
 use crate::solve::Solution;
 use crate::untangle::Untangled;
 
@@ -35,8 +35,10 @@ impl Attempt {
         map: Untangled,
         mut monitor: Monitor,
     ) -> Result<Self> {
+        may_continue()?;
         let exact = IntegerGridMap::from_seamless(mesh, &map.map)?;
         let quads = extract(mesh, &exact, &mut monitor)?;
+        may_continue()?;
         let missed = missed(mesh, &quads, features);
         Ok(Attempt {
             outcome: Outcome::of_quads(&quads, missed.len()),

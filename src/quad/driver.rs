@@ -36,7 +36,7 @@ use crate::field::FieldProblem;
 use crate::map::Sizing;
 use crate::mesh::TriangleMesh;
 use crate::mesh::features::FeatureGraph;
-use crate::monitor::{Monitor, Stage, optional};
+use crate::monitor::{Monitor, Stage, may_continue, optional};
 use crate::smooth::{SmoothOptions, smooth};
 use crate::solve::Solution;
 use crate::untangle::{FINER, Untangled};
@@ -108,7 +108,9 @@ pub(super) fn by_options<'a>(
     monitor: &impl Fn() -> Monitor<'a>,
 ) -> Result<Quadrangulation> {
     options.sizing.check(mesh)?;
+    may_continue()?;
     let features = options.guidance.features(mesh)?;
+    may_continue()?;
     let mut seconds = 0.0;
     let input = timed(&mut seconds, || refined(mesh, &features, options))?;
     let Some(input) = input else {
@@ -150,6 +152,7 @@ fn refined(
         None => FeatureGraph::none(mesh),
     };
     let held = held.with(mesh, features)?;
+    may_continue()?;
     RefinedInput::new(mesh, &options.guidance, &held, &options.sizing)
 }
 
@@ -162,7 +165,9 @@ fn of_mesh<'a>(
     work: &Cell<u64>,
     monitor: &impl Fn() -> Monitor<'a>,
 ) -> Result<Quadrangulation> {
+    may_continue()?;
     let features = features.with_two_of_each_face(mesh);
+    may_continue()?;
     monitor().run().plan(stage_ends(mesh, options));
     let faces = match effort {
         Effort::Again => FACES_AGAIN,

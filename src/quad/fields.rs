@@ -18,8 +18,7 @@ use crate::field::{FieldOptions, Guidance, OrientationField, solve_field};
 use crate::map::SeamlessProblem;
 use crate::mesh::TriangleMesh;
 use crate::mesh::features::FeatureGraph;
-use crate::monitor::{Monitor, Stage, optional, side_by_side};
-use crate::search::Options;
+use crate::monitor::{Monitor, Stage, may_continue, optional, side_by_side};
 use crate::solve::{Solution, Solver};
 
 /// Another use of curvature.
@@ -77,16 +76,14 @@ pub(super) fn choose_field<'a>(
     let (run, count) = (monitor().run(), field_count(mesh, options));
     let all: Vec<QuadOptions> = std::iter::once(options.clone())
         .chain(others(mesh, options))
-        .map(|of_field| alone(of_field, count))
         .collect();
     let started = Instant::now();
     let found = side_by_side(
         count,
-        options.field.threads,
         monitor,
         |done| run.enter(Stage::Field, done, count),
         |k, monitor| {
-            let follow = || follow(mesh, &all[k], features, &monitor);
+            let follow = || follow(mesh, &all[k], features, count == 1, &monitor);
             if k == 0 {
                 return follow().map(Some);
             }
@@ -113,20 +110,6 @@ pub(super) fn choose_field<'a>(
     *of_field += scale * spent[0];
     *of_map += scale * spent[1];
     best.map(|best| best.chosen).ok_or(Error::Cancelled)
-}
-
-/// The options of a field when this many are tried: as many threads work on fields, and each on one.
-fn alone(options: QuadOptions, count: usize) -> QuadOptions {
-    if count == 1 {
-        return options;
-    }
-    QuadOptions {
-        field: Options {
-            threads: 1,
-            ..options.field
-        },
-        ..options
-    }
 }
 
 /// The number of fields that are tried.
@@ -161,11 +144,12 @@ struct Followed {
     seconds: [f64; 2],
 }
 
-/// The field that follows this guidance, and the problem of its map.
+/// The field that follows this guidance, and the problem of its map. Integers are decided for `is_only` in any case.
 fn follow<'a>(
     mesh: &TriangleMesh,
     options: &QuadOptions,
     features: &FeatureGraph,
+    is_only: bool,
     monitor: &impl Fn() -> Monitor<'a>,
 ) -> Result<Followed> {
     let mut seconds = [0.0; 2];
@@ -177,7 +161,11 @@ fn follow<'a>(
     let chosen = timed(of_map, || {
         let sizing = &options.sizing;
         let mut problem = SeamlessProblem::with_features(mesh, &field, sizing, features)?;
+        may_continue()?;
         let mut solver = Solver::new(problem.problem())?;
+        if is_only {
+            solver.expect_search();
+        }
         let energy = aim(mesh, &mut problem, &mut solver, sizing, monitor())?;
         Ok(ChosenField {
             outcome: Outcome::of_relaxation(energy, problem.cones().len()),

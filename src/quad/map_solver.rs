@@ -134,7 +134,7 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> MapSolver<'a, M> {
 
     /// Separates feature curves that the integers put on one line.
     pub(super) fn separate_features(&mut self, first: &Solved) -> Result<Separated> {
-        let strips = self.problem.feature_strips(self.mesh);
+        let strips = self.problem.feature_strips(self.mesh)?;
         self.separate(first, ROUNDS_FOR_FEATURES, |_, map| {
             let collapsed = strips.iter().filter(|strip| strip.is_collapsed(map));
             let collapsed: Vec<_> = collapsed.copied().collect();

@@ -14,7 +14,7 @@ use super::{QuadOptions, Quadrangulation};
 use crate::error::Result;
 use crate::extract::QuadMesh;
 use crate::mesh::TriangleMesh;
-use crate::monitor::{Monitor, Phase};
+use crate::monitor::{Monitor, Phase, may_continue, with_threads};
 
 /// The share of a run that its first try takes; most need no other.
 const FIRST: f64 = 0.97;
@@ -60,8 +60,20 @@ pub fn quadrangulate<'a>(
     options: &QuadOptions,
     monitor: impl Fn() -> Monitor<'a>,
 ) -> Result<Quadrangulation> {
+    with_threads(options.field.threads, || {
+        on_threads(mesh, options, &monitor)
+    })
+}
+
+fn on_threads<'a>(
+    mesh: &TriangleMesh,
+    options: &QuadOptions,
+    monitor: &impl Fn() -> Monitor<'a>,
+) -> Result<Quadrangulation> {
     let run = monitor().run();
     let monitor = || monitor().of_run(&run);
+    let (_watch, _memory) = (monitor().watch(), mesh.watch_memory());
+    may_continue()?;
     let components = Components::new(mesh);
     let effort = match components.count {
         1 => Effort::Full,

@@ -12,6 +12,7 @@ use crate::mesh::features::FeatureGraph;
 use crate::mesh::refine::{Need, RefineOptions, Refined, needs_refinement, refine};
 use crate::mesh::vector::{Vec3, add, cross, dot, scale, sub};
 use crate::mesh::{ClosestPoint, TriangleMesh};
+use crate::monitor::may_continue;
 
 use super::Quadrangulation;
 
@@ -57,6 +58,7 @@ impl RefinedInput {
         sizing.check(mesh)?;
         let edge_length = sizing.edge_length(mesh);
         let quads = mesh.surface_area() / (edge_length * edge_length);
+        may_continue()?;
         let longest = match needs_refinement(mesh, edge_length) {
             Some(Need::LongEdge(_)) => LONGEST_EDGE * edge_length,
             Some(Need::SmallAngle(_)) => LONGEST_BESIDE_NEEDLES * edge_length,

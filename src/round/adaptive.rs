@@ -5,23 +5,30 @@
 //! re-optimises by Gauss-Seidel, starting from their neighbours. If that exceeds its budget, conjugate
 //! gradients follow, and if these fail, a factorization.
 //!
-//! With few integers, exact greedy rounding is faster and is used instead.
+//! Large problems are first rounded in [regions](super::regions), several at a time. With few integers, or where
+//! their Schur complement is small, exact greedy rounding takes no longer and is used instead, and
+//! [coordinate descent](super::descend) follows.
 
 use super::candidates::Candidates;
+use super::descend::descend;
 use super::greedy;
+use super::regions::round_in_regions;
 use crate::eliminate::ReducedModel;
 use crate::error::Result;
-use crate::linalg::{Effort, LocalSolve, conjugate_gradient, minimise_fixed};
-use crate::monitor::Phase;
+use crate::linalg::{Effort, LocalSolve, Wave, conjugate_gradient, minimise_fixed};
+use crate::monitor::{Phase, span};
 use crate::search::{Factors, Options, Search};
 
 /// Gauss-Seidel updates between two checks of the monitor.
-const UPDATES_AT_A_TIME: usize = 10_000;
+pub(super) const UPDATES_AT_A_TIME: usize = 10_000;
+
+/// So few integers are rounded exactly, whatever the size of their Schur complement.
+const FEW: usize = 256;
 
 /// The most Gauss-Seidel updates of all passes, for each unknown, unless a single pass may make more.
 /// Meshes of tens of thousands of faces take a few; where many passes each move much of the problem, there
 /// would be no end.
-const UPDATES_PER_UNKNOWN: usize = 128;
+pub(super) const UPDATES_PER_UNKNOWN: usize = 128;
 
 /// The most unknowns of all systems that conjugate gradients and factorizations solve, unless it is one system.
 /// A factorization takes as long as a hundred updates an unknown. After that, passes go on from values that
@@ -53,9 +60,20 @@ pub(crate) fn adaptive(
     factors: &mut Factors,
     search: &mut Search,
 ) -> Result<()> {
+    let _span = span("adaptive rounding");
     let integers = model.integers();
-    if integers.len() <= options.exact_integers {
-        return greedy(model, factors, search);
+    let is_cheap = integers.len() <= FEW || factors.has_schur_factor(model);
+    if integers.len() <= options.exact_integers && is_cheap {
+        let rounded = greedy(model, factors, search)?;
+        // One that was known before may be better, and yet end higher than what was rounded now.
+        let known = search.incumbent_integers().filter(|best| *best != rounded);
+        for start in [Some(rounded), known].into_iter().flatten() {
+            if search.ends(0) {
+                break;
+            }
+            descend(model, start, factors, search)?;
+        }
+        return Ok(());
     }
     search.prepare(factors)?;
     let mut passes = Passes {
@@ -67,14 +85,17 @@ pub(crate) fn adaptive(
             search.relaxed(),
             integers,
         )?,
-        fixed: vec![false; model.dim()],
+        wave: Wave::default(),
         left: integers.len(),
         global_steps: (GLOBAL_UNKNOWNS / model.dim().max(1)).max(1),
         updates: (UPDATES_PER_UNKNOWN * model.dim()).max(options.gauss_seidel_updates),
     };
+    passes.in_regions(search);
     let mut candidates = Candidates::new(model.dim());
     for &i in integers {
-        candidates.push(i, search.relaxed()[i as usize]);
+        if let Some(value) = passes.undecided(i) {
+            candidates.push(i, value);
+        }
     }
     while passes.left > 0 && passes.updates > 0 {
         let done = 1.0 - passes.left as f64 / integers.len() as f64;
@@ -89,12 +110,13 @@ pub(crate) fn adaptive(
             passes.round(i);
         }
         passes.reoptimise(factors, search)?;
-        for i in passes.solve.take_moved() {
+        for i in passes.solve.take_moved(&mut passes.wave) {
             candidates.push(i, passes.solve.value(i));
         }
     }
     let nearest = |&i: &u32| model.nearest(i as usize, passes.solve.value(i));
     let rounded: Vec<f64> = integers.iter().map(nearest).collect();
+    drop(passes);
     search.offer(factors, &rounded)?;
     Ok(())
 }
@@ -104,7 +126,7 @@ struct Passes<'a> {
     model: &'a ReducedModel,
     options: &'a Options,
     solve: LocalSolve<'a>,
-    fixed: Vec<bool>,
+    wave: Wave,
     left: usize,
     /// The updates that are left.
     updates: usize,
@@ -115,26 +137,27 @@ struct Passes<'a> {
 impl Passes<'_> {
     /// The value of an integer that has not been rounded yet.
     fn undecided(&self, unknown: u32) -> Option<f64> {
-        let i = unknown as usize;
-        (!self.fixed[i]).then(|| self.solve.value(unknown))
+        (!self.solve.is_fixed(unknown)).then(|| self.solve.value(unknown))
     }
 
     fn round(&mut self, unknown: u32) {
-        let value = self.solve.value(unknown);
-        self.solve
-            .fix(unknown, self.model.nearest(unknown as usize, value));
-        self.fixed[unknown as usize] = true;
+        let nearest = self
+            .model
+            .nearest(unknown as usize, self.solve.value(unknown));
+        self.solve.fix(unknown, nearest, &mut self.wave);
         self.left -= 1;
     }
 
     /// Rounds what is left in a few large passes.
     fn finish(&mut self, candidates: &mut Candidates) {
         let tolerance = HASTY_TOLERANCE * self.options.gauss_seidel_tolerance;
-        let mut budget = HASTY_UPDATES * self.fixed.len();
+        let mut budget = HASTY_UPDATES * self.model.dim();
         while self.left > 0 && budget > 0 {
             // The pass that the caller interrupted comes first.
-            budget -= self.solve.relax(tolerance, budget);
-            for i in self.solve.take_moved() {
+            budget -= self
+                .solve
+                .relax(&mut self.wave, tolerance, budget, |_| true);
+            for i in self.solve.take_moved(&mut self.wave) {
                 candidates.push(i, self.solve.value(i));
             }
             let threshold = HASTE * self.left as f64;
@@ -145,29 +168,49 @@ impl Passes<'_> {
         }
     }
 
-    /// Re-optimises locally, then iteratively, then exactly.
-    fn reoptimise(&mut self, factors: &mut Factors, search: &mut Search) -> Result<()> {
-        let options = self.options;
-        let mut budget = options.gauss_seidel_updates;
-        while budget > 0 && !self.solve.is_settled() {
-            let tolerance = options.gauss_seidel_tolerance;
-            let made = self.solve.relax(tolerance, budget.min(UPDATES_AT_A_TIME));
+    /// Rounds what can be rounded in regions of a large problem.
+    fn in_regions(&mut self, search: &mut Search) {
+        let rounded = round_in_regions(self.model, self.options, &self.solve, search.monitor);
+        self.left -= rounded.count;
+        self.updates = self.updates.saturating_sub(rounded.updates);
+        self.wave = rounded.wave;
+        self.relax(self.updates, search);
+        self.solve.take_moved(&mut self.wave);
+    }
+
+    /// Re-optimises locally by so many updates at most. Returns whether the search goes on.
+    fn relax(&mut self, mut budget: usize, search: &mut Search) -> bool {
+        let tolerance = self.options.gauss_seidel_tolerance;
+        while budget > 0 && !self.wave.is_settled() {
+            let most = budget.min(UPDATES_AT_A_TIME);
+            let made = self.solve.relax(&mut self.wave, tolerance, most, |_| true);
             budget -= made;
             self.updates = self.updates.saturating_sub(made);
             if search.monitor.ends() {
-                return Ok(());
+                return false;
             }
         }
-        if self.solve.is_settled() || self.global_steps == 0 {
+        true
+    }
+
+    /// Re-optimises locally, then iteratively, then exactly.
+    fn reoptimise(&mut self, factors: &mut Factors, search: &mut Search) -> Result<()> {
+        let options = self.options;
+        if !self.relax(options.gauss_seidel_updates, search) {
+            return Ok(());
+        }
+        if self.wave.is_settled() || self.global_steps == 0 {
             return Ok(());
         }
         self.global_steps -= 1;
         let mut point = self.solve.point();
+        let all = 0..self.model.dim() as u32;
+        let fixed: Vec<bool> = all.map(|i| self.solve.is_fixed(i)).collect();
         let converged = conjugate_gradient(
             self.model.hessian(),
             self.model.gradient(),
             factors.relaxed(self.model)?,
-            &self.fixed,
+            &fixed,
             &mut point,
             Effort {
                 iterations: options.cg_iterations,
@@ -177,9 +220,9 @@ impl Passes<'_> {
         )?;
         if !converged && options.exact_steps && !search.monitor.ends() {
             let (hessian, gradient) = (self.model.hessian(), self.model.gradient());
-            point = minimise_fixed(hessian, gradient, &self.fixed, &point)?;
+            point = minimise_fixed(hessian, gradient, &fixed, &point)?;
         }
-        self.solve.settle_at(&point);
+        self.solve.settle_at(&point, &mut self.wave);
         Ok(())
     }
 }

@@ -61,9 +61,23 @@ impl Candidates {
     ///
     /// `value` gives the current value of an unknown, or none once it is decided.
     pub fn take(&mut self, threshold: f64, value: impl Fn(u32) -> Option<f64>) -> Vec<u32> {
+        self.take_up_to(1.0, threshold, value)
+    }
+
+    /// As [`take`](Self::take), but no deviation above `ceiling`.
+    pub fn take_up_to(
+        &mut self,
+        ceiling: f64,
+        threshold: f64,
+        value: impl Fn(u32) -> Option<f64>,
+    ) -> Vec<u32> {
+        let highest = (ceiling / TIE) as u64;
         let mut taken = Vec::new();
         let mut sum = 0.0;
         while let Some((range, stored, unknown)) = self.least() {
+            if stored > highest {
+                break;
+            }
             let stale = self.entered[unknown as usize] != stored;
             let current = value(unknown).filter(|_| !stale);
             if let Some(x) = current.filter(|&x| rank(x) == stored) {

@@ -17,10 +17,11 @@ pub(crate) fn direct(
     search: &mut Search,
 ) -> Result<()> {
     search.prepare(factors)?;
-    round_all(model, factors, search)
+    round_all(model, factors, search)?;
+    Ok(())
 }
 
-/// Offers the relaxation rounded.
+/// Offers the relaxation rounded, and returns these integers.
 ///
 /// # Errors
 /// The errors of the evaluation of the offer.
@@ -28,10 +29,10 @@ pub(super) fn round_all(
     model: &ReducedModel,
     factors: &mut Factors,
     search: &mut Search,
-) -> Result<()> {
+) -> Result<Vec<f64>> {
     let integers = model.integers().iter();
     let rounded = integers.map(|&k| model.nearest(k as usize, search.relaxed()[k as usize]));
     let rounded: Vec<f64> = rounded.collect();
     search.offer(factors, &rounded)?;
-    Ok(())
+    Ok(rounded)
 }

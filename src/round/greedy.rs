@@ -14,7 +14,7 @@ use crate::search::{Factors, Search};
 /// Deviations that exceed the least one by at most this are ties. The lowest variable wins a tie.
 pub const TIE: f64 = 1e-9;
 
-/// Rounds one integer at a time.
+/// Rounds one integer at a time, offers the result and returns it.
 ///
 /// If it has to stop early, it offers the integers decided so far and rounds the others.
 ///
@@ -24,7 +24,7 @@ pub(crate) fn greedy(
     model: &ReducedModel,
     factors: &mut Factors,
     search: &mut Search,
-) -> Result<()> {
+) -> Result<Vec<f64>> {
     let integers = model.integers();
     search.prepare(factors)?;
     let go_on = || !search.monitor.ends();
@@ -55,7 +55,7 @@ pub(crate) fn greedy(
         solve.fix(watched[place], rounded[place]);
     }
     search.offer(factors, &rounded)?;
-    Ok(())
+    Ok(rounded)
 }
 
 /// Position in `free` of the value closest to an integer, the first among ties.

@@ -3,9 +3,11 @@
 
 mod adaptive;
 mod candidates;
+mod descend;
 mod direct;
 mod greedy;
 mod multiple;
+mod regions;
 
 pub(crate) use adaptive::adaptive;
 pub(crate) use direct::direct;

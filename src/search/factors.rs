@@ -7,12 +7,16 @@
 use std::time::Instant;
 
 use super::Strategy;
-use crate::eliminate::ReducedModel;
+use crate::eliminate::{ReducedModel, has_several_components};
 use crate::error::Result;
 use crate::linalg::{
     Cholesky, Ldl, Minimum, Ordering, RelaxedFactor, SchurFactor, Sparse, coupling, minimise,
     minimise_bounded, principal_submatrix, residual,
 };
+use crate::monitor::{allowed_threads, both, may_continue};
+
+/// The least number of unknowns for which a factor gets a thread of its own.
+const WORTH_A_THREAD: usize = 4_096;
 
 /// The factors of one reduced model.
 #[derive(Debug, Default)]
@@ -22,6 +26,8 @@ pub(crate) struct Factors {
     /// The factor in its original state, if it is kept.
     updatable: Option<Ldl>,
     ordering: Ordering,
+    /// Whether a search follows also where no integers are decided.
+    is_searched: bool,
     keep: bool,
     schur_factor: Option<SchurFactor>,
     /// By component: its own factors.
@@ -67,6 +73,11 @@ impl Factors {
         }
     }
 
+    /// From now on, relaxations are solved with the factors of the search that follows.
+    pub fn expect_search(&mut self) {
+        self.is_searched = true;
+    }
+
     /// The factors of component `k` of the model.
     pub fn of_component(&mut self, k: usize) -> &mut Factors {
         let (ordering, keep) = (self.ordering, self.keep);
@@ -106,6 +117,26 @@ impl Factors {
         Ok(self.relaxed.insert(factor))
     }
 
+    /// Makes the factors of the whole Hessian and of its continuous block at the same time. The search needs
+    /// the second one, unless the model has several components, which are searched with factors of their own.
+    fn make_both(&mut self, model: &ReducedModel) -> Result<()> {
+        let is_known = self.relaxed.is_some() || self.continuous.is_some();
+        if is_known || has_several_components(model)? {
+            return Ok(());
+        }
+        let ordering = self.ordering;
+        let (relaxed, continuous) = timed(&mut self.seconds, || {
+            Ok(both(
+                true,
+                || RelaxedFactor::ordered(model.hessian(), model.integers(), ordering),
+                || ContinuousBlock::new(model, ordering),
+            ))
+        })?;
+        self.relaxed = Some(relaxed?);
+        self.continuous = Some(continuous?);
+        Ok(())
+    }
+
     /// Minimises the objective with all integers real, with a factor that `strategy` needs as well.
     pub fn minimise(
         &mut self,
@@ -114,9 +145,14 @@ impl Factors {
         rounding: impl FnOnce() -> Vec<f64>,
     ) -> Result<Minimum> {
         let (gradient, guess) = (model.gradient(), model.guess());
-        if strategy != Strategy::Relax && self.has_schur_factor(model) {
+        let is_searched = strategy != Strategy::Relax || self.is_searched;
+        if is_searched && self.has_schur_factor(model) {
             let factor = self.schur_factor(model)?.whole();
             return minimise(model.hessian(), gradient, rounding, guess, factor);
+        }
+        let is_searched = is_searched && !model.integers().is_empty();
+        if is_searched && allowed_threads() > 1 && model.dim() >= WORTH_A_THREAD {
+            self.make_both(model)?;
         }
         self.relaxed(model)?.minimise(gradient, rounding, guess)
     }
@@ -128,7 +164,8 @@ impl Factors {
         model: &ReducedModel,
         strategy: Strategy,
     ) -> Result<Option<(Vec<f64>, f64)>> {
-        if strategy != Strategy::Relax && self.has_schur_factor(model) {
+        let is_searched = strategy != Strategy::Relax || self.is_searched;
+        if is_searched && self.has_schur_factor(model) {
             return self.schur_factor(model)?.whole().null_direction();
         }
         self.relaxed(model)?.null_direction()
@@ -214,8 +251,7 @@ impl Factors {
     /// Solves `A_cc x_c = b_c` in place. The entries of integers stay as they are.
     pub fn solve_continuous(&mut self, model: &ReducedModel, b: &mut [f64]) -> Result<()> {
         if let Some(schur_factor) = self.definite_schur_factor(model)? {
-            schur_factor.solve_continuous(b);
-            return Ok(());
+            return schur_factor.solve_continuous(b);
         }
         let block = self.continuous(model)?;
         let of_continuous = model.continuous().iter().map(|&i| b[i as usize]);
@@ -231,7 +267,7 @@ impl Factors {
     /// relaxation must have a minimum.
     pub fn follow(&mut self, model: &ReducedModel, point: &[f64]) -> Result<Vec<f64>> {
         if let Some(schur_factor) = self.definite_schur_factor(model)? {
-            return Ok(follow_by_schur_factor(model, schur_factor, point));
+            return follow_by_schur_factor(model, schur_factor, point);
         }
         self.continuous(model)?.follow(model, point)
     }
@@ -285,16 +321,18 @@ fn follow_by_schur_factor(
     model: &ReducedModel,
     schur_factor: &SchurFactor,
     point: &[f64],
-) -> Vec<f64> {
+) -> Result<Vec<f64>> {
     let mut point = point.to_vec();
     for _ in 0..2 {
+        may_continue()?;
         let mut step = residual(model.hessian(), model.gradient(), &point);
-        schur_factor.solve_continuous(&mut step);
+        may_continue()?;
+        schur_factor.solve_continuous(&mut step)?;
         for &i in model.continuous() {
             point[i as usize] += step[i as usize];
         }
     }
-    point
+    Ok(point)
 }
 
 /// Calls `make` and adds its time to `seconds`.

@@ -29,7 +29,7 @@ pub(crate) use work::{ALWAYS, Work, of_relaxation};
 use crate::eliminate::ReducedModel;
 use crate::error::{Error, Result};
 use crate::linalg::sum_below;
-use crate::monitor::{Monitor, Phase, Stop};
+use crate::monitor::{Monitor, Phase, Stop, may_continue, span};
 
 /// Integers are kept as floats, which are exact up to this size.
 pub(crate) const LARGEST_INTEGER: f64 = 9_007_199_254_740_992.0;
@@ -157,7 +157,7 @@ impl<'s, 'm> Search<'s, 'm> {
     /// yet.
     pub fn prepare(&mut self, factors: &mut Factors) -> Result<()> {
         self.monitor.progress(Phase::Factor, 0.5)?;
-        factors.prepare(self.model)?;
+        self.monitor.watching(|| factors.prepare(self.model))?;
         self.monitor.progress(Phase::Factor, 1.0)?;
         Ok(())
     }
@@ -166,8 +166,19 @@ impl<'s, 'm> Search<'s, 'm> {
     /// far.
     ///
     /// # Errors
-    /// [`Error::Overflow`] for integers beyond 2^53, and an error for lack of memory.
+    /// [`Error::Overflow`] for integers beyond 2^53, an error for lack of memory, and the reason why the solve was
+    /// stopped.
     pub fn offer(&mut self, factors: &mut Factors, integers: &[f64]) -> Result<bool> {
+        let _span = span("evaluate");
+        let _watch = self.monitor.watch();
+        self.offer_in_any_case(factors, integers)
+    }
+
+    /// As [`offer`](Self::offer), also after the solve was stopped.
+    ///
+    /// # Errors
+    /// As [`offer`](Self::offer).
+    pub fn offer_in_any_case(&mut self, factors: &mut Factors, integers: &[f64]) -> Result<bool> {
         let model = self.model;
         let too_large = |(&i, z): (&u32, &f64)| {
             let whole = model.origin(i as usize) + z;
@@ -179,6 +190,7 @@ impl<'s, 'm> Search<'s, 'm> {
                 index: Some(model.integers()[k] as usize),
             });
         }
+        may_continue()?;
         let mut point = self.relaxed.clone();
         for (&i, &z) in model.integers().iter().zip(integers) {
             point[i as usize] = z;
@@ -186,7 +198,9 @@ impl<'s, 'm> Search<'s, 'm> {
         if !model.continuous().is_empty() {
             point = factors.follow(model, &point)?;
         }
+        may_continue()?;
         let (mut energy, error) = model.energy(&point);
+        may_continue()?;
         let at_least = sum_below(&[energy, -error]);
         if let Some(exact) = self
             .exact
@@ -257,6 +271,7 @@ impl<'s, 'm> Search<'s, 'm> {
             _ if self.is_proved() => StoppedBy::Nothing,
             Some(Stop::Cancelled) => StoppedBy::Cancel,
             Some(Stop::TimeLimit) => StoppedBy::Time,
+            Some(Stop::OutOfMemory) => StoppedBy::Memory,
             None => self.stopped_by,
         }
     }

@@ -21,10 +21,12 @@ use crate::extract::QuadMesh;
 use crate::mesh::TriangleMesh;
 use crate::mesh::features::FeatureGraph;
 use crate::mesh::vector::{add, scale, sub};
-use crate::monitor::Monitor;
-use crate::monitor::Phase;
+use crate::monitor::{Monitor, Phase, collect_in_parts, span};
 pub use quality::QuadQuality;
 use surface::Surface;
+
+/// The least number of quads that are worth a thread.
+const LEAST: usize = 1 << 11;
 
 /// The options of smoothing.
 #[derive(Debug, Clone, PartialEq)]
@@ -64,13 +66,15 @@ pub fn smooth(
     options: &SmoothOptions,
     monitor: &mut Monitor,
 ) -> Result<()> {
+    let _span = span("smooth");
     check(options)?;
+    let (_watch, _memory) = (monitor.watch(), mesh.watch_memory());
     if monitor.finishes() {
         return Ok(());
     }
     let features = FeatureGraph::from_edges(mesh, &options.features)?;
     let features = features.with(mesh, &FeatureGraph::boundary(mesh))?;
-    let mut surface = Surface::new(quads, mesh, &features);
+    let mut surface = Surface::new(quads, mesh, &features)?;
     chains::close(quads, mesh, &mut surface);
     let home = quads.vertices.clone();
     for round in 0..options.rounds {
@@ -79,25 +83,23 @@ pub fn smooth(
         }
         monitor.progress(Phase::Quads, round as f64 / options.rounds as f64)?;
         let size = square::mean_edge(quads);
+        let targets = collect_in_parts(quads.quads.len(), LEAST, |q| {
+            let corners = quads.quads[q].map(|v| quads.vertices[v as usize]);
+            square::closest(corners, size, options.uniformity)
+        });
         let mut sum = vec![([0.0; 3], 0.0); quads.vertices.len()];
-        for quad in &quads.quads {
-            let corners = quad.map(|v| quads.vertices[v as usize]);
-            let targets = square::closest(corners, size, options.uniformity);
+        for (quad, targets) in quads.quads.iter().zip(targets) {
             for (&v, target) in quad.iter().zip(targets) {
                 let (total, count) = &mut sum[v as usize];
                 *total = add(*total, target);
                 *count += 1.0;
             }
         }
-        for (v, (total, count)) in sum.into_iter().enumerate() {
-            if count > 0.0 {
-                quads.vertices[v] = {
-                    let wanted = scale(total, 1.0 / count);
-                    let held = add(wanted, scale(sub(home[v], wanted), options.hold));
-                    surface.project(v, held)
-                };
-            }
-        }
+        let wanted = sum.into_iter().zip(&home).map(|((total, count), &home)| {
+            let wanted = scale(total, 1.0 / count);
+            (count > 0.0).then(|| add(wanted, scale(sub(home, wanted), options.hold)))
+        });
+        surface.project_all(&wanted.collect::<Vec<_>>(), &mut quads.vertices);
     }
     mend::mend(quads, &mut surface);
     Ok(())

@@ -1,10 +1,12 @@
 //! The constraint of each vertex: to the surface, to a curve on it, or to a point.
 
 use super::curve::Curve;
+use crate::error::Result;
 use crate::extract::{Origin, QuadMesh};
 use crate::mesh::features::FeatureGraph;
 use crate::mesh::vector::Vec3;
 use crate::mesh::{ClosestPoint, TriangleMesh};
+use crate::monitor::{collect_in_parts, may_continue};
 
 /// The constraint of a vertex.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -18,6 +20,9 @@ pub(super) enum Bond {
 /// The most triangles that closest points are looked for among, for each vertex of the quads. On other meshes
 /// than those of needles across the axes, sixty rounds take about 500.
 const WORK_PER_VERTEX: u64 = 20_000;
+
+/// The least number of vertices that are worth a thread.
+const LEAST: usize = 1 << 8;
 
 /// The surface with its curves: boundary and features.
 pub(super) struct Surface {
@@ -35,7 +40,11 @@ pub(super) struct Surface {
 }
 
 impl Surface {
-    pub(super) fn new(quads: &QuadMesh, mesh: &TriangleMesh, features: &FeatureGraph) -> Self {
+    pub(super) fn new(
+        quads: &QuadMesh,
+        mesh: &TriangleMesh,
+        features: &FeatureGraph,
+    ) -> Result<Self> {
         let mut on = vec![Bond::Surface; mesh.edge_count()];
         for (number, curve) in features.curves().iter().enumerate() {
             for &edge in &curve.edges {
@@ -49,15 +58,18 @@ impl Surface {
         let place = |origin: &Origin| place(mesh, &on, &is_node, origin);
         let (bonds, node) = quads.origins.iter().map(place).unzip();
         let curve = |curve| Curve::new(mesh, curve);
-        Surface {
-            faces: ClosestPoint::new(mesh),
+        may_continue()?;
+        let faces = ClosestPoint::new(mesh);
+        may_continue()?;
+        Ok(Surface {
+            faces,
             curves: features.curves().iter().map(curve).collect(),
             bonds,
             node,
             hints: quads.origins.iter().map(|_| None).collect(),
             fixed: quads.vertices.clone(),
             work: 0,
-        }
+        })
     }
 
     /// Whether closest points have taken so long that no more may be looked for.
@@ -67,18 +79,47 @@ impl Surface {
 
     /// The point nearest to `p` that satisfies the constraint of the vertex.
     pub(super) fn project(&mut self, vertex: usize, p: Vec3) -> Vec3 {
+        let found = self.find(vertex, p);
+        self.keep(vertex, found)
+    }
+
+    /// Moves each vertex to the point nearest to its wanted one that satisfies its constraint.
+    pub(super) fn project_all(&mut self, wanted: &[Option<Vec3>], vertices: &mut [Vec3]) {
+        let found = collect_in_parts(wanted.len(), LEAST, |v| Some(self.find(v, wanted[v]?)));
+        for (v, found) in found.into_iter().enumerate() {
+            if let Some(found) = found {
+                vertices[v] = self.keep(v, found);
+            }
+        }
+    }
+
+    fn find(&self, vertex: usize, p: Vec3) -> Found {
         let hint = self.hints[vertex];
-        let found = match self.bonds[vertex] {
-            Bond::Surface => self.faces.find_counted(p, hint, &mut self.work),
+        let mut work = 0;
+        let at = match self.bonds[vertex] {
+            Bond::Surface => self.faces.find_counted(p, hint, &mut work),
             Bond::Curve(number) => self.curves[number as usize].closest(p, hint),
             Bond::Fixed => None,
         };
-        let Some((hint, point)) = found else {
+        Found { at, work }
+    }
+
+    fn keep(&mut self, vertex: usize, found: Found) -> Vec3 {
+        self.work += found.work;
+        let Some((hint, point)) = found.at else {
             return self.fixed[vertex];
         };
         self.hints[vertex] = Some(hint);
         point
     }
+}
+
+/// A closest point.
+struct Found {
+    /// The triangle or segment, and the point; none for a fixed vertex.
+    at: Option<(usize, Vec3)>,
+    /// The triangles of the surface that were looked at.
+    work: u64,
 }
 
 /// The constraint of a vertex with this origin, and the node at which it is fixed.
@@ -139,7 +180,7 @@ mod tests {
     /// Whether the closest points of sixty rounds take so long that no more are looked for.
     fn takes_too_long(mesh: &TriangleMesh) -> bool {
         let quads = vertices_of(mesh);
-        let mut surface = Surface::new(&quads, mesh, &FeatureGraph::none(mesh));
+        let mut surface = Surface::new(&quads, mesh, &FeatureGraph::none(mesh)).unwrap();
         for round in 0..60 {
             for (v, &p) in quads.vertices.iter().enumerate() {
                 let beside = p.map(|x| x + 0.01 * f64::from(round));

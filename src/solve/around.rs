@@ -10,6 +10,7 @@ use super::relax::{Relaxation, relax};
 use crate::eliminate::{Centre, ReducedModel};
 use crate::error::{Error, Result};
 use crate::linalg::sum_below;
+use crate::monitor::span;
 use crate::round;
 use crate::search::Strategy;
 
@@ -32,6 +33,7 @@ pub(super) fn around_relaxation(
     reduced: &ReducedModel,
     strategy: Strategy,
 ) -> Result<(Centre, Relaxation)> {
+    let _span = span("relax");
     let (centre, mut relaxation) = centred(of, reduced, strategy)?;
     // Where the factor takes a small curvature for none, the minimum may be anywhere below.
     if let Some((direction, pivot)) = of.factors.null_direction(centre.model(), strategy)?
@@ -51,10 +53,10 @@ fn centred(
     let mut at = rounded(reduced, &relaxation.point);
     if strategy == Strategy::Multiple && farthest(reduced, &at) <= SMALL {
         at.fill(0.0);
-        let centre = Centre::new(of.problem, of.model, of.elimination, reduced, &at);
+        let centre = Centre::new(of.problem, of.model, of.elimination, reduced, &at)?;
         return Ok(moved(centre, relaxation, &at));
     }
-    let mut centre = Centre::new(of.problem, of.model, of.elimination, reduced, &at);
+    let mut centre = Centre::new(of.problem, of.model, of.elimination, reduced, &at)?;
     for _ in 0..ROUNDS {
         let next = match relax(of.model, centre.model(), strategy, of.factors) {
             // The first relaxation had a minimum, so this is rounding in directions without curvature.
@@ -70,7 +72,7 @@ fn centred(
         relaxation = next;
         at = at.iter().zip(&step).map(|(a, s)| a + s).collect();
         relaxation.point = at.clone();
-        centre = Centre::new(of.problem, of.model, of.elimination, reduced, &at);
+        centre = Centre::new(of.problem, of.model, of.elimination, reduced, &at)?;
     }
     let last = relax(of.model, centre.model(), strategy, of.factors);
     match last {

@@ -9,9 +9,9 @@ use super::eliminated::EliminatedProblem;
 use super::relax::Relaxation;
 use crate::eliminate::{Centre, Component, ReducedModel, components};
 use crate::error::{Error, Result};
-use crate::linalg::{TwoFold, places, sum_below};
-use crate::monitor::{Monitor, relative_gap};
-use crate::problem::{Model, Objective, Problem};
+use crate::linalg::{places, sum_below};
+use crate::monitor::{Monitor, may_continue, relative_gap};
+use crate::problem::{Model, Objective};
 use crate::search::{
     ALWAYS, Factors, GAP_TOLERANCE, Options, Search, SolveStatus, StoppedBy, WarmStart,
 };
@@ -40,9 +40,16 @@ pub(super) fn by_components(
     start: Option<Vec<f64>>,
     monitor: &mut Monitor,
 ) -> Result<Found> {
-    let exact = Exact::new(of.problem, centre);
+    let exact = Exact {
+        objective: Objective(of.problem),
+        centre,
+    };
     let whole = centre.model();
-    let Some(parts) = components(whole)? else {
+    let watch = monitor.watch();
+    may_continue()?;
+    let parts = components(whole)?;
+    drop(watch);
+    let Some(parts) = parts else {
         let search = Search::new(whole, relaxation.point, relaxation.lower_bound, monitor)
             .judged_by(|step| whole.constant() + exact.difference(step));
         return run(of.model, whole, options, start, of.factors, search, false);
@@ -156,7 +163,7 @@ fn run(
             Err(Error::Cancelled | Error::TimeLimit) if required => {
                 let relaxed = |&i: &u32| model.nearest(i as usize, search.relaxed()[i as usize]);
                 let nearest: Vec<f64> = model.integers().iter().map(relaxed).collect();
-                search.offer(factors, &nearest)?;
+                search.offer_in_any_case(factors, &nearest)?;
             }
             other => other?,
         }
@@ -196,25 +203,14 @@ fn pick(members: &[u32], v: &[f64]) -> Vec<f64> {
 struct Exact<'a> {
     objective: Objective<'a>,
     centre: &'a Centre,
-    energy: TwoFold,
 }
 
-impl<'a> Exact<'a> {
-    fn new(problem: &'a Problem, centre: &'a Centre) -> Self {
-        let objective = Objective(problem);
-        let x = centre.expand(&vec![0.0; centre.model().dim()]);
-        Exact {
-            energy: objective.energy(|i| x[i]).value,
-            objective,
-            centre,
-        }
-    }
-
+impl Exact<'_> {
     /// The energy at the step `y` from the centre, minus the energy at the centre.
     fn difference(&self, y: &[f64]) -> f64 {
         let x = self.centre.expand(y);
-        let energy = self.objective.energy(|i| x[i]).value;
-        (energy.high - self.energy.high) + (energy.low - self.energy.low)
+        let (energy, before) = (self.objective.energy(|i| x[i]).value, self.centre.energy());
+        (energy.high - before.high) + (energy.low - before.low)
     }
 
     /// The same for the step `y` in the unknowns `members` alone.

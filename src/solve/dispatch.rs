@@ -40,7 +40,7 @@ pub(super) fn search(
         // The caller wants what is found in the least time.
         _ if search.monitor.ends() => round::direct(model, factors, search),
         Strategy::Direct => round::direct(model, factors, search),
-        Strategy::Greedy => round::greedy(model, factors, search),
+        Strategy::Greedy => round::greedy(model, factors, search).map(drop),
         Strategy::Adaptive => round::adaptive(model, options, factors, search),
         Strategy::Multiple => round::multiple(model, options, factors, search),
         Strategy::Lattice | Strategy::Exact | Strategy::Auto

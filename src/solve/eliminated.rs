@@ -7,7 +7,7 @@ use super::expand::expand;
 use super::solution::{Counts, Seconds, Solution};
 use crate::eliminate::{Elimination, ReducedModel};
 use crate::error::Result;
-use crate::monitor::{Monitor, Phase};
+use crate::monitor::{Monitor, Phase, may_continue};
 use crate::problem::{Model, Problem};
 use crate::round;
 use crate::search::{Factors, Options, SolveStatus, StoppedBy, Strategy, WarmStart, of_relaxation};
@@ -37,6 +37,7 @@ impl EliminatedProblem<'_> {
 
     /// The reduced model for the current right sides, and the time when it was made.
     pub fn reduce(&mut self, monitor: &mut Monitor) -> Result<(ReducedModel, Clock)> {
+        let _watch = monitor.watch();
         let reduced = self.elimination.reduce(self.model, monitor)?;
         let clock = Clock {
             eliminated: monitor.seconds(),
@@ -53,6 +54,8 @@ impl EliminatedProblem<'_> {
         clock: &Clock,
         monitor: &mut Monitor,
     ) -> Result<Solution> {
+        // What the caller throws away need not be verified.
+        may_continue()?;
         let searched = monitor.seconds();
         let factored = self.factors.seconds() - clock.factored_before;
 
@@ -114,7 +117,10 @@ fn decide(
     monitor: &mut Monitor,
 ) -> Result<SearchResult> {
     monitor.progress(Phase::Factor, 0.0)?;
+    // Before the search there is no result that could be kept.
+    let watch = monitor.watch();
     let (centre, relaxation) = around_relaxation(of, reduced, options.strategy)?;
+    drop(watch);
     let work = of_relaxation(reduced);
     let status = match options.strategy {
         _ if reduced.integers().is_empty() => Some(SolveStatus::Optimal),

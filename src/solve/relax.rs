@@ -3,6 +3,7 @@
 use crate::eliminate::ReducedModel;
 use crate::error::{Error, Result};
 use crate::linalg::{Lowest, Minimum, sum_below};
+use crate::monitor::may_continue;
 use crate::problem::Model;
 use crate::search::{Factors, Strategy};
 
@@ -34,6 +35,7 @@ pub(crate) fn relax(
     let rounding = || model.gradient_rounding(whole);
     match factors.minimise(model, strategy, rounding)? {
         Minimum::At(Lowest { point, excess }) => {
+            may_continue()?;
             let (energy, error) = model.energy(&point);
             Ok(Relaxation {
                 point,

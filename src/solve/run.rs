@@ -5,7 +5,7 @@ use super::eliminated::EliminatedProblem;
 use super::reformulate::solve_reformulated;
 use crate::eliminate::Elimination;
 use crate::error::Result;
-use crate::monitor::Monitor;
+use crate::monitor::{Monitor, may_continue, watch_memory, with_threads};
 use crate::problem::{Model, Problem};
 use crate::search::{Factors, Options};
 
@@ -24,15 +24,24 @@ pub fn solve(problem: &Problem, options: &Options) -> Result<Solution> {
 /// # Errors
 /// The errors of [`solve`], and [`Error::Cancelled`](crate::Error::Cancelled) if the solve was cancelled
 /// before a first solution.
-pub fn solve_with(problem: &Problem, options: &Options, mut monitor: Monitor) -> Result<Solution> {
+pub fn solve_with(problem: &Problem, options: &Options, monitor: Monitor) -> Result<Solution> {
+    let _memory = watch_memory(problem.size());
+    with_threads(options.threads, || solve_alone(problem, options, monitor))
+}
+
+fn solve_alone(problem: &Problem, options: &Options, mut monitor: Monitor) -> Result<Solution> {
     monitor.start(options.time_limit);
     monitor.check()?;
+    let watch = monitor.watch();
+    may_continue()?;
     let model = Model::new(problem)?;
     tell_of_ignored_hint(&model, &mut monitor);
+    let elimination = Elimination::new(&model, options.ordering, &mut monitor)?;
+    drop(watch);
     let eliminated = EliminatedProblem {
         problem,
         model: &model,
-        elimination: &Elimination::new(&model, options.ordering, &mut monitor)?,
+        elimination: &elimination,
         factors: &mut Factors::new(options.ordering),
         earlier: model.guess(),
     };

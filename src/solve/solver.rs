@@ -11,7 +11,7 @@ use super::subject_to::solve_subject_to;
 use crate::eliminate::Elimination;
 use crate::error::Result;
 use crate::linalg::Ordering;
-use crate::monitor::Monitor;
+use crate::monitor::{Monitor, may_continue, watch_memory, with_threads};
 use crate::problem::RowList;
 use crate::problem::{Model, Problem};
 use crate::search::{Factors, Options, SolveStatus};
@@ -33,6 +33,8 @@ pub struct Solver {
     /// Whether the problem has changed since the model was made.
     stale: bool,
     cache: Option<Cache>,
+    /// Whether a solve that decides integers follows those that decide none.
+    is_searched: bool,
     /// The last integer solution, unless the caller has set a guess since.
     earlier: Option<Vec<f64>>,
 }
@@ -53,12 +55,31 @@ impl Solver {
     /// # Errors
     /// The errors of [`Model::new`]. All other errors come from the first solve.
     pub fn new(problem: &Problem) -> Result<Self> {
+        let _memory = watch_memory(problem.size());
+        may_continue()?;
         Ok(Solver {
             model: Model::new(problem)?,
             problem: problem.clone(),
             stale: false,
             cache: None,
+            is_searched: false,
             earlier: None,
+        })
+    }
+
+    /// Lets solves that decide no integers use the factors of one that does and will follow.
+    pub(crate) fn expect_search(&mut self) {
+        self.is_searched = true;
+    }
+
+    /// Makes the elimination, which the next solve with this ordering then finds.
+    ///
+    /// # Errors
+    /// As [`solve_with`](crate::solve_with).
+    pub(crate) fn eliminate(&mut self, options: &Options, mut monitor: Monitor) -> Result<()> {
+        let _memory = watch_memory(self.problem.size());
+        with_threads(options.threads, || {
+            self.prepare(options, &mut monitor).map(|_| ())
         })
     }
 
@@ -144,8 +165,11 @@ impl Solver {
     /// # Errors
     /// As [`solve_with`](crate::solve_with).
     pub fn solve_with(&mut self, options: &Options, mut monitor: Monitor) -> Result<Solution> {
-        let eliminated = self.prepare(options, &mut monitor)?;
-        let solution = solve_eliminated(eliminated, options, &mut monitor)?;
+        let _memory = watch_memory(self.problem.size());
+        let solution = with_threads(options.threads, || {
+            let eliminated = self.prepare(options, &mut monitor)?;
+            solve_eliminated(eliminated, options, &mut monitor)
+        })?;
         if solution.status() != SolveStatus::Relaxed {
             self.earlier = Some(solution.values().to_vec());
         }
@@ -164,8 +188,11 @@ impl Solver {
         options: &Options,
         mut monitor: Monitor,
     ) -> Result<Option<Solution>> {
-        let eliminated = self.prepare(options, &mut monitor)?;
-        solve_subject_to(eliminated, rows, options, &mut monitor)
+        let _memory = watch_memory(self.problem.size());
+        with_threads(options.threads, || {
+            let eliminated = self.prepare(options, &mut monitor)?;
+            solve_subject_to(eliminated, rows, options, &mut monitor)
+        })
     }
 
     /// The current problem with its elimination and factors, from the cache if they are still valid.
@@ -176,6 +203,7 @@ impl Solver {
     ) -> Result<EliminatedProblem<'_>> {
         monitor.start(options.time_limit);
         monitor.check()?;
+        let _watch = monitor.watch();
         if self.stale {
             self.model = self.model.with_data_of(&self.problem)?;
             self.stale = false;
@@ -187,6 +215,9 @@ impl Solver {
         };
         cache.leave_out_pinned(&self.model);
         let cache = self.cache.insert(cache);
+        if self.is_searched {
+            cache.factors.expect_search();
+        }
         Ok(EliminatedProblem {
             problem: &self.problem,
             model: &self.model,

@@ -53,7 +53,8 @@ pub(super) fn solve_subject_to(
     let Some(rows) = between_integers(&reduced, rows) else {
         return Ok(None);
     };
-    let relaxation = relax(of.model, &reduced, options.strategy, of.factors)?;
+    let relaxed = || relax(of.model, &reduced, options.strategy, of.factors);
+    let relaxation = monitor.watching(relaxed)?;
     let small = of_integers(&reduced, &relaxation, &rows, of.factors)?;
     let model = Model::new(&small)?;
     let eliminated = EliminatedProblem {

@@ -9,6 +9,10 @@ use super::PolygonSoup;
 use super::edges::{Edges, manifold_twins};
 use super::lists::NONE;
 use super::surface::{fans, flat, tail, tip};
+use crate::monitor::in_parts;
+
+/// The least number of triangles that are worth a thread.
+const LEAST: usize = 1 << 13;
 
 /// Of so many half-edges at an edge the seam is sought; more are repaired anyway.
 const LOOKED_AT: usize = 64;
@@ -30,7 +34,7 @@ pub(super) fn clean(soup: &PolygonSoup) -> Option<Vec<[u32; 3]>> {
             return None;
         }
         let [a, b, c] = corners.map(|v| v as u32);
-        if a == b || b == c || c == a || flat([a, b, c].map(|v| positions[v as usize])) {
+        if a == b || b == c || c == a {
             return None;
         }
         triangles.push([a, b, c]);
@@ -39,6 +43,11 @@ pub(super) fn clean(soup: &PolygonSoup) -> Option<Vec<[u32; 3]>> {
         }
     }
     if triangles.is_empty() || used.contains(&false) {
+        return None;
+    }
+    let is_flat = |t: usize| flat(triangles[t].map(|v| positions[v as usize]));
+    let flat = in_parts(triangles.len(), LEAST, |mut part| part.any(is_flat));
+    if flat.contains(&true) {
         return None;
     }
     let twin = manifold_twins(positions.len(), &triangles)?;

@@ -48,8 +48,8 @@ use crate::map::{SeamlessMap, SeamlessProblem};
 use crate::mesh::TriangleMesh;
 use crate::mesh::orientation;
 use crate::mesh::vector::{dot, sub};
-use crate::monitor::Monitor;
 use crate::monitor::Phase;
+use crate::monitor::{Monitor, may_continue, span};
 use energy::Rest;
 use freedom::Freedom;
 use region::{Region, regions};
@@ -163,6 +163,7 @@ pub fn untangle(
     options: &UntangleOptions,
     monitor: &mut Monitor,
 ) -> Result<Untangled> {
+    let _span = span("untangle");
     problem.check_map(mesh, map)?;
     let structure = Structure::new(mesh, problem, map, monitor)?;
     structure.untangle(mesh, problem, map, options, monitor)
@@ -185,7 +186,7 @@ impl Structure {
     ) -> Result<Self> {
         Ok(Structure {
             freedom: Freedom::new(problem, map.copies(), map.values(), monitor)?,
-            quarters: problem.quarters(mesh),
+            quarters: problem.quarters(mesh)?,
         })
     }
 
@@ -207,6 +208,8 @@ impl Structure {
         options: &UntangleOptions,
         monitor: &mut Monitor,
     ) -> Result<Untangled> {
+        let (_watch, _memory) = (monitor.watch(), mesh.watch_memory());
+        may_continue()?;
         let mut work = Untangling::new(self, mesh, problem, map, options);
         let flipped_before = work.folded().len();
         if flipped_before == 0 && work.winding_defects().is_empty() {

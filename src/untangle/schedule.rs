@@ -52,7 +52,7 @@ pub(super) fn close_barrier(
         for _ in 0..INNER_STEPS {
             monitor.progress(Phase::Untangle, steps as f64 / most_steps as f64)?;
             let before = energy;
-            energy = system.step(x, eps)?;
+            energy = monitor.watching(|| system.step(x, eps))?;
             steps += 1;
             folded = system.folded(x);
             if folded == 0 || energy >= before * (1.0 - CONVERGED) {

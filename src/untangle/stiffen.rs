@@ -39,7 +39,7 @@ impl Untangling<'_> {
     pub(super) fn stiffen(&mut self, times: usize, monitor: &mut Monitor) -> Result<()> {
         for region in regions(self.freedom, &self.folded(), RINGS) {
             monitor.progress(Phase::Untangle, 0.0)?;
-            self.stiffen_region(&region, times)?;
+            monitor.watching(|| self.stiffen_region(&region, times))?;
         }
         Ok(())
     }

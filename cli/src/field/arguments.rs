@@ -7,6 +7,7 @@ use crate::exit;
 use crate::mesh::MeshFlags;
 use crate::options::SolverOptions;
 use crate::outputs::OutputFlags;
+use crate::threads::TraceFlags;
 
 /// Compute the smoothest cross field of a triangle mesh.
 #[derive(clap::Args)]
@@ -62,6 +63,9 @@ pub struct Arguments {
 
     #[command(flatten)]
     pub output: OutputFlags,
+
+    #[command(flatten)]
+    pub tracing: TraceFlags,
 
     #[command(flatten)]
     pub input: MeshFlags,

@@ -19,7 +19,7 @@ use roundel_pictures::{FieldModel, View, draw_field};
 use crate::exit::Exit;
 use crate::mesh::Input;
 use crate::output;
-use crate::outputs::{Content, Outputs, PAGE, PICTURE, PROBLEM};
+use crate::outputs::{Content, Outputs, PAGE, PICTURE, PROBLEM, TRACE};
 use crate::progress::Progress;
 use crate::report::Preparation;
 pub use arguments::Arguments;
@@ -30,7 +30,9 @@ use summary::FieldSummary;
 
 /// Runs the command and tells its outcome, once.
 pub fn run(arguments: &Arguments) -> Exit {
-    let told = solve(arguments).and_then(|solved| tell(arguments, &solved));
+    let run = || solve(arguments);
+    let solved = arguments.tracing.around(&arguments.solver, run);
+    let told = solved.and_then(|solved| tell(arguments, &solved));
     output::conclude(&arguments.mesh, arguments.json, told)
 }
 
@@ -96,6 +98,7 @@ fn check_outputs(arguments: &Arguments) -> Result<()> {
         .write(arguments.out.as_ref(), Content::Field)?
         .write(arguments.picture.as_ref(), PICTURE)?
         .write(arguments.report.as_ref(), PAGE)?
+        .write(arguments.tracing.trace.as_ref(), TRACE)?
         .write(arguments.write_problem.as_ref(), PROBLEM)?;
     outputs.tell(arguments.json || arguments.output.quiet);
     Ok(())

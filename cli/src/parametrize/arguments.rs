@@ -10,6 +10,7 @@ use crate::field::Directions;
 use crate::mesh::MeshFlags;
 use crate::options::SolverOptions;
 use crate::outputs::OutputFlags;
+use crate::threads::TraceFlags;
 
 /// Compute a seamless parametrization of a triangle mesh that follows a cross field.
 ///
@@ -77,6 +78,9 @@ pub struct Arguments {
 
     #[command(flatten)]
     pub output: OutputFlags,
+
+    #[command(flatten)]
+    pub tracing: TraceFlags,
 
     #[command(flatten)]
     pub input: MeshFlags,

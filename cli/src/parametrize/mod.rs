@@ -20,7 +20,7 @@ use crate::changes::Changes;
 use crate::exit::Exit;
 use crate::mesh::{Input, RepairCounts};
 use crate::output;
-use crate::outputs::{MAP, Outputs, PAGE, PROBLEM};
+use crate::outputs::{MAP, Outputs, PAGE, PROBLEM, TRACE};
 use crate::progress::Progress;
 use crate::refinement::Refinement;
 use crate::report::Preparation;
@@ -35,7 +35,9 @@ const FIELD: f64 = 0.3;
 
 /// Runs the command and tells its outcome, once.
 pub fn run(arguments: &Arguments) -> Exit {
-    let told = solve(arguments).and_then(|solved| tell(arguments, &solved));
+    let run = || solve(arguments);
+    let solved = arguments.tracing.around(&arguments.solver, run);
+    let told = solved.and_then(|solved| tell(arguments, &solved));
     output::conclude(&arguments.mesh, arguments.json, told)
 }
 
@@ -171,6 +173,7 @@ fn check_outputs(arguments: &Arguments) -> Result<()> {
     let outputs = Outputs::of(&read, arguments.output.force)
         .write(arguments.out.as_ref(), MAP)?
         .write(arguments.report.as_ref(), PAGE)?
+        .write(arguments.tracing.trace.as_ref(), TRACE)?
         .write(arguments.write_problem.as_ref(), PROBLEM)?;
     outputs.tell(arguments.json || arguments.output.quiet);
     Ok(())

@@ -10,6 +10,7 @@ use crate::mesh::MeshFlags;
 use crate::options::{QuadFlags, SolverOptions};
 use crate::outputs::OutputFlags;
 use crate::parametrize::SizingFlags;
+use crate::threads::TraceFlags;
 
 /// Turn a triangle mesh into quads: field, map and extraction in one.
 ///
@@ -57,6 +58,9 @@ pub struct Arguments {
 
     #[command(flatten)]
     pub output: OutputFlags,
+
+    #[command(flatten)]
+    pub tracing: TraceFlags,
 
     #[command(flatten)]
     pub input: MeshFlags,

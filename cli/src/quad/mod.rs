@@ -18,7 +18,9 @@ use summary::QuadSummary;
 
 /// Runs the command and tells its outcome, once.
 pub fn run(arguments: &Arguments) -> Exit {
-    let told = steps::solve(arguments).and_then(|solved| tell(arguments, &solved));
+    let run = || steps::solve(arguments);
+    let solved = arguments.tracing.around(&arguments.solver, run);
+    let told = solved.and_then(|solved| tell(arguments, &solved));
     output::conclude(&arguments.mesh, arguments.json, told)
 }
 

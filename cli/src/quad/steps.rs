@@ -10,7 +10,7 @@ use super::Arguments;
 use crate::changes::Changes;
 use crate::mesh::{Input, RepairCounts};
 use crate::output;
-use crate::outputs::{Content, Outputs, PAGE};
+use crate::outputs::{Content, Outputs, PAGE, TRACE};
 use crate::progress::Progress;
 
 /// Quads, and what they were made from.
@@ -80,7 +80,8 @@ fn check_outputs(arguments: &Arguments) -> Result<()> {
     let read = [Some(arguments.mesh.as_path()), lines, guide, lengths];
     let outputs = Outputs::of(&read, arguments.output.force)
         .write(arguments.out.as_ref(), Content::Mesh)?
-        .write(arguments.report.as_ref(), PAGE)?;
+        .write(arguments.report.as_ref(), PAGE)?
+        .write(arguments.tracing.trace.as_ref(), TRACE)?;
     outputs.tell(arguments.json || arguments.output.quiet);
     Ok(())
 }

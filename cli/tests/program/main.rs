@@ -18,3 +18,4 @@ mod schema;
 mod shape;
 #[path = "../../../tests/common/skip.rs"]
 mod skip;
+mod threads;

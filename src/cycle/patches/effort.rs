@@ -40,13 +40,11 @@ pub(in crate::cycle) struct Proof {
     pub nodes: u64,
     /// Whether charges that violate conditions of optimality are dropped.
     pub conditions: bool,
-    /// The threads that may be used, as in the options.
-    pub threads: usize,
 }
 
 impl Proof {
     /// That of `auto`.
-    pub fn brief(space: &CycleSpace, threads: usize) -> Self {
+    pub fn brief(space: &CycleSpace) -> Self {
         let edges = space.system.graph.edges.len();
         let recipe = Recipe {
             floors: match edges > SEVERAL {
@@ -66,12 +64,11 @@ impl Proof {
             },
             nodes: u64::MAX,
             conditions: false,
-            threads,
         }
     }
 
-    /// That of `exact`, with the options `nodes` and `threads`.
-    pub fn thorough(nodes: usize, threads: usize) -> Self {
+    /// That of `exact`, with the option `nodes`.
+    pub fn thorough(nodes: usize) -> Self {
         Proof {
             recipes: (0..TREES).map(recipe).collect(),
             trials: TRIALS,
@@ -82,7 +79,6 @@ impl Proof {
                 false => nodes as u64,
             },
             conditions: true,
-            threads,
         }
     }
 }

@@ -7,7 +7,7 @@
 
 use super::list::Found;
 use super::local::Local;
-use crate::monitor::{in_parts, thread_count};
+use crate::monitor::{allowed_threads, in_parts};
 
 /// The pairs tested at a time.
 const BLOCK: usize = 256;
@@ -56,7 +56,6 @@ pub(super) fn join(
     local: &Local,
     targets: [&Targets; 2],
     threshold: f64,
-    threads: usize,
     limits: &mut Limits,
 ) -> Result<Found, Overflow> {
     let pairs = Pairs {
@@ -66,7 +65,7 @@ pub(super) fn join(
         most: limits.work,
         first_test: FirstTest::new(local, targets[0], targets[1]),
     };
-    let (chunks, threads) = (pairs.chunks(), thread_count(threads));
+    let (chunks, threads) = (pairs.chunks(), allowed_threads());
     let mut found = Found::default();
     let mut left = Left {
         entries: limits.entries,
@@ -77,7 +76,7 @@ pub(super) fn join(
     while first < chunks.len() {
         let ahead = &chunks[first..chunks.len().min(first + window)];
         let share = |k: usize| ahead.iter().skip(k).step_by(threads);
-        let parts = in_parts(threads.min(ahead.len()), threads, |of_thread| {
+        let parts = in_parts(threads.min(ahead.len()), 1, |of_thread| {
             let compute = |chunk: &Chunk| pairs.join(chunk, left);
             of_thread
                 .flat_map(|k| share(k).map(compute))

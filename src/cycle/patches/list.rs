@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::conditions::Conditions;
 use super::factor::Front;
 use super::local::{Local, dot};
-use crate::monitor::in_parts;
+use crate::monitor::{in_parts, joined};
 
 /// The least number of multiplications for which entries are divided among threads: they take about a
 /// millisecond.
@@ -96,19 +96,9 @@ impl List {
             }
             sent
         };
-        let threads = patch.threads_for(order.len());
-        list.sent = joined(in_parts(order.len(), threads, sent));
+        list.sent = joined(in_parts(order.len(), patch.worth_a_thread(), sent));
         list
     }
-}
-
-/// The parts as one vector, which is the first one grown.
-fn joined<T>(parts: Vec<Vec<T>>) -> Vec<T> {
-    let grown = parts.into_iter().reduce(|mut whole, part| {
-        whole.extend(part);
-        whole
-    });
-    grown.unwrap_or_default()
 }
 
 /// What the entries of a patch are computed with.
@@ -119,8 +109,6 @@ pub(super) struct PatchData<'a> {
     pub conditions: Option<&'a Conditions>,
     /// Whether the parent has conditions too.
     pub passes_flows: bool,
-    /// The threads that may be used, as in the options.
-    pub threads: usize,
 }
 
 impl PatchData<'_> {
@@ -135,20 +123,17 @@ impl PatchData<'_> {
         entries * each
     }
 
-    /// The threads that so many entries are worth.
-    fn threads_for(&self, entries: usize) -> usize {
+    /// The least number of entries that are worth a thread.
+    fn worth_a_thread(&self) -> usize {
         let edges = self.conditions.map_or(0, Conditions::len);
         let each = self.local.own * self.local.own + self.front.above.len() + edges;
-        match entries.saturating_mul(each) < WORTH_A_THREAD {
-            true => 1,
-            false => self.threads,
-        }
+        WORTH_A_THREAD / each.max(1)
     }
 
     /// By entry, what it is worth, and its flows if the parent needs them.
     fn worths(&self, found: &Found, children: &[&List]) -> (Vec<f64>, Vec<f32>) {
         let count = found.energy.len();
-        let parts = in_parts(count, self.threads_for(count), |part| {
+        let parts = in_parts(count, self.worth_a_thread(), |part| {
             self.worths_of(found, part, children)
         });
         let (worth, kept): (Vec<_>, Vec<_>) = parts.into_iter().unzip();

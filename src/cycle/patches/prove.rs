@@ -11,7 +11,7 @@ use crate::cycle::space::CycleSpace;
 use crate::eliminate::ReducedModel;
 use crate::error::Result;
 use crate::linalg::sum_below;
-use crate::monitor::{Monitor, Started, thread_count};
+use crate::monitor::{Monitor, Started, allowed_threads, span, with_threads};
 use crate::search::{Factors, Search};
 
 /// The number of charges that are evaluated where the list of the root ends a proof.
@@ -75,6 +75,7 @@ pub(in crate::cycle) fn prove(
     factors: &mut Factors,
     search: &mut Search,
 ) -> Result<bool> {
+    let _span = span("prove");
     let Some(integers) = search.incumbent_integers() else {
         return Ok(false);
     };
@@ -108,7 +109,6 @@ pub(in crate::cycle) fn prove(
         energy,
         offsets,
         unit,
-        threads: effort.threads,
     };
     let best = match &effort.recipes[..] {
         [recipe] => trials.tree(recipe, &mut watch)?,
@@ -122,7 +122,7 @@ pub(in crate::cycle) fn prove(
     let Some(cap) = account.upper(energy) else {
         return Ok(false);
     };
-    let mut rounds = Rounds::new(&tree, cap, unit, effort.threads);
+    let mut rounds = Rounds::new(&tree, cap, unit);
     if effort.conditions && tree.basis.len() <= CONDITIONED {
         let stop = &mut |w| watch.ends(w);
         let conditions = conditions(system, &tree, &account, cap, stop);
@@ -180,7 +180,6 @@ struct Trials<'a> {
     energy: f64,
     offsets: f64,
     unit: f64,
-    threads: usize,
 }
 
 /// A tree, and what the first rounds on it prove.
@@ -220,7 +219,7 @@ impl Trials<'_> {
         if let Some((tree, account)) = self.tree(recipe, &mut watch)?
             && let Some(cap) = account.upper(self.energy)
         {
-            let mut rounds = Rounds::new(&tree, cap, self.unit, 1);
+            let mut rounds = Rounds::new(&tree, cap, self.unit);
             let standing = rounds.run(TRIAL_ROUNDS, &mut watch);
             let bound = rounds.bound();
             trial = Some(Trial {
@@ -248,7 +247,7 @@ impl Trials<'_> {
     ) -> Result<Option<(PatchTree, Account)>> {
         let mut best: Option<Trial> = None;
         let (first, others) = effort.recipes.split_at(effort.recipes.len().min(1));
-        let others = others.chunks(thread_count(self.threads));
+        let others = others.chunks(allowed_threads());
         for ahead in std::iter::once(first).chain(others) {
             let most = (watch.left, watch.nodes);
             let run =
@@ -266,11 +265,14 @@ impl Trials<'_> {
                         0 => (recipe, Started::Here(run(recipe))),
                         _ => {
                             let worker = watch.search.monitor.worker();
-                            (recipe, worker.start(scope, run(recipe)))
+                            (recipe, worker.start(scope, k, run(recipe)))
                         }
                     };
                     let started = ahead.iter().enumerate().map(start).collect();
-                    self.compare(started, effort, &mut best, watch)
+                    let share = allowed_threads() / ahead.len();
+                    with_threads(share.max(1), || {
+                        self.compare(started, effort, &mut best, watch)
+                    })
                 })?,
             };
             if is_over {

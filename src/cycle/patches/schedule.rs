@@ -15,6 +15,7 @@ use super::join::{Limits, Overflow, Targets, enumerate, join};
 use super::list::{List, PatchData};
 use super::local::dot;
 use super::tree::PatchTree;
+use crate::monitor::{room_up_to, span};
 
 /// The largest number of entries of a list, by round.
 const ENTRIES: [usize; 7] = [300, 2_000, 10_000, 40_000, 150_000, 500_000, 1_500_000];
@@ -67,16 +68,16 @@ pub(super) struct Rounds<'a> {
     rise: f64,
     order: Vec<usize>,
     state: Vec<State>,
+    /// The patches whose bounds have changed since those above them were updated.
+    changed: Vec<usize>,
     bytes: usize,
     round: usize,
     entries: usize,
-    threads: usize,
 }
 
 #[derive(Debug, Clone, Default)]
 struct State {
     bound: f64,
-    cap: f64,
     /// The list is complete up to this threshold, which is negative without a list.
     threshold: f64,
     /// A threshold at which the list overflowed in this round.
@@ -86,8 +87,8 @@ struct State {
 
 impl<'a> Rounds<'a> {
     /// A proof about the charges with energy at most `cap`. `unit` is the squared step times a typical
-    /// weight, and `threads` is as in the options.
-    pub fn new(tree: &'a PatchTree, cap: f64, unit: f64, threads: usize) -> Self {
+    /// weight.
+    pub fn new(tree: &'a PatchTree, cap: f64, unit: f64) -> Self {
         let mut order: Vec<usize> = (0..tree.patches.len()).collect();
         order.sort_by_key(|&at| (tree.cycles[at], at));
         let state = State {
@@ -99,10 +100,10 @@ impl<'a> Rounds<'a> {
             rise: FIRST * unit,
             order,
             state: vec![state; tree.patches.len()],
+            changed: Vec::new(),
             bytes: 0,
             round: 0,
             entries: 0,
-            threads,
             conditions: vec![None; tree.patches.len()],
             tree,
         }
@@ -169,11 +170,11 @@ impl<'a> Rounds<'a> {
         let mut rise = self.rise;
         loop {
             self.spread();
-            let state = &self.state[at];
-            if state.list.len() > 0 || state.threshold >= state.cap {
+            let (state, cap) = (&self.state[at], self.cap(at));
+            if state.list.len() > 0 || state.threshold >= cap {
                 return false;
             }
-            let threshold = (state.bound + rise).min(state.cap);
+            let threshold = (state.bound + rise).min(cap);
             match self.ensure(at, threshold, watch) {
                 Err(Overflow::Ended) => return true,
                 Err(Overflow::Full) => return false,
@@ -183,21 +184,27 @@ impl<'a> Rounds<'a> {
         }
     }
 
-    /// Updates bounds from the leaves upward and caps from the root downward.
+    /// Updates the bounds of all patches above those whose bounds have changed.
     fn spread(&mut self) {
-        for at in 0..self.state.len() {
-            if let Some([a, b]) = self.tree.patches[at].children {
-                let sum = self.state[a].bound + self.state[b].bound;
-                self.state[at].bound = self.state[at].bound.max(sum);
+        for at in std::mem::take(&mut self.changed) {
+            let mut parent = self.tree.patches[at].parent;
+            while parent != NO_PATCH {
+                let children = self.tree.patches[parent].children.iter().flatten();
+                let sum = children.map(|&child| self.state[child].bound).sum();
+                if self.state[parent].bound >= sum {
+                    break;
+                }
+                self.state[parent].bound = sum;
+                parent = self.tree.patches[parent].parent;
             }
         }
-        for at in (0..self.state.len()).rev() {
-            self.state[at].cap = match self.tree.sibling(at) {
-                None => self.cap,
-                Some(other) => {
-                    self.state[self.tree.patches[at].parent].cap - self.state[other].bound
-                }
-            };
+    }
+
+    /// The cap of a patch.
+    fn cap(&self, at: usize) -> f64 {
+        match self.tree.sibling(at) {
+            None => self.cap,
+            Some(other) => self.cap(self.tree.patches[at].parent) - self.state[other].bound,
         }
     }
 
@@ -228,6 +235,7 @@ impl<'a> Rounds<'a> {
         let state = &mut self.state[at];
         let least = list.worth.first().copied().unwrap_or(threshold);
         state.bound = state.bound.max(least.min(threshold));
+        self.changed.push(at);
         (state.list, state.threshold) = (list, threshold);
         Ok(())
     }
@@ -236,8 +244,8 @@ impl<'a> Rounds<'a> {
         let tree = self.tree;
         let (front, local) = (&tree.fronts[at], &tree.locals[at]);
         let held = self.data(at).bytes(1);
-        let room = (MEMORY.saturating_sub(self.bytes)) / held;
-        let entries = (RAW * self.entries).min(room);
+        let room = MEMORY.saturating_sub(self.bytes) / held;
+        let entries = room_up_to((RAW * self.entries).min(room), held);
         let work = self.entries as u64 * WORK_PER_ENTRY;
         let Some([a, b]) = self.tree.patches[at].children else {
             let mut limits = Limits {
@@ -249,6 +257,7 @@ impl<'a> Rounds<'a> {
                     watch.ends(work)
                 },
             };
+            let _leaf = span("leaf");
             let found = enumerate(local, threshold, &mut limits)?;
             let list = List::new(&found, threshold, &self.data(at), &[]);
             return self.within_limit(list);
@@ -274,7 +283,9 @@ impl<'a> Rounds<'a> {
             },
         };
         let both = [&targets[0], &targets[1]];
-        let found = join(local, both, threshold, self.threads, &mut limits)?;
+        let joined = span("join");
+        let found = join(local, both, threshold, &mut limits)?;
+        drop(joined);
         let tested = self.conditions[at]
             .as_ref()
             .map_or(0, |c| c.len() * (local.own + 16));
@@ -283,6 +294,7 @@ impl<'a> Rounds<'a> {
             return Err(Overflow::Ended);
         }
         let lists = [&self.state[a].list, &self.state[b].list];
+        let _list = span("list");
         let list = List::new(&found, threshold, &self.data(at), &lists);
         self.within_limit(list)
     }
@@ -301,7 +313,6 @@ impl<'a> Rounds<'a> {
             local: &self.tree.locals[at],
             conditions: self.conditions[at].as_ref(),
             passes_flows: parent != NO_PATCH && self.conditions[parent].is_some(),
-            threads: self.threads,
         }
     }
 

@@ -35,7 +35,6 @@ fn proof(leaf: usize, work: u64, seed: u64, conditions: bool) -> Proof {
         work,
         nodes: u64::MAX,
         conditions,
-        threads: 2,
     }
 }
 

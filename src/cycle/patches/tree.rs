@@ -6,6 +6,7 @@ use super::local::Local;
 use super::nested::NestedBasis;
 use crate::cycle::graph::Graph;
 use crate::error::Result;
+use crate::monitor::{may_continue, span};
 
 /// An angle-difference system relative to a point without residuals: by edge, `kappa` is the residual that
 /// the edge has there if no integer changes.
@@ -41,11 +42,17 @@ impl PatchTree {
         recipe: &Recipe,
         stop: &mut dyn FnMut(u64) -> bool,
     ) -> Result<Option<Self>> {
+        let stop = &mut |work| stop(work) || may_continue().is_err();
+        let dissected = span("dissect");
         let patches = dissect(system.graph, residuals, recipe, stop);
+        drop(dissected);
         let basis = NestedBasis::new(system.graph, &patches);
+        let factored = span("factor patches");
         let Some(fronts) = factor(system.graph, &patches, &basis, stop) else {
             return Ok(None);
         };
+        drop(factored);
+        let _reduced = span("reduce patches");
         let alpha = basis.cycles.collect(system.kappa);
         let mut locals = Vec::with_capacity(patches.len());
         let mut cycles = Vec::with_capacity(patches.len());

@@ -5,8 +5,10 @@
 //! are solved in the least-squares sense. Normals at vertices are those of `max1999`, which are exact
 //! where the neighbours lie on a sphere.
 
+use super::LEAST;
 use crate::mesh::TriangleMesh;
 use crate::mesh::vector::{Vec3, add, cross, dot, normalize, scale, sub};
+use crate::monitor::collect_in_parts;
 
 /// A symmetric tensor in a face's frame: k(t) = mean + deviator . (cos 2t, sin 2t).
 #[derive(Debug, Clone, Copy)]
@@ -42,20 +44,18 @@ impl Tensor {
 
 pub(super) fn face_tensors(mesh: &TriangleMesh) -> Vec<Tensor> {
     let normals = vertex_normals(mesh);
-    (0..mesh.face_count())
-        .map(|face| {
-            let [x, y] = mesh.frame(face);
-            let (p, n) = (
-                mesh.corner_positions(face),
-                mesh.corners(face).map(|v| normals[v]),
-            );
-            let edges = [0, 1, 2].map(|k| {
-                let (edge, change) = (sub(p[(k + 1) % 3], p[k]), sub(n[(k + 1) % 3], n[k]));
-                [dot(edge, x), dot(edge, y), dot(change, x), dot(change, y)]
-            });
-            fit(&edges)
-        })
-        .collect()
+    collect_in_parts(mesh.face_count(), LEAST, |face| {
+        let [x, y] = mesh.frame(face);
+        let (p, n) = (
+            mesh.corner_positions(face),
+            mesh.corners(face).map(|v| normals[v]),
+        );
+        let edges = [0, 1, 2].map(|k| {
+            let (edge, change) = (sub(p[(k + 1) % 3], p[k]), sub(n[(k + 1) % 3], n[k]));
+            [dot(edge, x), dot(edge, y), dot(change, x), dot(change, y)]
+        });
+        fit(&edges)
+    })
 }
 
 /// Least squares of [a b; b c] (s, t) = (ds, dt) over rows [s, t, ds, dt].
@@ -94,14 +94,19 @@ fn fit(rows: &[[f64; 4]; 3]) -> Tensor {
 }
 
 fn vertex_normals(mesh: &TriangleMesh) -> Vec<Vec3> {
-    let mut normals = vec![[0.0; 3]; mesh.vertex_count()];
-    for face in 0..mesh.face_count() {
+    let at_corners = collect_in_parts(mesh.face_count(), LEAST, |face| {
         let p = mesh.corner_positions(face);
-        for (k, v) in mesh.corners(face).into_iter().enumerate() {
+        [0, 1, 2].map(|k| {
             let (to_next, to_last) = (sub(p[(k + 1) % 3], p[k]), sub(p[(k + 2) % 3], p[k]));
             let weight = 1.0 / (dot(to_next, to_next) * dot(to_last, to_last));
-            normals[v] = add(normals[v], scale(cross(to_next, to_last), weight));
+            scale(cross(to_next, to_last), weight)
+        })
+    });
+    let mut normals = vec![[0.0; 3]; mesh.vertex_count()];
+    for (face, at_corners) in at_corners.into_iter().enumerate() {
+        for (v, normal) in mesh.corners(face).into_iter().zip(at_corners) {
+            normals[v] = add(normals[v], normal);
         }
     }
-    normals.into_iter().map(normalize).collect()
+    collect_in_parts(normals.len(), LEAST, |v| normalize(normals[v]))
 }

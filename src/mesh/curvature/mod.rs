@@ -7,8 +7,14 @@
 
 mod face_tensor;
 
+use std::convert::Infallible;
+
 use super::TriangleMesh;
+use crate::monitor::{Stop, collect_in_parts, may_continue, span};
 use face_tensor::{Tensor, face_tensors};
+
+/// The least number of faces or edges that are worth a thread.
+const LEAST: usize = 1 << 12;
 
 /// Rounds of averaging that [`curvature`] does: a radius of about two edge lengths.
 pub const SMOOTHING_ROUNDS: usize = 4;
@@ -48,63 +54,78 @@ pub fn curvature(mesh: &TriangleMesh) -> Curvature {
 
 /// Curvatures smoothed by this many rounds; with 0 each face stands for itself.
 pub fn smoothed_curvature(mesh: &TriangleMesh, rounds: usize) -> Curvature {
-    let tensors = smooth(mesh, face_tensors(mesh), rounds);
+    let Ok(found) = smoothed(mesh, rounds, || Ok::<(), Infallible>(()));
+    found
+}
+
+/// As [`smoothed_curvature`].
+///
+/// # Errors
+/// The end of the call.
+pub(crate) fn watched_curvature(mesh: &TriangleMesh, rounds: usize) -> Result<Curvature, Stop> {
+    smoothed(mesh, rounds, may_continue)
+}
+
+/// [`smoothed_curvature`], as long as `go_on` does not end it.
+fn smoothed<E>(
+    mesh: &TriangleMesh,
+    rounds: usize,
+    go_on: impl Fn() -> Result<(), E>,
+) -> Result<Curvature, E> {
+    let _span = span("curvature");
+    go_on()?;
+    let tensors = face_tensors(mesh);
+    go_on()?;
+    let tensors = smooth(mesh, tensors, rounds, &go_on)?;
     let mut found = Curvature {
         k1: Vec::with_capacity(tensors.len()),
         k2: Vec::with_capacity(tensors.len()),
         direction: Vec::with_capacity(tensors.len()),
     };
-    for tensor in tensors {
-        let [k1, k2, direction] = principal(&tensor);
+    let all = collect_in_parts(tensors.len(), LEAST, |face| principal(&tensors[face]));
+    for [k1, k2, direction] in all {
         found.k1.push(k1);
         found.k2.push(k2);
         found.direction.push(direction);
     }
-    found
+    Ok(found)
 }
 
-/// A face across an edge, and what its deviator is multiplied by: cosine and sine of twice the turn.
-#[derive(Clone, Copy)]
-struct Beside {
-    face: u32,
-    turn: [f64; 2],
-}
-
-fn smooth(mesh: &TriangleMesh, mut tensors: Vec<Tensor>, rounds: usize) -> Vec<Tensor> {
+fn smooth<E>(
+    mesh: &TriangleMesh,
+    mut tensors: Vec<Tensor>,
+    rounds: usize,
+    go_on: impl Fn() -> Result<(), E>,
+) -> Result<Vec<Tensor>, E> {
     if rounds == 0 {
-        return tensors;
+        return Ok(tensors);
     }
-    let area: Vec<f64> = (0..mesh.face_count()).map(|f| mesh.area(f)).collect();
-    let mut beside: Vec<[Option<Beside>; 3]> = vec![[None; 3]; mesh.face_count()];
-    for edge in mesh.edges() {
-        let ((f, k), Some((g, l))) = (edge.first, edge.second) else {
-            continue;
-        };
-        let (sin, cos) = (-2.0 * mesh.transport(f, k).unwrap_or(0.0)).sin_cos();
-        let across = |face: usize, turn| {
-            Some(Beside {
-                face: face as u32,
-                turn,
-            })
-        };
-        beside[f][k] = across(g, [cos, sin]);
-        beside[g][l] = across(f, [cos, -sin]);
-    }
-    let mut before = tensors.clone();
-    for _ in 0..rounds {
-        std::mem::swap(&mut before, &mut tensors);
-        for (f, smoothed) in tensors.iter_mut().enumerate() {
-            let mut total = area[f];
-            let mut sum = before[f].scaled(area[f]);
-            for Beside { face, turn } in beside[f].iter().flatten() {
-                let (other, area) = (before[*face as usize], area[*face as usize]);
-                total += area;
-                sum = sum.plus(other.turned(*turn).scaled(area));
-            }
-            *smoothed = sum.scaled(1.0 / total);
+    let area = collect_in_parts(mesh.face_count(), LEAST, |face| mesh.area(face));
+    // What a deviator is multiplied by over an edge: cosine and sine of twice the turn.
+    let transports = mesh.transports();
+    let turn = collect_in_parts(mesh.edge_count(), LEAST, |e| {
+        let (sin, cos) = (-2.0 * transports[e]).sin_cos();
+        [cos, sin]
+    });
+    let smoothed = |tensors: &[Tensor], face: usize| {
+        let mut total = area[face];
+        let mut sum = tensors[face].scaled(area[face]);
+        for k in 0..3 {
+            let Some((across, _)) = mesh.neighbor(face, k) else {
+                continue;
+            };
+            let [cos, sin] = turn[mesh.edge_of(face, k)];
+            let turn = [cos, mesh.out_of(face, k, sin)];
+            total += area[across];
+            sum = sum.plus(tensors[across].turned(turn).scaled(area[across]));
         }
+        sum.scaled(1.0 / total)
+    };
+    for _ in 0..rounds {
+        go_on()?;
+        tensors = collect_in_parts(tensors.len(), LEAST, |face| smoothed(&tensors, face));
     }
-    tensors
+    Ok(tensors)
 }
 
 /// k1, k2 and the direction of k2.

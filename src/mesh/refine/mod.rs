@@ -35,6 +35,7 @@ mod working_mesh;
 use super::TriangleMesh;
 use super::features::FeatureGraph;
 use crate::error::{Error, Result};
+use crate::monitor::{may_continue, may_continue_at};
 pub use need::{Need, SMALL_ANGLE, needs_refinement};
 use queue::{Next, Queue};
 pub use refined::Refined;
@@ -118,11 +119,14 @@ pub fn refine(
     options.check()?;
     features.check_mesh(mesh)?;
     let regions = flat::regions(mesh, features, options.deviation);
+    may_continue()?;
     let mut work = WorkingMesh::new(mesh, features, &regions);
+    may_continue()?;
     let mut queue = Queue::new(&mut work, options);
     work.open_enclosed_faces(features);
     let mut is_complete = true;
-    loop {
+    for steps in 0.. {
+        may_continue_at(steps)?;
         queue.update(&mut work);
         let Some(next) = queue.next(&work) else { break };
         if work.triangles.len() >= options.most_triangles {

@@ -21,6 +21,7 @@ mod strips;
 use std::path::Path;
 
 use super::{PolygonSoup, SoupError};
+use crate::monitor::span;
 
 pub use format::Format;
 
@@ -43,6 +44,7 @@ pub fn read(path: impl AsRef<Path>) -> Result<PolygonSoup, SoupError> {
 ///
 /// As [`read`].
 pub fn read_as(path: impl AsRef<Path>, format: Format) -> Result<PolygonSoup, SoupError> {
+    let _span = span("read");
     let path = path.as_ref();
     let bytes = std::fs::read(path).map_err(|reason| SoupError::of_file(path, &reason))?;
     parse_in(&bytes, format, path.parent())

@@ -1,0 +1,518 @@
+//! The numbers of a supernodal factor `L D L'`, computed front by front (`duff1983`) on the allowed threads.
+//!
+//! faer's own factorization uses one thread on such matrices, and cannot be interrupted. Here each supernode is a
+//! dense front: its columns of the matrix and the update matrices of its children are added up, its columns are
+//! eliminated, and what that leaves for the rows below is its own update matrix, for its parent. The result is laid
+//! out as faer's. A pivot at or below the tolerance is replaced by [`NULL_PIVOT`], as faer does it.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, PoisonError};
+
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::cholesky::ldlt::factor::{
+    LdltRegularization, cholesky_in_place, cholesky_in_place_scratch,
+};
+use faer::linalg::matmul::matmul;
+use faer::linalg::triangular_solve::solve_unit_lower_triangular_in_place;
+use faer::reborrow::{Reborrow, ReborrowMut};
+use faer::sparse::linalg::cholesky::supernodal::SymbolicSupernodalCholesky;
+use faer::{Accum, MatMut, MatRef, Par};
+
+use super::Sparse;
+use super::assembly_tree::AssemblyTree;
+use super::cholesky::{NULL_PIVOT, out_of_memory, overflow};
+use super::ordering::NONE;
+use super::sparse::reserve;
+use super::wide_registers::with_wide_registers;
+use crate::error::Result;
+use crate::monitor::is_wanted;
+
+/// The columns of a front with less work, in multiplications, are eliminated without faer's kernels, whose calls
+/// would take longer.
+const SMALL: usize = 1000;
+
+/// The columns of a large update matrix that are computed at a time. Between them a call can end.
+const COLUMNS: usize = 256;
+
+/// The entries of the largest update matrix that is kept for another one.
+const SPARE: usize = 1 << 16;
+
+/// The scaled matrix by columns, in the order of elimination: of each column the entries from the diagonal on.
+pub(super) struct Columns {
+    offsets: Vec<u32>,
+    entries: Vec<(u32, f64)>,
+}
+
+impl Columns {
+    /// The columns of the matrix with lower triangle `lower`, with unknown i at `position(i)`.
+    pub fn new(lower: &Sparse, scale: &[f64], position: impl Fn(usize) -> u32) -> Result<Self> {
+        let n = lower.rows();
+        let mut offsets = vec![0u32; n + 1];
+        let place = |i: usize, j: usize| {
+            let (a, b) = (position(i), position(j));
+            (a.min(b) as usize, a.max(b))
+        };
+        for i in 0..n {
+            for (j, _) in lower.row(i) {
+                offsets[place(i, j).0 + 1] += 1;
+            }
+        }
+        for k in 0..n {
+            offsets[k + 1] += offsets[k];
+        }
+        let mut next = offsets.clone();
+        let mut entries = reserve(lower.len())?;
+        entries.resize(lower.len(), (0, 0.0));
+        for i in 0..n {
+            for (j, v) in lower.row(i) {
+                let (column, row) = place(i, j);
+                entries[next[column] as usize] = (row, v * scale[i] * scale[j]);
+                next[column] += 1;
+            }
+        }
+        Ok(Columns { offsets, entries })
+    }
+
+    fn column(&self, k: usize) -> &[(u32, f64)] {
+        &self.entries[self.offsets[k] as usize..self.offsets[k + 1] as usize]
+    }
+}
+
+/// Computes the factor into `values`, which are zero. The result says whether a pivot vanished.
+///
+/// # Errors
+/// [`Error::OutOfMemory`](crate::Error::OutOfMemory), [`Error::Overflow`](crate::Error::Overflow), and the reason
+/// to end the current step.
+pub(super) fn factorize(
+    factor: &SymbolicSupernodalCholesky<u32>,
+    tree: &AssemblyTree,
+    columns: &Columns,
+    tolerance: f64,
+    values: &mut [f64],
+) -> Result<bool> {
+    let mut blocks = Vec::with_capacity(tree.tasks().len());
+    let mut rest = values;
+    for task in tree.tasks() {
+        let ends = factor.col_ptr_for_val();
+        let (block, after) = rest.split_at_mut((ends[task.end] - ends[task.start]) as usize);
+        blocks.push(Mutex::new(block));
+        rest = after;
+    }
+    let none = || Mutex::new(Vec::new());
+    let fronts = Fronts {
+        factor,
+        tree,
+        columns,
+        tolerance,
+        has_null: AtomicBool::new(false),
+        updates: (0..factor.n_supernodes()).map(|_| none()).collect(),
+    };
+    let widest = (0..factor.n_supernodes()).map(|s| width(factor, s)).max();
+    tree.work(
+        || Scratch::new(factor.nrows(), widest.unwrap_or(0)),
+        |scratch, k| {
+            let mut block = blocks[k].lock().unwrap_or_else(PoisonError::into_inner);
+            let mut rest = &mut **block;
+            for s in tree.tasks()[k].clone() {
+                is_wanted()?;
+                let height = width(factor, s) + factor.supernode(s).pattern().len();
+                let (front, after) = rest.split_at_mut(height * width(factor, s));
+                fronts.eliminate(s, front, scratch)?;
+                rest = after;
+            }
+            Ok(())
+        },
+    )?;
+    Ok(fronts.has_null.into_inner())
+}
+
+/// The number of columns of a supernode.
+fn width(factor: &SymbolicSupernodalCholesky<u32>, s: usize) -> usize {
+    (factor.supernode_end()[s] - factor.supernode_begin()[s]) as usize
+}
+
+/// What all fronts have in common.
+struct Fronts<'a> {
+    factor: &'a SymbolicSupernodalCholesky<u32>,
+    tree: &'a AssemblyTree,
+    columns: &'a Columns,
+    tolerance: f64,
+    has_null: AtomicBool,
+    /// The update matrix of each supernode while its parent waits for it: square, by columns, its lower triangle.
+    updates: Vec<Mutex<Vec<f64>>>,
+}
+
+/// What a thread needs for its fronts.
+struct Scratch {
+    /// The place in the front of each row of the matrix that is in the front.
+    place: Vec<u32>,
+    /// The places of the rows of a child.
+    rows: Vec<u32>,
+    /// The columns below the pivots, times their pivots.
+    scaled: Vec<f64>,
+    signs: Vec<i8>,
+    memory: MemBuffer,
+    /// Small update matrices that are no longer needed. The system takes its time to make pages for new ones.
+    spare: Vec<Vec<f64>>,
+}
+
+impl Scratch {
+    fn new(rows: usize, widest: usize) -> Result<Self> {
+        let need = cholesky_in_place_scratch::<f64>(widest, Par::Seq, Default::default());
+        let mut place = reserve(rows)?;
+        place.resize(rows, 0);
+        Ok(Scratch {
+            place,
+            rows: Vec::new(),
+            scaled: Vec::new(),
+            signs: vec![1; widest],
+            memory: MemBuffer::try_new(need).map_err(|_| out_of_memory())?,
+            spare: Vec::new(),
+        })
+    }
+}
+
+impl Fronts<'_> {
+    /// Makes the columns of supernode `s`, and its update matrix. `front` is its block of the factor.
+    fn eliminate(&self, s: usize, front: &mut [f64], scratch: &mut Scratch) -> Result<()> {
+        let (width, rows) = (width(self.factor, s), self.factor.supernode(s).pattern());
+        let below = rows.len();
+        let mut update = scratch.spare.pop().unwrap_or_default();
+        update.clear();
+        update
+            .try_reserve_exact(below * below)
+            .map_err(|_| out_of_memory())?;
+        update.resize(below * below, 0.0);
+        self.assemble(s, front, &mut update, scratch);
+        let is_finite = if width * width * (width + below) < SMALL {
+            self.eliminate_small(width, front, &mut update)
+        } else {
+            self.eliminate_large(width, front, &mut update, scratch)?
+        };
+        if !is_finite {
+            return Err(overflow());
+        }
+        if self.tree.parent(s) != NONE {
+            let mut kept = self.updates[s]
+                .lock()
+                .unwrap_or_else(PoisonError::into_inner);
+            *kept = update;
+        }
+        Ok(())
+    }
+
+    /// Adds up the columns of the matrix and the update matrices of the children, in their order.
+    fn assemble(&self, s: usize, front: &mut [f64], update: &mut [f64], scratch: &mut Scratch) {
+        let (width, rows) = (width(self.factor, s), self.factor.supernode(s).pattern());
+        let (start, below) = (self.factor.supernode_begin()[s] as usize, rows.len());
+        let height = width + below;
+        for k in 0..width {
+            scratch.place[start + k] = k as u32;
+        }
+        for (k, &row) in (width as u32..).zip(rows) {
+            scratch.place[row as usize] = k;
+        }
+        for (k, column) in front.chunks_exact_mut(height).enumerate() {
+            // These are zeros already, but a page that is read before it is written costs the system twice the time.
+            column.fill(0.0);
+            for &(row, value) in self.columns.column(start + k) {
+                column[scratch.place[row as usize] as usize] += value;
+            }
+        }
+        for &child in self.tree.children(s) {
+            let child = child as usize;
+            let kept = self.updates[child].lock();
+            let of_child = std::mem::take(&mut *kept.unwrap_or_else(PoisonError::into_inner));
+            let rows = self.factor.supernode(child).pattern().iter();
+            scratch.rows.clear();
+            scratch
+                .rows
+                .extend(rows.map(|&row| scratch.place[row as usize]));
+            let rows = &scratch.rows;
+            for (k, &at) in rows.iter().enumerate() {
+                let at = at as usize;
+                let source = &of_child[k * rows.len() + k..(k + 1) * rows.len()];
+                let (column, first) = if at < width {
+                    (&mut front[at * height..(at + 1) * height], 0)
+                } else {
+                    let at = at - width;
+                    (&mut update[at * below..(at + 1) * below], width)
+                };
+                add(column, first, &rows[k..], source);
+            }
+            if of_child.capacity() <= SPARE {
+                scratch.spare.push(of_child);
+            }
+        }
+    }
+
+    /// Replaces a pivot that vanishes.
+    fn pivot(&self, pivot: f64) -> f64 {
+        if pivot <= self.tolerance {
+            self.has_null.store(true, Ordering::Relaxed);
+            NULL_PIVOT
+        } else {
+            pivot
+        }
+    }
+
+    /// Eliminates the columns of a small front one by one. Returns whether all pivots are finite.
+    fn eliminate_small(&self, width: usize, front: &mut [f64], update: &mut [f64]) -> bool {
+        let height = front.len() / width;
+        let below = height - width;
+        for k in 0..width {
+            let (done, later) = front.split_at_mut((k + 1) * height);
+            let column = &mut done[k * height..];
+            let pivot = self.pivot(column[k]);
+            if !pivot.is_finite() {
+                return false;
+            }
+            column[k] = pivot;
+            let inverse = 1.0 / pivot;
+            for (other, j) in later.chunks_exact_mut(height).zip(k + 1..) {
+                subtract(&mut other[j..], column[j] * inverse, &column[j..]);
+            }
+            column[k + 1..].iter_mut().for_each(|v| *v *= inverse);
+        }
+        for (k, column) in front.chunks_exact(height).enumerate() {
+            let (pivot, lower) = (column[k], &column[width..]);
+            for j in 0..below {
+                subtract(
+                    &mut update[j * below + j..(j + 1) * below],
+                    lower[j] * pivot,
+                    &lower[j..],
+                );
+            }
+        }
+        true
+    }
+
+    /// Eliminates the columns of a large front with faer's kernels. Returns whether all pivots are finite.
+    ///
+    /// # Errors
+    /// The reason to end the current step.
+    fn eliminate_large(
+        &self,
+        width: usize,
+        front: &mut [f64],
+        update: &mut [f64],
+        scratch: &mut Scratch,
+    ) -> Result<bool> {
+        let height = front.len() / width;
+        let below = height - width;
+        let block = MatMut::from_column_major_slice_mut(front, height, width);
+        let (mut top, mut bottom) = block.split_at_row_mut(width);
+        let regularization = LdltRegularization {
+            dynamic_regularization_signs: Some(&scratch.signs[..width]),
+            dynamic_regularization_delta: NULL_PIVOT,
+            dynamic_regularization_epsilon: self.tolerance,
+        };
+        let stack = MemStack::new(&mut scratch.memory);
+        let params = Default::default();
+        let done = with_wide_registers(|| {
+            let done = cholesky_in_place(top.rb_mut(), regularization, Par::Seq, stack, params);
+            if done.is_ok() {
+                let bottom = bottom.rb_mut().transpose_mut();
+                solve_unit_lower_triangular_in_place(top.rb(), bottom, Par::Seq);
+            }
+            done
+        });
+        match done {
+            Ok(info) if info.dynamic_regularization_count == 0 => {}
+            Ok(_) => self.has_null.store(true, Ordering::Relaxed),
+            Err(_) => return Ok(false),
+        }
+        scratch.scaled.clear();
+        for (k, column) in front.chunks_exact_mut(height).enumerate() {
+            column[..k].fill(0.0);
+            let inverse = 1.0 / column[k];
+            scratch.scaled.extend_from_slice(&column[width..]);
+            column[width..].iter_mut().for_each(|v| *v *= inverse);
+        }
+        let lower = MatRef::from_column_major_slice(front, height, width).subrows(width, below);
+        let scaled = MatRef::from_column_major_slice(&scratch.scaled, below, width);
+        let mut update = MatMut::from_column_major_slice_mut(update, below, below);
+        for first in (0..below).step_by(COLUMNS) {
+            is_wanted()?;
+            let (rows, columns) = (below - first, COLUMNS.min(below - first));
+            let part = update.rb_mut().submatrix_mut(first, first, rows, columns);
+            let lower = lower.subrows(first, rows);
+            let scaled = scaled.subrows(first, columns).transpose();
+            with_wide_registers(|| matmul(part, Accum::Add, lower, scaled, -1.0, Par::Seq));
+        }
+        Ok(true)
+    }
+}
+
+/// `x -= factor y`.
+fn subtract(x: &mut [f64], factor: f64, y: &[f64]) {
+    for (x, y) in x.iter_mut().zip(y) {
+        *x -= factor * y;
+    }
+}
+
+/// Adds `source` to the entries of `column` at `rows`, of which the row `first` is the entry 0.
+fn add(column: &mut [f64], first: usize, rows: &[u32], source: &[f64]) {
+    let (from, to) = (rows[0] as usize, rows[rows.len() - 1] as usize);
+    if to - from == rows.len() - 1 {
+        for (sum, v) in column[from - first..=to - first].iter_mut().zip(source) {
+            *sum += v;
+        }
+    } else {
+        for (&row, v) in rows.iter().zip(source) {
+            column[row as usize - first] += v;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use faer::sparse::linalg::cholesky::SymmetricOrdering;
+
+    use super::super::analysis::Analysis;
+    use super::super::{Cholesky, Random};
+    use super::*;
+    use crate::error::Error;
+    use crate::monitor::{CancelToken, Monitor, with_threads};
+
+    /// Springs between neighbours of a grid, of which some are missing or very soft. A grid that is not tied to the
+    /// ground has null unknowns.
+    fn grid(width: u32, height: u32, is_grounded: bool, random: &mut Random) -> Sparse {
+        let mut entries = Vec::new();
+        for i in 0..width * height {
+            let ground = if is_grounded { 0.01 } else { 0.0 };
+            entries.push((i, i, ground));
+            let right = (i % width + 1 < width).then_some(i + 1);
+            let up = (i / width + 1 < height).then_some(i + width);
+            for j in right.into_iter().chain(up) {
+                let stiffness = match random.next() % 10 {
+                    0 => continue,
+                    1 => 1e-4,
+                    k => k as f64,
+                };
+                let ends = [(i, i, stiffness), (j, j, stiffness), (j, i, -stiffness)];
+                entries.extend(ends);
+            }
+        }
+        let n = (width * height) as usize;
+        Sparse::from_triplets(n, n, entries.into_iter()).unwrap()
+    }
+
+    /// The factor with all work shared, whatever its size.
+    fn shared(a: &Sparse) -> Cholesky {
+        let analysis = Analysis::shared_from(0, a, SymmetricOrdering::Amd).unwrap();
+        Cholesky::with(&analysis, a).unwrap()
+    }
+
+    /// The textbook's `L D L'` of the scaled matrix in the order of the factor, with vanished pivots replaced.
+    fn dense(a: &Sparse, factor: &Cholesky) -> Vec<Vec<f64>> {
+        let n = a.rows();
+        let mut place = vec![0; n];
+        (0..n).for_each(|k| place[factor.unknown(k)] = k);
+        let mut l = vec![vec![0.0; n]; n];
+        for (i, j, v) in a.entries() {
+            let (i, j) = (i as usize, j as usize);
+            let v = v * factor.scale()[i] * factor.scale()[j];
+            let (i, j) = (place[i].max(place[j]), place[i].min(place[j]));
+            l[i][j] = v;
+        }
+        for k in 0..n {
+            if l[k][k] <= super::super::cholesky::pivot_tolerance(n) {
+                l[k][k] = NULL_PIVOT;
+            }
+            let pivot = l[k][k];
+            for i in k + 1..n {
+                let factor = l[i][k] / pivot;
+                for j in k + 1..=i {
+                    l[i][j] -= factor * l[j][k];
+                }
+            }
+            (k + 1..n).for_each(|i| l[i][k] /= pivot);
+        }
+        l
+    }
+
+    #[test]
+    fn the_factor_is_that_of_the_textbook_with_and_without_null_unknowns() {
+        for (seed, (width, height)) in (0..).zip([(1, 1), (7, 1), (5, 6), (12, 11), (20, 24)]) {
+            for is_grounded in [true, false] {
+                let a = grid(width, height, is_grounded, &mut Random::new(seed));
+                let factor = shared(&a);
+                let expected = dense(&a, &factor);
+                let null = |&k: &usize| expected[k][k] == NULL_PIVOT;
+                let null: Vec<u32> = (0..a.rows())
+                    .filter(null)
+                    .map(|k| factor.unknown(k) as u32)
+                    .collect();
+                assert_eq!(factor.null_unknowns(), null);
+                assert_eq!(null.is_empty(), is_grounded);
+                assert!(factor.coupled_unknowns().is_empty());
+                factor.for_each_column(|k, pivot, entries| {
+                    assert!((pivot - expected[k][k]).abs() <= 1e-10);
+                    let mut column = vec![0.0; a.rows()];
+                    entries.for_each(|(i, v)| column[i] = v);
+                    for i in k + 1..a.rows() {
+                        assert!((column[i] - expected[i][k]).abs() <= 1e-10, "{i} {k}");
+                    }
+                });
+            }
+        }
+    }
+
+    #[test]
+    fn solutions_have_no_residual_and_the_same_bits_for_every_number_of_threads() {
+        for (seed, is_grounded) in [(1, true), (2, false)] {
+            let a = grid(80, 90, is_grounded, &mut Random::new(seed));
+            let x: Vec<f64> = (0..a.rows()).map(|i| (i as f64).sin()).collect();
+            let b = a.mul_symmetric(&x);
+            let of = |threads: usize| {
+                with_threads(threads, || {
+                    let factor = shared(&a);
+                    let mut x = b.clone();
+                    factor.solve(&mut x).unwrap();
+                    (factor.values, x)
+                })
+            };
+            let (values, x) = of(1);
+            for (b, ax) in b.iter().zip(a.mul_symmetric(&x)) {
+                assert!((b - ax).abs() < 1e-9, "{b} {ax}");
+            }
+            let bits = |v: &[f64]| v.iter().map(|v| v.to_bits()).collect::<Vec<_>>();
+            for threads in [2, 3, 8] {
+                let (other, of_other) = of(threads);
+                assert_eq!(bits(&values), bits(&other));
+                assert_eq!(bits(&x), bits(&of_other));
+            }
+        }
+    }
+
+    #[test]
+    fn a_factorization_ends_when_it_is_told_to() {
+        let a = grid(200, 200, true, &mut Random::new(3));
+        let analysis = Analysis::new(&a).unwrap();
+        for threads in [1, 2] {
+            with_threads(threads, || {
+                let mut late = Monitor::default();
+                // More than nothing, and less than a factorization takes.
+                late.start(1e-4);
+                let ends = late.watching(|| Cholesky::with(&analysis, &a).err());
+                assert_eq!(ends, Some(Error::TimeLimit));
+                let token = CancelToken::new();
+                token.cancel();
+                let cancelled = Monitor::default().cancel_token(token);
+                let ends = cancelled.watching(|| Cholesky::with(&analysis, &a).err());
+                assert_eq!(ends, Some(Error::Cancelled));
+                assert!(Cholesky::with(&analysis, &a).is_ok());
+            });
+        }
+    }
+
+    #[test]
+    fn numbers_that_overflow_are_an_error() {
+        let (mut a, huge) = (grid(30, 30, true, &mut Random::new(4)), f64::MAX);
+        a.values_mut().iter_mut().for_each(|v| *v *= huge);
+        let analysis = Analysis::shared_from(0, &a, SymmetricOrdering::Amd).unwrap();
+        let error = Cholesky::with(&analysis, &a).err();
+        assert!(matches!(error, Some(Error::Overflow { .. })), "{error:?}");
+    }
+}

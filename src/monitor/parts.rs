@@ -1,0 +1,205 @@
+//! Loops over the elements of a list on the threads that are allowed.
+//!
+//! The results never depend on the number of threads: the value of an element depends on nothing but its number,
+//! and sums are those of blocks of a fixed length, which are joined in order.
+
+use std::ops::Range;
+use std::panic::resume_unwind;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
+
+use super::threads::{allowed_threads, with_threads};
+use super::trace;
+use super::worker::{in_parts, spawn};
+
+/// The elements of a block of [`in_blocks`]: enough to be worth a thread.
+const BLOCK: usize = 1 << 14;
+
+/// The values of all numbers below `count`, in order. Each thread has at least `least` of them.
+pub(crate) fn collect_in_parts<T: Send>(
+    count: usize,
+    least: usize,
+    value: impl Fn(usize) -> T + Sync,
+) -> Vec<T> {
+    let parts = in_parts(count, least, |part| {
+        // The values of all other parts are appended to those of the first.
+        let room = if part.start == 0 { count } else { part.len() };
+        let mut values = Vec::with_capacity(room);
+        values.extend(part.map(&value));
+        values
+    });
+    joined(parts)
+}
+
+/// The results of `count` tasks, in order. Each thread takes the next task when it has done one.
+pub(crate) fn collect_in_turn<T: Send>(count: usize, task: impl Fn(usize) -> T + Sync) -> Vec<T> {
+    let threads = allowed_threads().min(count);
+    if threads > 1 && trace::is_simulated() {
+        return trace::simulate(count, threads, 1, task);
+    }
+    let next = AtomicUsize::new(0);
+    let parts = in_parts(count, 1, |_| -> Vec<(usize, T)> {
+        let take = || Some(next.fetch_add(1, Relaxed)).filter(|&k| k < count);
+        std::iter::from_fn(take).map(|k| (k, task(k))).collect()
+    });
+    let mut done = joined(parts);
+    done.sort_unstable_by_key(|(k, _)| *k);
+    done.into_iter().map(|(_, result)| result).collect()
+}
+
+/// The numbers below `count` for which `is_wanted` holds, in order. Each thread looks at `least` of them or more.
+pub(crate) fn filter_in_parts(
+    count: usize,
+    least: usize,
+    is_wanted: impl Fn(usize) -> bool + Sync,
+) -> Vec<usize> {
+    joined(in_parts(count, least, |part| {
+        part.filter(|&k| is_wanted(k)).collect()
+    }))
+}
+
+/// Lists one after the other.
+pub(crate) fn joined<T>(lists: Vec<Vec<T>>) -> Vec<T> {
+    let mut lists = lists.into_iter();
+    let mut all = lists.next().unwrap_or_default();
+    lists.for_each(|mut list| all.append(&mut list));
+    all
+}
+
+/// The ranges of `0..count` of as many parts as there are threads allowed, each with at least `least` elements.
+pub(crate) fn parts_of(count: usize, least: usize) -> Vec<Range<usize>> {
+    let parts = allowed_threads().min(count / least.max(1)).max(1);
+    let range = |k: usize| k * count / parts..(k + 1) * count / parts;
+    (0..parts).map(range).collect()
+}
+
+/// Does a task with each of these parts at the same time, the first one on the thread of the call.
+pub(crate) fn for_each_part<P: Send>(parts: Vec<P>, task: impl Fn(P) + Sync) {
+    let parts: Vec<_> = parts
+        .into_iter()
+        .map(|part| Mutex::new(Some(part)))
+        .collect();
+    in_parts(parts.len(), 1, |numbers| {
+        for part in &parts[numbers] {
+            // Nobody else asks for this lock.
+            if let Some(part) = part.lock().ok().and_then(|mut part| part.take()) {
+                task(part);
+            }
+        }
+    });
+}
+
+/// Changes each value, which gets its number. Each thread has at least `least` of them.
+pub(crate) fn change_in_parts<T: Send>(
+    values: &mut [T],
+    least: usize,
+    change: impl Fn(usize, &mut T) + Sync,
+) {
+    let mut rest = &mut *values;
+    let parts = parts_of(rest.len(), least).into_iter().map(|range| {
+        let (part, others) = std::mem::take(&mut rest).split_at_mut(range.len());
+        rest = others;
+        (range, part)
+    });
+    for_each_part(parts.collect(), |(range, part)| {
+        range.zip(part).for_each(|(k, value)| change(k, value));
+    });
+}
+
+/// Does two tasks, at the same time where that is worth a thread and one is allowed. They share the threads, and the
+/// first stays on the thread of the call.
+pub(crate) fn both<A, B: Send>(
+    is_worth_a_thread: bool,
+    first: impl FnOnce() -> A,
+    second: impl FnOnce() -> B + Send,
+) -> (A, B) {
+    let threads = allowed_threads();
+    if !is_worth_a_thread || threads < 2 {
+        return (first(), second());
+    }
+    let own = threads - threads / 2;
+    if trace::is_simulated() {
+        let start = trace::start_of_thread();
+        let first = with_threads(own, first);
+        let there = || with_threads(threads / 2, second);
+        let (second, end) = trace::as_thread(own, start, there);
+        trace::wait_until(end);
+        return (first, second);
+    }
+    let second = Mutex::new(Some(second));
+    // It is taken once, by the other thread if there is one.
+    let take = || second.lock().ok().and_then(|mut second| second.take());
+    std::thread::scope(|scope| {
+        let there = || take().map(|second| with_threads(threads / 2, second));
+        let there = spawn(scope, own, there);
+        let first = with_threads(own, first);
+        let there = match there {
+            Ok(handle) => handle.join().unwrap_or_else(|panic| resume_unwind(panic)),
+            Err(_) => None,
+        };
+        let second = there.or_else(|| take().map(|second| second()));
+        (
+            first,
+            second.unwrap_or_else(|| unreachable!("one of both threads takes it")),
+        )
+    })
+}
+
+/// The results for blocks of a fixed number of elements out of `count`, in order.
+pub(crate) fn in_blocks<T: Send>(count: usize, block: impl Fn(Range<usize>) -> T + Sync) -> Vec<T> {
+    collect_in_parts(count.div_ceil(BLOCK), 1, |k| {
+        block(k * BLOCK..count.min((k + 1) * BLOCK))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::spawned;
+    use super::*;
+    use std::sync::Barrier;
+
+    #[test]
+    fn any_number_of_threads_gives_the_same_lists() {
+        for (count, threads) in [(0, 2), (1, 4), (10, 3), (10, 1), (1000, 0), (1000, 7)] {
+            with_threads(threads, || {
+                let all: Vec<usize> = (0..count).map(|k| 3 * k).collect();
+                assert_eq!(collect_in_parts(count, 2, |k| 3 * k), all);
+                assert_eq!(collect_in_turn(count, |k| 3 * k), all);
+                let odd: Vec<usize> = (0..count).filter(|k| k % 2 == 1).collect();
+                assert_eq!(filter_in_parts(count, 2, |k| k % 2 == 1), odd);
+                let mut changed = vec![1; count];
+                change_in_parts(&mut changed, 2, |k, value| *value = 3 * k * *value);
+                assert_eq!(changed, all);
+            });
+        }
+    }
+
+    #[test]
+    fn both_tasks_are_done_at_the_same_time_if_that_is_worth_a_thread() {
+        let barrier = Barrier::new(2);
+        let meets = |result: u32| {
+            barrier.wait();
+            (result, allowed_threads())
+        };
+        let found = with_threads(3, || both(true, || meets(1), || meets(2)));
+        assert_eq!(found, ((1, 2), (2, 1)));
+        for (threads, is_worth_it) in [(1, true), (2, false)] {
+            let started = spawned(|| {
+                let found = with_threads(threads, || both(is_worth_it, || 1, || 2));
+                assert_eq!(found, (1, 2));
+            });
+            assert_eq!(started, 0);
+        }
+    }
+
+    #[test]
+    fn blocks_depend_on_the_count_alone() {
+        for count in [0, 1, BLOCK, BLOCK + 1, 3 * BLOCK - 1] {
+            let blocks = |threads| with_threads(threads, || in_blocks(count, |block| block));
+            let one = blocks(1);
+            assert_eq!(one.len(), count.div_ceil(BLOCK));
+            assert_eq!(one.iter().cloned().flatten().count(), count);
+            assert_eq!(one, blocks(3));
+        }
+    }
+}
