@@ -49,7 +49,7 @@ impl Ldl {
         order: &[u32],
         go_on: impl FnMut() -> bool,
     ) -> Result<Option<Self>> {
-        let tree = EliminationTree::new(lower, order);
+        let tree = EliminationTree::new(lower, order)?;
         let scale = equilibrate(lower);
         let rows = permuted_rows(lower, &tree, &scale)?;
         let (offsets, total) = column_offsets(&rows, &tree);

@@ -367,10 +367,8 @@ fn add(column: &mut [f64], first: usize, rows: &[u32], source: &[f64]) {
 
 #[cfg(test)]
 mod tests {
-    use faer::sparse::linalg::cholesky::SymmetricOrdering;
-
     use super::super::analysis::Analysis;
-    use super::super::{Cholesky, Random};
+    use super::super::{Cholesky, Random, minimum_degree};
     use super::*;
     use crate::error::Error;
     use crate::monitor::{CancelToken, Monitor, with_threads};
@@ -400,7 +398,7 @@ mod tests {
 
     /// The factor with all work shared, whatever its size.
     fn shared(a: &Sparse) -> Cholesky {
-        let analysis = Analysis::shared_from(0, a, SymmetricOrdering::Amd).unwrap();
+        let analysis = Analysis::shared_from(0, a, minimum_degree(a).unwrap()).unwrap();
         Cholesky::with(&analysis, a).unwrap()
     }
 
@@ -511,7 +509,7 @@ mod tests {
     fn numbers_that_overflow_are_an_error() {
         let (mut a, huge) = (grid(30, 30, true, &mut Random::new(4)), f64::MAX);
         a.values_mut().iter_mut().for_each(|v| *v *= huge);
-        let analysis = Analysis::shared_from(0, &a, SymmetricOrdering::Amd).unwrap();
+        let analysis = Analysis::shared_from(0, &a, minimum_degree(&a).unwrap()).unwrap();
         let error = Cholesky::with(&analysis, &a).err();
         assert!(matches!(error, Some(Error::Overflow { .. })), "{error:?}");
     }

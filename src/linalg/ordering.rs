@@ -1,18 +1,19 @@
 //! The order of elimination and its elimination tree.
 //!
-//! The order is faer's minimum degree (`amestoy1996`). The elimination tree follows `liu1990`, section 4, and
+//! The order is that of minimum degree (`minimum_degree.rs`). The elimination tree follows `liu1990`, section 4, and
 //! is post-ordered, so that every subtree is a contiguous range of positions. faer does not post-order an
 //! order that it is given, and does not expose its trees.
 
-use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::sparse::SymbolicSparseColMatRef;
-use faer::sparse::linalg::amd;
-
 use super::Sparse;
+use super::scaling::equilibrate;
+use super::sparse::reserve;
 use crate::error::{Error, Result};
 
 /// The parent of a root.
 pub const NONE: u32 = u32::MAX;
+
+/// A matrix of at most so many unknowns is eliminated in the order of its pivots, since its fill does not matter.
+const TINY: usize = 40;
 
 /// The order in which unknowns are eliminated.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -45,45 +46,61 @@ impl Ordering {
     }
 
     /// The order for the matrix with lower triangle `lower`: entry k is the unknown that is
-    /// eliminated k-th.
+    /// eliminated k-th. Matrices of the same pattern may have different ones.
     ///
     /// # Errors
-    /// [`Error::OutOfMemory`].
+    /// [`OutOfMemory`](crate::Error::OutOfMemory), and the reason to end the current step.
     pub fn order(self, lower: &Sparse) -> Result<Vec<u32>> {
         match self {
+            Ordering::FillReducing | Ordering::LargestPivot if lower.rows() <= TINY => {
+                Ok(largest_pivots(lower))
+            }
             Ordering::FillReducing | Ordering::LargestPivot => minimum_degree(lower),
             Ordering::Natural => Ok((0..lower.rows() as u32).collect()),
         }
     }
 }
 
+/// The order in which the largest pivot, relative to its diagonal entry, is always eliminated next (`higham2002`,
+/// section 10.3). No entry of the factor then exceeds one by much, so that pivots which vanish are small, whatever the
+/// weights.
+fn largest_pivots(lower: &Sparse) -> Vec<u32> {
+    let n = lower.rows();
+    let scale = equilibrate(lower);
+    let mut a = vec![0.0; n * n];
+    for (i, j, v) in lower.entries() {
+        let (i, j) = (i as usize, j as usize);
+        a[i * n + j] = v * scale[i] * scale[j];
+        a[j * n + i] = a[i * n + j];
+    }
+    let diagonal: Vec<f64> = (0..n).map(|k| a[k * (n + 1)]).collect();
+    let mut left: Vec<usize> = (0..n).collect();
+    let mut order = Vec::with_capacity(n);
+    while !left.is_empty() {
+        let share = |&k: &usize| a[k * (n + 1)] / diagonal[k];
+        // Of equal pivots the first one.
+        let at = (0..left.len()).rev();
+        let at = at.max_by(|&x, &y| share(&left[x]).total_cmp(&share(&left[y])));
+        let k = left.remove(at.unwrap_or_default());
+        order.push(k as u32);
+        let pivot = a[k * (n + 1)];
+        if pivot > 0.0 {
+            for &i in &left {
+                let factor = a[i * n + k] / pivot;
+                left.iter()
+                    .for_each(|&j| a[i * n + j] -= factor * a[k * n + j]);
+            }
+        }
+    }
+    order
+}
+
 /// A fill-reducing order: entry k is the unknown that is eliminated k-th.
 ///
 /// # Errors
-/// [`Error::OutOfMemory`].
+/// [`OutOfMemory`](crate::Error::OutOfMemory), and the reason to end the current step.
 pub fn minimum_degree(lower: &Sparse) -> Result<Vec<u32>> {
-    let n = lower.rows();
-    let memory_error = || Error::OutOfMemory {
-        what: "an ordering",
-    };
-    let offsets: Vec<u32> = lower.offsets().iter().map(|&o| o as u32).collect();
-    if lower.len() > u32::MAX as usize / 4 {
-        return Err(memory_error());
-    }
-    let pattern = SymbolicSparseColMatRef::new_checked(n, n, &offsets, None, lower.indices());
-    let (mut order, mut inverse) = (vec![0u32; n], vec![0u32; n]);
-    let mut memory = MemBuffer::try_new(amd::order_scratch::<u32>(n, lower.len()))
-        .map_err(|_| memory_error())?;
-    let stack = MemStack::new(&mut memory);
-    amd::order(
-        &mut order,
-        &mut inverse,
-        pattern,
-        amd::Control::default(),
-        stack,
-    )
-    .map_err(|_| memory_error())?;
-    Ok(order)
+    super::minimum_degree::minimum_degree(lower.offsets(), lower.indices())
 }
 
 /// The elimination tree of a permuted matrix, post-ordered.
@@ -113,9 +130,12 @@ impl EliminationTree {
 
     /// The tree of the matrix with lower triangle `lower`, eliminated in `order`. The positions are
     /// post-ordered afterwards, which changes neither fill nor work.
-    pub fn new(lower: &Sparse, order: &[u32]) -> Self {
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`] and [`Error::Overflow`].
+    pub fn new(lower: &Sparse, order: &[u32]) -> Result<Self> {
         let position = inverse(order);
-        let (offsets, columns) = permute_pattern(lower, &position);
+        let (offsets, columns) = permute_pattern(lower, &position)?;
         let parent = parents(&offsets, &columns);
         let post = post_order(&parent);
         let place = inverse(&post);
@@ -134,16 +154,16 @@ impl EliminationTree {
                 first[p] = first[p].min(first[j]);
             }
         }
-        EliminationTree {
+        Ok(EliminationTree {
             position: inverse(&order),
             order,
             parent,
             first,
-        }
+        })
     }
 }
 
-fn inverse(order: &[u32]) -> Vec<u32> {
+pub(super) fn inverse(order: &[u32]) -> Vec<u32> {
     let mut position = vec![0; order.len()];
     for (k, &i) in order.iter().enumerate() {
         position[i as usize] = k as u32;
@@ -153,7 +173,7 @@ fn inverse(order: &[u32]) -> Vec<u32> {
 
 /// For each position, the lower positions with which it shares an entry. Those of position `k` are
 /// `columns[offsets[k]..offsets[k + 1]]`.
-fn permute_pattern(lower: &Sparse, position: &[u32]) -> (Vec<usize>, Vec<u32>) {
+pub(super) fn permute_pattern(lower: &Sparse, position: &[u32]) -> Result<(Vec<u32>, Vec<u32>)> {
     let pairs = || {
         let pairs = lower
             .entries()
@@ -162,27 +182,37 @@ fn permute_pattern(lower: &Sparse, position: &[u32]) -> (Vec<usize>, Vec<u32>) {
             .filter(|[a, b]| a != b)
             .map(|[a, b]| (a.max(b) as usize, a.min(b)))
     };
-    let mut offsets = vec![0; position.len() + 1];
+    let mut offsets = vec![0u32; position.len() + 1];
     pairs().for_each(|(k, _)| offsets[k + 1] += 1);
     for k in 0..position.len() {
-        offsets[k + 1] += offsets[k];
+        let end = offsets[k].checked_add(offsets[k + 1]);
+        offsets[k + 1] = end.ok_or_else(too_many_entries)?;
     }
     let mut next = offsets.clone();
-    let mut columns = vec![0; offsets[position.len()]];
+    let mut columns = reserve(offsets[position.len()] as usize)?;
+    columns.resize(offsets[position.len()] as usize, 0);
     pairs().for_each(|(k, column)| {
-        columns[next[k]] = column;
+        columns[next[k] as usize] = column;
         next[k] += 1;
     });
-    (offsets, columns)
+    Ok((offsets, columns))
+}
+
+/// The error of a matrix that 32 bits cannot count.
+pub(super) fn too_many_entries() -> Error {
+    Error::Overflow {
+        what: "a matrix has more than 2^32 entries".into(),
+        index: None,
+    }
 }
 
 /// The parents of all positions by path compression through virtual ancestors (`liu1990`, algorithm 4.2).
-fn parents(offsets: &[usize], columns: &[u32]) -> Vec<u32> {
+fn parents(offsets: &[u32], columns: &[u32]) -> Vec<u32> {
     let n = offsets.len() - 1;
     let mut parent = vec![NONE; n];
     let mut ancestor = vec![NONE; n];
     for i in 0..n {
-        for &j in &columns[offsets[i]..offsets[i + 1]] {
+        for &j in &columns[offsets[i] as usize..offsets[i + 1] as usize] {
             let mut j = j as usize;
             while ancestor[j] != NONE && ancestor[j] != i as u32 {
                 let next = ancestor[j] as usize;
@@ -198,7 +228,7 @@ fn parents(offsets: &[usize], columns: &[u32]) -> Vec<u32> {
     parent
 }
 
-fn post_order(parent: &[u32]) -> Vec<u32> {
+pub(super) fn post_order(parent: &[u32]) -> Vec<u32> {
     let n = parent.len();
     let (mut child, mut sibling) = (vec![NONE; n], vec![NONE; n]);
     for j in (0..n).rev() {
@@ -236,7 +266,7 @@ mod tests {
         let edges = (1..n).map(|i| (i, (i * 7 + 3) % i, 1.0));
         let diagonal = (0..n).map(|i| (i, i, 4.0));
         let a = Sparse::from_triplets(40, 40, edges.chain(diagonal)).unwrap();
-        let tree = EliminationTree::new(&a, &minimum_degree(&a).unwrap());
+        let tree = EliminationTree::new(&a, &minimum_degree(&a).unwrap()).unwrap();
         for j in 0..40 {
             assert_eq!(tree.order[tree.position[j] as usize] as usize, j);
             if tree.parent[j] != NONE {

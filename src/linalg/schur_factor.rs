@@ -5,8 +5,8 @@
 //! form in the integers that remains after minimisation over the continuous unknowns (`golub2013`, section
 //! 4.2). The complement itself is never formed, so no accuracy is lost by squaring.
 //!
-//! The continuous unknowns are in a post-ordered minimum-degree order of their own block, as faer's
-//! supernodes require. The integers become a dense block in any order. This factor is therefore efficient if
+//! The continuous unknowns are in a post-ordered minimum-degree order of their own block, as supernodes
+//! require. The integers become a dense block in any order. This factor is therefore efficient if
 //! there are few integers.
 
 use super::{Cholesky, EliminationTree, Sparse, minimum_degree, principal_submatrix};
@@ -31,7 +31,7 @@ impl SchurFactor {
         let block = principal_submatrix(lower, continuous)?;
         let order = minimum_degree(&block)?;
         may_continue()?;
-        let tree = EliminationTree::new(&block, &order);
+        let tree = EliminationTree::new(&block, &order)?;
         may_continue()?;
         let mut order: Vec<u32> = tree.order.iter().map(|&k| continuous[k as usize]).collect();
         order.extend(integers);

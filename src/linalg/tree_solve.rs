@@ -274,7 +274,7 @@ mod tests {
         let a = grid();
         let n = a.rows();
         let analysis = Analysis::new(&a).unwrap();
-        let parts = &analysis.shared.as_ref().unwrap().solve;
+        let parts = &analysis.pattern.solve;
         assert!(parts.subtrees.len() >= 8, "{}", parts.subtrees.len());
         let inside: usize = parts
             .subtrees
@@ -297,7 +297,7 @@ mod tests {
     #[test]
     fn the_last_unknowns_can_be_held() {
         let (a, n) = (grid(), 40_000);
-        let tree = EliminationTree::new(&a, &minimum_degree(&a).unwrap());
+        let tree = EliminationTree::new(&a, &minimum_degree(&a).unwrap()).unwrap();
         let factor = Cholesky::in_order(&a, &tree.order).unwrap();
         // From the separator above all subtrees, from within a subtree on, and everything.
         for held in [n - 100, n / 4, 0] {

@@ -168,7 +168,7 @@ mod tests {
                 let odd: Vec<usize> = (0..count).filter(|k| k % 2 == 1).collect();
                 assert_eq!(filter_in_parts(count, 2, |k| k % 2 == 1), odd);
                 let mut changed = vec![1; count];
-                change_in_parts(&mut changed, 2, |k, value| *value = 3 * k * *value);
+                change_in_parts(&mut changed, 2, |k, value| *value *= 3 * k);
                 assert_eq!(changed, all);
             });
         }

@@ -9,7 +9,7 @@ use super::eliminated::EliminatedProblem;
 use super::relax::Relaxation;
 use crate::eliminate::{Centre, Component, ReducedModel, components};
 use crate::error::{Error, Result};
-use crate::linalg::{places, sum_below};
+use crate::linalg::{TwoFold, places, sum_below};
 use crate::monitor::{Monitor, may_continue, relative_gap};
 use crate::problem::{Model, Objective};
 use crate::search::{
@@ -199,6 +199,10 @@ fn pick(members: &[u32], v: &[f64]) -> Vec<f64> {
     members.iter().map(|&i| v[i as usize]).collect()
 }
 
+/// A point whose energy rises by more than this part of it where its unknowns are rounded to numbers of 64 bits, as
+/// real unknowns near 1e15 do, is judged by what the caller gets.
+const SPOILED: f64 = 1e-6;
+
 /// Energies from the caller's numbers, relative to the one at the centre.
 struct Exact<'a> {
     objective: Objective<'a>,
@@ -209,7 +213,13 @@ impl Exact<'_> {
     /// The energy at the step `y` from the centre, minus the energy at the centre.
     fn difference(&self, y: &[f64]) -> f64 {
         let x = self.centre.expand(y);
-        let (energy, before) = (self.objective.energy(|i| x[i]).value, self.centre.energy());
+        let before = self.centre.energy();
+        let (there, returned) = (
+            self.objective.energy(|i| x[i]).value,
+            self.objective.energy(|i| TwoFold::from(x[i].high)).value,
+        );
+        let spoiled = returned.high - there.high > SPOILED * there.high.abs();
+        let energy = if spoiled { returned } else { there };
         (energy.high - before.high) + (energy.low - before.low)
     }
 
