@@ -1,5 +1,7 @@
 //! Lists of cycles as signed edges, and sums around them.
 
+use crate::error::{Error, Result};
+
 /// Cycles as signed edges: 1 where the cycle runs through an edge from tail to head, -1 where it runs
 /// backwards.
 #[derive(Debug, Clone)]
@@ -31,6 +33,18 @@ impl Cycles {
     pub fn push(&mut self, cycle: impl Iterator<Item = (u32, i8)>) {
         self.edges.extend(cycle);
         self.offsets.push(self.edges.len());
+    }
+
+    /// Makes room for a cycle of so many edges.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`].
+    pub fn make_room(&mut self, edges: usize) -> Result<()> {
+        let edges = self.edges.try_reserve(edges);
+        let has_room = edges.and_then(|()| self.offsets.try_reserve(1));
+        has_room.map_err(|_| Error::OutOfMemory {
+            what: "a basis of cycles",
+        })
     }
 
     /// The signed sum of `values` around each cycle. Each value belongs to an edge from tail to head.

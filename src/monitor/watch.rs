@@ -130,16 +130,21 @@ pub(crate) fn watch_memory(items: usize) -> Watch {
 /// # Errors
 /// [`Error::OutOfMemory`].
 pub(crate) fn room_for(what: &'static str, count: usize, bytes: usize) -> Result<(), Error> {
-    match has_room(count.saturating_mul(bytes).saturating_add(LEAST_ROOM)) {
+    match is_room_for(count, bytes) {
         true => Ok(()),
         false => Err(Error::OutOfMemory { what }),
     }
 }
 
+/// Whether there is room for `count` items of which each needs so many bytes in all.
+pub(crate) fn is_room_for(count: usize, bytes: usize) -> bool {
+    has_room(count.saturating_mul(bytes).saturating_add(LEAST_ROOM))
+}
+
 /// How many items, at most `count`, have room if each needs so many bytes: all, or a half, a quarter and so on.
 pub(crate) fn room_up_to(count: usize, bytes: usize) -> usize {
     let mut count = count;
-    while count > 0 && !has_room(count.saturating_mul(bytes)) {
+    while count > 0 && !is_room_for(count, bytes) {
         count /= 2;
     }
     count

@@ -4,9 +4,12 @@
 //! a multifrontal factorization (`duff1983`) needs only dense blocks: for each patch the rows of its own
 //! cycles and those of the ancestors' cycles that meet the patch.
 
+use std::ops::Range;
+
 use super::dissect::Patch;
 use super::nested::NestedBasis;
 use crate::cycle::graph::Graph;
+use crate::monitor::is_room_for;
 
 /// A front of more rows is not factored.
 const WIDEST: usize = 3_000;
@@ -27,8 +30,8 @@ pub(super) struct Front {
     pub places: Vec<Vec<u32>>,
 }
 
-/// The factor by patches. None if a front is too large, if a pivot is not positive, or if `stop`, which
-/// gets the multiplications, says so.
+/// The factor by patches. None if a front is too large, also for the memory that is left, if a pivot is not positive,
+/// or if `stop`, which gets the multiplications, says so.
 pub(super) fn factor(
     graph: &Graph,
     patches: &[Patch],
@@ -38,24 +41,32 @@ pub(super) fn factor(
     let mut fronts: Vec<Front> = Vec::with_capacity(patches.len());
     let mut updates: Vec<Vec<f64>> = vec![Vec::new(); patches.len()];
     let mut place = vec![u32::MAX; basis.len()];
+    // By cycle: the last patch that meets it from below.
+    let mut met_by = vec![usize::MAX; basis.len()];
     for (at, patch) in patches.iter().enumerate() {
         let rows = basis.own[at].clone();
         let n = rows.len();
         let mut above: Vec<u32> = Vec::new();
+        let mut meets = |j: u32| {
+            if j as usize >= rows.end && met_by[j as usize] != at {
+                met_by[j as usize] = at;
+                above.push(j);
+            }
+        };
         for &child in patch.children.iter().flatten() {
-            let of_child = fronts[child].above.iter();
-            above.extend(of_child.filter(|&&j| j as usize >= rows.end));
+            fronts[child].above.iter().copied().for_each(&mut meets);
         }
         for i in rows.clone() {
             for &(e, _) in basis.cycles.get(i) {
                 let through = basis.through[e as usize].iter();
-                above.extend(through.map(|t| t.0).filter(|&j| j as usize >= rows.end));
+                through.map(|t| t.0).for_each(&mut meets);
             }
         }
         above.sort_unstable();
-        above.dedup();
         let all = n + above.len();
-        if all > WIDEST || stop((n * all * all) as u64 / 2) {
+        // The front, what is kept of it, and its update.
+        let bytes = 3 * std::mem::size_of::<f64>();
+        if all > WIDEST || stop((n * all * all) as u64 / 2) || !is_room_for(all * all, bytes) {
             return None;
         }
         for (k, i) in rows.clone().enumerate() {
@@ -93,13 +104,19 @@ pub(super) fn factor(
             places.push(to);
         }
         eliminate(&mut front, all, n)?;
-        let row = |i: usize, from: usize, to: usize| &front[i * all + from..i * all + to];
-        updates[at] = (n..all).flat_map(|i| row(i, n, all)).copied().collect();
+        let block = |rows: Range<usize>, columns: Range<usize>| {
+            let mut block = Vec::with_capacity(rows.len() * columns.len());
+            for i in rows {
+                block.extend_from_slice(&front[i * all + columns.start..i * all + columns.end]);
+            }
+            block
+        };
+        updates[at] = block(n..all, n..all);
         fronts.push(Front {
             own: n,
             above,
-            diagonal: (0..n).flat_map(|i| row(i, 0, n)).copied().collect(),
-            below: (n..all).flat_map(|i| row(i, 0, n)).copied().collect(),
+            diagonal: block(0..n, 0..n),
+            below: block(n..all, 0..n),
             places,
         });
     }

@@ -13,7 +13,13 @@ use crate::cycle::cycles::Cycles;
 use crate::cycle::forest::Forest;
 use crate::cycle::fundamental::fundamental_cycle;
 use crate::cycle::graph::{Graph, NONE};
+use crate::error::Result;
 use crate::linalg::DisjointSets;
+use crate::monitor::may_continue;
+
+/// So many cycles are found between two questions whether there is memory for more, and whether they are still
+/// wanted. The longest ones have some thousand edges.
+const OFTEN: usize = 64;
 
 /// The cycles of all patches, in the order of the patches.
 #[derive(Debug, Clone)]
@@ -28,7 +34,9 @@ pub(super) struct NestedBasis {
 }
 
 impl NestedBasis {
-    pub fn new(graph: &Graph, patches: &[Patch]) -> Self {
+    /// # Errors
+    /// The end of the call.
+    pub fn new(graph: &Graph, patches: &[Patch]) -> Result<Self> {
         let mut sets = DisjointSets::new(graph.nodes());
         let mut in_forest = vec![false; graph.edges.len()];
         let mut left = Vec::with_capacity(patches.len());
@@ -58,8 +66,12 @@ impl NestedBasis {
         for chords in left {
             let first = basis.chords.len();
             for e in chords {
+                if basis.chords.len().is_multiple_of(OFTEN) {
+                    may_continue()?;
+                }
                 let cycle = fundamental_cycle(graph, &forest, e, usize::MAX);
                 let cycle = cycle.unwrap_or_else(|| unreachable!("no cycle is too long"));
+                basis.cycles.make_room(cycle.len())?;
                 for &(f, sign) in &cycle {
                     basis.through[f as usize].push((basis.chords.len() as u32, sign));
                 }
@@ -68,7 +80,7 @@ impl NestedBasis {
             }
             basis.own.push(first..basis.chords.len());
         }
-        basis
+        Ok(basis)
     }
 
     /// The number of cycles.

@@ -15,13 +15,16 @@ use super::join::{Limits, Overflow, Targets, enumerate, join};
 use super::list::{List, PatchData};
 use super::local::dot;
 use super::tree::PatchTree;
-use crate::monitor::{room_up_to, span};
+use crate::monitor::{is_room_for, room_up_to, span};
 
 /// The largest number of entries of a list, by round.
 const ENTRIES: [usize; 7] = [300, 2_000, 10_000, 40_000, 150_000, 500_000, 1_500_000];
 
 /// Conditions of optimality drop most entries, so this many times more are enumerated.
 const RAW: usize = 4;
+
+/// While a list is made, its entries take so many times their memory: as they are found, valued and sorted.
+const MADE: usize = 4;
 
 /// The multiplications for one list, for each entry of the limit.
 const WORK_PER_ENTRY: u64 = 40_000;
@@ -245,7 +248,7 @@ impl<'a> Rounds<'a> {
         let (front, local) = (&tree.fronts[at], &tree.locals[at]);
         let held = self.data(at).bytes(1);
         let room = MEMORY.saturating_sub(self.bytes) / held;
-        let entries = room_up_to((RAW * self.entries).min(room), held);
+        let entries = room_up_to((RAW * self.entries).min(room), MADE * held);
         let work = self.entries as u64 * WORK_PER_ENTRY;
         let Some([a, b]) = self.tree.patches[at].children else {
             let mut limits = Limits {
@@ -292,6 +295,9 @@ impl<'a> Rounds<'a> {
         let each = local.own * local.own + front.below.len() + front.above.len() + tested;
         if watch.ends((found.energy.len() * each) as u64) {
             return Err(Overflow::Ended);
+        }
+        if !is_room_for(found.energy.len(), MADE * held) {
+            return Err(Overflow::Full);
         }
         let lists = [&self.state[a].list, &self.state[b].list];
         let _list = span("list");

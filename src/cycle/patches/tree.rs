@@ -46,7 +46,9 @@ impl PatchTree {
         let dissected = span("dissect");
         let patches = dissect(system.graph, residuals, recipe, stop);
         drop(dissected);
-        let basis = NestedBasis::new(system.graph, &patches);
+        let Ok(basis) = NestedBasis::new(system.graph, &patches) else {
+            return Ok(None);
+        };
         let factored = span("factor patches");
         let Some(fronts) = factor(system.graph, &patches, &basis, stop) else {
             return Ok(None);
