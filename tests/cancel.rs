@@ -89,6 +89,46 @@ fn a_cancelled_solve_is_a_valid_solution_or_a_typed_error() {
     }
 }
 
+/// Between the first solution and the search for others there are steps that notice a request by themselves.
+#[test]
+fn a_proof_cancelled_near_its_first_solution_says_so() {
+    let problem = field(2_000);
+    let options = Options {
+        strategy: Strategy::Exact,
+        ..Options::default()
+    };
+    let first = Cell::new(None);
+    let started = Instant::now();
+    let stop_at_first = |event: &Event| match event.kind {
+        EventKind::Improved => {
+            first.set(Some(started.elapsed()));
+            Flow::Cancel
+        }
+        _ => Flow::Continue,
+    };
+    let monitor = Monitor::default().on_event(stop_at_first);
+    assert_eq!(
+        solve_with(&problem, &options, monitor).unwrap().status(),
+        SolveStatus::Cancelled
+    );
+    let first = first.get().unwrap();
+    for step in 0..100 {
+        let token = CancelToken::new();
+        let from_outside = token.clone();
+        let delay = first.mul_f64(0.5 + f64::from(step) / 100.0);
+        let canceller = std::thread::spawn(move || {
+            std::thread::sleep(delay);
+            from_outside.cancel();
+        });
+        let result = solve_with(&problem, &options, Monitor::default().cancel_token(token));
+        canceller.join().unwrap();
+        match result {
+            Ok(solution) => assert_eq!(solution.status(), SolveStatus::Cancelled),
+            Err(error) => assert_eq!(error, Error::Cancelled),
+        }
+    }
+}
+
 /// The first improvement that a warm start reports is the earlier solution, before the search begins.
 #[test]
 fn a_cancelled_warm_start_returns_the_earlier_solution() {

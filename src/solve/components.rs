@@ -156,7 +156,8 @@ fn run(
     if !done {
         match dispatch::search(given, model, options, factors, &mut search) {
             // If the search was stopped, the best solution so far is kept.
-            Err(Error::Cancelled | Error::TimeLimit) if search.best().is_some() => {}
+            Err(Error::Cancelled) if search.best().is_some() => search.stop_by(StoppedBy::Cancel),
+            Err(Error::TimeLimit) if search.best().is_some() => search.stop_by(StoppedBy::Time),
             Err(Error::OutOfMemory { .. }) if search.best().is_some() => {
                 search.stop_by(StoppedBy::Memory);
             }
