@@ -97,6 +97,14 @@ pub enum Error {
         /// The row as the caller gave it.
         row: String,
     },
+    /// Constraints, inequalities and bounds that no point satisfies together, or none with integers.
+    #[error("no solution: {what}")]
+    Contradiction {
+        /// The rows and bounds that contradict each other, in words.
+        what: String,
+        /// The number of the first of them: of a constraint, an inequality or an unknown, as the text says.
+        index: Option<usize>,
+    },
     /// A constraint that no integer values of its unknowns satisfy.
     #[error("constraint {constraint}: {row} has no integer solution")]
     NoIntegerSolution {
@@ -188,7 +196,7 @@ impl Error {
             Error::UnknownOption { .. } => "unknown_option",
             Error::OptionType { .. } => "option_type",
             Error::OptionRange { .. } => "option_range",
-            Error::Infeasible { .. } => "infeasible",
+            Error::Infeasible { .. } | Error::Contradiction { .. } => "infeasible",
             Error::NoIntegerSolution { .. } => "no_integer_solution",
             Error::Unbounded { .. } => "unbounded",
             Error::NotConvex { .. } => "not_convex",
@@ -206,6 +214,7 @@ impl Error {
         match self {
             Error::InvalidArgument { index, .. }
             | Error::Overflow { index, .. }
+            | Error::Contradiction { index, .. }
             | Error::NotSupported { index, .. } => *index,
             Error::IndexOutOfRange { position, .. } | Error::NotFinite { position, .. } => {
                 Some(*position)

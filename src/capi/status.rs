@@ -213,7 +213,7 @@ impl From<&Error> for roundel_status {
             Error::Input(error) => of_mesh(error.code),
             Error::Parse { .. } => ROUNDEL_ERROR_PARSE,
             Error::Io { .. } => ROUNDEL_ERROR_IO,
-            Error::Infeasible { .. } => ROUNDEL_ERROR_INFEASIBLE,
+            Error::Infeasible { .. } | Error::Contradiction { .. } => ROUNDEL_ERROR_INFEASIBLE,
             Error::NoIntegerSolution { .. } => ROUNDEL_ERROR_NO_INTEGER_SOLUTION,
             Error::Unbounded { .. } => ROUNDEL_ERROR_UNBOUNDED,
             Error::NotConvex { .. } => ROUNDEL_ERROR_NOT_CONVEX,

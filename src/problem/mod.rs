@@ -2,6 +2,7 @@
 
 mod check;
 mod cycles;
+mod limits;
 mod matrix;
 mod model;
 pub mod mps;
@@ -10,16 +11,19 @@ mod rows;
 mod text;
 
 pub use cycles::CycleHint;
+pub(crate) use limits::Bounds;
+pub use limits::Inequalities;
 pub use matrix::{Layout, MatrixRef, Triangle};
 pub use model::Model;
 pub(crate) use objective::Objective;
 pub use rows::RowList;
-pub(crate) use text::row_text;
+pub(crate) use text::{limits_text, row_text};
 
 use std::sync::Arc;
 
 use crate::error::{Error, Result};
 use check::{all_finite, finite, in_range, same_length};
+use limits::check_both;
 use matrix::lower_triangle;
 
 /// A mixed-integer quadratic problem under construction.
@@ -37,6 +41,8 @@ pub struct Problem {
     least_squares: Arc<RowList>,
     weights: Arc<Vec<f64>>,
     constraints: RowList,
+    inequalities: Inequalities,
+    bounds: Bounds,
     integer: Vec<bool>,
     pinned: Vec<Option<f64>>,
     guess: Vec<f64>,
@@ -67,6 +73,8 @@ impl Problem {
             least_squares: Arc::default(),
             weights: Arc::default(),
             constraints: RowList::default(),
+            inequalities: Inequalities::default(),
+            bounds: Bounds::default(),
             integer: filled(variables, false)?,
             pinned: filled(variables, None)?,
             guess: filled(variables, 0.0)?,
@@ -81,8 +89,13 @@ impl Problem {
 
     /// The number of unknowns and coefficients, by which memory is estimated.
     pub(crate) fn size(&self) -> usize {
-        let rows = [&self.least_squares, &self.constraints].map(RowList::entries);
-        self.variables + self.quadratic.len() + rows[0] + rows[1]
+        let rows = [
+            &*self.least_squares,
+            &self.constraints,
+            &self.inequalities.rows,
+        ];
+        let entries = rows.map(RowList::entries).iter().sum::<usize>();
+        self.variables + self.quadratic.len() + entries
     }
 
     /// Entries of the lower triangle of Q as given. Duplicates are not summed.
@@ -105,6 +118,21 @@ impl Problem {
 
     pub(crate) fn constraint_rows(&self) -> &RowList {
         &self.constraints
+    }
+
+    /// The two-sided rows as given.
+    pub(crate) fn inequality_rows(&self) -> &Inequalities {
+        &self.inequalities
+    }
+
+    /// The bounds of an unknown of the problem.
+    pub(crate) fn limits_of(&self, variable: usize) -> (f64, f64) {
+        self.bounds.of(variable)
+    }
+
+    /// Whether the problem has inequalities or bounds.
+    pub(crate) fn is_limited(&self) -> bool {
+        !self.inequalities.is_empty() || self.bounds.limit()
     }
 
     pub(crate) fn integers(&self) -> &[bool] {
@@ -345,6 +373,96 @@ impl Problem {
         matrix.validate("constraint", rhs.len(), self.variables)?;
         all_finite("constraint right sides", rhs)?;
         self.constraints.append(matrix, rhs)
+    }
+
+    /// Adds the two-sided row `lower <= sum_k coefficients[k] x[indices[k]] <= upper` and returns its number
+    /// among the inequalities, which errors report. A side that does not limit is infinite. Duplicate indices
+    /// are summed.
+    ///
+    /// # Errors
+    /// [`Error::LengthMismatch`], [`Error::IndexOutOfRange`], [`Error::NotFinite`], and
+    /// [`Error::InvalidArgument`] for a lower side above the upper side, or a side that is NaN.
+    pub fn add_inequality(
+        &mut self,
+        indices: &[usize],
+        coefficients: &[f64],
+        lower: f64,
+        upper: f64,
+    ) -> Result<usize> {
+        let (what, sides) = ("inequality", [&[lower][..], &[upper]]);
+        check_both(what, 1, sides)?;
+        self.inequalities.reserve(1)?;
+        let rows = &mut self.inequalities.rows;
+        let row = rows.push(what, self.variables, indices, coefficients, 0.0)?;
+        self.inequalities.append_sides(sides[0], sides[1]);
+        Ok(row)
+    }
+
+    /// Adds the two-sided rows `lower <= A x <= upper`, one for each row of the matrix, and returns the number
+    /// of the first.
+    ///
+    /// # Errors
+    /// As for one row. Positions in errors are positions in the arrays given.
+    pub fn add_inequality_matrix(
+        &mut self,
+        matrix: &MatrixRef,
+        lower: &[f64],
+        upper: &[f64],
+    ) -> Result<usize> {
+        matrix.validate("inequality", lower.len(), self.variables)?;
+        check_both("inequality sides", lower.len(), [lower, upper])?;
+        self.inequalities.reserve(lower.len())?;
+        let zeros = filled(lower.len(), 0.0)?;
+        let first = self.inequalities.rows.append(matrix, &zeros)?;
+        self.inequalities.append_sides(lower, upper);
+        Ok(first)
+    }
+
+    /// Number of inequalities (two-sided rows) given so far.
+    pub fn inequalities(&self) -> usize {
+        self.inequalities.len()
+    }
+
+    /// Sets the bounds `lower[k] <= x[variables[k]] <= upper[k]`. They replace earlier bounds of these
+    /// unknowns. A bound that does not limit is infinite; unknowns have no bounds until they are set.
+    ///
+    /// # Errors
+    /// [`Error::LengthMismatch`], [`Error::IndexOutOfRange`], and [`Error::InvalidArgument`] for a lower
+    /// bound above the upper bound, or a bound that is NaN.
+    pub fn set_bounds(&mut self, variables: &[usize], lower: &[f64], upper: &[f64]) -> Result<()> {
+        in_range("bounded variables", variables, self.variables)?;
+        check_both("bounds", variables.len(), [lower, upper])?;
+        if self.bounds.lower.is_empty() {
+            let [below, above] = [f64::NEG_INFINITY, f64::INFINITY];
+            self.bounds = Bounds {
+                lower: filled(self.variables, below)?,
+                upper: filled(self.variables, above)?,
+            };
+        }
+        for ((&i, &l), &u) in variables.iter().zip(lower).zip(upper) {
+            self.bounds.lower[i] = l;
+            self.bounds.upper[i] = u;
+        }
+        Ok(())
+    }
+
+    /// The bounds of an unknown, infinite where there is none.
+    ///
+    /// # Errors
+    /// [`Error::IndexOutOfRange`].
+    pub fn bounds(&self, variable: usize) -> Result<(f64, f64)> {
+        in_range("variable", &[variable], self.variables)?;
+        Ok(self.bounds.of(variable))
+    }
+
+    /// Makes unknowns binary: integer, with the bounds 0 and 1.
+    ///
+    /// # Errors
+    /// [`Error::IndexOutOfRange`].
+    pub fn set_binaries(&mut self, variables: &[usize]) -> Result<()> {
+        let count = variables.len();
+        self.set_bounds(variables, &filled(count, 0.0)?, &filled(count, 1.0)?)?;
+        self.set_integers(variables)
     }
 
     /// Makes unknowns integer. An unknown may be named more than once.

@@ -24,6 +24,7 @@ pub use warm_start::WarmStart;
 
 pub(crate) use factors::Factors;
 pub(crate) use incumbent::Incumbent;
+pub(crate) use status::is_closed;
 pub(crate) use work::{ALWAYS, Work, of_relaxation};
 
 use crate::eliminate::ReducedModel;

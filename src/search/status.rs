@@ -25,7 +25,7 @@ pub const GAP_TOLERANCE: f64 = 1e-9;
 
 /// Whether a bound proves that an energy is the least possible. Both may be off by rounding errors that add
 /// up to `rounding`.
-pub(super) fn is_closed(energy: f64, lower_bound: f64, rounding: f64) -> bool {
+pub(crate) fn is_closed(energy: f64, lower_bound: f64, rounding: f64) -> bool {
     energy - lower_bound <= rounding || relative_gap(energy, lower_bound) <= GAP_TOLERANCE
 }
 

@@ -12,7 +12,8 @@ use crate::problem::{Objective, Problem};
 pub struct Verdict {
     /// The objective, in the caller's units.
     pub energy: f64,
-    /// The largest `|c . x - d| / max(1, sum_j |c_j x_j|)`; a pin counts as a constraint.
+    /// The largest `v / max(1, sum_j |c_j x_j|)`, where `v` is the distance of `c . x` from the right side of
+    /// a constraint, or from the interval of a two-sided row. Pins and bounds count as rows of one term.
     pub constraint_violation: f64,
     /// The largest distance of an integer unknown from an integer.
     pub integrality_violation: f64,
@@ -55,12 +56,38 @@ fn constraint_violation(problem: &Problem, x: &[f64]) -> f64 {
         }
         worst = worst.max(difference.value().abs() / f64::max(1.0, size));
     }
+    let rows = problem.inequality_rows();
+    for k in 0..rows.len() {
+        let size: f64 = rows.row(k).map(|(j, c)| (c * x[j]).abs()).sum();
+        let above = |side: f64| {
+            let mut difference = CompensatedSum::new(-side);
+            rows.row(k)
+                .for_each(|(j, c)| difference.add_product(c, x[j]));
+            difference.value()
+        };
+        worst = worst.max(outside(rows.lower()[k], rows.upper()[k], above) / f64::max(1.0, size));
+    }
+    for (j, x) in x.iter().enumerate() {
+        let (lower, upper) = problem.limits_of(j);
+        worst = worst.max(outside(lower, upper, |side| x - side) / x.abs().max(1.0));
+    }
     for (pin, x) in problem.pins().iter().zip(x) {
         if let Some(value) = pin {
             worst = worst.max((x - value).abs() / value.abs().max(1.0));
         }
     }
     worst
+}
+
+/// How far a value is outside an interval. `above(side)` is the value minus `side`.
+fn outside(lower: f64, upper: f64, above: impl Fn(f64) -> f64) -> f64 {
+    let below = if lower.is_finite() {
+        -above(lower)
+    } else {
+        0.0
+    };
+    let over = if upper.is_finite() { above(upper) } else { 0.0 };
+    below.max(over).max(0.0)
 }
 
 fn integrality_violation(problem: &Problem, x: &[f64]) -> f64 {
@@ -94,6 +121,20 @@ mod tests {
         // The row is violated by 1.5 relative to 4.5, the pin by 1 relative to 4.
         assert!((verdict.constraint_violation - 1.5 / 4.5).abs() < 1e-15);
         assert_eq!(verdict.integrality_violation, 0.25);
+    }
+
+    #[test]
+    fn rows_of_two_sides_and_bounds_are_measured_from_their_nearer_side() {
+        let mut problem = problem().unwrap();
+        let none = f64::INFINITY;
+        problem
+            .add_inequality(&[0, 1], &[1.0, -1.0], -none, -1.0)
+            .unwrap();
+        let violation = |problem: &Problem| verify(problem, &[1.0, 1.0, 4.0]).unwrap();
+        // 1 - 1 is above -1 by 1, relative to 2.
+        assert_eq!(violation(&problem).constraint_violation, 0.5);
+        problem.set_bounds(&[1], &[4.0], &[none]).unwrap();
+        assert_eq!(violation(&problem).constraint_violation, 3.0);
     }
 
     #[test]

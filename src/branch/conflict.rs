@@ -1,0 +1,128 @@
+//! Why a problem has no solution: a small set of rows and bounds that contradict each other.
+//!
+//! Where no real point exists, the rows of the dual active-set method's certificate are such a set. Where
+//! only integers are missing, rows and bounds are left out one after the other as long as there is still no
+//! solution (the deletion filter of `chinneck1991`).
+
+use super::form::{Form, Interval, Origin};
+use super::tree::{Limits, search};
+use crate::error::Error;
+use crate::monitor::Monitor;
+use crate::problem::{Problem, limits_text, row_text};
+
+/// The largest number of rows and bounds that the filter tries.
+const TRIED: usize = 60;
+
+/// The nodes and the multiplications of one try.
+const NODES: u64 = 200;
+const WORK: u64 = 5_000_000;
+
+/// The largest number of rows and bounds that the text names.
+const NAMED: usize = 6;
+
+/// A row or the bounds of an unknown.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Element {
+    Row(Origin),
+    Bounds(usize),
+}
+
+/// The rows and bounds of a certificate.
+pub(super) fn of_certificate(form: &Form, members: &[u32], rows: &[(u32, f64)]) -> Vec<Element> {
+    let largest = rows.iter().fold(0.0, |m: f64, (_, v)| m.max(v.abs()));
+    let of = |row: usize| match row.checked_sub(form.dim()) {
+        None => Element::Bounds(members[row] as usize),
+        Some(row) => Element::Row(form.origins[row]),
+    };
+    let rows = rows.iter().filter(|(_, v)| v.abs() > 1e-9 * largest);
+    let mut elements: Vec<Element> = rows.map(|&(row, _)| of(row as usize)).collect();
+    elements.sort_unstable();
+    elements.dedup();
+    elements
+}
+
+/// A small set of rows and bounds of a form without a solution.
+pub(super) fn of_form(form: &Form, members: &[u32]) -> Vec<Element> {
+    let mut form = form.clone();
+    let n = form.dim();
+    let bounded = (0..n).filter(|&j| form.limits[j] != Interval::ALL);
+    let all: Vec<usize> = bounded.chain((0..form.rows.rows()).map(|i| n + i)).collect();
+    let mut kept = Vec::new();
+    for &element in &all {
+        let sides = match element.checked_sub(n) {
+            None => &mut form.limits[element],
+            Some(row) => &mut form.row_limits[row],
+        };
+        let before = std::mem::replace(sides, Interval::ALL);
+        form.boxes.fill(Interval::ALL);
+        if all.len() <= TRIED && has_none(&form) {
+            continue;
+        }
+        match element.checked_sub(n) {
+            None => form.limits[element] = before,
+            Some(row) => form.row_limits[row] = before,
+        }
+        kept.push((element as u32, 1.0));
+    }
+    of_certificate(&form, members, &kept)
+}
+
+/// Whether a small search shows that the form has no solution.
+fn has_none(form: &Form) -> bool {
+    let limits = Limits {
+        nodes: NODES,
+        work: WORK,
+        gap: 0.0,
+        elsewhere: 0.0,
+        first: true,
+        strict: true,
+    };
+    let found = search(form, None, limits, &mut Monitor::default());
+    found.is_ok_and(|found| found.is_complete && found.best.is_none())
+}
+
+/// The error that names the elements.
+pub(super) fn error(problem: &Problem, elements: &[Element]) -> Error {
+    let named: Vec<String> = elements.iter().take(NAMED).map(|e| text(problem, *e)).collect();
+    let more = elements.len().saturating_sub(NAMED);
+    let rest = if more > 0 {
+        format!(", and {more} more rows and bounds")
+    } else {
+        String::new()
+    };
+    let what = match named.len() {
+        0 => "the constraints contradict each other".to_owned(),
+        1 if more == 0 => format!("{} cannot hold", named[0]),
+        _ => format!("{}{rest} contradict each other", named.join("; ")),
+    };
+    Error::Contradiction {
+        what,
+        index: elements.first().map(|element| match *element {
+            Element::Row(Origin::Constraint(k) | Origin::Inequality(k)) => k,
+            Element::Bounds(j) => j,
+        }),
+    }
+}
+
+fn text(problem: &Problem, element: Element) -> String {
+    match element {
+        Element::Row(Origin::Constraint(k)) => {
+            let rows = problem.constraint_rows();
+            format!("constraint {k}: {}", row_text(rows.row(k), rows.rhs()[k]))
+        }
+        Element::Row(Origin::Inequality(k)) => {
+            let rows = problem.inequality_rows();
+            let text = limits_text(rows.row(k), rows.lower()[k], rows.upper()[k]);
+            format!("inequality {k}: {text}")
+        }
+        Element::Bounds(j) => {
+            let (lower, upper) = problem.limits_of(j);
+            let kind = if problem.integers()[j] { "integer " } else { "" };
+            let text = match problem.pins()[j] {
+                Some(value) => format!("x{j} pinned to {value}"),
+                None => limits_text([(j, 1.0)].into_iter(), lower, upper),
+            };
+            format!("bounds of {kind}variable {j}: {text}")
+        }
+    }
+}

@@ -1,0 +1,619 @@
+//! The dual active-set method for strictly convex quadratic programs with two-sided rows and bounds.
+//!
+//! `goldfarb1983` in the form of `arnstrom2022` (DAQP): every iterate is dual feasible, so its dual objective
+//! is a lower bound, and a solve starts from the active rows of the node above. With `P = (Q + added)^-1` and
+//! the active rows `W`, the point is `x = x_0 - P A_W' mu`, where `x_0` is the minimiser without rows and `mu`
+//! solves `A_W P A_W' mu = A_W x_0 - b_W`. A multiplier is positive for an upper side, negative for a lower
+//! side, and has any sign where both sides are equal.
+//!
+//! `P` is known by blocks ([`Inverse`]), and so the products of rows with `P` are sparse wherever Q is.
+
+use super::form::{Form, Interval};
+use super::inverse::Inverse;
+use super::working_set::Ldl;
+use crate::error::Result;
+
+/// A row whose square that the others leave is below this part of its own depends on them.
+const DEPENDENT: f64 = 1e-9;
+
+/// What is left of a square below this part of it is a rounding error.
+const LOST: f64 = 1e-15;
+
+/// Sides contradict each other if they miss each other by this part of their sizes.
+const CONTRADICTION: f64 = 1e-8;
+
+/// A sum below this part of its terms' sizes is zero.
+const CANCELLED: f64 = 1e-8;
+
+/// An entry of a dual direction below this part of the largest is a rounding error.
+const NOTHING: f64 = 1e-11;
+
+/// Rows may be violated by this, relative to the sizes of their sides.
+pub(super) const FEASIBLE: f64 = 1e-9;
+
+/// Active rows may be missed by this, relative to the sizes of their sides, before the point is corrected.
+const EXACT: f64 = 1e-13;
+
+/// The largest number of corrections.
+const CORRECTIONS: usize = 2;
+
+/// The factor is made again after this many removals.
+const REFRESH: usize = 60;
+
+/// How a solve ended.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Outcome {
+    /// At the minimiser.
+    Optimal,
+    /// No point is within all limits: the sum of the rows with these multipliers contradicts their sides.
+    Infeasible(Vec<(u32, f64)>),
+    /// The dual objective has reached the cutoff.
+    Cutoff,
+    /// After the largest number of iterations.
+    Stopped,
+}
+
+/// A row that is held at one of its sides. Rows are numbered after the unknowns, whose numbers stand for
+/// their bounds.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Active {
+    pub row: u32,
+    /// Whether it is held at its upper side.
+    pub upper: bool,
+    pub multiplier: f64,
+}
+
+/// The active rows with their multipliers, from which another solve may start.
+pub(super) type WarmStart = Vec<Active>;
+
+/// The active rows, their factor and the point.
+#[derive(Debug, Clone)]
+pub(super) struct State {
+    active: Vec<Active>,
+    factor: Ldl,
+    point: Vec<f64>,
+}
+
+const NOT_ACTIVE: u32 = u32::MAX;
+
+/// The product of a row with `P`.
+type Image = (Vec<u32>, Vec<f64>);
+
+/// A quadratic program whose bounds and linear terms change from solve to solve.
+#[derive(Debug)]
+pub(super) struct DualActiveSet<'a> {
+    form: &'a Form,
+    inverse: &'a Inverse,
+    /// `P a` for each row.
+    images: &'a [Image],
+    /// `(a'Pa)^-1/2` for each unknown and each row, by which violations are compared.
+    scales: &'a [f64],
+    limits: Vec<Interval>,
+    gradient: Vec<f64>,
+    /// The minimiser without rows.
+    centre: Vec<f64>,
+    active: Vec<Active>,
+    /// The place of each unknown and row in `active`.
+    place: Vec<u32>,
+    factor: Ldl,
+    removals: usize,
+    /// Rows that are violated only by rounding errors of rows on which they depend.
+    is_ignored: Vec<bool>,
+    ignored: Vec<u32>,
+    point: Vec<f64>,
+    scattered: Vec<f64>,
+    dual_objective: f64,
+    /// The iterations of all solves, and their multiplications.
+    pub iterations: u64,
+    pub work: u64,
+}
+
+/// What all solves of a form share.
+#[derive(Debug)]
+pub(super) struct Shared {
+    pub inverse: Inverse,
+    images: Vec<Image>,
+    scales: Vec<f64>,
+}
+
+impl Shared {
+    /// # Errors
+    /// Those of [`Inverse::new`].
+    pub fn new(form: &Form, regularization: &[f64]) -> Result<Self> {
+        let inverse = Inverse::new(&form.hessian, regularization)?;
+        let n = form.dim();
+        let mut dense = vec![0.0; n];
+        let mut seen = vec![false; n];
+        let mut scales: Vec<f64> = (0..n).map(|j| scale(inverse.diagonal(j))).collect();
+        let mut images = Vec::with_capacity(form.rows.rows());
+        for i in 0..form.rows.rows() {
+            let mut touched: Vec<u32> = Vec::new();
+            for (j, a) in form.rows.row(i) {
+                let (members, column) = inverse.column(j);
+                for (&k, p) in members.iter().zip(column) {
+                    if !std::mem::replace(&mut seen[k as usize], true) {
+                        touched.push(k);
+                    }
+                    dense[k as usize] += a * p;
+                }
+            }
+            touched.sort_unstable();
+            let square = form.rows.row(i).map(|(j, a)| a * dense[j]).sum();
+            scales.push(scale(square));
+            let values = touched.iter().map(|&k| {
+                seen[k as usize] = false;
+                std::mem::take(&mut dense[k as usize])
+            });
+            let values = values.collect();
+            images.push((touched, values));
+        }
+        Ok(Shared {
+            inverse,
+            images,
+            scales,
+        })
+    }
+}
+
+fn scale(square: f64) -> f64 {
+    if square > 0.0 {
+        1.0 / square.sqrt()
+    } else {
+        0.0
+    }
+}
+
+impl<'a> DualActiveSet<'a> {
+    pub fn new(form: &'a Form, shared: &'a Shared) -> Self {
+        let n = form.dim();
+        let mut solver = DualActiveSet {
+            form,
+            inverse: &shared.inverse,
+            images: &shared.images,
+            scales: &shared.scales,
+            limits: form.limits.clone(),
+            gradient: form.gradient.clone(),
+            centre: Vec::new(),
+            active: Vec::new(),
+            place: vec![NOT_ACTIVE; n + form.rows.rows()],
+            factor: Ldl::default(),
+            removals: 0,
+            is_ignored: vec![false; n + form.rows.rows()],
+            ignored: Vec::new(),
+            point: vec![0.0; n],
+            scattered: vec![0.0; n],
+            dual_objective: f64::NEG_INFINITY,
+            iterations: 0,
+            work: 0,
+        };
+        solver.set_gradient(form.gradient.clone());
+        solver
+    }
+
+    /// The minimiser after a solve.
+    pub fn point(&self) -> &[f64] {
+        &self.point
+    }
+
+    /// The active rows after a solve.
+    pub fn active(&self) -> &[Active] {
+        &self.active
+    }
+
+    /// The dual objective after a solve, without the constant of the form.
+    pub fn dual_objective(&self) -> f64 {
+        self.dual_objective
+    }
+
+    /// The state from which solves go on.
+    pub fn state(&self) -> State {
+        State {
+            active: self.active.clone(),
+            factor: self.factor.clone(),
+            point: self.point.clone(),
+        }
+    }
+
+    /// Goes back to an earlier state.
+    pub fn go_back(&mut self, state: &State) {
+        for active in &self.active {
+            self.place[active.row as usize] = NOT_ACTIVE;
+        }
+        self.active.clone_from(&state.active);
+        for (k, active) in self.active.iter().enumerate() {
+            self.place[active.row as usize] = k as u32;
+        }
+        self.factor.clone_from(&state.factor);
+        self.point.clone_from(&state.point);
+    }
+
+    pub fn limits(&self) -> &[Interval] {
+        &self.limits
+    }
+
+    pub fn form(&self) -> &'a Form {
+        self.form
+    }
+
+    /// The inverse of the Hessian.
+    pub fn inverse(&self) -> &'a Inverse {
+        self.inverse
+    }
+
+    pub fn set_limits(&mut self, variable: usize, limits: Interval) {
+        self.limits[variable] = limits;
+    }
+
+    /// Replaces the linear term.
+    pub fn set_gradient(&mut self, gradient: Vec<f64>) {
+        self.centre = self.inverse.mul(&gradient);
+        self.centre.iter_mut().for_each(|x| *x = -*x);
+        self.gradient = gradient;
+    }
+
+    /// Starts the next solve from these rows.
+    pub fn start_from(&mut self, warm: &[Active]) {
+        for active in self.active.drain(..) {
+            self.place[active.row as usize] = NOT_ACTIVE;
+        }
+        self.factor.clear();
+        self.removals = 0;
+        for &active in warm {
+            self.push(active);
+        }
+    }
+
+    /// Makes the factor again from the active rows.
+    fn refresh(&mut self) {
+        let active = std::mem::take(&mut self.active);
+        for row in &active {
+            self.place[row.row as usize] = NOT_ACTIVE;
+        }
+        self.factor.clear();
+        self.removals = 0;
+        for row in active {
+            self.push(row);
+        }
+    }
+
+    fn interval(&self, row: usize) -> Interval {
+        let n = self.limits.len();
+        match row.checked_sub(n) {
+            None => self.limits[row],
+            Some(row) => self.form.row_limits[row],
+        }
+    }
+
+    /// The product of a row with a point.
+    fn product(&self, row: usize, x: &[f64]) -> f64 {
+        match row.checked_sub(self.limits.len()) {
+            None => x[row],
+            Some(row) => self.form.rows.row(row).map(|(j, a)| a * x[j]).sum(),
+        }
+    }
+
+    fn image(&self, row: usize) -> (&'a [u32], &'a [f64]) {
+        match row.checked_sub(self.limits.len()) {
+            None => self.inverse.column(row),
+            Some(row) => (&self.images[row].0, &self.images[row].1),
+        }
+    }
+
+    /// The row of the factor for a row that is not active, and what is left of its square.
+    fn factor_row(&mut self, row: usize) -> (Vec<f64>, f64, f64) {
+        let (indices, values) = self.image(row);
+        for (&j, v) in indices.iter().zip(values) {
+            self.scattered[j as usize] = *v;
+        }
+        let products: Vec<f64> = self
+            .active
+            .iter()
+            .map(|active| self.product(active.row as usize, &self.scattered))
+            .collect();
+        let square = self.product(row, &self.scattered);
+        for &j in indices {
+            self.scattered[j as usize] = 0.0;
+        }
+        let size = self.active.len() as u64;
+        self.work += size * size / 2 + indices.len() as u64;
+        let (entries, left) = self.factor.next_row(&products, square);
+        (entries, left, square)
+    }
+
+    /// Makes a row active unless it depends on the active rows.
+    fn push(&mut self, active: Active) {
+        let row = active.row as usize;
+        if self.place[row] != NOT_ACTIVE {
+            return;
+        }
+        let (entries, left, square) = self.factor_row(row);
+        if left > DEPENDENT * square {
+            self.append(active, entries, left);
+        }
+    }
+
+    fn append(&mut self, active: Active, entries: Vec<f64>, diagonal: f64) {
+        self.place[active.row as usize] = self.active.len() as u32;
+        self.active.push(active);
+        self.factor.append(entries, diagonal);
+    }
+
+    fn remove(&mut self, at: usize) {
+        let row = self.active.remove(at).row;
+        self.place[row as usize] = NOT_ACTIVE;
+        for (k, active) in self.active.iter().enumerate().skip(at) {
+            self.place[active.row as usize] = k as u32;
+        }
+        self.factor.remove(at);
+        let rest = (self.active.len() - at) as u64;
+        self.work += rest * rest;
+        self.removals += 1;
+        if self.removals >= REFRESH {
+            self.refresh();
+        }
+    }
+
+    /// The side that an active row is held at.
+    fn held(&self, active: Active) -> f64 {
+        let interval = self.interval(active.row as usize);
+        if active.upper {
+            interval.upper
+        } else {
+            interval.lower
+        }
+    }
+
+    /// Solves the program with the current limits and linear term, from the active rows of the last solve.
+    ///
+    /// It ends with [`Outcome::Cutoff`] where the dual objective, without the constant of the form, exceeds
+    /// `cutoff`.
+    pub fn solve(&mut self, cutoff: f64, most: u64) -> Outcome {
+        self.drop_wrong_signs();
+        for row in self.ignored.drain(..) {
+            self.is_ignored[row as usize] = false;
+        }
+        let unlimited: f64 = self
+            .centre
+            .iter()
+            .zip(&self.gradient)
+            .map(|(x, q)| 0.5 * x * q)
+            .sum();
+        let last = self.iterations + most;
+        loop {
+            if self.iterations >= last {
+                return Outcome::Stopped;
+            }
+            self.iterations += 1;
+            // The multipliers at which all active rows hold.
+            let mut target: Vec<f64> = self
+                .active
+                .iter()
+                .map(|&a| self.product(a.row as usize, &self.centre) - self.held(a))
+                .collect();
+            let violations = target.clone();
+            self.factor.solve(&mut target);
+            let size = target.len() as u64;
+            self.work += size * size;
+            if let Some((at, step)) = self.blocking(&target) {
+                for (active, new) in self.active.iter_mut().zip(&target) {
+                    active.multiplier += step * (new - active.multiplier);
+                }
+                self.remove(at);
+                continue;
+            }
+            for (active, new) in self.active.iter_mut().zip(&target) {
+                active.multiplier = *new;
+            }
+            let raised: f64 = target.iter().zip(&violations).map(|(m, v)| 0.5 * m * v).sum();
+            self.dual_objective = unlimited + raised;
+            self.move_point();
+            if self.dual_objective > cutoff {
+                return Outcome::Cutoff;
+            }
+            let Some((row, upper)) = self.most_violated() else {
+                self.correct(1);
+                return Outcome::Optimal;
+            };
+            if let Some(certificate) = self.activate(row, upper) {
+                return Outcome::Infeasible(certificate);
+            }
+        }
+    }
+
+    /// Holds each active row at the side that the sign of its multiplier belongs to, and removes it where
+    /// that side does not limit.
+    fn drop_wrong_signs(&mut self) {
+        for at in (0..self.active.len()).rev() {
+            let active = self.active[at];
+            let interval = self.interval(active.row as usize);
+            let side = interval.side(active.multiplier);
+            self.active[at].upper = active.multiplier > 0.0;
+            if !side.is_finite() || (active.multiplier == 0.0 && !interval.is_point()) {
+                self.remove(at);
+            }
+        }
+    }
+
+    /// The first active row whose multiplier loses its sign on the way to `target`, and the part of the way
+    /// until then.
+    fn blocking(&self, target: &[f64]) -> Option<(usize, f64)> {
+        let mut first: Option<(usize, f64)> = None;
+        for (k, (active, &new)) in self.active.iter().zip(target).enumerate() {
+            let lost = if active.upper { new < 0.0 } else { new > 0.0 };
+            if lost && !self.interval(active.row as usize).is_point() {
+                let part = (active.multiplier / (active.multiplier - new)).clamp(0.0, 1.0);
+                if first.is_none_or(|(_, best)| part < best) {
+                    first = Some((k, part));
+                }
+            }
+        }
+        first
+    }
+
+    /// `x = x_0 - P A_W' mu`. Where the small diagonal that was added makes `P` large, what the active rows
+    /// miss by rounding errors is taken out by further steps of the same kind.
+    fn move_point(&mut self) {
+        self.point.copy_from_slice(&self.centre);
+        let multipliers: Vec<f64> = self.active.iter().map(|a| a.multiplier).collect();
+        self.step(&multipliers);
+        if !self.inverse.is_definite() {
+            self.correct(CORRECTIONS);
+        }
+    }
+
+    /// Moves the point to where the active rows hold.
+    fn correct(&mut self, most: usize) {
+        for _ in 0..most {
+            let missed = |a: &Active| self.product(a.row as usize, &self.point) - self.held(*a);
+            let mut missed: Vec<f64> = self.active.iter().map(missed).collect();
+            let is_exact = |(m, a): (&f64, &Active)| m.abs() <= EXACT * self.held(*a).abs().max(1.0);
+            if missed.iter().zip(&self.active).all(is_exact) {
+                return;
+            }
+            self.factor.solve(&mut missed);
+            self.work += (missed.len() * missed.len()) as u64;
+            self.step(&missed);
+        }
+    }
+
+    /// Subtracts `P A_W'` times these multipliers from the point.
+    fn step(&mut self, multipliers: &[f64]) {
+        let mut work = 0;
+        for (k, &multiplier) in multipliers.iter().enumerate() {
+            if multiplier != 0.0 {
+                let (indices, values) = self.image(self.active[k].row as usize);
+                work += indices.len() as u64;
+                if indices.len() == self.point.len() {
+                    for (x, v) in self.point.iter_mut().zip(values) {
+                        *x -= multiplier * v;
+                    }
+                } else {
+                    for (&j, v) in indices.iter().zip(values) {
+                        self.point[j as usize] -= multiplier * v;
+                    }
+                }
+            }
+        }
+        self.work += work;
+    }
+
+    /// The row outside its limits whose violation is largest in the norm of Q, and whether it is above.
+    fn most_violated(&self) -> Option<(usize, bool)> {
+        let mut worst: Option<(usize, bool)> = None;
+        let mut most = 0.0;
+        let mut look = |row: usize, value: f64, interval: Interval| {
+            let (below, above) = (interval.lower - value, value - interval.upper);
+            let upper = above > below;
+            let (violation, side) = if upper {
+                (above, interval.upper)
+            } else {
+                (below, interval.lower)
+            };
+            if violation > FEASIBLE * side.abs().max(1.0)
+                && violation * self.scales[row] > most
+                && self.place[row] == NOT_ACTIVE
+                && !self.is_ignored[row]
+            {
+                most = violation * self.scales[row];
+                worst = Some((row, upper));
+            }
+        };
+        for (j, (&x, &interval)) in self.point.iter().zip(&self.limits).enumerate() {
+            look(j, x, interval);
+        }
+        let n = self.limits.len();
+        for (i, &interval) in self.form.row_limits.iter().enumerate() {
+            look(n + i, self.product(n + i, &self.point), interval);
+        }
+        worst
+    }
+
+    /// Whether the active rows in this direction cancel a row. Where some unknowns have a curvature and others
+    /// only the small one that was added, the norm of `P` does not show it.
+    fn cancels(&mut self, row: usize, sign: f64, direction: &[f64]) -> bool {
+        let (form, n) = (self.form, self.limits.len());
+        let mut sizes = vec![0.0; n];
+        let mut sums = vec![0.0; n];
+        let mut add = |row: usize, by: f64| {
+            let mut term = |j: usize, v: f64| {
+                sums[j] += v;
+                sizes[j] += v.abs();
+            };
+            match row.checked_sub(n) {
+                None => term(row, by),
+                Some(row) => form.rows.row(row).for_each(|(j, a)| term(j, a * by)),
+            }
+        };
+        add(row, sign);
+        for (held, &d) in self.active.iter().zip(direction) {
+            add(held.row as usize, d);
+        }
+        self.work += n as u64;
+        let mut pairs = sums.iter().zip(&sizes);
+        pairs.all(|(sum, size): (&f64, &f64)| sum.abs() <= CANCELLED * size)
+    }
+
+    /// Whether the sides of a combination of rows contradict each other by more than rounding errors.
+    fn contradicts(&self, row: Active, sign: f64, direction: &[f64]) -> bool {
+        let own = sign * self.held(row);
+        let held = self.active.iter().zip(direction);
+        let held = held.filter(|(_, d)| **d != 0.0).map(|(a, d)| d * self.held(*a));
+        let (sum, size) = held.fold((own, own.abs()), |(s, m), t: f64| (s + t, m + t.abs()));
+        -sum > CONTRADICTION * size.max(1.0)
+    }
+
+    /// Makes a violated row active. If it depends on the active rows, one of these leaves for it; if none can,
+    /// their combination is the certificate that no point exists.
+    fn activate(&mut self, row: usize, upper: bool) -> Option<Vec<(u32, f64)>> {
+        let sign = if upper { 1.0 } else { -1.0 };
+        let mut active = Active {
+            row: row as u32,
+            upper,
+            multiplier: 0.0,
+        };
+        loop {
+            let (entries, left, square) = self.factor_row(row);
+            if left > DEPENDENT * square {
+                self.append(active, entries, left);
+                return None;
+            }
+            // `A_W' direction + sign a = 0`, and `entries` are `D^-1 L^-1 A_W P a`.
+            let mut direction: Vec<f64> = entries.iter().map(|l| -sign * l).collect();
+            self.factor.solve_transposed(&mut direction);
+            if left > LOST * square && !self.cancels(row, sign, &direction) {
+                self.append(active, entries, left);
+                return None;
+            }
+            let largest = direction.iter().fold(1.0, |m: f64, d| m.max(d.abs()));
+            let mut first: Option<(usize, f64)> = None;
+            for (k, (held, d)) in self.active.iter().zip(&mut direction).enumerate() {
+                if d.abs() <= NOTHING * largest {
+                    *d = 0.0;
+                }
+                let falls = if held.upper { *d < 0.0 } else { *d > 0.0 };
+                if falls && !self.interval(held.row as usize).is_point() {
+                    let step = (held.multiplier / -*d).max(0.0);
+                    if first.is_none_or(|(_, best)| step < best) {
+                        first = Some((k, step));
+                    }
+                }
+            }
+            let Some((at, step)) = first else {
+                if !self.contradicts(active, sign, &direction) {
+                    self.is_ignored[row] = true;
+                    self.ignored.push(row as u32);
+                    return None;
+                }
+                let rows = self.active.iter().zip(&direction);
+                let rows = rows.filter(|(_, d)| **d != 0.0);
+                let rows = rows.map(|(held, d)| (held.row, *d));
+                return Some(rows.chain([(row as u32, sign)]).collect());
+            };
+            for (held, d) in self.active.iter_mut().zip(&direction) {
+                held.multiplier += step * d;
+            }
+            active.multiplier += step * sign;
+            self.remove(at);
+        }
+    }
+}

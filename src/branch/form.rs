@@ -1,0 +1,165 @@
+//! A problem in the form that branch and bound reads: one list of two-sided rows, and bounds.
+
+use crate::error::{Error, Result};
+use crate::linalg::Sparse;
+use crate::problem::{Model, Problem};
+
+/// All numbers from `lower` to `upper`. A side that does not limit is infinite.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Interval {
+    pub lower: f64,
+    pub upper: f64,
+}
+
+impl Interval {
+    pub const ALL: Interval = Interval {
+        lower: f64::NEG_INFINITY,
+        upper: f64::INFINITY,
+    };
+
+    pub fn point(value: f64) -> Self {
+        Interval {
+            lower: value,
+            upper: value,
+        }
+    }
+
+    /// What is in both.
+    pub fn and(self, other: Interval) -> Self {
+        Interval {
+            lower: self.lower.max(other.lower),
+            upper: self.upper.min(other.upper),
+        }
+    }
+
+    /// The integers within, as the interval from the least to the largest.
+    pub fn of_integers(self) -> Self {
+        Interval {
+            lower: self.lower.ceil(),
+            upper: self.upper.floor(),
+        }
+    }
+
+    pub fn is_point(self) -> bool {
+        self.lower == self.upper
+    }
+
+    pub fn is_empty(self) -> bool {
+        self.lower > self.upper
+    }
+
+    /// The side that the sign of a multiplier belongs to: a positive multiplier holds the upper side.
+    pub fn side(self, multiplier: f64) -> f64 {
+        if multiplier > 0.0 {
+            self.upper
+        } else {
+            self.lower
+        }
+    }
+
+    pub fn nearest(self, value: f64) -> f64 {
+        value.max(self.lower).min(self.upper)
+    }
+
+    pub fn width(self) -> f64 {
+        self.upper - self.lower
+    }
+}
+
+/// What the caller calls a row.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Origin {
+    /// The equality constraint of this number.
+    Constraint(usize),
+    /// The inequality of this number.
+    Inequality(usize),
+}
+
+/// `minimise 1/2 x'Qx + q'x + c` over `x` within `limits`, `Ax` within `row_limits`, some unknowns integer.
+#[derive(Debug, Clone)]
+pub(super) struct Form {
+    /// Lower triangle of Q.
+    pub hessian: Sparse,
+    /// q.
+    pub gradient: Vec<f64>,
+    /// c.
+    pub constant: f64,
+    /// A.
+    pub rows: Sparse,
+    pub row_limits: Vec<Interval>,
+    /// What the caller calls each row.
+    pub origins: Vec<Origin>,
+    pub limits: Vec<Interval>,
+    /// What `limits` and the rows imply for each unknown. Only bounds on the energy use it.
+    pub boxes: Vec<Interval>,
+    pub integer: Vec<bool>,
+}
+
+impl Form {
+    /// The form of a problem. Pins become bounds.
+    ///
+    /// # Errors
+    /// [`Error::Overflow`] where sums overflow, [`Error::OutOfMemory`].
+    pub fn of(problem: &Problem, model: &Model) -> Result<Self> {
+        let n = model.variables();
+        let inequalities = problem.inequality_rows();
+        let two_sided = inequalities.to_sparse(n)?;
+        if let Some((i, j, _)) = two_sided.entries().find(|(_, _, v)| !v.is_finite()) {
+            return Err(Error::Overflow {
+                what: format!("inequality {i}: the sum of coefficients of variable {j} overflows"),
+                index: Some(i as usize),
+            });
+        }
+        let equalities = model.constraints().clone();
+        let [first, second] = [equalities.rows(), two_sided.rows()];
+        let rhs = model.constraint_rhs().iter();
+        let sides = inequalities.lower().iter().zip(inequalities.upper());
+        let sides = sides.map(|(&lower, &upper)| Interval { lower, upper });
+        let limits = (0..n).map(|j| {
+            let (lower, upper) = problem.limits_of(j);
+            let limits = Interval { lower, upper };
+            model.pinned()[j].map_or(limits, |pin| limits.and(Interval::point(pin)))
+        });
+        let limits: Vec<Interval> = limits.collect();
+        Ok(Form {
+            hessian: without_zeros(model.hessian())?,
+            gradient: model.gradient().to_vec(),
+            constant: model.constant(),
+            rows: without_zeros(&Sparse::stacked(vec![Ok(equalities), Ok(two_sided)])?)?,
+            row_limits: rhs.map(|&d| Interval::point(d)).chain(sides).collect(),
+            origins: (0..first)
+                .map(Origin::Constraint)
+                .chain((0..second).map(Origin::Inequality))
+                .collect(),
+            boxes: limits.clone(),
+            limits,
+            integer: model.integer().to_vec(),
+        })
+    }
+
+    /// Number of unknowns.
+    pub fn dim(&self) -> usize {
+        self.gradient.len()
+    }
+
+    /// A bound on the rounding errors of the objective at a point.
+    pub fn rounding(&self, x: &[f64]) -> f64 {
+        let products = self.hessian.entries();
+        let products = products.map(|(i, j, v)| (v * x[i as usize] * x[j as usize]).abs());
+        let linear = x.iter().zip(&self.gradient).map(|(x, q)| (x * q).abs());
+        let size = self.constant.abs() + products.sum::<f64>() + linear.sum::<f64>();
+        8.0 * f64::EPSILON * size
+    }
+
+    /// The objective at a point.
+    pub fn energy(&self, x: &[f64]) -> f64 {
+        let curved = self.hessian.mul_symmetric(x);
+        let terms = x.iter().zip(&self.gradient).zip(&curved);
+        self.constant + terms.map(|((x, q), c)| x * (q + 0.5 * c)).sum::<f64>()
+    }
+}
+
+fn without_zeros(matrix: &Sparse) -> Result<Sparse> {
+    let entries = matrix.entries().filter(|&(_, _, v)| v != 0.0);
+    Sparse::from_triplets(matrix.rows(), matrix.cols(), entries)
+}

@@ -1,0 +1,174 @@
+//! Rows with two sides and bounds on unknowns: branch and bound over a dual active-set method.
+//!
+//! ```text
+//! Form --presolve--> parts --tree--> points and bounds
+//!                     node: tighten bounds, relaxation (dual active set), safe bound, branch
+//! ```
+//!
+//! | File | Step |
+//! | --- | --- |
+//! | `form` | the problem as the search reads it |
+//! | `presolve`, `propagate` | what is decided before the search; bounds tightened through rows |
+//! | `inverse`, `working_set`, `dual_active_set` | one strictly convex quadratic program |
+//! | `relaxation` | the relaxation of a node, also where Q is singular |
+//! | `safe_bound` | lower bounds that rounding errors cannot make false |
+//! | `pseudo_costs`, `tree` | the search |
+//! | `conflict` | why there is no solution |
+
+mod conflict;
+mod dual_active_set;
+mod form;
+mod inverse;
+mod presolve;
+mod propagate;
+mod pseudo_costs;
+mod relaxation;
+mod safe_bound;
+mod tree;
+mod working_set;
+
+use crate::error::{Error, Result};
+use crate::linalg::sum_below;
+use crate::monitor::{Monitor, Stop};
+use crate::problem::{Model, Problem};
+use crate::search::{Options, StoppedBy, Strategy};
+use conflict::Element;
+use form::Form;
+use presolve::{Contradiction, Presolved};
+use tree::Limits;
+
+/// The multiplications after which `auto` ends with the best point so far.
+const AUTO: u64 = 100_000_000_000;
+
+/// What a search has found.
+#[derive(Debug, Clone)]
+pub(crate) struct Found {
+    pub values: Vec<f64>,
+    pub energy: f64,
+    pub lower_bound: f64,
+    pub is_complete: bool,
+    pub stopped_by: StoppedBy,
+    pub work: u64,
+    /// Unknowns and integers that the search had to decide.
+    pub unknowns: usize,
+    pub integers: usize,
+}
+
+/// Solves a problem with inequalities or bounds.
+///
+/// `relax` solves the relaxation, `exact` and `auto` search until the optimum is proved or a limit is
+/// reached, and the other strategies end with the first point. `start` is a point whose nearest integers are
+/// offered first.
+///
+/// # Errors
+/// [`Error::Contradiction`], [`Error::Unbounded`], [`Error::NotConvex`], [`Error::OutOfMemory`], and
+/// [`Error::Cancelled`] or [`Error::TimeLimit`] before a first point.
+pub(crate) fn solve(
+    problem: &Problem,
+    model: &Model,
+    options: &Options,
+    start: Option<&[f64]>,
+    monitor: &mut Monitor,
+) -> Result<Found> {
+    let mut form = Form::of(problem, model)?;
+    if options.strategy == Strategy::Relax {
+        form.integer.fill(false);
+    }
+    let given = form.clone();
+    let presolved = match presolve::presolve(form)? {
+        Ok(presolved) => presolved,
+        Err(contradiction) => return Err(no_point(problem, &given, contradiction)),
+    };
+    let Presolved {
+        mut values,
+        parts,
+        constant,
+    } = presolved;
+    let mut found = Found {
+        values: Vec::new(),
+        energy: constant,
+        lower_bound: constant,
+        is_complete: true,
+        stopped_by: StoppedBy::Nothing,
+        work: 0,
+        unknowns: 0,
+        integers: 0,
+    };
+    let first = !matches!(options.strategy, Strategy::Exact | Strategy::Auto | Strategy::Relax);
+    let count = parts.len();
+    for (done, part) in parts.iter().enumerate() {
+        let known = if done + 1 == count { found.energy } else { f64::INFINITY };
+        monitor.elsewhere(known, found.lower_bound);
+        let limits = Limits {
+            nodes: options.nodes as u64,
+            work: if options.strategy == Strategy::Auto { AUTO / count as u64 } else { u64::MAX },
+            gap: options.gap / count as f64,
+            elsewhere: found.energy,
+            first,
+            strict: false,
+        };
+        let start = start.map(|start| part.members.iter().map(|&j| start[j as usize]).collect());
+        let own = tree::search(&part.form, start, limits, monitor)?;
+        if let Some(ray) = own.ray {
+            return Err(unbounded(values.len(), &part.members, &ray));
+        }
+        let Some((point, energy)) = own.best else {
+            if !own.is_complete {
+                return Err(monitor.stopped().map_or(Error::Cancelled, Error::from));
+            }
+            let elements = if own.nodes <= 1 && !own.conflict.is_empty() {
+                conflict::of_certificate(&part.form, &part.members, &own.conflict)
+            } else {
+                conflict::of_form(&part.form, &part.members)
+            };
+            return Err(conflict::error(problem, &elements));
+        };
+        for (&j, x) in part.members.iter().zip(&point) {
+            values[j as usize] = *x;
+        }
+        found.energy += energy;
+        found.lower_bound = sum_below(&[found.lower_bound, own.bound]);
+        found.is_complete &= own.is_complete;
+        found.work += own.work;
+        found.unknowns += part.members.len();
+        found.integers += part.form.integer.iter().filter(|i| **i).count();
+        if found.stopped_by == StoppedBy::Nothing {
+            found.stopped_by = match monitor.stopped() {
+                _ if own.is_complete => StoppedBy::Nothing,
+                Some(Stop::Cancelled) => StoppedBy::Cancel,
+                Some(Stop::TimeLimit) => StoppedBy::Time,
+                Some(Stop::OutOfMemory) => StoppedBy::Memory,
+                None => own.stopped_by,
+            };
+        }
+    }
+    monitor.elsewhere(0.0, 0.0);
+    found.values = values;
+    Ok(found)
+}
+
+/// The error for a contradiction that presolve found, with a small set of rows and bounds at fault.
+fn no_point(problem: &Problem, form: &Form, contradiction: Contradiction) -> Error {
+    let own = match contradiction {
+        Contradiction::Row(row) => Element::Row(form.origins[row]),
+        Contradiction::Unknown(variable) => Element::Bounds(variable),
+    };
+    let members: Vec<u32> = (0..form.dim() as u32).collect();
+    let mut elements = conflict::of_form(form, &members);
+    if elements.is_empty() {
+        elements.push(own);
+    }
+    conflict::error(problem, &elements)
+}
+
+fn unbounded(variables: usize, members: &[u32], ray: &[f64]) -> Error {
+    let mut direction = vec![0.0; variables];
+    for (&j, d) in members.iter().zip(ray) {
+        direction[j as usize] = *d;
+    }
+    let largest = |a: &usize, b: &usize| direction[*a].abs().total_cmp(&direction[*b].abs());
+    Error::Unbounded {
+        variable: (0..variables).max_by(largest).unwrap_or(0),
+        direction,
+    }
+}

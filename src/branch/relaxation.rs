@@ -1,0 +1,202 @@
+//! The continuous relaxation of a node, and its bound.
+//!
+//! The dual active-set method needs a Hessian that is definite. Where it is not, a small multiple of a diagonal
+//! is added and taken out again by proximal steps (`rockafellar1976`): each step minimises
+//! `E(x) + 1/2 (x - y)' D (x - y)`, with `y` the point of the step before. On a linear part one or two steps
+//! are exact.
+
+use super::dual_active_set::{Active, DualActiveSet, Outcome, Shared};
+use super::form::{Form, Interval};
+use super::safe_bound::safe_bound;
+
+/// The diagonal added to a singular block, relative to the size of the objective.
+const ADDED: f64 = 1e-5;
+
+/// The largest number of proximal steps of a solve.
+const STEPS: usize = 30;
+
+/// Proximal steps end when the bound is within this part of the energy.
+const CLOSE: f64 = 1e-10;
+
+/// Iterations of one solve of the dual active-set method, for each unknown and row.
+const ITERATIONS: usize = 20;
+
+/// The relaxation of a form whose bounds change from node to node.
+#[derive(Debug)]
+pub(super) struct Relaxation<'a> {
+    pub solver: DualActiveSet<'a>,
+    /// The centre of the next proximal step, or nothing where the Hessian is definite.
+    centre: Option<Vec<f64>>,
+    most: u64,
+}
+
+/// What a solve of a relaxation has found.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Relaxed {
+    /// The minimiser is at the solver's point; no point has less energy than the bound.
+    Solved { bound: f64 },
+    /// No point has less energy than the bound, which is at least the cutoff.
+    Cutoff { bound: f64 },
+    /// The energy falls for ever in this direction.
+    Unbounded(Vec<f64>),
+    /// No point is within the limits; the rows and their multipliers show it.
+    Infeasible(Vec<(u32, f64)>),
+    /// The iterations were not enough. The bound is true.
+    Stopped { bound: f64 },
+}
+
+/// What is added to the diagonal of a singular block, for each unknown: small in the units of the objective
+/// and of the unknown.
+pub(super) fn regularization(form: &Form) -> Vec<f64> {
+    let size = |limits: &Interval| match limits.width() {
+        width if width.is_finite() && width > 0.0 => width.clamp(1e-3, 1e3),
+        _ => 1.0,
+    };
+    let sizes: Vec<f64> = form.limits.iter().map(size).collect();
+    let mut largest: f64 = 0.0;
+    for (q, size) in form.gradient.iter().zip(&sizes) {
+        largest = largest.max((q * size).abs());
+    }
+    for (i, j, v) in form.hessian.entries() {
+        largest = largest.max((v * sizes[i as usize] * sizes[j as usize]).abs());
+    }
+    let scale = if largest > 0.0 { largest } else { 1.0 };
+    sizes.iter().map(|s| ADDED * scale / (s * s)).collect()
+}
+
+impl<'a> Relaxation<'a> {
+    pub fn new(form: &'a Form, shared: &'a Shared) -> Self {
+        let is_definite = shared.inverse.is_definite();
+        let nearest = |limits: &Interval| limits.nearest(0.0);
+        Relaxation {
+            solver: DualActiveSet::new(form, shared),
+            centre: (!is_definite).then(|| form.limits.iter().map(nearest).collect()),
+            most: (ITERATIONS * (form.dim() + form.rows.rows() + 10)) as u64,
+        }
+    }
+
+    /// The bound that the solver's point and multipliers prove within `boxes`.
+    fn bound(&mut self, boxes: &[Interval]) -> f64 {
+        let form = self.solver.form();
+        self.solver.work += (form.hessian.len() + form.rows.len()) as u64 * 3;
+        let (point, active) = (self.solver.point(), self.solver.active());
+        safe_bound(form, self.solver.inverse(), boxes, point, active)
+    }
+
+    /// Solves the relaxation with the solver's limits. The minimum is above `cutoff` if the result says so;
+    /// `boxes` are bounds on all unknowns for all points that matter.
+    pub fn solve(&mut self, cutoff: f64, boxes: &[Interval]) -> Relaxed {
+        let form = self.solver.form();
+        let Some(mut centre) = self.centre.take() else {
+            let level = cutoff - form.constant;
+            return match self.solver.solve(level + 1e-9 * level.abs(), self.most) {
+                Outcome::Optimal => Relaxed::Solved {
+                    bound: self.bound(boxes),
+                },
+                Outcome::Cutoff => Relaxed::Cutoff {
+                    bound: self.bound(boxes),
+                },
+                Outcome::Infeasible(rows) => Relaxed::Infeasible(rows),
+                Outcome::Stopped => Relaxed::Stopped {
+                    bound: self.bound(boxes),
+                },
+            };
+        };
+        let mut best = f64::NEG_INFINITY;
+        let mut result = None;
+        for _ in 0..STEPS {
+            let gradient = form.gradient.iter().zip(&self.solver.inverse().added).zip(&centre);
+            let gradient = gradient.map(|((q, added), y)| q - added * y).collect();
+            self.solver.set_gradient(gradient);
+            match self.solver.solve(f64::INFINITY, self.most) {
+                Outcome::Infeasible(rows) => {
+                    result = Some(Relaxed::Infeasible(rows));
+                    break;
+                }
+                Outcome::Stopped => {
+                    result = Some(Relaxed::Stopped { bound: best });
+                    break;
+                }
+                Outcome::Optimal | Outcome::Cutoff => {}
+            }
+            best = best.max(self.bound(boxes));
+            if best >= cutoff {
+                result = Some(Relaxed::Cutoff { bound: best });
+                break;
+            }
+            let energy = form.energy(self.solver.point());
+            let moved = self.solver.point().iter().zip(&centre);
+            let moved = moved.map(|(x, y)| (x - y).abs() / x.abs().max(1.0));
+            let moved = moved.fold(0.0, f64::max);
+            let direction = self.solver.point().iter().zip(&centre).map(|(x, y)| x - y);
+            if let Some(ray) = ray(form, self.solver.limits(), direction.collect()) {
+                result = Some(Relaxed::Unbounded(ray));
+                break;
+            }
+            centre.copy_from_slice(self.solver.point());
+            if energy - best <= CLOSE * energy.abs().max(1e-3) || moved <= 1e-10 {
+                break;
+            }
+        }
+        self.centre = Some(centre);
+        result.unwrap_or(Relaxed::Solved { bound: best })
+    }
+
+    /// An estimate of the minimum with the solver's limits after few iterations: a bound of the proximal
+    /// problem, or infinity where no point exists.
+    pub fn probe(&mut self, cutoff: f64, iterations: u64) -> f64 {
+        let form = self.solver.form();
+        let level = cutoff - form.constant;
+        match self.solver.solve(level, iterations) {
+            Outcome::Infeasible(_) => f64::INFINITY,
+            _ => form.constant + self.solver.dual_objective(),
+        }
+    }
+
+    /// The rows that are active, from which another node may start.
+    pub fn active(&self) -> &[Active] {
+        self.solver.active()
+    }
+}
+
+/// A component of a direction below this part of the largest is zero.
+const STILL: f64 = 1e-7;
+
+/// The direction, scaled to the largest absolute value 1, if the energy falls along it for ever: it has no
+/// curvature, a negative slope, and leaves no limits.
+fn ray(form: &Form, limits: &[Interval], mut direction: Vec<f64>) -> Option<Vec<f64>> {
+    let largest = direction.iter().fold(0.0, |m: f64, d| m.max(d.abs()));
+    let size = form.limits.iter().map(|l| match l.width() {
+        width if width.is_finite() => width,
+        _ => 0.0,
+    });
+    if largest <= 1e2 * size.fold(1.0, f64::max) {
+        return None;
+    }
+    direction.iter_mut().for_each(|d| {
+        *d /= largest;
+        if d.abs() <= STILL {
+            *d = 0.0;
+        }
+    });
+    let leaves = |d: f64, size: f64, limits: Interval| {
+        (d > STILL * size && limits.upper.is_finite())
+            || (d < -STILL * size && limits.lower.is_finite())
+    };
+    if direction.iter().zip(limits).any(|(&d, &l)| leaves(d, 1.0, l)) {
+        return None;
+    }
+    for (i, &sides) in form.row_limits.iter().enumerate() {
+        let terms = form.rows.row(i).map(|(j, a)| a * direction[j]);
+        let (sum, size) = terms.fold((0.0, 0.0), |(s, m): (f64, f64), t| (s + t, m + t.abs()));
+        if leaves(sum, size, sides) {
+            return None;
+        }
+    }
+    let terms = form.gradient.iter().zip(&direction).map(|(q, d)| q * d);
+    let (slope, size) = terms.fold((0.0, 0.0), |(s, m): (f64, f64), t| (s + t, m + t.abs()));
+    let curved = form.hessian.mul_symmetric(&direction);
+    let most = form.hessian.entries().fold(0.0, |m: f64, (_, _, v)| m.max(v.abs()));
+    let is_flat = curved.iter().all(|c| c.abs() <= STILL * most);
+    (slope < -STILL * size && is_flat).then_some(direction)
+}

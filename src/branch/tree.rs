@@ -1,0 +1,558 @@
+//! Branch and bound: best bound first, diving into one child of each node.
+//!
+//! A node is a set of bounds. Its relaxation is solved from the active rows of its parent. It is cut off where
+//! its bound reaches the incumbent's energy, where its relaxation has no point, or where its minimiser is
+//! integer. Else one unknown is branched on; the child that looks better is searched next, and the other
+//! waits. When a dive ends, the waiting node of the lowest bound is next.
+
+use std::cmp::Ordering;
+use std::collections::BinaryHeap;
+
+use super::dual_active_set::{Active, FEASIBLE, Shared, WarmStart};
+use super::form::{Form, Interval};
+use super::propagate::Propagator;
+use super::pseudo_costs::{PseudoCosts, merit};
+use super::relaxation::{Relaxation, Relaxed, regularization};
+use crate::error::Result;
+use crate::monitor::Monitor;
+use crate::search::StoppedBy;
+
+/// A value this close to an integer counts as one.
+const INTEGRAL: f64 = 1e-6;
+
+/// Iterations of the dual active-set method for a child that strong branching looks at.
+const PROBE: u64 = 25;
+
+/// The largest number of unknowns that strong branching looks at in a node.
+const CANDIDATES: usize = 12;
+
+/// A node that waits.
+struct Node {
+    bound: f64,
+    number: u64,
+    /// The bounds that differ from the root's.
+    limits: Vec<(u32, Interval)>,
+    warm: WarmStart,
+    branching: Option<Branching>,
+}
+
+/// How a node came from its parent.
+#[derive(Clone, Copy)]
+struct Branching {
+    variable: u32,
+    /// 0 for down, 1 for up.
+    direction: usize,
+    distance: f64,
+}
+
+impl PartialEq for Node {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+impl Eq for Node {}
+impl PartialOrd for Node {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+impl Ord for Node {
+    /// The greatest node is the next: the lowest bound, then the newest.
+    fn cmp(&self, other: &Self) -> Ordering {
+        other
+            .bound
+            .total_cmp(&self.bound)
+            .then(self.number.cmp(&other.number))
+    }
+}
+
+/// What ends a search early.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Limits {
+    pub nodes: u64,
+    pub work: u64,
+    /// The relative gap that is enough.
+    pub gap: f64,
+    /// The energy of what is not in the form, to which the gap refers as well.
+    pub elsewhere: f64,
+    /// Whether the first point is enough.
+    pub first: bool,
+    /// Whether the limits hold before there is a point.
+    pub strict: bool,
+}
+
+/// A gap below this part of the energy is none.
+const CLOSED: f64 = 5e-10;
+
+/// What a search has found.
+#[derive(Debug, Clone)]
+pub(super) struct Found {
+    /// The best point and its energy.
+    pub best: Option<(Vec<f64>, f64)>,
+    /// No point has less energy.
+    pub bound: f64,
+    /// Whether nothing is left to search.
+    pub is_complete: bool,
+    pub nodes: u64,
+    pub work: u64,
+    /// A direction in which the energy of the relaxation falls for ever.
+    pub ray: Option<Vec<f64>>,
+    /// Why the search ended before it was complete.
+    pub stopped_by: StoppedBy,
+    /// The rows that contradict each other at the last node that had no point.
+    pub conflict: Vec<(u32, f64)>,
+}
+
+struct Tree<'a, 'm, 'e> {
+    form: &'a Form,
+    relaxation: Relaxation<'a>,
+    propagator: Propagator,
+    costs: PseudoCosts,
+    root: Vec<Interval>,
+    waiting: BinaryHeap<Node>,
+    best: Option<(Vec<f64>, f64)>,
+    /// The lowest bound of the nodes that are done.
+    done: f64,
+    created: u64,
+    nodes: u64,
+    limits: Limits,
+    conflict: Vec<(u32, f64)>,
+    ray: Option<Vec<f64>>,
+    stopped_by: StoppedBy,
+    /// The rounding errors of the incumbent's energy.
+    rounding: f64,
+    integers: Vec<u32>,
+    monitor: &'m mut Monitor<'e>,
+}
+
+/// Searches the form, all of whose unknowns are one component.
+///
+/// # Errors
+/// [`Error::NotConvex`](crate::Error::NotConvex), [`Error::OutOfMemory`](crate::Error::OutOfMemory), and the
+/// end of the call.
+pub(super) fn search(
+    form: &Form,
+    start: Option<Vec<f64>>,
+    limits: Limits,
+    monitor: &mut Monitor,
+) -> Result<Found> {
+    let shared = Shared::new(form, &regularization(form))?;
+    let integers = (0..form.dim() as u32).filter(|&j| form.integer[j as usize]);
+    let mut tree = Tree {
+        form,
+        relaxation: Relaxation::new(form, &shared),
+        propagator: Propagator::new(form),
+        costs: PseudoCosts::new(form.dim()),
+        root: form.limits.clone(),
+        waiting: BinaryHeap::new(),
+        best: None,
+        done: f64::INFINITY,
+        created: 0,
+        nodes: 0,
+        limits,
+        conflict: Vec::new(),
+        ray: None,
+        stopped_by: StoppedBy::Nothing,
+        rounding: 0.0,
+        integers: integers.collect(),
+        monitor,
+    };
+    if let Some(start) = start {
+        tree.round(&start);
+    }
+    tree.waiting.push(Node {
+        bound: f64::NEG_INFINITY,
+        number: 0,
+        limits: Vec::new(),
+        warm: WarmStart::new(),
+        branching: None,
+    });
+    tree.run();
+    let waiting = tree.waiting.iter().map(|node| node.bound);
+    let energy = tree.best.as_ref().map_or(f64::INFINITY, |(_, energy)| *energy);
+    Ok(Found {
+        bound: waiting.fold(tree.done, f64::min).min(energy),
+        ray: tree.ray,
+        stopped_by: tree.stopped_by,
+        is_complete: tree.waiting.is_empty(),
+        best: tree.best,
+        nodes: tree.nodes,
+        work: tree.relaxation.solver.work,
+        conflict: tree.conflict,
+    })
+}
+
+/// What became of a node.
+enum Step {
+    Done,
+    /// Two children: the one to search next, and the other.
+    Split(Box<Node>, Box<Node>),
+    /// A limit ended the search in the middle of the node.
+    Ended(Box<Node>),
+}
+
+impl Tree<'_, '_, '_> {
+    fn run(&mut self) {
+        while let Some(mut node) = self.waiting.pop() {
+            if node.bound >= self.cutoff() {
+                self.done = self.done.min(node.bound);
+                continue;
+            }
+            self.jump_to(&node);
+            loop {
+                match self.visit(node) {
+                    Step::Done => break,
+                    Step::Split(next, other) => {
+                        self.waiting.push(*other);
+                        self.dive_to(&next);
+                        node = *next;
+                    }
+                    Step::Ended(node) => {
+                        self.waiting.push(*node);
+                        return;
+                    }
+                }
+            }
+        }
+    }
+
+    /// The bound from which on a node is of no interest.
+    fn cutoff(&self) -> f64 {
+        match &self.best {
+            None => f64::INFINITY,
+            Some(_) if self.limits.first => f64::NEG_INFINITY,
+            Some((_, energy)) => {
+                let gap = self.limits.gap.max(CLOSED);
+                energy - gap * (energy + self.limits.elsewhere).abs() - self.rounding
+            }
+        }
+    }
+
+    fn jump_to(&mut self, node: &Node) {
+        for (j, &limits) in self.root.iter().enumerate() {
+            self.relaxation.solver.set_limits(j, limits);
+        }
+        self.dive_to(node);
+        self.relaxation.solver.start_from(&node.warm);
+    }
+
+    fn dive_to(&mut self, node: &Node) {
+        for &(j, limits) in &node.limits {
+            self.relaxation.solver.set_limits(j as usize, limits);
+        }
+    }
+
+    /// Whether to end. Without a point only the caller ends the search.
+    fn is_ended(&mut self) -> bool {
+        let found = self.best.is_some() || self.limits.strict;
+        if found && self.nodes >= self.limits.nodes {
+            self.stopped_by = StoppedBy::Nodes;
+        } else if found && self.relaxation.solver.work >= self.limits.work {
+            self.stopped_by = StoppedBy::Budget;
+        } else if self.ray.is_none() && !self.monitor.ends() {
+            return false;
+        }
+        true
+    }
+
+    fn visit(&mut self, mut node: Node) -> Step {
+        if self.is_ended() {
+            return Step::Ended(Box::new(node));
+        }
+        self.nodes += 1;
+        if !self.tighten(&mut node) {
+            return Step::Done;
+        }
+        let boxes = self.boxes();
+        let cutoff = self.cutoff();
+        let solved = self.relaxation.solve(cutoff, &boxes);
+        let parent = node.bound;
+        match solved {
+            Relaxed::Infeasible(rows) => {
+                self.conflict = rows;
+                return Step::Done;
+            }
+            Relaxed::Unbounded(direction) => {
+                self.ray = Some(direction);
+                return Step::Ended(Box::new(node));
+            }
+            Relaxed::Cutoff { bound } => {
+                node.bound = node.bound.max(bound);
+                self.learn(&node, parent);
+                self.done = self.done.min(node.bound.max(cutoff.min(bound)));
+                return Step::Done;
+            }
+            Relaxed::Solved { bound } | Relaxed::Stopped { bound } => {
+                node.bound = node.bound.max(bound);
+            }
+        }
+        self.learn(&node, parent);
+        if node.bound >= self.cutoff() {
+            self.done = self.done.min(node.bound);
+            return Step::Done;
+        }
+        let point = self.relaxation.solver.point().to_vec();
+        let mut fractional = self.fractional(&point);
+        if self.nodes == 1 || self.nodes.is_multiple_of(20) || fractional.is_empty() {
+            self.round(&point);
+        }
+        if node.bound >= self.cutoff() {
+            self.done = self.done.min(node.bound);
+            return Step::Done;
+        }
+        if fractional.is_empty() {
+            fractional = self.undecided(&point);
+            if fractional.is_empty() {
+                // All integers are fixed: the point was offered.
+                self.done = self.done.min(node.bound);
+                return Step::Done;
+            }
+        }
+        match self.choose(&node, &fractional, &point) {
+            Choice::Branch(variable, at) => self.split(node, variable, at, &point),
+            Choice::Cut => Step::Done,
+        }
+    }
+
+    /// Bounds on all unknowns at a node.
+    fn boxes(&self) -> Vec<Interval> {
+        let limits = self.relaxation.solver.limits().iter();
+        limits.zip(&self.form.boxes).map(|(l, b)| l.and(*b)).collect()
+    }
+
+    /// Tightens the integers' bounds at a node. Returns whether points are left.
+    fn tighten(&mut self, node: &mut Node) -> bool {
+        let mut limits = self.relaxation.solver.limits().to_vec();
+        let changed = match (&node.branching, node.limits.last()) {
+            (Some(branching), _) => {
+                let changed = [branching.variable];
+                self.propagator.from(self.form, &mut limits, &changed)
+            }
+            (None, _) => self.propagator.all(self.form, &mut limits, false, 20),
+        };
+        let Ok(changed) = changed else {
+            return false;
+        };
+        for &j in &changed {
+            self.relaxation.solver.set_limits(j as usize, limits[j as usize]);
+            node.limits.push((j, limits[j as usize]));
+        }
+        true
+    }
+
+    /// Records the rise of the bound for the unknown that was branched on.
+    fn learn(&mut self, node: &Node, parent: f64) {
+        if let (Some(branching), true) = (node.branching, parent.is_finite()) {
+            let rise = node.bound - parent;
+            let Branching {
+                variable,
+                direction,
+                distance,
+            } = branching;
+            self.costs
+                .record(variable as usize, direction, distance, rise);
+        }
+    }
+
+    fn fractional(&self, point: &[f64]) -> Vec<u32> {
+        let is_fractional = |&&j: &&u32| {
+            let x = point[j as usize];
+            (x - x.round()).abs() > INTEGRAL
+        };
+        self.integers.iter().filter(is_fractional).copied().collect()
+    }
+
+    /// The integers whose bounds leave a choice, where all values are integers: the one with the largest
+    /// error, if any.
+    fn undecided(&self, point: &[f64]) -> Vec<u32> {
+        let free = |&&j: &&u32| !self.relaxation.solver.limits()[j as usize].is_point();
+        let error = |j: u32| (point[j as usize] - point[j as usize].round()).abs();
+        let free = self.integers.iter().filter(free);
+        let worst = free.max_by(|&&a, &&b| error(a).total_cmp(&error(b)));
+        worst.into_iter().copied().collect()
+    }
+
+    /// Offers the nearest integers, with the real unknowns that are best for them.
+    fn round(&mut self, point: &[f64]) {
+        let before = self.relaxation.solver.limits().to_vec();
+        let mut limits = before.clone();
+        for &j in &self.integers {
+            let j = j as usize;
+            let value = before[j].nearest(point[j].round());
+            limits[j] = Interval::point(value);
+        }
+        if self.integers.len() == self.form.dim() {
+            self.offer(limits.iter().map(|l| l.lower).collect());
+            return;
+        }
+        let mut boxes = self.boxes();
+        for (limits, boxes) in limits.iter().zip(&mut boxes) {
+            *boxes = limits.and(*boxes);
+        }
+        if boxes.iter().any(|b| b.width() < -1e-6)
+            || self.propagator.all(self.form, &mut boxes, true, 3).is_err()
+        {
+            return;
+        }
+        let solver = &mut self.relaxation.solver;
+        let state = solver.state();
+        for &j in &self.integers {
+            solver.set_limits(j as usize, limits[j as usize]);
+        }
+        let cutoff = self.cutoff();
+        let found = self.relaxation.solve(cutoff, &boxes);
+        let solver = &mut self.relaxation.solver;
+        let offered = matches!(found, Relaxed::Solved { .. }).then(|| {
+            let mut x = solver.point().to_vec();
+            for &j in &self.integers {
+                x[j as usize] = limits[j as usize].lower;
+            }
+            x
+        });
+        for &j in &self.integers {
+            solver.set_limits(j as usize, before[j as usize]);
+        }
+        solver.go_back(&state);
+        if let Some(x) = offered {
+            self.offer(x);
+        }
+    }
+
+    /// Makes a point the incumbent if it is within all limits and better.
+    fn offer(&mut self, mut x: Vec<f64>) {
+        for (x, limits) in x.iter_mut().zip(&self.root) {
+            *x = limits.nearest(*x);
+        }
+        let outside = |i: usize| {
+            let (value, size) = self
+                .form
+                .rows
+                .row(i)
+                .map(|(j, a)| a * x[j])
+                .fold((0.0, 1.0), |(s, m): (f64, f64), t| (s + t, m + t.abs()));
+            let sides = self.form.row_limits[i];
+            (sides.lower - value).max(value - sides.upper) > 10.0 * FEASIBLE * size
+        };
+        if (0..self.form.rows.rows()).any(outside) {
+            return;
+        }
+        let energy = self.form.energy(&x);
+        if self.best.as_ref().is_none_or(|(_, best)| energy < *best) {
+            self.rounding = self.form.rounding(&x);
+            self.best = Some((x, energy));
+            self.monitor.improved(energy);
+        }
+    }
+
+    /// The unknown to branch on and its value. Strong branching may find that one side has no better point;
+    /// its bound is then tightened at once, which makes the node's other child empty.
+    fn choose(&mut self, node: &Node, fractional: &[u32], point: &[f64]) -> Choice {
+        let fraction = |j: u32| point[j as usize] - point[j as usize].floor();
+        let mut scored: Vec<(f64, u32)> = fractional
+            .iter()
+            .map(|&j| (merit(self.costs.expected(j as usize, fraction(j))), j))
+            .collect();
+        scored.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+        let mut best = scored[0];
+        if fractional.len() == 1 {
+            return Choice::Branch(best.1, point[best.1 as usize]);
+        }
+        let mut looked = 0;
+        let mut first = true;
+        let state = self.relaxation.solver.state();
+        let cutoff = self.cutoff();
+        let base = node.bound;
+        for (expected, j) in scored {
+            if self.costs.is_reliable(j as usize) {
+                if first || expected > best.0 {
+                    best = (expected, j);
+                    first = false;
+                }
+                continue;
+            }
+            if looked >= CANDIDATES {
+                continue;
+            }
+            looked += 1;
+            let (v, x) = (j as usize, point[j as usize]);
+            let before = self.relaxation.solver.limits()[v];
+            let mut rises = [0.0; 2];
+            for direction in [0, 1] {
+                let child = child_limits(before, x, direction);
+                if child.is_empty() {
+                    rises[direction] = f64::INFINITY;
+                    continue;
+                }
+                self.relaxation.solver.set_limits(v, child);
+                let bound = self.relaxation.probe(cutoff, PROBE);
+                rises[direction] = (bound - base).max(0.0);
+                self.relaxation.solver.go_back(&state);
+                self.relaxation.solver.set_limits(v, before);
+                if rises[direction].is_finite() {
+                    let distance = if direction == 0 { fraction(j) } else { 1.0 - fraction(j) };
+                    self.costs.record(v, direction, distance, rises[direction]);
+                }
+            }
+            let most = if cutoff.is_finite() { (cutoff - base).max(0.0) } else { 1e300 };
+            let merit = merit(rises.map(|r| r.min(most.min(1e100))));
+            if first || merit > best.0 {
+                best = (merit, j);
+                first = false;
+            }
+        }
+        Choice::Branch(best.1, point[best.1 as usize])
+    }
+
+    fn split(&mut self, node: Node, variable: u32, value: f64, _point: &[f64]) -> Step {
+        let before = self.relaxation.solver.limits()[variable as usize];
+        let fraction = value - value.floor();
+        let warm: Vec<Active> = self.relaxation.active().to_vec();
+        let mut child = |direction: usize| {
+            self.created += 1;
+            let mut limits = node.limits.clone();
+            limits.push((variable, child_limits(before, value, direction)));
+            Box::new(Node {
+                bound: node.bound,
+                number: self.created,
+                limits,
+                warm: warm.clone(),
+                branching: Some(Branching {
+                    variable,
+                    direction,
+                    distance: if direction == 0 { fraction } else { 1.0 - fraction },
+                }),
+            })
+        };
+        let expected = self.costs.expected(variable as usize, fraction);
+        let first = usize::from(expected[1] < expected[0]);
+        let (next, other) = (child(first), child(1 - first));
+        Step::Split(next, other)
+    }
+}
+
+enum Choice {
+    Branch(u32, f64),
+    #[allow(dead_code)]
+    Cut,
+}
+
+/// The limits below (0) or above (1) a value. An integer value stays in the lower child.
+fn child_limits(limits: Interval, value: f64, direction: usize) -> Interval {
+    let floor = if (value - value.round()).abs() <= INTEGRAL {
+        let rounded = limits.nearest(value.round());
+        if rounded == limits.upper { rounded - 1.0 } else { rounded }
+    } else {
+        value.floor()
+    };
+    if direction == 0 {
+        Interval {
+            upper: limits.upper.min(floor),
+            ..limits
+        }
+    } else {
+        Interval {
+            lower: limits.lower.max(floor + 1.0),
+            ..limits
+        }
+    }
+}

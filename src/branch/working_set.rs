@@ -1,0 +1,163 @@
+//! The factor of the active rows: `G = L D L'` of the matrix `G = A_W P A_W'`, in which rows come and go.
+//!
+//! A row is appended by one substitution. A row is removed by a rank-one update of the rows after it
+//! (`gill1974`, method C1). Both take `O(k^2)` for `k` rows.
+
+/// Unit lower triangle by rows, and the diagonal.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Ldl {
+    /// The entries below the diagonal of each row.
+    rows: Vec<Vec<f64>>,
+    diagonal: Vec<f64>,
+}
+
+impl Ldl {
+    /// Number of rows.
+    pub fn len(&self) -> usize {
+        self.diagonal.len()
+    }
+
+    /// The last row of L and D if a row with these products and this square were appended. The entry of D is
+    /// what is left of the square, and about zero for a row that depends on the others.
+    pub fn next_row(&self, products: &[f64], square: f64) -> (Vec<f64>, f64) {
+        let mut row = products.to_vec();
+        for i in 0..row.len() {
+            let below = dot(&self.rows[i], &row[..i]);
+            row[i] -= below;
+        }
+        let mut left = square;
+        for (l, d) in row.iter_mut().zip(&self.diagonal) {
+            let scaled = *l / d;
+            left -= scaled * *l;
+            *l = scaled;
+        }
+        (row, left)
+    }
+
+    /// Appends the result of [`next_row`](Self::next_row).
+    pub fn append(&mut self, row: Vec<f64>, diagonal: f64) {
+        self.rows.push(row);
+        self.diagonal.push(diagonal);
+    }
+
+    /// Removes row and column `at`.
+    pub fn remove(&mut self, at: usize) {
+        let mut weight = self.diagonal.remove(at);
+        self.rows.remove(at);
+        let mut column: Vec<f64> = self.rows[at..].iter_mut().map(|r| r.remove(at)).collect();
+        // L D L' + weight column column' for the rows from `at` on.
+        for j in 0..column.len() {
+            let p = column[j];
+            let old = self.diagonal[at + j];
+            let new = old + weight * p * p;
+            if new == old && p == 0.0 {
+                continue;
+            }
+            let beta = weight * p / new;
+            weight *= old / new;
+            self.diagonal[at + j] = new;
+            for (i, c) in column.iter_mut().enumerate().skip(j + 1) {
+                let l = &mut self.rows[at + i][at + j];
+                *c -= p * *l;
+                *l += beta * *c;
+            }
+        }
+    }
+
+    /// Solves `G x = b` in place.
+    pub fn solve(&self, b: &mut [f64]) {
+        for i in 0..b.len() {
+            let below = dot(&self.rows[i], &b[..i]);
+            b[i] -= below;
+        }
+        for (x, d) in b.iter_mut().zip(&self.diagonal) {
+            *x /= d;
+        }
+        self.solve_transposed(b);
+    }
+
+    /// Solves `L' x = b` in place.
+    pub fn solve_transposed(&self, b: &mut [f64]) {
+        for i in (0..b.len()).rev() {
+            let x = b[i];
+            for (b, l) in b[..i].iter_mut().zip(&self.rows[i]) {
+                *b -= l * x;
+            }
+        }
+    }
+
+    /// Removes everything.
+    pub fn clear(&mut self) {
+        self.rows.clear();
+        self.diagonal.clear();
+    }
+}
+
+/// The inner product, in eight sums that vector units add side by side.
+pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
+    let n = a.len().min(b.len());
+    let (a, b) = (&a[..n], &b[..n]);
+    let (a8, b8) = (a.chunks_exact(8), b.chunks_exact(8));
+    let rest: f64 = a8
+        .remainder()
+        .iter()
+        .zip(b8.remainder())
+        .map(|(a, b)| a * b)
+        .sum();
+    let mut sums = [0.0; 8];
+    for (a, b) in a8.zip(b8) {
+        for k in 0..8 {
+            sums[k] += a[k] * b[k];
+        }
+    }
+    sums.iter().sum::<f64>() + rest
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::linalg::Random;
+
+    /// The products of random vectors.
+    fn gram(vectors: &[Vec<f64>]) -> Vec<Vec<f64>> {
+        let row = |a: &Vec<f64>| vectors.iter().map(|b| dot(a, b)).collect();
+        vectors.iter().map(row).collect()
+    }
+
+    fn factor(gram: &[Vec<f64>]) -> Ldl {
+        let mut ldl = Ldl::default();
+        for (k, row) in gram.iter().enumerate() {
+            let (row, d) = ldl.next_row(&row[..k], row[k]);
+            ldl.append(row, d);
+        }
+        ldl
+    }
+
+    #[test]
+    fn a_factor_after_removals_solves_what_is_left() {
+        let mut random = Random::new(7);
+        let mut number = || random.symmetric();
+        let mut vectors: Vec<Vec<f64>> = (0..12)
+            .map(|_| (0..20).map(|_| number()).collect())
+            .collect();
+        let mut ldl = factor(&gram(&vectors));
+        for at in [11, 0, 4, 7, 3] {
+            ldl.remove(at);
+            vectors.remove(at);
+            let left = gram(&vectors);
+            let x: Vec<f64> = (0..left.len()).map(|k| k as f64 - 2.5).collect();
+            let mut b: Vec<f64> = left.iter().map(|row| dot(row, &x)).collect();
+            ldl.solve(&mut b);
+            assert!(b.iter().zip(&x).all(|(b, x)| (b - x).abs() < 1e-9), "{b:?}");
+        }
+    }
+
+    #[test]
+    fn a_row_that_depends_on_the_others_leaves_nothing() {
+        let vectors = [vec![1.0, 2.0, 0.0], vec![0.0, 1.0, 1.0]];
+        let sum = [1.0, 3.0, 1.0];
+        let ldl = factor(&gram(&vectors));
+        let products: Vec<f64> = vectors.iter().map(|v| dot(v, &sum)).collect();
+        assert!(ldl.next_row(&products, 11.0).1.abs() < 1e-12);
+    }
+}
