@@ -42,6 +42,7 @@
 #![deny(unsafe_code)]
 #![deny(missing_docs)]
 
+mod branch;
 pub mod capi;
 pub mod check;
 mod cut;

@@ -7,7 +7,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The layers from the lowest to the highest. A file names its own layer and lower ones, nothing else.
-const LAYERS: [&str; 21] = [
+const LAYERS: [&str; 22] = [
     "error",
     "monitor",
     "linalg",
@@ -18,6 +18,7 @@ const LAYERS: [&str; 21] = [
     "cut",
     "lattice",
     "cycle",
+    "branch",
     "solve",
     "soup",
     "mesh",

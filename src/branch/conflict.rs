@@ -46,7 +46,9 @@ pub(super) fn of_form(form: &Form, members: &[u32]) -> Vec<Element> {
     let mut form = form.clone();
     let n = form.dim();
     let bounded = (0..n).filter(|&j| form.limits[j] != Interval::ALL);
-    let all: Vec<usize> = bounded.chain((0..form.rows.rows()).map(|i| n + i)).collect();
+    let all: Vec<usize> = bounded
+        .chain((0..form.rows.rows()).map(|i| n + i))
+        .collect();
     let mut kept = Vec::new();
     for &element in &all {
         let sides = match element.checked_sub(n) {
@@ -83,7 +85,11 @@ fn has_none(form: &Form) -> bool {
 
 /// The error that names the elements.
 pub(super) fn error(problem: &Problem, elements: &[Element]) -> Error {
-    let named: Vec<String> = elements.iter().take(NAMED).map(|e| text(problem, *e)).collect();
+    let named: Vec<String> = elements
+        .iter()
+        .take(NAMED)
+        .map(|e| text(problem, *e))
+        .collect();
     let more = elements.len().saturating_sub(NAMED);
     let rest = if more > 0 {
         format!(", and {more} more rows and bounds")
@@ -117,7 +123,11 @@ fn text(problem: &Problem, element: Element) -> String {
         }
         Element::Bounds(j) => {
             let (lower, upper) = problem.limits_of(j);
-            let kind = if problem.integers()[j] { "integer " } else { "" };
+            let kind = if problem.integers()[j] {
+                "integer "
+            } else {
+                ""
+            };
             let text = match problem.pins()[j] {
                 Some(value) => format!("x{j} pinned to {value}"),
                 None => limits_text([(j, 1.0)].into_iter(), lower, upper),

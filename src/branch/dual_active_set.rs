@@ -404,7 +404,11 @@ impl<'a> DualActiveSet<'a> {
             for (active, new) in self.active.iter_mut().zip(&target) {
                 active.multiplier = *new;
             }
-            let raised: f64 = target.iter().zip(&violations).map(|(m, v)| 0.5 * m * v).sum();
+            let raised: f64 = target
+                .iter()
+                .zip(&violations)
+                .map(|(m, v)| 0.5 * m * v)
+                .sum();
             self.dual_objective = unlimited + raised;
             self.move_point();
             if self.dual_objective > cutoff {
@@ -466,7 +470,8 @@ impl<'a> DualActiveSet<'a> {
         for _ in 0..most {
             let missed = |a: &Active| self.product(a.row as usize, &self.point) - self.held(*a);
             let mut missed: Vec<f64> = self.active.iter().map(missed).collect();
-            let is_exact = |(m, a): (&f64, &Active)| m.abs() <= EXACT * self.held(*a).abs().max(1.0);
+            let is_exact =
+                |(m, a): (&f64, &Active)| m.abs() <= EXACT * self.held(*a).abs().max(1.0);
             if missed.iter().zip(&self.active).all(is_exact) {
                 return;
             }
@@ -557,7 +562,9 @@ impl<'a> DualActiveSet<'a> {
     fn contradicts(&self, row: Active, sign: f64, direction: &[f64]) -> bool {
         let own = sign * self.held(row);
         let held = self.active.iter().zip(direction);
-        let held = held.filter(|(_, d)| **d != 0.0).map(|(a, d)| d * self.held(*a));
+        let held = held
+            .filter(|(_, d)| **d != 0.0)
+            .map(|(a, d)| d * self.held(*a));
         let (sum, size) = held.fold((own, own.abs()), |(s, m), t: f64| (s + t, m + t.abs()));
         -sum > CONTRADICTION * size.max(1.0)
     }

@@ -189,7 +189,9 @@ fn negative_direction(matrix: &[f64], size: usize, at: usize) -> Vec<f64> {
 /// The error for a direction of negative curvature, which is scaled to the largest absolute value 1.
 fn not_convex(mut direction: Vec<f64>) -> Error {
     let largest = |a: usize, b: usize| direction[a].abs().total_cmp(&direction[b].abs());
-    let variable = (0..direction.len()).max_by(|&a, &b| largest(a, b)).unwrap_or(0);
+    let variable = (0..direction.len())
+        .max_by(|&a, &b| largest(a, b))
+        .unwrap_or(0);
     let scale = direction[variable];
     direction.iter_mut().for_each(|d| *d /= scale);
     Error::NotConvex {

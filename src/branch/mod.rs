@@ -94,14 +94,25 @@ pub(crate) fn solve(
         unknowns: 0,
         integers: 0,
     };
-    let first = !matches!(options.strategy, Strategy::Exact | Strategy::Auto | Strategy::Relax);
+    let first = !matches!(
+        options.strategy,
+        Strategy::Exact | Strategy::Auto | Strategy::Relax
+    );
     let count = parts.len();
     for (done, part) in parts.iter().enumerate() {
-        let known = if done + 1 == count { found.energy } else { f64::INFINITY };
+        let known = if done + 1 == count {
+            found.energy
+        } else {
+            f64::INFINITY
+        };
         monitor.elsewhere(known, found.lower_bound);
         let limits = Limits {
             nodes: options.nodes as u64,
-            work: if options.strategy == Strategy::Auto { AUTO / count as u64 } else { u64::MAX },
+            work: if options.strategy == Strategy::Auto {
+                AUTO / count as u64
+            } else {
+                u64::MAX
+            },
             gap: options.gap / count as f64,
             elsewhere: found.energy,
             first,

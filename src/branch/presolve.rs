@@ -67,9 +67,16 @@ pub(super) fn presolve(mut form: Form) -> Result<std::result::Result<Presolved, 
             sets.join(i as usize, j as usize);
         }
     }
-    let rows: Vec<usize> = (0..form.rows.rows()).filter(|&i| !always(&form, i)).collect();
+    let rows: Vec<usize> = (0..form.rows.rows())
+        .filter(|&i| !always(&form, i))
+        .collect();
     for &i in &rows {
-        let free: Vec<usize> = form.rows.row(i).map(|(j, _)| j).filter(|&j| is_free[j]).collect();
+        let free: Vec<usize> = form
+            .rows
+            .row(i)
+            .map(|(j, _)| j)
+            .filter(|&j| is_free[j])
+            .collect();
         for pair in free.windows(2) {
             sets.join(pair[0], pair[1]);
         }
@@ -93,7 +100,12 @@ pub(super) fn presolve(mut form: Form) -> Result<std::result::Result<Presolved, 
     }
     // The slopes that fixed unknowns give to the others.
     let curved = form.hessian.mul_symmetric(&values);
-    let slopes: Vec<f64> = form.gradient.iter().zip(&curved).map(|(q, c)| q + c).collect();
+    let slopes: Vec<f64> = form
+        .gradient
+        .iter()
+        .zip(&curved)
+        .map(|(q, c)| q + c)
+        .collect();
     let parts = members.into_iter().zip(rows_of);
     let parts = parts.map(|(members, rows)| part(&form, &values, &slopes, members, rows));
     Ok(Ok(Presolved {
@@ -106,9 +118,8 @@ pub(super) fn presolve(mut form: Form) -> Result<std::result::Result<Presolved, 
 /// Divides rows of integers by the greatest common divisor of their coefficients, and rounds their sides.
 fn round_rows(form: &mut Form) {
     for i in 0..form.rows.rows() {
-        let is_integer = |(j, a): (usize, f64)| {
-            form.integer[j] && a == a.trunc() && a.abs() <= LARGEST
-        };
+        let is_integer =
+            |(j, a): (usize, f64)| form.integer[j] && a == a.trunc() && a.abs() <= LARGEST;
         if form.rows.row(i).len() == 0 || !form.rows.row(i).all(is_integer) {
             continue;
         }

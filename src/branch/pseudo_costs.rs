@@ -48,13 +48,21 @@ impl PseudoCosts {
     pub fn expected(&self, variable: usize, fraction: f64) -> [f64; 2] {
         [0, 1].map(|direction| {
             let own = self.of[variable][direction];
-            let mean = if own.count > 0 { own } else { self.all[direction] };
+            let mean = if own.count > 0 {
+                own
+            } else {
+                self.all[direction]
+            };
             let cost = if mean.count > 0 {
                 mean.sum / f64::from(mean.count)
             } else {
                 1.0
             };
-            cost * if direction == 0 { fraction } else { 1.0 - fraction }
+            cost * if direction == 0 {
+                fraction
+            } else {
+                1.0 - fraction
+            }
         })
     }
 }

@@ -105,7 +105,11 @@ impl<'a> Relaxation<'a> {
         let mut best = f64::NEG_INFINITY;
         let mut result = None;
         for _ in 0..STEPS {
-            let gradient = form.gradient.iter().zip(&self.solver.inverse().added).zip(&centre);
+            let gradient = form
+                .gradient
+                .iter()
+                .zip(&self.solver.inverse().added)
+                .zip(&centre);
             let gradient = gradient.map(|((q, added), y)| q - added * y).collect();
             self.solver.set_gradient(gradient);
             match self.solver.solve(f64::INFINITY, self.most) {
@@ -183,7 +187,11 @@ fn ray(form: &Form, limits: &[Interval], mut direction: Vec<f64>) -> Option<Vec<
         (d > STILL * size && limits.upper.is_finite())
             || (d < -STILL * size && limits.lower.is_finite())
     };
-    if direction.iter().zip(limits).any(|(&d, &l)| leaves(d, 1.0, l)) {
+    if direction
+        .iter()
+        .zip(limits)
+        .any(|(&d, &l)| leaves(d, 1.0, l))
+    {
         return None;
     }
     for (i, &sides) in form.row_limits.iter().enumerate() {
@@ -196,7 +204,10 @@ fn ray(form: &Form, limits: &[Interval], mut direction: Vec<f64>) -> Option<Vec<
     let terms = form.gradient.iter().zip(&direction).map(|(q, d)| q * d);
     let (slope, size) = terms.fold((0.0, 0.0), |(s, m): (f64, f64), t| (s + t, m + t.abs()));
     let curved = form.hessian.mul_symmetric(&direction);
-    let most = form.hessian.entries().fold(0.0, |m: f64, (_, _, v)| m.max(v.abs()));
+    let most = form
+        .hessian
+        .entries()
+        .fold(0.0, |m: f64, (_, _, v)| m.max(v.abs()));
     let is_flat = curved.iter().all(|c| c.abs() <= STILL * most);
     (slope < -STILL * size && is_flat).then_some(direction)
 }

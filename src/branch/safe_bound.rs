@@ -132,7 +132,8 @@ pub(super) fn safe_bound(
     let is_open = |slope: &Sized, limits: Interval| {
         let error = slope.error();
         let open = |s: f64| s != 0.0 && !limits.side(-s).is_finite();
-        open(slope.sum) || (slope.sum.abs() <= error && slope.size > 0.0 && limits.width().is_infinite())
+        open(slope.sum)
+            || (slope.sum.abs() <= error && slope.size > 0.0 && limits.width().is_infinite())
     };
     for (members, block) in inverse.definite() {
         let slope = |j: u32| (&slopes[j as usize], limits[j as usize]);
@@ -169,7 +170,11 @@ pub(super) fn safe_bound(
         let finite = |side: f64| side.clamp(-far.max(limits.lower), far.max(-limits.upper));
         let (side, other) = (limits.side(-slope.sum), limits.side(slope.sum));
         let side = if side.is_finite() { side } else { finite(side) };
-        let other = if other.is_finite() { other } else { finite(other) };
+        let other = if other.is_finite() {
+            other
+        } else {
+            finite(other)
+        };
         total.add(slope.sum * side);
         lost += if slope.sum.abs() <= error {
             error * side.abs().max(other.abs())

@@ -169,7 +169,10 @@ pub(super) fn search(
     });
     tree.run();
     let waiting = tree.waiting.iter().map(|node| node.bound);
-    let energy = tree.best.as_ref().map_or(f64::INFINITY, |(_, energy)| *energy);
+    let energy = tree
+        .best
+        .as_ref()
+        .map_or(f64::INFINITY, |(_, energy)| *energy);
     Ok(Found {
         bound: waiting.fold(tree.done, f64::min).min(energy),
         ray: tree.ray,
@@ -317,7 +320,10 @@ impl Tree<'_, '_, '_> {
     /// Bounds on all unknowns at a node.
     fn boxes(&self) -> Vec<Interval> {
         let limits = self.relaxation.solver.limits().iter();
-        limits.zip(&self.form.boxes).map(|(l, b)| l.and(*b)).collect()
+        limits
+            .zip(&self.form.boxes)
+            .map(|(l, b)| l.and(*b))
+            .collect()
     }
 
     /// Tightens the integers' bounds at a node. Returns whether points are left.
@@ -334,7 +340,9 @@ impl Tree<'_, '_, '_> {
             return false;
         };
         for &j in &changed {
-            self.relaxation.solver.set_limits(j as usize, limits[j as usize]);
+            self.relaxation
+                .solver
+                .set_limits(j as usize, limits[j as usize]);
             node.limits.push((j, limits[j as usize]));
         }
         true
@@ -359,7 +367,11 @@ impl Tree<'_, '_, '_> {
             let x = point[j as usize];
             (x - x.round()).abs() > INTEGRAL
         };
-        self.integers.iter().filter(is_fractional).copied().collect()
+        self.integers
+            .iter()
+            .filter(is_fractional)
+            .copied()
+            .collect()
     }
 
     /// The integers whose bounds leave a choice, where all values are integers: the one with the largest
@@ -489,11 +501,19 @@ impl Tree<'_, '_, '_> {
                 self.relaxation.solver.go_back(&state);
                 self.relaxation.solver.set_limits(v, before);
                 if rises[direction].is_finite() {
-                    let distance = if direction == 0 { fraction(j) } else { 1.0 - fraction(j) };
+                    let distance = if direction == 0 {
+                        fraction(j)
+                    } else {
+                        1.0 - fraction(j)
+                    };
                     self.costs.record(v, direction, distance, rises[direction]);
                 }
             }
-            let most = if cutoff.is_finite() { (cutoff - base).max(0.0) } else { 1e300 };
+            let most = if cutoff.is_finite() {
+                (cutoff - base).max(0.0)
+            } else {
+                1e300
+            };
             let merit = merit(rises.map(|r| r.min(most.min(1e100))));
             if first || merit > best.0 {
                 best = (merit, j);
@@ -519,7 +539,11 @@ impl Tree<'_, '_, '_> {
                 branching: Some(Branching {
                     variable,
                     direction,
-                    distance: if direction == 0 { fraction } else { 1.0 - fraction },
+                    distance: if direction == 0 {
+                        fraction
+                    } else {
+                        1.0 - fraction
+                    },
                 }),
             })
         };
@@ -540,7 +564,11 @@ enum Choice {
 fn child_limits(limits: Interval, value: f64, direction: usize) -> Interval {
     let floor = if (value - value.round()).abs() <= INTEGRAL {
         let rounded = limits.nearest(value.round());
-        if rounded == limits.upper { rounded - 1.0 } else { rounded }
+        if rounded == limits.upper {
+            rounded - 1.0
+        } else {
+            rounded
+        }
     } else {
         value.floor()
     };

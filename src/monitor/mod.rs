@@ -114,6 +114,18 @@ impl<'a> Monitor<'a> {
         self
     }
 
+    /// A monitor that ends when this one does and tells nobody.
+    pub(crate) fn silent(&self) -> Monitor<'static> {
+        Monitor {
+            token: self.token.clone(),
+            finishing: self.finishing,
+            finish_at: self.finish_at,
+            started: self.started,
+            limit: self.limit,
+            ..Monitor::default()
+        }
+    }
+
     /// The run, which other monitors may share.
     pub(crate) fn run(&self) -> Run {
         self.run.clone()

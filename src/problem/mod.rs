@@ -135,6 +135,15 @@ impl Problem {
         !self.inequalities.is_empty() || self.bounds.limit()
     }
 
+    /// The same problem without its inequalities and bounds.
+    pub(crate) fn without_limits(&self) -> Problem {
+        Problem {
+            inequalities: Inequalities::default(),
+            bounds: Bounds::default(),
+            ..self.clone()
+        }
+    }
+
     pub(crate) fn integers(&self) -> &[bool] {
         &self.integer
     }

@@ -6,6 +6,7 @@ mod components;
 mod dispatch;
 mod eliminated;
 mod expand;
+mod limited;
 mod reformulate;
 mod relax;
 pub mod replay;

@@ -2,6 +2,7 @@
 
 use super::Solution;
 use super::eliminated::EliminatedProblem;
+use super::limited::solve_limited;
 use super::reformulate::solve_reformulated;
 use crate::eliminate::Elimination;
 use crate::error::Result;
@@ -36,16 +37,33 @@ fn solve_alone(problem: &Problem, options: &Options, mut monitor: Monitor) -> Re
     may_continue()?;
     let model = Model::new(problem)?;
     tell_of_ignored_hint(&model, &mut monitor);
-    let elimination = Elimination::new(&model, options.ordering, &mut monitor)?;
+    drop(watch);
+    if problem.is_limited() {
+        solve_limited(problem, &model, options, model.guess(), &mut monitor)
+    } else {
+        solve_unlimited(problem, &model, options, model.guess(), &mut monitor)
+    }
+}
+
+/// Solves a problem without its inequalities and bounds. `earlier` is the start of a warm start.
+pub(super) fn solve_unlimited(
+    problem: &Problem,
+    model: &Model,
+    options: &Options,
+    earlier: &[f64],
+    monitor: &mut Monitor,
+) -> Result<Solution> {
+    let watch = monitor.watch();
+    let elimination = Elimination::new(model, options.ordering, monitor)?;
     drop(watch);
     let eliminated = EliminatedProblem {
         problem,
-        model: &model,
+        model,
         elimination: &elimination,
         factors: &mut Factors::new(options.ordering),
-        earlier: model.guess(),
+        earlier,
     };
-    solve_eliminated(eliminated, options, &mut monitor)
+    solve_eliminated(eliminated, options, monitor)
 }
 
 pub(super) fn tell_of_ignored_hint(model: &Model, monitor: &mut Monitor) {

@@ -6,6 +6,7 @@
 
 use super::Solution;
 use super::eliminated::EliminatedProblem;
+use super::limited::solve_limited;
 use super::run::{solve_eliminated, tell_of_ignored_hint};
 use super::subject_to::solve_subject_to;
 use crate::eliminate::Elimination;
@@ -167,6 +168,9 @@ impl Solver {
     pub fn solve_with(&mut self, options: &Options, mut monitor: Monitor) -> Result<Solution> {
         let _memory = watch_memory(self.problem.size());
         let solution = with_threads(options.threads, || {
+            if self.problem.is_limited() {
+                return self.solve_limited(options, &mut monitor);
+            }
             let eliminated = self.prepare(options, &mut monitor)?;
             solve_eliminated(eliminated, options, &mut monitor)
         })?;
@@ -195,6 +199,25 @@ impl Solver {
         })
     }
 
+    /// Solves the current problem, which has inequalities or bounds.
+    fn solve_limited(&mut self, options: &Options, monitor: &mut Monitor) -> Result<Solution> {
+        monitor.start(options.time_limit);
+        monitor.check()?;
+        self.refresh()?;
+        tell_of_ignored_hint(&self.model, monitor);
+        let earlier = self.earlier.as_deref().unwrap_or(self.model.guess());
+        solve_limited(&self.problem, &self.model, options, earlier, monitor)
+    }
+
+    /// Makes the model that of the current problem.
+    fn refresh(&mut self) -> Result<()> {
+        if self.stale {
+            self.model = self.model.with_data_of(&self.problem)?;
+            self.stale = false;
+        }
+        Ok(())
+    }
+
     /// The current problem with its elimination and factors, from the cache if they are still valid.
     fn prepare(
         &mut self,
@@ -204,10 +227,7 @@ impl Solver {
         monitor.start(options.time_limit);
         monitor.check()?;
         let _watch = monitor.watch();
-        if self.stale {
-            self.model = self.model.with_data_of(&self.problem)?;
-            self.stale = false;
-        }
+        self.refresh()?;
         tell_of_ignored_hint(&self.model, monitor);
         let mut cache = match self.cache.take() {
             Some(cache) if cache.serves(&self.model, options.ordering) => cache,

@@ -1,0 +1,113 @@
+//! The solve of a problem with inequalities or bounds.
+//!
+//! Where the relaxation without them is within all limits, they may be of no effect: the problem is solved
+//! without them first, by the methods for lattices and angle differences. A solution within the limits is
+//! that of the whole problem, with the same bound. Else branch and bound searches ([`branch`](crate::branch)).
+
+use super::run::solve_unlimited;
+use super::solution::{Counts, Seconds, Solution};
+use super::verify::verify;
+use crate::branch;
+use crate::error::{Error, Result};
+use crate::monitor::Monitor;
+use crate::problem::{Model, Problem};
+use crate::search::{Options, SolveStatus, StoppedBy, Strategy, WarmStart, is_closed};
+
+/// Limits may be missed by this, relative to the sizes of the terms.
+const WITHIN: f64 = 1e-9;
+
+/// Solves a problem with inequalities or bounds. `earlier` is the start of a warm start.
+///
+/// # Errors
+/// Those of [`solve`](crate::solve()).
+pub(super) fn solve_limited(
+    problem: &Problem,
+    model: &Model,
+    options: &Options,
+    earlier: &[f64],
+    monitor: &mut Monitor,
+) -> Result<Solution> {
+    if let Some(solution) = without_limits(problem, model, options, earlier, monitor)? {
+        return Ok(solution);
+    }
+    let start = (options.warm_start != WarmStart::Off).then_some(earlier);
+    let found = branch::solve(problem, model, options, start, monitor)?;
+    let searched = monitor.seconds();
+    let verdict = verify(problem, &found.values)?;
+    let is_integer = model.integer().contains(&true);
+    let lower_bound = found.lower_bound.min(verdict.energy);
+    let rounding = 1e-12 * verdict.energy.abs();
+    let status = if options.strategy == Strategy::Relax && is_integer {
+        SolveStatus::Relaxed
+    } else if found.is_complete || is_closed(verdict.energy, lower_bound, rounding) {
+        SolveStatus::Optimal
+    } else {
+        SolveStatus::unproved(found.stopped_by)
+    };
+    Ok(Solution {
+        energy: verdict.energy,
+        lower_bound: Some(lower_bound),
+        status,
+        complete: found.is_complete,
+        stopped_by: found.stopped_by,
+        work: found.work,
+        counts: Counts {
+            variables: model.variables(),
+            integers: model.integer().iter().filter(|i| **i).count(),
+            constraints: model.constraints().rows(),
+            reduced_integers: found.integers,
+            reduced_continuous: found.unknowns - found.integers,
+            factor_nonzeros: 0,
+        },
+        seconds: Seconds {
+            round: searched,
+            total: monitor.seconds(),
+            ..Seconds::default()
+        },
+        max_constraint_violation: verdict.constraint_violation,
+        max_integrality_violation: verdict.integrality_violation,
+        values: found.values,
+    })
+}
+
+/// The solution without inequalities and bounds, if it is within them.
+fn without_limits(
+    problem: &Problem,
+    model: &Model,
+    options: &Options,
+    earlier: &[f64],
+    monitor: &mut Monitor,
+) -> Result<Option<Solution>> {
+    let free = problem.without_limits();
+    let within_limits = |options: &Options| -> Result<Option<Solution>> {
+        let found = solve_unlimited(&free, model, options, earlier, &mut monitor.silent());
+        let mut solution = match found {
+            Ok(solution) => solution,
+            Err(
+                error @ (Error::Cancelled
+                | Error::TimeLimit
+                | Error::OutOfMemory { .. }
+                | Error::Infeasible { .. }
+                | Error::NoIntegerSolution { .. }),
+            ) => return Err(error),
+            Err(_) => return Ok(None),
+        };
+        let verdict = verify(problem, &solution.values)?;
+        solution.max_constraint_violation = verdict.constraint_violation;
+        Ok((verdict.constraint_violation <= WITHIN).then_some(solution))
+    };
+    let relaxed = Options {
+        strategy: Strategy::Relax,
+        ..options.clone()
+    };
+    let Some(relaxation) = within_limits(&relaxed)? else {
+        return Ok(None);
+    };
+    if options.strategy == Strategy::Relax || !model.integer().contains(&true) {
+        return Ok(Some(relaxation));
+    }
+    let solution = within_limits(options)?;
+    Ok(solution.filter(|solution| {
+        solution.status == SolveStatus::Optimal || solution.stopped_by == StoppedBy::Nothing
+    }))
+}
