@@ -37,6 +37,9 @@ const EXACT: f64 = 1e-13;
 /// The largest number of corrections.
 const CORRECTIONS: usize = 2;
 
+/// Steps of iterative refinement at the end of a solve.
+const REFINEMENTS: usize = 2;
+
 /// The factor is made again after this many removals.
 const REFRESH: usize = 60;
 
@@ -415,7 +418,11 @@ impl<'a> DualActiveSet<'a> {
                 return Outcome::Cutoff;
             }
             let Some((row, upper)) = self.most_violated() else {
-                self.correct(1);
+                if self.inverse.is_definite() {
+                    self.correct(1);
+                } else {
+                    self.refine();
+                }
                 return Outcome::Optimal;
             };
             if let Some(certificate) = self.activate(row, upper) {
@@ -478,6 +485,43 @@ impl<'a> DualActiveSet<'a> {
             self.factor.solve(&mut missed);
             self.work += (missed.len() * missed.len()) as u64;
             self.step(&missed);
+        }
+    }
+
+    /// Iterative refinement of point and multipliers: where only little was added to a singular Hessian, `P` is
+    /// large and its rounding errors show in the slopes.
+    fn refine(&mut self) {
+        for _ in 0..REFINEMENTS {
+            let mut slopes = self.form.hessian.mul_symmetric(&self.point);
+            for (j, slope) in slopes.iter_mut().enumerate() {
+                *slope += self.inverse.added[j] * self.point[j] + self.gradient[j];
+            }
+            let n = self.limits.len();
+            for active in &self.active {
+                match (active.row as usize).checked_sub(n) {
+                    None => slopes[active.row as usize] += active.multiplier,
+                    Some(row) => {
+                        let row = self.form.rows.row(row);
+                        row.for_each(|(j, a)| slopes[j] += active.multiplier * a);
+                    }
+                }
+            }
+            let step = self.inverse.mul(&slopes);
+            self.work += (self.form.hessian.len() + n) as u64;
+            for (x, step) in self.point.iter_mut().zip(&step) {
+                *x -= step;
+            }
+            let missed = |a: &Active| self.product(a.row as usize, &self.point) - self.held(*a);
+            let mut missed: Vec<f64> = self.active.iter().map(missed).collect();
+            self.factor.solve(&mut missed);
+            self.work += (missed.len() * missed.len()) as u64;
+            self.step(&missed);
+            for (active, missed) in self.active.iter_mut().zip(&missed) {
+                let new = active.multiplier + missed;
+                if new * active.multiplier > 0.0 {
+                    active.multiplier = new;
+                }
+            }
         }
     }
 

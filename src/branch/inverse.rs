@@ -13,6 +13,10 @@ use super::working_set::dot;
 /// A block whose pivots in a Cholesky factorization fall below this part of their diagonals is singular.
 const SINGULAR: f64 = 1e-9;
 
+/// A block is singular as well where the square of an unknown in the norm of the inverse exceeds this many times
+/// the inverse of its own curvature.
+const CONDITION: f64 = 1e8;
+
 /// `(Q + diag(added))^-1` by blocks.
 #[derive(Debug)]
 pub(super) struct Inverse {
@@ -79,23 +83,28 @@ impl Inverse {
             }
         }
         let given = matrix.clone();
-        let definite = cholesky(&mut matrix, size, SINGULAR).is_ok();
-        self.definite.push(definite);
-        if !definite {
-            matrix = given;
-            for (i, &v) in members.iter().enumerate() {
-                let added = regularization[v as usize];
-                matrix[i * size + i] += added;
-                self.added[v as usize] = added;
+        if cholesky(&mut matrix, size, SINGULAR).is_ok() {
+            let inverse = invert_factor(&mut matrix, size)?;
+            let condition = |i: usize| inverse[i * size + i] * given[i * size + i];
+            if (0..size).all(|i| condition(i) <= CONDITION) {
+                self.definite.push(true);
+                return Ok(inverse);
             }
-            if let Err(at) = cholesky(&mut matrix, size, 0.0) {
-                let part = negative_direction(&matrix, size, at);
-                let mut direction = vec![0.0; self.place.len()];
-                for (&j, v) in members.iter().zip(part) {
-                    direction[j as usize] = v;
-                }
-                return Err(not_convex(direction));
+        }
+        self.definite.push(false);
+        matrix = given;
+        for (i, &v) in members.iter().enumerate() {
+            let added = regularization[v as usize];
+            matrix[i * size + i] += added;
+            self.added[v as usize] = added;
+        }
+        if let Err(at) = cholesky(&mut matrix, size, 0.0) {
+            let part = negative_direction(&matrix, size, at);
+            let mut direction = vec![0.0; self.place.len()];
+            for (&j, v) in members.iter().zip(part) {
+                direction[j as usize] = v;
             }
+            return Err(not_convex(direction));
         }
         invert_factor(&mut matrix, size)
     }

@@ -8,6 +8,7 @@
 use super::dual_active_set::{Active, DualActiveSet, Outcome, Shared};
 use super::form::{Form, Interval};
 use super::safe_bound::safe_bound;
+use super::working_set::Ldl;
 
 /// The diagonal added to a singular block, relative to the size of the objective.
 const ADDED: f64 = 1e-5;
@@ -104,6 +105,7 @@ impl<'a> Relaxation<'a> {
         };
         let mut best = f64::NEG_INFINITY;
         let mut result = None;
+        let mut mixing = Mixing::default();
         for _ in 0..STEPS {
             let gradient = form
                 .gradient
@@ -112,6 +114,7 @@ impl<'a> Relaxation<'a> {
                 .zip(&centre);
             let gradient = gradient.map(|((q, added), y)| q - added * y).collect();
             self.solver.set_gradient(gradient);
+            let before = self.solver.iterations;
             match self.solver.solve(f64::INFINITY, self.most) {
                 Outcome::Infeasible(rows) => {
                     result = Some(Relaxed::Infeasible(rows));
@@ -137,7 +140,14 @@ impl<'a> Relaxation<'a> {
                 result = Some(Relaxed::Unbounded(ray));
                 break;
             }
-            centre.copy_from_slice(self.solver.point());
+            if self.solver.iterations > before + 1 {
+                mixing = Mixing::default();
+            }
+            mixing.next(
+                &mut centre,
+                self.solver.point(),
+                &self.solver.inverse().added,
+            );
             if energy - best <= CLOSE * energy.abs().max(1e-3) || moved <= 1e-10 {
                 break;
             }
@@ -160,6 +170,67 @@ impl<'a> Relaxation<'a> {
     /// The rows that are active, from which another node may start.
     pub fn active(&self) -> &[Active] {
         self.solver.active()
+    }
+}
+
+/// The steps that mixing remembers.
+const REMEMBERED: usize = 6;
+
+/// The next centre from the last ones, so that proximal steps converge like a Krylov method once the active rows
+/// stay the same (Anderson mixing, `walker2011`).
+#[derive(Debug, Default)]
+struct Mixing {
+    /// Points and steps, in a cycle.
+    points: Vec<Vec<f64>>,
+    steps: Vec<Vec<f64>>,
+    next: usize,
+}
+
+impl Mixing {
+    /// Replaces the centre by the next one. `point` is what the proximal step has found, `weights` give its norm.
+    fn next(&mut self, centre: &mut [f64], point: &[f64], weights: &[f64]) {
+        let step: Vec<f64> = point.iter().zip(&*centre).map(|(x, y)| x - y).collect();
+        let product = |a: &[f64], b: &[f64]| -> f64 {
+            let terms = a.iter().zip(b).zip(weights);
+            terms.map(|((a, b), w)| a * b * w).sum()
+        };
+        let len = product(&step, &step);
+        centre.copy_from_slice(point);
+        let k = self.steps.len();
+        let difference = |others: &[Vec<f64>], own: &[f64]| -> Vec<Vec<f64>> {
+            let minus = |other: &Vec<f64>| own.iter().zip(other).map(|(a, b)| a - b).collect();
+            others.iter().map(minus).collect()
+        };
+        let changes = difference(&self.steps, &step);
+        let mut factor = Ldl::default();
+        let mut used = Vec::new();
+        for (i, change) in changes.iter().enumerate() {
+            let products: Vec<f64> = used
+                .iter()
+                .map(|&j: &usize| product(change, &changes[j]))
+                .collect();
+            let square = product(change, change);
+            let (row, left) = factor.next_row(&products, square);
+            if left > 1e-10 * square && square > 1e-20 * len {
+                factor.append(row, left);
+                used.push(i);
+            }
+        }
+        let mut weights: Vec<f64> = used.iter().map(|&i| product(&changes[i], &step)).collect();
+        factor.solve(&mut weights);
+        for (&i, weight) in used.iter().zip(&weights) {
+            for (y, (x, old)) in centre.iter_mut().zip(point.iter().zip(&self.points[i])) {
+                *y -= weight * (x - old);
+            }
+        }
+        if k < REMEMBERED {
+            self.points.push(point.to_vec());
+            self.steps.push(step);
+        } else {
+            self.points[self.next].copy_from_slice(point);
+            self.steps[self.next] = step;
+            self.next = (self.next + 1) % REMEMBERED;
+        }
     }
 }
 

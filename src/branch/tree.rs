@@ -168,6 +168,15 @@ pub(super) fn search(
         branching: None,
     });
     tree.run();
+        eprintln!(
+            "nodes {} iterations {} n {} rows {} integers {}",
+            tree.nodes,
+            tree.relaxation.solver.iterations,
+            form.dim(),
+            form.rows.rows(),
+            tree.integers.len()
+        );
+    }
     let waiting = tree.waiting.iter().map(|node| node.bound);
     let energy = tree
         .best
