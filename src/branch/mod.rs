@@ -13,13 +13,16 @@
 //! | `relaxation` | the relaxation of a node, also where Q is singular |
 //! | `safe_bound` | lower bounds that rounding errors cannot make false |
 //! | `pseudo_costs`, `tree` | the search |
+//! | `primal`, `exchange` | points with integers: rounding, exchanges, smaller problems |
 //! | `conflict` | why there is no solution |
 
 mod conflict;
 mod dual_active_set;
+mod exchange;
 mod form;
 mod inverse;
 mod presolve;
+mod primal;
 mod propagate;
 mod pseudo_costs;
 mod relaxation;
@@ -34,7 +37,7 @@ use crate::problem::{Model, Problem};
 use crate::search::{Options, StoppedBy, Strategy};
 use conflict::Element;
 use form::Form;
-use presolve::{Contradiction, Presolved};
+use presolve::{Contradiction, Part, Presolved};
 use tree::Limits;
 
 /// The multiplications after which `auto` ends with the best point so far.
@@ -81,7 +84,7 @@ pub(crate) fn solve(
     };
     let Presolved {
         mut values,
-        parts,
+        mut parts,
         constant,
     } = presolved;
     let mut found = Found {
@@ -94,12 +97,43 @@ pub(crate) fn solve(
         unknowns: 0,
         integers: 0,
     };
+    let count = parts.len();
     let first = !matches!(
         options.strategy,
         Strategy::Exact | Strategy::Auto | Strategy::Relax
     );
-    let count = parts.len();
-    for (done, part) in parts.iter().enumerate() {
+    let limits = Limits {
+        nodes: options.nodes as u64,
+        work: if options.strategy == Strategy::Auto {
+            AUTO / count.max(1) as u64
+        } else {
+            u64::MAX
+        },
+        gap: options.gap / count.max(1) as f64,
+        elsewhere: 0.0,
+        first,
+        strict: false,
+    };
+    // A limit of time that ends the search of one part must find a point in each.
+    parts.sort_by_key(|part| (part.integers(), part.members.len()));
+    let several = parts.iter().filter(|part| part.integers() > 0).count() > 1;
+    let mut starts = Vec::with_capacity(count);
+    for part in &parts {
+        let own = |start: &[f64]| part.members.iter().map(|&j| start[j as usize]).collect();
+        let mut start = start.map(own);
+        if several && !first {
+            monitor.elsewhere(f64::INFINITY, f64::NEG_INFINITY);
+            let limits = Limits {
+                first: true,
+                ..limits
+            };
+            let own = search_part(problem, part, start, limits, monitor)?;
+            found.work += own.work;
+            start = own.best.map(|(point, _)| point);
+        }
+        starts.push(start);
+    }
+    for (done, (part, start)) in parts.iter().zip(starts).enumerate() {
         let known = if done + 1 == count {
             found.energy
         } else {
@@ -107,42 +141,21 @@ pub(crate) fn solve(
         };
         monitor.elsewhere(known, found.lower_bound);
         let limits = Limits {
-            nodes: options.nodes as u64,
-            work: if options.strategy == Strategy::Auto {
-                AUTO / count as u64
-            } else {
-                u64::MAX
-            },
-            gap: options.gap / count as f64,
             elsewhere: found.energy,
-            first,
-            strict: false,
+            ..limits
         };
-        let start = start.map(|start| part.members.iter().map(|&j| start[j as usize]).collect());
-        let own = tree::search(&part.form, start, limits, monitor)?;
-        if let Some(ray) = own.ray {
-            return Err(unbounded(values.len(), &part.members, &ray));
-        }
-        let Some((point, energy)) = own.best else {
-            if !own.is_complete {
-                return Err(monitor.stopped().map_or(Error::Cancelled, Error::from));
+        let own = search_part(problem, part, start, limits, monitor)?;
+        if let Some((point, energy)) = own.best {
+            for (&j, x) in part.members.iter().zip(&point) {
+                values[j as usize] = *x;
             }
-            let elements = if own.nodes <= 1 && !own.conflict.is_empty() {
-                conflict::of_certificate(&part.form, &part.members, &own.conflict)
-            } else {
-                conflict::of_form(&part.form, &part.members)
-            };
-            return Err(conflict::error(problem, &elements));
-        };
-        for (&j, x) in part.members.iter().zip(&point) {
-            values[j as usize] = *x;
+            found.energy += energy;
         }
-        found.energy += energy;
         found.lower_bound = sum_below(&[found.lower_bound, own.bound]);
         found.is_complete &= own.is_complete;
         found.work += own.work;
         found.unknowns += part.members.len();
-        found.integers += part.form.integer.iter().filter(|i| **i).count();
+        found.integers += part.integers();
         if found.stopped_by == StoppedBy::Nothing {
             found.stopped_by = match monitor.stopped() {
                 _ if own.is_complete => StoppedBy::Nothing,
@@ -156,6 +169,32 @@ pub(crate) fn solve(
     monitor.elsewhere(0.0, 0.0);
     found.values = values;
     Ok(found)
+}
+
+/// Searches a part. What is returned has a point.
+fn search_part(
+    problem: &Problem,
+    part: &Part,
+    start: Option<Vec<f64>>,
+    limits: Limits,
+    monitor: &mut Monitor,
+) -> Result<tree::Found> {
+    let found = tree::search(&part.form, start, limits, monitor)?;
+    if let Some(ray) = found.ray {
+        return Err(unbounded(problem.variables(), &part.members, &ray));
+    }
+    if found.best.is_some() {
+        return Ok(found);
+    }
+    if !found.is_complete {
+        return Err(monitor.stopped().map_or(Error::Cancelled, Error::from));
+    }
+    let elements = if found.nodes <= 1 && !found.conflict.is_empty() {
+        conflict::of_certificate(&part.form, &part.members, &found.conflict)
+    } else {
+        conflict::of_form(&part.form, &part.members)
+    };
+    Err(conflict::error(problem, &elements))
 }
 
 /// The error for a contradiction that presolve found, with a small set of rows and bounds at fault.

@@ -102,11 +102,12 @@ impl Propagator {
         form: &Form,
         limits: &mut [Interval],
         changed: &[u32],
+        reals: bool,
     ) -> Result<Vec<u32>, usize> {
         for &j in changed {
             self.wake(j as usize);
         }
-        self.run(form, limits, false, 20)
+        self.run(form, limits, reals, 20)
     }
 
     fn run(

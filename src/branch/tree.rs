@@ -8,7 +8,7 @@
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
-use super::dual_active_set::{Active, FEASIBLE, Shared, WarmStart};
+use super::dual_active_set::{Active, Shared, WarmStart};
 use super::form::{Form, Interval};
 use super::propagate::Propagator;
 use super::pseudo_costs::{PseudoCosts, merit};
@@ -81,6 +81,12 @@ pub(super) struct Limits {
     pub strict: bool,
 }
 
+/// The dives without an incumbent after which the search goes on at the lowest bound.
+const DIVES: u64 = 50;
+
+/// The nodes before the first smaller problem is searched.
+const FIRST_PART: u64 = 50;
+
 /// A gap below this part of the energy is none.
 const CLOSED: f64 = 5e-10;
 
@@ -103,26 +109,33 @@ pub(super) struct Found {
     pub conflict: Vec<(u32, f64)>,
 }
 
-struct Tree<'a, 'm, 'e> {
-    form: &'a Form,
-    relaxation: Relaxation<'a>,
-    propagator: Propagator,
+pub(super) struct Tree<'a, 'm, 'e> {
+    pub form: &'a Form,
+    pub shared: &'a Shared,
+    pub relaxation: Relaxation<'a>,
+    pub propagator: Propagator,
     costs: PseudoCosts,
-    root: Vec<Interval>,
+    pub root: Vec<Interval>,
     waiting: BinaryHeap<Node>,
-    best: Option<(Vec<f64>, f64)>,
+    /// The nodes that wait while there is no incumbent, the newest last.
+    stack: Vec<Node>,
+    pub best: Option<(Vec<f64>, f64)>,
     /// The lowest bound of the nodes that are done.
     done: f64,
     created: u64,
-    nodes: u64,
-    limits: Limits,
+    /// The dives since the search was last at the lowest bound.
+    dives: u64,
+    pub nodes: u64,
+    /// The node after which the next smaller problem is searched.
+    pub next_part: u64,
+    pub limits: Limits,
     conflict: Vec<(u32, f64)>,
     ray: Option<Vec<f64>>,
     stopped_by: StoppedBy,
     /// The rounding errors of the incumbent's energy.
-    rounding: f64,
-    integers: Vec<u32>,
-    monitor: &'m mut Monitor<'e>,
+    pub rounding: f64,
+    pub integers: Vec<u32>,
+    pub monitor: &'m mut Monitor<'e>,
 }
 
 /// Searches the form, all of whose unknowns are one component.
@@ -137,61 +150,11 @@ pub(super) fn search(
     monitor: &mut Monitor,
 ) -> Result<Found> {
     let shared = Shared::new(form, &regularization(form))?;
-    let integers = (0..form.dim() as u32).filter(|&j| form.integer[j as usize]);
-    let mut tree = Tree {
-        form,
-        relaxation: Relaxation::new(form, &shared),
-        propagator: Propagator::new(form),
-        costs: PseudoCosts::new(form.dim()),
-        root: form.limits.clone(),
-        waiting: BinaryHeap::new(),
-        best: None,
-        done: f64::INFINITY,
-        created: 0,
-        nodes: 0,
-        limits,
-        conflict: Vec::new(),
-        ray: None,
-        stopped_by: StoppedBy::Nothing,
-        rounding: 0.0,
-        integers: integers.collect(),
-        monitor,
-    };
+    let mut tree = Tree::new(form, &shared, limits, monitor);
     if let Some(start) = start {
         tree.round(&start);
     }
-    tree.waiting.push(Node {
-        bound: f64::NEG_INFINITY,
-        number: 0,
-        limits: Vec::new(),
-        warm: WarmStart::new(),
-        branching: None,
-    });
-    tree.run();
-        eprintln!(
-            "nodes {} iterations {} n {} rows {} integers {}",
-            tree.nodes,
-            tree.relaxation.solver.iterations,
-            form.dim(),
-            form.rows.rows(),
-            tree.integers.len()
-        );
-    }
-    let waiting = tree.waiting.iter().map(|node| node.bound);
-    let energy = tree
-        .best
-        .as_ref()
-        .map_or(f64::INFINITY, |(_, energy)| *energy);
-    Ok(Found {
-        bound: waiting.fold(tree.done, f64::min).min(energy),
-        ray: tree.ray,
-        stopped_by: tree.stopped_by,
-        is_complete: tree.waiting.is_empty(),
-        best: tree.best,
-        nodes: tree.nodes,
-        work: tree.relaxation.solver.work,
-        conflict: tree.conflict,
-    })
+    Ok(tree.found())
 }
 
 /// What became of a node.
@@ -203,9 +166,87 @@ enum Step {
     Ended(Box<Node>),
 }
 
-impl Tree<'_, '_, '_> {
+impl<'a, 'm, 'e> Tree<'a, 'm, 'e> {
+    pub fn new(
+        form: &'a Form,
+        shared: &'a Shared,
+        limits: Limits,
+        monitor: &'m mut Monitor<'e>,
+    ) -> Self {
+        let integers = (0..form.dim() as u32).filter(|&j| form.integer[j as usize]);
+        Tree {
+            form,
+            shared,
+            relaxation: Relaxation::new(form, shared),
+            propagator: Propagator::new(form),
+            costs: PseudoCosts::new(form.dim()),
+            root: form.limits.clone(),
+            waiting: BinaryHeap::new(),
+            stack: Vec::new(),
+            best: None,
+            done: f64::INFINITY,
+            created: 0,
+            dives: 0,
+            nodes: 0,
+            next_part: FIRST_PART,
+            limits,
+            conflict: Vec::new(),
+            ray: None,
+            stopped_by: StoppedBy::Nothing,
+            rounding: 0.0,
+            integers: integers.collect(),
+            monitor,
+        }
+    }
+
+    /// Searches from the root.
+    pub fn found(mut self) -> Found {
+        self.stack.push(Node {
+            bound: f64::NEG_INFINITY,
+            number: 0,
+            limits: Vec::new(),
+            warm: WarmStart::new(),
+            branching: None,
+        });
+        self.run();
+        let waiting = self.waiting.iter().chain(&self.stack);
+        let is_complete = self.waiting.is_empty() && self.stack.is_empty();
+        let bound = waiting.map(|node| node.bound).fold(self.done, f64::min);
+        let energy = self.best.as_ref();
+        let energy = energy.map_or(f64::INFINITY, |(_, energy)| *energy);
+        Found {
+            bound: bound.min(energy),
+            ray: self.ray,
+            stopped_by: self.stopped_by,
+            is_complete,
+            best: self.best,
+            nodes: self.nodes,
+            work: self.relaxation.solver.work,
+            conflict: self.conflict,
+        }
+    }
+
+    /// The next node that waits: the lowest bound, or the newest node while there is no incumbent. Every
+    /// [`DIVES`] nodes without one, the search goes on at the lowest bound, lest it stays where there is none.
+    fn next_node(&mut self) -> Option<Node> {
+        if self.best.is_some() || self.dives >= DIVES {
+            self.dives = 0;
+            self.waiting.extend(self.stack.drain(..));
+        }
+        self.dives += 1;
+        self.stack.pop().or_else(|| self.waiting.pop())
+    }
+
+    fn wait(&mut self, node: Node) {
+        if self.best.is_some() {
+            self.waiting.push(node);
+        } else {
+            self.stack.push(node);
+        }
+    }
+
     fn run(&mut self) {
-        while let Some(mut node) = self.waiting.pop() {
+        while let Some(mut node) = self.next_node() {
             if node.bound >= self.cutoff() {
                 self.done = self.done.min(node.bound);
                 continue;
@@ -215,12 +256,12 @@ impl Tree<'_, '_, '_> {
                 match self.visit(node) {
                     Step::Done => break,
                     Step::Split(next, other) => {
-                        self.waiting.push(*other);
+                        self.wait(*other);
                         self.dive_to(&next);
                         node = *next;
                     }
                     Step::Ended(node) => {
-                        self.waiting.push(*node);
+                        self.wait(*node);
                         return;
                     }
                 }
@@ -229,7 +270,7 @@ impl Tree<'_, '_, '_> {
     }
 
     /// The bound from which on a node is of no interest.
-    fn cutoff(&self) -> f64 {
+    pub fn cutoff(&self) -> f64 {
         match &self.best {
             None => f64::INFINITY,
             Some(_) if self.limits.first => f64::NEG_INFINITY,
@@ -305,8 +346,12 @@ impl Tree<'_, '_, '_> {
         }
         let point = self.relaxation.solver.point().to_vec();
         let mut fractional = self.fractional(&point);
-        if self.nodes == 1 || self.nodes.is_multiple_of(20) || fractional.is_empty() {
+        let every = if self.best.is_none() { 5 } else { 20 };
+        if self.nodes == 1 || self.nodes.is_multiple_of(every) || fractional.is_empty() {
             self.round(&point);
+        }
+        if self.nodes >= self.next_part && !fractional.is_empty() {
+            self.search_part(&point);
         }
         if node.bound >= self.cutoff() {
             self.done = self.done.min(node.bound);
@@ -327,7 +372,7 @@ impl Tree<'_, '_, '_> {
     }
 
     /// Bounds on all unknowns at a node.
-    fn boxes(&self) -> Vec<Interval> {
+    pub fn boxes(&self) -> Vec<Interval> {
         let limits = self.relaxation.solver.limits().iter();
         limits
             .zip(&self.form.boxes)
@@ -341,7 +386,8 @@ impl Tree<'_, '_, '_> {
         let changed = match (&node.branching, node.limits.last()) {
             (Some(branching), _) => {
                 let changed = [branching.variable];
-                self.propagator.from(self.form, &mut limits, &changed)
+                self.propagator
+                    .from(self.form, &mut limits, &changed, false)
             }
             (None, _) => self.propagator.all(self.form, &mut limits, false, 20),
         };
@@ -391,78 +437,6 @@ impl Tree<'_, '_, '_> {
         let free = self.integers.iter().filter(free);
         let worst = free.max_by(|&&a, &&b| error(a).total_cmp(&error(b)));
         worst.into_iter().copied().collect()
-    }
-
-    /// Offers the nearest integers, with the real unknowns that are best for them.
-    fn round(&mut self, point: &[f64]) {
-        let before = self.relaxation.solver.limits().to_vec();
-        let mut limits = before.clone();
-        for &j in &self.integers {
-            let j = j as usize;
-            let value = before[j].nearest(point[j].round());
-            limits[j] = Interval::point(value);
-        }
-        if self.integers.len() == self.form.dim() {
-            self.offer(limits.iter().map(|l| l.lower).collect());
-            return;
-        }
-        let mut boxes = self.boxes();
-        for (limits, boxes) in limits.iter().zip(&mut boxes) {
-            *boxes = limits.and(*boxes);
-        }
-        if boxes.iter().any(|b| b.width() < -1e-6)
-            || self.propagator.all(self.form, &mut boxes, true, 3).is_err()
-        {
-            return;
-        }
-        let solver = &mut self.relaxation.solver;
-        let state = solver.state();
-        for &j in &self.integers {
-            solver.set_limits(j as usize, limits[j as usize]);
-        }
-        let cutoff = self.cutoff();
-        let found = self.relaxation.solve(cutoff, &boxes);
-        let solver = &mut self.relaxation.solver;
-        let offered = matches!(found, Relaxed::Solved { .. }).then(|| {
-            let mut x = solver.point().to_vec();
-            for &j in &self.integers {
-                x[j as usize] = limits[j as usize].lower;
-            }
-            x
-        });
-        for &j in &self.integers {
-            solver.set_limits(j as usize, before[j as usize]);
-        }
-        solver.go_back(&state);
-        if let Some(x) = offered {
-            self.offer(x);
-        }
-    }
-
-    /// Makes a point the incumbent if it is within all limits and better.
-    fn offer(&mut self, mut x: Vec<f64>) {
-        for (x, limits) in x.iter_mut().zip(&self.root) {
-            *x = limits.nearest(*x);
-        }
-        let outside = |i: usize| {
-            let (value, size) = self
-                .form
-                .rows
-                .row(i)
-                .map(|(j, a)| a * x[j])
-                .fold((0.0, 1.0), |(s, m): (f64, f64), t| (s + t, m + t.abs()));
-            let sides = self.form.row_limits[i];
-            (sides.lower - value).max(value - sides.upper) > 10.0 * FEASIBLE * size
-        };
-        if (0..self.form.rows.rows()).any(outside) {
-            return;
-        }
-        let energy = self.form.energy(&x);
-        if self.best.as_ref().is_none_or(|(_, best)| energy < *best) {
-            self.rounding = self.form.rounding(&x);
-            self.best = Some((x, energy));
-            self.monitor.improved(energy);
-        }
     }
 
     /// The unknown to branch on and its value. Strong branching may find that one side has no better point;

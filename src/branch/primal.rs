@@ -1,0 +1,176 @@
+//! Points with integers: rounding, exchanges, and smaller problems around the incumbent.
+
+use super::dual_active_set::FEASIBLE;
+use super::exchange::exchanged;
+use super::form::Interval;
+use super::relaxation::Relaxed;
+use super::tree::{Limits, Tree};
+
+/// The nodes of a smaller problem.
+const PART_NODES: u64 = 200;
+
+/// A smaller problem fixes at least this part of the integers.
+const FIXED: f64 = 0.3;
+
+impl Tree<'_, '_, '_> {
+    /// Offers integers near a point, with the real unknowns that are best for them.
+    ///
+    /// The integers are fixed one after the other, the closest to an integer first, and the bounds of the others
+    /// are tightened each time (`berthold2014`, fix and propagate).
+    pub fn round(&mut self, point: &[f64]) {
+        let Some(limits) = self.fixed(point) else {
+            return;
+        };
+        if self.integers.len() == self.form.dim() {
+            self.offer(limits.iter().map(|l| l.lower).collect());
+            return;
+        }
+        if limits.iter().any(|l| l.width() < -1e-6) {
+            return;
+        }
+        let solver = &mut self.relaxation.solver;
+        let state = solver.state();
+        let before = solver.limits().to_vec();
+        for &j in &self.integers {
+            solver.set_limits(j as usize, limits[j as usize]);
+        }
+        let cutoff = self.cutoff();
+        let found = self.relaxation.solve(cutoff, &limits);
+        let solver = &mut self.relaxation.solver;
+        let offered = matches!(found, Relaxed::Solved { .. }).then(|| {
+            let mut x = solver.point().to_vec();
+            for &j in &self.integers {
+                x[j as usize] = limits[j as usize].lower;
+            }
+            x
+        });
+        for &j in &self.integers {
+            solver.set_limits(j as usize, before[j as usize]);
+        }
+        solver.go_back(&state);
+        if let Some(x) = offered {
+            self.offer(x);
+        }
+    }
+
+    /// Bounds on all unknowns with all integers fixed near a point, or nothing where that contradicts the rows.
+    fn fixed(&mut self, point: &[f64]) -> Option<Vec<Interval>> {
+        let mut limits = self.boxes();
+        let error = |j: u32| (point[j as usize] - point[j as usize].round()).abs();
+        let mut order = self.integers.clone();
+        order.sort_by(|&a, &b| error(a).total_cmp(&error(b)).then(a.cmp(&b)));
+        for j in order {
+            let (v, x) = (j as usize, point[j as usize]);
+            if limits[v].is_point() {
+                continue;
+            }
+            let before = limits.clone();
+            let value = limits[v].nearest(x.round());
+            limits[v] = Interval::point(value);
+            if self
+                .propagator
+                .from(self.form, &mut limits, &[j], true)
+                .is_ok()
+            {
+                continue;
+            }
+            limits = before;
+            let up = x > value && value < limits[v].upper || value <= limits[v].lower;
+            limits[v] = if up {
+                Interval {
+                    lower: value + 1.0,
+                    ..limits[v]
+                }
+            } else {
+                Interval {
+                    upper: value - 1.0,
+                    ..limits[v]
+                }
+            };
+            let value = limits[v].nearest(x.round());
+            limits[v] = Interval::point(value);
+            self.propagator
+                .from(self.form, &mut limits, &[j], true)
+                .ok()?;
+        }
+        Some(limits)
+    }
+
+    /// Makes a point the incumbent if it is within all limits and better, after exchanges that lower its energy.
+    pub fn offer(&mut self, mut x: Vec<f64>) {
+        for (x, limits) in x.iter_mut().zip(&self.root) {
+            *x = limits.nearest(*x);
+        }
+        if self.is_better(&x).is_none() {
+            return;
+        }
+        let better = exchanged(self.form, &self.root, &x, &mut self.relaxation.solver.work);
+        for x in [x, better] {
+            if let Some(energy) = self.is_better(&x) {
+                self.rounding = self.form.rounding(&x);
+                self.best = Some((x, energy));
+                self.monitor.improved(energy);
+            }
+        }
+    }
+
+    /// The energy of a point that is within all limits and better than the incumbent.
+    fn is_better(&self, x: &[f64]) -> Option<f64> {
+        let outside = |i: usize| {
+            let (value, size) = self
+                .form
+                .rows
+                .row(i)
+                .map(|(j, a)| a * x[j])
+                .fold((0.0, 1.0), |(s, m): (f64, f64), t| (s + t, m + t.abs()));
+            let sides = self.form.row_limits[i];
+            (sides.lower - value).max(value - sides.upper) > 10.0 * FEASIBLE * size
+        };
+        if (0..self.form.rows.rows()).any(outside) {
+            return None;
+        }
+        let energy = self.form.energy(x);
+        self.best
+            .as_ref()
+            .is_none_or(|(_, best)| energy < *best)
+            .then_some(energy)
+    }
+
+    /// Searches the smaller problem in which the integers that incumbent and relaxation agree on are fixed
+    /// (`danna2005`, RINS).
+    pub fn search_part(&mut self, point: &[f64]) {
+        self.next_part = 2 * self.next_part;
+        let Some((best, _)) = self.best.clone() else {
+            return;
+        };
+        if self.limits.strict {
+            return;
+        }
+        let mut form = self.form.clone();
+        let mut fixed = 0;
+        for &j in &self.integers {
+            let j = j as usize;
+            if (point[j] - best[j]).abs() <= 1e-6 {
+                form.limits[j] = Interval::point(best[j]);
+                fixed += 1;
+            }
+        }
+        if (fixed as f64) < FIXED * self.integers.len() as f64 {
+            return;
+        }
+        let limits = Limits {
+            nodes: PART_NODES,
+            first: false,
+            strict: true,
+            ..self.limits
+        };
+        let mut tree = Tree::new(&form, self.shared, limits, &mut *self.monitor);
+        tree.best = self.best.clone();
+        tree.rounding = self.rounding;
+        let found = tree.found();
+        self.relaxation.solver.work += found.work;
+        if let Some((x, _)) = found.best {
+            self.offer(x);
+        }
+    }
+}
