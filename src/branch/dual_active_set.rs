@@ -10,8 +10,8 @@
 
 use super::form::{Form, Interval};
 use super::inverse::Inverse;
+use super::shared::{Image, Shared};
 use super::working_set::Ldl;
-use crate::error::Result;
 
 /// A row whose square that the others leave is below this part of its own depends on them.
 const DEPENDENT: f64 = 1e-9;
@@ -31,14 +31,8 @@ const NOTHING: f64 = 1e-11;
 /// Rows may be violated by this, relative to the sizes of their sides.
 pub(super) const FEASIBLE: f64 = 1e-9;
 
-/// Active rows may be missed by this, relative to the sizes of their sides, before the point is corrected.
-const EXACT: f64 = 1e-13;
-
 /// The largest number of corrections.
 const CORRECTIONS: usize = 2;
-
-/// Steps of iterative refinement at the end of a solve.
-const REFINEMENTS: usize = 2;
 
 /// The factor is made again after this many removals.
 const REFRESH: usize = 60;
@@ -79,91 +73,37 @@ pub(super) struct State {
 
 const NOT_ACTIVE: u32 = u32::MAX;
 
-/// The product of a row with `P`.
-type Image = (Vec<u32>, Vec<f64>);
-
 /// A quadratic program whose bounds and linear terms change from solve to solve.
 #[derive(Debug)]
 pub(super) struct DualActiveSet<'a> {
-    form: &'a Form,
-    inverse: &'a Inverse,
+    pub(super) form: &'a Form,
+    pub(super) inverse: &'a Inverse,
     /// `P a` for each row.
     images: &'a [Image],
     /// `(a'Pa)^-1/2` for each unknown and each row, by which violations are compared.
     scales: &'a [f64],
-    limits: Vec<Interval>,
-    gradient: Vec<f64>,
+    pub(super) limits: Vec<Interval>,
+    pub(super) gradient: Vec<f64>,
     /// The minimiser without rows.
     centre: Vec<f64>,
-    active: Vec<Active>,
+    pub(super) active: Vec<Active>,
     /// The place of each unknown and row in `active`.
     place: Vec<u32>,
-    factor: Ldl,
+    pub(super) factor: Ldl,
     removals: usize,
+    /// By active row, as far as known: how far the minimiser without rows misses it, and the same after the
+    /// substitution with L.
+    missed: Vec<f64>,
+    substituted: Vec<f64>,
     /// Rows that are violated only by rounding errors of rows on which they depend.
     is_ignored: Vec<bool>,
     ignored: Vec<u32>,
-    point: Vec<f64>,
+    pub(super) point: Vec<f64>,
     scattered: Vec<f64>,
     dual_objective: f64,
     /// The iterations of all solves, and their multiplications.
     pub iterations: u64,
     pub work: u64,
-}
-
-/// What all solves of a form share.
-#[derive(Debug)]
-pub(super) struct Shared {
-    pub inverse: Inverse,
-    images: Vec<Image>,
-    scales: Vec<f64>,
-}
-
-impl Shared {
-    /// # Errors
-    /// Those of [`Inverse::new`].
-    pub fn new(form: &Form, regularization: &[f64]) -> Result<Self> {
-        let inverse = Inverse::new(&form.hessian, regularization)?;
-        let n = form.dim();
-        let mut dense = vec![0.0; n];
-        let mut seen = vec![false; n];
-        let mut scales: Vec<f64> = (0..n).map(|j| scale(inverse.diagonal(j))).collect();
-        let mut images = Vec::with_capacity(form.rows.rows());
-        for i in 0..form.rows.rows() {
-            let mut touched: Vec<u32> = Vec::new();
-            for (j, a) in form.rows.row(i) {
-                let (members, column) = inverse.column(j);
-                for (&k, p) in members.iter().zip(column) {
-                    if !std::mem::replace(&mut seen[k as usize], true) {
-                        touched.push(k);
-                    }
-                    dense[k as usize] += a * p;
-                }
-            }
-            touched.sort_unstable();
-            let square = form.rows.row(i).map(|(j, a)| a * dense[j]).sum();
-            scales.push(scale(square));
-            let values = touched.iter().map(|&k| {
-                seen[k as usize] = false;
-                std::mem::take(&mut dense[k as usize])
-            });
-            let values = values.collect();
-            images.push((touched, values));
-        }
-        Ok(Shared {
-            inverse,
-            images,
-            scales,
-        })
-    }
-}
-
-fn scale(square: f64) -> f64 {
-    if square > 0.0 {
-        1.0 / square.sqrt()
-    } else {
-        0.0
-    }
 }
 
 impl<'a> DualActiveSet<'a> {
@@ -181,6 +121,8 @@ impl<'a> DualActiveSet<'a> {
             place: vec![NOT_ACTIVE; n + form.rows.rows()],
             factor: Ldl::default(),
             removals: 0,
+            missed: Vec::new(),
+            substituted: Vec::new(),
             is_ignored: vec![false; n + form.rows.rows()],
             ignored: Vec::new(),
             point: vec![0.0; n],
@@ -268,6 +210,7 @@ impl<'a> DualActiveSet<'a> {
 
     /// Makes the factor again from the active rows.
     fn refresh(&mut self) {
+        self.forget_from(0);
         let active = std::mem::take(&mut self.active);
         for row in &active {
             self.place[row.row as usize] = NOT_ACTIVE;
@@ -288,7 +231,7 @@ impl<'a> DualActiveSet<'a> {
     }
 
     /// The product of a row with a point.
-    fn product(&self, row: usize, x: &[f64]) -> f64 {
+    pub(super) fn product(&self, row: usize, x: &[f64]) -> f64 {
         match row.checked_sub(self.limits.len()) {
             None => x[row],
             Some(row) => self.form.rows.row(row).map(|(j, a)| a * x[j]).sum(),
@@ -348,6 +291,7 @@ impl<'a> DualActiveSet<'a> {
             self.place[active.row as usize] = k as u32;
         }
         self.factor.remove(at);
+        self.forget_from(at);
         let rest = (self.active.len() - at) as u64;
         self.work += rest * rest;
         self.removals += 1;
@@ -357,7 +301,7 @@ impl<'a> DualActiveSet<'a> {
     }
 
     /// The side that an active row is held at.
-    fn held(&self, active: Active) -> f64 {
+    pub(super) fn held(&self, active: Active) -> f64 {
         let interval = self.interval(active.row as usize);
         if active.upper {
             interval.upper
@@ -371,6 +315,7 @@ impl<'a> DualActiveSet<'a> {
     /// It ends with [`Outcome::Cutoff`] where the dual objective, without the constant of the form, exceeds
     /// `cutoff`.
     pub fn solve(&mut self, cutoff: f64, most: u64) -> Outcome {
+        self.forget_from(0);
         self.drop_wrong_signs();
         for row in self.ignored.drain(..) {
             self.is_ignored[row as usize] = false;
@@ -388,15 +333,7 @@ impl<'a> DualActiveSet<'a> {
             }
             self.iterations += 1;
             // The multipliers at which all active rows hold.
-            let mut target: Vec<f64> = self
-                .active
-                .iter()
-                .map(|&a| self.product(a.row as usize, &self.centre) - self.held(a))
-                .collect();
-            let violations = target.clone();
-            self.factor.solve(&mut target);
-            let size = target.len() as u64;
-            self.work += size * size;
+            let target = self.target();
             if let Some((at, step)) = self.blocking(&target) {
                 for (active, new) in self.active.iter_mut().zip(&target) {
                     active.multiplier += step * (new - active.multiplier);
@@ -409,7 +346,7 @@ impl<'a> DualActiveSet<'a> {
             }
             let raised: f64 = target
                 .iter()
-                .zip(&violations)
+                .zip(&self.missed)
                 .map(|(m, v)| 0.5 * m * v)
                 .sum();
             self.dual_objective = unlimited + raised;
@@ -429,6 +366,29 @@ impl<'a> DualActiveSet<'a> {
                 return Outcome::Infeasible(certificate);
             }
         }
+    }
+
+    /// The multipliers at which all active rows hold.
+    fn target(&mut self) -> Vec<f64> {
+        let done = self.missed.len();
+        for k in done..self.active.len() {
+            let active = self.active[k];
+            let missed = self.product(active.row as usize, &self.centre) - self.held(active);
+            self.missed.push(missed);
+            self.substituted.push(missed);
+        }
+        self.factor.substitute(&mut self.substituted, done);
+        let mut target = self.substituted.clone();
+        self.factor.solve_substituted(&mut target);
+        let size = target.len() as u64;
+        self.work += size * (2 * size - done as u64) / 2;
+        target
+    }
+
+    /// Forgets what was computed for the active rows from this one on.
+    fn forget_from(&mut self, at: usize) {
+        self.missed.truncate(at);
+        self.substituted.truncate(at);
     }
 
     /// Holds each active row at the side that the sign of its multiplier belongs to, and removes it where
@@ -472,61 +432,8 @@ impl<'a> DualActiveSet<'a> {
         }
     }
 
-    /// Moves the point to where the active rows hold.
-    fn correct(&mut self, most: usize) {
-        for _ in 0..most {
-            let missed = |a: &Active| self.product(a.row as usize, &self.point) - self.held(*a);
-            let mut missed: Vec<f64> = self.active.iter().map(missed).collect();
-            let is_exact =
-                |(m, a): (&f64, &Active)| m.abs() <= EXACT * self.held(*a).abs().max(1.0);
-            if missed.iter().zip(&self.active).all(is_exact) {
-                return;
-            }
-            self.factor.solve(&mut missed);
-            self.work += (missed.len() * missed.len()) as u64;
-            self.step(&missed);
-        }
-    }
-
-    /// Iterative refinement of point and multipliers: where only little was added to a singular Hessian, `P` is
-    /// large and its rounding errors show in the slopes.
-    fn refine(&mut self) {
-        for _ in 0..REFINEMENTS {
-            let mut slopes = self.form.hessian.mul_symmetric(&self.point);
-            for (j, slope) in slopes.iter_mut().enumerate() {
-                *slope += self.inverse.added[j] * self.point[j] + self.gradient[j];
-            }
-            let n = self.limits.len();
-            for active in &self.active {
-                match (active.row as usize).checked_sub(n) {
-                    None => slopes[active.row as usize] += active.multiplier,
-                    Some(row) => {
-                        let row = self.form.rows.row(row);
-                        row.for_each(|(j, a)| slopes[j] += active.multiplier * a);
-                    }
-                }
-            }
-            let step = self.inverse.mul(&slopes);
-            self.work += (self.form.hessian.len() + n) as u64;
-            for (x, step) in self.point.iter_mut().zip(&step) {
-                *x -= step;
-            }
-            let missed = |a: &Active| self.product(a.row as usize, &self.point) - self.held(*a);
-            let mut missed: Vec<f64> = self.active.iter().map(missed).collect();
-            self.factor.solve(&mut missed);
-            self.work += (missed.len() * missed.len()) as u64;
-            self.step(&missed);
-            for (active, missed) in self.active.iter_mut().zip(&missed) {
-                let new = active.multiplier + missed;
-                if new * active.multiplier > 0.0 {
-                    active.multiplier = new;
-                }
-            }
-        }
-    }
-
     /// Subtracts `P A_W'` times these multipliers from the point.
-    fn step(&mut self, multipliers: &[f64]) {
+    pub(super) fn step(&mut self, multipliers: &[f64]) {
         let mut work = 0;
         for (k, &multiplier) in multipliers.iter().enumerate() {
             if multiplier != 0.0 {

@@ -9,7 +9,7 @@
 //! | --- | --- |
 //! | `form` | the problem as the search reads it |
 //! | `presolve`, `propagate` | what is decided before the search; bounds tightened through rows |
-//! | `inverse`, `working_set`, `dual_active_set` | one strictly convex quadratic program |
+//! | `inverse`, `shared`, `working_set`, `dual_active_set`, `refine` | one strictly convex quadratic program |
 //! | `relaxation` | the relaxation of a node, also where Q is singular |
 //! | `safe_bound` | lower bounds that rounding errors cannot make false |
 //! | `pseudo_costs`, `tree` | the search |
@@ -25,8 +25,10 @@ mod presolve;
 mod primal;
 mod propagate;
 mod pseudo_costs;
+mod refine;
 mod relaxation;
 mod safe_bound;
+mod shared;
 mod tree;
 mod working_set;
 
@@ -41,7 +43,7 @@ use presolve::{Contradiction, Part, Presolved};
 use tree::Limits;
 
 /// The multiplications after which `auto` ends with the best point so far.
-const AUTO: u64 = 100_000_000_000;
+const AUTO: u64 = 20_000_000_000;
 
 /// What a search has found.
 #[derive(Debug, Clone)]

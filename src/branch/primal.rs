@@ -139,7 +139,7 @@ impl Tree<'_, '_, '_> {
     /// Searches the smaller problem in which the integers that incumbent and relaxation agree on are fixed
     /// (`danna2005`, RINS).
     pub fn search_part(&mut self, point: &[f64]) {
-        self.next_part = 2 * self.next_part;
+        self.next_part *= 2;
         let Some((best, _)) = self.best.clone() else {
             return;
         };

@@ -5,9 +5,10 @@
 //! `E(x) + 1/2 (x - y)' D (x - y)`, with `y` the point of the step before. On a linear part one or two steps
 //! are exact.
 
-use super::dual_active_set::{Active, DualActiveSet, Outcome, Shared};
+use super::dual_active_set::{Active, DualActiveSet, Outcome};
 use super::form::{Form, Interval};
 use super::safe_bound::safe_bound;
+use super::shared::Shared;
 use super::working_set::Ldl;
 
 /// The diagonal added to a singular block, relative to the size of the objective.

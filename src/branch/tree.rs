@@ -8,11 +8,12 @@
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
-use super::dual_active_set::{Active, Shared, WarmStart};
+use super::dual_active_set::{Active, WarmStart};
 use super::form::{Form, Interval};
 use super::propagate::Propagator;
 use super::pseudo_costs::{PseudoCosts, merit};
 use super::relaxation::{Relaxation, Relaxed, regularization};
+use super::shared::Shared;
 use crate::error::Result;
 use crate::monitor::Monitor;
 use crate::search::StoppedBy;

@@ -3,6 +3,8 @@
 //! A row is appended by one substitution. A row is removed by a rank-one update of the rows after it
 //! (`gill1974`, method C1). Both take `O(k^2)` for `k` rows.
 
+use pulp::Arch;
+
 /// Unit lower triangle by rows, and the diagonal.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Ldl {
@@ -12,19 +14,11 @@ pub(super) struct Ldl {
 }
 
 impl Ldl {
-    /// Number of rows.
-    pub fn len(&self) -> usize {
-        self.diagonal.len()
-    }
-
     /// The last row of L and D if a row with these products and this square were appended. The entry of D is
     /// what is left of the square, and about zero for a row that depends on the others.
     pub fn next_row(&self, products: &[f64], square: f64) -> (Vec<f64>, f64) {
         let mut row = products.to_vec();
-        for i in 0..row.len() {
-            let below = dot(&self.rows[i], &row[..i]);
-            row[i] -= below;
-        }
+        self.substitute(&mut row, 0);
         let mut left = square;
         for (l, d) in row.iter_mut().zip(&self.diagonal) {
             let scaled = *l / d;
@@ -66,10 +60,25 @@ impl Ldl {
 
     /// Solves `G x = b` in place.
     pub fn solve(&self, b: &mut [f64]) {
-        for i in 0..b.len() {
-            let below = dot(&self.rows[i], &b[..i]);
-            b[i] -= below;
-        }
+        self.substitute(b, 0);
+        self.solve_substituted(b);
+    }
+
+    /// Replaces b by `L^-1 b`, where the first `done` entries have been replaced already.
+    pub fn substitute(&self, b: &mut [f64], done: usize) {
+        Arch::new().dispatch(
+            #[inline(always)]
+            || {
+                for i in done..b.len() {
+                    let below = dot(&self.rows[i], &b[..i]);
+                    b[i] -= below;
+                }
+            },
+        );
+    }
+
+    /// Solves `D L' x = b` in place.
+    pub fn solve_substituted(&self, b: &mut [f64]) {
         for (x, d) in b.iter_mut().zip(&self.diagonal) {
             *x /= d;
         }
@@ -78,12 +87,17 @@ impl Ldl {
 
     /// Solves `L' x = b` in place.
     pub fn solve_transposed(&self, b: &mut [f64]) {
-        for i in (0..b.len()).rev() {
-            let x = b[i];
-            for (b, l) in b[..i].iter_mut().zip(&self.rows[i]) {
-                *b -= l * x;
-            }
-        }
+        Arch::new().dispatch(
+            #[inline(always)]
+            || {
+                for i in (0..b.len()).rev() {
+                    let x = b[i];
+                    for (b, l) in b[..i].iter_mut().zip(&self.rows[i]) {
+                        *b -= l * x;
+                    }
+                }
+            },
+        );
     }
 
     /// Removes everything.
@@ -94,6 +108,7 @@ impl Ldl {
 }
 
 /// The inner product, in eight sums that vector units add side by side.
+#[inline(always)]
 pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
     let n = a.len().min(b.len());
     let (a, b) = (&a[..n], &b[..n]);
