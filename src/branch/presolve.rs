@@ -22,8 +22,6 @@ pub(super) struct Part {
     pub form: Form,
     /// The unknowns of the whole.
     pub members: Vec<u32>,
-    /// The rows of the whole.
-    pub rows: Vec<u32>,
 }
 
 /// A problem after the decisions that need no search.
@@ -246,6 +244,5 @@ fn part(
             integer: members.iter().map(|&j| form.integer[j as usize]).collect(),
         },
         members,
-        rows,
     })
 }

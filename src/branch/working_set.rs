@@ -12,11 +12,6 @@ pub(super) struct Ldl {
 }
 
 impl Ldl {
-    /// Number of rows.
-    pub fn len(&self) -> usize {
-        self.diagonal.len()
-    }
-
     /// The last row of L and D if a row with these products and this square were appended. The entry of D is
     /// what is left of the square, and about zero for a row that depends on the others.
     pub fn next_row(&self, products: &[f64], square: f64) -> (Vec<f64>, f64) {
