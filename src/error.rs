@@ -104,6 +104,8 @@ pub enum Error {
         what: String,
         /// The number of the first of them: of a constraint, an inequality or an unknown, as the text says.
         index: Option<usize>,
+        /// All of them.
+        elements: Vec<Conflicting>,
     },
     /// A constraint that no integer values of its unknowns satisfy.
     #[error("constraint {constraint}: {row} has no integer solution")]
@@ -166,6 +168,17 @@ pub enum Error {
     /// Out of time before a first solution was found.
     #[error("the time limit passed before a first solution was found")]
     TimeLimit,
+}
+
+/// A row or the bounds of an unknown, of several that contradict each other.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Conflicting {
+    /// The equality constraint of this number.
+    Constraint(usize),
+    /// The two-sided row of this number.
+    Inequality(usize),
+    /// The bounds of the unknown of this number, or its pin.
+    Bounds(usize),
 }
 
 /// The reason why a client of the solver refuses its input, in a form that every layer can pass on.

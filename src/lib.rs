@@ -72,7 +72,7 @@ pub mod untangle;
 mod test_random;
 
 pub use capi::peak_memory;
-pub use error::{Error, InputError, Result};
+pub use error::{Conflicting, Error, InputError, Result};
 pub use linalg::Ordering;
 pub use monitor::{CancelToken, Event, Flow, Monitor};
 pub use problem::{Layout, Model, Problem, Triangle};

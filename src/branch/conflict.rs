@@ -4,9 +4,9 @@
 //! only integers are missing, rows and bounds are left out one after the other as long as there is still no
 //! solution (the deletion filter of `chinneck1991`).
 
-use super::form::{Form, Interval, Origin};
+use super::form::{Form, Interval};
 use super::tree::{Limits, search};
-use crate::error::Error;
+use crate::error::{Conflicting, Error};
 use crate::monitor::Monitor;
 use crate::problem::{Problem, limits_text, row_text};
 
@@ -20,29 +20,26 @@ const WORK: u64 = 5_000_000;
 /// The largest number of rows and bounds that the text names.
 const NAMED: usize = 6;
 
-/// A row or the bounds of an unknown.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Element {
-    Row(Origin),
-    Bounds(usize),
-}
-
 /// The rows and bounds of a certificate.
-pub(super) fn of_certificate(form: &Form, members: &[u32], rows: &[(u32, f64)]) -> Vec<Element> {
+pub(super) fn of_certificate(
+    form: &Form,
+    members: &[u32],
+    rows: &[(u32, f64)],
+) -> Vec<Conflicting> {
     let largest = rows.iter().fold(0.0, |m: f64, (_, v)| m.max(v.abs()));
     let of = |row: usize| match row.checked_sub(form.dim()) {
-        None => Element::Bounds(members[row] as usize),
-        Some(row) => Element::Row(form.origins[row]),
+        None => Conflicting::Bounds(members[row] as usize),
+        Some(row) => form.origins[row],
     };
     let rows = rows.iter().filter(|(_, v)| v.abs() > 1e-9 * largest);
-    let mut elements: Vec<Element> = rows.map(|&(row, _)| of(row as usize)).collect();
+    let mut elements: Vec<Conflicting> = rows.map(|&(row, _)| of(row as usize)).collect();
     elements.sort_unstable();
     elements.dedup();
     elements
 }
 
 /// A small set of rows and bounds of a form without a solution.
-pub(super) fn of_form(form: &Form, members: &[u32]) -> Vec<Element> {
+pub(super) fn of_form(form: &Form, members: &[u32]) -> Vec<Conflicting> {
     let mut form = form.clone();
     let n = form.dim();
     let bounded = (0..n).filter(|&j| form.limits[j] != Interval::ALL);
@@ -84,7 +81,7 @@ fn has_none(form: &Form) -> bool {
 }
 
 /// The error that names the elements.
-pub(super) fn error(problem: &Problem, elements: &[Element]) -> Error {
+pub(super) fn error(problem: &Problem, elements: &[Conflicting]) -> Error {
     let named: Vec<String> = elements
         .iter()
         .take(NAMED)
@@ -104,24 +101,24 @@ pub(super) fn error(problem: &Problem, elements: &[Element]) -> Error {
     Error::Contradiction {
         what,
         index: elements.first().map(|element| match *element {
-            Element::Row(Origin::Constraint(k) | Origin::Inequality(k)) => k,
-            Element::Bounds(j) => j,
+            Conflicting::Constraint(k) | Conflicting::Inequality(k) | Conflicting::Bounds(k) => k,
         }),
+        elements: elements.to_vec(),
     }
 }
 
-fn text(problem: &Problem, element: Element) -> String {
+fn text(problem: &Problem, element: Conflicting) -> String {
     match element {
-        Element::Row(Origin::Constraint(k)) => {
+        Conflicting::Constraint(k) => {
             let rows = problem.constraint_rows();
             format!("constraint {k}: {}", row_text(rows.row(k), rows.rhs()[k]))
         }
-        Element::Row(Origin::Inequality(k)) => {
+        Conflicting::Inequality(k) => {
             let rows = problem.inequality_rows();
             let text = limits_text(rows.row(k), rows.lower()[k], rows.upper()[k]);
             format!("inequality {k}: {text}")
         }
-        Element::Bounds(j) => {
+        Conflicting::Bounds(j) => {
             let (lower, upper) = problem.limits_of(j);
             let kind = if problem.integers()[j] {
                 "integer "

@@ -1,6 +1,6 @@
 //! A problem in the form that branch and bound reads: one list of two-sided rows, and bounds.
 
-use crate::error::{Error, Result};
+use crate::error::{Conflicting, Error, Result};
 use crate::linalg::Sparse;
 use crate::problem::{Model, Problem};
 
@@ -66,15 +66,6 @@ impl Interval {
     }
 }
 
-/// What the caller calls a row.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Origin {
-    /// The equality constraint of this number.
-    Constraint(usize),
-    /// The inequality of this number.
-    Inequality(usize),
-}
-
 /// `minimise 1/2 x'Qx + q'x + c` over `x` within `limits`, `Ax` within `row_limits`, some unknowns integer.
 #[derive(Debug, Clone)]
 pub(super) struct Form {
@@ -88,7 +79,7 @@ pub(super) struct Form {
     pub rows: Sparse,
     pub row_limits: Vec<Interval>,
     /// What the caller calls each row.
-    pub origins: Vec<Origin>,
+    pub origins: Vec<Conflicting>,
     pub limits: Vec<Interval>,
     /// What `limits` and the rows imply for each unknown. Only bounds on the energy use it.
     pub boxes: Vec<Interval>,
@@ -128,8 +119,8 @@ impl Form {
             rows: without_zeros(&Sparse::stacked(vec![Ok(equalities), Ok(two_sided)])?)?,
             row_limits: rhs.map(|&d| Interval::point(d)).chain(sides).collect(),
             origins: (0..first)
-                .map(Origin::Constraint)
-                .chain((0..second).map(Origin::Inequality))
+                .map(Conflicting::Constraint)
+                .chain((0..second).map(Conflicting::Inequality))
                 .collect(),
             boxes: limits.clone(),
             limits,

@@ -32,12 +32,11 @@ mod shared;
 mod tree;
 mod working_set;
 
-use crate::error::{Error, Result};
+use crate::error::{Conflicting, Error, Result};
 use crate::linalg::sum_below;
 use crate::monitor::{Monitor, Stop};
 use crate::problem::{Model, Problem};
 use crate::search::{Options, StoppedBy, Strategy};
-use conflict::Element;
 use form::Form;
 use presolve::{Contradiction, Part, Presolved};
 use tree::Limits;
@@ -202,8 +201,8 @@ fn search_part(
 /// The error for a contradiction that presolve found, with a small set of rows and bounds at fault.
 fn no_point(problem: &Problem, form: &Form, contradiction: Contradiction) -> Error {
     let own = match contradiction {
-        Contradiction::Row(row) => Element::Row(form.origins[row]),
-        Contradiction::Unknown(variable) => Element::Bounds(variable),
+        Contradiction::Row(row) => form.origins[row],
+        Contradiction::Unknown(variable) => Conflicting::Bounds(variable),
     };
     let members: Vec<u32> = (0..form.dim() as u32).collect();
     let mut elements = conflict::of_form(form, &members);

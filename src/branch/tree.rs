@@ -366,10 +366,8 @@ impl<'a, 'm, 'e> Tree<'a, 'm, 'e> {
                 return Step::Done;
             }
         }
-        match self.choose(&node, &fractional, &point) {
-            Choice::Branch(variable, at) => self.split(node, variable, at, &point),
-            Choice::Cut => Step::Done,
-        }
+        let (variable, at) = self.choose(&node, &fractional, &point);
+        self.split(node, variable, at)
     }
 
     /// Bounds on all unknowns at a node.
@@ -442,7 +440,7 @@ impl<'a, 'm, 'e> Tree<'a, 'm, 'e> {
 
     /// The unknown to branch on and its value. Strong branching may find that one side has no better point;
     /// its bound is then tightened at once, which makes the node's other child empty.
-    fn choose(&mut self, node: &Node, fractional: &[u32], point: &[f64]) -> Choice {
+    fn choose(&mut self, node: &Node, fractional: &[u32], point: &[f64]) -> (u32, f64) {
         let fraction = |j: u32| point[j as usize] - point[j as usize].floor();
         let mut scored: Vec<(f64, u32)> = fractional
             .iter()
@@ -451,7 +449,7 @@ impl<'a, 'm, 'e> Tree<'a, 'm, 'e> {
         scored.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
         let mut best = scored[0];
         if fractional.len() == 1 {
-            return Choice::Branch(best.1, point[best.1 as usize]);
+            return (best.1, point[best.1 as usize]);
         }
         let mut looked = 0;
         let mut first = true;
@@ -504,10 +502,10 @@ impl<'a, 'm, 'e> Tree<'a, 'm, 'e> {
                 first = false;
             }
         }
-        Choice::Branch(best.1, point[best.1 as usize])
+        (best.1, point[best.1 as usize])
     }
 
-    fn split(&mut self, node: Node, variable: u32, value: f64, _point: &[f64]) -> Step {
+    fn split(&mut self, node: Node, variable: u32, value: f64) -> Step {
         let before = self.relaxation.solver.limits()[variable as usize];
         let fraction = value - value.floor();
         let warm: Vec<Active> = self.relaxation.active().to_vec();
@@ -536,12 +534,6 @@ impl<'a, 'm, 'e> Tree<'a, 'm, 'e> {
         let (next, other) = (child(first), child(1 - first));
         Step::Split(next, other)
     }
-}
-
-enum Choice {
-    Branch(u32, f64),
-    #[allow(dead_code)]
-    Cut,
 }
 
 /// The limits below (0) or above (1) a value. An integer value stays in the lower child.

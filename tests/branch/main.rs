@@ -1,0 +1,100 @@
+//! Rows, bounds and integers against exact rational arithmetic: the status, the energy and the bound are
+//! right, and rows and bounds that are named as contradictory are so.
+//!
+//! Each kind of problem is tried a few hundred times here, and 20,000 problems in a test that is ignored by
+//! default.
+
+mod check;
+mod instance;
+mod kinds;
+mod lcp;
+mod oracle;
+#[path = "../common/random.rs"]
+mod random;
+#[path = "../certificate/rational.rs"]
+mod rational;
+
+use check::{Tally, check, check_disguised, check_not_convex};
+use instance::Instance;
+
+type Kind = fn(u64) -> Instance;
+
+const KINDS: [(&str, Kind); 13] = [
+    ("bounds", kinds::bounds),
+    ("ranges", kinds::ranges),
+    ("equalities", kinds::equalities),
+    ("free integers", kinds::free_integers),
+    ("linear", kinds::linear),
+    ("singular", kinds::singular),
+    ("contradictory", kinds::contradictory),
+    ("integrality", kinds::integrality),
+    ("unbounded", kinds::unbounded),
+    ("degenerate", kinds::degenerate),
+    ("large", kinds::large),
+    ("pinned", kinds::pinned),
+    ("not convex", kinds::not_convex),
+];
+
+/// Panics after all seeds, with the first faults.
+fn check_all(name: &str, seeds: std::ops::Range<u64>) -> Tally {
+    let (_, kind) = KINDS.iter().find(|(of, _)| *of == name).unwrap();
+    let mut tally = Tally::default();
+    let mut faults = Vec::new();
+    for seed in seeds.clone() {
+        let of = kind(seed);
+        let right = match name {
+            "not convex" => check_not_convex(&of, &mut tally),
+            _ => check(&of, &mut tally).and_then(|()| check_disguised(&of, seed)),
+        };
+        if let Err(fault) = right {
+            faults.push(format!("{name}, seed {seed}: {fault}"));
+        }
+    }
+    let first = faults.iter().take(12).cloned().collect::<Vec<_>>();
+    let (count, first) = (faults.len(), first.join("\n"));
+    assert!(
+        faults.is_empty(),
+        "{count} of {seeds:?}, {tally:?}\n{first}"
+    );
+    tally
+}
+
+/// A test for each kind. The oracle decides nearly all problems, and the kind is what its name says.
+macro_rules! kinds {
+    ($($test:ident: $name:literal, $holds:expr;)*) => {
+        $(
+            #[test]
+            fn $test() {
+                let tally = check_all($name, 0..400);
+                assert!(tally.undecided <= 4, "{tally:?}");
+                let holds: fn(&Tally) -> bool = $holds;
+                assert!(holds(&tally), "{tally:?}");
+            }
+        )*
+    };
+}
+
+kinds! {
+    bounds_are_kept: "bounds", |t| t.optimal == 400;
+    two_sided_rows_are_kept: "ranges", |t| t.optimal > 350;
+    constraints_are_kept: "equalities", |t| t.optimal > 300;
+    integers_without_bounds_are_decided: "free integers", |t| t.optimal > 300;
+    objectives_without_curvature_are_decided: "linear", |t| t.optimal > 200;
+    objectives_of_less_than_full_rank_are_decided: "singular", |t| t.optimal > 200;
+    contradictions_are_found_and_named: "contradictory", |t| t.infeasible > 50 && t.minimal > 40;
+    gaps_between_integers_are_found_and_named: "integrality", |t| t.infeasible > 50;
+    energies_that_fall_for_ever_are_found: "unbounded", |t| t.unbounded > 50;
+    degenerate_vertices_are_decided: "degenerate", |t| t.optimal > 200;
+    large_coefficients_are_decided: "large", |t| t.optimal > 200;
+    pins_are_kept: "pinned", |t| t.optimal > 150;
+    what_curves_downwards_is_refused: "not convex", |t| t.not_convex > 200;
+}
+
+#[test]
+#[ignore = "20,000 problems in exact arithmetic: minutes"]
+fn twenty_thousand_problems_of_all_kinds_are_decided() {
+    for (name, _) in KINDS {
+        let tally = check_all(name, 1_000..2_539);
+        eprintln!("{name}: {tally:?}");
+    }
+}
