@@ -56,7 +56,8 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     if let Some(out) = std::env::args().nth(1) {
         let rows = vec!["first_angle".into()];
-        let named = MpsProblem::with_names(problem.clone(), "torus_field", "energy", names, rows)?;
+        let copy = problem.clone();
+        let named = MpsProblem::with_names(copy, "torus_field", "energy", names, rows, vec![])?;
         mps::write(Path::new(&out), &named)?;
     }
     for strategy in Strategy::ALL {

@@ -121,7 +121,7 @@ impl Problem {
     }
 
     /// The two-sided rows as given.
-    pub(crate) fn inequality_rows(&self) -> &Inequalities {
+    pub fn inequality_rows(&self) -> &Inequalities {
         &self.inequalities
     }
 

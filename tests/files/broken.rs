@@ -74,7 +74,7 @@ fn each_fault_is_reported_with_its_line_and_word() {
         ("RHS\n", "RHS\nRHS\n", Parse, 11, "already open"),
         ("ENDATA\n", "QMATRIX\n", Parse, 18, "QMATRIX"),
         ("RHS\n", "RHS of p\n", Parse, 10, "of"),
-        ("RHS\n", "RANGES\n", Unsupported, 10, "RANGES"),
+        ("RHS\n", "RANGES\n R f 1\nRHS\n", Parse, 11, "type N"),
         ("QUADOBJ\n", "SOS\n", Unsupported, 15, "SOS"),
         ("ENDATA\n", "", Parse, 17, "ENDATA"),
         ("ENDATA\n", "ENDATA\nmore\n", Parse, 19, "more"),
@@ -98,8 +98,6 @@ fn each_fault_is_reported_with_its_line_and_word() {
         ("ROWS\n", "OBJSENSE up\nROWS\n", Parse, 2, "up"),
         ("ROWS\n", "OBJSENSE MIN\n MIN\nROWS\n", Parse, 3, "MIN"),
         // Rows.
-        (" E c\n", " L c\n", Unsupported, 4, "'c'"),
-        (" E c\n", " G c\n", Unsupported, 4, "inequality (G)"),
         (" E c\n", " Q c\n", Parse, 4, "'Q'"),
         (" E c\n", " E f\n", Parse, 4, "row 'f' is already on line 3"),
         (" E c\n", " E\n", Parse, 4, "'E'"),
@@ -167,19 +165,71 @@ fn each_fault_is_reported_with_its_line_and_word() {
         (" R c 3\n", " R c 3\n S f 4\n", Unsupported, 12, "'S'"),
         (" R c 3\n", " R c inf\n", Parse, 11, "'inf'"),
         (" R c 3\n", " c\n", Parse, 11, "'c'"),
+        (" R c 3\n", " R c 1e20\n R f inf\n", Parse, 12, "'inf'"),
+        // Ranges.
+        (
+            "BOUNDS\n",
+            "RANGES\n R d 1\nBOUNDS\n",
+            Parse,
+            13,
+            "no row 'd'",
+        ),
+        (
+            "BOUNDS\n",
+            "RANGES\n R c 1 c 2\nBOUNDS\n",
+            Parse,
+            13,
+            "row 'c' already has a range",
+        ),
+        (
+            "BOUNDS\n",
+            "RANGES\n R c nan\nBOUNDS\n",
+            Parse,
+            13,
+            "'nan' is not a finite",
+        ),
+        ("BOUNDS\n", "RANGES\n c 1\n S c 1\n", Unsupported, 14, "'S'"),
         // Bounds.
-        (" FR B y\n", " UP B y 4\n", Unsupported, 14, "UP"),
-        (" FR B y\n", " UP B y -4\n", Unsupported, 14, "UP"),
-        (" FR B y\n", " MI B y\n", Unsupported, 14, "MI"),
-        (" FR B y\n", " BV B y\n", Unsupported, 14, "BV"),
+        (
+            " FR B y\n",
+            " SC B y 4\n",
+            Unsupported,
+            14,
+            "semi-continuous",
+        ),
+        (" FR B y\n", " SI B y 4\n", Unsupported, 14, "type SI"),
         (" FR B y\n", " XX B y\n", Parse, 14, "'XX'"),
         (" FR B y\n", " FR B z\n", Parse, 14, "no column 'z'"),
-        (" FR B y\n", " FR B x\n", Parse, 14, "'x' is already free"),
+        (
+            " FR B y\n",
+            " FR B x\n",
+            Parse,
+            14,
+            "lower bound, on line 13",
+        ),
+        (
+            " FR B y\n",
+            " UP B x 1\n",
+            Parse,
+            14,
+            "upper bound, on line 13",
+        ),
         (" FR B y\n", " FR C y\n", Unsupported, 14, "'C'"),
         (" FR B y\n", " FR\n", Parse, 14, "'FR'"),
-        (" FR B y\n", " FR B y 0\n", Parse, 14, "4 fields"),
-        (" FR B y\n", "", Unsupported, 8, "'y'"),
-        ("BOUNDS\n FR B x\n FR B y\n", "", Unsupported, 6, "'x'"),
+        (" FR B y\n", " FR B y 0 0\n", Parse, 14, "5 fields"),
+        (" FR B y\n", " UP y 4\n", Unsupported, 14, "'' beside 'B'"),
+        (" FR B y\n", " UP y\n", Parse, 14, "2 fields"),
+        (" FR B y\n", " FX B y 1e20x\n", Parse, 14, "'1e20x'"),
+        (" FR B y\n", " FX B y inf\n", Parse, 14, "not a finite"),
+        (" FR B y\n", " LO B y 1e20\n", Parse, 14, "no number meets"),
+        (" FR B y\n", " UP B y -inf\n", Parse, 14, "no number meets"),
+        (
+            " FR B y\n",
+            " UP B y 2\n LO B y 3\n",
+            Parse,
+            15,
+            "lower bound 3 above the upper bound 2",
+        ),
         // Quadratic terms.
         (" y x 1\n", " y z 1\n", Parse, 17, "no column 'z'"),
         (" y x 1\n", " y x 1\n y x 1\n", Parse, 18, "on line 17"),
@@ -222,11 +272,6 @@ fn each_fault_is_reported_with_its_line_and_word() {
 fn an_empty_file_is_refused() {
     check(&error(""), &Parse, 1, "empty");
     check(&error("\n\n* nothing\n"), &Parse, 3, "empty");
-}
-
-#[test]
-fn a_column_without_a_bound_is_also_reported_by_its_number() {
-    assert_eq!(error(&GOOD.replace(" FR B y\n", "")).index(), Some(1));
 }
 
 #[test]

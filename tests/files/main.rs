@@ -6,6 +6,7 @@ mod common;
 mod broken;
 #[cfg(feature = "gzip")]
 mod corpus;
+mod limits;
 mod random;
 mod reading;
 mod replay;

@@ -56,7 +56,7 @@ fn named() -> MpsProblem {
     p.set_integers(&[1]).unwrap();
     let variables = ["*x", "ENDATA", "größe"].map(String::from).to_vec();
     let rows = ["RHS", "'INTORG'"].map(String::from).to_vec();
-    MpsProblem::with_names(p, "two words", "$cost", variables, rows).unwrap()
+    MpsProblem::with_names(p, "two words", "$cost", variables, rows, vec![]).unwrap()
 }
 
 #[test]
@@ -76,7 +76,7 @@ fn a_pin_is_written_as_a_constraint_with_an_unused_name() {
     p.add_constraint(&[0, 1], &[1.0, 1.0], 3.0).unwrap();
     p.pin(1, 0.25).unwrap();
     let variables = vec!["a".into(), "b".into()];
-    let p = MpsProblem::with_names(p, "", "f", variables, vec!["PIN_1".into()]).unwrap();
+    let p = MpsProblem::with_names(p, "", "f", variables, vec!["PIN_1".into()], vec![]).unwrap();
     let read = mps::parse(text(&p).as_bytes()).unwrap();
     assert_eq!(read.constraints(), ["PIN_1", "PIN_1_"]);
     let model = Model::new(read.problem()).unwrap();

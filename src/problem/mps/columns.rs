@@ -1,8 +1,8 @@
-//! The section COLUMNS with its integer markers, and the section BOUNDS.
+//! The section COLUMNS with its integer markers.
 
-use super::lines::{Line, quoted, unsupported};
+use super::lines::{Line, quoted};
 use super::names::Names;
-use super::rows::{Row, Rows, VectorName};
+use super::rows::{Row, Rows};
 use crate::error::Result;
 
 /// The columns read so far, and their entries by columns.
@@ -10,8 +10,8 @@ pub(super) struct Columns {
     pub names: Names,
     /// Coefficients of the objective.
     pub linear: Vec<f64>,
-    /// The integer columns.
-    pub integers: Vec<usize>,
+    /// Whether each column is integer.
+    pub integer: Vec<bool>,
     /// The start of each column in `rows` and `values`.
     pub offsets: Vec<usize>,
     /// The constraint of each entry.
@@ -30,7 +30,7 @@ impl Columns {
         Columns {
             names: Names::new("column"),
             linear: Vec::new(),
-            integers: Vec::new(),
+            integer: Vec::new(),
             offsets: Vec::new(),
             rows: Vec::new(),
             values: Vec::new(),
@@ -72,14 +72,12 @@ impl Columns {
     }
 
     fn begin(&mut self, line: &Line, name: &str) -> Result<()> {
-        let column = self.names.insert(line, name)?;
+        self.names.insert(line, name)?;
         self.current.clear();
         self.current.push_str(name);
         self.linear.push(0.0);
         self.offsets.push(self.rows.len());
-        if self.integer_since.is_some() {
-            self.integers.push(column);
-        }
+        self.integer.push(self.integer_since.is_some());
         Ok(())
     }
 
@@ -109,55 +107,5 @@ impl Columns {
         }
         self.offsets.push(self.rows.len());
         Ok(())
-    }
-}
-
-/// The columns declared free. No other bounds are supported, and a column without bounds means x >= 0 in MPS.
-#[derive(Default)]
-pub(super) struct Bounds {
-    set: VectorName,
-    free: Vec<bool>,
-}
-
-impl Bounds {
-    pub fn new(columns: &Columns) -> Self {
-        Bounds {
-            free: vec![false; columns.names.len()],
-            ..Self::default()
-        }
-    }
-
-    /// Reads `FR [SET] COLUMN`.
-    pub fn read(&mut self, line: &Line, columns: &Columns) -> Result<()> {
-        match line.fields()[0] {
-            "FR" => {}
-            kind @ ("LO" | "UP" | "FX" | "MI" | "PL" | "BV" | "LI" | "UI" | "SC" | "SI") => {
-                return Err(line.unsupported(format!("bounds of type {kind}; only FR is")));
-            }
-            kind => return Err(line.fault(format!("there is no bound type {}", quoted(kind)))),
-        }
-        let (set, name) = match line.fields() {
-            [_, name] => (&[][..], name),
-            [_, set @ .., name] if set.len() == 1 => (set, name),
-            _ => return Err(line.wrong_length("FR and a column")),
-        };
-        self.set.check(line, set)?;
-        let column = columns.names.find(line, name)?;
-        if std::mem::replace(&mut self.free[column], true) {
-            return Err(line.fault(format!("column {} is already free", quoted(name))));
-        }
-        Ok(())
-    }
-
-    /// Returns the columns if all of them are free, and otherwise an error that names one that is not.
-    pub fn end(&self, columns: Columns) -> Result<Columns> {
-        let bounded = (0..columns.names.len()).find(|&j| self.free.get(j) != Some(&true));
-        let Some(column) = bounded else {
-            return Ok(columns);
-        };
-        let line = columns.names.lines()[column];
-        let name = quoted(&columns.names.into_vec()[column]);
-        let what = format!("column {name} is not free (no FR in BOUNDS), so that x >= 0 holds");
-        Err(unsupported(line, what, Some(column)))
     }
 }

@@ -2,12 +2,14 @@
 
 use std::io::BufRead;
 
-use super::columns::{Bounds, Columns};
+use super::bounds::Bounds;
+use super::columns::Columns;
 use super::lines::{Line, Lines, fault, quoted};
 use super::names::check_title;
 use super::quadratic::Quadratic;
-use super::rows::{RightSides, Rows};
+use super::rows::Rows;
 use super::sections::Section;
+use super::sides::Sides;
 use super::{MpsNames, MpsProblem};
 use crate::error::Result;
 use crate::problem::{Layout, MatrixRef, Problem, Triangle};
@@ -44,7 +46,7 @@ struct Content {
     has_sense: bool,
     rows: Rows,
     columns: Columns,
-    right_sides: RightSides,
+    sides: Sides,
     bounds: Bounds,
     quadratic: Quadratic,
 }
@@ -57,7 +59,7 @@ impl Content {
             has_sense: false,
             columns: Columns::new(&rows),
             rows,
-            right_sides: RightSides::default(),
+            sides: Sides::default(),
             bounds: Bounds::default(),
             quadratic: Quadratic::default(),
         }
@@ -74,7 +76,7 @@ impl Content {
             Section::ObjSense if line.fields().len() > 1 => self.read_sense(line, 1)?,
             Section::Columns => {
                 self.columns = Columns::new(&self.rows);
-                self.right_sides = RightSides::new(&self.rows);
+                self.sides = Sides::new(&self.rows);
             }
             Section::Bounds => self.bounds = Bounds::new(&self.columns),
             Section::QuadObj => self.quadratic = Quadratic::new(false),
@@ -89,8 +91,9 @@ impl Content {
             Section::ObjSense => self.read_sense(line, 0),
             Section::Rows => self.rows.read(line),
             Section::Columns => self.columns.read(line, &self.rows),
-            Section::Rhs => self.right_sides.read(line, &self.rows),
-            Section::Bounds => self.bounds.read(line, &self.columns),
+            Section::Rhs => self.sides.read_right(line, &self.rows),
+            Section::Ranges => self.sides.read_range(line, &self.rows),
+            Section::Bounds => self.bounds.read(line, &mut self.columns),
             Section::QuadObj | Section::QMatrix => self.quadratic.read(line, &self.columns.names),
             Section::Start | Section::Name | Section::EndData => {
                 let text = quoted(line.fields()[0]);
@@ -124,28 +127,129 @@ impl Content {
     }
 
     fn into_problem(self) -> Result<MpsProblem> {
-        let columns = self.bounds.end(self.columns)?;
+        let columns = self.columns;
         let variables = columns.names.len();
         let mut problem = Problem::new(variables)?;
         let (rows, cols, values) = self.quadratic.lower_triangle(variables)?;
         problem.add_quadratic_triplets(Triangle::Lower, &rows, &cols, &values)?;
         problem.add_linear(&columns.linear)?;
-        problem.add_constant(self.right_sides.constant)?;
-        let matrix = MatrixRef {
-            layout: Layout::Columns,
-            offsets: &columns.offsets,
-            indices: &columns.rows,
-            values: &columns.values,
-        };
-        problem.add_constraint_matrix(&matrix, &self.right_sides.values)?;
-        problem.set_integers(&columns.integers)?;
-        let (objective, constraints) = self.rows.into_names();
+        problem.add_constant(self.sides.constant)?;
+        let roles = Roles::new(&self.rows, &self.sides);
+        let equalities = roles.entries_of(&columns, true);
+        problem.add_constraint_matrix(&equalities.as_ref(), &roles.right)?;
+        let inequalities = roles.entries_of(&columns, false);
+        problem.add_inequality_matrix(&inequalities.as_ref(), &roles.lower, &roles.upper)?;
+        set_bounds(&mut problem, &columns, &self.bounds)?;
+        let integer = columns.integer.iter().enumerate();
+        let integers: Vec<usize> = integer.filter(|(_, is)| **is).map(|(j, _)| j).collect();
+        problem.set_integers(&integers)?;
+        let (objective, rows) = self.rows.into_names();
+        let [mut constraints, mut inequalities] = [Vec::new(), Vec::new()];
+        for (name, &(equality, _)) in rows.into_iter().zip(&roles.of) {
+            if equality {
+                &mut constraints
+            } else {
+                &mut inequalities
+            }
+            .push(name);
+        }
         let names = MpsNames {
             title: self.title,
             objective,
             variables: columns.names.into_vec(),
             constraints,
+            inequalities,
         };
         Ok(MpsProblem { problem, names })
     }
+}
+
+/// The rows of the file as equalities and inequalities, each kind in the order of the file.
+struct Roles {
+    /// For each constraint of the file, whether it is an equality, and its number among its kind.
+    of: Vec<(bool, usize)>,
+    /// The right sides of the equalities.
+    right: Vec<f64>,
+    /// The sides of the inequalities.
+    lower: Vec<f64>,
+    upper: Vec<f64>,
+}
+
+impl Roles {
+    fn new(rows: &Rows, sides: &Sides) -> Self {
+        let mut roles = Roles {
+            of: Vec::with_capacity(rows.relations().len()),
+            right: Vec::new(),
+            lower: Vec::new(),
+            upper: Vec::new(),
+        };
+        for (i, &relation) in rows.relations().iter().enumerate() {
+            let (lower, upper) = sides.of(i, relation);
+            if sides.is_equality(i, relation) {
+                roles.of.push((true, roles.right.len()));
+                roles.right.push(upper);
+            } else {
+                roles.of.push((false, roles.lower.len()));
+                roles.lower.push(lower);
+                roles.upper.push(upper);
+            }
+        }
+        roles
+    }
+
+    /// The entries of the rows of one kind, by columns.
+    fn entries_of(&self, columns: &Columns, equality: bool) -> Entries {
+        let mut entries = Entries {
+            offsets: vec![0],
+            ..Entries::default()
+        };
+        for window in columns.offsets.windows(2) {
+            for k in window[0]..window[1] {
+                let (kind, row) = self.of[columns.rows[k]];
+                if kind == equality {
+                    entries.rows.push(row);
+                    entries.values.push(columns.values[k]);
+                }
+            }
+            entries.offsets.push(entries.rows.len());
+        }
+        entries
+    }
+}
+
+/// A matrix by columns.
+#[derive(Default)]
+struct Entries {
+    offsets: Vec<usize>,
+    rows: Vec<usize>,
+    values: Vec<f64>,
+}
+
+impl Entries {
+    fn as_ref(&self) -> MatrixRef<'_> {
+        MatrixRef {
+            layout: Layout::Columns,
+            offsets: &self.offsets,
+            indices: &self.rows,
+            values: &self.values,
+        }
+    }
+}
+
+/// Sets the bounds of the columns that are not free.
+fn set_bounds(problem: &mut Problem, columns: &Columns, bounds: &Bounds) -> Result<()> {
+    let mut bounded = Vec::new();
+    let [mut lower, mut upper] = [Vec::new(), Vec::new()];
+    for (j, &integer) in columns.integer.iter().enumerate() {
+        let (l, u) = bounds.of(j, integer);
+        if l.is_finite() || u.is_finite() {
+            bounded.push(j);
+            lower.push(l);
+            upper.push(u);
+        }
+    }
+    if bounded.is_empty() {
+        return Ok(());
+    }
+    problem.set_bounds(&bounded, &lower, &upper)
 }

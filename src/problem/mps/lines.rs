@@ -10,6 +10,9 @@ use crate::error::{Error, Result};
 /// Longest line accepted, in bytes.
 pub(super) const MAX_LINE: usize = 1 << 16;
 
+/// Limits of this size and beyond are infinite, as CPLEX, Gurobi, SCIP and Xpress have it.
+pub(super) const INFINITE: f64 = 1e20;
+
 /// The largest number of fields on a line of any section.
 const MAX_FIELDS: usize = 5;
 
@@ -132,6 +135,24 @@ impl<'a> Line<'a> {
             Ok(_) => Err(self.fault(format!("{} is not a finite number", quoted(field)))),
             Err(_) => Err(self.fault(format!("{} is not a number", quoted(field)))),
         }
+    }
+
+    /// The limit in `field`: a number, or an infinity where the size is [`INFINITE`] or more.
+    pub fn limit(&self, field: &str) -> Result<f64> {
+        match field.parse::<f64>() {
+            Ok(value) if value.abs() >= INFINITE => Ok(f64::INFINITY.copysign(value)),
+            Ok(value) if value.is_finite() => Ok(value),
+            _ => self.value(field),
+        }
+    }
+
+    /// The limit in `field`, which must not be the infinity that no number meets.
+    pub fn limit_but(&self, impossible: f64, field: &str) -> Result<f64> {
+        let limit = self.limit(field)?;
+        if limit == impossible {
+            return Err(self.fault(format!("no number meets the limit {}", quoted(field))));
+        }
+        Ok(limit)
     }
 
     /// The leading name and the one or two pairs (name, number) that follow it.

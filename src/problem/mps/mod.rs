@@ -7,23 +7,31 @@
 //! | --- | --- |
 //! | `NAME` | the rest of the line, which may be left out |
 //! | `OBJSENSE` | `MIN`, on the same line or the next |
-//! | `ROWS` | `N` (the first is the objective, others are ignored) and `E` |
+//! | `ROWS` | `N` (the first is the objective, others are ignored), `E`, `L`, `G` |
 //! | `COLUMNS` | one or two entries a line; integer columns between `'MARKER' 'INTORG'` and `'MARKER' 'INTEND'` |
 //! | `RHS` | right sides; that of the objective is minus the constant c |
-//! | `BOUNDS` | `FR`, which every column needs: without it MPS means x >= 0 |
+//! | `RANGES` | the distance between the two sides of a row |
+//! | `BOUNDS` | `LO`, `UP`, `FX`, `FR`, `MI`, `PL`, and `BV`, `LI`, `UI`, which make a column integer |
 //! | `QUADOBJ` | one triangle of Q in 1/2 x'Qx: an off-diagonal entry stands for its mirror image too |
 //! | `QMATRIX` | instead of `QUADOBJ`: both triangles, which must agree |
 //! | `ENDATA` | needed |
 //!
 //! The sections come in this order. Section names start in the first column, all other lines with a blank.
 //! Names are any text without blanks, and lines that start with `*` are comments. Every other feature of MPS
-//! (inequalities, ranges, other bounds, maximisation, ...) is [`Error::NotSupported`] with its line. Text
+//! (semi-continuous variables, maximisation, ...) is [`Error::NotSupported`] with its line. Text
 //! that is not MPS is [`Error::Parse`] with its line. Nothing is skipped or guessed, and no entry may be
 //! given twice.
+//!
+//! Where the format leaves a choice, CPLEX, Gurobi, SCIP and HiGHS agree, and so does this reader. A column
+//! without a bound has the lower bound 0; an integer column without a bound is binary. A negative upper bound
+//! without a lower bound leaves the column without one. A range R of a row with right side b means
+//! [b - |R|, b] for `L`, [b, b + |R|] for `G`, and for `E` [b, b + R] or, if R is negative, [b + R, b]. A
+//! bound, right side or range of 1e20 or more is infinite.
 //!
 //! The reader recognises gzip by the content of the file, the writer by a file name that ends in `.gz`
 //! (feature `gzip`).
 
+mod bounds;
 mod columns;
 mod compression;
 mod content;
@@ -33,6 +41,7 @@ mod names;
 mod quadratic;
 mod rows;
 mod sections;
+mod sides;
 mod write;
 
 use std::io::BufRead;

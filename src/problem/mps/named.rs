@@ -20,30 +20,33 @@ pub(crate) struct MpsNames {
     pub objective: String,
     pub variables: Vec<String>,
     pub constraints: Vec<String>,
+    pub inequalities: Vec<String>,
 }
 
 impl MpsNames {
-    /// The names `OBJ`, x0, x1, ... and c0, c1, ...
-    pub fn numbered(variables: usize, constraints: usize) -> Self {
+    /// The names `OBJ`, x0, x1, ..., c0, c1, ... and r0, r1, ...
+    pub fn numbered(variables: usize, constraints: usize, inequalities: usize) -> Self {
         MpsNames {
             title: String::new(),
             objective: "OBJ".into(),
             variables: (0..variables).map(|i| format!("x{i}")).collect(),
             constraints: (0..constraints).map(|i| format!("c{i}")).collect(),
+            inequalities: (0..inequalities).map(|i| format!("r{i}")).collect(),
         }
     }
 }
 
 impl MpsProblem {
-    /// `problem` without a title, with the objective `OBJ`, variables x0, x1, ... and constraints
-    /// c0, c1, ...
+    /// `problem` without a title, with the objective `OBJ`, variables x0, x1, ..., constraints c0, c1, ...
+    /// and inequalities r0, r1, ...
     pub fn new(problem: Problem) -> Self {
-        let names = MpsNames::numbered(problem.variables(), problem.constraints());
+        let rows = (problem.constraints(), problem.inequalities());
+        let names = MpsNames::numbered(problem.variables(), rows.0, rows.1);
         MpsProblem { problem, names }
     }
 
     /// `problem` with the caller's names. Names must not be empty or contain blanks. Each must be unique
-    /// among the variables, or among the constraints and the objective. The title may be empty and may
+    /// among the variables, or among the rows: constraints, inequalities and the objective. The title may be empty and may
     /// contain blanks.
     ///
     /// # Errors
@@ -55,21 +58,27 @@ impl MpsProblem {
         objective: &str,
         variables: Vec<String>,
         constraints: Vec<String>,
+        inequalities: Vec<String>,
     ) -> Result<Self> {
         same_count("variable names", problem.variables(), variables.len())?;
         same_count("constraint names", problem.constraints(), constraints.len())?;
+        let rows = problem.inequalities();
+        same_count("inequality names", rows, inequalities.len())?;
         check_title(title).map_err(|what| Error::InvalidArgument { what, index: None })?;
-        check_names("variable", &variables, None)?;
+        check_names("variable", &variables, &[])?;
         check_name(objective).map_err(|fault| Error::InvalidArgument {
             what: format!("objective {fault}"),
             index: None,
         })?;
-        check_names("constraint", &constraints, Some(objective))?;
+        check_names("constraint", &constraints, &[objective.to_owned()])?;
+        let taken = [&constraints[..], &[objective.to_owned()]].concat();
+        check_names("inequality", &inequalities, &taken)?;
         let names = MpsNames {
             title: title.to_owned(),
             objective: objective.to_owned(),
             variables,
             constraints,
+            inequalities,
         };
         Ok(MpsProblem { problem, names })
     }
@@ -99,9 +108,14 @@ impl MpsProblem {
         &self.names.variables
     }
 
-    /// The names of the constraints.
+    /// The names of the constraints, which are equalities.
     pub fn constraints(&self) -> &[String] {
         &self.names.constraints
+    }
+
+    /// The names of the inequalities.
+    pub fn inequalities(&self) -> &[String] {
+        &self.names.inequalities
     }
 }
 
@@ -109,8 +123,8 @@ fn same_count(what: &'static str, expected: usize, actual: usize) -> Result<()> 
     crate::problem::check::same_length(what, expected, actual)
 }
 
-fn check_names(what: &str, names: &[String], taken: Option<&str>) -> Result<()> {
-    let mut seen: std::collections::HashSet<&str> = taken.into_iter().collect();
+fn check_names(what: &str, names: &[String], taken: &[String]) -> Result<()> {
+    let mut seen: std::collections::HashSet<&str> = taken.iter().map(String::as_str).collect();
     for (i, name) in names.iter().enumerate() {
         let fault = match check_name(name) {
             Err(fault) => fault,
@@ -133,7 +147,14 @@ mod tests {
         let mut problem = Problem::new(2).unwrap();
         problem.add_constraint(&[0], &[1.0], 0.0).unwrap();
         let variables = variables.map(String::from).to_vec();
-        MpsProblem::with_names(problem, "", objective, variables, vec![constraint.into()])
+        MpsProblem::with_names(
+            problem,
+            "",
+            objective,
+            variables,
+            vec![constraint.into()],
+            vec![],
+        )
     }
 
     #[test]
@@ -159,12 +180,12 @@ mod tests {
     #[test]
     fn too_few_names_and_titles_over_two_lines_are_refused() {
         let problem = Problem::new(1).unwrap();
-        let none = MpsProblem::with_names(problem.clone(), "", "f", vec![], vec![]);
+        let none = MpsProblem::with_names(problem.clone(), "", "f", vec![], vec![], vec![]);
         assert!(matches!(
             none,
             Err(Error::LengthMismatch { expected: 1, .. })
         ));
-        let title = MpsProblem::with_names(problem, "a\nb", "f", vec!["x".into()], vec![]);
+        let title = MpsProblem::with_names(problem, "a\nb", "f", vec!["x".into()], vec![], vec![]);
         assert!(matches!(title, Err(Error::InvalidArgument { .. })));
     }
 }

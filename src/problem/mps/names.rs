@@ -61,11 +61,6 @@ impl Names {
         }
     }
 
-    /// The line on which each name was inserted.
-    pub fn lines(&self) -> &[usize] {
-        &self.lines
-    }
-
     /// All names, in order.
     pub fn into_vec(self) -> Vec<String> {
         let mut names = vec![String::new(); self.lines.len()];

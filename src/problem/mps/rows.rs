@@ -1,4 +1,4 @@
-//! The section ROWS, and the right sides of the rows in the section RHS.
+//! The section ROWS.
 
 use super::lines::{Line, quoted};
 use super::names::Names;
@@ -11,8 +11,16 @@ pub(super) enum Row {
     Objective,
     /// Another `N` row, which has no meaning.
     Ignored,
-    /// The equality constraint of this number.
+    /// The constraint of this number.
     Constraint(usize),
+}
+
+/// What a constraint says of its row.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Relation {
+    Equal,
+    AtMost,
+    AtLeast,
 }
 
 /// The rows read so far.
@@ -20,7 +28,8 @@ pub(super) struct Rows {
     names: Names,
     kinds: Vec<Row>,
     objective: Option<usize>,
-    constraints: usize,
+    /// One for each constraint.
+    relations: Vec<Relation>,
 }
 
 impl Rows {
@@ -29,32 +38,32 @@ impl Rows {
             names: Names::new("row"),
             kinds: Vec::new(),
             objective: None,
-            constraints: 0,
+            relations: Vec::new(),
         }
     }
 
-    /// Reads `E NAME` or `N NAME`.
+    /// Reads `TYPE NAME`.
     pub fn read(&mut self, line: &Line) -> Result<()> {
         let &[kind, name] = line.fields() else {
             return Err(line.wrong_length("the type and name of a row"));
         };
-        let kind = match kind {
-            "E" => Row::Constraint(self.constraints),
-            "N" if self.objective.is_none() => Row::Objective,
-            "N" => Row::Ignored,
-            "L" | "G" => {
-                let row = quoted(name);
-                return Err(line.unsupported(format!("row {row} is an inequality ({kind})")));
-            }
+        let relation = match kind {
+            "E" => Some(Relation::Equal),
+            "L" => Some(Relation::AtMost),
+            "G" => Some(Relation::AtLeast),
+            "N" => None,
             _ => return Err(line.fault(format!("there is no row type {}", quoted(kind)))),
         };
         let number = self.names.insert(line, name)?;
-        match kind {
-            Row::Objective => self.objective = Some(number),
-            Row::Constraint(_) => self.constraints += 1,
-            Row::Ignored => {}
+        self.kinds.push(match (relation, self.objective) {
+            (Some(_), _) => Row::Constraint(self.relations.len()),
+            (None, None) => Row::Objective,
+            (None, Some(_)) => Row::Ignored,
+        });
+        match relation {
+            Some(relation) => self.relations.push(relation),
+            None => self.objective = self.objective.or(Some(number)),
         }
-        self.kinds.push(kind);
         Ok(())
     }
 
@@ -77,10 +86,15 @@ impl Rows {
         Ok((number, self.kinds[number]))
     }
 
+    /// What each constraint says.
+    pub fn relations(&self) -> &[Relation] {
+        &self.relations
+    }
+
     /// The names of the objective and of the constraints.
     pub fn into_names(self) -> (String, Vec<String>) {
         let mut objective = String::new();
-        let mut constraints = Vec::with_capacity(self.constraints);
+        let mut constraints = Vec::with_capacity(self.relations.len());
         for (name, kind) in self.names.into_vec().into_iter().zip(self.kinds) {
             match kind {
                 Row::Objective => objective = name,
@@ -89,51 +103,6 @@ impl Rows {
             }
         }
         (objective, constraints)
-    }
-}
-
-/// The right sides, which are zero unless given.
-#[derive(Default)]
-pub(super) struct RightSides {
-    set: VectorName,
-    given: Vec<bool>,
-    /// One number for each constraint.
-    pub values: Vec<f64>,
-    /// The constant of the objective: minus its right side.
-    pub constant: f64,
-}
-
-impl RightSides {
-    pub fn new(rows: &Rows) -> Self {
-        RightSides {
-            given: vec![false; rows.len()],
-            values: vec![0.0; rows.constraints],
-            ..Self::default()
-        }
-    }
-
-    /// Reads `[SET] ROW VALUE [ROW VALUE]`.
-    pub fn read(&mut self, line: &Line, rows: &Rows) -> Result<()> {
-        let first = match line.fields().len() {
-            2 | 4 => 0,
-            3 | 5 => 1,
-            _ => return Err(line.wrong_length("one or two pairs of row and number")),
-        };
-        self.set.check(line, &line.fields()[..first])?;
-        for (name, value) in line.pairs(first) {
-            let (number, row) = rows.find(line, name)?;
-            let value = line.value(value)?;
-            if std::mem::replace(&mut self.given[number], true) {
-                let row = quoted(name);
-                return Err(line.fault(format!("row {row} already has a right side")));
-            }
-            match row {
-                Row::Objective => self.constant = -value,
-                Row::Ignored => {}
-                Row::Constraint(i) => self.values[i] = value,
-            }
-        }
-        Ok(())
     }
 }
 

@@ -12,6 +12,7 @@ pub(super) enum Section {
     Rows,
     Columns,
     Rhs,
+    Ranges,
     Bounds,
     QuadObj,
     QMatrix,
@@ -27,6 +28,7 @@ impl Section {
             Section::Rows => "ROWS",
             Section::Columns => "COLUMNS",
             Section::Rhs => "RHS",
+            Section::Ranges => "RANGES",
             Section::Bounds => "BOUNDS",
             Section::QuadObj => "QUADOBJ",
             Section::QMatrix => "QMATRIX",
@@ -51,11 +53,11 @@ impl Section {
             "ROWS" => Section::Rows,
             "COLUMNS" => Section::Columns,
             "RHS" => Section::Rhs,
+            "RANGES" => Section::Ranges,
             "BOUNDS" => Section::Bounds,
             "QUADOBJ" => Section::QuadObj,
             "QMATRIX" => Section::QMatrix,
             "ENDATA" => Section::EndData,
-            "RANGES" => return Err(line.unsupported("ranges (section RANGES)")),
             "OBJNAME" | "OBJECTIVE" | "USERCUTS" | "LAZYCONS" | "SOS" | "SOS1" | "SOS2"
             | "SETS" | "QSECTION" | "QCMATRIX" | "CSECTION" | "INDICATORS" | "GENCONS"
             | "PWLOBJ" | "BRANCH" => {

@@ -41,7 +41,8 @@ pub fn save(path: &Path, problem: &Problem, options: &Options) -> Result<()> {
         ..Replay::default()
     };
     let text = replay.to_text()?;
-    let names = mps::MpsNames::numbered(replay.variables, replay.constraints);
+    let names =
+        mps::MpsNames::numbered(replay.variables, replay.constraints, problem.inequalities());
     mps::write_model(path, &model, &names, mps::Pins::Elsewhere)?;
     std::fs::write(&replay_path, text).map_err(|e| mps::io_error(&replay_path, e))
 }
