@@ -16,7 +16,8 @@ use std::error::Error;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::path::Path;
 
-use roundel::problem::mps::{self, MpsProblem};
+use roundel::problem::files::NamedProblem;
+use roundel::problem::mps;
 use roundel::{Options, Problem, Strategy};
 
 /// The numbers of vertices around the hole and around the tube. They give 24 triangles.
@@ -57,7 +58,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     if let Some(out) = std::env::args().nth(1) {
         let rows = vec!["first_angle".into()];
         let copy = problem.clone();
-        let named = MpsProblem::with_names(copy, "torus_field", "energy", names, rows, vec![])?;
+        let named = NamedProblem::with_names(copy, "torus_field", "energy", names, rows, vec![])?;
         mps::write(Path::new(&out), &named)?;
     }
     for strategy in Strategy::ALL {

@@ -29,7 +29,7 @@
 //!
 //! | Part of the interface | Contents |
 //! | --- | --- |
-//! | [`Problem`], [`problem::mps`] | a problem, and its files |
+//! | [`Problem`], [`problem::files`] | a problem, and its files |
 //! | [`Options`], [`Strategy`], [`WarmStart`], [`search`] | what a solve may do; the list of all options |
 //! | [`solve()`], [`solve_with`], [`Solver`], [`Solution`], [`mod@solve`] | one solve, re-solves, results, verification, replay |
 //! | [`Monitor`], [`Event`], [`CancelToken`], [`monitor`] | progress, cancel, time limit |

@@ -40,7 +40,7 @@ pub enum Content {
 /// A mesh with texture coordinates.
 pub const MAP: Content = Content::Only(&["obj"]);
 /// A problem.
-pub const PROBLEM: Content = Content::Only(&["mps", "mps.gz"]);
+pub const PROBLEM: Content = Content::Only(&["mps", "mps.gz", "lp", "lp.gz"]);
 /// A trace.
 pub const TRACE: Content = Content::Only(&["json"]);
 /// A picture.

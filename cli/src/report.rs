@@ -17,6 +17,9 @@ pub struct Report<'a> {
     stopped_by: &'a str,
     energy: Option<f64>,
     lower_bound: Option<f64>,
+    /// Instead of the lower bound, where the file maximises.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    upper_bound: Option<Option<f64>>,
     gap: Option<f64>,
     variables: usize,
     integers: usize,
@@ -70,6 +73,7 @@ impl<'a> Report<'a> {
             stopped_by: solution.stopped_by().name(),
             energy: finite(solution.energy()),
             lower_bound: telling_bound(solution),
+            upper_bound: None,
             gap: telling_gap(solution.gap()),
             variables: counts.variables,
             integers: counts.integers,
@@ -88,6 +92,20 @@ impl<'a> Report<'a> {
             peak_memory_bytes,
             max_constraint_violation: finite(solution.max_constraint_violation()),
             max_integrality_violation: finite(solution.max_integrality_violation()),
+        }
+    }
+
+    /// The same report for a file that maximises, if it does: energy and bound are those of its objective, of
+    /// which the solver minimised the negative.
+    pub fn in_sense_of_file(self, maximise: bool) -> Self {
+        if !maximise {
+            return self;
+        }
+        Report {
+            energy: self.energy.map(|energy| -energy),
+            lower_bound: None,
+            upper_bound: Some(self.lower_bound.map(|bound| -bound)),
+            ..self
         }
     }
 }

@@ -1,9 +1,9 @@
-//! `roundel solve`: reads an MPS file, solves the problem and reports the solution.
+//! `roundel solve`: reads a problem from a file, solves the problem and reports the solution.
 
 use std::path::PathBuf;
 use std::time::Instant;
 
-use roundel::problem::mps::{self, MpsProblem};
+use roundel::problem::files::{self, NamedProblem};
 use roundel::solve::replay;
 use roundel::{Options, Result, Solution, Strategy};
 
@@ -16,11 +16,11 @@ use crate::report::{Preparation, Report};
 use crate::summary::Summary;
 use crate::threads::TraceFlags;
 
-/// Solve a problem from an MPS file.
+/// Solve a problem from an MPS, LP or QPLIB file.
 #[derive(clap::Args)]
 #[command(after_help = exit::HELP)]
 pub struct Arguments {
-    /// The problem: free-format MPS, also compressed (.gz)
+    /// The problem: LP for .lp, QPLIB for .qplib, MPS for any other ending, each also compressed (.gz)
     #[arg(value_name = "FILE")]
     file: PathBuf,
 
@@ -57,7 +57,7 @@ pub fn run(arguments: &Arguments) -> Exit {
 
 /// What was read.
 struct Input {
-    mps: MpsProblem,
+    named: NamedProblem,
     options: Options,
     seconds: f64,
 }
@@ -65,14 +65,14 @@ struct Input {
 fn read(arguments: &Arguments) -> Result<Input> {
     let started = Instant::now();
     let file = &arguments.file;
-    let (mps, options) = if arguments.replay {
+    let (named, options) = if arguments.replay {
         let (problem, options) = replay::load(file)?;
-        (MpsProblem::new(problem), options)
+        (NamedProblem::new(problem), options)
     } else {
-        (mps::read(file)?, Options::default())
+        (files::read(file)?, Options::default())
     };
     Ok(Input {
-        mps,
+        named,
         options: arguments.solver.over(options)?,
         seconds: started.elapsed().as_secs_f64(),
     })
@@ -82,6 +82,7 @@ fn read(arguments: &Arguments) -> Result<Input> {
 struct Solved {
     strategy: Strategy,
     read: f64,
+    maximise: bool,
     solution: Solution,
 }
 
@@ -94,13 +95,14 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
     let mut progress = Progress::start(arguments.output.quiet)?;
     let mut input = read(arguments)?;
     progress.limit(&mut input.options, started);
-    let solution = roundel::solve_with(input.mps.problem(), &input.options, progress.monitor())?;
+    let solution = roundel::solve_with(input.named.problem(), &input.options, progress.monitor())?;
     if let Some(path) = &arguments.solution {
-        output::write_values(path, input.mps.variables(), solution.values())?;
+        output::write_values(path, input.named.variables(), solution.values())?;
     }
     Ok(Solved {
         strategy: input.options.strategy,
         read: input.seconds,
+        maximise: input.named.maximises(),
         solution,
     })
 }
@@ -108,20 +110,18 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
 fn tell(arguments: &Arguments, solved: &Solved) -> Result<()> {
     let strategy = solved.strategy.name();
     if arguments.json {
-        output::print_json(&Report::new(
-            &arguments.file,
-            strategy,
-            Preparation {
-                read: solved.read,
-                assemble: None,
-            },
-            &solved.solution,
-            roundel::peak_memory(),
-        ))
+        let before = Preparation {
+            read: solved.read,
+            assemble: None,
+        };
+        let memory = roundel::peak_memory();
+        let report = Report::new(&arguments.file, strategy, before, &solved.solution, memory);
+        output::print_json(&report.in_sense_of_file(solved.maximise))
     } else {
         let summary = Summary {
             strategy,
             read: solved.read,
+            maximise: solved.maximise,
             solution: &solved.solution,
         };
         output::print(&summary.to_string())

@@ -11,6 +11,8 @@ pub struct Summary<'a> {
     /// Seconds that reading took.
     pub read: f64,
     /// What was found.
+    /// Whether the file maximises, so that its objective is minus the energy.
+    pub maximise: bool,
     pub solution: &'a Solution,
 }
 
@@ -29,9 +31,10 @@ impl fmt::Display for Summary<'_> {
             counted(counts.reduced_integers, "integer"),
             thousands(counts.reduced_continuous)
         );
+        let value = self.solution.energy();
         let found = format!(
             "{}, {}",
-            energy(self.solution.energy()),
+            energy(if self.maximise { -value } else { value }),
             verdict(self.solution)
         );
         line(f, "read", &read, self.read)?;

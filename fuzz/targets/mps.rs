@@ -9,7 +9,10 @@ fuzz_target!(|bytes: &[u8]| {
         return;
     };
     let mut text = Vec::new();
-    mps::write_to(&mut text, &first).expect("a problem that was read can be written");
+    // A range may reach limits that readers take for infinite.
+    if mps::write_to(&mut text, &first).is_err() {
+        return;
+    }
     let again = mps::parse(text.as_slice()).expect("what was written can be read");
     let mut same = Vec::new();
     mps::write_to(&mut same, &again).expect("a problem that was read can be written");

@@ -9,7 +9,8 @@ use super::output::Out;
 use super::problem::roundel_problem;
 use super::status::roundel_status;
 use crate::problem::Problem;
-use crate::problem::mps::{self, MpsProblem};
+use crate::problem::files::NamedProblem;
+use crate::problem::mps;
 use crate::search::Options;
 use crate::solve::replay;
 
@@ -44,7 +45,7 @@ pub unsafe extern "C" fn roundel_problem_write_mps(
     let body = |value: &Problem| {
         // SAFETY: the caller gives a text, or NULL.
         let file = unsafe { path("file", file) }?;
-        Ok(mps::write(file, &MpsProblem::new(value.clone()))?)
+        Ok(mps::write(file, &NamedProblem::new(value.clone()))?)
     };
     // SAFETY: the caller gives a live handle, or NULL.
     unsafe { guard::read(problem, body) }

@@ -2,11 +2,14 @@
 
 mod check;
 mod cycles;
+pub mod files;
 mod limits;
+pub mod lp;
 mod matrix;
 mod model;
 pub mod mps;
 mod objective;
+pub mod qplib;
 mod rows;
 mod text;
 

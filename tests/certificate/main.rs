@@ -12,7 +12,8 @@ mod rational;
 use num_rational::BigRational;
 use random::Random;
 use rational::{Quadratic, exact, zero};
-use roundel::problem::mps::{self, MpsProblem};
+use roundel::problem::files::NamedProblem;
+use roundel::problem::mps;
 use roundel::{Options, Problem, Solution, SolveStatus, Strategy, solve};
 
 /// A problem in the caller's numbers: the first `integers` unknowns are integer.
@@ -141,7 +142,7 @@ impl Case {
     /// The problem as a file states it.
     fn through_a_file(&self) -> Problem {
         let mut text = Vec::new();
-        mps::write_to(&mut text, &MpsProblem::new(self.problem())).unwrap();
+        mps::write_to(&mut text, &NamedProblem::new(self.problem())).unwrap();
         mps::parse(text.as_slice()).unwrap().into_problem()
     }
 

@@ -1,10 +1,11 @@
 //! The meaning of rows, ranges and bounds of an MPS file.
 
-use roundel::problem::mps::{self, MpsProblem};
+use roundel::problem::files::NamedProblem;
+use roundel::problem::mps;
 
 const INF: f64 = f64::INFINITY;
 
-fn read(text: &str) -> MpsProblem {
+fn read(text: &str) -> NamedProblem {
     mps::parse(text.as_bytes()).unwrap()
 }
 

@@ -6,7 +6,10 @@ mod common;
 mod broken;
 #[cfg(feature = "gzip")]
 mod corpus;
+mod dialects;
 mod limits;
+mod lp;
+mod qplib;
 mod random;
 mod reading;
 mod replay;

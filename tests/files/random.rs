@@ -26,6 +26,21 @@ fn row(n: usize, number: impl Strategy<Value = f64>) -> impl Strategy<Value = Ro
     (vec((0..n, number), 0..5), moderate())
 }
 
+/// Two limits in order, of which each may be infinite, near to each other or far away, often 0 and 1.
+fn sides() -> impl Strategy<Value = (f64, f64)> {
+    let limit = prop_oneof![
+        number().prop_filter("a limit of files", |v| v.abs() < 1e20),
+        moderate(),
+        (-2i32..3).prop_map(f64::from),
+        Just(f64::INFINITY),
+    ];
+    (limit.clone(), limit).prop_map(|(a, b)| match (a.is_finite(), b.is_finite()) {
+        (true, true) => (a.min(b), a.max(b)),
+        (false, _) => (f64::NEG_INFINITY, b),
+        (_, false) => (a, b),
+    })
+}
+
 type Row = (Vec<(usize, f64)>, f64);
 
 fn split(row: &Row) -> (Vec<usize>, Vec<f64>, f64) {
@@ -44,48 +59,98 @@ pub fn problem() -> impl Strategy<Value = Problem> {
             vec(row(n, moderate()), 0..4),
             vec(row(n, number()), 0..5),
             vec(any::<bool>(), n),
+            (vec((row(n, moderate()), sides()), 0..4), vec(sides(), 0..n)),
         )
     });
-    let built = sized.prop_map(|(n, quadratic, linear, constant, squares, rows, integer)| {
-        let mut p = Problem::new(n).unwrap();
-        for (i, j, v) in quadratic {
-            let (i, j) = (i.max(j), i.min(j));
-            p.add_quadratic_triplets(Triangle::Lower, &[i], &[j], &[v])
-                .unwrap();
-        }
-        p.add_linear(&linear).unwrap();
-        p.add_constant(constant).unwrap();
-        for square in &squares {
-            let (indices, values, rhs) = split(square);
-            p.add_least_squares(&indices, &values, rhs, 0.75).unwrap();
-        }
-        for row in &rows {
-            let (indices, values, rhs) = split(row);
-            p.add_constraint(&indices, &values, rhs).unwrap();
-        }
-        let integers: Vec<usize> = (0..n).filter(|&i| integer[i]).collect();
-        p.set_integers(&integers).unwrap();
-        p
-    });
+    let built = sized.prop_map(
+        |(n, quadratic, linear, constant, squares, rows, integer, limits)| {
+            let mut p = Problem::new(n).unwrap();
+            for (i, j, v) in quadratic {
+                let (i, j) = (i.max(j), i.min(j));
+                p.add_quadratic_triplets(Triangle::Lower, &[i], &[j], &[v])
+                    .unwrap();
+            }
+            p.add_linear(&linear).unwrap();
+            p.add_constant(constant).unwrap();
+            for square in &squares {
+                let (indices, values, rhs) = split(square);
+                p.add_least_squares(&indices, &values, rhs, 0.75).unwrap();
+            }
+            for row in &rows {
+                let (indices, values, rhs) = split(row);
+                p.add_constraint(&indices, &values, rhs).unwrap();
+            }
+            let integers: Vec<usize> = (0..n).filter(|&i| integer[i]).collect();
+            p.set_integers(&integers).unwrap();
+            let (inequalities, bounds) = limits;
+            for (row, (lower, upper)) in &inequalities {
+                let (indices, values, _) = split(row);
+                p.add_inequality(&indices, &values, *lower, *upper).unwrap();
+            }
+            for (j, (lower, upper)) in bounds.into_iter().enumerate() {
+                p.set_bounds(&[j], &[lower], &[upper]).unwrap();
+            }
+            p
+        },
+    );
     // A sum of duplicates may overflow, which is an error of the model and not of the file.
     built.prop_filter("a model", |p| Model::new(p).is_ok())
 }
 
-/// Everything that a model holds except its least-squares rows, as bits.
+/// Everything that a problem holds except its least-squares rows, as bits.
 pub fn fingerprint(problem: &Problem) -> Vec<u64> {
+    bits(problem, true)
+}
+
+/// The same without entries of zero in rows, which LP files cannot hold.
+pub fn fingerprint_without_zeros(problem: &Problem) -> Vec<u64> {
+    bits(problem, false)
+}
+
+fn bits(problem: &Problem, zeros: bool) -> Vec<u64> {
     let model = Model::new(problem).unwrap();
     let mut all = vec![model.variables() as u64, model.constant().to_bits()];
-    for matrix in [model.hessian(), model.constraints()] {
-        all.extend(matrix.offsets().iter().map(|&k| k as u64));
-        all.extend(matrix.indices().iter().map(|&k| u64::from(k)));
-        all.extend(matrix.values().iter().map(|v| v.to_bits()));
-    }
+    let entry = |i: u32, j: u32, v: f64| [u64::from(i), u64::from(j), v.to_bits()];
+    all.extend(
+        model
+            .hessian()
+            .entries()
+            .flat_map(|(i, j, v)| entry(i, j, v)),
+    );
+    let rows = model.constraints().entries();
+    let rows = rows.filter(|(_, _, v)| zeros || *v != 0.0);
+    all.extend(rows.flat_map(|(i, j, v)| entry(i, j, v)));
     for numbers in [model.gradient(), model.constraint_rhs(), model.guess()] {
         all.extend(numbers.iter().map(|v| v.to_bits()));
     }
     all.extend(model.integer().iter().map(|&b| u64::from(b)));
     for pin in model.pinned() {
         all.push(pin.map_or(u64::MAX, f64::to_bits));
+    }
+    for j in 0..problem.variables() {
+        let (lower, upper) = problem.bounds(j).unwrap();
+        all.extend([lower.to_bits(), upper.to_bits()]);
+    }
+    all.extend(one_sided(problem, zeros));
+    all
+}
+
+/// The inequalities, each side as a row of its own, since MPS may need two rows for them.
+fn one_sided(problem: &Problem, zeros: bool) -> Vec<u64> {
+    let rows = problem.inequality_rows();
+    let mut all = Vec::new();
+    for i in 0..rows.len() {
+        let mut sums = std::collections::BTreeMap::new();
+        for (j, v) in rows.row(i) {
+            *sums.entry(j).or_insert(0.0) += v;
+        }
+        sums.retain(|_, v| zeros || *v != 0.0);
+        let sides = [rows.lower()[i], rows.upper()[i]];
+        let limited = sides.iter().filter(|side| side.is_finite());
+        for side in limited.chain(sides.iter().all(|s| s.is_infinite()).then_some(&sides[0])) {
+            all.push(side.to_bits());
+            all.extend(sums.iter().flat_map(|(&j, v)| [j as u64, v.to_bits()]));
+        }
     }
     all
 }

@@ -1,7 +1,8 @@
 //! The meaning of each section of an MPS file.
 
 use roundel::Model;
-use roundel::problem::mps::{self, MpsProblem};
+use roundel::problem::files::NamedProblem;
+use roundel::problem::mps;
 
 const COMPLETE: &str = "\
 * everything that is read, in all the ways that it may be written
@@ -36,7 +37,7 @@ ENDATA
 * comments may follow
 ";
 
-fn read(text: &str) -> MpsProblem {
+fn read(text: &str) -> NamedProblem {
     mps::parse(text.as_bytes()).unwrap()
 }
 
@@ -69,7 +70,7 @@ fn both_triangles_mean_the_same_as_one() {
     let full = "QMATRIX\n x x 2\n x y -1\n y x -1\n z y 0.5 z 4\n y z 0.5\nENDATA\n";
     let (head, _) = COMPLETE.split_once("QUADOBJ").unwrap();
     let (full, half) = (read(&format!("{head}{full}")), read(COMPLETE));
-    let hessian = |p: &MpsProblem| Model::new(p.problem()).unwrap().hessian().clone();
+    let hessian = |p: &NamedProblem| Model::new(p.problem()).unwrap().hessian().clone();
     assert_eq!(hessian(&full), hessian(&half));
 }
 
@@ -83,7 +84,7 @@ fn vector_names_carriage_returns_and_a_missing_title_change_nothing() {
         .replace('\n', " \r\n");
     let (p, q) = (read(&other), read(COMPLETE));
     assert_eq!(p.title(), "");
-    let fingerprint = |p: &MpsProblem| crate::random::fingerprint(p.problem());
+    let fingerprint = |p: &NamedProblem| crate::random::fingerprint(p.problem());
     assert_eq!(fingerprint(&p), fingerprint(&q));
 }
 

@@ -12,7 +12,7 @@ use std::time::Instant;
 
 use roundel::field::{FieldProblem, OrientationField, solve_field};
 use roundel::mesh::{TriangleMesh, io};
-use roundel::problem::mps::{self, MpsProblem};
+use roundel::problem::files::{self, NamedProblem};
 use roundel::{Error, Options, Result};
 use roundel_pictures::{FieldModel, View, draw_field};
 
@@ -62,7 +62,7 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
     let problem = FieldProblem::with_options(&mesh, &follows)?;
     let assemble = started.elapsed().as_secs_f64();
     if let Some(path) = &arguments.write_problem {
-        mps::write(path, &MpsProblem::new(problem.problem().clone()))?;
+        files::write(path, &NamedProblem::new(problem.problem().clone()))?;
     }
     let monitor = || progress.monitor();
     let (field, solution) = match follows.detail > 0.0 {

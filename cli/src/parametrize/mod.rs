@@ -11,7 +11,7 @@ use std::time::Instant;
 
 use roundel::map::{SeamlessProblem, Sizing};
 use roundel::mesh::TriangleMesh;
-use roundel::problem::mps::{self, MpsProblem};
+use roundel::problem::files::{self, NamedProblem};
 use roundel::quad::{FoldFreeMap, RefinedInput, solve_fold_free};
 use roundel::untangle::{UntangleOptions, Untangled};
 use roundel::{Options, Result, Solution};
@@ -110,7 +110,7 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
     let problem = SeamlessProblem::with_features(&mesh, &field.field, &sizing, &features)?;
     let assemble = started.elapsed().as_secs_f64();
     if let Some(path) = &arguments.write_problem {
-        mps::write(path, &MpsProblem::new(problem.problem().clone()))?;
+        files::write(path, &NamedProblem::new(problem.problem().clone()))?;
     }
     progress.next_call(FIELD, 1.0);
     let started = Instant::now();

@@ -5,9 +5,10 @@
 //! without a lower bound leaves the column without a lower bound.
 
 use super::columns::Columns;
-use super::lines::{Line, quoted};
+use super::lines::Line;
 use super::rows::VectorName;
 use crate::error::Result;
+use crate::problem::files::lines::quoted;
 
 /// One side of the bounds of a column, with the line that gave it.
 #[derive(Debug, Clone, Copy)]
@@ -55,7 +56,7 @@ impl Bounds {
             (false, _) => return Err(line.wrong_length(&format!("{kind} and a column"))),
         };
         self.set.check(line, set.as_slice())?;
-        let column = columns.names.find(line, name)?;
+        let column = columns.names.find(line.number, name)?;
         if matches!(kind, "BV" | "LI" | "UI") {
             columns.integer[column] = true;
         }

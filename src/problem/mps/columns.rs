@@ -1,22 +1,20 @@
 //! The section COLUMNS with its integer markers.
 
-use super::lines::{Line, quoted};
-use super::names::Names;
+use super::lines::Line;
 use super::rows::{Row, Rows};
 use crate::error::Result;
+use crate::problem::files::lines::quoted;
+use crate::problem::files::names::NameList;
 
 /// The columns read so far, and their entries by columns.
 pub(super) struct Columns {
-    pub names: Names,
+    pub names: NameList,
     /// Coefficients of the objective.
     pub linear: Vec<f64>,
     /// Whether each column is integer.
     pub integer: Vec<bool>,
-    /// The start of each column in `rows` and `values`.
-    pub offsets: Vec<usize>,
-    /// The constraint of each entry.
-    pub rows: Vec<usize>,
-    pub values: Vec<f64>,
+    /// The entries: constraints, columns and values.
+    pub entries: (Vec<usize>, Vec<usize>, Vec<f64>),
     /// For each row, one more than the last column with an entry in the row.
     entered: Vec<usize>,
     /// The name of the last column.
@@ -28,12 +26,10 @@ pub(super) struct Columns {
 impl Columns {
     pub fn new(rows: &Rows) -> Self {
         Columns {
-            names: Names::new("column"),
+            names: NameList::new("column"),
             linear: Vec::new(),
             integer: Vec::new(),
-            offsets: Vec::new(),
-            rows: Vec::new(),
-            values: Vec::new(),
+            entries: Default::default(),
             entered: vec![0; rows.len()],
             current: String::new(),
             integer_since: None,
@@ -63,8 +59,9 @@ impl Columns {
                 Row::Objective => self.linear[column] = value,
                 Row::Ignored => {}
                 Row::Constraint(i) => {
-                    self.rows.push(i);
-                    self.values.push(value);
+                    self.entries.0.push(i);
+                    self.entries.1.push(column);
+                    self.entries.2.push(value);
                 }
             }
         }
@@ -72,11 +69,10 @@ impl Columns {
     }
 
     fn begin(&mut self, line: &Line, name: &str) -> Result<()> {
-        self.names.insert(line, name)?;
+        self.names.insert(line.number, name)?;
         self.current.clear();
         self.current.push_str(name);
         self.linear.push(0.0);
-        self.offsets.push(self.rows.len());
         self.integer.push(self.integer_since.is_some());
         Ok(())
     }
@@ -105,7 +101,6 @@ impl Columns {
         if self.names.len() == 0 {
             return Err(line.fault("section COLUMNS is empty: the problem has no variables"));
         }
-        self.offsets.push(self.rows.len());
         Ok(())
     }
 }

@@ -4,37 +4,39 @@ use std::io::BufRead;
 
 use super::bounds::Bounds;
 use super::columns::Columns;
-use super::lines::{Line, Lines, fault, quoted};
-use super::names::check_title;
+use super::lines::{Line, next_line};
 use super::quadratic::Quadratic;
-use super::rows::Rows;
+use super::rows::{Row, Rows};
 use super::sections::Section;
 use super::sides::Sides;
-use super::{MpsNames, MpsProblem};
 use crate::error::Result;
-use crate::problem::{Layout, MatrixRef, Problem, Triangle};
+use crate::problem::files::NamedProblem;
+use crate::problem::files::draft::{Draft, DraftRow};
+use crate::problem::files::lines::{Lines, fault, quoted};
+use crate::problem::files::names::check_title;
 
 /// Reads plain text.
-pub(super) fn parse_text(reader: impl BufRead) -> Result<MpsProblem> {
+pub(super) fn parse_text(reader: &mut dyn BufRead) -> Result<NamedProblem> {
     let mut lines = Lines::new(reader);
     let mut content = Content::new();
-    let mut section = Section::Start;
-    while let Some(line) = lines.next()? {
+    let mut seen = vec![Section::Start];
+    while let Some(line) = next_line(&mut lines)? {
+        let section = seen[seen.len() - 1];
         if section == Section::EndData {
             let text = quoted(line.fields()[0]);
             return Err(line.fault(format!("{text} stands behind ENDATA")));
         }
         if line.is_header() {
-            let next = section.next(&line)?;
+            let next = section.next(&seen, &line)?;
             content.end(section, &line)?;
             content.begin(next, &line)?;
-            section = next;
+            seen.push(next);
         } else {
-            content.read(section, &line)?;
+            content.read_free_or_fixed(section, &line)?;
         }
     }
-    match section {
-        Section::EndData => content.into_problem(),
+    match seen[seen.len() - 1] {
+        Section::EndData => content.into_draft()?.into_problem(),
         Section::Start => Err(fault(lines.number().max(1), "the file is empty")),
         _ => Err(fault(lines.number(), "the file ends without ENDATA")),
     }
@@ -43,7 +45,10 @@ pub(super) fn parse_text(reader: impl BufRead) -> Result<MpsProblem> {
 /// The content of the sections read so far.
 struct Content {
     title: String,
-    has_sense: bool,
+    /// Whether the file maximises, once it says so.
+    maximise: Option<bool>,
+    /// Whether the fields are cut by columns.
+    fixed: bool,
     rows: Rows,
     columns: Columns,
     sides: Sides,
@@ -56,7 +61,8 @@ impl Content {
         let rows = Rows::new();
         Content {
             title: String::new(),
-            has_sense: false,
+            maximise: None,
+            fixed: false,
             columns: Columns::new(&rows),
             rows,
             sides: Sides::default(),
@@ -79,11 +85,42 @@ impl Content {
                 self.sides = Sides::new(&self.rows);
             }
             Section::Bounds => self.bounds = Bounds::new(&self.columns),
-            Section::QuadObj => self.quadratic = Quadratic::new(false),
-            Section::QMatrix => self.quadratic = Quadratic::new(true),
+            Section::QuadObj | Section::QMatrix | Section::QSection => {
+                self.is_of_objective(line)?;
+                self.quadratic = Quadratic::new(section == Section::QMatrix);
+            }
             _ => {}
         }
         Ok(())
+    }
+
+    /// Checks that the header of a quadratic section names the objective, or nothing.
+    fn is_of_objective(&self, line: &Line) -> Result<()> {
+        let name = line.rest();
+        if name.is_empty() || matches!(self.rows.find(line, name)?, (_, Row::Objective)) {
+            return Ok(());
+        }
+        let what = format!("row {} is a quadratic constraint", quoted(name));
+        Err(line.unsupported(what))
+    }
+
+    /// Reads a line of free format, or of fixed format from the first line on that is none of free format.
+    fn read_free_or_fixed(&mut self, section: Section, line: &Line) -> Result<()> {
+        if self.fixed {
+            let Some(cut) = line.by_columns() else {
+                return Err(line.fault("the line does not keep to the columns of fixed format"));
+            };
+            return self.read(section, &cut);
+        }
+        if !line.fits(section)
+            && let Some(cut) = line.by_columns()
+            && cut.fits(section)
+            && self.read(section, &cut).is_ok()
+        {
+            self.fixed = true;
+            return Ok(());
+        }
+        self.read(section, line)
     }
 
     fn read(&mut self, section: Section, line: &Line) -> Result<()> {
@@ -94,7 +131,9 @@ impl Content {
             Section::Rhs => self.sides.read_right(line, &self.rows),
             Section::Ranges => self.sides.read_range(line, &self.rows),
             Section::Bounds => self.bounds.read(line, &mut self.columns),
-            Section::QuadObj | Section::QMatrix => self.quadratic.read(line, &self.columns.names),
+            Section::QuadObj | Section::QMatrix | Section::QSection => {
+                self.quadratic.read(line, &self.columns.names)
+            }
             Section::Start | Section::Name | Section::EndData => {
                 let text = quoted(line.fields()[0]);
                 Err(line.fault(format!("{text} stands where a section must start")))
@@ -104,7 +143,7 @@ impl Content {
 
     fn end(&mut self, section: Section, line: &Line) -> Result<()> {
         match section {
-            Section::ObjSense if !self.has_sense => {
+            Section::ObjSense if self.maximise.is_none() => {
                 Err(line.fault("OBJSENSE says neither MIN nor MAX"))
             }
             Section::Rows => self.rows.end(line),
@@ -115,141 +154,49 @@ impl Content {
 
     fn read_sense(&mut self, line: &Line, field: usize) -> Result<()> {
         let words = &line.fields()[field..];
-        match words {
-            ["MIN" | "MINIMIZE"] if !self.has_sense => self.has_sense = true,
-            ["MAX" | "MAXIMIZE"] => return Err(line.unsupported("maximisation")),
+        let is = |word: &str, known: [&str; 3]| known.iter().any(|k| word.eq_ignore_ascii_case(k));
+        self.maximise = match (words, self.maximise) {
+            ([word], None) if is(word, ["MIN", "MINIMIZE", "MINIMISE"]) => Some(false),
+            ([word], None) if is(word, ["MAX", "MAXIMIZE", "MAXIMISE"]) => Some(true),
             _ => {
                 let word = quoted(words.last().copied().unwrap_or_default());
-                return Err(line.fault(format!("expected MIN once, found {word}")));
+                return Err(line.fault(format!("expected MIN or MAX once, found {word}")));
             }
-        }
+        };
         Ok(())
     }
 
-    fn into_problem(self) -> Result<MpsProblem> {
+    fn into_draft(self) -> Result<Draft> {
         let columns = self.columns;
         let variables = columns.names.len();
-        let mut problem = Problem::new(variables)?;
-        let (rows, cols, values) = self.quadratic.lower_triangle(variables)?;
-        problem.add_quadratic_triplets(Triangle::Lower, &rows, &cols, &values)?;
-        problem.add_linear(&columns.linear)?;
-        problem.add_constant(self.sides.constant)?;
-        let roles = Roles::new(&self.rows, &self.sides);
-        let equalities = roles.entries_of(&columns, true);
-        problem.add_constraint_matrix(&equalities.as_ref(), &roles.right)?;
-        let inequalities = roles.entries_of(&columns, false);
-        problem.add_inequality_matrix(&inequalities.as_ref(), &roles.lower, &roles.upper)?;
-        set_bounds(&mut problem, &columns, &self.bounds)?;
-        let integer = columns.integer.iter().enumerate();
-        let integers: Vec<usize> = integer.filter(|(_, is)| **is).map(|(j, _)| j).collect();
-        problem.set_integers(&integers)?;
-        let (objective, rows) = self.rows.into_names();
-        let [mut constraints, mut inequalities] = [Vec::new(), Vec::new()];
-        for (name, &(equality, _)) in rows.into_iter().zip(&roles.of) {
-            if equality {
-                &mut constraints
-            } else {
-                &mut inequalities
+        let quadratic = self.quadratic.lower_triangle(variables)?;
+        let bounds = columns.integer.iter().enumerate();
+        let (lower, upper) = bounds.map(|(j, &is)| self.bounds.of(j, is)).unzip();
+        let relations = self.rows.relations().to_vec();
+        let (objective, names) = self.rows.into_names();
+        let rows = names.into_iter().zip(relations).enumerate();
+        let rows = rows.map(|(i, (name, relation))| {
+            let (lower, upper) = self.sides.of(i, relation);
+            DraftRow {
+                name,
+                lower,
+                upper,
+                equality: self.sides.is_equality(i, relation),
             }
-            .push(name);
-        }
-        let names = MpsNames {
+        });
+        Ok(Draft {
             title: self.title,
             objective,
+            maximise: self.maximise == Some(true),
             variables: columns.names.into_vec(),
-            constraints,
-            inequalities,
-        };
-        Ok(MpsProblem { problem, names })
+            integer: columns.integer,
+            lower,
+            upper,
+            linear: columns.linear,
+            constant: self.sides.constant,
+            quadratic,
+            rows: rows.collect(),
+            entries: columns.entries,
+        })
     }
-}
-
-/// The rows of the file as equalities and inequalities, each kind in the order of the file.
-struct Roles {
-    /// For each constraint of the file, whether it is an equality, and its number among its kind.
-    of: Vec<(bool, usize)>,
-    /// The right sides of the equalities.
-    right: Vec<f64>,
-    /// The sides of the inequalities.
-    lower: Vec<f64>,
-    upper: Vec<f64>,
-}
-
-impl Roles {
-    fn new(rows: &Rows, sides: &Sides) -> Self {
-        let mut roles = Roles {
-            of: Vec::with_capacity(rows.relations().len()),
-            right: Vec::new(),
-            lower: Vec::new(),
-            upper: Vec::new(),
-        };
-        for (i, &relation) in rows.relations().iter().enumerate() {
-            let (lower, upper) = sides.of(i, relation);
-            if sides.is_equality(i, relation) {
-                roles.of.push((true, roles.right.len()));
-                roles.right.push(upper);
-            } else {
-                roles.of.push((false, roles.lower.len()));
-                roles.lower.push(lower);
-                roles.upper.push(upper);
-            }
-        }
-        roles
-    }
-
-    /// The entries of the rows of one kind, by columns.
-    fn entries_of(&self, columns: &Columns, equality: bool) -> Entries {
-        let mut entries = Entries {
-            offsets: vec![0],
-            ..Entries::default()
-        };
-        for window in columns.offsets.windows(2) {
-            for k in window[0]..window[1] {
-                let (kind, row) = self.of[columns.rows[k]];
-                if kind == equality {
-                    entries.rows.push(row);
-                    entries.values.push(columns.values[k]);
-                }
-            }
-            entries.offsets.push(entries.rows.len());
-        }
-        entries
-    }
-}
-
-/// A matrix by columns.
-#[derive(Default)]
-struct Entries {
-    offsets: Vec<usize>,
-    rows: Vec<usize>,
-    values: Vec<f64>,
-}
-
-impl Entries {
-    fn as_ref(&self) -> MatrixRef<'_> {
-        MatrixRef {
-            layout: Layout::Columns,
-            offsets: &self.offsets,
-            indices: &self.rows,
-            values: &self.values,
-        }
-    }
-}
-
-/// Sets the bounds of the columns that are not free.
-fn set_bounds(problem: &mut Problem, columns: &Columns, bounds: &Bounds) -> Result<()> {
-    let mut bounded = Vec::new();
-    let [mut lower, mut upper] = [Vec::new(), Vec::new()];
-    for (j, &integer) in columns.integer.iter().enumerate() {
-        let (l, u) = bounds.of(j, integer);
-        if l.is_finite() || u.is_finite() {
-            bounded.push(j);
-            lower.push(l);
-            upper.push(u);
-        }
-    }
-    if bounded.is_empty() {
-        return Ok(());
-    }
-    problem.set_bounds(&bounded, &lower, &upper)
 }

@@ -1,27 +1,13 @@
 //! Lines of an MPS file, cut into fields.
-//!
-//! The free format does not limit the length of a line; this reader does. Without a limit, a file that is not
-//! MPS, or a small archive that inflates to one endless line, could fill the memory.
 
-use std::io::{BufRead, Read};
+use std::io::BufRead;
 
+use super::sections::Section;
 use crate::error::{Error, Result};
-
-/// Longest line accepted, in bytes.
-pub(super) const MAX_LINE: usize = 1 << 16;
-
-/// Limits of this size and beyond are infinite, as CPLEX, Gurobi, SCIP and Xpress have it.
-pub(super) const INFINITE: f64 = 1e20;
+use crate::problem::files::lines::{Lines, fault, limited, quoted, unsupported, value};
 
 /// The largest number of fields on a line of any section.
 const MAX_FIELDS: usize = 5;
-
-/// The lines of a file that are neither blank nor comments, one at a time.
-pub(super) struct Lines<R> {
-    reader: R,
-    buffer: Vec<u8>,
-    number: usize,
-}
 
 /// A line. A header starts in the first column, data after a blank.
 pub(super) struct Line<'a> {
@@ -32,75 +18,79 @@ pub(super) struct Line<'a> {
     len: usize,
 }
 
-impl<R: BufRead> Lines<R> {
-    pub fn new(reader: R) -> Self {
-        Lines {
-            reader,
-            buffer: Vec::new(),
-            number: 0,
-        }
-    }
-
-    /// Number of the last line read; 0 before the first.
-    pub fn number(&self) -> usize {
-        self.number
-    }
-
-    /// The next line that is neither blank nor a comment, or `None` at the end of the file.
-    pub fn next(&mut self) -> Result<Option<Line<'_>>> {
-        loop {
-            self.buffer.clear();
-            let mut limited = self.reader.by_ref().take(MAX_LINE as u64 + 2);
-            let read = limited.read_until(b'\n', &mut self.buffer);
-            let read = read.map_err(|e| Error::Io {
-                message: format!("after line {}: {e}", self.number),
-            })?;
-            if read == 0 {
-                return Ok(None);
-            }
-            self.number += 1;
-            if self.buffer.ends_with(b"\n") {
-                self.buffer.pop();
-                if self.buffer.ends_with(b"\r") {
-                    self.buffer.pop();
-                }
-            }
-            if self.buffer.len() > MAX_LINE {
-                return Err(fault(
-                    self.number,
-                    format!("the line is longer than {MAX_LINE} bytes"),
-                ));
-            }
-            let blank = self.buffer.iter().all(|b| matches!(b, b' ' | b'\t'));
-            if !blank && self.buffer[0] != b'*' {
-                break;
-            }
-        }
-        Line::new(self.number, &self.buffer).map(Some)
-    }
+/// The next line that is neither blank nor a comment, or `None` at the end of the file.
+pub(super) fn next_line<R: BufRead>(lines: &mut Lines<R>) -> Result<Option<Line<'_>>> {
+    let line = lines.next(|line| line[0] != b'*')?;
+    Ok(line.map(|(number, text)| Line::new(number, text)))
 }
 
 impl<'a> Line<'a> {
-    fn new(number: usize, bytes: &'a [u8]) -> Result<Self> {
-        let control = |&b: &u8| (b < 0x20 && b != b'\t') || b == 0x7f;
-        if let Some(at) = bytes.iter().position(control) {
-            let message = format!("control character {:#04x} at byte {}", bytes[at], at + 1);
-            return Err(fault(number, message));
-        }
-        let text = std::str::from_utf8(bytes)
-            .map_err(|e| fault(number, format!("not UTF-8 at byte {}", e.valid_up_to() + 1)))?;
+    fn new(number: usize, text: &'a str) -> Self {
         let mut fields = [""; MAX_FIELDS + 1];
         let mut len = 0;
         for (slot, field) in fields.iter_mut().zip(text.split_ascii_whitespace()) {
             *slot = field;
             len += 1;
         }
-        Ok(Line {
+        Line {
             number,
             text,
             fields,
             len,
+        }
+    }
+
+    /// The line with its fields cut by the columns of fixed format (2-3, 5-12, 15-22, 25-36, 40-47, 50-61),
+    /// where names may have blanks in them, or `None` if text stands between those columns.
+    pub fn by_columns(&self) -> Option<Line<'a>> {
+        const COLUMNS: [(usize, usize); 6] =
+            [(1, 3), (4, 12), (14, 22), (24, 36), (39, 47), (49, 61)];
+        if self.text.contains('\t') {
+            return None;
+        }
+        // Columns are characters. The byte at which each starts, and the end of the text for all beyond.
+        let starts: Vec<usize> = self.text.char_indices().map(|(at, _)| at).collect();
+        let byte = |column: usize| starts.get(column).copied().unwrap_or(self.text.len());
+        let cut = |from: usize, to: usize| self.text[byte(from)..byte(to)].trim_ascii();
+        let mut fields = [""; MAX_FIELDS + 1];
+        let mut len = 0;
+        let mut end = 0;
+        for (from, to) in COLUMNS {
+            if !cut(end, from).is_empty() {
+                return None;
+            }
+            end = to;
+            let field = cut(from, to);
+            if !field.is_empty() {
+                fields[len] = field;
+                len += 1;
+            }
+        }
+        let rest = cut(end, usize::MAX);
+        rest.is_empty().then_some(Line {
+            number: self.number,
+            text: self.text,
+            fields,
+            len,
         })
+    }
+
+    /// Whether the fields are as many as `section` has on a line, with numbers where it has numbers.
+    pub fn fits(&self, section: Section) -> bool {
+        let number = |k: usize| self.fields[k].parse::<f64>().is_ok();
+        match (section, self.len) {
+            (Section::Rows, len) => len == 2,
+            (Section::Columns, 3) if self.fields[1] == "'MARKER'" => true,
+            (Section::Rhs | Section::Ranges, 2) => number(1),
+            (Section::Rhs | Section::Ranges, 4) => number(1) && number(3),
+            (Section::Bounds, 2 | 3) => true,
+            (Section::Bounds, 4) => number(3),
+            (Section::Bounds, _) => false,
+            (Section::ObjSense, _) => true,
+            (_, 3) => number(2),
+            (_, 5) => number(2) && number(4),
+            _ => false,
+        }
     }
 
     pub fn is_header(&self) -> bool {
@@ -130,18 +120,15 @@ impl<'a> Line<'a> {
 
     /// The value of `field`, which must be a finite number.
     pub fn value(&self, field: &str) -> Result<f64> {
-        match field.parse::<f64>() {
-            Ok(value) if value.is_finite() => Ok(value),
-            Ok(_) => Err(self.fault(format!("{} is not a finite number", quoted(field)))),
-            Err(_) => Err(self.fault(format!("{} is not a number", quoted(field)))),
-        }
+        value(self.number, field)
     }
 
     /// The limit in `field`: a number, or an infinity where the size is [`INFINITE`] or more.
+    ///
+    /// [`INFINITE`]: crate::problem::files::lines::INFINITE
     pub fn limit(&self, field: &str) -> Result<f64> {
-        match field.parse::<f64>() {
-            Ok(value) if value.abs() >= INFINITE => Ok(f64::INFINITY.copysign(value)),
-            Ok(value) if value.is_finite() => Ok(value),
+        match field.parse::<f64>().map(limited) {
+            Ok(limit) if !limit.is_nan() => Ok(limit),
             _ => self.value(field),
         }
     }
@@ -181,39 +168,15 @@ impl<'a> Line<'a> {
     }
 }
 
-/// A parse error at `line`.
-pub(super) fn fault(line: usize, message: impl Into<String>) -> Error {
-    Error::Parse {
-        line,
-        message: message.into(),
-    }
-}
-
-/// An error that names an unsupported feature and its line.
-pub(super) fn unsupported(line: usize, what: impl AsRef<str>, index: Option<usize>) -> Error {
-    Error::NotSupported {
-        what: format!("line {line}: {}", what.as_ref()),
-        index,
-        line: Some(line),
-    }
-}
-
-/// A field for messages: in quotes, and cut if it is long.
-pub(super) fn quoted(field: &str) -> String {
-    const SHOWN: usize = 40;
-    let cut: String = field.chars().take(SHOWN).collect();
-    let more = if cut.len() < field.len() { "..." } else { "" };
-    format!("'{}{more}'", cut.escape_debug())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::problem::files::lines::MAX_LINE;
 
     fn fields(text: &str) -> Vec<Vec<String>> {
         let mut lines = Lines::new(text.as_bytes());
         let mut found = Vec::new();
-        while let Some(line) = lines.next().unwrap() {
+        while let Some(line) = next_line(&mut lines).unwrap() {
             found.push(line.fields().iter().map(|f| f.to_string()).collect());
         }
         found
@@ -230,16 +193,7 @@ mod tests {
         let fits = format!(" {}\r\n", "x".repeat(MAX_LINE - 1));
         assert_eq!(fields(&fits)[0][0].len(), MAX_LINE - 1);
         let long = format!("\n {}", "x".repeat(MAX_LINE));
-        let error = Lines::new(long.as_bytes()).next().err().unwrap();
+        let error = next_line(&mut Lines::new(long.as_bytes())).err().unwrap();
         assert_eq!(error.line(), Some(2));
-    }
-
-    #[test]
-    fn a_long_field_is_cut_in_messages() {
-        assert_eq!(
-            quoted(&"ab".repeat(30)),
-            format!("'{}...'", "ab".repeat(20))
-        );
-        assert_eq!(quoted("a'b"), "'a\\'b'");
     }
 }

@@ -1,8 +1,9 @@
-//! The sections QUADOBJ (one triangle of Q) and QMATRIX (both).
+//! The sections QUADOBJ and QSECTION (one triangle of Q) and QMATRIX (both).
 
-use super::lines::{Line, fault};
-use super::names::Names;
+use super::lines::Line;
 use crate::error::Result;
+use crate::problem::files::lines::fault;
+use crate::problem::files::names::NameList;
 use crate::problem::matrix::SYMMETRY_TOLERANCE;
 
 struct Entry {
@@ -39,13 +40,13 @@ impl Quadratic {
     }
 
     /// Reads `COLUMN COLUMN VALUE [COLUMN VALUE]`.
-    pub fn read(&mut self, line: &Line, columns: &Names) -> Result<()> {
+    pub fn read(&mut self, line: &Line, columns: &NameList) -> Result<()> {
         let (name, entries) = line.named_pairs()?;
-        let row = columns.find(line, name)? as u32;
+        let row = columns.find(line.number, name)? as u32;
         for (name, value) in entries {
             self.entries.push(Entry {
                 row,
-                col: columns.find(line, name)? as u32,
+                col: columns.find(line.number, name)? as u32,
                 value: line.value(value)?,
                 line: line.number,
             });
@@ -91,7 +92,7 @@ impl Quadratic {
                         let half = if self.full {
                             ""
                         } else {
-                            " (QUADOBJ is one triangle)"
+                            " (the section is one triangle)"
                         };
                         format!("this entry of Q is already on line {}{half}", before.line)
                     }),

@@ -1,8 +1,9 @@
 //! The section ROWS.
 
-use super::lines::{Line, quoted};
-use super::names::Names;
+use super::lines::Line;
 use crate::error::Result;
+use crate::problem::files::lines::quoted;
+use crate::problem::files::names::NameList;
 
 /// The role of a row.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -25,7 +26,7 @@ pub(super) enum Relation {
 
 /// The rows read so far.
 pub(super) struct Rows {
-    names: Names,
+    names: NameList,
     kinds: Vec<Row>,
     objective: Option<usize>,
     /// One for each constraint.
@@ -35,7 +36,7 @@ pub(super) struct Rows {
 impl Rows {
     pub fn new() -> Self {
         Rows {
-            names: Names::new("row"),
+            names: NameList::new("row"),
             kinds: Vec::new(),
             objective: None,
             relations: Vec::new(),
@@ -54,7 +55,7 @@ impl Rows {
             "N" => None,
             _ => return Err(line.fault(format!("there is no row type {}", quoted(kind)))),
         };
-        let number = self.names.insert(line, name)?;
+        let number = self.names.insert(line.number, name)?;
         self.kinds.push(match (relation, self.objective) {
             (Some(_), _) => Row::Constraint(self.relations.len()),
             (None, None) => Row::Objective,
@@ -82,7 +83,7 @@ impl Rows {
 
     /// The number and the role of the row with this name.
     pub fn find(&self, line: &Line, name: &str) -> Result<(usize, Row)> {
-        let number = self.names.find(line, name)?;
+        let number = self.names.find(line.number, name)?;
         Ok((number, self.kinds[number]))
     }
 

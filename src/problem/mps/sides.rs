@@ -1,8 +1,9 @@
 //! The right sides of the rows (section RHS) and their ranges (section RANGES).
 
-use super::lines::{Line, quoted};
+use super::lines::Line;
 use super::rows::{Relation, Row, Rows, VectorName};
 use crate::error::Result;
+use crate::problem::files::lines::quoted;
 
 /// The right sides, which are zero unless given, and the ranges.
 #[derive(Default)]

@@ -13,8 +13,8 @@ mod format;
 use std::path::{Path, PathBuf};
 
 use crate::error::{Error, Result};
-use crate::problem::mps;
-use crate::problem::{Model, Problem};
+use crate::problem::files::{self, NamedProblem};
+use crate::problem::{Model, Problem, mps};
 use crate::search::Options;
 
 use format::{Replay, Values};
@@ -41,10 +41,9 @@ pub fn save(path: &Path, problem: &Problem, options: &Options) -> Result<()> {
         ..Replay::default()
     };
     let text = replay.to_text()?;
-    let names =
-        mps::MpsNames::numbered(replay.variables, replay.constraints, problem.inequalities());
-    mps::write_model(path, &model, &names, mps::Pins::Elsewhere)?;
-    std::fs::write(&replay_path, text).map_err(|e| mps::io_error(&replay_path, e))
+    let named = NamedProblem::new(problem.clone());
+    mps::write_model(path, &model, &named, mps::Pins::Elsewhere)?;
+    std::fs::write(&replay_path, text).map_err(|e| files::io_error(&replay_path, e))
 }
 
 /// Reads the problem at `path`, which must end in `.mps` or `.mps.gz`, and the replay file beside it.
@@ -56,7 +55,7 @@ pub fn save(path: &Path, problem: &Problem, options: &Options) -> Result<()> {
 /// to another problem.
 pub fn load(path: &Path) -> Result<(Problem, Options)> {
     let replay_path = replay_path(path)?;
-    let bytes = std::fs::read(&replay_path).map_err(|e| mps::io_error(&replay_path, e))?;
+    let bytes = std::fs::read(&replay_path).map_err(|e| files::io_error(&replay_path, e))?;
     let replay = Replay::parse(&bytes)?;
     let mut problem = mps::read(path)?.into_problem();
     let sizes = (problem.variables(), problem.constraints());

@@ -1,18 +1,32 @@
 //! Compression by gzip (feature `gzip`, format of `deutsch1996`).
 
 use std::fs::File;
-use std::io::{BufRead, BufWriter, Read, Write};
+use std::io::{BufRead, BufReader, BufWriter, Read, Write};
 use std::path::Path;
 
-use super::content::parse_text;
-use super::{MpsProblem, io_error};
+use super::io_error;
 use crate::error::{Error, Result};
 
 /// The first bytes of every gzip file (`deutsch1996`, section 2.3.1).
 const MAGIC: [u8; 2] = [0x1f, 0x8b];
 
-/// Reads from `reader`, which may be compressed.
-pub(super) fn parse(mut reader: impl BufRead) -> Result<MpsProblem> {
+/// Opens the file at `path`, which may be compressed, and reads its text by `parse`.
+pub(in crate::problem) fn read_by<T>(
+    path: &Path,
+    parse: impl FnOnce(&mut dyn BufRead) -> Result<T>,
+) -> Result<T> {
+    let file = File::open(path).map_err(|e| io_error(path, e))?;
+    match parse_by(BufReader::with_capacity(1 << 16, file), parse) {
+        Err(Error::Io { message }) => Err(io_error(path, message)),
+        other => other,
+    }
+}
+
+/// Reads the text of `reader`, which may be compressed, by `parse`.
+pub(in crate::problem) fn parse_by<T>(
+    mut reader: impl BufRead,
+    parse: impl FnOnce(&mut dyn BufRead) -> Result<T>,
+) -> Result<T> {
     let mut head = Vec::with_capacity(MAGIC.len());
     let peeked = reader
         .by_ref()
@@ -22,29 +36,32 @@ pub(super) fn parse(mut reader: impl BufRead) -> Result<MpsProblem> {
         message: e.to_string(),
     })?;
     let compressed = head == MAGIC;
-    let reader = head.chain(reader);
+    let mut reader = head.chain(reader);
     if compressed {
-        inflate(reader)
+        inflate(reader, parse)
     } else {
-        parse_text(reader)
+        parse(&mut reader)
     }
 }
 
 #[cfg(feature = "gzip")]
-fn inflate(reader: impl BufRead) -> Result<MpsProblem> {
+fn inflate<T>(
+    reader: impl BufRead,
+    parse: impl FnOnce(&mut dyn BufRead) -> Result<T>,
+) -> Result<T> {
     // A gzip file may consist of several members.
     let inflated = flate2::bufread::MultiGzDecoder::new(reader);
-    parse_text(std::io::BufReader::with_capacity(1 << 16, inflated))
+    parse(&mut BufReader::with_capacity(1 << 16, inflated))
 }
 
 #[cfg(not(feature = "gzip"))]
-fn inflate(_: impl BufRead) -> Result<MpsProblem> {
+fn inflate<T>(_: impl BufRead, _: impl FnOnce(&mut dyn BufRead) -> Result<T>) -> Result<T> {
     Err(no_gzip())
 }
 
 /// Creates the file at `path`, lets `content` write it, and closes it. The file is compressed if its name
 /// ends in `.gz`.
-pub(super) fn create(
+pub(in crate::problem) fn create(
     path: &Path,
     content: impl FnOnce(&mut dyn Write) -> std::io::Result<()>,
 ) -> Result<()> {

@@ -1,4 +1,6 @@
-//! A problem with the names that MPS gives its parts.
+//! A problem with the names that files give its parts.
+
+use std::collections::HashSet;
 
 use super::lines::quoted;
 use super::names::{check_name, check_title};
@@ -8,14 +10,15 @@ use crate::problem::Problem;
 /// A problem and its names. There is one name for each variable and each constraint, and a file can hold all
 /// of them.
 #[derive(Debug, Clone)]
-pub struct MpsProblem {
-    pub(super) problem: Problem,
-    pub(super) names: MpsNames,
+pub struct NamedProblem {
+    pub(crate) problem: Problem,
+    pub(crate) names: Names,
+    pub(crate) maximise: bool,
 }
 
 /// The names of a problem's parts.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct MpsNames {
+pub(crate) struct Names {
     pub title: String,
     pub objective: String,
     pub variables: Vec<String>,
@@ -23,10 +26,10 @@ pub(crate) struct MpsNames {
     pub inequalities: Vec<String>,
 }
 
-impl MpsNames {
+impl Names {
     /// The names `OBJ`, x0, x1, ..., c0, c1, ... and r0, r1, ...
     pub fn numbered(variables: usize, constraints: usize, inequalities: usize) -> Self {
-        MpsNames {
+        Names {
             title: String::new(),
             objective: "OBJ".into(),
             variables: (0..variables).map(|i| format!("x{i}")).collect(),
@@ -36,13 +39,57 @@ impl MpsNames {
     }
 }
 
-impl MpsProblem {
+impl Names {
+    /// The names that a format can hold: those that are `allowed`, and others changed by `change` and made
+    /// unique. Second, the names of rows.
+    pub(in crate::problem) fn writable(
+        &self,
+        allowed: impl Fn(&str) -> bool,
+        change: impl Fn(&str) -> String,
+    ) -> (Names, HashSet<String>) {
+        let objective = std::slice::from_ref(&self.objective);
+        let lists = [objective, &self.constraints, &self.inequalities];
+        let mut rows = HashSet::new();
+        for names in lists {
+            rows.extend(names.iter().filter(|name| allowed(name)).cloned());
+        }
+        let mut variables: HashSet<String> = self.variables.iter().cloned().collect();
+        variables.retain(|name| allowed(name));
+        let written = |names: &[String], taken: &mut HashSet<String>| {
+            let written = names.iter().map(|name| {
+                if allowed(name) {
+                    return name.clone();
+                }
+                let mut other = change(name);
+                while !taken.insert(other.clone()) {
+                    other.push('_');
+                }
+                other
+            });
+            written.collect::<Vec<String>>()
+        };
+        let names = Names {
+            title: self.title.clone(),
+            objective: written(objective, &mut rows).concat(),
+            variables: written(&self.variables, &mut variables),
+            constraints: written(&self.constraints, &mut rows),
+            inequalities: written(&self.inequalities, &mut rows),
+        };
+        (names, rows)
+    }
+}
+
+impl NamedProblem {
     /// `problem` without a title, with the objective `OBJ`, variables x0, x1, ..., constraints c0, c1, ...
     /// and inequalities r0, r1, ...
     pub fn new(problem: Problem) -> Self {
         let rows = (problem.constraints(), problem.inequalities());
-        let names = MpsNames::numbered(problem.variables(), rows.0, rows.1);
-        MpsProblem { problem, names }
+        let names = Names::numbered(problem.variables(), rows.0, rows.1);
+        NamedProblem {
+            problem,
+            names,
+            maximise: false,
+        }
     }
 
     /// `problem` with the caller's names. Names must not be empty or contain blanks. Each must be unique
@@ -73,14 +120,18 @@ impl MpsProblem {
         check_names("constraint", &constraints, &[objective.to_owned()])?;
         let taken = [&constraints[..], &[objective.to_owned()]].concat();
         check_names("inequality", &inequalities, &taken)?;
-        let names = MpsNames {
+        let names = Names {
             title: title.to_owned(),
             objective: objective.to_owned(),
             variables,
             constraints,
             inequalities,
         };
-        Ok(MpsProblem { problem, names })
+        Ok(NamedProblem {
+            problem,
+            names,
+            maximise: false,
+        })
     }
 
     /// The problem.
@@ -88,17 +139,28 @@ impl MpsProblem {
         &self.problem
     }
 
-    /// Returns the problem without its names.
+    /// Returns the problem, which minimises, without its names.
     pub fn into_problem(self) -> Problem {
         self.problem
     }
 
-    /// The title from `NAME`, which may be empty.
+    /// Whether the file maximises. The problem then minimises the negated objective: the value of the file's
+    /// objective is minus the energy, and a lower bound of the energy is minus an upper bound of the value.
+    pub fn maximises(&self) -> bool {
+        self.maximise
+    }
+
+    /// The same problem, stated in files as maximisation of the negated objective if `maximise` is set.
+    pub fn maximising(self, maximise: bool) -> Self {
+        NamedProblem { maximise, ..self }
+    }
+
+    /// The title, which may be empty.
     pub fn title(&self) -> &str {
         &self.names.title
     }
 
-    /// The name of the objective's row.
+    /// The name of the objective.
     pub fn objective(&self) -> &str {
         &self.names.objective
     }
@@ -124,7 +186,7 @@ fn same_count(what: &'static str, expected: usize, actual: usize) -> Result<()> 
 }
 
 fn check_names(what: &str, names: &[String], taken: &[String]) -> Result<()> {
-    let mut seen: std::collections::HashSet<&str> = taken.iter().map(String::as_str).collect();
+    let mut seen: HashSet<&str> = taken.iter().map(String::as_str).collect();
     for (i, name) in names.iter().enumerate() {
         let fault = match check_name(name) {
             Err(fault) => fault,
@@ -143,11 +205,11 @@ fn check_names(what: &str, names: &[String], taken: &[String]) -> Result<()> {
 mod tests {
     use super::*;
 
-    fn named(objective: &str, variables: [&str; 2], constraint: &str) -> Result<MpsProblem> {
+    fn named(objective: &str, variables: [&str; 2], constraint: &str) -> Result<NamedProblem> {
         let mut problem = Problem::new(2).unwrap();
         problem.add_constraint(&[0], &[1.0], 0.0).unwrap();
         let variables = variables.map(String::from).to_vec();
-        MpsProblem::with_names(
+        NamedProblem::with_names(
             problem,
             "",
             objective,
@@ -180,12 +242,13 @@ mod tests {
     #[test]
     fn too_few_names_and_titles_over_two_lines_are_refused() {
         let problem = Problem::new(1).unwrap();
-        let none = MpsProblem::with_names(problem.clone(), "", "f", vec![], vec![], vec![]);
+        let none = NamedProblem::with_names(problem.clone(), "", "f", vec![], vec![], vec![]);
         assert!(matches!(
             none,
             Err(Error::LengthMismatch { expected: 1, .. })
         ));
-        let title = MpsProblem::with_names(problem, "a\nb", "f", vec!["x".into()], vec![], vec![]);
+        let title =
+            NamedProblem::with_names(problem, "a\nb", "f", vec!["x".into()], vec![], vec![]);
         assert!(matches!(title, Err(Error::InvalidArgument { .. })));
     }
 }
