@@ -58,6 +58,7 @@ mod linalg;
 pub mod map;
 pub mod mesh;
 pub mod monitor;
+mod network;
 pub mod problem;
 pub mod quad;
 mod round;

@@ -7,7 +7,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The layers from the lowest to the highest. A file names its own layer and lower ones, nothing else.
-const LAYERS: [&str; 22] = [
+const LAYERS: [&str; 23] = [
     "error",
     "monitor",
     "linalg",
@@ -16,6 +16,7 @@ const LAYERS: [&str; 22] = [
     "search",
     "round",
     "cut",
+    "network",
     "lattice",
     "cycle",
     "branch",

@@ -3,6 +3,7 @@
 //! Where the relaxation without them is within all limits, they may be of no effect: the problem is solved
 //! without them first, by the methods for lattices and angle differences. A solution within the limits is
 //! that of the whole problem, with the same bound. Else branch and bound searches ([`branch`](crate::branch)).
+//! Flows in bidirected graphs are recognised before all that: [`network`](crate::network) solves them exactly.
 
 use super::run::solve_unlimited;
 use super::solution::{Counts, Seconds, Solution};
@@ -10,6 +11,7 @@ use super::verify::verify;
 use crate::branch;
 use crate::error::{Error, Result};
 use crate::monitor::Monitor;
+use crate::network;
 use crate::problem::{Model, Problem};
 use crate::search::{Options, SolveStatus, StoppedBy, Strategy, WarmStart, is_closed};
 
@@ -27,11 +29,16 @@ pub(super) fn solve_limited(
     earlier: &[f64],
     monitor: &mut Monitor,
 ) -> Result<Solution> {
-    if let Some(solution) = without_limits(problem, model, options, earlier, monitor)? {
-        return Ok(solution);
-    }
-    let start = (options.warm_start != WarmStart::Off).then_some(earlier);
-    let found = branch::solve(problem, model, options, start, monitor)?;
+    let found = match as_network(problem, model, options, monitor)? {
+        Some(found) => found,
+        None => {
+            if let Some(solution) = without_limits(problem, model, options, earlier, monitor)? {
+                return Ok(solution);
+            }
+            let start = (options.warm_start != WarmStart::Off).then_some(earlier);
+            branch::solve(problem, model, options, start, monitor)?
+        }
+    };
     let searched = monitor.seconds();
     let verdict = verify(problem, &found.values)?;
     let is_integer = model.integer().contains(&true);
@@ -68,6 +75,38 @@ pub(super) fn solve_limited(
         max_integrality_violation: verdict.integrality_violation,
         values: found.values,
     })
+}
+
+/// The solution of a flow in a bidirected graph, if the problem is one.
+fn as_network(
+    problem: &Problem,
+    model: &Model,
+    options: &Options,
+    monitor: &mut Monitor,
+) -> Result<Option<branch::Found>> {
+    let is_exact = matches!(
+        options.strategy,
+        Strategy::Lattice | Strategy::Exact | Strategy::Auto
+    );
+    if !is_exact {
+        return Ok(None);
+    }
+    let Some(optimum) = network::solve(problem, model, monitor)? else {
+        return Ok(None);
+    };
+    let energy = verify(problem, &optimum.values)?.energy;
+    monitor.improved(energy);
+    monitor.raised(optimum.lower_bound.min(energy));
+    Ok(Some(branch::Found {
+        energy,
+        lower_bound: optimum.lower_bound,
+        is_complete: true,
+        stopped_by: StoppedBy::Nothing,
+        work: optimum.work,
+        unknowns: optimum.values.len(),
+        integers: optimum.values.len(),
+        values: optimum.values,
+    }))
 }
 
 /// The solution without inequalities and bounds, if it is within them.
