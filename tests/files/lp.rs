@@ -76,6 +76,12 @@ fn words_are_known_in_their_other_forms() {
 }
 
 #[test]
+fn sections_that_are_not_supported_may_be_empty() {
+    let p = read("min\n o: x\nst\n a: x >= 1\nbounds\ngen\nsemi\nbin\nend\n");
+    assert_eq!(p.inequalities(), ["a"]);
+}
+
+#[test]
 fn each_fault_is_reported_with_its_line_and_word() {
     let cases = [
         ("Minimize\n", "Minimal\n", false, 2, "minimize"),
@@ -139,7 +145,7 @@ fn each_fault_is_reported_with_its_line_and_word() {
         ("Binary\n v1\n", "SOS\n s1: S1:: x:1\n", true, 19, "SOS"),
         (
             "Binary\n v1\n",
-            "General Constraints\n",
+            "General Constraints\n g: x\n",
             true,
             19,
             "General Constraints",

@@ -14,6 +14,8 @@ mod random;
 mod reading;
 mod replay;
 mod round_trip;
+#[cfg(feature = "gzip")]
+mod shared_miqp;
 
 use std::path::PathBuf;
 

@@ -101,6 +101,7 @@ fn sections_are_left_out_where_the_type_says_so() {
 fn each_fault_is_reported_with_its_line_and_word() {
     let cases = [
         ("CGL", "CXL", false, 3, "CXL"),
+        ("CGL", "\u{c}\nCGL", false, 3, "0x0c"),
         ("minimize", "smallest", false, 4, "smallest"),
         ("3 # variables", "x # variables", false, 5, "count"),
         ("3 # variables", "3000000", true, 5, "more than 2000000"),

@@ -29,7 +29,7 @@ fn a_format_that_cannot_be_written_is_told_before_reading() {
         "must end in .obj",
     );
     let words = ["field", "nothing", "--write-problem", "p.doc"];
-    refused(&words, "must end in .mps or .mps.gz");
+    refused(&words, "must end in .mps or .mps.gz or .lp or .lp.gz");
     refused(
         &["field", "nothing", "--picture", "p.doc"],
         "must end in .png",

@@ -33,6 +33,8 @@ pub(super) fn parse_text(reader: &mut dyn BufRead) -> Result<NamedProblem> {
                 read_integers(&mut tokens, &names, kind, &mut draft, &mut bounds)?;
             }
             Token::Section(Section::End, _) => break,
+            // HiGHS writes the headers of sections that are empty.
+            Token::Section(Section::Other, _) if ends(&mut tokens)? => {}
             Token::Section(Section::Other, word) => {
                 return Err(unsupported(
                     line,

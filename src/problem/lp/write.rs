@@ -174,7 +174,7 @@ impl<'a> Document<'a> {
         let right = self.model.constraint_rhs();
         for (i, name) in self.names.constraints.iter().enumerate() {
             write!(out, " {name}:")?;
-            self.write_terms(out, self.model.constraints().row(i))?;
+            self.write_terms(out, nonzero(self.model.constraints().row(i)))?;
             writeln!(out, " = {:?}", right[i])?;
         }
         for (variable, value, name) in &self.pins {
@@ -191,7 +191,7 @@ impl<'a> Document<'a> {
             if lower.is_finite() && upper.is_finite() {
                 write!(out, " {lower:?} <=")?;
             }
-            self.write_terms(out, self.rows.row(i))?;
+            self.write_terms(out, nonzero(self.rows.row(i)))?;
             if upper.is_finite() {
                 writeln!(out, " <= {upper:?}")?;
             } else if lower.is_finite() {
@@ -240,6 +240,11 @@ impl<'a> Document<'a> {
         }
         Ok(())
     }
+}
+
+/// The terms of a row that say something. A term of zero may only declare a variable.
+fn nonzero(terms: impl Iterator<Item = (usize, f64)>) -> impl Iterator<Item = (usize, f64)> {
+    terms.filter(|(_, value)| *value != 0.0)
 }
 
 fn sign(value: f64) -> char {

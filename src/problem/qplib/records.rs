@@ -29,7 +29,9 @@ impl<'a> Records<'a> {
 
     /// The next record, or `None` at the end of the file.
     pub fn next(&mut self) -> Result<Option<Record<'_>>> {
-        let counts = |line: &[u8]| !matches!(line.trim_ascii_start()[0], b'#' | b'!' | b'%');
+        let comment =
+            |line: &[u8]| matches!(line.trim_ascii_start().first(), Some(b'#' | b'!' | b'%'));
+        let counts = |line: &[u8]| !comment(line);
         let line = self.lines.next(counts)?;
         Ok(line.map(|(line, text)| Record { line, text }))
     }
