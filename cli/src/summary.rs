@@ -18,8 +18,13 @@ impl fmt::Display for Summary<'_> {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         let counts = self.solution.counts();
         let seconds = self.solution.seconds();
+        let rows = match counts.inequalities {
+            0 => String::new(),
+            1 => ", 1 inequality".into(),
+            many => format!(", {} inequalities", thousands(many)),
+        };
         let read = format!(
-            "{}, {} of them integer, {}",
+            "{}, {} of them integer, {}{rows}",
             counted(counts.variables, "unknown"),
             thousands(counts.integers),
             counted(counts.constraints, "constraint")
