@@ -283,7 +283,7 @@ fn a_solver_follows_other_sides_and_bounds_into_limits_and_out_of_them() {
     problem.set_integers(&[0]).unwrap();
     let mut solver = Solver::new(&problem).unwrap();
     let options = Options::default();
-    let mut gives = |solver: &mut Solver, expected: [f64; 2]| {
+    let gives = |solver: &mut Solver, expected: [f64; 2]| {
         let solution = solver.solve(&options).unwrap();
         let near = |(a, b): (&f64, f64)| (a - b).abs() < 1e-9;
         assert!(

@@ -18,16 +18,12 @@ impl fmt::Display for Summary<'_> {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         let counts = self.solution.counts();
         let seconds = self.solution.seconds();
-        let rows = match counts.inequalities {
-            0 => String::new(),
-            1 => ", 1 inequality".into(),
-            many => format!(", {} inequalities", thousands(many)),
-        };
         let read = format!(
-            "{}, {} of them integer, {}{rows}",
+            "{}, {} of them integer, {}{}",
             counted(counts.variables, "unknown"),
             thousands(counts.integers),
-            counted(counts.constraints, "constraint")
+            counted(counts.constraints, "constraint"),
+            counted_inequalities(counts.inequalities)
         );
         let reduced = format!(
             "{}, {} continuous left",
@@ -110,6 +106,15 @@ pub fn counted_vertices(count: usize, kind: &str) -> String {
     format!("{} {kind}{noun}", thousands(count))
 }
 
+/// The count of inequalities after another count; nothing where there is none.
+fn counted_inequalities(count: usize) -> String {
+    match count {
+        0 => String::new(),
+        1 => ", 1 inequality".into(),
+        _ => format!(", {} inequalities", thousands(count)),
+    }
+}
+
 /// A count with commas: 20,088.
 pub fn thousands(count: usize) -> String {
     let digits = count.to_string();
@@ -125,7 +130,13 @@ pub fn thousands(count: usize) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{energy, telling_gap, thousands};
+    use super::{counted_inequalities, energy, telling_gap, thousands};
+
+    #[test]
+    fn inequalities_are_told_where_there_are_some() {
+        let written = [0, 1, 2000].map(counted_inequalities);
+        assert_eq!(written, ["", ", 1 inequality", ", 2,000 inequalities"]);
+    }
 
     #[test]
     fn rounding_noise_of_an_energy_has_no_sign() {
