@@ -3,15 +3,20 @@
 //! ```text
 //! minimise   E(x) = 1/2 x'Qx + q'x + c + sum_k w_k (a_k . x - r_k)^2
 //! subject to C x = d
+//!            l_G <= G x <= u_G,   l <= x <= u
 //!            x_i integer for i in I
 //! ```
 //!
-//! `Q` is symmetric positive semi-definite and sparse. The constraints may be redundant. The signs are
-//! those of MPS, OSQP and Clarabel. A problem passes through these stages:
+//! `Q` is symmetric positive semi-definite and sparse. The constraints may be redundant. Sides and bounds that
+//! do not limit are infinite. The signs are those of MPS, OSQP and Clarabel. A problem passes through these
+//! stages:
 //!
 //! ```text
 //! Problem --validate--> Model --eliminate--> ReducedModel --(strategy, Search)--> Solution
 //! ```
+//!
+//! A problem with inequalities or bounds is solved without them first. If that solution is not within them,
+//! branch and bound searches.
 //!
 //! ```
 //! use roundel::{solve, Options, Problem, Strategy};

@@ -16,6 +16,7 @@ const SOURCES: &[&str] = &[
     "objective",
     "least_squares",
     "constraints",
+    "inequalities",
     "unknowns",
     "hints",
     "options",

@@ -268,3 +268,47 @@ fn later_solves_of_both_families_factor_nothing_and_equal_first_solves() {
         }
     }
 }
+
+#[test]
+fn a_solver_follows_other_sides_and_bounds_into_limits_and_out_of_them() {
+    // (x0 - 3)^2 + (x1 - 3)^2 with x0 + 2 x1 <= 4 and x0 an integer.
+    let mut problem = Problem::new(2).unwrap();
+    for i in 0..2 {
+        problem.add_least_squares(&[i], &[1.0], 3.0, 1.0).unwrap();
+    }
+    let none = f64::INFINITY;
+    problem
+        .add_inequality(&[0, 1], &[1.0, 2.0], -none, 4.0)
+        .unwrap();
+    problem.set_integers(&[0]).unwrap();
+    let mut solver = Solver::new(&problem).unwrap();
+    let options = Options::default();
+    let gives = |solver: &mut Solver, expected: [f64; 2]| {
+        let solution = solver.solve(&options).unwrap();
+        let near = |(a, b): (&f64, f64)| (a - b).abs() < 1e-9;
+        assert!(
+            solution.values().iter().zip(expected).all(near),
+            "{:?}",
+            solution.values()
+        );
+        assert_eq!(solution.counts().inequalities, 1);
+        let fresh = solve(solver.problem(), &options).unwrap();
+        assert_eq!(solution.values(), fresh.values());
+    };
+    gives(&mut solver, [2.0, 1.0]);
+    solver.set_bounds(&[0], &[-none], &[1.0]).unwrap();
+    gives(&mut solver, [1.0, 1.5]);
+    solver.set_inequality_sides(&[-none], &[3.0]).unwrap();
+    gives(&mut solver, [1.0, 1.0]);
+    // What is refused changes nothing.
+    let short = solver.set_inequality_sides(&[], &[9.0]);
+    assert!(matches!(short, Err(Error::LengthMismatch { .. })));
+    let turned = solver.set_bounds(&[1, 0], &[0.0, 2.0], &[1.0, 1.0]);
+    assert_eq!(turned.unwrap_err().index(), Some(1));
+    gives(&mut solver, [1.0, 1.0]);
+    solver.set_inequality_sides(&[9.0], &[none]).unwrap();
+    solver.set_bounds(&[1], &[-none], &[1.0]).unwrap();
+    assert_eq!(solver.solve(&options).unwrap_err().code(), "infeasible");
+    solver.set_bounds(&[0, 1], &[-none; 2], &[none; 2]).unwrap();
+    gives(&mut solver, [3.0, 3.0]);
+}

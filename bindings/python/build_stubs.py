@@ -106,7 +106,7 @@ def _parameter(parameter):
     if default is parameter.empty:
         return f"{parameter.name}: {_text(parameter.annotation)}"
     # A literal as far as there is one: infinity has none.
-    shown = "..." if isinstance(default, dict) or default in (float("inf"),) else repr(default).replace("'", '"')
+    shown = "..." if isinstance(default, dict) or default in (float("inf"), -float("inf")) else repr(default).replace("'", '"')
     return f"{parameter.name}: {_text(parameter.annotation)} = {shown}"
 
 

@@ -39,7 +39,9 @@ impl Exit {
     /// The code of a run that ended in `error`.
     pub fn of(error: &Error) -> Self {
         match error {
-            Error::Infeasible { .. } | Error::NoIntegerSolution { .. } => Exit::Infeasible,
+            Error::Infeasible { .. }
+            | Error::Contradiction { .. }
+            | Error::NoIntegerSolution { .. } => Exit::Infeasible,
             Error::Unbounded { .. } | Error::NotConvex { .. } => Exit::Unbounded,
             Error::Cancelled | Error::TimeLimit => Exit::Stopped,
             _ => Exit::Failed,

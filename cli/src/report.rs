@@ -24,6 +24,7 @@ pub struct Report<'a> {
     variables: usize,
     integers: usize,
     constraints: usize,
+    inequalities: usize,
     reduced_integers: usize,
     reduced_continuous: usize,
     factor_nonzeros: usize,
@@ -78,6 +79,7 @@ impl<'a> Report<'a> {
             variables: counts.variables,
             integers: counts.integers,
             constraints: counts.constraints,
+            inequalities: counts.inequalities,
             reduced_integers: counts.reduced_integers,
             reduced_continuous: counts.reduced_continuous,
             factor_nonzeros: counts.factor_nonzeros,
@@ -146,7 +148,9 @@ impl Failure {
 /// problem, else `error`.
 fn status(error: &Error) -> &'static str {
     match error {
-        Error::Infeasible { .. } | Error::NoIntegerSolution { .. } => "infeasible",
+        Error::Infeasible { .. }
+        | Error::Contradiction { .. }
+        | Error::NoIntegerSolution { .. } => "infeasible",
         Error::Unbounded { .. } => "unbounded",
         Error::Cancelled => "cancelled",
         Error::TimeLimit => "limit",
@@ -188,6 +192,13 @@ mod tests {
             ),
             (
                 Error::NoIntegerSolution { constraint: 0, row },
+                "infeasible",
+            ),
+            (
+                Error::Contradiction {
+                    what: "bounds of x0".into(),
+                    index: Some(0),
+                },
                 "infeasible",
             ),
             (

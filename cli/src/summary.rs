@@ -21,10 +21,11 @@ impl fmt::Display for Summary<'_> {
         let counts = self.solution.counts();
         let seconds = self.solution.seconds();
         let read = format!(
-            "{}, {} of them integer, {}",
+            "{}, {} of them integer, {}{}",
             counted(counts.variables, "unknown"),
             thousands(counts.integers),
-            counted(counts.constraints, "constraint")
+            counted(counts.constraints, "constraint"),
+            counted_inequalities(counts.inequalities)
         );
         let reduced = format!(
             "{}, {} continuous left",
@@ -108,6 +109,15 @@ pub fn counted_vertices(count: usize, kind: &str) -> String {
     format!("{} {kind}{noun}", thousands(count))
 }
 
+/// The count of inequalities after another count; nothing where there is none.
+fn counted_inequalities(count: usize) -> String {
+    match count {
+        0 => String::new(),
+        1 => ", 1 inequality".into(),
+        _ => format!(", {} inequalities", thousands(count)),
+    }
+}
+
 /// A count with commas: 20,088.
 pub fn thousands(count: usize) -> String {
     let digits = count.to_string();
@@ -123,7 +133,13 @@ pub fn thousands(count: usize) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{energy, telling_gap, thousands};
+    use super::{counted_inequalities, energy, telling_gap, thousands};
+
+    #[test]
+    fn inequalities_are_told_where_there_are_some() {
+        let written = [0, 1, 2000].map(counted_inequalities);
+        assert_eq!(written, ["", ", 1 inequality", ", 2,000 inequalities"]);
+    }
 
     #[test]
     fn rounding_noise_of_an_energy_has_no_sign() {

@@ -39,6 +39,7 @@ AT(roundel_counts, constraints, 16);
 AT(roundel_counts, reduced_integers, 24);
 AT(roundel_counts, reduced_continuous, 32);
 AT(roundel_counts, factor_nonzeros, 40);
+AT(roundel_counts, inequalities, 48);
 
 _Static_assert(sizeof(roundel_seconds) == 128, "seconds");
 AT(roundel_seconds, eliminate, 0);

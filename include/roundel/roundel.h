@@ -640,7 +640,8 @@ typedef struct roundel_options roundel_options;
 
 /**
  * A mixed-integer quadratic problem under construction: minimise
- * 1/2 x'Qx + q'x + c + sum_k w_k (a_k . x - r_k)^2 subject to C x = d, x_i integer for i in I.
+ * 1/2 x'Qx + q'x + c + sum_k w_k (a_k . x - r_k)^2 subject to
+ * C x = d, l_G <= G x <= u_G, l <= x <= u, x_i integer for i in I.
  *
  * Parts may be given in any order and any number of times: terms add up. A call that fails
  * changes nothing. A problem may be changed and solved again after a solve.
@@ -778,9 +779,13 @@ typedef struct roundel_counts {
      */
     int64_t factor_nonzeros;
     /**
+     * Inequalities, which are two-sided rows.
+     */
+    int64_t inequalities;
+    /**
      * Zero; reserved.
      */
-    int64_t reserved[10];
+    int64_t reserved[9];
 } roundel_counts;
 
 /**
@@ -1243,11 +1248,130 @@ roundel_status roundel_problem_add_constraints_csc_i64(struct roundel_problem *p
                                                        size_t *first);
 
 /**
+ * Adds the inequality lower <= sum_k coefficients[k] x[indices[k]] <= upper. A side that does not limit is
+ * infinite (INFINITY or -INFINITY of math.h). Inequalities are numbered from 0 in the order given, apart from
+ * the constraints, and errors name them by that number. The number goes to `row`, which may be NULL.
+ * Duplicate indices are summed.
+ *
+ * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for a lower side above the upper side, or a side that is NaN.
+ */
+roundel_status roundel_problem_add_inequality(struct roundel_problem *problem,
+                                              size_t count,
+                                              const int32_t *indices,
+                                              const double *coefficients,
+                                              double lower,
+                                              double upper,
+                                              size_t *row);
+
+/**
+ * Adds the inequalities lower <= G x <= upper, one for each row of G. G is given in compressed rows: the
+ * entries of row k are those from offsets[k] to before offsets[k + 1]. `offset_count` is one more than
+ * `row_count`, the number of inequalities and of the sides of each kind, and `count` is the number of entries.
+ * Entries of a row may be in any order; duplicates are summed. The number of the first new inequality is
+ * written to `first`, which may be NULL.
+ *
+ * Errors give a position in the array at fault as their index.
+ */
+roundel_status roundel_problem_add_inequalities_csr(struct roundel_problem *problem,
+                                                    size_t offset_count,
+                                                    const int32_t *offsets,
+                                                    size_t count,
+                                                    const int32_t *columns,
+                                                    const double *values,
+                                                    size_t row_count,
+                                                    const double *lower,
+                                                    const double *upper,
+                                                    size_t *first);
+
+/**
+ * roundel_problem_add_inequalities_csr with 64-bit indices.
+ */
+roundel_status roundel_problem_add_inequalities_csr_i64(struct roundel_problem *problem,
+                                                        size_t offset_count,
+                                                        const int64_t *offsets,
+                                                        size_t count,
+                                                        const int64_t *columns,
+                                                        const double *values,
+                                                        size_t row_count,
+                                                        const double *lower,
+                                                        const double *upper,
+                                                        size_t *first);
+
+/**
+ * Adds the inequalities lower <= G x <= upper, one for each row of G. G is given in compressed columns: the
+ * entries of column k are those from offsets[k] to before offsets[k + 1]. `offset_count` is one more than the
+ * number of variables, `count` is the number of entries, and `row_count` the number of inequalities and of
+ * the sides of each kind. Entries of a column may be in any order; duplicates are summed. The number of the
+ * first new inequality is written to `first`, which may be NULL.
+ *
+ * Errors give a position in the array at fault as their index.
+ */
+roundel_status roundel_problem_add_inequalities_csc(struct roundel_problem *problem,
+                                                    size_t offset_count,
+                                                    const int32_t *offsets,
+                                                    size_t count,
+                                                    const int32_t *rows,
+                                                    const double *values,
+                                                    size_t row_count,
+                                                    const double *lower,
+                                                    const double *upper,
+                                                    size_t *first);
+
+/**
+ * roundel_problem_add_inequalities_csc with 64-bit indices.
+ */
+roundel_status roundel_problem_add_inequalities_csc_i64(struct roundel_problem *problem,
+                                                        size_t offset_count,
+                                                        const int64_t *offsets,
+                                                        size_t count,
+                                                        const int64_t *rows,
+                                                        const double *values,
+                                                        size_t row_count,
+                                                        const double *lower,
+                                                        const double *upper,
+                                                        size_t *first);
+
+/**
+ * Gives the number of inequalities added so far, which is the number of the next one.
+ */
+roundel_status roundel_problem_inequality_count(const struct roundel_problem *problem,
+                                                size_t *inequalities);
+
+/**
  * Makes variables integer. Naming one twice is no error.
  */
 roundel_status roundel_problem_set_integers(struct roundel_problem *problem,
                                             size_t count,
                                             const int32_t *variables);
+
+/**
+ * Makes variables binary: integer, with the bounds 0 and 1.
+ */
+roundel_status roundel_problem_set_binaries(struct roundel_problem *problem,
+                                            size_t count,
+                                            const int32_t *variables);
+
+/**
+ * Sets the bounds lower[k] <= x[variables[k]] <= upper[k]. They replace earlier bounds of these variables;
+ * a variable has none until they are set. A bound that does not limit is infinite (INFINITY or -INFINITY
+ * of math.h). `count` is the length of the three arrays.
+ *
+ * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for a lower bound above the upper bound, or a bound that is NaN;
+ * the index is the position in the arrays.
+ */
+roundel_status roundel_problem_set_bounds(struct roundel_problem *problem,
+                                          size_t count,
+                                          const int32_t *variables,
+                                          const double *lower,
+                                          const double *upper);
+
+/**
+ * Copies the bounds of all variables, infinite where there is none. `length` is the number of variables.
+ */
+roundel_status roundel_problem_bounds(const struct roundel_problem *problem,
+                                      double *lower,
+                                      double *upper,
+                                      size_t length);
 
 /**
  * Fixes one variable to a value; an integer variable must be given an integer by the time of the
@@ -1577,6 +1701,24 @@ roundel_status roundel_solver_set_constraint_right_sides(struct roundel_solver *
 roundel_status roundel_solver_set_least_squares_right_sides(struct roundel_solver *solver,
                                                             const double *values,
                                                             size_t length);
+
+/**
+ * Replaces the sides of the inequalities, one lower and one upper side for each, in the order in which they
+ * were added. `length` is the number of inequalities.
+ */
+roundel_status roundel_solver_set_inequality_sides(struct roundel_solver *solver,
+                                                   const double *lower,
+                                                   const double *upper,
+                                                   size_t length);
+
+/**
+ * Sets the bounds lower[k] <= x[variables[k]] <= upper[k]; see roundel_problem_set_bounds.
+ */
+roundel_status roundel_solver_set_bounds(struct roundel_solver *solver,
+                                         size_t count,
+                                         const int32_t *variables,
+                                         const double *lower,
+                                         const double *upper);
 
 /**
  * Sets the point that variables keep to where the objective does not decide them, one value a

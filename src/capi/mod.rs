@@ -35,6 +35,7 @@ mod guard;
 mod guidance;
 mod guidance_files;
 mod hints;
+mod inequalities;
 mod input;
 mod least_squares;
 mod map;

@@ -7,7 +7,8 @@ use super::status::roundel_status;
 use crate::problem::Problem;
 
 /// A mixed-integer quadratic problem under construction: minimise
-/// 1/2 x'Qx + q'x + c + sum_k w_k (a_k . x - r_k)^2 subject to C x = d, x_i integer for i in I.
+/// 1/2 x'Qx + q'x + c + sum_k w_k (a_k . x - r_k)^2 subject to
+/// C x = d, l_G <= G x <= u_G, l <= x <= u, x_i integer for i in I.
 ///
 /// Parts may be given in any order and any number of times: terms add up. A call that fails
 /// changes nothing. A problem may be changed and solved again after a solve.

@@ -30,8 +30,10 @@ pub struct roundel_counts {
     pub reduced_continuous: i64,
     /// Entries below the diagonal of the factor that the relaxation was solved with.
     pub factor_nonzeros: i64,
+    /// Inequalities, which are two-sided rows.
+    pub inequalities: i64,
     /// Zero; reserved.
-    pub reserved: [i64; 10],
+    pub reserved: [i64; 9],
 }
 
 /// Wall-clock seconds by phase.
@@ -53,6 +55,7 @@ pub struct roundel_seconds {
 const _: () = {
     assert!(size_of::<roundel_counts>() == 128);
     assert!(offset_of!(roundel_counts, reduced_continuous) == 32);
+    assert!(offset_of!(roundel_counts, inequalities) == 48);
     assert!(size_of::<roundel_seconds>() == 128);
     assert!(offset_of!(roundel_seconds, total) == 24);
 };
@@ -237,6 +240,7 @@ pub unsafe extern "C" fn roundel_solution_counts(
             reduced_integers,
             reduced_continuous,
             factor_nonzeros,
+            inequalities,
         ] = [
             c.variables,
             c.integers,
@@ -244,6 +248,7 @@ pub unsafe extern "C" fn roundel_solution_counts(
             c.reduced_integers,
             c.reduced_continuous,
             c.factor_nonzeros,
+            c.inequalities,
         ]
         .map(|n| n as i64);
         roundel_counts {
@@ -253,7 +258,8 @@ pub unsafe extern "C" fn roundel_solution_counts(
             reduced_integers,
             reduced_continuous,
             factor_nonzeros,
-            reserved: [0; 10],
+            inequalities,
+            reserved: [0; 9],
         }
     };
     // SAFETY: the caller gives a live handle and a place for the numbers, or NULL.

@@ -9,6 +9,7 @@ use super::output::Out;
 use super::problem::roundel_problem;
 use super::solution::roundel_solution;
 use super::status::roundel_status;
+use super::unknowns::bounds;
 use crate::error::Result;
 use crate::problem::Problem;
 use crate::search::Options;
@@ -111,6 +112,48 @@ pub unsafe extern "C" fn roundel_solver_set_least_squares_right_sides(
     let change = Solver::set_least_squares_right_sides;
     // SAFETY: the caller gives a live handle and an array of `length` numbers, or NULL.
     unsafe { set(solver, WHAT, values, length, change) }
+}
+
+/// Replaces the sides of the inequalities, one lower and one upper side for each, in the order in which they
+/// were added. `length` is the number of inequalities.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_solver_set_inequality_sides(
+    solver: *mut roundel_solver,
+    lower: *const f64,
+    upper: *const f64,
+    length: usize,
+) -> roundel_status {
+    let body = |value: &mut Solver| {
+        // SAFETY: the caller gives arrays of `length` numbers, or NULL.
+        let (lower, upper) = unsafe {
+            (
+                slice("inequality lower sides", lower, length)?,
+                slice("inequality upper sides", upper, length)?,
+            )
+        };
+        Ok(value.set_inequality_sides(lower, upper)?)
+    };
+    // SAFETY: the caller gives a live handle, or NULL.
+    unsafe { guard::write(solver, body) }
+}
+
+/// Sets the bounds lower[k] <= x[variables[k]] <= upper[k]; see roundel_problem_set_bounds.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_solver_set_bounds(
+    solver: *mut roundel_solver,
+    count: usize,
+    variables: *const i32,
+    lower: *const f64,
+    upper: *const f64,
+) -> roundel_status {
+    let body = |value: &mut Solver| {
+        let total = value.problem().variables();
+        // SAFETY: the caller gives arrays of `count` entries, or NULL.
+        let (at, lower, upper) = unsafe { bounds(total, count, variables, lower, upper) }?;
+        Ok(value.set_bounds(&at, lower, upper)?)
+    };
+    // SAFETY: the caller gives a live handle, or NULL.
+    unsafe { guard::write(solver, body) }
 }
 
 /// Sets the point that variables keep to where the objective does not decide them, one value a

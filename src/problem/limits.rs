@@ -39,6 +39,14 @@ impl Inequalities {
         &self.upper
     }
 
+    /// Replaces the sides, one of each kind for each row.
+    pub(super) fn set_sides(&mut self, lower: &[f64], upper: &[f64]) -> Result<()> {
+        check_both("inequality sides", self.len(), [lower, upper])?;
+        self.lower.copy_from_slice(lower);
+        self.upper.copy_from_slice(upper);
+        Ok(())
+    }
+
     /// Makes room for the sides of this many more rows.
     pub(super) fn reserve(&mut self, rows: usize) -> Result<()> {
         let room = self.lower.try_reserve(rows);

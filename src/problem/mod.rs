@@ -430,6 +430,15 @@ impl Problem {
         Ok(first)
     }
 
+    /// Replaces the sides of the inequalities, one lower and one upper side for each, in their order.
+    ///
+    /// # Errors
+    /// [`Error::LengthMismatch`], and [`Error::InvalidArgument`] for a lower side above the upper side, or a
+    /// side that is NaN.
+    pub fn set_inequality_sides(&mut self, lower: &[f64], upper: &[f64]) -> Result<()> {
+        self.inequalities.set_sides(lower, upper)
+    }
+
     /// Number of inequalities (two-sided rows) given so far.
     pub fn inequalities(&self) -> usize {
         self.inequalities.len()

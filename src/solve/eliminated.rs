@@ -167,6 +167,7 @@ fn counts(model: &Model, reduced: &ReducedModel, factors: &Factors) -> Counts {
         variables: model.variables(),
         integers: model.integer().iter().filter(|&&i| i).count(),
         constraints: model.constraints().rows(),
+        inequalities: 0,
         reduced_integers: reduced.integers().len(),
         reduced_continuous: reduced.continuous().len(),
         factor_nonzeros: factors.entries(),

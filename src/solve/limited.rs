@@ -62,6 +62,7 @@ pub(super) fn solve_limited(
             variables: model.variables(),
             integers: model.integer().iter().filter(|i| **i).count(),
             constraints: model.constraints().rows(),
+            inequalities: problem.inequalities(),
             reduced_integers: found.integers,
             reduced_continuous: found.unknowns - found.integers,
             factor_nonzeros: 0,
@@ -133,6 +134,7 @@ fn without_limits(
         };
         let verdict = verify(problem, &solution.values)?;
         solution.max_constraint_violation = verdict.constraint_violation;
+        solution.counts.inequalities = problem.inequalities();
         Ok((verdict.constraint_violation <= WITHIN).then_some(solution))
     };
     let relaxed = Options {

@@ -123,6 +123,7 @@ fn in_callers_unknowns(
             variables: of.model.variables(),
             integers: of.model.integer().iter().filter(|&&i| i).count(),
             constraints: of.model.constraints().rows(),
+            inequalities: 0,
             ..found.counts
         },
         seconds: Seconds {

@@ -12,6 +12,8 @@ pub struct Counts {
     pub integers: usize,
     /// The number of equality constraints.
     pub constraints: usize,
+    /// The number of inequalities, which are two-sided rows.
+    pub inequalities: usize,
     /// The number of integer unknowns after elimination.
     pub reduced_integers: usize,
     /// The number of continuous unknowns after elimination.

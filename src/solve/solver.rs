@@ -121,6 +121,22 @@ impl Solver {
         self.change(|problem| problem.set_least_squares_right_sides(rhs))
     }
 
+    /// See [`Problem::set_inequality_sides`].
+    ///
+    /// # Errors
+    /// Those of [`Problem::set_inequality_sides`].
+    pub fn set_inequality_sides(&mut self, lower: &[f64], upper: &[f64]) -> Result<()> {
+        self.change(|problem| problem.set_inequality_sides(lower, upper))
+    }
+
+    /// See [`Problem::set_bounds`].
+    ///
+    /// # Errors
+    /// Those of [`Problem::set_bounds`].
+    pub fn set_bounds(&mut self, variables: &[usize], lower: &[f64], upper: &[f64]) -> Result<()> {
+        self.change(|problem| problem.set_bounds(variables, lower, upper))
+    }
+
     /// See [`Problem::pin`].
     ///
     /// # Errors

@@ -197,6 +197,17 @@ fn the_replay_file_is_beside_its_problem() {
 }
 
 #[test]
+fn a_problem_with_limits_is_refused_and_not_saved_without_them() {
+    let scratch = Scratch::new("limited");
+    let path = scratch.file("p.mps");
+    let mut problem = Problem::new(2).unwrap();
+    problem.set_bounds(&[1], &[0.0], &[f64::INFINITY]).unwrap();
+    let error = replay::save(&path, &problem, &Options::default()).unwrap_err();
+    assert_eq!(error.code(), "not_supported");
+    assert!(!path.exists());
+}
+
+#[test]
 fn a_missing_file_is_named() {
     let scratch = Scratch::new("missing");
     let error = replay::load(&scratch.file("p.mps")).unwrap_err();

@@ -113,6 +113,85 @@ def test_a_solver_gives_the_same_as_a_new_solve():
         assert np.allclose(again.values, anew.values)
 
 
+def limited(row=((1.0, 2.0),), lower=None, upper=4.0, **more):
+    """(x0 - 3)^2 + (x1 - 3)^2 under x0 + 2 x1 <= 4 with x0 an integer: x0 = 2 leaves x1 = 1."""
+    given = {"A": np.eye(2), "b": [3.0, 3.0], "inequalities": (row, lower, upper), "integers": [0]}
+    return roundel.solve(**given, **more)
+
+
+@pytest.mark.parametrize("form", ["csr", "csc", "coo"])
+@pytest.mark.parametrize("width", [np.int32, np.int64])
+def test_inequalities_limit_a_problem_in_every_form_of_their_matrix(form, width):
+    matrix = scipy_sparse.csr_matrix([[1.0, 2.0]]).asformat(form)
+    if form in ("csr", "csc"):
+        matrix.indices, matrix.indptr = matrix.indices.astype(width), matrix.indptr.astype(width)
+    found = limited(matrix)
+    assert np.allclose(found.values, [2.0, 1.0]) and found.proved
+    assert found.energy == pytest.approx(5.0) and found.constraint_violation < 1e-9
+    assert (found.counts["inequalities"], found.counts["constraints"]) == (1, 0)
+
+
+def test_bounds_and_binaries_limit_a_problem():
+    assert np.allclose(limited(bounds=(None, [1.0, np.inf])).values, [1.0, 1.5])
+    # x1 >= 1.25 leaves x0 <= 1.5.
+    assert np.allclose(limited(bounds=([-np.inf, 1.25], None)).values, [1.0, 1.5])
+    assert np.allclose(limited(binaries=[0]).values, [1.0, 1.5])
+    assert np.allclose(limited(lower=[-1.0], upper=[np.inf]).values, [3.0, 3.0])
+
+
+def test_a_limited_problem_built_in_parts_equals_one_given_at_once():
+    problem = roundel.Problem(2)
+    problem.least_squares_rows(np.eye(2), [3.0, 3.0])
+    assert problem.inequality([0, 1], [1.0, 2.0], upper=4.0) == 0
+    assert problem.inequality_rows([[1.0, 0.0], [0.0, 1.0]], lower=[-9.0, -9.0]) == 1
+    problem.bounds([True, False], upper=1.0)
+    problem.integer([0])
+    assert problem.inequalities == 3
+    assert np.array_equal(problem.lower_bounds, [-np.inf, -np.inf])
+    assert np.array_equal(problem.upper_bounds, [1.0, np.inf])
+    assert np.allclose(roundel.solve(problem).values, [1.0, 1.5])
+    problem.binary([1])
+    assert np.array_equal(problem.upper_bounds, [1.0, 1.0])
+    assert np.allclose(roundel.solve(problem).values, [1.0, 1.0])
+
+
+def test_a_solver_changes_sides_and_bounds():
+    problem = roundel.Problem(2)
+    problem.least_squares_rows(np.eye(2), [3.0, 3.0])
+    problem.inequality([0, 1], [1.0, 2.0], upper=4.0)
+    problem.integer([0])
+    solver = roundel.Solver(problem)
+    assert np.allclose(solver.solve().values, [2.0, 1.0])
+    solver.set_bounds([0], upper=[1.0])
+    assert np.allclose(solver.solve().values, [1.0, 1.5])
+    solver.set_inequality_sides(upper=3.0)
+    assert np.allclose(solver.solve().values, [1.0, 1.0])
+    with pytest.raises(roundel.LengthMismatchError):
+        solver.set_inequality_sides(upper=[1.0, 2.0])
+    solver.set_inequality_sides(lower=9.0)
+    solver.set_bounds([1], upper=1.0)
+    with pytest.raises(roundel.InfeasibleError, match="no solution"):
+        solver.solve()
+
+
+def test_limits_that_no_number_meets_are_refused():
+    with pytest.raises(roundel.InvalidArgumentError, match="entry 1 has the lower limit 2 above") as caught:
+        limited(bounds=([0.0, 2.0], 1.0))
+    assert caught.value.position == 1
+    with pytest.raises(roundel.InvalidArgumentError, match="NaN"):
+        limited(upper=np.nan)
+    with pytest.raises(roundel.ArgumentTypeError, match="bounds: there must be lower and upper"):
+        limited(bounds=1.0)
+    with pytest.raises(roundel.ArgumentTypeError, match="inequalities: there must be a matrix"):
+        roundel.solve(Q, inequalities=([[1.0, 1.0]], 1.0))
+    with pytest.raises(roundel.LengthMismatchError, match="3 columns for 2 variables"):
+        limited(np.ones((1, 3)))
+    with pytest.raises(roundel.LengthMismatchError, match="upper"):
+        limited(upper=[1.0, 2.0])
+    with pytest.raises(roundel.ArgumentTypeError, match="a problem stands for all"):
+        roundel.solve(roundel.Problem(2), bounds=(0.0, 1.0))
+
+
 def test_files_give_the_problem_back(tmp_path):
     problem = roundel.Problem(2)
     problem.quadratic(Q)

@@ -53,6 +53,7 @@ fn the_report_has_every_field_with_its_type() {
         "variables",
         "integers",
         "constraints",
+        "inequalities",
         "reduced_integers",
         "reduced_continuous",
         "factor_nonzeros",
@@ -69,6 +70,7 @@ fn the_report_has_every_field_with_its_type() {
         ("variables", 3),
         ("integers", 2),
         ("constraints", 1),
+        ("inequalities", 0),
         ("reduced_integers", 1),
         ("reduced_continuous", 1),
     ] {

@@ -43,6 +43,7 @@ int main(void) {
     bad_handles(&f);
     bad_objective(&f);
     bad_constraints(&f);
+    bad_inequalities(&f);
     bad_least_squares(&f);
     bad_unknowns(&f);
     bad_options(&f);

@@ -18,6 +18,7 @@ int main() {
     ownership_moves_and_does_not_copy();
     every_part_of_a_problem_counts();
     rows_given_together_are_rows_given_one_by_one();
+    rows_and_bounds_limit_a_problem();
     failures_throw_or_are_reported();
     options_follow_the_librarys_list();
     callbacks_stop_and_throw();

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -137,6 +138,77 @@ void rows_given_together_are_rows_given_one_by_one() {
     given[1].least_squares(A, rhs, below, &status);
     CHECK(status.code == ROUNDEL_ERROR_INVALID_ARGUMENT && status.index == 2);
     CHECK(given[1].least_squares({0}, {1.0}) == 6);
+}
+
+// (x0 - 3)^2 + (x1 - 3)^2 with x0 + 2 x1 <= 4, given one by one and as a matrix, and x0 an integer.
+void rows_and_bounds_limit_a_problem() {
+    using roundel::Compressed;
+    using roundel::Layout;
+    const auto value = [](const roundel::Solution& of, std::size_t at) { return of.values()[at]; };
+    const double none = std::numeric_limits<double>::infinity();
+    const std::vector<std::int32_t> rows = {0, 2}, columns = {0, 1};
+    const std::vector<std::int64_t> rows64 = {0, 2}, columns64 = {0, 1};
+    const std::vector<std::int32_t> by_column = {0, 1, 2}, row_of = {0, 0};
+    const std::vector<std::int64_t> by_column64 = {0, 1, 2}, row_of64 = {0, 0};
+    const std::vector<double> values = {1.0, 2.0}, lower = {-none}, upper = {4.0};
+    roundel::Problem given[5] = {roundel::Problem(2), roundel::Problem(2), roundel::Problem(2),
+                                 roundel::Problem(2), roundel::Problem(2)};
+    const Compressed<std::int32_t> csr{Layout::rows, rows, columns, values};
+    const Compressed<std::int64_t> csr64{Layout::rows, rows64, columns64, values};
+    const Compressed<std::int32_t> csc{Layout::columns, by_column, row_of, values};
+    const Compressed<std::int64_t> csc64{Layout::columns, by_column64, row_of64, values};
+    CHECK(given[0].inequality({0, 1}, {1.0, 2.0}, -none, 4.0) == 0);
+    CHECK(given[1].inequality(csr, lower, upper) == 0);
+    CHECK(given[2].inequality(csr64, lower, upper) == 0);
+    CHECK(given[3].inequality(csc, lower, upper) == 0);
+    CHECK(given[4].inequality(csc64, lower, upper) == 0);
+    for (roundel::Problem& problem : given) {
+        problem.least_squares({0}, {1.0}, 3.0);
+        problem.least_squares({1}, {1.0}, 3.0);
+        problem.integer({0});
+        CHECK(problem.inequalities() == 1 && problem.constraints() == 0);
+        // x0 = 2 leaves x1 = 1 with energy 5; x0 = 1 leaves x1 = 1.5 with 6.25.
+        const roundel::Solution solution = roundel::solve(problem);
+        CHECK(solution.status() == roundel::SolveStatus::optimal);
+        CHECK(std::abs(solution.energy() - 5.0) < 1e-9 && solution.values()[0] == 2.0);
+        CHECK(solution.counts().inequalities == 1 && solution.violations().constraint < 1e-9);
+        problem.bounds(0, -none, 1.0);
+        CHECK(std::abs(roundel::solve(problem).energy() - 6.25) < 1e-9);
+    }
+    const std::vector<std::int32_t> both = {1, 0};
+    const std::vector<double> least = {0.5, 0.0}, most = {0.5, none};
+    given[0].bounds(both, least, most);
+    CHECK(given[0].bounds().first == std::vector<double>({0.0, 0.5}));
+    CHECK(given[0].bounds().second == std::vector<double>({none, 0.5}));
+    CHECK(std::abs(value(roundel::solve(given[0]), 0) - 3.0) < 1e-9);
+    given[0].binary({0});
+    CHECK(given[0].bounds().second[0] == 1.0);
+    CHECK(value(roundel::solve(given[0]), 0) == 1.0);
+
+    roundel::Status status;
+    given[0].bounds(1, 2.0, 1.0, &status);
+    CHECK(status.code == ROUNDEL_ERROR_INVALID_ARGUMENT && status.index == 0);
+    given[0].inequality(csr, upper, lower, &status);
+    CHECK(status.code == ROUNDEL_ERROR_INVALID_ARGUMENT && status.index == 0);
+    given[0].inequality(csr, lower, least, &status);
+    CHECK(status.code == ROUNDEL_ERROR_LENGTH_MISMATCH);
+    CHECK(given[0].inequalities() == 1);
+    // 4 <= x0 + 2 x1 does not hold with x0 <= 1 and x1 <= 0.5.
+    given[0].inequality({0, 1}, {1.0, 2.0}, 4.0, none);
+    CHECK(!roundel::solve(given[0], {}, &status) && status.code == ROUNDEL_ERROR_INFEASIBLE);
+
+    roundel::Solver solver(given[1]);
+    const std::vector<double> one = {1.0}, unlimited = {-none}, three = {3.0};
+    const std::vector<std::int32_t> second = {1};
+    CHECK(std::abs(value(solver.solve(), 1) - 1.5) < 1e-9);
+    solver.inequality_sides(unlimited, three);
+    CHECK(std::abs(value(solver.solve(), 1) - 1.0) < 1e-9);
+    solver.bounds(second, unlimited, least, &status);
+    CHECK(status.code == ROUNDEL_ERROR_LENGTH_MISMATCH);
+    CHECK(std::abs(value(solver.solve(), 1) - 1.0) < 1e-9);
+    // x0 <= 1, x1 <= 1 and x0 + 2 x1 <= 4.
+    solver.bounds(second, unlimited, one).inequality_sides(unlimited, upper);
+    CHECK(std::abs(value(solver.solve(), 1) - 1.0) < 1e-9);
 }
 
 void failures_throw_or_are_reported() {

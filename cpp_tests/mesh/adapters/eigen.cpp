@@ -55,6 +55,15 @@ template <class Matrix> void matrices_are_taken_as_they_are(bool compressed) {
     Eigen::Matrix<double, 5, 1> right;
     right << -linear, d;
     const Eigen::Matrix<double, 5, 1> expected = kkt.fullPivLu().solve(right);
+    // x0 + 2 x3 is 2.5, which the row allows, and 2 <= x0 + 2 x3 <= 2.25 contradicts.
+    const Eigen::VectorXd below = Eigen::VectorXd::Constant(1, 2.0);
+    const Eigen::VectorXd above = Eigen::VectorXd::Constant(1, 2.25);
+    CHECK(problem.inequality(c, below, d) == 0 && problem.inequalities() == 1);
+    CHECK(std::abs(roundel::solve(problem).energy() - solution.energy()) < 1e-12);
+    CHECK(problem.inequality(c, below, above) == 1);
+    roundel::Status status;
+    CHECK(!roundel::solve(problem, {}, &status) && status.code == ROUNDEL_ERROR_INFEASIBLE);
+
     for (std::size_t i = 0; i < 4; ++i) {
         CHECK(std::abs(solution.values()[i] - expected[static_cast<Eigen::Index>(i)]) < 1e-12);
     }

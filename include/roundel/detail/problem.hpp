@@ -11,6 +11,7 @@
 #include <string>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 ROUNDEL_NAMESPACE_BEGIN
 
@@ -50,7 +51,8 @@ using if_compressed = decltype(CompressedView<Matrix>(std::declval<const Matrix&
 } // namespace detail
 
 /// A mixed-integer quadratic problem under construction: minimise
-/// 1/2 x'Qx + q'x + c + sum_k w_k (a_k . x - r_k)^2 subject to C x = d, x_i integer for i in I.
+/// 1/2 x'Qx + q'x + c + sum_k w_k (a_k . x - r_k)^2 subject to C x = d,
+/// l_G <= G x <= u_G, l <= x <= u, x_i integer for i in I.
 ///
 /// Parts may be added in any order and any number of times; terms are summed. A call that fails
 /// changes nothing.
@@ -86,6 +88,13 @@ class Problem {
     std::size_t constraints(Status* status = nullptr) const {
         std::size_t count = 0;
         detail::check(roundel_problem_constraint_count(get(), &count), status);
+        return count;
+    }
+
+    /// The number of inequalities so far, which is also the index of the next one.
+    std::size_t inequalities(Status* status = nullptr) const {
+        std::size_t count = 0;
+        detail::check(roundel_problem_inequality_count(get(), &count), status);
         return count;
     }
 
@@ -257,6 +266,103 @@ class Problem {
         const detail::CompressedView<Matrix> view(matrix);
         return constrain(view.get(), Numbers(rhs.data(), static_cast<std::size_t>(rhs.size())),
                          status);
+    }
+
+    /// Adds the inequality lower <= sum_k coefficients[k] x[indices[k]] <= upper and returns its
+    /// index. A side that does not limit is infinite.
+    std::size_t inequality(Indices indices, Numbers coefficients, double lower, double upper,
+                           Status* status = nullptr) {
+        std::size_t row = 0;
+        if (detail::same_length(indices.size(), coefficients.size(), status)) {
+            detail::check(roundel_problem_add_inequality(get(), indices.size(), indices.data(),
+                                                         coefficients.data(), lower, upper, &row),
+                          status);
+        }
+        return row;
+    }
+
+    std::size_t inequality(std::initializer_list<std::int32_t> indices,
+                           std::initializer_list<double> coefficients, double lower, double upper,
+                           Status* status = nullptr) {
+        return inequality(Indices(indices.begin(), indices.size()),
+                          Numbers(coefficients.begin(), coefficients.size()), lower, upper,
+                          status);
+    }
+
+    /// Adds the inequalities lower <= G x <= upper, one for each row of the matrix, and returns the
+    /// index of the first.
+    template <class Index>
+    std::size_t inequality(const Compressed<Index>& matrix, Numbers lower, Numbers upper,
+                           Status* status = nullptr) {
+        std::size_t first = 0;
+        if (!detail::same_length(matrix.indices.size(), matrix.values.size(), status) ||
+            !detail::same_length(lower.size(), upper.size(), status)) {
+            return first;
+        }
+        constexpr bool wide = std::is_same_v<Index, std::int64_t>;
+        const auto add = [&](auto function) {
+            return function(get(), matrix.offsets.size(), matrix.offsets.data(),
+                            matrix.indices.size(), matrix.indices.data(), matrix.values.data(),
+                            lower.size(), lower.data(), upper.data(), &first);
+        };
+        const bool columns = matrix.layout == Layout::columns;
+        roundel_status code;
+        if constexpr (wide) {
+            code = columns ? add(roundel_problem_add_inequalities_csc_i64)
+                           : add(roundel_problem_add_inequalities_csr_i64);
+        } else {
+            code = columns ? add(roundel_problem_add_inequalities_csc)
+                           : add(roundel_problem_add_inequalities_csr);
+        }
+        detail::check(code, status);
+        return first;
+    }
+
+    /// Adds the inequalities lower <= G x <= upper with another library's matrix and vectors.
+    template <class Matrix, class Vector, class = detail::if_compressed<Matrix>>
+    std::size_t inequality(const Matrix& matrix, const Vector& lower, const Vector& upper,
+                           Status* status = nullptr) {
+        const detail::CompressedView<Matrix> view(matrix);
+        return inequality(view.get(),
+                          Numbers(lower.data(), static_cast<std::size_t>(lower.size())),
+                          Numbers(upper.data(), static_cast<std::size_t>(upper.size())), status);
+    }
+
+    /// Sets lower[k] <= x[variables[k]] <= upper[k], in place of earlier bounds of these variables.
+    /// A bound that does not limit is infinite.
+    void bounds(Indices variables, Numbers lower, Numbers upper, Status* status = nullptr) {
+        if (detail::same_length(variables.size(), lower.size(), status) &&
+            detail::same_length(variables.size(), upper.size(), status)) {
+            detail::check(roundel_problem_set_bounds(get(), variables.size(), variables.data(),
+                                                     lower.data(), upper.data()),
+                          status);
+        }
+    }
+
+    /// Sets the bounds of one variable.
+    void bounds(std::int32_t variable, double lower, double upper, Status* status = nullptr) {
+        detail::check(roundel_problem_set_bounds(get(), 1, &variable, &lower, &upper), status);
+    }
+
+    /// The lower and the upper bounds of all variables, infinite where there is none.
+    std::pair<std::vector<double>, std::vector<double>> bounds(Status* status = nullptr) const {
+        std::pair<std::vector<double>, std::vector<double>> both;
+        const std::size_t count = variables(status);
+        both.first.resize(count);
+        both.second.resize(count);
+        detail::check(
+            roundel_problem_bounds(get(), both.first.data(), both.second.data(), count), status);
+        return both;
+    }
+
+    /// Makes variables binary: integer, with the bounds 0 and 1.
+    void binary(Indices variables, Status* status = nullptr) {
+        detail::check(roundel_problem_set_binaries(get(), variables.size(), variables.data()),
+                      status);
+    }
+
+    void binary(std::initializer_list<std::int32_t> variables, Status* status = nullptr) {
+        binary(Indices(variables.begin(), variables.size()), status);
     }
 
     /// Makes variables integer.

@@ -47,6 +47,29 @@ class Solver {
             status);
     }
 
+    /// Replaces the sides of the inequalities, one lower and one upper side for each.
+    Solver& inequality_sides(span<const double> lower, span<const double> upper,
+                             Status* status = nullptr) {
+        if (detail::same_length(lower.size(), upper.size(), status)) {
+            return told(roundel_solver_set_inequality_sides(get(), lower.data(), upper.data(),
+                                                            lower.size()),
+                        status);
+        }
+        return *this;
+    }
+
+    /// Sets lower[k] <= x[variables[k]] <= upper[k], in place of earlier bounds of these variables.
+    Solver& bounds(span<const std::int32_t> variables, span<const double> lower,
+                   span<const double> upper, Status* status = nullptr) {
+        if (detail::same_length(variables.size(), lower.size(), status) &&
+            detail::same_length(variables.size(), upper.size(), status)) {
+            return told(roundel_solver_set_bounds(get(), variables.size(), variables.data(),
+                                                  lower.data(), upper.data()),
+                        status);
+        }
+        return *this;
+    }
+
     /// Sets the point whose values variables keep where the objective does not determine them. A
     /// warm start begins there.
     Solver& guess(span<const double> values, Status* status = nullptr) {

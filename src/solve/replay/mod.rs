@@ -24,9 +24,17 @@ use format::{Replay, Values};
 ///
 /// # Errors
 /// As [`Model::new`], [`Error::InvalidArgument`] for another ending, [`Error::Io`] for a file that
-/// cannot be written, [`Error::NotSupported`] for compression without the feature `gzip`.
+/// cannot be written, [`Error::NotSupported`] for compression without the feature `gzip`, and for a problem
+/// with inequalities or bounds.
 pub fn save(path: &Path, problem: &Problem, options: &Options) -> Result<()> {
     let replay_path = replay_path(path)?;
+    if problem.is_limited() {
+        return Err(Error::NotSupported {
+            what: "replay files hold no inequalities and no bounds".into(),
+            index: None,
+            line: None,
+        });
+    }
     let model = Model::new(problem)?;
     let pins = model.pinned().iter().enumerate();
     // The comparison is bitwise, so that minus zero is kept.

@@ -1,7 +1,7 @@
 """Mixed-integer quadratic problems of geometry processing.
 
     minimise   1/2 x'Qx + q'x + c + sum_k w_k (a_k . x - r_k)^2
-    subject to C x = d, x_i integer for i in I
+    subject to C x = d, l_G <= G x <= u_G, l <= x <= u, x_i integer for i in I
 
 `solve` solves a problem in matrices, `Problem` builds one part by part, and `Solver` solves one many
 times. `quad` makes quads of a triangle mesh, `field` and `map` the steps to them, and `repair` a mesh of

@@ -76,6 +76,17 @@ def indices32(values: Any, what: str, shape: tuple[int, ...] = (-1,)) -> np.ndar
     return found
 
 
+def sides(lower: Any, upper: Any, length: int) -> tuple[np.ndarray, np.ndarray]:
+    """Lower and upper limits: `length` numbers each, or one for all, or None for infinite ones."""
+    return _limits(lower, "lower", length, -np.inf), _limits(upper, "upper", length, np.inf)
+
+
+def _limits(values: Any, what: str, length: int, none: float) -> np.ndarray:
+    if values is None or np.ndim(values) == 0:
+        return np.full(length, none if values is None else real(values, what))
+    return reals(values, what, (length,))
+
+
 def _fits(found: np.ndarray, what: str, shape: tuple[int, ...]) -> None:
     fits = len(found.shape) == len(shape) and all(
         wanted in (-1, length) for wanted, length in zip(shape, found.shape)

@@ -179,7 +179,7 @@ class IoError(Error):
 
 
 class InfeasibleError(Error):
-    """The constraint `row` contradicts the others."""
+    """The constraint, inequality or bound `row` contradicts others; the message says which it is."""
 
     element = "row"
 

@@ -9,7 +9,7 @@ import numpy as np
 from ._handle import Handle, number
 from ._library import ffi, lib, path
 from ._types import ArrayLike, File, MatrixLike
-from .arrays import compressed, count, indices, indices32, pointer, real, reals, whole
+from .arrays import compressed, count, indices, indices32, pointer, real, reals, sides, whole
 from .errors import InvalidArgumentError, LengthMismatchError, check, refusal
 from .options import options_handle
 
@@ -21,7 +21,9 @@ _TRIANGLES = {
 
 
 class Problem:
-    """Minimise 1/2 x'Qx + q'x + c + sum_k w_k (a_k . x - r_k)^2 subject to C x = d, some x integer.
+    """Minimise 1/2 x'Qx + q'x + c + sum_k w_k (a_k . x - r_k)^2 under constraints, some x integer.
+
+    The constraints are equations C x = d, inequalities l <= G x <= u, and bounds of variables.
 
     Parts may be added in any order and any number of times; terms are summed. A call that fails
     changes nothing. Matrices are dense or SciPy matrices of any form. Those in CSR or CSC with indices
@@ -75,6 +77,26 @@ class Problem:
     def constraints(self) -> int:
         """The number of constraints so far, which is also the index of the next one."""
         return number(lib.roundel_problem_constraint_count, self._handle.pointer)
+
+    @property
+    def inequalities(self) -> int:
+        """The number of inequalities so far, which is also the index of the next one."""
+        return number(lib.roundel_problem_inequality_count, self._handle.pointer)
+
+    @property
+    def lower_bounds(self) -> np.ndarray:
+        """The lower bound of each variable, minus infinity where there is none."""
+        return self._bounds()[0]
+
+    @property
+    def upper_bounds(self) -> np.ndarray:
+        """The upper bound of each variable, infinity where there is none."""
+        return self._bounds()[1]
+
+    def _bounds(self) -> tuple[np.ndarray, np.ndarray]:
+        lower, upper = np.empty(self.variables), np.empty(self.variables)
+        check(lib.roundel_problem_bounds(self._handle.pointer, pointer(lower), pointer(upper), len(lower)))
+        return lower, upper
 
     def quadratic(self, Q: MatrixLike, triangle: Literal["full", "upper", "lower"] = "full") -> None:
         """Adds 1/2 x'Qx. `triangle` says which entries are given: "full", "upper" or "lower"."""
@@ -143,16 +165,80 @@ class Problem:
         arguments = (*matrix.arguments(), len(rhs), pointer(rhs))
         return number(call, self._handle.pointer, *arguments)
 
+    def inequality(
+        self, indices: ArrayLike, coefficients: ArrayLike, lower: float = -np.inf, upper: float = np.inf
+    ) -> int:
+        """Adds the inequality lower <= coefficients . x[indices] <= upper and returns its index.
+
+        A side that does not limit is infinite.
+        """
+        at = indices32(indices, "indices")
+        values = reals(coefficients, "coefficients", (len(at),))
+        limits = (real(lower, "lower"), real(upper, "upper"))
+        call = lib.roundel_problem_add_inequality
+        return number(call, self._handle.pointer, len(at), pointer(at), pointer(values), *limits)
+
+    def inequality_rows(
+        self, G: MatrixLike, lower: Optional[ArrayLike] = None, upper: Optional[ArrayLike] = None
+    ) -> int:
+        """Adds the inequalities lower <= G x <= upper, one for each row, and returns the index of the first.
+
+        A side that does not limit is infinite, and sides that are not given are so for all rows.
+        """
+        matrix = compressed(G, "G")
+        if matrix.shape[1] != self.variables:
+            raise refusal(LengthMismatchError, _columns("G", matrix, self.variables))
+        below, above = sides(lower, upper, matrix.shape[0])
+        call = getattr(lib, f"roundel_problem_add_inequalities_{matrix.form}{matrix.twin}")
+        arguments = (*matrix.arguments(), len(below), pointer(below), pointer(above))
+        return number(call, self._handle.pointer, *arguments)
+
+    def bounds(
+        self,
+        variables: ArrayLike,
+        lower: Optional[ArrayLike] = None,
+        upper: Optional[ArrayLike] = None,
+    ) -> None:
+        """Sets lower <= x[variables] <= upper, in place of earlier bounds of these variables.
+
+        The bounds are one number for each of the variables, or one for all. A bound that does not limit is
+        infinite, and so is one that is not given.
+
+        >>> import roundel
+        >>> problem = roundel.Problem(2)
+        >>> problem.least_squares_rows([[1.0, 0.0], [0.0, 1.0]], [2.6, 1.4])
+        0
+        >>> problem.inequality([0, 1], [1.0, 1.0], upper=3.0)
+        0
+        >>> problem.bounds([0], upper=1.0)
+        >>> problem.integer([0, 1])
+        >>> roundel.solve(problem).values
+        array([1., 1.])
+        """
+        at = self._at(variables, "variables")
+        below, above = sides(lower, upper, len(at))
+        arrays = (len(at), pointer(at), pointer(below), pointer(above))
+        check(lib.roundel_problem_set_bounds(self._handle.pointer, *arrays))
+
     def integer(self, variables: ArrayLike) -> None:
         """Makes variables integer, given by their indices or by a boolean for each variable."""
+        at = self._at(variables, "integers")
+        check(lib.roundel_problem_set_integers(self._handle.pointer, len(at), pointer(at)))
+
+    def binary(self, variables: ArrayLike) -> None:
+        """Makes variables 0 or 1, given by their indices or by a boolean for each variable."""
+        at = self._at(variables, "binaries")
+        check(lib.roundel_problem_set_binaries(self._handle.pointer, len(at), pointer(at)))
+
+    def _at(self, variables: ArrayLike, what: str) -> np.ndarray:
+        """The indices of variables that are given by indices or by a boolean for each variable."""
         given = np.asarray(variables)
         if given.dtype == bool:
             if given.shape != (self.variables,):
-                told = f"integers: the shape is {given.shape} for {self.variables} variables"
+                told = f"{what}: the shape is {given.shape} for {self.variables} variables"
                 raise refusal(LengthMismatchError, told)
             given = np.flatnonzero(given)
-        at = indices32(given, "integers")
-        check(lib.roundel_problem_set_integers(self._handle.pointer, len(at), pointer(at)))
+        return indices32(given, what)
 
     def pin(self, variable: int, value: float) -> None:
         """Fixes a variable to a value."""

@@ -48,8 +48,9 @@ class Solution:
       integrality_violation: float
           The largest distance of an integer variable from an integer.
       counts: dict[str, int]
-          Sizes: "variables", "integers" and "constraints" of the problem, "reduced_integers" and
-          "reduced_continuous" after the constraints are eliminated, and "factor_nonzeros".
+          Sizes: "variables", "integers", "constraints" and "inequalities" of the problem,
+          "reduced_integers" and "reduced_continuous" after the constraints are eliminated, and
+          "factor_nonzeros".
       seconds: dict[str, float]
           Wall-clock seconds by phase: eliminate, factor, round, total.
     """

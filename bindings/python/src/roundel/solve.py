@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any, Literal, Mapping, Optional, Union
 
+import numpy as np
+
 from ._groups import SOLVE, TUNING, WATCH
 from ._handle import Handle
 from ._library import ffi, lib
@@ -29,6 +31,9 @@ def solve(
     weights: Optional[ArrayLike] = None,
     C: Optional[MatrixLike] = None,
     d: Optional[ArrayLike] = None,
+    inequalities: Optional[tuple[MatrixLike, Optional[ArrayLike], Optional[ArrayLike]]] = None,
+    bounds: Optional[tuple[Optional[ArrayLike], Optional[ArrayLike]]] = None,
+    binaries: Optional[ArrayLike] = None,
     integers: Optional[ArrayLike] = None,
     pins: Optional[Mapping[int, float]] = None,
     guess: Optional[ArrayLike] = None,
@@ -37,9 +42,9 @@ def solve(
     cancel: Optional[CancelToken] = None,
     **options: Any,
 ) -> Solution:
-    """Minimises 1/2 x'Qx + q'x + c + sum_k weights_k (A_k x - b_k)^2 subject to C x = d.
+    """Minimises 1/2 x'Qx + q'x + c + sum_k weights_k (A_k x - b_k)^2 under linear constraints.
 
-    The sum over k is that over the rows of A. Matrices are NumPy arrays or SciPy matrices with one column
+    The constraints are equations C x = d, inequalities l <= G x <= u, and bounds of variables. The sum over k is that over the rows of A. Matrices are NumPy arrays or SciPy matrices with one column
     for each variable; what is not given is zero, and one of Q, q and A must be given.
 
       Q: a symmetric matrix, without a direction in which the objective curves downwards; or a `Problem`, in
@@ -47,6 +52,11 @@ def solve(
       q, c: the linear term and the constant.
       A, b, weights: rows of least squares, their right sides, and their weights, 1 by default.
       C, d: equations that hold exactly.
+      inequalities: a matrix G and the sides l and u, each one number for each row of G or one for all. A side
+          that does not limit is infinite, or None for all rows.
+      bounds: the lower and the upper bounds, each one number for each variable or one for all. A bound that
+          does not limit is infinite, or None for all variables.
+      binaries: the variables that must be 0 or 1, given as integers are.
       integers: the variables that must be integer, as indices or as a boolean for each variable.
       pins: variables and the values that they are fixed to.
       guess: the values that variables keep where the objective does not determine them.
@@ -64,6 +74,11 @@ def solve(
     >>> s.values
     array([1., 2., 1.])
 
+    >>> limits = {"inequalities": ([[1, 1]], None, 3), "bounds": (0, [1, 9])}     # x0 + x1 <= 3
+    >>> s = roundel.solve(A=np.eye(2), b=[2.6, 1.4], integers=[0, 1], **limits)
+    >>> s.values
+    array([1., 1.])
+
     A problem that cannot be solved raises an `Error` that names the element at fault:
 
     >>> roundel.solve(Q, integers=[0, 2])
@@ -73,12 +88,14 @@ def solve(
     """
     options = checked(solve, options)
     if isinstance(Q, Problem):
-        if any(part is not None for part in (q, A, b, weights, C, d, integers, pins, guess)):
+        limits = (inequalities, bounds, binaries)
+        if any(part is not None for part in (q, A, b, weights, C, d, *limits, integers, pins, guess)):
             told = "a problem stands for all arguments: change the problem"
             raise refusal(ArgumentTypeError, told)
         problem = Q
     else:
         problem = _assembled(Q, q, c, A, b, weights, C, d, integers, pins, guess, triangle)
+        _limit(problem, inequalities, bounds, binaries)
     handle, watch = options_handle(options), Watch(progress, cancel)
     place = ffi.new("roundel_solution **")
     pointer = problem._handle.pointer
@@ -133,3 +150,20 @@ def _assembled(
     if guess is not None:
         problem.guess(guess)
     return problem
+
+
+def _limit(problem: Problem, inequalities: Any, bounds: Any, binaries: Any) -> None:
+    """Adds inequalities, bounds and binaries."""
+    if inequalities is not None:
+        problem.inequality_rows(*_parts(inequalities, "inequalities", "a matrix, lower and upper sides"))
+    if bounds is not None:
+        lower, upper = _parts(bounds, "bounds", "lower and upper bounds")
+        problem.bounds(np.arange(problem.variables), lower, upper)
+    if binaries is not None:
+        problem.binary(binaries)
+
+
+def _parts(given: Any, what: str, wanted: str) -> Any:
+    if not isinstance(given, (tuple, list)) or len(given) != (3 if what == "inequalities" else 2):
+        raise refusal(ArgumentTypeError, f"{what}: there must be {wanted}, as a tuple")
+    return given

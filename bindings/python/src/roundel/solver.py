@@ -8,7 +8,7 @@ from ._groups import SOLVE, TUNING, WATCH
 from ._handle import Handle
 from ._library import ffi, lib
 from ._types import ArrayLike
-from .arrays import pointer, real, reals, whole
+from .arrays import indices32, pointer, real, reals, sides, whole
 from .errors import check
 from .events import Progress
 from .keywords import checked, takes
@@ -41,6 +41,7 @@ class Solver:
     def __init__(self, problem: Problem) -> None:
         self._variables = problem.variables
         self._constraints = problem.constraints
+        self._inequalities = problem.inequalities
         self._last: Optional[Solution] = None
         self._handle = Handle.made("roundel_solver", lib.roundel_solver_new, problem._handle.pointer)
 
@@ -64,6 +65,26 @@ class Solver:
     def set_least_squares_right_sides(self, b: ArrayLike) -> None:
         """Replaces the right sides of the least-squares rows, in the order in which they were added."""
         self._replace(lib.roundel_solver_set_least_squares_right_sides, b, "b")
+
+    def set_inequality_sides(
+        self, lower: Optional[ArrayLike] = None, upper: Optional[ArrayLike] = None
+    ) -> None:
+        """Replaces the sides of the inequalities: one number for each, one for all, or None for no limit."""
+        below, above = sides(lower, upper, self._inequalities)
+        arrays = (pointer(below), pointer(above), len(below))
+        check(lib.roundel_solver_set_inequality_sides(self._handle.pointer, *arrays))
+
+    def set_bounds(
+        self,
+        variables: ArrayLike,
+        lower: Optional[ArrayLike] = None,
+        upper: Optional[ArrayLike] = None,
+    ) -> None:
+        """Sets bounds in place of earlier ones of these variables, as `Problem.bounds` does."""
+        at = indices32(variables, "variables")
+        below, above = sides(lower, upper, len(at))
+        arrays = (len(at), pointer(at), pointer(below), pointer(above))
+        check(lib.roundel_solver_set_bounds(self._handle.pointer, *arrays))
 
     def set_guess(self, values: ArrayLike) -> None:
         """Sets the point whose values variables keep where the objective does not determine them."""
