@@ -6,7 +6,8 @@
 
 use super::form::{Form, Interval};
 use super::tree::{Limits, search};
-use crate::error::{Conflicting, Error};
+use crate::error::{Conflicting, Error, Result};
+use crate::linalg::Sparse;
 use crate::monitor::Monitor;
 use crate::problem::{Problem, limits_text, row_text};
 
@@ -64,6 +65,18 @@ pub(super) fn of_form(form: &Form, members: &[u32]) -> Vec<Conflicting> {
         kept.push((element as u32, 1.0));
     }
     of_certificate(&form, members, &kept)
+}
+
+/// A small set of rows and bounds that contradict each other, whatever the objective is, if a small search
+/// finds that there is no solution.
+pub(super) fn of_limits(form: &Form, members: &[u32]) -> Result<Option<Vec<Conflicting>>> {
+    let n = form.dim();
+    let form = Form {
+        hessian: Sparse::from_triplets(n, n, std::iter::empty())?,
+        gradient: vec![0.0; n],
+        ..form.clone()
+    };
+    Ok(has_none(&form).then(|| of_form(&form, members)))
 }
 
 /// Whether a small search shows that the form has no solution.

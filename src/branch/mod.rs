@@ -128,7 +128,7 @@ pub(crate) fn solve(
                 first: true,
                 ..limits
             };
-            let own = search_part(problem, part, start, limits, monitor)?;
+            let own = search_part(problem, &parts, part, start, limits, monitor)?;
             found.work += own.work;
             start = own.best.map(|(point, _)| point);
         }
@@ -145,7 +145,7 @@ pub(crate) fn solve(
             elsewhere: found.energy,
             ..limits
         };
-        let own = search_part(problem, part, start, limits, monitor)?;
+        let own = search_part(problem, &parts, part, start, limits, monitor)?;
         if let Some((point, energy)) = own.best {
             for (&j, x) in part.members.iter().zip(&point) {
                 values[j as usize] = *x;
@@ -175,14 +175,34 @@ pub(crate) fn solve(
 /// Searches a part. What is returned has a point.
 fn search_part(
     problem: &Problem,
+    parts: &[Part],
     part: &Part,
     start: Option<Vec<f64>>,
     limits: Limits,
     monitor: &mut Monitor,
 ) -> Result<tree::Found> {
-    let found = tree::search(&part.form, start, limits, monitor)?;
+    let found = match tree::search(&part.form, start, limits, monitor) {
+        Err(Error::NotConvex { direction, .. }) => {
+            let (variable, direction) = of_all(problem.variables(), &part.members, &direction);
+            return Err(Error::NotConvex {
+                variable,
+                direction,
+            });
+        }
+        found => found?,
+    };
     if let Some(ray) = found.ray {
-        return Err(unbounded(problem.variables(), &part.members, &ray));
+        // Where there is no point, nothing falls.
+        for part in parts {
+            if let Some(elements) = conflict::of_limits(&part.form, &part.members)? {
+                return Err(conflict::error(problem, &elements));
+            }
+        }
+        let (variable, direction) = of_all(problem.variables(), &part.members, &ray);
+        return Err(Error::Unbounded {
+            variable,
+            direction,
+        });
     }
     if found.best.is_some() {
         return Ok(found);
@@ -212,14 +232,13 @@ fn no_point(problem: &Problem, form: &Form, contradiction: Contradiction) -> Err
     conflict::error(problem, &elements)
 }
 
-fn unbounded(variables: usize, members: &[u32], ray: &[f64]) -> Error {
+/// A direction of a part as one of all unknowns, and the unknown that it moves most.
+fn of_all(variables: usize, members: &[u32], part: &[f64]) -> (usize, Vec<f64>) {
     let mut direction = vec![0.0; variables];
-    for (&j, d) in members.iter().zip(ray) {
+    for (&j, d) in members.iter().zip(part) {
         direction[j as usize] = *d;
     }
     let largest = |a: &usize, b: &usize| direction[*a].abs().total_cmp(&direction[*b].abs());
-    Error::Unbounded {
-        variable: (0..variables).max_by(largest).unwrap_or(0),
-        direction,
-    }
+    let variable = (0..variables).max_by(largest).unwrap_or(0);
+    (variable, direction)
 }

@@ -13,6 +13,7 @@ use super::form::{Form, Interval};
 use super::propagate::Propagator;
 use super::pseudo_costs::{PseudoCosts, merit};
 use super::relaxation::{Relaxation, Relaxed, regularization};
+use super::safe_bound::is_contradiction;
 use super::shared::Shared;
 use crate::error::Result;
 use crate::monitor::Monitor;
@@ -211,10 +212,13 @@ impl<'a, 'm, 'e> Tree<'a, 'm, 'e> {
         });
         self.run();
         let waiting = self.waiting.iter().chain(&self.stack);
-        let is_complete = self.waiting.is_empty() && self.stack.is_empty();
+        let is_empty = self.waiting.is_empty() && self.stack.is_empty();
         let bound = waiting.map(|node| node.bound).fold(self.done, f64::min);
         let energy = self.best.as_ref();
         let energy = energy.map_or(f64::INFINITY, |(_, energy)| *energy);
+        // A search that ends at its first point leaves nodes out.
+        let leaves_out = self.limits.first && self.best.is_some() && bound < self.enough(energy);
+        let is_complete = is_empty && !leaves_out;
         Found {
             bound: bound.min(energy),
             ray: self.ray,
@@ -275,11 +279,14 @@ impl<'a, 'm, 'e> Tree<'a, 'm, 'e> {
         match &self.best {
             None => f64::INFINITY,
             Some(_) if self.limits.first => f64::NEG_INFINITY,
-            Some((_, energy)) => {
-                let gap = self.limits.gap.max(CLOSED);
-                energy - gap * (energy + self.limits.elsewhere).abs() - self.rounding
-            }
+            Some((_, energy)) => self.enough(*energy),
         }
+    }
+
+    /// The bound that proves a point of this energy.
+    fn enough(&self, energy: f64) -> f64 {
+        let gap = self.limits.gap.max(CLOSED);
+        energy - gap * (energy + self.limits.elsewhere).abs() - self.rounding
     }
 
     fn jump_to(&mut self, node: &Node) {
@@ -323,6 +330,10 @@ impl<'a, 'm, 'e> Tree<'a, 'm, 'e> {
         let parent = node.bound;
         match solved {
             Relaxed::Infeasible(rows) => {
+                if !is_contradiction(self.form, &boxes, &rows) {
+                    // Rounding errors leave a doubt, and so the bound stays.
+                    self.done = self.done.min(node.bound);
+                }
                 self.conflict = rows;
                 return Step::Done;
             }

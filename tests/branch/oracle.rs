@@ -332,7 +332,61 @@ pub fn truth(of: &Instance) -> Truth {
     decide(of).unwrap_or(Truth::TooLarge)
 }
 
-fn decide(of: &Instance) -> Option<Truth> {
+/// Whether the greatest common divisor of a row of integers leaves no value between its sides.
+fn misses_all_multiples(of: &Instance) -> Option<bool> {
+    for row in &of.rows {
+        let used = row.coefficients.iter().zip(&of.integer);
+        if used.clone().any(|(a, integer)| *a != 0.0 && !integer) {
+            continue;
+        }
+        let scale = 1e6_f64.log2().ceil().exp2();
+        let sides = [row.lower, row.upper].map(|side| side * scale);
+        let scaled = whole(&mut row.coefficients.iter().map(|a| a * scale))?;
+        let divisor = scaled.iter().fold(0_i128, |g, &a| gcd(g, a.abs())) as f64;
+        if divisor > 0.0 && (sides[0] / divisor).ceil() > (sides[1] / divisor).floor() {
+            return Some(true);
+        }
+    }
+    Some(false)
+}
+
+fn gcd(a: i128, b: i128) -> i128 {
+    if b == 0 { a } else { gcd(b, a % b) }
+}
+
+/// The instance with the bounds of integers that its rows imply, rounded outwards.
+fn implied(of: &Instance) -> Instance {
+    let mut tight = of.clone();
+    for _ in 0..20 {
+        for row in &of.rows {
+            for j in 0..of.unknowns() {
+                let a = row.coefficients[j];
+                if a == 0.0 || !of.integer[j] {
+                    continue;
+                }
+                let (mut least, mut most) = (0.0, 0.0);
+                for (k, &b) in row.coefficients.iter().enumerate() {
+                    if k != j && b != 0.0 {
+                        let (lower, upper) = tight.limits(k);
+                        least += (b * lower).min(b * upper);
+                        most += (b * lower).max(b * upper);
+                    }
+                }
+                let ends = [(row.lower - most) / a, (row.upper - least) / a];
+                let (lower, upper) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
+                tight.lower[j] = tight.lower[j].max((lower - 1e-6).ceil());
+                tight.upper[j] = tight.upper[j].min((upper + 1e-6).floor());
+            }
+        }
+    }
+    tight
+}
+
+fn decide(given: &Instance) -> Option<Truth> {
+    if !is_feasible_in_reals(given)? || misses_all_multiples(given)? {
+        return Some(Truth::Infeasible);
+    }
+    let of = &implied(given);
     if !is_feasible_in_reals(of)? {
         return Some(Truth::Infeasible);
     }
