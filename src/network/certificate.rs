@@ -76,8 +76,9 @@ impl Proof<'_> {
     /// The lower bound on the cost of all flows. None if the multipliers prove nothing.
     pub fn bound(&self) -> Option<i128> {
         let graph = &self.halved.graph;
+        let nesting = Nesting::new(self.blossoms, graph.vertices());
         for (edge, &[i, j]) in graph.ends.iter().enumerate() {
-            let sum = self.y[i as usize] + self.y[j as usize] - self.shared(i, j);
+            let sum = self.y[i as usize] + self.y[j as usize] - nesting.shared(i, j);
             if sum > graph.weights[edge] {
                 return None;
             }
@@ -94,15 +95,57 @@ impl Proof<'_> {
         }
         Some(bound)
     }
+}
+
+/// The nested blossoms as a forest: for each vertex and blossom its depth, and the sum of the multipliers of
+/// it and of all around it.
+struct Nesting<'a> {
+    blossoms: &'a Blossoms,
+    depth: Vec<u32>,
+    sum: Vec<i128>,
+}
+
+impl<'a> Nesting<'a> {
+    fn new(blossoms: &'a Blossoms, vertices: usize) -> Self {
+        let mut nesting = Nesting {
+            blossoms,
+            depth: vec![0; blossoms.capacity()],
+            sum: vec![0; blossoms.capacity()],
+        };
+        let all: Vec<u32> = (0..vertices as u32).chain(blossoms.all()).collect();
+        for &b in &all {
+            let mut chain = vec![b];
+            let mut outer = blossoms.parent(b);
+            // The depth of what has been visited is positive.
+            while outer != NONE && nesting.depth[outer as usize] == 0 {
+                chain.push(outer);
+                outer = blossoms.parent(outer);
+            }
+            let (mut depth, mut sum) = match outer {
+                NONE => (0, 0),
+                _ => (nesting.depth[outer as usize], nesting.sum[outer as usize]),
+            };
+            for &b in chain.iter().rev() {
+                depth += 1;
+                sum += blossoms.z(b);
+                nesting.depth[b as usize] = depth;
+                nesting.sum[b as usize] = sum;
+            }
+        }
+        nesting
+    }
 
     /// The multipliers of all blossoms that contain both.
-    fn shared(&self, i: u32, j: u32) -> i128 {
-        let around = |v: u32| {
-            let up = |b: &u32| Some(self.blossoms.parent(*b)).filter(|b| *b != NONE);
-            std::iter::successors(up(&v), up)
-        };
-        let of_first: Vec<u32> = around(i).collect();
-        let both = around(j).filter(|b| of_first.contains(b));
-        both.map(|b| self.blossoms.z(b)).sum()
+    fn shared(&self, mut i: u32, mut j: u32) -> i128 {
+        while i != j {
+            if self.depth[i as usize] < self.depth[j as usize] {
+                (i, j) = (j, i);
+            }
+            i = self.blossoms.parent(i);
+            if i == NONE {
+                return 0;
+            }
+        }
+        self.sum[i as usize]
     }
 }

@@ -7,7 +7,7 @@
 //!
 //! The potentials start at the optimum of the continuous relaxation, approximately: coordinate ascent of its
 //! dual (`bertsekas1997`). Each arc starts at its cheapest flow for these potentials. Shortest augmenting
-//! paths then bring what is left over at some nodes to where it is missing (`ahuja2003`, section 14.5, with
+//! paths then bring what is left over at some nodes to where it is missing (`ahuja1993`, section 14.5, with
 //! unit steps). Potentials remain optimal for the arcs all the time.
 
 use super::graph::{Edge, Network, UNITS};

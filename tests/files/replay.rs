@@ -197,14 +197,24 @@ fn the_replay_file_is_beside_its_problem() {
 }
 
 #[test]
-fn a_problem_with_limits_is_refused_and_not_saved_without_them() {
+fn inequalities_and_bounds_come_back_and_give_the_same_solution() {
     let scratch = Scratch::new("limited");
     let path = scratch.file("p.mps");
     let mut problem = Problem::new(2).unwrap();
-    problem.set_bounds(&[1], &[0.0], &[f64::INFINITY]).unwrap();
-    let error = replay::save(&path, &problem, &Options::default()).unwrap_err();
-    assert_eq!(error.code(), "not_supported");
-    assert!(!path.exists());
+    problem.add_least_squares(&[0], &[1.0], 0.3, 1.0).unwrap();
+    problem.add_least_squares(&[1], &[1.0], 2.7, 1.0).unwrap();
+    problem.set_integers(&[0]).unwrap();
+    let none = f64::INFINITY;
+    problem
+        .add_inequality(&[0, 1], &[1.0, -0.1], 0.75, none)
+        .unwrap();
+    problem.set_bounds(&[1], &[0.0], &[2.5]).unwrap();
+    replay::save(&path, &problem, &Options::default()).unwrap();
+    let (read, options) = replay::load(&path).unwrap();
+    assert_eq!(read.bounds(1).unwrap(), (0.0, 2.5));
+    let solutions = [&problem, &read].map(|problem| roundel::solve(problem, &options).unwrap());
+    assert_eq!(solutions[0].values(), [1.0, 2.5]);
+    assert_eq!(solutions[1].values(), solutions[0].values());
 }
 
 #[test]

@@ -106,12 +106,11 @@ pub(super) fn label(tokens: &mut Tokens) -> Result<String> {
     }
 }
 
+/// Unknowns and their coefficients.
+type Terms = Vec<(usize, f64)>;
+
 /// The terms of a row, and its two sides.
-fn sides(
-    line: usize,
-    mut parts: Vec<Expression>,
-    relations: &[i8],
-) -> Result<(Vec<(usize, f64)>, f64, f64)> {
+fn sides(line: usize, mut parts: Vec<Expression>, relations: &[i8]) -> Result<(Terms, f64, f64)> {
     let linear = parts.iter().filter(|part| !part.terms.is_empty()).count();
     let at = parts.iter().position(|part| !part.terms.is_empty());
     let (Some(at), 1) = (at, linear) else {

@@ -20,7 +20,7 @@ pub(super) enum Section {
     Bounds,
     QuadObj,
     QMatrix,
-    QSection,
+    QuadSection,
     EndData,
 }
 
@@ -37,7 +37,7 @@ impl Section {
             Section::Bounds => "BOUNDS",
             Section::QuadObj => "QUADOBJ",
             Section::QMatrix => "QMATRIX",
-            Section::QSection => "QSECTION",
+            Section::QuadSection => "QSECTION",
             Section::EndData => "ENDATA",
         }
     }
@@ -45,7 +45,7 @@ impl Section {
     /// The position of a section in the order. A section may follow one of the same position.
     fn step(self) -> usize {
         match self {
-            Section::Bounds | Section::QuadObj | Section::QMatrix | Section::QSection => {
+            Section::Bounds | Section::QuadObj | Section::QMatrix | Section::QuadSection => {
                 Section::Ranges as usize
             }
             Section::Rhs | Section::Ranges => Section::Ranges as usize,
@@ -57,7 +57,7 @@ impl Section {
     pub fn is_quadratic(self) -> bool {
         matches!(
             self,
-            Section::QuadObj | Section::QMatrix | Section::QSection
+            Section::QuadObj | Section::QMatrix | Section::QuadSection
         )
     }
 
@@ -79,7 +79,7 @@ impl Section {
             "BOUNDS" => Section::Bounds,
             "QUADOBJ" => Section::QuadObj,
             "QMATRIX" => Section::QMatrix,
-            "QSECTION" => Section::QSection,
+            "QSECTION" => Section::QuadSection,
             "ENDATA" => Section::EndData,
             "OBJNAME" | "OBJECTIVE" | "USERCUTS" | "LAZYCONS" | "SOS" | "SOS1" | "SOS2"
             | "SETS" | "CSECTION" | "INDICATORS" | "GENCONS" | "PWLOBJ" | "BRANCH"

@@ -3,8 +3,8 @@
 //! Clarabel writes such files too; they belong in a bug report. The problem goes into an MPS file,
 //! `NAME.mps` or `NAME.mps.gz`. The data that MPS cannot express go into `NAME.replay.json` beside it:
 //! options, pins and initial guess. Every number is written with enough digits to be read back as itself.
-//! So Q, q, c and the constraints of the [`Model`] are the same bit for bit, and so are the values of a
-//! solve. Least-squares rows are read back as their part of Q, q and c, without the cycles hinted among
+//! So Q, q, c, the constraints of the [`Model`], inequalities and bounds are the same bit for bit, and so are the
+//! values of a solve. Least-squares rows are read back as their part of Q, q and c, without the cycles hinted among
 //! them. So an energy that is summed row by row may differ in its last digits.
 
 mod entries;
@@ -24,17 +24,10 @@ use format::{Replay, Values};
 ///
 /// # Errors
 /// As [`Model::new`], [`Error::InvalidArgument`] for another ending, [`Error::Io`] for a file that
-/// cannot be written, [`Error::NotSupported`] for compression without the feature `gzip`, and for a problem
-/// with inequalities or bounds.
+/// cannot be written, [`Error::NotSupported`] for compression without the feature `gzip`, and for limits of
+/// 1e20 or more.
 pub fn save(path: &Path, problem: &Problem, options: &Options) -> Result<()> {
     let replay_path = replay_path(path)?;
-    if problem.is_limited() {
-        return Err(Error::NotSupported {
-            what: "replay files hold no inequalities and no bounds".into(),
-            index: None,
-            line: None,
-        });
-    }
     let model = Model::new(problem)?;
     let pins = model.pinned().iter().enumerate();
     // The comparison is bitwise, so that minus zero is kept.
