@@ -85,7 +85,7 @@ impl Content {
                 self.sides = Sides::new(&self.rows);
             }
             Section::Bounds => self.bounds = Bounds::new(&self.columns),
-            Section::QuadObj | Section::QMatrix | Section::QuadSection => {
+            Section::QuadObj | Section::QMatrix | Section::QOfRow => {
                 self.is_of_objective(line)?;
                 self.quadratic = Quadratic::new(section == Section::QMatrix);
             }
@@ -131,7 +131,7 @@ impl Content {
             Section::Rhs => self.sides.read_right(line, &self.rows),
             Section::Ranges => self.sides.read_range(line, &self.rows),
             Section::Bounds => self.bounds.read(line, &mut self.columns),
-            Section::QuadObj | Section::QMatrix | Section::QuadSection => {
+            Section::QuadObj | Section::QMatrix | Section::QOfRow => {
                 self.quadratic.read(line, &self.columns.names)
             }
             Section::Start | Section::Name | Section::EndData => {

@@ -20,7 +20,7 @@ pub(super) enum Section {
     Bounds,
     QuadObj,
     QMatrix,
-    QuadSection,
+    QOfRow,
     EndData,
 }
 
@@ -37,7 +37,7 @@ impl Section {
             Section::Bounds => "BOUNDS",
             Section::QuadObj => "QUADOBJ",
             Section::QMatrix => "QMATRIX",
-            Section::QuadSection => "QSECTION",
+            Section::QOfRow => "QSECTION",
             Section::EndData => "ENDATA",
         }
     }
@@ -45,7 +45,7 @@ impl Section {
     /// The position of a section in the order. A section may follow one of the same position.
     fn step(self) -> usize {
         match self {
-            Section::Bounds | Section::QuadObj | Section::QMatrix | Section::QuadSection => {
+            Section::Bounds | Section::QuadObj | Section::QMatrix | Section::QOfRow => {
                 Section::Ranges as usize
             }
             Section::Rhs | Section::Ranges => Section::Ranges as usize,
@@ -55,10 +55,7 @@ impl Section {
 
     /// Whether the section holds Q.
     pub fn is_quadratic(self) -> bool {
-        matches!(
-            self,
-            Section::QuadObj | Section::QMatrix | Section::QuadSection
-        )
+        matches!(self, Section::QuadObj | Section::QMatrix | Section::QOfRow)
     }
 
     /// Whether two sections may not both be in a file.
@@ -79,7 +76,7 @@ impl Section {
             "BOUNDS" => Section::Bounds,
             "QUADOBJ" => Section::QuadObj,
             "QMATRIX" => Section::QMatrix,
-            "QSECTION" => Section::QuadSection,
+            "QSECTION" => Section::QOfRow,
             "ENDATA" => Section::EndData,
             "OBJNAME" | "OBJECTIVE" | "USERCUTS" | "LAZYCONS" | "SOS" | "SOS1" | "SOS2"
             | "SETS" | "CSECTION" | "INDICATORS" | "GENCONS" | "PWLOBJ" | "BRANCH"
