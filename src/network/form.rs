@@ -160,7 +160,7 @@ fn ends_of(ends: &[(End, f64)], root: u32) -> Option<[End; 2]> {
 fn within(lower: f64, upper: f64) -> Option<Limits> {
     let [lower, upper] = [lower.ceil(), upper.floor()];
     let is_huge = |x: f64| x.is_finite() && x.abs() > LARGEST as f64;
-    if !(lower <= upper) || is_huge(lower) || is_huge(upper) {
+    if lower > upper || is_huge(lower) || is_huge(upper) {
         return None;
     }
     let side = |x: f64| x.is_finite().then_some(x as i64);
