@@ -198,6 +198,7 @@ mod tests {
                 Error::Contradiction {
                     what: "bounds of x0".into(),
                     index: Some(0),
+                    elements: Vec::new(),
                 },
                 "infeasible",
             ),

@@ -1,5 +1,7 @@
 //! Random small networks and matchings against brute force.
 
+mod form;
+
 use super::blossoms::NONE;
 use super::flow::{Failure, half_integral};
 use super::graph::{Edge, End, Network, UNITS};
@@ -196,4 +198,72 @@ fn best(n: usize, ends: &[[u32; 2]], weights: &[i128], used: u32, sum: i128) -> 
     let sums = with_first
         .filter_map(|([i, j], w)| best(n, ends, weights, used | 1 << i | 1 << j, sum + w));
     sums.min()
+}
+
+/// A connected network that brute force cannot do, with an integral flow of its own.
+fn large_network(random: &mut Random, vertices: u32, count: usize) -> Network {
+    let mut edges = Vec::new();
+    while edges.len() < count {
+        let k = edges.len() as u32;
+        let from = if k < vertices - 1 {
+            k + 1
+        } else {
+            random.below(u64::from(vertices)) as u32
+        };
+        let to = random.below(u64::from(from.max(1))) as u32;
+        let sign = |random: &mut Random| if random.below(2) == 0 { 1 } else { -1 };
+        let ends = [from, to].map(|vertex| End {
+            vertex,
+            sign: sign(random),
+        });
+        if from == to && ends[0].sign != ends[1].sign {
+            continue;
+        }
+        edges.push(Edge {
+            ends,
+            lower: Some(random.between(0, 1)),
+            upper: None,
+            curvature: i128::from(random.between(1, 900)),
+            slope: i128::from(random.between(-4000, 500)),
+        });
+    }
+    let mut network = Network {
+        edges,
+        demand: vec![0; vertices as usize + 1],
+        exponent: 0,
+    };
+    let x: Vec<i64> = network.edges.iter().map(|_| random.between(1, 6)).collect();
+    network.demand = network.missing(&x).iter().map(|r| -r).collect();
+    network
+}
+
+#[test]
+fn numbers_of_vertices_and_edges_do_not_matter() {
+    let mut random = Random(42);
+    for _ in 0..60 {
+        let network = large_network(&mut random, 40, 90);
+        let mut place: Vec<u32> = (0..41).collect();
+        let mut other = network.clone();
+        for k in 1..40 {
+            let j = random.below(k + 1) as usize;
+            place.swap(k as usize, j);
+        }
+        for k in 1..other.edges.len() {
+            let j = random.below(k as u64 + 1) as usize;
+            other.edges.swap(k, j);
+        }
+        for end in other.edges.iter_mut().flat_map(|e| &mut e.ends) {
+            end.vertex = place[end.vertex as usize];
+        }
+        for (v, demand) in network.demand.iter().enumerate() {
+            other.demand[place[v] as usize] = *demand;
+        }
+        let [first, second] = [&network, &other].map(|network| {
+            let found = solve(network).unwrap();
+            assert!(network.missing(&found.x).iter().all(|r| *r == 0));
+            assert_eq!(network.cost(&found.x), found.bound);
+            found.bound
+        });
+        assert_eq!(first, second);
+    }
 }
