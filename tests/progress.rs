@@ -4,7 +4,7 @@ use std::cell::RefCell;
 
 use roundel::field::{FieldOptions, FieldProblem, solve_field};
 use roundel::map::{SeamlessOptions, SeamlessProblem};
-use roundel::mesh::shape;
+use roundel::mesh::{jitter, shape};
 use roundel::monitor::{Event, EventKind, Phase, Run, Stage};
 use roundel::quad::{QuadOptions, quadrangulate, solve_fold_free};
 use roundel::untangle::UntangleOptions;
@@ -80,7 +80,7 @@ fn several_calls_of_one_run_share_its_progress() {
 
 #[test]
 fn the_first_answer_of_auto_is_the_relaxation_rounded_before_anything_else_is_tried() {
-    let mesh = shape::by_name("torus", 4_000).unwrap();
+    let mesh = jitter(&shape::by_name("genus-2", 4_000).unwrap(), 0.1, 5).unwrap();
     let field = FieldProblem::with_options(&mesh, &FieldOptions::default()).unwrap();
     let direct = Options {
         strategy: Strategy::Direct,
@@ -98,6 +98,7 @@ fn the_first_answer_of_auto_is_the_relaxation_rounded_before_anything_else_is_tr
     });
     let auto = solve_with(field.problem(), &Options::default(), monitor).unwrap();
     let (energy, was_rounding) = first.unwrap();
-    assert!(!was_rounding && auto.energy() < 0.9 * direct);
+    assert!(!was_rounding);
+    assert!(auto.energy() < 0.9 * direct);
     assert!((energy - direct).abs() < 1e-9 * direct, "{energy} {direct}");
 }
