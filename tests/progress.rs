@@ -2,13 +2,13 @@
 
 use std::cell::RefCell;
 
-use roundel::field::{FieldOptions, solve_field};
+use roundel::field::{FieldOptions, FieldProblem, solve_field};
 use roundel::map::{SeamlessOptions, SeamlessProblem};
-use roundel::mesh::shape;
-use roundel::monitor::{Event, Run, Stage};
+use roundel::mesh::{jitter, shape};
+use roundel::monitor::{Event, EventKind, Phase, Run, Stage};
 use roundel::quad::{QuadOptions, quadrangulate, solve_fold_free};
 use roundel::untangle::UntangleOptions;
-use roundel::{Flow, Monitor, Options};
+use roundel::{Flow, Monitor, Options, Strategy, solve, solve_with};
 
 /// The stages and shares that a callback was told.
 #[derive(Default)]
@@ -76,4 +76,29 @@ fn several_calls_of_one_run_share_its_progress() {
     let at = told.iter().position(|t| t.0 == Stage::Map).unwrap();
     assert!(told[..at].iter().all(|t| t.0 == Stage::Field && t.1 <= 0.5));
     assert!(told[at..].iter().all(|t| t.0 == Stage::Map && t.1 >= 0.5));
+}
+
+#[test]
+fn the_first_answer_of_auto_is_the_relaxation_rounded_before_anything_else_is_tried() {
+    let mesh = jitter(&shape::by_name("genus-2", 4_000).unwrap(), 0.1, 5).unwrap();
+    let field = FieldProblem::with_options(&mesh, &FieldOptions::default()).unwrap();
+    let direct = Options {
+        strategy: Strategy::Direct,
+        ..Options::default()
+    };
+    let direct = solve(field.problem(), &direct).unwrap().energy();
+    let (mut first, mut is_rounding) = (None, false);
+    let monitor = Monitor::default().on_event(|event| {
+        match event.kind {
+            EventKind::Improved if first.is_none() => first = Some((event.energy, is_rounding)),
+            EventKind::Progress { phase, .. } => is_rounding |= phase == Phase::Round,
+            _ => {}
+        }
+        Flow::Continue
+    });
+    let auto = solve_with(field.problem(), &Options::default(), monitor).unwrap();
+    let (energy, was_rounding) = first.unwrap();
+    assert!(!was_rounding);
+    assert!(auto.energy() < 0.9 * direct);
+    assert!((energy - direct).abs() < 1e-9 * direct, "{energy} {direct}");
 }

@@ -11,11 +11,11 @@
 //! Threads may relax regions of one problem at the same time. They share it without locks: what a region reads and
 //! writes belongs to it alone, see [`LocalSolve::relax`].
 
-use std::collections::VecDeque;
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::AtomicU8;
 use std::sync::atomic::Ordering::Relaxed;
 
 use super::Sparse;
+use super::ring::Ring;
 use super::shared_float::SharedFloat;
 use super::static_condensation::{Entry, StaticCondensation};
 use crate::error::Result;
@@ -40,7 +40,7 @@ pub struct LocalSolve<'a> {
 #[derive(Debug, Default)]
 pub struct Wave {
     /// The unknowns that may have to move.
-    queue: VecDeque<u32>,
+    queue: Ring,
     /// Those of the queue that were not allowed to move.
     held: Vec<u32>,
     /// The unknowns that have moved.
@@ -58,7 +58,9 @@ impl Wave {
 
     /// The unknowns that may still have to move.
     pub fn into_left(self) -> impl Iterator<Item = u32> {
-        self.queue.into_iter().chain(self.held)
+        let mut left: Vec<u32> = self.queue.iter().collect();
+        left.extend(self.held);
+        left.into_iter()
     }
 
     /// Whether the queue is empty.
@@ -67,16 +69,22 @@ impl Wave {
     }
 }
 
-/// The data of one unknown that an update reads, stored next to each other.
+/// Flags of an unknown. One that waits in a queue.
+const QUEUED: u8 = 1;
+/// One that is fixed for good.
+const FIXED: u8 = 2;
+/// One that is among those that have moved.
+const MOVED: u8 = 4;
+
+/// The data of one unknown that an update of a neighbour reads, in one cache line.
 #[derive(Debug)]
+#[repr(align(32))]
 struct Unknown {
     /// The current value, except for a free local integer, whose value is computed on demand.
     value: SharedFloat,
     /// The slope of the condensed objective. Unused for local integers.
     residual: SharedFloat,
-    fixed: AtomicBool,
-    queued: AtomicBool,
-    moved: AtomicBool,
+    flags: AtomicU8,
 }
 
 impl<'a> LocalSolve<'a> {
@@ -122,7 +130,7 @@ impl<'a> LocalSolve<'a> {
     pub fn value(&self, unknown: u32) -> f64 {
         let i = unknown as usize;
         let own = &self.unknowns[i];
-        if own.fixed.load(Relaxed) || !self.system.is_local(i) {
+        if own.has(FIXED) || !self.system.is_local(i) {
             return own.value.get();
         }
         let couplings = self.system.couplings(i);
@@ -141,7 +149,7 @@ impl<'a> LocalSolve<'a> {
 
     /// Whether an unknown is fixed.
     pub fn is_fixed(&self, unknown: u32) -> bool {
-        self.unknowns[unknown as usize].fixed.load(Relaxed)
+        self.unknowns[unknown as usize].has(FIXED)
     }
 
     /// Fixes an unknown to `value` for good and queues its neighbours.
@@ -149,11 +157,13 @@ impl<'a> LocalSolve<'a> {
         let k = unknown as usize;
         let step = value - self.value(unknown);
         self.unknowns[k].value.set(value);
-        self.unknowns[k].fixed.store(true, Relaxed);
+        self.unknowns[k].set(FIXED);
         if self.system.is_local(k) {
-            for at in self.system.coupling_range(k) {
+            let row = self.system.coupling_range(k);
+            wave.queue.reserve(row.len());
+            for at in row {
                 let (j, value) = self.system.coupling(at);
-                self.unknowns[j].pull(j as u32, value * step, &mut wave.queue);
+                self.unknowns[j].pull(j as u32, value, step, &mut wave.queue);
             }
             self.system.release(k);
         } else {
@@ -175,7 +185,7 @@ impl<'a> LocalSolve<'a> {
     ) -> usize {
         let mut done = 0;
         while done < updates {
-            let Some(i) = wave.queue.pop_front() else {
+            let Some(i) = wave.queue.pop() else {
                 break;
             };
             if !may_move(i) {
@@ -185,9 +195,9 @@ impl<'a> LocalSolve<'a> {
             let i = i as usize;
             let curvature = self.system.curvature(i);
             let unknown = &self.unknowns[i];
-            unknown.queued.store(false, Relaxed);
+            unknown.clear(QUEUED);
             let residual = unknown.residual.get();
-            if unknown.fixed.load(Relaxed) || residual.abs() <= tolerance * curvature {
+            if unknown.has(FIXED) || residual.abs() <= tolerance * curvature {
                 continue;
             }
             if curvature > UNDECIDED * self.system.diagonal(i) {
@@ -206,8 +216,8 @@ impl<'a> LocalSolve<'a> {
         for (i, &value) in point.iter().enumerate() {
             let unknown = &self.unknowns[i];
             unknown.residual.set(0.0);
-            unknown.queued.store(false, Relaxed);
-            if !unknown.fixed.load(Relaxed) && unknown.value.get() != value {
+            unknown.clear(QUEUED);
+            if !unknown.has(FIXED) && unknown.value.get() != value {
                 unknown.value.set(value);
                 self.mark_moved(i, wave);
             }
@@ -222,20 +232,20 @@ impl<'a> LocalSolve<'a> {
         for i in std::mem::take(&mut wave.moved) {
             let k = i as usize;
             let unknown = &self.unknowns[k];
-            unknown.moved.store(false, Relaxed);
-            if self.integer[k] && !unknown.fixed.load(Relaxed) {
+            unknown.clear(MOVED);
+            if self.integer[k] && !unknown.has(FIXED) {
                 integers.push(i);
             }
             for j in self.system.followers(k) {
                 let follower = &self.unknowns[j as usize];
-                if !follower.moved.load(Relaxed) {
-                    follower.moved.store(true, Relaxed);
+                if !follower.has(MOVED) {
+                    follower.set(MOVED);
                     integers.push(j);
                 }
             }
         }
         for &i in &integers {
-            self.unknowns[i as usize].moved.store(false, Relaxed);
+            self.unknowns[i as usize].clear(MOVED);
         }
         integers
     }
@@ -243,19 +253,18 @@ impl<'a> LocalSolve<'a> {
     /// Applies a step of unknown `i` to the slopes of its neighbours.
     fn spread(&self, i: usize, step: f64, wave: &mut Wave) {
         self.mark_moved(i, wave);
-        for Entry { column, value } in self.system.row(i) {
-            let value = value.get();
-            if value != 0.0 {
-                let neighbour = &self.unknowns[*column as usize];
-                neighbour.pull(*column, value * step, &mut wave.queue);
-            }
+        let row = self.system.row(i);
+        wave.queue.reserve(row.len());
+        for Entry { column, value } in row {
+            let neighbour = &self.unknowns[*column as usize];
+            neighbour.pull(*column, value.get(), step, &mut wave.queue);
         }
     }
 
     fn mark_moved(&self, i: usize, wave: &mut Wave) {
-        let moved = &self.unknowns[i].moved;
-        if !moved.load(Relaxed) {
-            moved.store(true, Relaxed);
+        let unknown = &self.unknowns[i];
+        if !unknown.has(MOVED) {
+            unknown.set(MOVED);
             wave.moved.push(i as u32);
         }
     }
@@ -266,19 +275,30 @@ impl Unknown {
         Unknown {
             value: SharedFloat::new(value),
             residual: SharedFloat::new(0.0),
-            fixed: AtomicBool::new(false),
-            queued: AtomicBool::new(false),
-            moved: AtomicBool::new(false),
+            flags: AtomicU8::new(0),
         }
     }
 
-    /// Changes the slope of unknown `i`, which is this one, by the step of a neighbour.
-    fn pull(&self, i: u32, change: f64, queue: &mut VecDeque<u32>) {
-        self.residual.add(change);
-        if !self.queued.load(Relaxed) && !self.fixed.load(Relaxed) {
-            self.queued.store(true, Relaxed);
-            queue.push_back(i);
-        }
+    fn has(&self, flag: u8) -> bool {
+        self.flags.load(Relaxed) & flag != 0
+    }
+
+    fn set(&self, flag: u8) {
+        self.flags.store(self.flags.load(Relaxed) | flag, Relaxed);
+    }
+
+    fn clear(&self, flag: u8) {
+        self.flags.store(self.flags.load(Relaxed) & !flag, Relaxed);
+    }
+
+    /// Changes the slope of unknown `i`, which is this one, by the step of a neighbour, and queues it unless it is
+    /// fixed, or the entry `coupling` between both vanishes. The queue must have room.
+    fn pull(&self, i: u32, coupling: f64, step: f64, queue: &mut Ring) {
+        self.residual.add(coupling * step);
+        let flags = self.flags.load(Relaxed);
+        let enters = (coupling != 0.0) & (flags & (QUEUED | FIXED) == 0);
+        queue.push_if(i, enters);
+        self.flags.store(flags | u8::from(enters) * QUEUED, Relaxed);
     }
 }
 

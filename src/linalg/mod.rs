@@ -22,6 +22,7 @@ mod path;
 mod queue_gauss_seidel;
 mod random;
 mod relaxed;
+mod ring;
 mod scaling;
 mod schur_factor;
 mod shared_float;

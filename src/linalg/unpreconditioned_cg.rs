@@ -11,44 +11,49 @@ use super::{Effort, Sparse};
 /// Moves `point` towards the minimiser of `1/2 x'Hx + g'x` with the `held` unknowns kept. Returns whether the
 /// residual fell to the tolerance within the allowed number of iterations.
 ///
-/// `lower` is the lower triangle of H. The residual is that of `A x = b` with `A = H / 2`, in the Euclidean
-/// norm. `go_on` is asked before each iteration; if it returns false, the iteration ends and `point` keeps
-/// its current value.
+/// `rows` is all of H. The residual is that of `A x = b` with `A = H / 2`, in the Euclidean norm. `go_on` is asked
+/// before each iteration; if it returns false, the iteration ends and `point` keeps its current value.
 pub fn unpreconditioned_conjugate_gradient(
-    lower: &Sparse,
+    rows: &Sparse,
     gradient: &[f64],
     held: &[bool],
     point: &mut [f64],
     effort: Effort,
     mut go_on: impl FnMut() -> bool,
 ) -> bool {
-    let free = |mut v: Vec<f64>| {
-        for (v, _) in v.iter_mut().zip(held).filter(|(_, held)| **held) {
-            *v = 0.0;
-        }
-        v
+    let product_with = |i: usize, x: &[f64]| {
+        let terms = rows.row(i);
+        terms.fold(0.0, |sum, (j, v)| sum + v * x[j])
     };
-    let dot = |a: &[f64], b: &[f64]| -> f64 { a.iter().zip(b).map(|(a, b)| a * b).sum() };
-    let slope = lower.mul_symmetric(point);
-    let mut r = free(slope.iter().zip(gradient).map(|(s, g)| -s - g).collect());
+    let mut r: Vec<f64> = (0..point.len())
+        .map(|i| match held[i] {
+            true => 0.0,
+            false => -product_with(i, point) - gradient[i],
+        })
+        .collect();
     let mut direction = r.clone();
-    let mut rr = dot(&r, &r);
+    let mut product = vec![0.0; point.len()];
+    let mut rr: f64 = r.iter().map(|r| r * r).sum();
     let near = |rr: f64| 0.5 * rr.sqrt() <= effort.tolerance;
     for _ in 0..effort.iterations {
         if near(rr) || !go_on() {
             break;
         }
-        let product = free(lower.mul_symmetric(&direction));
-        let curvature = dot(&direction, &product);
+        let mut curvature = 0.0;
+        for i in (0..point.len()).filter(|&i| !held[i]) {
+            product[i] = product_with(i, &direction);
+            curvature += direction[i] * product[i];
+        }
         if curvature <= 0.0 || !curvature.is_finite() {
             break;
         }
         let step = rr / curvature;
+        let mut next = 0.0;
         for i in 0..point.len() {
             point[i] += step * direction[i];
             r[i] -= step * product[i];
+            next += r[i] * r[i];
         }
-        let next = dot(&r, &r);
         let keep = next / rr;
         rr = next;
         for (d, r) in direction.iter_mut().zip(&r) {
@@ -73,6 +78,9 @@ mod tests {
         let held: Vec<bool> = (0..n).map(|i| i % 5 == 3).collect();
         let start: Vec<f64> = (0..n).map(|i| f64::from(i % 3)).collect();
         let expected = minimise_fixed(&a, &gradient, &held, &start).unwrap();
+        let upper = a.entries().filter(|(i, j, _)| i != j);
+        let both = a.entries().chain(upper.map(|(i, j, v)| (j, i, v)));
+        let rows = Sparse::from_triplets(12, 12, both).unwrap();
         let run = |iterations| {
             let tolerance = 1e-9;
             let effort = Effort {
@@ -81,7 +89,7 @@ mod tests {
             };
             let mut point = start.clone();
             let near = unpreconditioned_conjugate_gradient(
-                &a,
+                &rows,
                 &gradient,
                 &held,
                 &mut point,

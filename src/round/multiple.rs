@@ -132,7 +132,7 @@ impl Passes<'_> {
             tolerance: options.cg_tolerance,
         };
         let converged = unpreconditioned_conjugate_gradient(
-            hessian,
+            self.local.rows(),
             gradient,
             &self.fixed,
             &mut self.point,

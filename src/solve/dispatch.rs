@@ -1,7 +1,7 @@
 //! The choice of method for a strategy on a given model.
 
 use crate::eliminate::ReducedModel;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::problem::Model;
 use crate::search::{Factors, Options, Search, StoppedBy, Strategy, of_relaxation};
 use crate::{cut, cycle, lattice, round};
@@ -15,7 +15,7 @@ const DENSE: u64 = 12;
 /// Problems with integers alone whose Hessian is a graph Laplacian plus a diagonal are solved by minimum
 /// cuts, and angle-difference systems in cycle space, both of any size. For other problems the lattice
 /// strategies need a dense matrix of the integers. With more than `dense_integers` integers, `adaptive` is
-/// used instead.
+/// used instead. `auto` rounds the relaxation before anything else.
 ///
 /// # Errors
 /// Those of the method.
@@ -33,6 +33,16 @@ pub(super) fn search(
         if few && DENSE * (m as u64).pow(3) > limit {
             few = false;
             search.stop_by(StoppedBy::Budget);
+        }
+    }
+    if options.strategy == Strategy::Auto && !search.monitor.ends() {
+        // A first answer, while the better ones take their time.
+        match round::direct(model, factors, search) {
+            Err(Error::Overflow { .. }) => {}
+            other => other?,
+        }
+        if search.monitor.ends() {
+            return Ok(());
         }
     }
     match options.strategy {
