@@ -298,7 +298,8 @@ impl Unknown {
         let flags = self.flags.load(Relaxed);
         let enters = (coupling != 0.0) & (flags & (QUEUED | FIXED) == 0);
         queue.push_if(i, enters);
-        self.flags.store(flags | u8::from(enters) * QUEUED, Relaxed);
+        self.flags
+            .store(flags | (u8::from(enters) * QUEUED), Relaxed);
     }
 }
 

@@ -10,8 +10,10 @@ mod kinds;
 mod lcp;
 mod oracle;
 #[path = "../common/random.rs"]
+#[allow(dead_code)] // Generators of other tests.
 mod random;
 #[path = "../certificate/rational.rs"]
+#[allow(dead_code)] // The search for the least energy, which has no rows.
 mod rational;
 
 use check::{Tally, check, check_disguised, check_not_convex};
