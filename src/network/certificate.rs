@@ -78,8 +78,9 @@ impl Proof<'_> {
         let graph = &self.halved.graph;
         let nesting = Nesting::new(self.blossoms, graph.vertices());
         for (edge, &[i, j]) in graph.ends.iter().enumerate() {
-            let sum = self.y[i as usize] + self.y[j as usize] - nesting.shared(i, j);
-            if sum > graph.weights[edge] {
+            let excess = self.y[i as usize] + self.y[j as usize] - graph.weights[edge];
+            // No multiplier of a blossom is negative, see below.
+            if excess > 0 && excess > nesting.shared(i, j) {
                 return None;
             }
         }
