@@ -210,11 +210,13 @@ fn search_part(
     if !found.is_complete {
         return Err(monitor.stopped().map_or(Error::Cancelled, Error::from));
     }
-    let elements = if found.nodes <= 1 && !found.conflict.is_empty() {
-        conflict::of_certificate(&part.form, &part.members, &found.conflict)
-    } else {
-        conflict::of_form(&part.form, &part.members)
-    };
+    let mut elements = conflict::of_certificate(&part.form, &part.members, &found.conflict);
+    // No more rows than unknowns and one are needed (Helly); a certificate with more has some in it by
+    // rounding errors.
+    let is_small = !elements.is_empty() && elements.len() <= part.members.len() + 1;
+    if found.nodes > 1 || !is_small {
+        elements = conflict::of_form(&part.form, &part.members);
+    }
     Err(conflict::error(problem, &elements))
 }
 

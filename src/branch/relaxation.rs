@@ -177,6 +177,9 @@ impl<'a> Relaxation<'a> {
 /// The steps that mixing remembers.
 const REMEMBERED: usize = 6;
 
+/// A step whose square has changed by less than this part is the same as before: so are the steps along a ray.
+const CHANGED: f64 = 1e-12;
+
 /// The next centre from the last ones, so that proximal steps converge like a Krylov method once the active rows
 /// stay the same (Anderson mixing, `walker2011`).
 #[derive(Debug, Default)]
@@ -212,7 +215,7 @@ impl Mixing {
                 .collect();
             let square = product(change, change);
             let (row, left) = factor.next_row(&products, square);
-            if left > 1e-10 * square && square > 1e-20 * len {
+            if left > 1e-10 * square && square > CHANGED * len {
                 factor.append(row, left);
                 used.push(i);
             }
@@ -246,7 +249,7 @@ fn ray(form: &Form, limits: &[Interval], mut direction: Vec<f64>) -> Option<Vec<
         width if width.is_finite() => width,
         _ => 0.0,
     });
-    if largest <= 1e2 * size.fold(1.0, f64::max) {
+    if largest <= size.fold(1.0, f64::max) {
         return None;
     }
     direction.iter_mut().for_each(|d| {

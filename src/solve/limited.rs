@@ -135,7 +135,9 @@ fn without_limits(
         let verdict = verify(problem, &solution.values)?;
         solution.max_constraint_violation = verdict.constraint_violation;
         solution.counts.inequalities = problem.inequalities();
-        Ok((verdict.constraint_violation <= WITHIN).then_some(solution))
+        // A solution without a bound may be that of an objective which curves downwards.
+        let is_bounded = solution.lower_bound.is_some_and(f64::is_finite);
+        Ok((is_bounded && verdict.constraint_violation <= WITHIN).then_some(solution))
     };
     let relaxed = Options {
         strategy: Strategy::Relax,
