@@ -37,8 +37,7 @@ const KINDS: [(&str, Kind); 13] = [
     ("not convex", kinds::not_convex),
 ];
 
-/// Faults that are known and not yet mended: an energy that falls for ever is called optimal at -1.7e14, and
-/// an objective that curves downwards is not refused, and a set of rows and bounds at fault is not small.
+/// A fault that is known and not yet mended: the set of rows and bounds that is named is larger than it need be.
 const OPEN: [(&str, u64); 1] = [("pinned", 310)];
 
 /// Panics after all seeds, with the first faults.
