@@ -231,11 +231,20 @@ fn a_broken_file_is_an_error_that_names_the_line() {
 }
 
 #[test]
-fn an_inequality_is_an_error_that_says_what_is_not_supported() {
-    let text = constrained(&[(1.0, 0.0, 3.0)]).replace(" E C0\n", " L C0\n");
-    let (code, report) = solve_json("inequality", &text, &[]);
+fn a_quadratic_constraint_is_an_error_that_says_what_is_not_supported() {
+    let text = constrained(&[(1.0, 0.0, 3.0)]).replace("ENDATA", "QCMATRIX C0\nENDATA");
+    let line = text.lines().position(|line| line.starts_with("QCMATRIX"));
+    let (code, report) = solve_json("quadratic", &text, &[]);
     assert_eq!((code, told(&report).1), (1, "not_supported"));
-    assert_eq!(report["error"]["line"], json!(4));
+    assert_eq!(report["error"]["line"], json!(line.unwrap() + 1));
+}
+
+#[test]
+fn an_inequality_is_kept() {
+    let text = constrained(&[(1.0, 0.0, 3.0)]).replace(" E C0\n", " G C0\n");
+    let (code, report) = solve_json("inequality", &text, &[]);
+    assert_eq!((code, &report["status"]), (0, &json!("optimal")));
+    assert_eq!(report["energy"], json!(9.0));
 }
 
 #[test]

@@ -1,4 +1,5 @@
-/* Bad inequalities, one by one and as a matrix, bad bounds and binaries; and a problem that they limit. */
+/* Bad inequalities, one by one and as a matrix, bad bounds and binaries; and a problem that they
+ * limit. */
 
 #include "bad_input.h"
 
@@ -46,7 +47,8 @@ static void matrix(fixture* f) {
     roundel_problem* p = f->problem;
     BAD(f, roundel_problem_add_inequalities_csr(p, 2, rows, 2, columns, one, 2, one, one, &first),
         ROUNDEL_ERROR_LENGTH_MISMATCH, "expected 3 entries, got 2", NONE);
-    BAD(f, roundel_problem_add_inequalities_csr(p, 3, falling, 2, columns, one, 2, one, one, &first),
+    BAD(f,
+        roundel_problem_add_inequalities_csr(p, 3, falling, 2, columns, one, 2, one, one, &first),
         bad, "offset 2", 2);
     BAD(f, roundel_problem_add_inequalities_csr(p, 3, rows, 2, large, one, 2, one, one, &first),
         ROUNDEL_ERROR_INDEX_OUT_OF_RANGE, "matrix indices", 1);
@@ -157,7 +159,8 @@ static void solved(fixture* f) {
     roundel_problem* p = limited(0);
     GOOD(roundel_solver_new(p, &s));
     GOOD(roundel_problem_free(p));
-    /* x0 = 2 leaves x1 = 1 with energy 5, x0 = 1 leaves 1.5 with 6.25, x0 = 3 leaves 0.5 with 6.25. */
+    /* x0 = 2 leaves x1 = 1 with energy 5, x0 = 1 leaves 1.5 with 6.25, x0 = 3 leaves 0.5 with 6.25.
+     */
     gives(s, 2.0, 1.0);
     BAD(f, roundel_solver_set_inequality_sides(NULL, none, four, 1), null, "solver", NONE);
     BAD(f, roundel_solver_set_inequality_sides(s, NULL, four, 1), null, "lower sides", NONE);

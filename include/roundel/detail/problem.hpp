@@ -285,8 +285,7 @@ class Problem {
                            std::initializer_list<double> coefficients, double lower, double upper,
                            Status* status = nullptr) {
         return inequality(Indices(indices.begin(), indices.size()),
-                          Numbers(coefficients.begin(), coefficients.size()), lower, upper,
-                          status);
+                          Numbers(coefficients.begin(), coefficients.size()), lower, upper, status);
     }
 
     /// Adds the inequalities lower <= G x <= upper, one for each row of the matrix, and returns the
@@ -323,8 +322,7 @@ class Problem {
     std::size_t inequality(const Matrix& matrix, const Vector& lower, const Vector& upper,
                            Status* status = nullptr) {
         const detail::CompressedView<Matrix> view(matrix);
-        return inequality(view.get(),
-                          Numbers(lower.data(), static_cast<std::size_t>(lower.size())),
+        return inequality(view.get(), Numbers(lower.data(), static_cast<std::size_t>(lower.size())),
                           Numbers(upper.data(), static_cast<std::size_t>(upper.size())), status);
     }
 
@@ -350,8 +348,8 @@ class Problem {
         const std::size_t count = variables(status);
         both.first.resize(count);
         both.second.resize(count);
-        detail::check(
-            roundel_problem_bounds(get(), both.first.data(), both.second.data(), count), status);
+        detail::check(roundel_problem_bounds(get(), both.first.data(), both.second.data(), count),
+                      status);
         return both;
     }
 
