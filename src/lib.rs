@@ -82,8 +82,8 @@ pub use error::{Conflicting, Error, InputError, Result};
 pub use linalg::Ordering;
 pub use monitor::{CancelToken, Event, Flow, Monitor};
 pub use problem::{Layout, Model, Problem, Triangle};
-pub use search::{Options, SolveStatus, StoppedBy, Strategy, WarmStart};
-pub use solve::{Seconds, Solution, Solver, solve, solve_with};
+pub use search::{Candidate, LazyRows, Options, SolveStatus, StoppedBy, Strategy, WarmStart};
+pub use solve::{Seconds, Solution, Solver, solve, solve_with, solve_with_lazy_rows};
 
 /// The Rust examples of the README and of the book are run as tests.
 #[cfg(doctest)]

@@ -150,7 +150,8 @@ impl Form {
     }
 }
 
-fn without_zeros(matrix: &Sparse) -> Result<Sparse> {
+/// The matrix without entries that are zero.
+pub(super) fn without_zeros(matrix: &Sparse) -> Result<Sparse> {
     let entries = matrix.entries().filter(|&(_, _, v)| v != 0.0);
     Sparse::from_triplets(matrix.rows(), matrix.cols(), entries)
 }

@@ -14,6 +14,7 @@
 //! | `safe_bound` | lower bounds that rounding errors cannot make false |
 //! | `pseudo_costs`, `tree` | the search |
 //! | `primal`, `exchange` | points with integers: rounding, exchanges, smaller problems |
+//! | `lazy` | rows that the caller adds during the search |
 //! | `conflict` | why there is no solution |
 
 mod conflict;
@@ -21,6 +22,7 @@ mod dual_active_set;
 mod exchange;
 mod form;
 mod inverse;
+mod lazy;
 mod presolve;
 mod primal;
 mod propagate;
@@ -32,12 +34,15 @@ mod shared;
 mod tree;
 mod working_set;
 
+use std::borrow::Cow;
+
 use crate::error::{Conflicting, Error, Result};
 use crate::linalg::sum_below;
 use crate::monitor::{Monitor, Stop};
 use crate::problem::{Model, Problem};
-use crate::search::{Options, StoppedBy, Strategy};
+use crate::search::{LazyProblem, Options, StoppedBy, Strategy};
 use form::Form;
+use lazy::LazyRows;
 use presolve::{Contradiction, Part, Presolved};
 use tree::Limits;
 
@@ -62,24 +67,29 @@ pub(crate) struct Found {
 ///
 /// `relax` solves the relaxation, `exact` and `auto` search until the optimum is proved or a limit is
 /// reached, and the other strategies end with the first point. `start` is a point whose nearest integers are
-/// offered first.
+/// offered first. `lazy` is the problem with a caller who adds rows to it.
 ///
 /// # Errors
 /// [`Error::Contradiction`], [`Error::Unbounded`], [`Error::NotConvex`], [`Error::OutOfMemory`], and
 /// [`Error::Cancelled`] or [`Error::TimeLimit`] before a first point.
-pub(crate) fn solve(
+pub(crate) fn solve<'e>(
     problem: &Problem,
     model: &Model,
     options: &Options,
     start: Option<&[f64]>,
-    monitor: &mut Monitor,
+    mut lazy: Option<&mut LazyProblem<'e>>,
+    monitor: &mut Monitor<'e>,
 ) -> Result<Found> {
+    let problem = &*match &lazy {
+        Some(lazy) => Cow::Owned(lazy.problem().clone()),
+        None => Cow::Borrowed(problem),
+    };
     let mut form = Form::of(problem, model)?;
     if options.strategy == Strategy::Relax {
         form.integer.fill(false);
     }
     let given = form.clone();
-    let presolved = match presolve::presolve(form)? {
+    let presolved = match presolve::presolve(form, lazy.is_some())? {
         Ok(presolved) => presolved,
         Err(contradiction) => return Err(no_point(problem, &given, contradiction)),
     };
@@ -145,7 +155,13 @@ pub(crate) fn solve(
             elsewhere: found.energy,
             ..limits
         };
-        let own = search_part(problem, &parts, part, start, limits, monitor)?;
+        let own = match &mut lazy {
+            None => search_part(problem, &parts, part, start, limits, monitor)?,
+            Some(lazy) => {
+                let whole = (&values[..], constant);
+                search_with_rows(lazy, part, whole, start, limits, monitor)?
+            }
+        };
         if let Some((point, energy)) = own.best {
             for (&j, x) in part.members.iter().zip(&point) {
                 values[j as usize] = *x;
@@ -181,7 +197,41 @@ fn search_part(
     limits: Limits,
     monitor: &mut Monitor,
 ) -> Result<tree::Found> {
-    let found = match tree::search(&part.form, start, limits, monitor) {
+    let found = tree::search(&part.form, start, limits, monitor);
+    with_point(problem, parts, part, found, monitor)
+}
+
+/// Searches the only part of a problem to which the caller adds rows. `whole` are the values of the other
+/// unknowns and their energy. What is returned has a point.
+fn search_with_rows<'e>(
+    lazy: &mut LazyProblem<'e>,
+    part: &Part,
+    whole: (&[f64], f64),
+    start: Option<Vec<f64>>,
+    limits: Limits,
+    monitor: &mut Monitor<'e>,
+) -> Result<tree::Found> {
+    let (values, constant) = whole;
+    let rows = LazyRows::new(lazy, &part.members, values.to_vec(), constant);
+    let searched = tree::search_with_rows(part.form.clone(), start, limits, rows, monitor);
+    let (found, form) = match searched {
+        Ok((found, form)) => (Ok(found), form),
+        Err(error) => (Err(error), part.form.clone()),
+    };
+    let members = part.members.clone();
+    let parts = [Part { form, members }];
+    with_point(lazy.problem(), &parts, &parts[0], found, monitor)
+}
+
+/// What a search has found if it has a point, and why it has none otherwise.
+fn with_point(
+    problem: &Problem,
+    parts: &[Part],
+    part: &Part,
+    found: Result<tree::Found>,
+    monitor: &Monitor,
+) -> Result<tree::Found> {
+    let found = match found {
         Err(Error::NotConvex { direction, .. }) => {
             let (variable, direction) = of_all(problem.variables(), &part.members, &direction);
             return Err(Error::NotConvex {

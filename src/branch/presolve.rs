@@ -50,12 +50,15 @@ pub(super) enum Contradiction {
     Unknown(usize),
 }
 
-/// Decides what needs no search.
+/// Decides what needs no search. All unknowns that are not fixed form one part if rows may yet join any of them.
 ///
 /// # Errors
 /// The outer error is the end of the call; the inner one is why there is no point.
-pub(super) fn presolve(mut form: Form) -> Result<std::result::Result<Presolved, Contradiction>> {
-    round_rows(&mut form);
+pub(super) fn presolve(
+    mut form: Form,
+    is_one_part: bool,
+) -> Result<std::result::Result<Presolved, Contradiction>> {
+    round_rows(&mut form, 0);
     if let Err(contradiction) = tighten(&mut form) {
         return Ok(Err(contradiction));
     }
@@ -86,6 +89,12 @@ pub(super) fn presolve(mut form: Form) -> Result<std::result::Result<Presolved, 
             sets.join(pair[0], pair[1]);
         }
     }
+    if is_one_part {
+        let free: Vec<usize> = (0..n).filter(|&j| is_free[j]).collect();
+        for pair in free.windows(2) {
+            sets.join(pair[0], pair[1]);
+        }
+    }
     let mut part_of = vec![usize::MAX; n];
     let mut members: Vec<Vec<u32>> = Vec::new();
     for j in (0..n).filter(|&j| is_free[j]) {
@@ -96,6 +105,9 @@ pub(super) fn presolve(mut form: Form) -> Result<std::result::Result<Presolved, 
         }
         part_of[j] = part_of[root];
         members[part_of[j]].push(j as u32);
+    }
+    if is_one_part && members.is_empty() {
+        members.push(Vec::new());
     }
     let mut rows_of: Vec<Vec<u32>> = vec![Vec::new(); members.len()];
     for &i in &rows {
@@ -120,9 +132,10 @@ pub(super) fn presolve(mut form: Form) -> Result<std::result::Result<Presolved, 
     }))
 }
 
-/// Divides rows of integers by the greatest common divisor of their coefficients, and rounds their sides.
-fn round_rows(form: &mut Form) {
-    for i in 0..form.rows.rows() {
+/// Rounds the sides of rows of integers, from row `first` on, to multiples of the greatest common divisor of
+/// their coefficients.
+pub(super) fn round_rows(form: &mut Form, first: usize) {
+    for i in first..form.rows.rows() {
         let is_integer =
             |(j, a): (usize, f64)| form.integer[j] && a == a.trunc() && a.abs() <= LARGEST;
         if form.rows.row(i).len() == 0 || !form.rows.row(i).all(is_integer) {

@@ -106,7 +106,9 @@ impl Tree<'_, '_, '_> {
         }
         let better = exchanged(self.form, &self.root, &x, &mut self.relaxation.solver.work);
         for x in [x, better] {
-            if let Some(energy) = self.is_better(&x) {
+            if let Some(energy) = self.is_better(&x)
+                && !self.cuts_off(&x, energy)
+            {
                 self.rounding = self.form.rounding(&x);
                 self.best = Some((x, energy));
                 self.monitor.improved(energy);

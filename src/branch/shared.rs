@@ -22,12 +22,26 @@ impl Shared {
     /// Those of [`Inverse::new`].
     pub fn new(form: &Form, regularization: &[f64]) -> Result<Self> {
         let inverse = Inverse::new(&form.hessian, regularization)?;
-        let n = form.dim();
-        let mut dense = vec![0.0; n];
-        let mut seen = vec![false; n];
-        let mut scales: Vec<f64> = (0..n).map(|j| scale(inverse.diagonal(j))).collect();
-        let mut images = Vec::with_capacity(form.rows.rows());
-        for i in 0..form.rows.rows() {
+        let scales = (0..form.dim()).map(|j| scale(inverse.diagonal(j)));
+        let mut shared = Shared {
+            scales: scales.collect(),
+            images: Vec::with_capacity(form.rows.rows()),
+            inverse,
+        };
+        shared.extend(form);
+        Ok(shared)
+    }
+
+    /// Computes what is missing for the last rows of the form.
+    pub fn extend(&mut self, form: &Form) {
+        let Shared {
+            inverse,
+            images,
+            scales,
+        } = self;
+        let mut dense = vec![0.0; form.dim()];
+        let mut seen = vec![false; form.dim()];
+        for i in images.len()..form.rows.rows() {
             let mut touched: Vec<u32> = Vec::new();
             for (j, a) in form.rows.row(i) {
                 let (members, column) = inverse.column(j);
@@ -48,11 +62,6 @@ impl Shared {
             let values = values.collect();
             images.push((touched, values));
         }
-        Ok(Shared {
-            inverse,
-            images,
-            scales,
-        })
     }
 }
 

@@ -10,6 +10,7 @@ use std::collections::BinaryHeap;
 
 use super::dual_active_set::{Active, WarmStart};
 use super::form::{Form, Interval};
+use super::lazy::LazyRows;
 use super::propagate::Propagator;
 use super::pseudo_costs::{PseudoCosts, merit};
 use super::relaxation::{Relaxation, Relaxed, regularization};
@@ -45,6 +46,18 @@ struct Branching {
     /// 0 for down, 1 for up.
     direction: usize,
     distance: f64,
+}
+
+impl Node {
+    fn root() -> Self {
+        Node {
+            bound: f64::NEG_INFINITY,
+            number: 0,
+            limits: Vec::new(),
+            warm: WarmStart::new(),
+            branching: None,
+        }
+    }
 }
 
 impl PartialEq for Node {
@@ -137,6 +150,7 @@ pub(super) struct Tree<'a, 'm, 'e> {
     /// The rounding errors of the incumbent's energy.
     pub rounding: f64,
     pub integers: Vec<u32>,
+    pub lazy: Option<LazyRows<'m, 'e>>,
     pub monitor: &'m mut Monitor<'e>,
 }
 
@@ -157,6 +171,81 @@ pub(super) fn search(
         tree.round(&start);
     }
     Ok(tree.found())
+}
+
+/// Searches a form to which the caller adds rows. Returns the form with these rows as well.
+///
+/// # Errors
+/// Those of [`search`] and of [`LazyRows::extend`].
+pub(super) fn search_with_rows<'m, 'e>(
+    mut form: Form,
+    start: Option<Vec<f64>>,
+    limits: Limits,
+    lazy: LazyRows<'m, 'e>,
+    monitor: &'m mut Monitor<'e>,
+) -> Result<(Found, Form)> {
+    let mut shared = Shared::new(&form, &regularization(&form))?;
+    let mut tree = Tree::new(&form, &shared, limits, monitor);
+    tree.lazy = Some(lazy);
+    tree.stack.push(Node::root());
+    if let Some(start) = start {
+        tree.round(&start);
+    }
+    loop {
+        if !tree.is_cut() {
+            tree.run();
+        }
+        if !tree.is_cut() || tree.is_ended() {
+            let found = tree.result();
+            return Ok((found, form));
+        }
+        let mut paused = tree.pause();
+        let incumbent = paused.best.as_ref().map(|(x, _)| &x[..]);
+        if let Some(lazy) = &mut paused.lazy {
+            lazy.extend(&mut form, incumbent)?;
+        }
+        shared.extend(&form);
+        tree = paused.resume(&form, &shared, limits);
+    }
+}
+
+/// A tree without its form.
+struct Paused<'m, 'e> {
+    costs: PseudoCosts,
+    waiting: BinaryHeap<Node>,
+    stack: Vec<Node>,
+    best: Option<(Vec<f64>, f64)>,
+    done: f64,
+    created: u64,
+    dives: u64,
+    nodes: u64,
+    next_part: u64,
+    rounding: f64,
+    work: u64,
+    lazy: Option<LazyRows<'m, 'e>>,
+    monitor: &'m mut Monitor<'e>,
+}
+
+impl<'m, 'e> Paused<'m, 'e> {
+    /// The tree of a form that has more rows.
+    fn resume<'a>(self, form: &'a Form, shared: &'a Shared, limits: Limits) -> Tree<'a, 'm, 'e> {
+        let mut tree = Tree {
+            costs: self.costs,
+            waiting: self.waiting,
+            stack: self.stack,
+            best: self.best,
+            done: self.done,
+            created: self.created,
+            dives: self.dives,
+            nodes: self.nodes,
+            next_part: self.next_part,
+            rounding: self.rounding,
+            lazy: self.lazy,
+            ..Tree::new(form, shared, limits, self.monitor)
+        };
+        tree.relaxation.solver.work = self.work;
+        tree
+    }
 }
 
 /// What became of a node.
@@ -197,20 +286,44 @@ impl<'a, 'm, 'e> Tree<'a, 'm, 'e> {
             stopped_by: StoppedBy::Nothing,
             rounding: 0.0,
             integers: integers.collect(),
+            lazy: None,
             monitor,
         }
     }
 
     /// Searches from the root.
     pub fn found(mut self) -> Found {
-        self.stack.push(Node {
-            bound: f64::NEG_INFINITY,
-            number: 0,
-            limits: Vec::new(),
-            warm: WarmStart::new(),
-            branching: None,
-        });
+        self.stack.push(Node::root());
         self.run();
+        self.result()
+    }
+
+    /// Leaves the form.
+    fn pause(self) -> Paused<'m, 'e> {
+        Paused {
+            costs: self.costs,
+            waiting: self.waiting,
+            stack: self.stack,
+            best: self.best,
+            done: self.done,
+            created: self.created,
+            dives: self.dives,
+            nodes: self.nodes,
+            next_part: self.next_part,
+            rounding: self.rounding,
+            work: self.relaxation.solver.work,
+            lazy: self.lazy,
+            monitor: self.monitor,
+        }
+    }
+
+    /// Whether rows of the caller cut off a point that the form allows.
+    fn is_cut(&self) -> bool {
+        self.lazy.as_ref().is_some_and(|lazy| lazy.cut)
+    }
+
+    /// What the search has found so far.
+    fn result(self) -> Found {
         let waiting = self.waiting.iter().chain(&self.stack);
         let is_empty = self.waiting.is_empty() && self.stack.is_empty();
         let bound = waiting.map(|node| node.bound).fold(self.done, f64::min);
@@ -358,12 +471,18 @@ impl<'a, 'm, 'e> Tree<'a, 'm, 'e> {
         }
         let point = self.relaxation.solver.point().to_vec();
         let mut fractional = self.fractional(&point);
+        if !fractional.is_empty() && self.cuts_off(&point, self.form.energy(&point)) {
+            return Step::Ended(Box::new(node));
+        }
         let every = if self.best.is_none() { 5 } else { 20 };
         if self.nodes == 1 || self.nodes.is_multiple_of(every) || fractional.is_empty() {
             self.round(&point);
         }
         if self.nodes >= self.next_part && !fractional.is_empty() {
             self.search_part(&point);
+        }
+        if self.is_cut() {
+            return Step::Ended(Box::new(node));
         }
         if node.bound >= self.cutoff() {
             self.done = self.done.min(node.bound);
@@ -379,6 +498,12 @@ impl<'a, 'm, 'e> Tree<'a, 'm, 'e> {
         }
         let (variable, at) = self.choose(&node, &fractional, &point);
         self.split(node, variable, at)
+    }
+
+    /// Whether the caller cuts off a point that the form allows.
+    pub fn cuts_off(&mut self, point: &[f64], energy: f64) -> bool {
+        let lazy = self.lazy.as_mut();
+        lazy.is_some_and(|lazy| lazy.cuts_off(point, energy, self.monitor))
     }
 
     /// Bounds on all unknowns at a node.

@@ -270,7 +270,13 @@ impl<'a> Monitor<'a> {
             lower_bound: self.lower_bound,
             gap,
         };
-        match callback(&event) {
+        let flow = callback(&event);
+        self.ask(flow);
+    }
+
+    /// Does what a callback of the caller asks for.
+    pub(crate) fn ask(&mut self, flow: Flow) {
+        match flow {
             Flow::Continue => {}
             Flow::Cancel => self.stopped = self.stopped.or(Some(Stop::Cancelled)),
             Flow::Finish => self.run.finish(),

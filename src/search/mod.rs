@@ -5,6 +5,7 @@
 
 mod factors;
 mod incumbent;
+mod lazy_rows;
 mod options;
 mod presets;
 mod status;
@@ -14,6 +15,7 @@ pub(crate) mod table;
 mod warm_start;
 mod work;
 
+pub use lazy_rows::{Candidate, LazyCallback, LazyRows};
 pub use options::{OPTIONS, Options};
 pub use presets::{PRESETS, Preset};
 pub use status::{GAP_TOLERANCE, SolveStatus};
@@ -24,6 +26,7 @@ pub use warm_start::WarmStart;
 
 pub(crate) use factors::Factors;
 pub(crate) use incumbent::Incumbent;
+pub(crate) use lazy_rows::LazyProblem;
 pub(crate) use status::is_closed;
 pub(crate) use work::{ALWAYS, Work, of_relaxation};
 

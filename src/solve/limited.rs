@@ -13,7 +13,7 @@ use crate::error::{Error, Result};
 use crate::monitor::Monitor;
 use crate::network;
 use crate::problem::{Model, Problem};
-use crate::search::{Options, SolveStatus, StoppedBy, Strategy, WarmStart, is_closed};
+use crate::search::{LazyProblem, Options, SolveStatus, StoppedBy, Strategy, WarmStart, is_closed};
 
 /// Limits may be missed by this, relative to the sizes of the terms.
 const WITHIN: f64 = 1e-9;
@@ -36,9 +36,43 @@ pub(super) fn solve_limited(
                 return Ok(solution);
             }
             let start = (options.warm_start != WarmStart::Off).then_some(earlier);
-            branch::solve(problem, model, options, start, monitor)?
+            branch::solve(problem, model, options, start, None, monitor)?
         }
     };
+    solution(problem, model, options, found, monitor)
+}
+
+/// Solves a problem to which a caller adds rows.
+///
+/// # Errors
+/// Those of [`solve_with_lazy_rows`](crate::solve_with_lazy_rows()).
+pub(super) fn solve_growing<'e>(
+    lazy: &mut LazyProblem<'e>,
+    model: &Model,
+    options: &Options,
+    monitor: &mut Monitor<'e>,
+) -> Result<Solution> {
+    let earlier = model.guess();
+    let unlimited = without_limits(lazy.problem(), model, options, earlier, monitor)?;
+    if let Some(solution) = unlimited
+        && !lazy.cuts_off(&solution.values, solution.energy, monitor)
+    {
+        return Ok(solution);
+    }
+    let start = (options.warm_start != WarmStart::Off).then_some(earlier);
+    let stated = lazy.problem().clone();
+    let found = branch::solve(&stated, model, options, start, Some(lazy), monitor)?;
+    solution(lazy.problem(), model, options, found, monitor)
+}
+
+/// The solution that branch and bound, or the search of a network, has found.
+fn solution(
+    problem: &Problem,
+    model: &Model,
+    options: &Options,
+    found: branch::Found,
+    monitor: &Monitor,
+) -> Result<Solution> {
     let searched = monitor.seconds();
     let verdict = verify(problem, &found.values)?;
     let is_integer = model.integer().contains(&true);

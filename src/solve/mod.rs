@@ -17,7 +17,7 @@ mod solver;
 mod subject_to;
 mod verify;
 
-pub use run::{solve, solve_with};
+pub use run::{solve, solve_with, solve_with_lazy_rows};
 pub use solution::{Counts, Seconds, Solution};
 pub use solver::Solver;
 pub use verify::{Verdict, verify};

@@ -2,13 +2,13 @@
 
 use super::Solution;
 use super::eliminated::EliminatedProblem;
-use super::limited::solve_limited;
+use super::limited::{solve_growing, solve_limited};
 use super::reformulate::solve_reformulated;
 use crate::eliminate::Elimination;
 use crate::error::Result;
-use crate::monitor::{Monitor, may_continue, watch_memory, with_threads};
+use crate::monitor::{Flow, Monitor, may_continue, watch_memory, with_threads};
 use crate::problem::{Model, Problem};
-use crate::search::{Factors, Options};
+use crate::search::{Candidate, Factors, LazyProblem, LazyRows, Options};
 
 /// Solves `problem`, without a monitor.
 ///
@@ -28,6 +28,37 @@ pub fn solve(problem: &Problem, options: &Options) -> Result<Solution> {
 pub fn solve_with(problem: &Problem, options: &Options, monitor: Monitor) -> Result<Solution> {
     let _memory = watch_memory(problem.size());
     with_threads(options.threads, || solve_alone(problem, options, monitor))
+}
+
+/// Solves `problem` together with rows that `callback` adds during the search, because there are too many to give
+/// them all before it.
+///
+/// The callback sees each point that could become the solution, and the minimiser of each relaxation that is not
+/// integer. It adds rows with [`LazyRows::add`]. A point that they cut off is never a solution. The rows hold for
+/// the rest of the solve, and the solution is optimal among all points that the problem and these rows allow. What
+/// the callback adds must not depend on the order of its calls: a row that cuts off a point which was accepted
+/// before is an error.
+///
+/// # Errors
+/// The errors of [`solve_with`], and [`Error::InvalidArgument`](crate::Error::InvalidArgument) for a row that
+/// cuts off a point which was accepted before. Errors give the rows numbers after those of the problem's
+/// inequalities.
+pub fn solve_with_lazy_rows(
+    problem: &Problem,
+    options: &Options,
+    monitor: Monitor,
+    mut callback: impl FnMut(&Candidate, &mut LazyRows) -> Flow,
+) -> Result<Solution> {
+    let _memory = watch_memory(problem.size());
+    let mut lazy = LazyProblem::new(problem.clone(), &mut callback);
+    let mut monitor = monitor;
+    with_threads(options.threads, || {
+        monitor.start(options.time_limit);
+        monitor.check()?;
+        let model = Model::new(problem)?;
+        tell_of_ignored_hint(&model, &mut monitor);
+        solve_growing(&mut lazy, &model, options, &mut monitor)
+    })
 }
 
 fn solve_alone(problem: &Problem, options: &Options, mut monitor: Monitor) -> Result<Solution> {

@@ -7,6 +7,7 @@
 mod check;
 mod instance;
 mod kinds;
+mod lazy;
 mod lcp;
 mod oracle;
 #[path = "../common/random.rs"]
@@ -95,6 +96,21 @@ kinds! {
     large_coefficients_are_decided: "large", |t| t.optimal > 200;
     pins_are_kept: "pinned", |t| t.optimal > 150;
     what_curves_downwards_is_refused: "not convex", |t| t.not_convex > 200;
+}
+
+#[test]
+fn rows_that_come_during_the_search_count_like_those_before_it() {
+    let (mut solved, mut without) = (0, 0);
+    let is_tried = |name: &str| !matches!(name, "unbounded" | "not convex");
+    for (name, kind) in KINDS.iter().filter(|(name, _)| is_tried(name)) {
+        for seed in 0..60 {
+            match lazy::check(&kind(seed), seed) {
+                Ok((one, none)) => (solved, without) = (solved + one, without + none),
+                Err(fault) => panic!("{name}, seed {seed}: {fault}"),
+            }
+        }
+    }
+    assert!(solved > 300 && without > 30, "{solved}, {without}");
 }
 
 #[test]
