@@ -26,6 +26,7 @@ const SOURCES: &[&str] = &[
     "event",
     "solution",
     "solve",
+    "lazy_rows",
     "solver",
     "files",
     "mesh",

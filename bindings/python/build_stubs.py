@@ -25,12 +25,13 @@ from ._types import Strategy as Strategy
 from .errors import *
 from .errors import classes as classes
 from .events import Event as Event, Progress as Progress
+from .lazy_rows import Candidate as Candidate, LazyRows as LazyRows
 from .options import Option as Option
 
 __version__: str
 '''
 #: What the head imports: the bodies of these tell their types themselves.
-ELSEWHERE = ("Event", "Option")
+ELSEWHERE = ("Candidate", "Event", "Option")
 
 
 def stub():

@@ -898,6 +898,46 @@ typedef struct roundel_monitor {
     const struct roundel_cancel_token *cancel_token;
 } roundel_monitor;
 
+/**
+ * A point that rows may cut off. It is valid until the callback returns.
+ */
+typedef struct roundel_candidate {
+    /**
+     * Size of this struct in the linked library, in bytes: later versions add members at its end.
+     */
+    size_t size;
+    /**
+     * The number of values, one for each variable.
+     */
+    size_t count;
+    /**
+     * The values.
+     */
+    const double *values;
+    /**
+     * The objective at the point.
+     */
+    double energy;
+    /**
+     * 1 if all integer variables have integer values; 0 for the minimiser of a relaxation.
+     */
+    int32_t is_integer;
+    /**
+     * Reserved: 0.
+     */
+    int32_t reserved;
+} roundel_candidate;
+
+/**
+ * Receives a candidate, on the thread that called solve, and adds rows. `rows` is an empty problem of as many
+ * variables: the inequalities and constraints that the callback adds to it, for example with
+ * roundel_problem_add_inequality, hold for the rest of the solve; nothing else in it is read. The library owns
+ * it. The callback returns a roundel_flow: 0 to go on. It must return: no exception and no longjmp may leave it.
+ */
+typedef int32_t (*roundel_lazy_callback)(const struct roundel_candidate *candidate,
+                                         struct roundel_problem *rows,
+                                         void *user_data);
+
 #ifdef __cplusplus
 extern "C" {
 #endif // __cplusplus
@@ -1665,6 +1705,25 @@ roundel_status roundel_problem_solve(const struct roundel_problem *problem,
                                      struct roundel_solution **solution);
 
 /**
+ * Solves a problem together with rows that `callback` adds during the search, because there are too many to give
+ * them all before it. `options`, `monitor` and `solution` are those of roundel_problem_solve, and `user_data` is
+ * passed to the callback unchanged.
+ *
+ * The callback sees each point that could become the solution, and the minimiser of each relaxation that is not
+ * integer. A point that its rows cut off is never a solution, and the solution is optimal among all points that
+ * the problem and the rows allow. What it adds must not depend on the order of its calls.
+ *
+ * Apart from the errors of roundel_problem_solve, fails with ROUNDEL_ERROR_INVALID_ARGUMENT for a row that cuts
+ * off a point which was accepted before. Rows have numbers after those of the problem's inequalities.
+ */
+roundel_status roundel_problem_solve_lazy(const struct roundel_problem *problem,
+                                          const struct roundel_options *options,
+                                          const struct roundel_monitor *monitor,
+                                          roundel_lazy_callback callback,
+                                          void *user_data,
+                                          struct roundel_solution **solution);
+
+/**
  * Makes a solver for a copy of a problem. To be freed with roundel_solver_free.
  *
  * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for an integer variable pinned to a fraction,
@@ -1752,8 +1811,29 @@ roundel_status roundel_solver_solve(struct roundel_solver *solver,
                                     struct roundel_solution **solution);
 
 /**
- * Makes a problem from a file in free-format MPS, gzipped or not. Variables and constraints are numbered
- * in the order of the file; their names are not kept.
+ * Makes a problem from a file in the format that its name says: LP for ".lp", QPLIB for ".qplib", and MPS, free or
+ * fixed, for any other, each also with ".gz" behind it. Variables and rows are numbered in the order of the file;
+ * their names are not kept.
+ *
+ * A file may maximise. The problem then minimises the negated objective, and 1 is written to `maximises`, else
+ * 0; `maximises` may be NULL.
+ *
+ * Fails with ROUNDEL_ERROR_PARSE or ROUNDEL_ERROR_NOT_SUPPORTED and the line at fault, and with
+ * ROUNDEL_ERROR_IO.
+ */
+roundel_status roundel_problem_read(const char *file,
+                                    int32_t *maximises,
+                                    struct roundel_problem **problem);
+
+/**
+ * Writes a problem to a file in the format that its name says: LP for ".lp" and free-format MPS for any other, each
+ * compressed for ".gz" behind it. What is said of roundel_problem_write_mps holds for both.
+ */
+roundel_status roundel_problem_write(const struct roundel_problem *problem,
+                                     const char *file);
+
+/**
+ * Makes a problem from a file in MPS, gzipped or not, whatever its name is. See roundel_problem_read.
  *
  * Fails with ROUNDEL_ERROR_PARSE or ROUNDEL_ERROR_NOT_SUPPORTED and the line at fault, and with
  * ROUNDEL_ERROR_IO.

@@ -35,6 +35,7 @@
 #include <roundel/detail/error.hpp>
 #include <roundel/detail/features.hpp>
 #include <roundel/detail/field.hpp>
+#include <roundel/detail/lazy_rows.hpp>
 #include <roundel/detail/map.hpp>
 #include <roundel/detail/mesh.hpp>
 #include <roundel/detail/options.hpp>

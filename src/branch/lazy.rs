@@ -4,9 +4,15 @@
 //! incumbent. A row that cuts the point off ends the run of the tree; the row joins the form, and the tree goes on
 //! with the nodes that wait, whose bounds stay true.
 
+use std::collections::BinaryHeap;
+
 use super::conflict;
 use super::form::{Form, Interval, without_zeros};
 use super::presolve::round_rows;
+use super::pseudo_costs::PseudoCosts;
+use super::relaxation::regularization;
+use super::shared::Shared;
+use super::tree::{Found, Limits, Node, Tree};
 use crate::error::{Conflicting, Error, Result};
 use crate::linalg::Sparse;
 use crate::monitor::Monitor;
@@ -114,5 +120,98 @@ impl<'m, 'e> LazyRows<'m, 'e> {
             Some(i) => Err(conflict::error(self.problem.problem(), &[form.origins[i]])),
             None => Ok(()),
         }
+    }
+}
+
+/// Searches a form to which the caller adds rows. Returns the form with these rows as well.
+///
+/// # Errors
+/// Those of [`search`](super::tree::search) and of [`LazyRows::extend`].
+pub(super) fn search_with_rows<'m, 'e>(
+    mut form: Form,
+    start: Option<Vec<f64>>,
+    limits: Limits,
+    lazy: LazyRows<'m, 'e>,
+    monitor: &'m mut Monitor<'e>,
+) -> Result<(Found, Form)> {
+    let mut shared = Shared::new(&form, &regularization(&form))?;
+    let mut tree = Tree::new(&form, &shared, limits, monitor);
+    tree.lazy = Some(lazy);
+    tree.stack.push(Node::root());
+    if let Some(start) = start {
+        tree.round(&start);
+    }
+    loop {
+        if !tree.is_cut() {
+            tree.run();
+        }
+        if !tree.is_cut() || tree.is_ended() {
+            let found = tree.result();
+            return Ok((found, form));
+        }
+        let mut paused = Paused::of(tree);
+        let incumbent = paused.best.as_ref().map(|(x, _)| &x[..]);
+        if let Some(lazy) = &mut paused.lazy {
+            lazy.extend(&mut form, incumbent)?;
+        }
+        shared.extend(&form);
+        tree = paused.resume(&form, &shared, limits);
+    }
+}
+
+/// A tree without its form.
+struct Paused<'m, 'e> {
+    costs: PseudoCosts,
+    waiting: BinaryHeap<Node>,
+    stack: Vec<Node>,
+    best: Option<(Vec<f64>, f64)>,
+    done: f64,
+    created: u64,
+    dives: u64,
+    nodes: u64,
+    next_part: u64,
+    rounding: f64,
+    work: u64,
+    lazy: Option<LazyRows<'m, 'e>>,
+    monitor: &'m mut Monitor<'e>,
+}
+
+impl<'m, 'e> Paused<'m, 'e> {
+    fn of(tree: Tree<'_, 'm, 'e>) -> Self {
+        Paused {
+            costs: tree.costs,
+            waiting: tree.waiting,
+            stack: tree.stack,
+            best: tree.best,
+            done: tree.done,
+            created: tree.created,
+            dives: tree.dives,
+            nodes: tree.nodes,
+            next_part: tree.next_part,
+            rounding: tree.rounding,
+            work: tree.relaxation.solver.work,
+            lazy: tree.lazy,
+            monitor: tree.monitor,
+        }
+    }
+
+    /// The tree of a form that has more rows.
+    fn resume<'a>(self, form: &'a Form, shared: &'a Shared, limits: Limits) -> Tree<'a, 'm, 'e> {
+        let mut tree = Tree {
+            costs: self.costs,
+            waiting: self.waiting,
+            stack: self.stack,
+            best: self.best,
+            done: self.done,
+            created: self.created,
+            dives: self.dives,
+            nodes: self.nodes,
+            next_part: self.next_part,
+            rounding: self.rounding,
+            lazy: self.lazy,
+            ..Tree::new(form, shared, limits, self.monitor)
+        };
+        tree.relaxation.solver.work = self.work;
+        tree
     }
 }

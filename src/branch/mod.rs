@@ -12,11 +12,12 @@
 //! | `inverse`, `shared`, `working_set`, `dual_active_set`, `refine` | one strictly convex quadratic program |
 //! | `relaxation` | the relaxation of a node, also where Q is singular |
 //! | `safe_bound` | lower bounds that rounding errors cannot make false |
-//! | `pseudo_costs`, `tree` | the search |
+//! | `pseudo_costs`, `branching`, `tree` | the search |
 //! | `primal`, `exchange` | points with integers: rounding, exchanges, smaller problems |
 //! | `lazy` | rows that the caller adds during the search |
 //! | `conflict` | why there is no solution |
 
+mod branching;
 mod conflict;
 mod dual_active_set;
 mod exchange;
@@ -213,7 +214,7 @@ fn search_with_rows<'e>(
 ) -> Result<tree::Found> {
     let (values, constant) = whole;
     let rows = LazyRows::new(lazy, &part.members, values.to_vec(), constant);
-    let searched = tree::search_with_rows(part.form.clone(), start, limits, rows, monitor);
+    let searched = self::lazy::search_with_rows(part.form.clone(), start, limits, rows, monitor);
     let (found, form) = match searched {
         Ok((found, form)) => (Ok(found), form),
         Err(error) => (Err(error), part.form.clone()),

@@ -1,4 +1,4 @@
-//! The choice of the unknown to branch on: pseudo-costs, started by strong branching.
+//! Pseudo-costs: how much each side of a branching raises the bound.
 //!
 //! A pseudo-cost is the mean rise of the bound, for each unit of rounding, that branchings on an unknown have
 //! had (`benichou1971`). Until enough are known, both children are solved for a few iterations instead

@@ -8,11 +8,12 @@
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
+use super::branching::child_limits;
 use super::dual_active_set::{Active, WarmStart};
 use super::form::{Form, Interval};
 use super::lazy::LazyRows;
 use super::propagate::Propagator;
-use super::pseudo_costs::{PseudoCosts, merit};
+use super::pseudo_costs::PseudoCosts;
 use super::relaxation::{Relaxation, Relaxed, regularization};
 use super::safe_bound::is_contradiction;
 use super::shared::Shared;
@@ -20,18 +21,9 @@ use crate::error::Result;
 use crate::monitor::Monitor;
 use crate::search::StoppedBy;
 
-/// A value this close to an integer counts as one.
-const INTEGRAL: f64 = 1e-6;
-
-/// Iterations of the dual active-set method for a child that strong branching looks at.
-const PROBE: u64 = 25;
-
-/// The largest number of unknowns that strong branching looks at in a node.
-const CANDIDATES: usize = 12;
-
 /// A node that waits.
-struct Node {
-    bound: f64,
+pub(super) struct Node {
+    pub bound: f64,
     number: u64,
     /// The bounds that differ from the root's.
     limits: Vec<(u32, Interval)>,
@@ -49,7 +41,7 @@ struct Branching {
 }
 
 impl Node {
-    fn root() -> Self {
+    pub fn root() -> Self {
         Node {
             bound: f64::NEG_INFINITY,
             number: 0,
@@ -129,24 +121,24 @@ pub(super) struct Tree<'a, 'm, 'e> {
     pub shared: &'a Shared,
     pub relaxation: Relaxation<'a>,
     pub propagator: Propagator,
-    costs: PseudoCosts,
+    pub costs: PseudoCosts,
     pub root: Vec<Interval>,
-    waiting: BinaryHeap<Node>,
+    pub waiting: BinaryHeap<Node>,
     /// The nodes that wait while there is no incumbent, the newest last.
-    stack: Vec<Node>,
+    pub stack: Vec<Node>,
     pub best: Option<(Vec<f64>, f64)>,
     /// The lowest bound of the nodes that are done.
-    done: f64,
-    created: u64,
+    pub done: f64,
+    pub created: u64,
     /// The dives since the search was last at the lowest bound.
-    dives: u64,
+    pub dives: u64,
     pub nodes: u64,
     /// The node after which the next smaller problem is searched.
     pub next_part: u64,
     pub limits: Limits,
-    conflict: Vec<(u32, f64)>,
-    ray: Option<Vec<f64>>,
-    stopped_by: StoppedBy,
+    pub conflict: Vec<(u32, f64)>,
+    pub ray: Option<Vec<f64>>,
+    pub stopped_by: StoppedBy,
     /// The rounding errors of the incumbent's energy.
     pub rounding: f64,
     pub integers: Vec<u32>,
@@ -171,81 +163,6 @@ pub(super) fn search(
         tree.round(&start);
     }
     Ok(tree.found())
-}
-
-/// Searches a form to which the caller adds rows. Returns the form with these rows as well.
-///
-/// # Errors
-/// Those of [`search`] and of [`LazyRows::extend`].
-pub(super) fn search_with_rows<'m, 'e>(
-    mut form: Form,
-    start: Option<Vec<f64>>,
-    limits: Limits,
-    lazy: LazyRows<'m, 'e>,
-    monitor: &'m mut Monitor<'e>,
-) -> Result<(Found, Form)> {
-    let mut shared = Shared::new(&form, &regularization(&form))?;
-    let mut tree = Tree::new(&form, &shared, limits, monitor);
-    tree.lazy = Some(lazy);
-    tree.stack.push(Node::root());
-    if let Some(start) = start {
-        tree.round(&start);
-    }
-    loop {
-        if !tree.is_cut() {
-            tree.run();
-        }
-        if !tree.is_cut() || tree.is_ended() {
-            let found = tree.result();
-            return Ok((found, form));
-        }
-        let mut paused = tree.pause();
-        let incumbent = paused.best.as_ref().map(|(x, _)| &x[..]);
-        if let Some(lazy) = &mut paused.lazy {
-            lazy.extend(&mut form, incumbent)?;
-        }
-        shared.extend(&form);
-        tree = paused.resume(&form, &shared, limits);
-    }
-}
-
-/// A tree without its form.
-struct Paused<'m, 'e> {
-    costs: PseudoCosts,
-    waiting: BinaryHeap<Node>,
-    stack: Vec<Node>,
-    best: Option<(Vec<f64>, f64)>,
-    done: f64,
-    created: u64,
-    dives: u64,
-    nodes: u64,
-    next_part: u64,
-    rounding: f64,
-    work: u64,
-    lazy: Option<LazyRows<'m, 'e>>,
-    monitor: &'m mut Monitor<'e>,
-}
-
-impl<'m, 'e> Paused<'m, 'e> {
-    /// The tree of a form that has more rows.
-    fn resume<'a>(self, form: &'a Form, shared: &'a Shared, limits: Limits) -> Tree<'a, 'm, 'e> {
-        let mut tree = Tree {
-            costs: self.costs,
-            waiting: self.waiting,
-            stack: self.stack,
-            best: self.best,
-            done: self.done,
-            created: self.created,
-            dives: self.dives,
-            nodes: self.nodes,
-            next_part: self.next_part,
-            rounding: self.rounding,
-            lazy: self.lazy,
-            ..Tree::new(form, shared, limits, self.monitor)
-        };
-        tree.relaxation.solver.work = self.work;
-        tree
-    }
 }
 
 /// What became of a node.
@@ -298,32 +215,13 @@ impl<'a, 'm, 'e> Tree<'a, 'm, 'e> {
         self.result()
     }
 
-    /// Leaves the form.
-    fn pause(self) -> Paused<'m, 'e> {
-        Paused {
-            costs: self.costs,
-            waiting: self.waiting,
-            stack: self.stack,
-            best: self.best,
-            done: self.done,
-            created: self.created,
-            dives: self.dives,
-            nodes: self.nodes,
-            next_part: self.next_part,
-            rounding: self.rounding,
-            work: self.relaxation.solver.work,
-            lazy: self.lazy,
-            monitor: self.monitor,
-        }
-    }
-
     /// Whether rows of the caller cut off a point that the form allows.
-    fn is_cut(&self) -> bool {
+    pub fn is_cut(&self) -> bool {
         self.lazy.as_ref().is_some_and(|lazy| lazy.cut)
     }
 
     /// What the search has found so far.
-    fn result(self) -> Found {
+    pub fn result(self) -> Found {
         let waiting = self.waiting.iter().chain(&self.stack);
         let is_empty = self.waiting.is_empty() && self.stack.is_empty();
         let bound = waiting.map(|node| node.bound).fold(self.done, f64::min);
@@ -363,7 +261,7 @@ impl<'a, 'm, 'e> Tree<'a, 'm, 'e> {
         }
     }
 
-    fn run(&mut self) {
+    pub fn run(&mut self) {
         while let Some(mut node) = self.next_node() {
             if node.bound >= self.cutoff() {
                 self.done = self.done.min(node.bound);
@@ -417,7 +315,7 @@ impl<'a, 'm, 'e> Tree<'a, 'm, 'e> {
     }
 
     /// Whether to end. Without a point only the caller ends the search.
-    fn is_ended(&mut self) -> bool {
+    pub fn is_ended(&mut self) -> bool {
         let found = self.best.is_some() || self.limits.strict;
         if found && self.nodes >= self.limits.nodes {
             self.stopped_by = StoppedBy::Nodes;
@@ -552,95 +450,6 @@ impl<'a, 'm, 'e> Tree<'a, 'm, 'e> {
         }
     }
 
-    fn fractional(&self, point: &[f64]) -> Vec<u32> {
-        let is_fractional = |&&j: &&u32| {
-            let x = point[j as usize];
-            (x - x.round()).abs() > INTEGRAL
-        };
-        self.integers
-            .iter()
-            .filter(is_fractional)
-            .copied()
-            .collect()
-    }
-
-    /// The integers whose bounds leave a choice, where all values are integers: the one with the largest
-    /// error, if any.
-    fn undecided(&self, point: &[f64]) -> Vec<u32> {
-        let free = |&&j: &&u32| !self.relaxation.solver.limits()[j as usize].is_point();
-        let error = |j: u32| (point[j as usize] - point[j as usize].round()).abs();
-        let free = self.integers.iter().filter(free);
-        let worst = free.max_by(|&&a, &&b| error(a).total_cmp(&error(b)));
-        worst.into_iter().copied().collect()
-    }
-
-    /// The unknown to branch on and its value. Strong branching may find that one side has no better point;
-    /// its bound is then tightened at once, which makes the node's other child empty.
-    fn choose(&mut self, node: &Node, fractional: &[u32], point: &[f64]) -> (u32, f64) {
-        let fraction = |j: u32| point[j as usize] - point[j as usize].floor();
-        let mut scored: Vec<(f64, u32)> = fractional
-            .iter()
-            .map(|&j| (merit(self.costs.expected(j as usize, fraction(j))), j))
-            .collect();
-        scored.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
-        let mut best = scored[0];
-        if fractional.len() == 1 {
-            return (best.1, point[best.1 as usize]);
-        }
-        let mut looked = 0;
-        let mut first = true;
-        let state = self.relaxation.solver.state();
-        let cutoff = self.cutoff();
-        let base = node.bound;
-        for (expected, j) in scored {
-            if self.costs.is_reliable(j as usize) {
-                if first || expected > best.0 {
-                    best = (expected, j);
-                    first = false;
-                }
-                continue;
-            }
-            if looked >= CANDIDATES {
-                continue;
-            }
-            looked += 1;
-            let (v, x) = (j as usize, point[j as usize]);
-            let before = self.relaxation.solver.limits()[v];
-            let mut rises = [0.0; 2];
-            for direction in [0, 1] {
-                let child = child_limits(before, x, direction);
-                if child.is_empty() {
-                    rises[direction] = f64::INFINITY;
-                    continue;
-                }
-                self.relaxation.solver.set_limits(v, child);
-                let bound = self.relaxation.probe(cutoff, PROBE);
-                rises[direction] = (bound - base).max(0.0);
-                self.relaxation.solver.go_back(&state);
-                self.relaxation.solver.set_limits(v, before);
-                if rises[direction].is_finite() {
-                    let distance = if direction == 0 {
-                        fraction(j)
-                    } else {
-                        1.0 - fraction(j)
-                    };
-                    self.costs.record(v, direction, distance, rises[direction]);
-                }
-            }
-            let most = if cutoff.is_finite() {
-                (cutoff - base).max(0.0)
-            } else {
-                1e300
-            };
-            let merit = merit(rises.map(|r| r.min(most.min(1e100))));
-            if first || merit > best.0 {
-                best = (merit, j);
-                first = false;
-            }
-        }
-        (best.1, point[best.1 as usize])
-    }
-
     fn split(&mut self, node: Node, variable: u32, value: f64) -> Step {
         let before = self.relaxation.solver.limits()[variable as usize];
         let fraction = value - value.floor();
@@ -669,30 +478,5 @@ impl<'a, 'm, 'e> Tree<'a, 'm, 'e> {
         let first = usize::from(expected[1] < expected[0]);
         let (next, other) = (child(first), child(1 - first));
         Step::Split(next, other)
-    }
-}
-
-/// The limits below (0) or above (1) a value. An integer value stays in the lower child.
-fn child_limits(limits: Interval, value: f64, direction: usize) -> Interval {
-    let floor = if (value - value.round()).abs() <= INTEGRAL {
-        let rounded = limits.nearest(value.round());
-        if rounded == limits.upper {
-            rounded - 1.0
-        } else {
-            rounded
-        }
-    } else {
-        value.floor()
-    };
-    if direction == 0 {
-        Interval {
-            upper: limits.upper.min(floor),
-            ..limits
-        }
-    } else {
-        Interval {
-            lower: limits.lower.max(floor + 1.0),
-            ..limits
-        }
     }
 }

@@ -188,14 +188,19 @@ pub(super) unsafe fn monitor<'a>(monitor: *const roundel_monitor) -> Outcome<Mon
             let text = text_of(event);
             let event = for_c(event, text.as_ptr());
             // SAFETY: a function by the caller's word; the event outlives the call.
-            match unsafe { callback(&raw const event, given.user_data) } {
-                CONTINUE => Flow::Continue,
-                FINISH => Flow::Finish,
-                _ => Flow::Cancel,
-            }
+            flow_of(unsafe { callback(&raw const event, given.user_data) })
         });
     }
     Ok(result)
+}
+
+/// What a callback asks for by the number that it returns.
+pub(super) fn flow_of(returned: i32) -> Flow {
+    match returned {
+        CONTINUE => Flow::Continue,
+        FINISH => Flow::Finish,
+        _ => Flow::Cancel,
+    }
 }
 
 /// The text of an event with the NUL that C wants.

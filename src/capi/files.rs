@@ -1,21 +1,69 @@
-//! Problems from and to files: MPS, and replay files that hold options and hints beside it.
+//! Problems from and to files: MPS, LP and QPLIB, and replay files that hold options and hints beside MPS.
 
 use std::ffi::c_char;
 
 use super::guard::{self, boundary};
 use super::input::path;
 use super::options::roundel_options;
-use super::output::Out;
+use super::output::{Out, optional};
 use super::problem::roundel_problem;
 use super::status::roundel_status;
 use crate::problem::Problem;
-use crate::problem::files::NamedProblem;
+use crate::problem::files::{self, NamedProblem};
 use crate::problem::mps;
 use crate::search::Options;
 use crate::solve::replay;
 
-/// Makes a problem from a file in free-format MPS, gzipped or not. Variables and constraints are numbered
-/// in the order of the file; their names are not kept.
+/// Makes a problem from a file in the format that its name says: LP for ".lp", QPLIB for ".qplib", and MPS, free or
+/// fixed, for any other, each also with ".gz" behind it. Variables and rows are numbered in the order of the file;
+/// their names are not kept.
+///
+/// A file may maximise. The problem then minimises the negated objective, and 1 is written to `maximises`, else
+/// 0; `maximises` may be NULL.
+///
+/// Fails with ROUNDEL_ERROR_PARSE or ROUNDEL_ERROR_NOT_SUPPORTED and the line at fault, and with
+/// ROUNDEL_ERROR_IO.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_problem_read(
+    file: *const c_char,
+    maximises: *mut i32,
+    problem: *mut *mut roundel_problem,
+) -> roundel_status {
+    boundary(None, || {
+        // SAFETY: the caller gives a text, a place for the number or NULL, and one for the handle or NULL.
+        let (file, maximises, out) = unsafe {
+            (
+                path("file", file)?,
+                optional("maximises", maximises)?,
+                Out::new("problem", problem)?,
+            )
+        };
+        let read = files::read(file)?;
+        if let Some(maximises) = maximises {
+            maximises.set(i32::from(read.maximises()));
+        }
+        out.set(guard::handle(read.into_problem()));
+        Ok(())
+    })
+}
+
+/// Writes a problem to a file in the format that its name says: LP for ".lp" and free-format MPS for any other, each
+/// compressed for ".gz" behind it. What is said of roundel_problem_write_mps holds for both.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_problem_write(
+    problem: *const roundel_problem,
+    file: *const c_char,
+) -> roundel_status {
+    let body = |value: &Problem| {
+        // SAFETY: the caller gives a text, or NULL.
+        let file = unsafe { path("file", file) }?;
+        Ok(files::write(file, &NamedProblem::new(value.clone()))?)
+    };
+    // SAFETY: the caller gives a live handle, or NULL.
+    unsafe { guard::read(problem, body) }
+}
+
+/// Makes a problem from a file in MPS, gzipped or not, whatever its name is. See roundel_problem_read.
 ///
 /// Fails with ROUNDEL_ERROR_PARSE or ROUNDEL_ERROR_NOT_SUPPORTED and the line at fault, and with
 /// ROUNDEL_ERROR_IO.

@@ -37,6 +37,7 @@ mod guidance_files;
 mod hints;
 mod inequalities;
 mod input;
+mod lazy_rows;
 mod least_squares;
 mod map;
 mod map_fold_free;

@@ -192,6 +192,56 @@ def test_limits_that_no_number_meets_are_refused():
         roundel.solve(roundel.Problem(2), bounds=(0.0, 1.0))
 
 
+def crowd(n):
+    """Integers that want to be 0.4, 0.5, 0.6, ..."""
+    problem = roundel.Problem(n)
+    problem.least_squares_rows(np.eye(n), 0.4 + 0.1 * np.arange(n))
+    problem.integer(range(n))
+    return problem
+
+
+def test_rows_come_during_a_solve():
+    n, seen = 6, []
+
+    def apart(candidate, rows):
+        seen.append(candidate.is_integer)
+        for i in np.flatnonzero(np.diff(candidate.values) < 1 - 1e-9):
+            rows.inequality([i, i + 1], [-1.0, 1.0], lower=1.0)
+
+    found = roundel.solve(crowd(n), lazy_rows=apart)
+    whole = crowd(n)
+    whole.inequality_rows(np.eye(n - 1, n, 1) - np.eye(n - 1, n), lower=1.0)
+    assert found.proved and any(seen)
+    assert np.isclose(found.energy, roundel.solve(whole).energy)
+
+
+def test_a_function_of_lazy_rows_may_fail_or_end_the_solve():
+    def fails(candidate, rows):
+        raise ZeroDivisionError("of the caller")
+
+    with pytest.raises(ZeroDivisionError, match="of the caller"):
+        roundel.solve(crowd(4), lazy_rows=fails)
+    with pytest.raises(roundel.CancelledError):
+        roundel.solve(crowd(4), lazy_rows=lambda candidate, rows: True)
+    with pytest.raises(roundel.ArgumentTypeError, match="lazy_rows should be a function"):
+        roundel.solve(crowd(4), lazy_rows=3)
+    kept = []
+    roundel.solve(crowd(4), lazy_rows=lambda candidate, rows: kept.append(rows))
+    with pytest.raises(roundel.NullPointerError):
+        kept[0].inequality([0], [1.0], upper=1.0)
+
+
+def test_files_say_whether_they_maximise(tmp_path):
+    file = tmp_path / "knapsack.lp"
+    file.write_text("Maximize\n obj: 3 x + 2 y\nSubject To\n c: 2 x + y <= 3\nBinaries\n x y\nEnd\n")
+    problem = roundel.Problem.read(file)
+    assert problem.maximises
+    assert roundel.solve(problem).energy == -5.0
+    problem.write(tmp_path / "again.lp.gz")
+    again = roundel.Problem.read(tmp_path / "again.lp.gz")
+    assert not again.maximises and roundel.solve(again).energy == -5.0
+
+
 def test_files_give_the_problem_back(tmp_path):
     problem = roundel.Problem(2)
     problem.quadratic(Q)

@@ -19,6 +19,8 @@ int main() {
     every_part_of_a_problem_counts();
     rows_given_together_are_rows_given_one_by_one();
     rows_and_bounds_limit_a_problem();
+    rows_come_during_a_solve();
+    files_may_maximise();
     failures_throw_or_are_reported();
     options_follow_the_librarys_list();
     callbacks_stop_and_throw();

@@ -400,7 +400,28 @@ class Problem {
         }
     }
 
-    /// Reads a problem from a file in free-format MPS, gzipped or not.
+    /// Reads a problem from a file in the format that its name says: LP for ".lp", QPLIB for
+    /// ".qplib" and MPS for any other, each also with ".gz" behind it. A file may maximise: the
+    /// problem then minimises the negated objective, and `maximises` tells it.
+    static Problem read(const std::string& file, bool* maximises = nullptr,
+                        Status* status = nullptr) {
+        roundel_problem* made = nullptr;
+        std::int32_t negated = 0;
+        detail::check(roundel_problem_read(file.c_str(), &negated, &made), status);
+        if (maximises) {
+            *maximises = negated != 0;
+        }
+        return Problem(made);
+    }
+
+    /// Writes LP for a name that ends in ".lp" and free-format MPS for any other, each compressed
+    /// for
+    /// ".gz" behind it. Pins are written as constraints. The guess is not written.
+    void write(const std::string& file, Status* status = nullptr) const {
+        detail::check(roundel_problem_write(get(), file.c_str()), status);
+    }
+
+    /// Reads a problem from a file in MPS, gzipped or not, whatever its name is.
     static Problem read_mps(const std::string& file, Status* status = nullptr) {
         roundel_problem* made = nullptr;
         detail::check(roundel_problem_read_mps(file.c_str(), &made), status);
@@ -412,6 +433,9 @@ class Problem {
     void write_mps(const std::string& file, Status* status = nullptr) const {
         detail::check(roundel_problem_write_mps(get(), file.c_str()), status);
     }
+
+    /// Gives up the object of the C interface.
+    roundel_problem* release() noexcept { return handle_.release(); }
 
     /// The object of the C interface; nullptr after a move.
     roundel_problem* get() noexcept { return handle_.get(); }

@@ -20,6 +20,7 @@ from ._library import lib as _lib, text as _text
 from .errors import *  # noqa: F403: one class for each status
 from .events import Event
 from .field import Field, field
+from .lazy_rows import Candidate
 from .map import Map
 
 # Not in __all__, because a star import must not hide Python's own name.
@@ -38,6 +39,7 @@ from .watch import CancelToken, Interrupted
 __version__: str = _text(_lib.roundel_version_string())
 
 __all__ = [
+    "Candidate",
     "CancelToken",
     "EditKind",
     "Event",

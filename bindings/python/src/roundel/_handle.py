@@ -21,6 +21,13 @@ class Handle:
         check(call(*arguments, place))
         return cls(kind, place[0])
 
+    @classmethod
+    def lent(cls, pointer: Any) -> Handle:
+        """An object that the library frees."""
+        handle = cls.__new__(cls)
+        handle.pointer = pointer
+        return handle
+
 
 def number(call: Any, *arguments: Any, kind: str = "size_t") -> Any:
     """The number that `call(*arguments, &number)` gives."""

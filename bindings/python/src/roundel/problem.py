@@ -45,13 +45,35 @@ class Problem:
             wanted = count(variables, "variables")
             _handle = Handle.made("roundel_problem", lib.roundel_problem_new, wanted)
         self._handle = _handle
+        self._maximises = False
 
     def __repr__(self) -> str:
         return f"<Problem: {self.variables} variables, {self.constraints} constraints>"
 
     @classmethod
+    def read(cls, file: File) -> Problem:
+        """Reads a problem from a file: LP for ".lp", QPLIB for ".qplib", MPS for any other name, also with ".gz".
+
+        A file may maximise: the problem then minimises the negated objective, and `maximises` is True.
+        """
+        maximises = ffi.new("int32_t *")
+        read = lib.roundel_problem_read
+        problem = cls(0, Handle.made("roundel_problem", read, path(file), maximises))
+        problem._maximises = bool(maximises[0])
+        return problem
+
+    def write(self, file: File) -> None:
+        """Writes LP for a name that ends in ".lp" and free-format MPS for any other, compressed for ".gz"."""
+        check(lib.roundel_problem_write(self._handle.pointer, path(file)))
+
+    @property
+    def maximises(self) -> bool:
+        """Whether the problem was read from a file that maximises: its objective is minus that of the file."""
+        return self._maximises
+
+    @classmethod
     def read_mps(cls, file: File) -> Problem:
-        """Reads a problem from a file in free-format MPS, gzipped or not."""
+        """Reads a problem from a file in MPS, gzipped or not, whatever its name is."""
         return cls(0, Handle.made("roundel_problem", lib.roundel_problem_read_mps, path(file)))
 
     def write_mps(self, file: File) -> None:

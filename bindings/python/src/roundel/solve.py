@@ -14,6 +14,7 @@ from .arrays import compressed, reals
 from .errors import ArgumentTypeError, refusal
 from .events import Progress
 from .keywords import checked, takes
+from .lazy_rows import LazyRows, callback_of
 from .options import options_handle
 from .problem import Problem
 from .solution import Solution, taken_from
@@ -38,6 +39,7 @@ def solve(
     pins: Optional[Mapping[int, float]] = None,
     guess: Optional[ArrayLike] = None,
     triangle: Literal["full", "upper", "lower"] = "full",
+    lazy_rows: LazyRows = None,
     progress: Progress = None,
     cancel: Optional[CancelToken] = None,
     **options: Any,
@@ -61,6 +63,11 @@ def solve(
       pins: variables and the values that they are fixed to.
       guess: the values that variables keep where the objective does not determine them.
       triangle: which entries of Q are given, "full", "upper" or "lower".
+      lazy_rows: a function of a `Candidate` and an empty `Problem`, called for each point that could become the
+          solution, and for the minimiser of each relaxation that is not integer. The inequalities and
+          constraints that it adds to the problem hold for the rest of the solve, and a point that they cut off
+          is never the solution. What it adds must not depend on the order of its calls. A true value that it
+          returns ends the solve.
 
     Python's lock is free during the solve. An exception of `progress` ends it and is raised again.
 
@@ -78,6 +85,13 @@ def solve(
     >>> s = roundel.solve(A=np.eye(2), b=[2.6, 1.4], integers=[0, 1], **limits)
     >>> s.values
     array([1., 1.])
+
+    >>> def in_order(candidate, rows):                                             # x0 <= x1
+    ...     if candidate.values[0] > candidate.values[1]:
+    ...         _ = rows.inequality([0, 1], [1, -1], upper=0)
+    >>> s = roundel.solve(A=np.eye(2), b=[2.6, 1.4], integers=[0, 1], lazy_rows=in_order)
+    >>> s.values
+    array([2., 2.])
 
     A problem that cannot be solved raises an `Error` that names the element at fault:
 
@@ -99,8 +113,14 @@ def solve(
     handle, watch = options_handle(options), Watch(progress, cancel)
     place = ffi.new("roundel_solution **")
     pointer = problem._handle.pointer
-    with watch:
-        status = lib.roundel_problem_solve(pointer, handle.pointer, watch.pointer, place)
+    if lazy_rows is None:
+        with watch:
+            status = lib.roundel_problem_solve(pointer, handle.pointer, watch.pointer, place)
+    else:
+        callback = callback_of(lazy_rows, watch)
+        with watch:
+            call = lib.roundel_problem_solve_lazy
+            status = call(pointer, handle.pointer, watch.pointer, callback, ffi.NULL, place)
     return watch.result(status, lambda: taken_from(place), problem.variables)
 
 

@@ -129,6 +129,16 @@ class Watch:
         ends = self._tell is not None and self._tell(event_of(event))
         return lib.ROUNDEL_FLOW_CANCEL if ends else lib.ROUNDEL_FLOW_CONTINUE
 
+    def hears(self, kind: str, hear: Callable[..., bool]) -> Any:
+        """A callback of another type for the same call. `hear` returns whether the call is to end."""
+
+        def answer(*arguments: Any) -> int:
+            if self._caught is not None:
+                return _ended_by(self._caught)
+            return lib.ROUNDEL_FLOW_CANCEL if hear(*arguments) else lib.ROUNDEL_FLOW_CONTINUE
+
+        return ffi.callback(kind, answer, error=1, onerror=self._catch)
+
     def _catch(self, _kind: Any, error: BaseException, _trace: Any) -> int:
         self._caught = error
         return _ended_by(error)
