@@ -21,7 +21,8 @@ pub struct Candidate<'a> {
     pub is_integer: bool,
 }
 
-/// Receives candidates and adds rows. [`Flow::Cancel`] and [`Flow::Finish`] act as those of a monitor.
+/// Receives candidates and adds rows. [`Flow::Cancel`] and [`Flow::Finish`] act as those of a monitor, and a
+/// candidate for which the caller cancels is not accepted.
 pub type LazyCallback<'a> = dyn FnMut(&Candidate, &mut LazyRows) -> Flow + 'a;
 
 /// The rows that a caller adds for a candidate.
@@ -79,7 +80,8 @@ impl<'a> LazyProblem<'a> {
         &self.problem
     }
 
-    /// Shows a point to the callback. Returns whether the rows that it added cut off the point.
+    /// Shows a point to the callback. Returns whether the rows that it added cut off the point, or the caller
+    /// cancelled.
     pub fn cuts_off(&mut self, values: &[f64], energy: f64, monitor: &mut Monitor) -> bool {
         let before = self.problem.inequalities();
         let integers = self.problem.integers().iter().zip(values);
@@ -92,11 +94,9 @@ impl<'a> LazyProblem<'a> {
             problem: &mut self.problem,
             known: &mut self.known,
         };
-        match (self.callback)(&candidate, &mut rows) {
-            Flow::Continue => {}
-            flow => monitor.ask(flow),
-        }
-        self.first_violated(values, before).is_some()
+        let flow = (self.callback)(&candidate, &mut rows);
+        monitor.ask(flow);
+        flow == Flow::Cancel || self.first_violated(values, before).is_some()
     }
 
     /// The first inequality from `first` on that a point violates.

@@ -59,6 +59,7 @@ pub(super) fn solve_growing<'e>(
     {
         return Ok(solution);
     }
+    monitor.check()?;
     let start = (options.warm_start != WarmStart::Off).then_some(earlier);
     let stated = lazy.problem().clone();
     let found = branch::solve(&stated, model, options, start, Some(lazy), monitor)?;
