@@ -39,9 +39,13 @@ pub(super) fn of_certificate(
     elements
 }
 
-/// A small set of rows and bounds of a form without a solution.
-pub(super) fn of_form(form: &Form, members: &[u32]) -> Vec<Conflicting> {
-    let mut form = form.clone();
+/// A small set of rows and bounds of a form without a solution. Where no real point exists either, the set has none.
+pub(super) fn of_form(whole: &Form, members: &[u32]) -> Vec<Conflicting> {
+    let mut form = whole.clone();
+    form.integer.fill(false);
+    if !has_none(&form) {
+        form.integer.clone_from(&whole.integer);
+    }
     let n = form.dim();
     let bounded = (0..n).filter(|&j| form.limits[j] != Interval::ALL);
     let all: Vec<usize> = bounded
