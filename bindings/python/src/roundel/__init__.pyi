@@ -10,6 +10,7 @@ from ._types import Strategy as Strategy
 from .errors import *
 from .errors import classes as classes
 from .events import Event as Event, Progress as Progress
+from .lazy_rows import Candidate as Candidate, LazyRows as LazyRows
 from .options import Option as Option
 
 __version__: str
@@ -193,6 +194,11 @@ class Mesh:
 
 class Problem:
     def __init__(self, variables: int) -> None: ...
+    @classmethod
+    def read(cls, file: File) -> Problem: ...
+    def write(self, file: File) -> None: ...
+    @property
+    def maximises(self) -> bool: ...
     @classmethod
     def read_mps(cls, file: File) -> Problem: ...
     def write_mps(self, file: File) -> None: ...
@@ -548,6 +554,7 @@ def solve(
     pins: Optional[Mapping[int, float]] = None,
     guess: Optional[ArrayLike] = None,
     triangle: Literal["full", "upper", "lower"] = "full",
+    lazy_rows: LazyRows = None,
     strategy: Strategy = "auto",
     time_limit: float = ...,
     gap: float = 0.0,
@@ -574,6 +581,7 @@ __all__ = [
     "ArgumentTypeError",
     "CancelToken",
     "CancelledError",
+    "Candidate",
     "CountOverflowError",
     "EditKind",
     "EmptyError",
