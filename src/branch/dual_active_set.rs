@@ -12,6 +12,7 @@ use super::form::{Form, Interval};
 use super::inverse::Inverse;
 use super::shared::{Image, Shared};
 use super::working_set::Ldl;
+use crate::monitor::may_continue;
 
 /// A row whose square that the others leave is below this part of its own depends on them.
 const DEPENDENT: f64 = 1e-9;
@@ -34,8 +35,12 @@ pub(super) const FEASIBLE: f64 = 1e-9;
 /// The largest number of corrections.
 const CORRECTIONS: usize = 2;
 
-/// The factor is made again after this many removals.
+/// The factor is made again after this many removals. With many active rows that costs more than the removals, and is
+/// due after as many removals as half of the rows.
 const REFRESH: usize = 60;
+
+/// The multiplications after which the solve looks whether the call is to end.
+const LOOK: u64 = 1_000_000;
 
 /// How a solve ended.
 #[derive(Debug, Clone, PartialEq)]
@@ -46,7 +51,7 @@ pub(super) enum Outcome {
     Infeasible(Vec<(u32, f64)>),
     /// The dual objective has reached the cutoff.
     Cutoff,
-    /// After the largest number of iterations.
+    /// After the largest number of iterations, or because the call is to end.
     Stopped,
 }
 
@@ -104,6 +109,9 @@ pub(super) struct DualActiveSet<'a> {
     /// The iterations of all solves, and their multiplications.
     pub iterations: u64,
     pub work: u64,
+    /// The work after which the next look is due, and whether the last one found that the call is to end.
+    next_look: u64,
+    is_over: bool,
 }
 
 impl<'a> DualActiveSet<'a> {
@@ -130,6 +138,8 @@ impl<'a> DualActiveSet<'a> {
             dual_objective: f64::NEG_INFINITY,
             iterations: 0,
             work: 0,
+            next_look: LOOK,
+            is_over: false,
         };
         solver.set_gradient(form.gradient.clone());
         solver
@@ -204,8 +214,20 @@ impl<'a> DualActiveSet<'a> {
         self.factor.clear();
         self.removals = 0;
         for &active in warm {
+            if self.ends() {
+                break;
+            }
             self.push(active);
         }
+    }
+
+    /// Whether the call is to end. A solve from fewer active rows takes longer, and is right as well.
+    fn ends(&mut self) -> bool {
+        if self.work >= self.next_look {
+            self.next_look = self.work + LOOK;
+            self.is_over = may_continue().is_err();
+        }
+        self.is_over
     }
 
     /// Makes the factor again from the active rows.
@@ -218,6 +240,9 @@ impl<'a> DualActiveSet<'a> {
         self.factor.clear();
         self.removals = 0;
         for row in active {
+            if self.ends() {
+                break;
+            }
             self.push(row);
         }
     }
@@ -295,7 +320,7 @@ impl<'a> DualActiveSet<'a> {
         let rest = (self.active.len() - at) as u64;
         self.work += rest * rest;
         self.removals += 1;
-        if self.removals >= REFRESH {
+        if self.removals >= REFRESH.max(self.active.len() / 2) {
             self.refresh();
         }
     }
@@ -328,7 +353,7 @@ impl<'a> DualActiveSet<'a> {
             .sum();
         let last = self.iterations + most;
         loop {
-            if self.iterations >= last {
+            if self.iterations >= last || self.ends() {
                 return Outcome::Stopped;
             }
             self.iterations += 1;

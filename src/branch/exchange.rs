@@ -5,6 +5,7 @@
 use super::dual_active_set::FEASIBLE;
 use super::form::{Form, Interval};
 use crate::linalg::Sparse;
+use crate::monitor::may_continue;
 
 /// The largest number of passes over all integers.
 const PASSES: usize = 30;
@@ -18,6 +19,9 @@ pub(super) fn exchanged(form: &Form, limits: &[Interval], x: &[f64], work: &mut 
     for _ in 0..PASSES {
         let mut is_better = false;
         for j in (0..form.dim()).filter(|&j| form.integer[j]) {
+            if may_continue().is_err() {
+                return state.x;
+            }
             while let Some(moves) = state.best_exchange(j, work) {
                 state.apply(&moves);
                 is_better = true;

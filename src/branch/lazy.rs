@@ -135,6 +135,7 @@ pub(super) fn search_with_rows<'m, 'e>(
     monitor: &'m mut Monitor<'e>,
 ) -> Result<(Found, Form)> {
     let mut shared = Shared::new(&form, &regularization(&form))?;
+    let _watch = monitor.watch_search();
     let mut tree = Tree::new(&form, &shared, limits, monitor);
     tree.lazy = Some(lazy);
     tree.stack.push(Node::root());

@@ -43,7 +43,7 @@ pub(super) enum Relaxed {
     Unbounded(Vec<f64>),
     /// No point is within the limits; the rows and their multipliers show it.
     Infeasible(Vec<(u32, f64)>),
-    /// The iterations were not enough. The bound is true.
+    /// The iterations were not enough, or the call is to end. The bound is true.
     Stopped { bound: f64 },
 }
 

@@ -158,6 +158,7 @@ pub(super) fn search(
     monitor: &mut Monitor,
 ) -> Result<Found> {
     let shared = Shared::new(form, &regularization(form))?;
+    let _watch = monitor.watch_search();
     let mut tree = Tree::new(form, &shared, limits, monitor);
     if let Some(start) = start {
         tree.round(&start);

@@ -81,6 +81,8 @@ pub use field_problem::*;
 pub use files::*;
 pub use guidance::*;
 pub use hints::*;
+pub use inequalities::*;
+pub use lazy_rows::*;
 pub use least_squares::*;
 pub use map::*;
 pub use map_fold_free::*;

@@ -83,6 +83,14 @@ impl Monitor<'_> {
         self.limits().watch()
     }
 
+    /// [`watch`](Self::watch) for a search, whose parts end as well when the caller wants the results so far.
+    pub(crate) fn watch_search(&self) -> Watch {
+        let mut limits = self.limits();
+        limits.ends_to_finish = true;
+        limits.deadline = limits.deadline.into_iter().chain(self.finish_at).min();
+        limits.watch()
+    }
+
     /// Makes a step whose parts without a monitor end as this one asks, also when the caller wants the results so far
     /// and there are none when the step begins.
     pub(crate) fn watching<T>(&self, step: impl FnOnce() -> T) -> T {
