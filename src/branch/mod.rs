@@ -13,6 +13,7 @@
 //! | `relaxation` | the relaxation of a node, also where Q is singular |
 //! | `safe_bound` | lower bounds that rounding errors cannot make false |
 //! | `pseudo_costs`, `tree` | the search |
+//! | `record` | what a proof is made from |
 //! | `primal`, `exchange` | points with integers: rounding, exchanges, smaller problems |
 //! | `conflict` | why there is no solution |
 
@@ -25,6 +26,7 @@ mod presolve;
 mod primal;
 mod propagate;
 mod pseudo_costs;
+mod record;
 mod refine;
 mod relaxation;
 mod safe_bound;
@@ -36,6 +38,7 @@ use crate::error::{Conflicting, Error, Result};
 use crate::linalg::sum_below;
 use crate::monitor::{Monitor, Stop};
 use crate::problem::{Model, Problem};
+use crate::proof::{Derivation, Ending};
 use crate::search::{Options, StoppedBy, Strategy};
 use form::Form;
 use presolve::{Contradiction, Part, Presolved};
@@ -62,7 +65,7 @@ pub(crate) struct Found {
 ///
 /// `relax` solves the relaxation, `exact` and `auto` search until the optimum is proved or a limit is
 /// reached, and the other strategies end with the first point. `start` is a point whose nearest integers are
-/// offered first.
+/// offered first. `record` receives what a proof is made from.
 ///
 /// # Errors
 /// [`Error::Contradiction`], [`Error::Unbounded`], [`Error::NotConvex`], [`Error::OutOfMemory`], and
@@ -72,6 +75,7 @@ pub(crate) fn solve(
     model: &Model,
     options: &Options,
     start: Option<&[f64]>,
+    mut record: Option<&mut Derivation>,
     monitor: &mut Monitor,
 ) -> Result<Found> {
     let mut form = Form::of(problem, model)?;
@@ -79,7 +83,18 @@ pub(crate) fn solve(
         form.integer.fill(false);
     }
     let given = form.clone();
-    let presolved = match presolve::presolve(form)? {
+    let mut steps = record.is_some().then(Vec::new);
+    if let Some(record) = record.as_deref_mut() {
+        record.is_begun = true;
+    }
+    let presolved = presolve::presolve(form, &mut steps)?;
+    if let (Some(record), Some(steps)) = (record.as_deref_mut(), steps) {
+        record.steps = steps;
+        if let Err(Contradiction::Row(row)) = presolved {
+            record.contradiction = Some(Ending::Missed(row as u32));
+        }
+    }
+    let presolved = match presolved {
         Ok(presolved) => presolved,
         Err(contradiction) => return Err(no_point(problem, &given, contradiction)),
     };
@@ -114,6 +129,7 @@ pub(crate) fn solve(
         elsewhere: 0.0,
         first,
         strict: false,
+        recorded: false,
     };
     // A limit of time that ends the search of one part must find a point in each.
     parts.sort_by_key(|part| (part.integers(), part.members.len()));
@@ -122,13 +138,14 @@ pub(crate) fn solve(
     for part in &parts {
         let own = |start: &[f64]| part.members.iter().map(|&j| start[j as usize]).collect();
         let mut start = start.map(own);
-        if several && !first {
+        // Without a point in some part, the record would end here.
+        if several && !first && record.is_none() {
             monitor.elsewhere(f64::INFINITY, f64::NEG_INFINITY);
             let limits = Limits {
                 first: true,
                 ..limits
             };
-            let own = search_part(problem, &parts, part, start, limits, monitor)?;
+            let own = search_part(problem, &parts, part, start, limits, None, monitor)?;
             found.work += own.work;
             start = own.best.map(|(point, _)| point);
         }
@@ -143,9 +160,11 @@ pub(crate) fn solve(
         monitor.elsewhere(known, found.lower_bound);
         let limits = Limits {
             elsewhere: found.energy,
+            recorded: record.is_some(),
             ..limits
         };
-        let own = search_part(problem, &parts, part, start, limits, monitor)?;
+        let record = record.as_deref_mut();
+        let own = search_part(problem, &parts, part, start, limits, record, monitor)?;
         if let Some((point, energy)) = own.best {
             for (&j, x) in part.members.iter().zip(&point) {
                 values[j as usize] = *x;
@@ -179,9 +198,10 @@ fn search_part(
     part: &Part,
     start: Option<Vec<f64>>,
     limits: Limits,
+    record: Option<&mut Derivation>,
     monitor: &mut Monitor,
 ) -> Result<tree::Found> {
-    let found = match tree::search(&part.form, start, limits, monitor) {
+    let mut found = match tree::search(&part.form, start, limits, monitor) {
         Err(Error::NotConvex { direction, .. }) => {
             let (variable, direction) = of_all(problem.variables(), &part.members, &direction);
             return Err(Error::NotConvex {
@@ -191,6 +211,12 @@ fn search_part(
         }
         found => found?,
     };
+    if let Some(record) = record {
+        let nodes = std::mem::take(&mut found.visited);
+        let constraints = problem.constraints();
+        let searched = record::of_whole(&part.form, &part.members, constraints, nodes);
+        record.parts.push(searched);
+    }
     if let Some(ray) = found.ray {
         // Where there is no point, nothing falls.
         for part in parts {

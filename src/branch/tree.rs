@@ -12,11 +12,13 @@ use super::dual_active_set::{Active, WarmStart};
 use super::form::{Form, Interval};
 use super::propagate::Propagator;
 use super::pseudo_costs::{PseudoCosts, merit};
+use super::record::Record;
 use super::relaxation::{Relaxation, Relaxed, regularization};
 use super::safe_bound::is_contradiction;
 use super::shared::Shared;
 use crate::error::Result;
 use crate::monitor::Monitor;
+use crate::proof::Visited;
 use crate::search::StoppedBy;
 
 /// A value this close to an integer counts as one.
@@ -36,6 +38,8 @@ struct Node {
     limits: Vec<(u32, Interval)>,
     warm: WarmStart,
     branching: Option<Branching>,
+    /// Its number in the record.
+    visited: usize,
 }
 
 /// How a node came from its parent.
@@ -81,6 +85,8 @@ pub(super) struct Limits {
     pub first: bool,
     /// Whether the limits hold before there is a point.
     pub strict: bool,
+    /// Whether to record all nodes for a proof.
+    pub recorded: bool,
 }
 
 /// The dives without an incumbent after which the search goes on at the lowest bound.
@@ -109,6 +115,8 @@ pub(super) struct Found {
     pub stopped_by: StoppedBy,
     /// The rows that contradict each other at the last node that had no point.
     pub conflict: Vec<(u32, f64)>,
+    /// All nodes, if they are recorded.
+    pub visited: Vec<Visited>,
 }
 
 pub(super) struct Tree<'a, 'm, 'e> {
@@ -137,6 +145,7 @@ pub(super) struct Tree<'a, 'm, 'e> {
     /// The rounding errors of the incumbent's energy.
     pub rounding: f64,
     pub integers: Vec<u32>,
+    record: Option<Record>,
     pub monitor: &'m mut Monitor<'e>,
 }
 
@@ -197,6 +206,7 @@ impl<'a, 'm, 'e> Tree<'a, 'm, 'e> {
             stopped_by: StoppedBy::Nothing,
             rounding: 0.0,
             integers: integers.collect(),
+            record: limits.recorded.then(Record::default),
             monitor,
         }
     }
@@ -209,6 +219,7 @@ impl<'a, 'm, 'e> Tree<'a, 'm, 'e> {
             limits: Vec::new(),
             warm: WarmStart::new(),
             branching: None,
+            visited: 0,
         });
         self.run();
         let waiting = self.waiting.iter().chain(&self.stack);
@@ -228,6 +239,7 @@ impl<'a, 'm, 'e> Tree<'a, 'm, 'e> {
             nodes: self.nodes,
             work: self.relaxation.solver.work,
             conflict: self.conflict,
+            visited: self.record.map(Record::into_nodes).unwrap_or_default(),
         }
     }
 
@@ -326,13 +338,20 @@ impl<'a, 'm, 'e> Tree<'a, 'm, 'e> {
         }
         let boxes = self.boxes();
         let cutoff = self.cutoff();
+        self.relaxation.kept = self.record.as_ref().map(|_| Default::default());
         let solved = self.relaxation.solve(cutoff, &boxes);
         let parent = node.bound;
+        if let (Some(record), Some(kept)) = (&mut self.record, self.relaxation.kept.take()) {
+            record.bounded(node.visited, parent, kept);
+        }
         match solved {
             Relaxed::Infeasible(rows) => {
                 if !is_contradiction(self.form, &boxes, &rows) {
                     // Rounding errors leave a doubt, and so the bound stays.
                     self.done = self.done.min(node.bound);
+                }
+                if let Some(record) = &mut self.record {
+                    record.contradiction(node.visited, &rows, self.form.dim());
                 }
                 self.conflict = rows;
                 return Step::Done;
@@ -393,6 +412,7 @@ impl<'a, 'm, 'e> Tree<'a, 'm, 'e> {
     /// Tightens the integers' bounds at a node. Returns whether points are left.
     fn tighten(&mut self, node: &mut Node) -> bool {
         let mut limits = self.relaxation.solver.limits().to_vec();
+        self.propagator.steps = self.record.as_ref().map(|_| Vec::new());
         let changed = match (&node.branching, node.limits.last()) {
             (Some(branching), _) => {
                 let changed = [branching.variable];
@@ -401,6 +421,10 @@ impl<'a, 'm, 'e> Tree<'a, 'm, 'e> {
             }
             (None, _) => self.propagator.all(self.form, &mut limits, false, 20),
         };
+        let steps = self.propagator.steps.take();
+        if let (Some(record), Some(steps)) = (&mut self.record, steps) {
+            record.tightened(node.visited, steps, changed.as_ref().err().copied());
+        }
         let Ok(changed) = changed else {
             return false;
         };
@@ -520,6 +544,10 @@ impl<'a, 'm, 'e> Tree<'a, 'm, 'e> {
         let before = self.relaxation.solver.limits()[variable as usize];
         let fraction = value - value.floor();
         let warm: Vec<Active> = self.relaxation.active().to_vec();
+        let visited = match &mut self.record {
+            None => [0; 2],
+            Some(record) => record.branched(node.visited, variable, floor_between(before, value)),
+        };
         let mut child = |direction: usize| {
             self.created += 1;
             let mut limits = node.limits.clone();
@@ -538,6 +566,7 @@ impl<'a, 'm, 'e> Tree<'a, 'm, 'e> {
                         1.0 - fraction
                     },
                 }),
+                visited: visited[direction],
             })
         };
         let expected = self.costs.expected(variable as usize, fraction);
@@ -547,9 +576,9 @@ impl<'a, 'm, 'e> Tree<'a, 'm, 'e> {
     }
 }
 
-/// The limits below (0) or above (1) a value. An integer value stays in the lower child.
-fn child_limits(limits: Interval, value: f64, direction: usize) -> Interval {
-    let floor = if (value - value.round()).abs() <= INTEGRAL {
+/// The integer up to which the lower child goes. An integer value stays in the lower child.
+fn floor_between(limits: Interval, value: f64) -> f64 {
+    if (value - value.round()).abs() <= INTEGRAL {
         let rounded = limits.nearest(value.round());
         if rounded == limits.upper {
             rounded - 1.0
@@ -558,7 +587,12 @@ fn child_limits(limits: Interval, value: f64, direction: usize) -> Interval {
         }
     } else {
         value.floor()
-    };
+    }
+}
+
+/// The limits below (0) or above (1) a value.
+fn child_limits(limits: Interval, value: f64, direction: usize) -> Interval {
+    let floor = floor_between(limits, value);
     if direction == 0 {
         Interval {
             upper: limits.upper.min(floor),

@@ -13,12 +13,14 @@ use crate::error::{Error, Result};
 use crate::monitor::Monitor;
 use crate::network;
 use crate::problem::{Model, Problem};
+use crate::proof::Derivation;
 use crate::search::{Options, SolveStatus, StoppedBy, Strategy, WarmStart, is_closed};
 
 /// Limits may be missed by this, relative to the sizes of the terms.
 const WITHIN: f64 = 1e-9;
 
-/// Solves a problem with inequalities or bounds. `earlier` is the start of a warm start.
+/// Solves a problem with inequalities or bounds. `earlier` is the start of a warm start. `record` receives what a
+/// proof is made from, if branch and bound searches.
 ///
 /// # Errors
 /// Those of [`solve`](crate::solve()).
@@ -27,6 +29,7 @@ pub(super) fn solve_limited(
     model: &Model,
     options: &Options,
     earlier: &[f64],
+    record: Option<&mut Derivation>,
     monitor: &mut Monitor,
 ) -> Result<Solution> {
     let found = match as_network(problem, model, options, monitor)? {
@@ -36,9 +39,23 @@ pub(super) fn solve_limited(
                 return Ok(solution);
             }
             let start = (options.warm_start != WarmStart::Off).then_some(earlier);
-            branch::solve(problem, model, options, start, monitor)?
+            branch::solve(problem, model, options, start, record, monitor)?
         }
     };
+    conclude(problem, model, options, found, monitor)
+}
+
+/// The solution that was found, measured on the problem as given.
+///
+/// # Errors
+/// [`Error::NotFinite`].
+pub(super) fn conclude(
+    problem: &Problem,
+    model: &Model,
+    options: &Options,
+    found: branch::Found,
+    monitor: &Monitor,
+) -> Result<Solution> {
     let searched = monitor.seconds();
     let verdict = verify(problem, &found.values)?;
     let is_integer = model.integer().contains(&true);
