@@ -142,6 +142,17 @@ impl Exact {
         Exact::whole(&self.mantissa / odd, exponent)
     }
 
+    /// `self / by` as two integers, the second one positive, where both have no denominator and `by` is not zero.
+    pub fn ratio(&self, by: &Exact) -> (BigInt, BigInt) {
+        let exponent = self.exponent.min(by.exponent);
+        let above = self.mantissa.clone() << (self.exponent - exponent);
+        let below = by.mantissa.clone() << (by.exponent - exponent);
+        match below.sign() {
+            Sign::Minus => (-above, -below),
+            _ => (above, below),
+        }
+    }
+
     /// The largest float that is not above the number.
     pub fn below(&self) -> f64 {
         let mut x = self.near();
@@ -223,6 +234,26 @@ impl Add for &Exact {
                 denominator: self.denominator.clone(),
             };
         }
+        if let (Some(d), Some(e)) = (&self.denominator, &other.denominator) {
+            // Powers of one denominator are common, and their products need not grow.
+            let (factor, of_self) = match whole_quotient(d, e) {
+                Some(factor) => (Some(factor), false),
+                None => (whole_quotient(e, d), true),
+            };
+            if let Some(factor) = factor {
+                let larger = if of_self { other } else { self };
+                if of_self {
+                    a *= factor;
+                } else {
+                    b *= factor;
+                }
+                return Exact {
+                    mantissa: a + b,
+                    exponent,
+                    denominator: larger.denominator.clone(),
+                };
+            }
+        }
         if let Some(d) = &other.denominator {
             a *= d;
         }
@@ -235,6 +266,12 @@ impl Add for &Exact {
             denominator: product(&self.denominator, &other.denominator),
         }
     }
+}
+
+/// `a / b` if b divides a.
+fn whole_quotient(a: &BigInt, b: &BigInt) -> Option<BigInt> {
+    let (quotient, rest) = (a / b, a % b);
+    (rest.sign() == Sign::NoSign).then_some(quotient)
 }
 
 impl Neg for &Exact {

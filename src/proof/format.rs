@@ -155,7 +155,7 @@ pub(super) enum End {
 }
 
 /// A point, one value for each unknown of the part, and multipliers of rows. Any of them give a bound.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Certificate {
     pub point: Vec<Number>,

@@ -12,6 +12,7 @@
 //! minimum above zero shows that no point is within the rows and the box.
 
 use std::cmp::Ordering;
+use std::collections::BTreeMap;
 use std::rc::Rc;
 
 use super::exact::Exact;
@@ -51,6 +52,40 @@ pub(super) struct Split {
     pub left_out: Option<usize>,
 }
 
+/// The objective without the squares that stay squares.
+struct Summed {
+    quadratic: BTreeMap<(usize, usize), Exact>,
+    linear: Vec<Exact>,
+    constant: Exact,
+}
+
+impl Summed {
+    /// Q, q and c with some squares expanded.
+    fn of(problem: &ExactProblem, expanded: &[&ExactSquare]) -> Self {
+        let entries = problem.quadratic.iter();
+        let mut sum = Summed {
+            quadratic: entries.map(|(i, j, v)| ((*i, *j), v.clone())).collect(),
+            linear: problem.linear.clone(),
+            constant: problem.constant.clone(),
+        };
+        for square in expanded {
+            for (k, (i, a)) in square.terms.iter().enumerate() {
+                let twice = (&square.weight * a).shifted(1);
+                for (j, b) in &square.terms[..=k] {
+                    let at = (*i.max(j), *i.min(j));
+                    let entry = sum.quadratic.entry(at).or_insert_with(Exact::zero);
+                    *entry = &*entry + &(&twice * b);
+                }
+                sum.linear[*i] = &sum.linear[*i] - &(&twice * &square.rhs);
+            }
+            let square = &square.weight * &(&square.rhs * &square.rhs);
+            sum.constant = &sum.constant + &square;
+        }
+        sum.quadratic.retain(|_, v| !v.is_zero());
+        sum
+    }
+}
+
 impl Split {
     /// Splits the objective into parts. Terms of unknowns that are left out are left out too.
     ///
@@ -74,6 +109,15 @@ impl Split {
             }
         }
         let places = Rc::new(places);
+        // Squares that couple parts may cancel: only their sum has to be apart.
+        let couples = |square: &&ExactSquare| {
+            let mut parts = square.terms.iter().map(|(j, _)| places[*j].0);
+            let mut parts = parts.by_ref().filter(|part| *part != NONE);
+            let first = parts.next();
+            parts.any(|part| Some(part) != first)
+        };
+        let (expanded, kept): (Vec<_>, Vec<_>) = problem.squares.iter().partition(couples);
+        let sum = Summed::of(problem, &expanded);
         let of_part = |(number, members): (usize, &Vec<u32>)| PartObjective {
             members: members.iter().map(|&j| j as usize).collect(),
             number,
@@ -81,7 +125,7 @@ impl Split {
             quadratic: Vec::new(),
             linear: members
                 .iter()
-                .map(|&j| problem.linear[j as usize].clone())
+                .map(|&j| sum.linear[j as usize].clone())
                 .collect(),
             squares: Vec::new(),
             curvature: Vec::new(),
@@ -89,19 +133,19 @@ impl Split {
         };
         let mut split = Split {
             parts: parts.iter().enumerate().map(of_part).collect(),
-            constant: problem.constant.clone(),
+            constant: sum.constant.clone(),
             left_out: (0..n).find(|&j| places[j].0 == NONE && limits.fixed(j).is_none()),
         };
-        for (j, q) in problem.linear.iter().enumerate() {
+        for (j, q) in sum.linear.iter().enumerate() {
             if let Some(value) = limits.fixed(j) {
                 split.constant = &split.constant + &(q * value);
             }
         }
-        for (i, j, v) in &problem.quadratic {
+        for ((i, j), v) in &sum.quadratic {
             split.add_product((*i, *j), v, &places, limits)?;
         }
-        for square in &problem.squares {
-            split.add_square(square, &places, limits)?;
+        for square in kept {
+            split.add_square(square, &places, limits);
         }
         Ok(split)
     }
@@ -145,12 +189,8 @@ impl Split {
         *sum = &*sum + q;
     }
 
-    fn add_square(
-        &mut self,
-        square: &ExactSquare,
-        places: &Places,
-        limits: &Limits,
-    ) -> Checked<()> {
+    /// Adds a square whose free unknowns are in one part.
+    fn add_square(&mut self, square: &ExactSquare, places: &Places, limits: &Limits) {
         let mut own = NONE;
         let mut rhs = square.rhs.clone();
         let mut terms: ExactTerms = Vec::new();
@@ -161,11 +201,7 @@ impl Split {
             }
             let (part, place) = places[*j];
             if part == NONE {
-                return Ok(());
-            }
-            if own != NONE && own != part {
-                let text = format!("a square couples x{j} with an unknown of another part");
-                return wrong(FaultKind::Parts, text);
+                return;
             }
             own = part;
             terms.push((place, a.clone()));
@@ -175,11 +211,30 @@ impl Split {
             Some(part) => part.squares.push(ExactSquare { weight, rhs, terms }),
             None => self.constant = &self.constant + &(&weight * &(&rhs * &rhs)),
         }
-        Ok(())
     }
 }
 
 impl PartObjective {
+    /// All unknowns, without an objective.
+    pub fn all(unknowns: usize) -> Self {
+        PartObjective {
+            members: (0..unknowns).collect(),
+            number: 0,
+            places: Rc::new((0..unknowns).map(|j| (0, j)).collect()),
+            quadratic: Vec::new(),
+            linear: Vec::new(),
+            squares: Vec::new(),
+            curvature: vec![Exact::zero(); unknowns],
+            inverse_curvature: vec![Exact::zero(); unknowns],
+        }
+    }
+
+    /// The place of an unknown of the whole in this part.
+    pub fn place_of(&self, unknown: usize) -> Option<usize> {
+        let (number, place) = self.places[unknown];
+        (number == self.number).then_some(place)
+    }
+
     /// Sets the curvature. Whether the objective has it is not checked here.
     ///
     /// # Errors
@@ -277,6 +332,11 @@ impl Minorant {
         Ok(minorant)
     }
 
+    /// The slopes, one for each unknown of the part.
+    pub fn slopes(&self) -> &[Exact] {
+        &self.slopes
+    }
+
     /// The minorant of multipliers without the objective.
     ///
     /// # Errors
@@ -342,17 +402,7 @@ impl Minorant {
         limits: &Limits,
         multipliers: &Multipliers,
     ) -> Checked<Option<Exact>> {
-        let n = problem.integer.len();
-        let all = PartObjective {
-            members: (0..n).collect(),
-            number: 0,
-            places: Rc::new((0..n).map(|j| (0, j)).collect()),
-            quadratic: Vec::new(),
-            linear: Vec::new(),
-            squares: Vec::new(),
-            curvature: Vec::new(),
-            inverse_curvature: Vec::new(),
-        };
+        let all = PartObjective::all(problem.integer.len());
         let rows = Minorant::of_rows(problem, limits, &all, multipliers)?;
         Ok(rows.least(limits, &all).ok())
     }

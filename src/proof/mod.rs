@@ -15,7 +15,7 @@
 //! | `problem`, `steps` | the problem in exact numbers, and bounds that its rows imply |
 //! | `minorant`, `convex` | a bound from a point and multipliers; convexity |
 //! | `tree`, `check`, `fault` | the checker |
-//! | `derivation`, `curvature`, `seal` | the writer |
+//! | `derivation`, `curvature`, `repair`, `seal` | the writer |
 
 mod check;
 mod convex;
@@ -26,6 +26,7 @@ mod fault;
 mod format;
 mod minorant;
 mod problem;
+mod repair;
 mod seal;
 mod statement;
 mod steps;

@@ -3,8 +3,6 @@
 //! Each step, contradiction and bound is tried in exact numbers. What does not hold is left out; a leaf that is
 //! not empty in exact numbers keeps the bound of the node above.
 
-use std::rc::Rc;
-
 use super::check::{check_point, has_empty_row};
 use super::curvature;
 use super::derivation::{Derivation, Ending, Multiplied, Searched};
@@ -15,6 +13,7 @@ use super::format::{
 };
 use super::minorant::{Minorant, Open, PartObjective, Split};
 use super::problem::{ExactProblem, Limits, Side};
+use super::repair::repaired;
 use super::steps::take;
 use crate::error::{Error, Result};
 
@@ -196,10 +195,34 @@ fn contradiction(
         return Some(Vec::new());
     }
     let ending = derivation.contradiction.as_ref()?;
-    candidates(ending).into_iter().find(|multipliers| {
-        let least = Minorant::of_rows_alone(problem, limits, multipliers);
-        matches!(least, Ok(Some(least)) if least.sign().is_gt())
-    })
+    let all = PartObjective::all(problem.integer.len());
+    candidates(ending)
+        .into_iter()
+        .find_map(|multipliers| contradicting(problem, limits, &all, multipliers))
+}
+
+/// The multipliers, or others near them, if they show that no point is within the rows and the limits.
+fn contradicting(
+    problem: &ExactProblem,
+    limits: &Limits,
+    part: &PartObjective,
+    multipliers: Multipliers,
+) -> Option<Multipliers> {
+    let rows = Minorant::of_rows(problem, limits, part, &multipliers).ok()?;
+    let is_shown = |rows: &Minorant| match rows.least(limits, part) {
+        Ok(least) => least.sign().is_gt(),
+        Err(Open(_)) => false,
+    };
+    if is_shown(&rows) {
+        return Some(multipliers);
+    }
+    let given = Certificate {
+        point: Vec::new(),
+        multipliers,
+    };
+    let near = repaired(problem, limits, part, &given, &rows)?;
+    let rows = Minorant::of_rows(problem, limits, part, &near.multipliers).ok()?;
+    is_shown(&rows).then_some(near.multipliers)
 }
 
 /// The multipliers that may show a contradiction.
@@ -303,7 +326,7 @@ struct Above {
     /// The node of the search, and that of the proof.
     searched: usize,
     written: usize,
-    minorant: Option<Rc<Minorant>>,
+    known: Option<(Certificate, Minorant)>,
 }
 
 /// A node that is still to come.
@@ -353,7 +376,7 @@ impl Sealer<'_> {
                 self.above.push(Above {
                     searched: next.searched,
                     written: self.nodes.len() - 1,
-                    minorant: None,
+                    known: None,
                 });
             }
             let Ending::Branched {
@@ -395,10 +418,9 @@ impl Sealer<'_> {
             return Ok(());
         }
         for multipliers in candidates(ending) {
-            let rows = Minorant::of_rows(self.problem, self.limits, self.objective, &multipliers);
-            let least = rows.map(|rows| rows.least(self.limits, self.objective));
-            if matches!(least, Ok(Ok(least)) if least.sign().is_gt()) {
-                self.end(End::Empty(multipliers));
+            let (problem, limits) = (&*self.problem, &*self.limits);
+            if let Some(shown) = contradicting(problem, limits, self.objective, multipliers) {
+                self.end(End::Empty(shown));
                 return Ok(());
             }
         }
@@ -410,33 +432,37 @@ impl Sealer<'_> {
         Ok(())
     }
 
-    /// The bound of the nearest certificate that gives one. It is written with its node, or, if others are between,
-    /// with the leaf.
+    /// The bound of the nearest certificate that gives one, or of one near it. It is written with its node, or, if
+    /// others are between, with the leaf.
     fn best_above(&mut self) -> Result<Exact> {
         let mut open = None;
+        let (problem, limits, part) = (&*self.problem, &*self.limits, self.objective);
+        let leaf = self.nodes.len() - 1;
         for (distance, above) in self.above.iter_mut().rev().enumerate() {
-            let Some(certificate) = &self.searched.nodes[above.searched].certificate else {
-                continue;
-            };
-            let certificate = written(certificate);
-            let minorant = match &above.minorant {
-                Some(minorant) => Rc::clone(minorant),
+            let (given, minorant) = match above.known.take() {
+                Some(known) => known,
                 None => {
-                    let of = Minorant::of(self.problem, self.limits, self.objective, &certificate);
-                    Rc::new(of.map_err(unproved)?)
+                    let certificate = self.searched.nodes[above.searched].certificate.as_ref();
+                    let given = certificate.map(written).unwrap_or_default();
+                    let minorant = Minorant::of(problem, limits, part, &given).map_err(unproved)?;
+                    (given, minorant)
                 }
             };
-            above.minorant = Some(Rc::clone(&minorant));
-            match minorant.least(self.limits, self.objective) {
-                Ok(least) => {
-                    let at = match distance {
-                        0 => above.written,
-                        _ => self.nodes.len() - 1,
-                    };
-                    self.nodes[at].certificate = Some(certificate);
-                    return Ok(least);
+            let found = match minorant.least(limits, part) {
+                Ok(least) => Some((least, given.clone(), above.written)),
+                Err(Open(unknown)) => {
+                    open = Some(unknown);
+                    near(problem, limits, part, &given, &minorant).map(|(least, near)| {
+                        let is_taken = self.nodes[above.written].certificate.is_some();
+                        (least, near, if is_taken { leaf } else { above.written })
+                    })
                 }
-                Err(Open(unknown)) => open = Some(unknown),
+            };
+            above.known = Some((given, minorant));
+            if let Some((least, certificate, at)) = found {
+                let at = if distance == 0 { at } else { leaf };
+                self.nodes[at].certificate = Some(certificate);
+                return Ok(least);
             }
         }
         Err(Error::NotSupported {
@@ -451,6 +477,19 @@ impl Sealer<'_> {
             line: None,
         })
     }
+}
+
+/// A certificate near one without a minimum that has one.
+fn near(
+    problem: &ExactProblem,
+    limits: &Limits,
+    part: &PartObjective,
+    given: &Certificate,
+    minorant: &Minorant,
+) -> Option<(Exact, Certificate)> {
+    let near = repaired(problem, limits, part, given, minorant)?;
+    let minorant = Minorant::of(problem, limits, part, &near).ok()?;
+    Some((minorant.least(limits, part).ok()?, near))
 }
 
 /// A certificate as it is written.
