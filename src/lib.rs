@@ -84,8 +84,8 @@ pub use error::{Conflicting, Error, InputError, Result};
 pub use linalg::Ordering;
 pub use monitor::{CancelToken, Event, Flow, Monitor};
 pub use problem::{Layout, Model, Problem, Triangle};
-pub use search::{Options, SolveStatus, StoppedBy, Strategy, WarmStart};
 pub use proof::Proof;
+pub use search::{Options, SolveStatus, StoppedBy, Strategy, WarmStart};
 pub use solve::{Proved, Seconds, Solution, Solver, solve, solve_with, solve_with_proof};
 
 /// The Rust examples of the README and of the book are run as tests.
@@ -99,6 +99,8 @@ mod book {
     struct Options;
     #[doc = include_str!("../docs/problems.md")]
     struct Problems;
+    #[doc = include_str!("../docs/proofs.md")]
+    struct Proofs;
     #[doc = include_str!("../docs/rust.md")]
     struct Rust;
     #[doc = include_str!("../docs/soup.md")]

@@ -140,7 +140,10 @@ fn check_claim(claimed: Option<f64>, proved: Option<Exact>) -> Checked<()> {
         ),
         (Some(bound), Some(proved)) if Exact::of(bound).is_some_and(|b| b <= proved) => Ok(()),
         (Some(bound), Some(proved)) => {
-            let text = format!("a bound of {bound} is claimed, and {} proved", proved.below());
+            let text = format!(
+                "a bound of {bound} is claimed, and {} proved",
+                proved.below()
+            );
             wrong(FaultKind::Claim, text)
         }
     }
@@ -164,7 +167,10 @@ pub(super) fn check_point(problem: &ExactProblem, limits: &Limits, claim: &Claim
     };
     let whole = problem.integer.iter().zip(&x);
     if let Some(j) = whole.clone().position(|(is, x)| *is && !x.is_integer()) {
-        return wrong(FaultKind::Point, format!("x{j} is {}, no integer", values[j]));
+        return wrong(
+            FaultKind::Point,
+            format!("x{j} is {}, no integer", values[j]),
+        );
     }
     let mut worst = 0.0_f64;
     let mut hold = |what: String, value: &Exact, sides: [&Option<Exact>; 2], size: f64| {
@@ -177,13 +183,23 @@ pub(super) fn check_point(problem: &ExactProblem, limits: &Limits, claim: &Claim
     };
     for (j, value) in x.iter().enumerate() {
         let sides = [Side::Lower, Side::Upper].map(|side| limits.side(j, side));
-        hold(format!("the bounds of x{j}"), value, sides, value.abs().above())?;
+        hold(
+            format!("the bounds of x{j}"),
+            value,
+            sides,
+            value.abs().above(),
+        )?;
     }
     for (i, row) in problem.rows.iter().enumerate() {
         let sizes = row.terms.iter().map(|(j, a)| (a * &x[*j]).abs());
         let size = sizes.fold(Exact::zero(), |sum, size| &sum + &size);
         let value = product(&row.terms, &x);
-        hold(format!("row {i}"), &value, [&row.lower, &row.upper], size.above())?;
+        hold(
+            format!("row {i}"),
+            &value,
+            [&row.lower, &row.upper],
+            size.above(),
+        )?;
     }
     let there = problem.energy(&x).above();
     if there != energy {
@@ -246,6 +262,12 @@ fn check_parts<R: BufRead>(
     };
     let members: Vec<Vec<u32>> = parts.iter().map(|part| part.unknowns.clone()).collect();
     let mut split = lines.at(Split::of(problem, limits, &members))?;
+    // A part without a point needs no others beside it.
+    let is_bounded = parts.iter().all(|part| part.lower_bound.is_some());
+    if let (true, Some(j)) = (is_bounded, split.left_out) {
+        let text = format!("x{j} is not fixed, and in no part");
+        return Err(lines.fault((FaultKind::Parts, text)));
+    }
     for (part, objective) in parts.iter().zip(&mut split.parts) {
         lines.at(objective.set_curvature(&part.curvature))?;
         lines.at(convex::check(objective))?;
@@ -264,11 +286,5 @@ fn check_parts<R: BufRead>(
         verdict.parts += 1;
         proved = proved.zip(bound).map(|(sum, bound)| &sum + &bound);
     }
-    match (&proved, split.left_out) {
-        (Some(_), Some(j)) => {
-            let text = format!("x{j} is not fixed, and in no part");
-            lines.at(wrong(FaultKind::Parts, text))
-        }
-        _ => Ok(proved),
-    }
+    Ok(proved)
 }

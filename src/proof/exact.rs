@@ -182,9 +182,15 @@ impl Exact {
         };
         let quotient = scaled / divisor;
         let digits = quotient.magnitude().iter_u64_digits();
-        let size = digits.rev().fold(0.0, |x, digit| x * 2f64.powi(64) + digit as f64);
+        let size = digits
+            .rev()
+            .fold(0.0, |x, digit| x * 2f64.powi(64) + digit as f64);
         let mut left = self.exponent - shift;
-        let mut x = if quotient.sign() == Sign::Minus { -size } else { size };
+        let mut x = if quotient.sign() == Sign::Minus {
+            -size
+        } else {
+            size
+        };
         while left != 0 && x != 0.0 && x.is_finite() {
             let step = left.clamp(-900, 900);
             x *= 2f64.powi(step as i32);

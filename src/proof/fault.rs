@@ -34,6 +34,28 @@ pub enum FaultKind {
     OtherProblem,
 }
 
+impl FaultKind {
+    /// A word for the kind of fault. It is the same in every version.
+    pub fn code(self) -> &'static str {
+        match self {
+            FaultKind::Format => "format",
+            FaultKind::Reference => "reference",
+            FaultKind::Statement => "statement",
+            FaultKind::Point => "point",
+            FaultKind::Energy => "energy",
+            FaultKind::Step => "step",
+            FaultKind::Parts => "parts",
+            FaultKind::NotConvex => "not_convex",
+            FaultKind::Branch => "branch",
+            FaultKind::Certificate => "certificate",
+            FaultKind::Bound => "bound",
+            FaultKind::NotEmpty => "not_empty",
+            FaultKind::Claim => "claim",
+            FaultKind::OtherProblem => "other_problem",
+        }
+    }
+}
+
 /// The reason why a proof is refused, with the line of the file.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error("line {line}: {message}")]

@@ -97,7 +97,10 @@ impl Split {
         for (number, members) in parts.iter().enumerate() {
             for (k, &j) in members.iter().enumerate() {
                 let Some(place) = places.get_mut(j as usize) else {
-                    return wrong(FaultKind::Reference, format!("there is no unknown {j} of {n}"));
+                    return wrong(
+                        FaultKind::Reference,
+                        format!("there is no unknown {j} of {n}"),
+                    );
                 };
                 if place.0 != NONE {
                     return wrong(FaultKind::Parts, format!("x{j} is in two parts"));
@@ -373,7 +376,8 @@ impl Minorant {
                 false => (&row.lower, "lower"),
             };
             let Some(side) = side else {
-                let text = format!("a multiplier holds the {name} side of row {number}, which has none");
+                let text =
+                    format!("a multiplier holds the {name} side of row {number}, which has none");
                 return wrong(FaultKind::Certificate, text);
             };
             self.constant = &self.constant - &(&multiplier * side);

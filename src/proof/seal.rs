@@ -13,7 +13,7 @@ use super::format::{
 };
 use super::minorant::{Minorant, Open, PartObjective, Split};
 use super::problem::{ExactProblem, Limits, Side};
-use super::repair::repaired;
+use super::repair::Place;
 use super::steps::take;
 use crate::error::{Error, Result};
 
@@ -50,7 +50,9 @@ pub(super) fn seal(
     }
     let searched = all_free(&problem, &limits, &derivation.parts, values);
     let sealed = seal_parts(&mut problem, &mut limits, &searched)?;
-    claim.lower_bound = sealed.bound.map(|bound| bound.below());
+    // A point that misses rows by rounding errors may have less energy than all points.
+    let most = claim.energy.unwrap_or(f64::INFINITY);
+    claim.lower_bound = sealed.bound.map(|bound| bound.below().min(most));
     if claim.lower_bound.is_some_and(f64::is_infinite) {
         return Err(overflow());
     }
@@ -209,20 +211,20 @@ fn contradicting(
     multipliers: Multipliers,
 ) -> Option<Multipliers> {
     let rows = Minorant::of_rows(problem, limits, part, &multipliers).ok()?;
-    let is_shown = |rows: &Minorant| match rows.least(limits, part) {
-        Ok(least) => least.sign().is_gt(),
-        Err(Open(_)) => false,
-    };
-    if is_shown(&rows) {
-        return Some(multipliers);
+    if let Ok(least) = rows.least(limits, part) {
+        return least.sign().is_gt().then_some(multipliers);
     }
     let given = Certificate {
         point: Vec::new(),
         multipliers,
     };
-    let near = repaired(problem, limits, part, &given, &rows)?;
-    let rows = Minorant::of_rows(problem, limits, part, &near.multipliers).ok()?;
-    is_shown(&rows).then_some(near.multipliers)
+    let place = Place {
+        problem,
+        limits,
+        part,
+    };
+    let (least, mended) = place.mended(&given)?;
+    least.sign().is_gt().then_some(mended.multipliers)
 }
 
 /// The multipliers that may show a contradiction.
@@ -364,7 +366,8 @@ impl Sealer<'_> {
             self.above.truncate(next.above);
             if let Some((unknown, side, to)) = next.branch {
                 let to = Exact::of(to).ok_or_else(overflow)?;
-                self.limits.tighten(self.problem, unknown as usize, side, to);
+                self.limits
+                    .tighten(self.problem, unknown as usize, side, to);
             }
             let visited = &self.searched.nodes[next.searched];
             let steps = taken(self.problem, self.limits, &visited.steps);
@@ -437,6 +440,11 @@ impl Sealer<'_> {
     fn best_above(&mut self) -> Result<Exact> {
         let mut open = None;
         let (problem, limits, part) = (&*self.problem, &*self.limits, self.objective);
+        let place = Place {
+            problem,
+            limits,
+            part,
+        };
         let leaf = self.nodes.len() - 1;
         for (distance, above) in self.above.iter_mut().rev().enumerate() {
             let (given, minorant) = match above.known.take() {
@@ -452,7 +460,7 @@ impl Sealer<'_> {
                 Ok(least) => Some((least, given.clone(), above.written)),
                 Err(Open(unknown)) => {
                     open = Some(unknown);
-                    near(problem, limits, part, &given, &minorant).map(|(least, near)| {
+                    place.mended(&given).map(|(least, near)| {
                         let is_taken = self.nodes[above.written].certificate.is_some();
                         (least, near, if is_taken { leaf } else { above.written })
                     })
@@ -471,7 +479,9 @@ impl Sealer<'_> {
                     "a proof in exact numbers: unknown {unknown} has neither a bound nor curvature of its \
                      own; bounds of it make a proof possible"
                 ),
-                None => "a proof in exact numbers: the search ended before its first bound".to_owned(),
+                None => {
+                    "a proof in exact numbers: the search ended before its first bound".to_owned()
+                }
             },
             index: open,
             line: None,
@@ -479,23 +489,14 @@ impl Sealer<'_> {
     }
 }
 
-/// A certificate near one without a minimum that has one.
-fn near(
-    problem: &ExactProblem,
-    limits: &Limits,
-    part: &PartObjective,
-    given: &Certificate,
-    minorant: &Minorant,
-) -> Option<(Exact, Certificate)> {
-    let near = repaired(problem, limits, part, given, minorant)?;
-    let minorant = Minorant::of(problem, limits, part, &near).ok()?;
-    Some((minorant.least(limits, part).ok()?, near))
-}
-
 /// A certificate as it is written.
 fn written(certificate: &Multiplied) -> Certificate {
     Certificate {
-        point: certificate.point.iter().map(|&x| Number::Float(x)).collect(),
+        point: certificate
+            .point
+            .iter()
+            .map(|&x| Number::Float(x))
+            .collect(),
         multipliers: numbers(&certificate.multipliers),
     }
 }

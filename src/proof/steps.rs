@@ -102,9 +102,15 @@ fn is_implied(
     // side minus the largest of the others.
     let of_upper = (side == Side::Upper) == a.sign().is_gt();
     let (held, others) = if of_upper {
-        (&row.upper, activity(row, limits, Some(unknown), Side::Lower))
+        (
+            &row.upper,
+            activity(row, limits, Some(unknown), Side::Lower),
+        )
     } else {
-        (&row.lower, activity(row, limits, Some(unknown), Side::Upper))
+        (
+            &row.lower,
+            activity(row, limits, Some(unknown), Side::Upper),
+        )
     };
     let (Some(held), Some(others)) = (held, others) else {
         return false;
@@ -126,9 +132,10 @@ fn is_rounded(problem: &ExactProblem, row: &ExactRow, side: Side, to: &Exact) ->
     if row.terms.iter().any(|(j, _)| !problem.integer[*j]) {
         return false;
     }
-    let divisor = row.terms.iter().fold(Exact::zero(), |divisor, (_, a)| {
-        divisor.common_divisor(a)
-    });
+    let divisor = row
+        .terms
+        .iter()
+        .fold(Exact::zero(), |divisor, (_, a)| divisor.common_divisor(a));
     if divisor.is_zero() {
         return false;
     }

@@ -67,9 +67,20 @@ fn prove(problem: &Problem, options: &Options, mut monitor: Monitor) -> Result<P
         fits(&model)?;
         let start = outcome.as_ref().ok().map(Solution::values);
         let record = Some(&mut derivation);
+        // What is known to be optimal shall be proved so, whatever `auto` would spend on finding it.
+        let is_open = outcome
+            .as_ref()
+            .is_ok_and(|s| s.status != SolveStatus::Optimal);
+        let options = &Options {
+            strategy: if is_open {
+                options.strategy
+            } else {
+                Strategy::Exact
+            },
+            ..options.clone()
+        };
         let found = branch::solve(problem, &model, options, start, record, &mut monitor);
-        let again =
-            found.and_then(|found| conclude(problem, &model, options, found, &monitor));
+        let again = found.and_then(|found| conclude(problem, &model, options, found, &monitor));
         may_have_proof(&again)?;
         outcome = better(outcome, again)?;
     }
@@ -95,7 +106,9 @@ fn may_have_proof(outcome: &Result<Solution>) -> Result<()> {
 fn better(first: Result<Solution>, second: Result<Solution>) -> Result<Result<Solution>> {
     match (first, second) {
         (Ok(first), Ok(second)) => {
-            let is_optimal = [&first, &second].map(Solution::status).contains(&SolveStatus::Optimal);
+            let is_optimal = [&first, &second]
+                .map(Solution::status)
+                .contains(&SolveStatus::Optimal);
             let bounds = [&first, &second].map(|s| s.lower_bound.unwrap_or(f64::NEG_INFINITY));
             let is_better = second.energy < first.energy
                 && second.max_constraint_violation <= first.max_constraint_violation.max(1e-12);
@@ -108,7 +121,8 @@ fn better(first: Result<Solution>, second: Result<Solution>) -> Result<Result<So
         }
         (Err(first), Err(_)) => Ok(Err(first)),
         _ => Err(Error::NotSupported {
-            what: "a proof in exact numbers: rounding errors decide whether there is a point".into(),
+            what: "a proof in exact numbers: rounding errors decide whether there is a point"
+                .into(),
             index: None,
             line: None,
         }),
