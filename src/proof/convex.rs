@@ -15,7 +15,7 @@ use super::fault::{Checked, FaultKind, wrong};
 use super::minorant::PartObjective;
 
 /// The largest block that is eliminated exactly.
-const SMALL: usize = 60;
+const SMALL: usize = 120;
 
 /// The largest block with a dense factor.
 const LARGEST: usize = 3000;
@@ -240,4 +240,70 @@ fn has_no_negative_pivot(entries: &BTreeMap<(usize, usize), Exact>, n: usize) ->
         before = Some(pivot);
     }
     true
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A block with this lower triangle, row by row.
+    fn block(rows: &[&[f64]]) -> Block {
+        let mut entries = BTreeMap::new();
+        for (i, row) in rows.iter().enumerate() {
+            for (j, &v) in row.iter().enumerate() {
+                entries.insert((i, j), Exact::of(v).unwrap());
+            }
+        }
+        Block {
+            members: (0..rows.len()).collect(),
+            entries,
+            has_quadratic: true,
+        }
+    }
+
+    fn has(rows: &[&[f64]], curvature: f64) -> bool {
+        let curvature = vec![Exact::of(curvature).unwrap(); rows.len()];
+        block(rows).has_curvature(&curvature)
+    }
+
+    #[test]
+    fn curvature_is_shown_up_to_the_least_eigenvalue() {
+        // Eigenvalues 1 and 3; the second matrix has 0 and 2.
+        assert!(has(&[&[2.0], &[1.0, 2.0]], 1.0));
+        assert!(!has(&[&[2.0], &[1.0, 2.0]], 1.0_f64.next_up()));
+        assert!(has(&[&[1.0], &[-1.0, 1.0]], 0.0));
+        assert!(!has(&[&[1.0], &[-1.0_f64.next_up(), 1.0]], 0.0));
+    }
+
+    #[test]
+    fn singular_blocks_are_decided_exactly() {
+        // (x + 2 y + 3 z)^2, whose diagonal does not dominate.
+        let square: [&[f64]; 3] = [&[2.0], &[4.0, 8.0], &[6.0, 12.0, 18.0]];
+        assert!(has(&square, 0.0));
+        assert!(!has(&square, 2f64.powi(-60)));
+        let less: [&[f64]; 3] = [&[2.0], &[4.0, 8.0], &[6.0, 12.0, 18.0_f64.next_down()]];
+        assert!(!has(&less, 0.0));
+        assert!(!has(&[&[0.0], &[1.0, 9.0]], 0.0));
+    }
+
+    #[test]
+    fn a_factor_in_floats_never_shows_too_much() {
+        // 1 + n eps on the diagonal and ones beside it: the least eigenvalue is n eps.
+        let n = 30;
+        for (excess, is_shown) in [(1e-6, Some(true)), (0.0, None), (-1e-12, None)] {
+            let mut entries = BTreeMap::new();
+            for i in 0..n {
+                for j in 0..=i {
+                    let v = if i == j { 1.0 + excess } else { 1.0 };
+                    entries.insert((i, j), Exact::of(v).unwrap());
+                }
+            }
+            assert_eq!(has_factor(&entries, n), is_shown, "{excess}");
+            assert_eq!(
+                has_no_negative_pivot(&entries, n),
+                excess >= 0.0,
+                "{excess}"
+            );
+        }
+    }
 }

@@ -170,6 +170,14 @@ pub(super) enum Number {
 }
 
 impl Number {
+    /// The float, if it is one.
+    pub fn float(&self) -> Option<f64> {
+        match self {
+            Number::Float(x) => x.is_finite().then_some(*x),
+            Number::Fraction(..) => None,
+        }
+    }
+
     /// The number, if there is one.
     pub fn exact(&self) -> Option<Exact> {
         match self {

@@ -37,11 +37,11 @@ pub(super) struct PartObjective {
     places: Rc<Places>,
     /// The lower triangle of Q.
     pub quadratic: Vec<(usize, usize, Exact)>,
-    linear: Vec<Exact>,
+    pub linear: Vec<Exact>,
     pub squares: Vec<ExactSquare>,
     /// Zero or a power of two for each unknown.
     pub curvature: Vec<Exact>,
-    inverse_curvature: Vec<Exact>,
+    pub inverse_curvature: Vec<Exact>,
 }
 
 /// All parts, and what the fixed unknowns add to the energy.
@@ -307,19 +307,18 @@ impl Minorant {
         };
         let mut minorant = Minorant {
             constant: Exact::zero(),
-            slopes: part.linear.clone(),
+            slopes: vec![Exact::zero(); point.len()],
             point: Vec::new(),
         };
         for (i, j, v) in &part.quadratic {
-            let pull = v * &point[*j];
-            let product = &pull * &point[*i];
-            minorant.slopes[*i] = &minorant.slopes[*i] + &pull;
-            if i == j {
-                minorant.constant = &minorant.constant - &product.shifted(-1);
-            } else {
+            minorant.slopes[*i] = &minorant.slopes[*i] + &(v * &point[*j]);
+            if i != j {
                 minorant.slopes[*j] = &minorant.slopes[*j] + &(v * &point[*i]);
-                minorant.constant = &minorant.constant - &product;
             }
+        }
+        for ((slope, q), x) in minorant.slopes.iter_mut().zip(&part.linear).zip(&point) {
+            minorant.constant = &minorant.constant - &(&*slope * x).shifted(-1);
+            *slope = &*slope + q;
         }
         for square in &part.squares {
             let sum = super::problem::product(&square.terms, &point);

@@ -13,7 +13,7 @@
 //! | `exact` | exact numbers |
 //! | `format`, `statement` | the lines of a proof; the statement of a problem |
 //! | `problem`, `steps` | the problem in exact numbers, and bounds that its rows imply |
-//! | `minorant`, `convex` | a bound from a point and multipliers; convexity |
+//! | `minorant`, `estimate`, `held`, `convex` | a bound from a point and multipliers; its estimate in floats; convexity |
 //! | `tree`, `check`, `fault` | the checker |
 //! | `derivation`, `curvature`, `repair`, `seal` | the writer |
 
@@ -21,9 +21,11 @@ mod check;
 mod convex;
 mod curvature;
 mod derivation;
+mod estimate;
 mod exact;
 mod fault;
 mod format;
+mod held;
 mod minorant;
 mod problem;
 mod repair;

@@ -6,11 +6,13 @@
 use super::check::{check_point, has_empty_row};
 use super::curvature;
 use super::derivation::{Derivation, Ending, Multiplied, Searched};
+use super::estimate::Floats;
 use super::exact::Exact;
 use super::fault::Wrong;
 use super::format::{
     Certificate, Claim, End, Line, Multipliers, Node, Number, Part, Root, Statement, Step, VERSION,
 };
+use super::held::Held;
 use super::minorant::{Minorant, Open, PartObjective, Split};
 use super::problem::{ExactProblem, Limits, Side};
 use super::repair::Place;
@@ -123,6 +125,7 @@ fn seal_part(
         problem,
         limits,
         objective,
+        floats: Floats::of(objective),
         searched,
         nodes: Vec::new(),
         above: Vec::new(),
@@ -328,7 +331,7 @@ struct Above {
     /// The node of the search, and that of the proof.
     searched: usize,
     written: usize,
-    known: Option<(Certificate, Minorant)>,
+    known: Option<Held>,
 }
 
 /// A node that is still to come.
@@ -344,6 +347,7 @@ struct Sealer<'a> {
     problem: &'a mut ExactProblem,
     limits: &'a mut Limits,
     objective: &'a PartObjective,
+    floats: Floats,
     searched: &'a Searched,
     nodes: Vec<Node>,
     above: Vec<Above>,
@@ -427,7 +431,9 @@ impl Sealer<'_> {
                 return Ok(());
             }
         }
-        let bound = self.best_above()?;
+        let Some(bound) = self.best_above()? else {
+            return Ok(());
+        };
         self.least = match self.least.take() {
             Some(least) if least < bound => Some(least),
             _ => Some(bound),
@@ -436,8 +442,8 @@ impl Sealer<'_> {
     }
 
     /// The bound of the nearest certificate that gives one, or of one near it. It is written with its node, or, if
-    /// others are between, with the leaf.
-    fn best_above(&mut self) -> Result<Exact> {
+    /// others are between, with the leaf. Nothing for a bound that is not below the least so far.
+    fn best_above(&mut self) -> Result<Option<Exact>> {
         let mut open = None;
         let (problem, limits, part) = (&*self.problem, &*self.limits, self.objective);
         let place = Place {
@@ -447,30 +453,38 @@ impl Sealer<'_> {
         };
         let leaf = self.nodes.len() - 1;
         for (distance, above) in self.above.iter_mut().rev().enumerate() {
-            let (given, minorant) = match above.known.take() {
-                Some(known) => known,
-                None => {
-                    let certificate = self.searched.nodes[above.searched].certificate.as_ref();
-                    let given = certificate.map(written).unwrap_or_default();
-                    let minorant = Minorant::of(problem, limits, part, &given).map_err(unproved)?;
-                    (given, minorant)
-                }
+            let known = above.known.get_or_insert_with(|| {
+                let certificate = self.searched.nodes[above.searched].certificate.as_ref();
+                let given = certificate.map(written).unwrap_or_default();
+                Held::of(problem, part, &self.floats, given)
+            });
+            // Where another certificate is written, which other leaves need, the leaf gets its own.
+            let nodes = &mut self.nodes;
+            let mut write = |certificate: Certificate| {
+                let there = &nodes[above.written].certificate;
+                let is_free = there.as_ref().is_none_or(|there| *there == certificate);
+                let at = match distance == 0 && is_free {
+                    true => above.written,
+                    false => leaf,
+                };
+                nodes[at].certificate = Some(certificate);
             };
+            let is_enough = |least| known.reaches(least, limits, part, &self.floats);
+            if self.least.as_ref().is_some_and(is_enough) {
+                write(known.certificate.clone());
+                return Ok(None);
+            }
+            let minorant = known.exact(problem, limits, part).map_err(unproved)?;
             let found = match minorant.least(limits, part) {
-                Ok(least) => Some((least, given.clone(), above.written)),
+                Ok(least) => Some((least, known.certificate.clone())),
                 Err(Open(unknown)) => {
                     open = Some(unknown);
-                    place.mended(&given).map(|(least, near)| {
-                        let is_taken = self.nodes[above.written].certificate.is_some();
-                        (least, near, if is_taken { leaf } else { above.written })
-                    })
+                    place.mended(&known.certificate)
                 }
             };
-            above.known = Some((given, minorant));
-            if let Some((least, certificate, at)) = found {
-                let at = if distance == 0 { at } else { leaf };
-                self.nodes[at].certificate = Some(certificate);
-                return Ok(least);
+            if let Some((least, certificate)) = found {
+                write(certificate);
+                return Ok(Some(least));
             }
         }
         Err(Error::NotSupported {

@@ -2,9 +2,11 @@
 
 use std::rc::Rc;
 
+use super::estimate::Floats;
 use super::exact::Exact;
 use super::fault::{Checked, FaultKind, wrong};
-use super::format::{End, Node};
+use super::format::{End, Node, Step};
+use super::held::Held;
 use super::minorant::{Minorant, Open, PartObjective};
 use super::problem::{ExactProblem, Limits, Side};
 use super::steps::take;
@@ -15,12 +17,13 @@ struct Waiting {
     mark: usize,
     branch: Option<(usize, Side, Exact)>,
     /// The nearest certificate above.
-    minorant: Option<Rc<Minorant>>,
+    held: Option<Rc<Held>>,
 }
 
 /// The check of a tree: the nodes come in preorder.
 pub(super) struct Tree<'a> {
     part: &'a PartObjective,
+    floats: Floats,
     /// What each leaf must prove. Nothing if all must be empty.
     bound: Option<Exact>,
     /// The nodes still to come, the next one last.
@@ -33,11 +36,12 @@ impl<'a> Tree<'a> {
         let mark = limits.mark();
         Tree {
             part,
+            floats: Floats::of(part),
             bound,
             waiting: vec![Waiting {
                 mark,
                 branch: None,
-                minorant: None,
+                held: None,
             }],
             mark,
         }
@@ -68,13 +72,16 @@ impl<'a> Tree<'a> {
         for &step in &node.steps {
             take_in_tree(problem, limits, step)?;
         }
-        let minorant = match &node.certificate {
-            None => next.minorant,
-            Some(own) => Some(Rc::new(Minorant::of(problem, limits, self.part, own)?)),
+        let held = match &node.certificate {
+            None => next.held,
+            Some(own) => {
+                let own = own.clone();
+                Some(Rc::new(Held::of(problem, self.part, &self.floats, own)))
+            }
         };
         match &node.end {
-            End::Branch(unknown, at) => self.branch(problem, limits, *unknown, *at, minorant)?,
-            End::Bound => self.check_bound(limits, minorant.as_deref())?,
+            End::Branch(unknown, at) => self.branch(problem, limits, (*unknown, *at), held)?,
+            End::Bound => self.check_bound(problem, limits, held.as_deref())?,
             End::Empty(multipliers) => {
                 let rows = Minorant::of_rows(problem, limits, self.part, multipliers)?;
                 let is_empty = limits.are_empty()
@@ -96,9 +103,8 @@ impl<'a> Tree<'a> {
         &mut self,
         problem: &ExactProblem,
         limits: &Limits,
-        unknown: u32,
-        at: f64,
-        minorant: Option<Rc<Minorant>>,
+        (unknown, at): (u32, f64),
+        held: Option<Rc<Held>>,
     ) -> Checked<()> {
         let unknown = unknown as usize;
         match problem.integer.get(unknown) {
@@ -123,20 +129,29 @@ impl<'a> Tree<'a> {
             self.waiting.push(Waiting {
                 mark,
                 branch: Some((unknown, side, to)),
-                minorant: minorant.clone(),
+                held: held.clone(),
             });
         }
         Ok(())
     }
 
-    fn check_bound(&self, limits: &Limits, minorant: Option<&Minorant>) -> Checked<()> {
+    fn check_bound(
+        &self,
+        problem: &ExactProblem,
+        limits: &Limits,
+        held: Option<&Held>,
+    ) -> Checked<()> {
         let Some(bound) = &self.bound else {
             let text = "a leaf that is not empty, in a part that is said to have no point";
             return wrong(FaultKind::NotEmpty, text);
         };
-        let Some(minorant) = minorant else {
+        let Some(held) = held else {
             return wrong(FaultKind::Certificate, "no certificate bounds this leaf");
         };
+        if held.reaches(bound, limits, self.part, &self.floats) {
+            return Ok(());
+        }
+        let minorant = held.exact(problem, limits, self.part)?;
         match minorant.least(limits, self.part) {
             Ok(least) if least >= *bound => Ok(()),
             Ok(least) => {
@@ -153,12 +168,7 @@ impl<'a> Tree<'a> {
 }
 
 /// Takes a step of a node. Sides of rows belong to the root, as nothing takes them back.
-fn take_in_tree(
-    problem: &mut ExactProblem,
-    limits: &mut Limits,
-    step: super::format::Step,
-) -> Checked<()> {
-    use super::format::Step;
+fn take_in_tree(problem: &mut ExactProblem, limits: &mut Limits, step: Step) -> Checked<()> {
     if matches!(step, Step::RowLower(..) | Step::RowUpper(..)) {
         let text = "a side of a row changes within a tree";
         return wrong(FaultKind::Step, text);

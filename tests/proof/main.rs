@@ -14,6 +14,7 @@ mod lies;
 #[path = "../branch/oracle.rs"]
 #[allow(dead_code)] // What real unknowns alone allow.
 mod oracle;
+mod planted;
 #[path = "../common/random.rs"]
 #[allow(dead_code)] // Generators of other tests.
 mod random;

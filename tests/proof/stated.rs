@@ -48,24 +48,24 @@ pub fn small() -> Problem {
     problem
 }
 
-/// No point: of three integers no two may be one, and their sum with a small real is to be above one. Reals could,
-/// which only branches exclude.
+/// No point: of five integers on a cycle no two neighbours may be one, and their sum with a small real is to be above
+/// two. Reals could, which only branches and sums of rows exclude.
 pub fn empty() -> Problem {
-    let mut problem = Problem::new(4).unwrap();
-    for j in 0..4 {
+    let mut problem = Problem::new(6).unwrap();
+    for j in 0..6 {
         problem.add_least_squares(&[j], &[1.0], 0.4, 1.0).unwrap();
     }
-    for pair in [[0, 1], [1, 2], [0, 2]] {
+    for j in 0..5 {
         problem
-            .add_inequality(&pair, &[1.0, 1.0], -NONE, 1.0)
+            .add_inequality(&[j, (j + 1) % 5], &[1.0, 1.0], -NONE, 1.0)
             .unwrap();
     }
-    let all = [0, 1, 2, 3];
-    problem.add_inequality(&all, &[1.0; 4], 1.3, NONE).unwrap();
+    let all = [0, 1, 2, 3, 4, 5];
+    problem.add_inequality(&all, &[1.0; 6], 2.2, NONE).unwrap();
     problem
-        .set_bounds(&all, &[0.0; 4], &[1.0, 1.0, 1.0, 0.125])
+        .set_bounds(&all, &[0.0; 6], &[1.0, 1.0, 1.0, 1.0, 1.0, 0.125])
         .unwrap();
-    problem.set_integers(&[0, 1, 2]).unwrap();
+    problem.set_integers(&[0, 1, 2, 3, 4]).unwrap();
     problem
 }
 
