@@ -15,7 +15,7 @@ use super::fault::{Checked, FaultKind, wrong};
 use super::minorant::PartObjective;
 
 /// The largest block that is eliminated exactly.
-const SMALL: usize = 120;
+const SMALL: usize = 60;
 
 /// The largest block with a dense factor.
 const LARGEST: usize = 3000;

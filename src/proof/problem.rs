@@ -6,6 +6,9 @@ use super::exact::Exact;
 use super::fault::{Checked, FaultKind, wrong};
 use super::format::Statement;
 
+/// The largest number of unknowns, lest a short line makes the checker run out of memory.
+const MOST: usize = 10_000_000;
+
 /// A side of a row or of an unknown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Side {
@@ -85,6 +88,10 @@ impl ExactProblem {
     /// For numbers of unknowns that do not exist, and weights below zero.
     pub fn of(statement: &Statement) -> Checked<(Self, Limits)> {
         let n = statement.variables;
+        if n > MOST {
+            let text = format!("{n} unknowns are more than {MOST}");
+            return wrong(FaultKind::Statement, text);
+        }
         let in_range = |j: u32| match (j as usize) < n {
             true => Ok(j as usize),
             false => wrong(

@@ -7,7 +7,8 @@ use roundel::Problem;
 use roundel::proof::{FaultKind, check, check_of};
 use serde_json::{Value, json};
 
-use crate::planted::{LIES, Lines, Of, add, statement};
+use crate::altered::{Lines, add, statement};
+use crate::planted::{LIES, Of};
 use crate::stated::{empty, small};
 use crate::{prove, text};
 

@@ -1,5 +1,6 @@
 //! Proofs: those of random problems are accepted and prove the exact optimum, and planted lies are refused.
 
+mod altered;
 #[path = "../branch/check.rs"]
 #[allow(dead_code)] // The checks of solutions without a proof.
 mod check;

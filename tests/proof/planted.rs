@@ -3,8 +3,10 @@
 use roundel::proof::FaultKind;
 use serde_json::{Value, json};
 
-/// The lines of a proof, as JSON.
-pub type Lines = Vec<Value>;
+use crate::altered::{
+    CLAIM, Lines, PARTS, ROOT, add, certificates, claim, empty_by_rows, multipliers, node_with,
+    nodes, part, recount, root_steps, statement, step_of,
+};
 
 /// Which proof is altered.
 #[derive(Clone, Copy, PartialEq)]
@@ -18,83 +20,7 @@ pub enum Of {
 /// What is altered, the fault that must be found, and the alteration.
 pub type Lie = (&'static str, Of, FaultKind, fn(&mut Lines));
 
-const STATEMENT: usize = 1;
-const CLAIM: usize = 2;
-const ROOT: usize = 3;
-const PARTS: usize = 4;
-const NODES: usize = 5;
-
-pub fn statement(lines: &mut Lines) -> &mut Value {
-    &mut lines[STATEMENT]["statement"]
-}
-
-fn claim(lines: &mut Lines) -> &mut Value {
-    &mut lines[CLAIM]["claim"]
-}
-
-fn root_steps(lines: &mut Lines) -> &mut Vec<Value> {
-    lines[ROOT]["root"]["steps"].as_array_mut().unwrap()
-}
-
-fn part(lines: &mut Lines, number: usize) -> &mut Value {
-    &mut lines[PARTS]["parts"][number]
-}
-
-fn nodes(lines: &mut Lines) -> impl Iterator<Item = &mut Value> {
-    let count = lines.len();
-    lines[NODES..count - 1]
-        .iter_mut()
-        .map(|line| &mut line["node"])
-}
-
-/// The certificates of all nodes.
-fn certificates(lines: &mut Lines) -> impl Iterator<Item = &mut Value> {
-    nodes(lines).filter_map(|node| node.get_mut("certificate"))
-}
-
-/// All multipliers of all certificates.
-fn multipliers(lines: &mut Lines) -> impl Iterator<Item = &mut Value> {
-    certificates(lines).flat_map(|c| c["multipliers"].as_array_mut().unwrap())
-}
-
-/// The first node that ends in this way.
-fn node_with<'a>(lines: &'a mut Lines, end: &str) -> &'a mut Value {
-    nodes(lines)
-        .find(|node| node["end"] == end || node["end"].get(end).is_some())
-        .unwrap()
-}
-
-/// The first leaf that rows with multipliers show to be empty.
-fn empty_by_rows(lines: &mut Lines) -> &mut Value {
-    let has_rows = |node: &&mut Value| node["end"]["empty"].as_array().is_some_and(|m| m.len() > 1);
-    nodes(lines).find(has_rows).unwrap()
-}
-
-/// The first step of this kind, anywhere.
-fn step_of<'a>(lines: &'a mut Lines, kind: &str) -> &'a mut Value {
-    let holders = lines.iter_mut().filter_map(|line| {
-        let name = ["root", "node"]
-            .into_iter()
-            .find(|name| line.get(name).is_some());
-        line.get_mut(name?)
-    });
-    let all = holders.filter_map(|holder| holder.get_mut("steps")?.as_array_mut());
-    let all = all.flatten();
-    let mut found = all.filter_map(|step| step.get_mut(kind));
-    found.next().unwrap()
-}
-
-pub fn add(value: &mut Value, by: f64) {
-    *value = json!(value.as_f64().unwrap() + by);
-}
-
-/// Sets the count of the last line to what it has to be.
-fn recount(lines: &mut Lines) {
-    let before = lines.len() - 1;
-    lines[before] = json!({ "end": before });
-}
-
-pub const LIES: [Lie; 63] = [
+pub const LIES: [Lie; 64] = [
     // The file.
     ("the end is missing", Of::Small, FaultKind::Format, |l| {
         l.pop();
@@ -202,6 +128,14 @@ pub const LIES: [Lie; 63] = [
         FaultKind::Statement,
         |l| {
             statement(l)["quadratic"][1] = json!([3, 4, 0.5]);
+        },
+    ),
+    (
+        "more unknowns than memory",
+        Of::Small,
+        FaultKind::Statement,
+        |l| {
+            statement(l)["variables"] = json!(1_u64 << 60);
         },
     ),
     // The point.
