@@ -12,11 +12,12 @@
 //! | `inverse`, `shared`, `working_set`, `dual_active_set`, `refine` | one strictly convex quadratic program |
 //! | `relaxation` | the relaxation of a node, also where Q is singular |
 //! | `safe_bound` | lower bounds that rounding errors cannot make false |
-//! | `pseudo_costs`, `tree` | the search |
+//! | `branching`, `pseudo_costs`, `tree` | the search |
 //! | `record` | what a proof is made from |
 //! | `primal`, `exchange` | points with integers: rounding, exchanges, smaller problems |
 //! | `conflict` | why there is no solution |
 
+mod branching;
 mod conflict;
 mod dual_active_set;
 mod exchange;

@@ -8,6 +8,7 @@
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
+use super::branching::{Branching, INTEGRAL, child_limits, floor_between};
 use super::dual_active_set::{Active, WarmStart};
 use super::form::{Form, Interval};
 use super::propagate::Propagator;
@@ -20,9 +21,6 @@ use crate::error::Result;
 use crate::monitor::Monitor;
 use crate::proof::Visited;
 use crate::search::StoppedBy;
-
-/// A value this close to an integer counts as one.
-const INTEGRAL: f64 = 1e-6;
 
 /// Iterations of the dual active-set method for a child that strong branching looks at.
 const PROBE: u64 = 25;
@@ -40,15 +38,6 @@ struct Node {
     branching: Option<Branching>,
     /// Its number in the record.
     visited: usize,
-}
-
-/// How a node came from its parent.
-#[derive(Clone, Copy)]
-struct Branching {
-    variable: u32,
-    /// 0 for down, 1 for up.
-    direction: usize,
-    distance: f64,
 }
 
 impl PartialEq for Node {
@@ -573,35 +562,5 @@ impl<'a, 'm, 'e> Tree<'a, 'm, 'e> {
         let first = usize::from(expected[1] < expected[0]);
         let (next, other) = (child(first), child(1 - first));
         Step::Split(next, other)
-    }
-}
-
-/// The integer up to which the lower child goes. An integer value stays in the lower child.
-fn floor_between(limits: Interval, value: f64) -> f64 {
-    if (value - value.round()).abs() <= INTEGRAL {
-        let rounded = limits.nearest(value.round());
-        if rounded == limits.upper {
-            rounded - 1.0
-        } else {
-            rounded
-        }
-    } else {
-        value.floor()
-    }
-}
-
-/// The limits below (0) or above (1) a value.
-fn child_limits(limits: Interval, value: f64, direction: usize) -> Interval {
-    let floor = floor_between(limits, value);
-    if direction == 0 {
-        Interval {
-            upper: limits.upper.min(floor),
-            ..limits
-        }
-    } else {
-        Interval {
-            lower: limits.lower.max(floor + 1.0),
-            ..limits
-        }
     }
 }

@@ -15,7 +15,7 @@ use super::fault::{Checked, FaultKind, wrong};
 use super::minorant::PartObjective;
 
 /// The largest block that is eliminated exactly.
-const SMALL: usize = 60;
+const SMALL: usize = 40;
 
 /// The largest block with a dense factor.
 const LARGEST: usize = 3000;
@@ -23,10 +23,13 @@ const LARGEST: usize = 3000;
 /// Half a unit in the last place of 1.
 const UNIT: f64 = 0.5 * f64::EPSILON;
 
+/// Entries of a lower triangle.
+type Entries = BTreeMap<(usize, usize), Exact>;
+
 /// A block: its unknowns, and the entries of its lower triangle by places in it.
 pub(super) struct Block {
     pub members: Vec<usize>,
-    entries: BTreeMap<(usize, usize), Exact>,
+    entries: Entries,
     has_quadratic: bool,
 }
 
@@ -125,20 +128,33 @@ impl Block {
         if !self.has_quadratic && curvature.iter().all(Exact::is_zero) {
             return true;
         }
+        let entries = self.minus(curvature);
+        self.is_shown(&entries)
+            || (self.members.len() <= SMALL && has_no_negative_pivot(&entries, self.members.len()))
+    }
+
+    /// As [`has_curvature`](Self::has_curvature), by what takes little time.
+    pub fn has_curvature_at_once(&self, curvature: &[Exact]) -> bool {
+        self.is_shown(&self.minus(curvature))
+    }
+
+    fn is_shown(&self, entries: &Entries) -> bool {
+        let n = self.members.len();
+        dominates(entries, n) || (n <= LARGEST && has_factor(entries, n))
+    }
+
+    fn minus(&self, curvature: &[Exact]) -> Entries {
         let mut entries = self.entries.clone();
         for (k, d) in curvature.iter().enumerate() {
             let sum = entries.entry((k, k)).or_insert_with(Exact::zero);
             *sum = &*sum - d;
         }
-        let n = self.members.len();
-        dominates(&entries, n)
-            || (n <= LARGEST && has_factor(&entries, n) == Some(true))
-            || (n <= SMALL && has_no_negative_pivot(&entries, n))
+        entries
     }
 }
 
 /// Whether each diagonal entry is at least the sum of the absolute values of the others in its row.
-fn dominates(entries: &BTreeMap<(usize, usize), Exact>, n: usize) -> bool {
+fn dominates(entries: &Entries, n: usize) -> bool {
     let mut left = vec![Exact::zero(); n];
     for ((i, j), v) in entries {
         if i == j {
@@ -151,8 +167,13 @@ fn dominates(entries: &BTreeMap<(usize, usize), Exact>, n: usize) -> bool {
     left.iter().all(|left| left.sign().is_ge())
 }
 
-/// Whether a Cholesky factor in floats leaves a rest that its diagonal dominates. Nothing if there is no factor.
-fn has_factor(entries: &BTreeMap<(usize, usize), Exact>, n: usize) -> Option<bool> {
+/// Whether a Cholesky factor in floats leaves a rest that its diagonal dominates.
+fn has_factor(entries: &Entries, n: usize) -> bool {
+    rest_of_factor(entries, n) == Some(true)
+}
+
+/// Nothing if there is no factor.
+fn rest_of_factor(entries: &Entries, n: usize) -> Option<bool> {
     // Powers of two bring the diagonal near one, and change nothing else.
     let mut scale = vec![0.0; n];
     for (k, scale) in scale.iter_mut().enumerate() {
@@ -207,7 +228,7 @@ fn has_factor(entries: &BTreeMap<(usize, usize), Exact>, n: usize) -> Option<boo
 }
 
 /// Whether elimination with integers meets no negative pivot, and no zero pivot whose row is not zero.
-fn has_no_negative_pivot(entries: &BTreeMap<(usize, usize), Exact>, n: usize) -> bool {
+fn has_no_negative_pivot(entries: &Entries, n: usize) -> bool {
     let mut rows: Vec<Vec<Exact>> = vec![vec![Exact::zero(); n]; n];
     for ((i, j), v) in entries {
         rows[*i][*j] = v.clone();
@@ -290,7 +311,7 @@ mod tests {
     fn a_factor_in_floats_never_shows_too_much() {
         // 1 + n eps on the diagonal and ones beside it: the least eigenvalue is n eps.
         let n = 30;
-        for (excess, is_shown) in [(1e-6, Some(true)), (0.0, None), (-1e-12, None)] {
+        for (excess, is_shown) in [(1e-6, true), (0.0, false), (-1e-12, false)] {
             let mut entries = BTreeMap::new();
             for i in 0..n {
                 for j in 0..=i {

@@ -77,7 +77,8 @@ pub(super) struct Floats {
     quadratic: Vec<(usize, usize, Ball)>,
     linear: Vec<Ball>,
     squares: Vec<(Ball, Ball, Vec<(usize, Ball)>)>,
-    inverse_curvature: Vec<Option<Ball>>,
+    curvature: Vec<Ball>,
+    inverse_curvature: Vec<Ball>,
 }
 
 impl Floats {
@@ -91,14 +92,12 @@ impl Floats {
                 terms.collect(),
             )
         });
-        let curvature = part.curvature.iter().zip(&part.inverse_curvature);
         Floats {
             quadratic: entries.map(|(i, j, v)| (*i, *j, Ball::around(v))).collect(),
             linear: part.linear.iter().map(Ball::around).collect(),
             squares: squares.collect(),
-            inverse_curvature: curvature
-                .map(|(d, inverse)| (!d.is_zero()).then(|| Ball::around(inverse)))
-                .collect(),
+            curvature: part.curvature.iter().map(Ball::around).collect(),
+            inverse_curvature: part.inverse_curvature.iter().map(Ball::around).collect(),
         }
     }
 }
@@ -178,10 +177,21 @@ impl Estimate {
     pub fn least(&self, limits: &Limits, part: &PartObjective, floats: &Floats) -> f64 {
         let mut sum = self.constant;
         for (k, slope) in self.slopes.iter().enumerate() {
+            let end = |side| limits.side(part.members[k], side).as_ref();
+            let curvature = floats.curvature[k].middle;
+            if curvature < 0.0 {
+                // It is least at one of the ends.
+                let (Some(lower), Some(upper)) = (end(Side::Lower), end(Side::Upper)) else {
+                    return f64::NEG_INFINITY;
+                };
+                let [a, b] = [lower, upper].map(|end| self.term_at(k, Ball::around(end), floats));
+                let least = |ball: Ball| ball.middle - ball.radius;
+                sum = sum.plus(if least(a) < least(b) { a } else { b });
+                continue;
+            }
             if slope.middle == 0.0 && slope.radius == 0.0 {
                 continue;
             }
-            let end = |side| limits.side(part.members[k], side).as_ref();
             let term = match (end(Side::Lower), end(Side::Upper)) {
                 (Some(lower), _) if slope.middle > slope.radius => slope.times(Ball::around(lower)),
                 (_, Some(upper)) if -slope.middle > slope.radius => {
@@ -193,13 +203,12 @@ impl Estimate {
                         .max(Ball::around(upper).largest());
                     Ball::rounded(-slope.largest() * most, 0.0)
                 }
-                _ => match floats.inverse_curvature[k] {
-                    None => return f64::NEG_INFINITY,
-                    Some(inverse) => {
-                        let fall = slope.times(*slope).times(inverse).times(Ball::float(-0.5));
-                        slope.times(self.point[k]).plus(fall)
-                    }
-                },
+                _ if curvature == 0.0 => return f64::NEG_INFINITY,
+                _ => {
+                    let inverse = floats.inverse_curvature[k];
+                    let fall = slope.times(*slope).times(inverse).times(Ball::float(-0.5));
+                    slope.times(self.point[k]).plus(fall)
+                }
             };
             sum = sum.plus(term);
         }
@@ -209,6 +218,15 @@ impl Estimate {
         } else {
             least
         }
+    }
+
+    /// The terms of one unknown at a value.
+    fn term_at(&self, k: usize, at: Ball, floats: &Floats) -> Ball {
+        let distance = at.plus(self.point[k].minus());
+        let square = distance.times(distance).times(Ball::float(0.5));
+        self.slopes[k]
+            .times(at)
+            .plus(square.times(floats.curvature[k]))
     }
 }
 
@@ -253,7 +271,7 @@ mod tests {
             let (problem, limits) = ExactProblem::of(&statement(random)).unwrap();
             let mut split = Split::of(&problem, &limits, &[vec![0, 1, 2]]).unwrap();
             let part = &mut split.parts[0];
-            part.set_curvature(&[0.0, 0.0, 0.125]).unwrap();
+            part.set_curvature(&[0.0, -0.25, 0.125]).unwrap();
             let certificate = Certificate {
                 point: (0..3).map(|_| Number::Float(random.next() * 9.1)).collect(),
                 multipliers: vec![(0, Number::Float(-random.unit()))],

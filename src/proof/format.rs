@@ -118,7 +118,7 @@ pub(crate) enum Step {
 #[serde(deny_unknown_fields)]
 pub(super) struct Part {
     pub unknowns: Vec<u32>,
-    /// For each unknown zero or a power of two. The objective minus half of the sum of these times the squares
+    /// For each unknown zero, a power of two or the negative of one. The objective minus half of the sum of these times the squares
     /// of the unknowns is convex.
     pub curvature: Vec<f64>,
     /// No point has less energy in this part. Without a bound there is no point.

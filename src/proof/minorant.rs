@@ -39,7 +39,7 @@ pub(super) struct PartObjective {
     pub quadratic: Vec<(usize, usize, Exact)>,
     pub linear: Vec<Exact>,
     pub squares: Vec<ExactSquare>,
-    /// Zero or a power of two for each unknown.
+    /// Zero, a power of two or the negative of one for each unknown.
     pub curvature: Vec<Exact>,
     pub inverse_curvature: Vec<Exact>,
 }
@@ -241,7 +241,7 @@ impl PartObjective {
     /// Sets the curvature. Whether the objective has it is not checked here.
     ///
     /// # Errors
-    /// [`FaultKind::Certificate`] for numbers that are not zero or powers of two.
+    /// [`FaultKind::Certificate`] for numbers that are not zero, powers of two or their negatives.
     pub fn set_curvature(&mut self, curvature: &[f64]) -> Checked<()> {
         if curvature.len() != self.members.len() {
             let text = format!(
@@ -255,7 +255,7 @@ impl PartObjective {
         self.inverse_curvature.clear();
         for &d in curvature {
             let inverse = if d == 0.0 { 0.0 } else { 1.0 / d };
-            let is_power = d == 0.0 || (d > 0.0 && d.is_normal() && d.to_bits() << 12 == 0);
+            let is_power = d == 0.0 || (d.is_normal() && d.to_bits() << 12 == 0);
             match (Exact::of(d), Exact::of(inverse)) {
                 (Some(d), Some(inverse)) if is_power => {
                     self.curvature.push(d);
@@ -428,6 +428,16 @@ impl Minorant {
         part: &PartObjective,
     ) -> Result<Exact, Open> {
         let unknown = part.members[k];
+        if let Some(centre) = self.point.get(k)
+            && part.curvature[k].sign().is_lt()
+        {
+            // It is least at one of the ends.
+            let at = |side| {
+                let end = limits.side(unknown, side).as_ref().ok_or(Open(unknown))?;
+                Ok(term_at(slope, end, centre, &part.curvature[k]))
+            };
+            return Ok(at(Side::Lower)?.min(at(Side::Upper)?));
+        }
         let side = match slope.sign() {
             Ordering::Equal => return Ok(Exact::zero()),
             Ordering::Greater => Side::Lower,
@@ -448,9 +458,7 @@ impl Minorant {
             (Some(end), Side::Upper) if *end < free => end.clone(),
             _ => free,
         };
-        let distance = &at - centre;
-        let square = (&part.curvature[k] * &(&distance * &distance)).shifted(-1);
-        Ok(&(slope * &at) + &square)
+        Ok(term_at(slope, &at, centre, &part.curvature[k]))
     }
 }
 
@@ -463,4 +471,11 @@ fn least_product(factor: &Exact, unknown: usize, limits: &Limits) -> Option<Exac
     };
     let end = limits.side(unknown, side).as_ref()?;
     Some(factor * end)
+}
+
+/// The terms of one unknown at a value.
+fn term_at(slope: &Exact, at: &Exact, centre: &Exact, curvature: &Exact) -> Exact {
+    let distance = at - centre;
+    let square = (curvature * &(&distance * &distance)).shifted(-1);
+    &(slope * at) + &square
 }

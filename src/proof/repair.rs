@@ -16,7 +16,7 @@ use super::problem::{ExactProblem, Limits, Side};
 
 /// The largest systems that are solved in floats and exactly.
 const LARGEST: usize = 400;
-const LARGEST_EXACT: usize = 60;
+const LARGEST_EXACT: usize = 30;
 
 /// The slope of the right sign, as a part of the largest term.
 const LEAN: f64 = 1e-12;

@@ -118,7 +118,7 @@ fn seal_part(
     searched: &Searched,
     objective: &mut PartObjective,
 ) -> Result<(Part, Vec<Node>)> {
-    let curvature = curvature::choose(objective);
+    let curvature = curvature::choose(objective, limits);
     objective.set_curvature(&curvature).map_err(unproved)?;
     super::convex::check(objective).map_err(unproved)?;
     let mut sealer = Sealer {

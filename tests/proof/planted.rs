@@ -220,7 +220,7 @@ pub const LIES: [Lie; 64] = [
         Of::Small,
         FaultKind::Step,
         |l| {
-            step_of(l, "upper")[0] = json!(0);
+            step_of(l, "upper")[0] = json!(1);
         },
     ),
     (
@@ -340,11 +340,11 @@ pub const LIES: [Lie; 64] = [
         },
     ),
     (
-        "a negative curvature",
+        "less curvature than the bound needs",
         Of::Small,
-        FaultKind::Certificate,
+        FaultKind::Bound,
         |l| {
-            part(l, 0)["curvature"][0] = json!(-0.25);
+            part(l, 0)["curvature"][0] = json!(-4.0);
         },
     ),
     (
