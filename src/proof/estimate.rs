@@ -71,12 +71,20 @@ impl Ball {
     }
 }
 
+/// `weight (terms . x - rhs)^2`.
+#[derive(Debug)]
+struct SquareOfBalls {
+    weight: Ball,
+    rhs: Ball,
+    terms: Vec<(usize, Ball)>,
+}
+
 /// The objective of a part in balls.
 #[derive(Debug, Default)]
 pub(super) struct Floats {
     quadratic: Vec<(usize, usize, Ball)>,
     linear: Vec<Ball>,
-    squares: Vec<(Ball, Ball, Vec<(usize, Ball)>)>,
+    squares: Vec<SquareOfBalls>,
     curvature: Vec<Ball>,
     inverse_curvature: Vec<Ball>,
 }
@@ -86,11 +94,11 @@ impl Floats {
         let entries = part.quadratic.iter();
         let squares = part.squares.iter().map(|square| {
             let terms = square.terms.iter().map(|(j, a)| (*j, Ball::around(a)));
-            (
-                Ball::around(&square.weight),
-                Ball::around(&square.rhs),
-                terms.collect(),
-            )
+            SquareOfBalls {
+                weight: Ball::around(&square.weight),
+                rhs: Ball::around(&square.rhs),
+                terms: terms.collect(),
+            }
         });
         Floats {
             quadratic: entries.map(|(i, j, v)| (*i, *j, Ball::around(v))).collect(),
@@ -141,7 +149,7 @@ impl Estimate {
         for (slope, q) in slopes.iter_mut().zip(&floats.linear) {
             *slope = slope.plus(*q);
         }
-        for (weight, rhs, terms) in &floats.squares {
+        for SquareOfBalls { weight, rhs, terms } in &floats.squares {
             let products = terms.iter().map(|(j, a)| a.times(point[*j]));
             let sum = products.fold(Ball::default(), Ball::plus);
             let pull = weight.times(sum.plus(rhs.minus())).times(Ball::float(2.0));
