@@ -37,6 +37,7 @@
 //! | [`Problem`], [`problem::files`] | a problem, and its files |
 //! | [`Options`], [`Strategy`], [`WarmStart`], [`search`] | what a solve may do; the list of all options |
 //! | [`solve()`], [`solve_with`], [`Solver`], [`Solution`], [`mod@solve`] | one solve, re-solves, results, verification, replay |
+//! | [`solve_with_proof`], [`Proof`], [`proof`] | proofs that a stranger can check |
 //! | [`Monitor`], [`Event`], [`CancelToken`], [`monitor`] | progress, cancel, time limit |
 //! | [`soup`] | polygon soups: files of any kind, and their repair |
 //! | [`mesh`], [`field`], [`map`], [`untangle`], [`check`] | meshes, orientation fields, seamless maps, their repair and their check |
@@ -65,6 +66,7 @@ pub mod mesh;
 pub mod monitor;
 mod network;
 pub mod problem;
+pub mod proof;
 pub mod quad;
 mod round;
 pub mod search;
@@ -82,8 +84,11 @@ pub use error::{Conflicting, Error, InputError, Result};
 pub use linalg::Ordering;
 pub use monitor::{CancelToken, Event, Flow, Monitor};
 pub use problem::{Layout, Model, Problem, Triangle};
+pub use proof::Proof;
 pub use search::{Candidate, LazyRows, Options, SolveStatus, StoppedBy, Strategy, WarmStart};
-pub use solve::{Seconds, Solution, Solver, solve, solve_with, solve_with_lazy_rows};
+pub use solve::{
+    Proved, Seconds, Solution, Solver, solve, solve_with, solve_with_lazy_rows, solve_with_proof,
+};
 
 /// The Rust examples of the README and of the book are run as tests.
 #[cfg(doctest)]
@@ -96,6 +101,8 @@ mod book {
     struct Options;
     #[doc = include_str!("../docs/problems.md")]
     struct Problems;
+    #[doc = include_str!("../docs/proofs.md")]
+    struct Proofs;
     #[doc = include_str!("../docs/rust.md")]
     struct Rust;
     #[doc = include_str!("../docs/soup.md")]

@@ -7,11 +7,12 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The layers from the lowest to the highest. A file names its own layer and lower ones, nothing else.
-const LAYERS: [&str; 23] = [
+const LAYERS: [&str; 24] = [
     "error",
     "monitor",
     "linalg",
     "problem",
+    "proof",
     "eliminate",
     "search",
     "round",
@@ -60,6 +61,23 @@ fn the_check_shares_no_code_with_the_construction_of_maps() {
             let shared: Vec<_> = named
                 .iter()
                 .filter(|n| makers.contains(&n.as_str()))
+                .collect();
+            assert!(shared.is_empty(), "{} names {shared:?}", path.display());
+        }
+    }
+}
+
+/// The checker of proofs must not believe what the search does: of the lower layers, it may read a problem and
+/// name an error.
+#[test]
+fn proofs_share_no_code_with_the_search() {
+    for (path, text) in sources() {
+        if module(&path) == "proof" {
+            let named = layers_named(&without_tests(&tokens(&text)), depth(&path));
+            let allowed = ["error", "problem", "proof"];
+            let shared: Vec<_> = named
+                .iter()
+                .filter(|n| !allowed.contains(&n.as_str()))
                 .collect();
             assert!(shared.is_empty(), "{} names {shared:?}", path.display());
         }

@@ -17,7 +17,7 @@ pub enum Exit {
     Unbounded = 4,
     /// The run was cancelled or out of time before a first solution.
     Stopped = 5,
-    /// A map was checked and is not valid.
+    /// A map or a proof was checked and is not valid.
     Invalid = 6,
     /// Ctrl-C ended the run early, and there is a solution.
     Finished = 7,

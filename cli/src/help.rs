@@ -15,12 +15,18 @@ const COMMON: [&str; 3] = ["strategy", "time_limit", "threads"];
 const EXPERT: [&str; 3] = ["preset", "stiffen", "stiffenings"];
 
 /// Examples of each command.
-const EXAMPLES: [(&str, &str); 10] = [
+const EXAMPLES: [(&str, &str); 11] = [
     (
         "solve",
         "\
   roundel solve problem.mps --solution values.txt
   roundel solve problem.mps.gz --strategy exact --time-limit 60 --json",
+    ),
+    (
+        "check-proof",
+        "\
+  roundel check-proof proof.jsonl
+  roundel check-proof proof.jsonl --problem problem.mps",
     ),
     (
         "field",

@@ -2,6 +2,7 @@
 
 mod changes;
 mod check;
+mod check_proof;
 mod evaluate;
 mod exit;
 mod extract;
@@ -43,6 +44,7 @@ enum Command {
     Field(field::Arguments),
     Parametrize(parametrize::Arguments),
     Check(check::Arguments),
+    CheckProof(check_proof::Arguments),
     Repair(repair::Arguments),
     Quad(quad::Arguments),
     Extract(extract::Arguments),
@@ -61,6 +63,7 @@ fn main() -> ExitCode {
         Command::Field(arguments) => field::run(&arguments),
         Command::Parametrize(arguments) => parametrize::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
+        Command::CheckProof(arguments) => check_proof::run(&arguments),
         Command::Repair(arguments) => repair::run(&arguments),
         Command::Quad(arguments) => quad::run(&arguments),
         Command::Extract(arguments) => extract::run(&arguments),

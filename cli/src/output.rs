@@ -6,7 +6,7 @@ use std::path::Path;
 
 use roundel::extract::QuadMesh;
 use roundel::mesh;
-use roundel::{Error, Result};
+use roundel::{Error, Proof, Result};
 use serde::Serialize;
 
 use crate::exit::Exit;
@@ -23,6 +23,12 @@ pub fn write_values(path: &Path, names: &[String], values: &[f64]) -> Result<()>
         }
         file.flush()
     };
+    write().map_err(|reason| io_error(&path.to_string_lossy(), &reason))
+}
+
+/// Writes a proof.
+pub fn write_proof(path: &Path, proof: &Proof) -> Result<()> {
+    let write = || -> io::Result<()> { proof.write(BufWriter::new(File::create(path)?)) };
     write().map_err(|reason| io_error(&path.to_string_lossy(), &reason))
 }
 

@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use roundel::problem::files::{self, NamedProblem};
 use roundel::solve::replay;
-use roundel::{Options, Result, Solution, Strategy};
+use roundel::{Options, Proof, Result, Solution, Strategy};
 
 use crate::exit::{self, Exit};
 use crate::options::SolverOptions;
@@ -36,6 +36,10 @@ pub struct Arguments {
     /// Write a line `NAME VALUE` for each variable to this file, with 17 digits
     #[arg(long, value_name = "OUT")]
     solution: Option<PathBuf>,
+
+    /// Write a proof of the bound, which `roundel check-proof` confirms (strategies exact and auto)
+    #[arg(long, value_name = "OUT")]
+    proof: Option<PathBuf>,
 
     #[command(flatten)]
     output: OutputFlags,
@@ -84,6 +88,7 @@ struct Solved {
     read: f64,
     maximise: bool,
     solution: Solution,
+    proof: Option<Proof>,
 }
 
 fn solve(arguments: &Arguments) -> Result<Solved> {
@@ -91,11 +96,23 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
     let read_only = [Some(arguments.file.as_path())];
     Outputs::of(&read_only, arguments.output.force)
         .write(arguments.solution.as_ref(), Content::Text)?
+        .write(arguments.proof.as_ref(), Content::Text)?
         .write(arguments.tracing.trace.as_ref(), TRACE)?;
     let mut progress = Progress::start(arguments.output.quiet)?;
     let mut input = read(arguments)?;
     progress.limit(&mut input.options, started);
-    let solution = roundel::solve_with(input.named.problem(), &input.options, progress.monitor())?;
+    let (problem, options) = (input.named.problem(), &input.options);
+    let (solution, proof) = match &arguments.proof {
+        None => (
+            roundel::solve_with(problem, options, progress.monitor())?,
+            None,
+        ),
+        Some(path) => {
+            let proved = roundel::solve_with_proof(problem, options, progress.monitor())?;
+            output::write_proof(path, &proved.proof)?;
+            (proved.outcome?, Some(proved.proof))
+        }
+    };
     if let Some(path) = &arguments.solution {
         output::write_values(path, input.named.variables(), solution.values())?;
     }
@@ -104,6 +121,7 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
         read: input.seconds,
         maximise: input.named.maximises(),
         solution,
+        proof,
     })
 }
 
@@ -123,6 +141,7 @@ fn tell(arguments: &Arguments, solved: &Solved) -> Result<()> {
             read: solved.read,
             maximise: solved.maximise,
             solution: &solved.solution,
+            proof: solved.proof.as_ref(),
         };
         output::print(&summary.to_string())
     }

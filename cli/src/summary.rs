@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use roundel::{Solution, StoppedBy};
+use roundel::{Proof, Solution, StoppedBy};
 
 /// Three lines: the problem that was read, the problem after elimination, the solution.
 pub struct Summary<'a> {
@@ -14,6 +14,8 @@ pub struct Summary<'a> {
     /// Whether the file maximises, so that its objective is minus the energy.
     pub maximise: bool,
     pub solution: &'a Solution,
+    /// Its proof, if there is one.
+    pub proof: Option<&'a Proof>,
 }
 
 impl fmt::Display for Summary<'_> {
@@ -40,7 +42,13 @@ impl fmt::Display for Summary<'_> {
         );
         line(f, "read", &read, self.read)?;
         line(f, "eliminate", &reduced, seconds.eliminate)?;
-        line(f, self.strategy, &found, seconds.factor + seconds.round)
+        line(f, self.strategy, &found, seconds.factor + seconds.round)?;
+        let Some((proof, bound)) = self.proof.and_then(|p| Some((p, p.lower_bound()?))) else {
+            return Ok(());
+        };
+        let bound = if self.maximise { -bound } else { bound };
+        let nodes = counted(proof.nodes(), "node");
+        writeln!(f, "{:<10} bound {bound:.9}, {nodes}", "proof")
     }
 }
 

@@ -16,6 +16,15 @@ const PROBE: u64 = 25;
 /// The largest number of unknowns that strong branching looks at in a node.
 const CANDIDATES: usize = 12;
 
+/// How a node came from its parent.
+#[derive(Clone, Copy)]
+pub(super) struct Branching {
+    pub variable: u32,
+    /// 0 for down, 1 for up.
+    pub direction: usize,
+    pub distance: f64,
+}
+
 impl Tree<'_, '_, '_> {
     pub fn fractional(&self, point: &[f64]) -> Vec<u32> {
         let is_fractional = |&&j: &&u32| {
@@ -107,9 +116,9 @@ impl Tree<'_, '_, '_> {
     }
 }
 
-/// The limits below (0) or above (1) a value. An integer value stays in the lower child.
-pub(super) fn child_limits(limits: Interval, value: f64, direction: usize) -> Interval {
-    let floor = if (value - value.round()).abs() <= INTEGRAL {
+/// The integer up to which the lower child goes. An integer value stays in the lower child.
+pub(super) fn floor_between(limits: Interval, value: f64) -> f64 {
+    if (value - value.round()).abs() <= INTEGRAL {
         let rounded = limits.nearest(value.round());
         if rounded == limits.upper {
             rounded - 1.0
@@ -118,7 +127,12 @@ pub(super) fn child_limits(limits: Interval, value: f64, direction: usize) -> In
         }
     } else {
         value.floor()
-    };
+    }
+}
+
+/// The limits below (0) or above (1) a value.
+pub(super) fn child_limits(limits: Interval, value: f64, direction: usize) -> Interval {
+    let floor = floor_between(limits, value);
     if direction == 0 {
         Interval {
             upper: limits.upper.min(floor),

@@ -92,6 +92,7 @@ fn has_none(form: &Form) -> bool {
         elsewhere: 0.0,
         first: true,
         strict: true,
+        recorded: false,
     };
     let found = search(form, None, limits, &mut Monitor::default());
     found.is_ok_and(|found| found.is_complete && found.best.is_none())

@@ -109,7 +109,7 @@ impl<'m, 'e> LazyRows<'m, 'e> {
         self.cut = false;
         let (rows, unknowns) = (form.row_limits.len(), form.dim());
         form.rows = without_zeros(&Sparse::from_triplets(rows, unknowns, entries.into_iter())?)?;
-        round_rows(form, first);
+        round_rows(form, first, &mut None);
         let is_impossible = |&i: &usize| {
             let sides = form.row_limits[i];
             let holds_nothing =

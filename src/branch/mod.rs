@@ -13,6 +13,7 @@
 //! | `relaxation` | the relaxation of a node, also where Q is singular |
 //! | `safe_bound` | lower bounds that rounding errors cannot make false |
 //! | `pseudo_costs`, `branching`, `tree` | the search |
+//! | `record` | what a proof is made from |
 //! | `primal`, `exchange` | points with integers: rounding, exchanges, smaller problems |
 //! | `lazy` | rows that the caller adds during the search |
 //! | `conflict` | why there is no solution |
@@ -28,6 +29,7 @@ mod presolve;
 mod primal;
 mod propagate;
 mod pseudo_costs;
+mod record;
 mod refine;
 mod relaxation;
 mod safe_bound;
@@ -41,6 +43,7 @@ use crate::error::{Conflicting, Error, Result};
 use crate::linalg::sum_below;
 use crate::monitor::{Monitor, Stop};
 use crate::problem::{Model, Problem};
+use crate::proof::{Derivation, Ending};
 use crate::search::{LazyProblem, Options, StoppedBy, Strategy};
 use form::Form;
 use lazy::LazyRows;
@@ -68,7 +71,8 @@ pub(crate) struct Found {
 ///
 /// `relax` solves the relaxation, `exact` and `auto` search until the optimum is proved or a limit is
 /// reached, and the other strategies end with the first point. `start` is a point whose nearest integers are
-/// offered first. `lazy` is the problem with a caller who adds rows to it.
+/// offered first. `lazy` is the problem with a caller who adds rows to it, and `record` receives what a proof is made
+/// from.
 ///
 /// # Errors
 /// [`Error::Contradiction`], [`Error::Unbounded`], [`Error::NotConvex`], [`Error::OutOfMemory`], and
@@ -79,6 +83,7 @@ pub(crate) fn solve<'e>(
     options: &Options,
     start: Option<&[f64]>,
     mut lazy: Option<&mut LazyProblem<'e>>,
+    mut record: Option<&mut Derivation>,
     monitor: &mut Monitor<'e>,
 ) -> Result<Found> {
     let problem = &*match &lazy {
@@ -90,7 +95,18 @@ pub(crate) fn solve<'e>(
         form.integer.fill(false);
     }
     let given = form.clone();
-    let presolved = match presolve::presolve(form, lazy.is_some())? {
+    let mut steps = record.is_some().then(Vec::new);
+    if let Some(record) = record.as_deref_mut() {
+        record.is_begun = true;
+    }
+    let presolved = presolve::presolve(form, lazy.is_some(), &mut steps)?;
+    if let (Some(record), Some(steps)) = (record.as_deref_mut(), steps) {
+        record.steps = steps;
+        if let Err(Contradiction::Row(row)) = presolved {
+            record.contradiction = Some(Ending::Missed(row as u32));
+        }
+    }
+    let presolved = match presolved {
         Ok(presolved) => presolved,
         Err(contradiction) => return Err(no_point(problem, &given, contradiction)),
     };
@@ -125,6 +141,7 @@ pub(crate) fn solve<'e>(
         elsewhere: 0.0,
         first,
         strict: false,
+        recorded: false,
     };
     // A limit of time that ends the search of one part must find a point in each.
     parts.sort_by_key(|part| (part.integers(), part.members.len()));
@@ -133,13 +150,14 @@ pub(crate) fn solve<'e>(
     for part in &parts {
         let own = |start: &[f64]| part.members.iter().map(|&j| start[j as usize]).collect();
         let mut start = start.map(own);
-        if several && !first {
+        // Without a point in some part, the record would end here.
+        if several && !first && record.is_none() {
             monitor.elsewhere(f64::INFINITY, f64::NEG_INFINITY);
             let limits = Limits {
                 first: true,
                 ..limits
             };
-            let own = search_part(problem, &parts, part, start, limits, monitor)?;
+            let own = search_part(problem, &parts, part, start, limits, None, monitor)?;
             found.work += own.work;
             start = own.best.map(|(point, _)| point);
         }
@@ -154,10 +172,14 @@ pub(crate) fn solve<'e>(
         monitor.elsewhere(known, found.lower_bound);
         let limits = Limits {
             elsewhere: found.energy,
+            recorded: record.is_some(),
             ..limits
         };
         let own = match &mut lazy {
-            None => search_part(problem, &parts, part, start, limits, monitor)?,
+            None => {
+                let record = record.as_deref_mut();
+                search_part(problem, &parts, part, start, limits, record, monitor)?
+            }
             Some(lazy) => {
                 let whole = (&values[..], constant);
                 search_with_rows(lazy, part, whole, start, limits, monitor)?
@@ -196,9 +218,16 @@ fn search_part(
     part: &Part,
     start: Option<Vec<f64>>,
     limits: Limits,
+    record: Option<&mut Derivation>,
     monitor: &mut Monitor,
 ) -> Result<tree::Found> {
-    let found = tree::search(&part.form, start, limits, monitor);
+    let mut found = tree::search(&part.form, start, limits, monitor);
+    if let (Some(record), Ok(found)) = (record, &mut found) {
+        let nodes = std::mem::take(&mut found.visited);
+        let constraints = problem.constraints();
+        let searched = record::of_whole(&part.form, &part.members, constraints, nodes);
+        record.parts.push(searched);
+    }
     with_point(problem, parts, part, found, monitor)
 }
 

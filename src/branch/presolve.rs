@@ -9,6 +9,7 @@ use super::form::{Form, Interval};
 use super::propagate::Propagator;
 use crate::error::Result;
 use crate::linalg::{DisjointSets, Sparse};
+use crate::proof::Step;
 
 /// Rounds of tightening at the root.
 const ROUNDS: usize = 20;
@@ -51,15 +52,17 @@ pub(super) enum Contradiction {
 }
 
 /// Decides what needs no search. All unknowns that are not fixed form one part if rows may yet join any of them.
+/// `steps` receives the changes of bounds, for a proof.
 ///
 /// # Errors
 /// The outer error is the end of the call; the inner one is why there is no point.
 pub(super) fn presolve(
     mut form: Form,
     is_one_part: bool,
+    steps: &mut Option<Vec<Step>>,
 ) -> Result<std::result::Result<Presolved, Contradiction>> {
-    round_rows(&mut form, 0);
-    if let Err(contradiction) = tighten(&mut form) {
+    round_rows(&mut form, 0, steps);
+    if let Err(contradiction) = tighten(&mut form, steps) {
         return Ok(Err(contradiction));
     }
     let n = form.dim();
@@ -134,7 +137,7 @@ pub(super) fn presolve(
 
 /// Rounds the sides of rows of integers, from row `first` on, to multiples of the greatest common divisor of
 /// their coefficients.
-pub(super) fn round_rows(form: &mut Form, first: usize) {
+pub(super) fn round_rows(form: &mut Form, first: usize, steps: &mut Option<Vec<Step>>) {
     for i in first..form.rows.rows() {
         let is_integer =
             |(j, a): (usize, f64)| form.integer[j] && a == a.trunc() && a.abs() <= LARGEST;
@@ -150,6 +153,14 @@ pub(super) fn round_rows(form: &mut Form, first: usize) {
             lower: (sides.lower / divisor).ceil() * divisor,
             upper: (sides.upper / divisor).floor() * divisor,
         };
+        if let Some(steps) = steps {
+            if rounded.lower > sides.lower {
+                steps.push(Step::RowLower(i as u32, rounded.lower));
+            }
+            if rounded.upper < sides.upper {
+                steps.push(Step::RowUpper(i as u32, rounded.upper));
+            }
+        }
         form.row_limits[i] = rounded;
     }
 }
@@ -159,7 +170,10 @@ fn gcd(a: u64, b: u64) -> u64 {
 }
 
 /// Tightens the bounds.
-fn tighten(form: &mut Form) -> std::result::Result<(), Contradiction> {
+fn tighten(
+    form: &mut Form,
+    steps: &mut Option<Vec<Step>>,
+) -> std::result::Result<(), Contradiction> {
     for (i, sides) in form.row_limits.iter().enumerate() {
         let mut row = form.rows.row(i);
         let holds_nothing = sides.lower > 0.0 || sides.upper < 0.0;
@@ -171,7 +185,19 @@ fn tighten(form: &mut Form) -> std::result::Result<(), Contradiction> {
             if a < 0.0 {
                 (lower, upper) = (upper, lower);
             }
-            form.limits[j] = form.limits[j].and(Interval { lower, upper });
+            let implied = Interval { lower, upper };
+            if let Some(steps) = steps {
+                let implied = match form.integer[j] {
+                    true => implied.of_integers(),
+                    false => implied,
+                };
+                let ends = [
+                    Step::Lower(i as u32, j as u32, implied.lower),
+                    Step::Upper(i as u32, j as u32, implied.upper),
+                ];
+                steps.extend(ends);
+            }
+            form.limits[j] = form.limits[j].and(implied);
         }
     }
     for (j, limits) in form.limits.iter_mut().enumerate() {
@@ -183,7 +209,10 @@ fn tighten(form: &mut Form) -> std::result::Result<(), Contradiction> {
         }
     }
     let mut boxes = form.limits.clone();
-    let changed = Propagator::new(form).all(form, &mut boxes, true, ROUNDS);
+    let mut propagator = Propagator::new(form);
+    propagator.steps = steps.take();
+    let changed = propagator.all(form, &mut boxes, true, ROUNDS);
+    *steps = propagator.steps;
     if let Err(row) = changed {
         return Err(Contradiction::Row(row));
     }

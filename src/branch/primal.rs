@@ -164,6 +164,7 @@ impl Tree<'_, '_, '_> {
             nodes: PART_NODES,
             first: false,
             strict: true,
+            recorded: false,
             ..self.limits
         };
         let mut tree = Tree::new(&form, self.shared, limits, &mut *self.monitor);

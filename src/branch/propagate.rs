@@ -6,6 +6,7 @@
 
 use super::form::{Form, Interval};
 use crate::linalg::Sparse;
+use crate::proof::Step;
 
 /// An integer bound may be off by this before it is rounded.
 const SLACK: f64 = 1e-7;
@@ -19,6 +20,8 @@ pub(super) struct Propagator {
     columns: Sparse,
     is_waiting: Vec<bool>,
     waiting: Vec<u32>,
+    /// The changes of bounds, for a proof.
+    pub steps: Option<Vec<Step>>,
 }
 
 /// The least and the largest value of a row: sums of the finite ends, and how many ends are infinite.
@@ -64,6 +67,7 @@ impl Propagator {
             columns: form.rows.transpose(),
             is_waiting: vec![false; form.rows.rows()],
             waiting: Vec::new(),
+            steps: None,
         }
     }
 
@@ -128,7 +132,8 @@ impl Propagator {
             }
             for (at, &row) in rows.iter().enumerate() {
                 let before = changed.len();
-                if tighten(form, row as usize, limits, reals, &mut changed).is_err() {
+                let steps = &mut self.steps;
+                if tighten(form, row as usize, limits, reals, &mut changed, steps).is_err() {
                     self.clear();
                     return Err(rows[at] as usize);
                 }
@@ -161,6 +166,7 @@ fn tighten(
     limits: &mut [Interval],
     reals: bool,
     changed: &mut Vec<u32>,
+    steps: &mut Option<Vec<Step>>,
 ) -> Result<(), Contradiction> {
     let sides = form.row_limits[row];
     let [mut least, mut most] = [Activity::default(); 2];
@@ -208,11 +214,13 @@ fn tighten(
         };
         if new.is_empty() {
             if form.integer[j] || new.lower - new.upper > 1e-7 * new.lower.abs().max(1.0) {
+                record(steps, (row, j), limits[j], new);
                 return Err(Contradiction);
             }
             continue;
         }
         if new != limits[j] {
+            record(steps, (row, j), limits[j], new);
             let (new_low, new_high) = ends(a, new);
             least.replace(low, new_low);
             most.replace(high, new_high);
@@ -221,6 +229,25 @@ fn tighten(
         }
     }
     Ok(())
+}
+
+/// Records what changes of the limits of an unknown.
+fn record(
+    steps: &mut Option<Vec<Step>>,
+    (row, unknown): (usize, usize),
+    old: Interval,
+    new: Interval,
+) {
+    let Some(steps) = steps else {
+        return;
+    };
+    let (row, unknown) = (row as u32, unknown as u32);
+    if new.lower > old.lower {
+        steps.push(Step::Lower(row, unknown, new.lower));
+    }
+    if new.upper < old.upper {
+        steps.push(Step::Upper(row, unknown, new.upper));
+    }
 }
 
 /// The limits of a real unknown with sides that are worth a change.

@@ -10,6 +10,7 @@ use super::form::{Form, Interval};
 use super::safe_bound::safe_bound;
 use super::shared::Shared;
 use super::working_set::Ldl;
+use crate::proof::Multiplied;
 
 /// The diagonal added to a singular block, relative to the size of the objective.
 const ADDED: f64 = 1e-5;
@@ -30,6 +31,8 @@ pub(super) struct Relaxation<'a> {
     /// The centre of the next proximal step, or nothing where the Hessian is definite.
     centre: Option<Vec<f64>>,
     most: u64,
+    /// The best bound of a solve with its point and multipliers, for a proof.
+    pub kept: Option<(f64, Multiplied)>,
 }
 
 /// What a solve of a relaxation has found.
@@ -74,6 +77,7 @@ impl<'a> Relaxation<'a> {
             solver: DualActiveSet::new(form, shared),
             centre: (!is_definite).then(|| form.limits.iter().map(nearest).collect()),
             most: (ITERATIONS * (form.dim() + form.rows.rows() + 10)) as u64,
+            kept: None,
         }
     }
 
@@ -82,7 +86,18 @@ impl<'a> Relaxation<'a> {
         let form = self.solver.form();
         self.solver.work += (form.hessian.len() + form.rows.len()) as u64 * 3;
         let (point, active) = (self.solver.point(), self.solver.active());
-        safe_bound(form, self.solver.inverse(), boxes, point, active)
+        let bound = safe_bound(form, self.solver.inverse(), boxes, point, active);
+        if let Some((best, kept)) = &mut self.kept
+            && (kept.point.is_empty() || bound > *best)
+        {
+            let rows = active.iter().filter_map(|held| {
+                let row = held.row.checked_sub(form.dim() as u32)?;
+                Some((row, held.multiplier))
+            });
+            let (point, multipliers) = (point.to_vec(), rows.collect());
+            (*best, *kept) = (bound, Multiplied { point, multipliers });
+        }
+        bound
     }
 
     /// Solves the relaxation with the solver's limits. The minimum is above `cutoff` if the result says so;

@@ -8,17 +8,19 @@
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
-use super::branching::child_limits;
+use super::branching::{Branching, child_limits, floor_between};
 use super::dual_active_set::{Active, WarmStart};
 use super::form::{Form, Interval};
 use super::lazy::LazyRows;
 use super::propagate::Propagator;
 use super::pseudo_costs::PseudoCosts;
+use super::record::Record;
 use super::relaxation::{Relaxation, Relaxed, regularization};
 use super::safe_bound::is_contradiction;
 use super::shared::Shared;
 use crate::error::Result;
 use crate::monitor::Monitor;
+use crate::proof::Visited;
 use crate::search::StoppedBy;
 
 /// A node that waits.
@@ -29,15 +31,8 @@ pub(super) struct Node {
     limits: Vec<(u32, Interval)>,
     warm: WarmStart,
     branching: Option<Branching>,
-}
-
-/// How a node came from its parent.
-#[derive(Clone, Copy)]
-struct Branching {
-    variable: u32,
-    /// 0 for down, 1 for up.
-    direction: usize,
-    distance: f64,
+    /// Its number in the record.
+    visited: usize,
 }
 
 impl Node {
@@ -48,6 +43,7 @@ impl Node {
             limits: Vec::new(),
             warm: WarmStart::new(),
             branching: None,
+            visited: 0,
         }
     }
 }
@@ -86,6 +82,8 @@ pub(super) struct Limits {
     pub first: bool,
     /// Whether the limits hold before there is a point.
     pub strict: bool,
+    /// Whether to record all nodes for a proof.
+    pub recorded: bool,
 }
 
 /// The dives without an incumbent after which the search goes on at the lowest bound.
@@ -114,6 +112,8 @@ pub(super) struct Found {
     pub stopped_by: StoppedBy,
     /// The rows that contradict each other at the last node that had no point.
     pub conflict: Vec<(u32, f64)>,
+    /// All nodes, if they are recorded.
+    pub visited: Vec<Visited>,
 }
 
 pub(super) struct Tree<'a, 'm, 'e> {
@@ -143,6 +143,7 @@ pub(super) struct Tree<'a, 'm, 'e> {
     pub rounding: f64,
     pub integers: Vec<u32>,
     pub lazy: Option<LazyRows<'m, 'e>>,
+    pub record: Option<Record>,
     pub monitor: &'m mut Monitor<'e>,
 }
 
@@ -205,6 +206,7 @@ impl<'a, 'm, 'e> Tree<'a, 'm, 'e> {
             rounding: 0.0,
             integers: integers.collect(),
             lazy: None,
+            record: limits.recorded.then(Record::default),
             monitor,
         }
     }
@@ -240,6 +242,7 @@ impl<'a, 'm, 'e> Tree<'a, 'm, 'e> {
             nodes: self.nodes,
             work: self.relaxation.solver.work,
             conflict: self.conflict,
+            visited: self.record.map(Record::into_nodes).unwrap_or_default(),
         }
     }
 
@@ -338,13 +341,20 @@ impl<'a, 'm, 'e> Tree<'a, 'm, 'e> {
         }
         let boxes = self.boxes();
         let cutoff = self.cutoff();
+        self.relaxation.kept = self.record.as_ref().map(|_| Default::default());
         let solved = self.relaxation.solve(cutoff, &boxes);
         let parent = node.bound;
+        if let (Some(record), Some(kept)) = (&mut self.record, self.relaxation.kept.take()) {
+            record.bounded(node.visited, parent, kept);
+        }
         match solved {
             Relaxed::Infeasible(rows) => {
                 if !is_contradiction(self.form, &boxes, &rows) {
                     // Rounding errors leave a doubt, and so the bound stays.
                     self.done = self.done.min(node.bound);
+                }
+                if let Some(record) = &mut self.record {
+                    record.contradiction(node.visited, &rows, self.form.dim());
                 }
                 self.conflict = rows;
                 return Step::Done;
@@ -417,6 +427,7 @@ impl<'a, 'm, 'e> Tree<'a, 'm, 'e> {
     /// Tightens the integers' bounds at a node. Returns whether points are left.
     fn tighten(&mut self, node: &mut Node) -> bool {
         let mut limits = self.relaxation.solver.limits().to_vec();
+        self.propagator.steps = self.record.as_ref().map(|_| Vec::new());
         let changed = match (&node.branching, node.limits.last()) {
             (Some(branching), _) => {
                 let changed = [branching.variable];
@@ -425,6 +436,10 @@ impl<'a, 'm, 'e> Tree<'a, 'm, 'e> {
             }
             (None, _) => self.propagator.all(self.form, &mut limits, false, 20),
         };
+        let steps = self.propagator.steps.take();
+        if let (Some(record), Some(steps)) = (&mut self.record, steps) {
+            record.tightened(node.visited, steps, changed.as_ref().err().copied());
+        }
         let Ok(changed) = changed else {
             return false;
         };
@@ -455,6 +470,10 @@ impl<'a, 'm, 'e> Tree<'a, 'm, 'e> {
         let before = self.relaxation.solver.limits()[variable as usize];
         let fraction = value - value.floor();
         let warm: Vec<Active> = self.relaxation.active().to_vec();
+        let visited = match &mut self.record {
+            None => [0; 2],
+            Some(record) => record.branched(node.visited, variable, floor_between(before, value)),
+        };
         let mut child = |direction: usize| {
             self.created += 1;
             let mut limits = node.limits.clone();
@@ -473,6 +492,7 @@ impl<'a, 'm, 'e> Tree<'a, 'm, 'e> {
                         1.0 - fraction
                     },
                 }),
+                visited: visited[direction],
             })
         };
         let expected = self.costs.expected(variable as usize, fraction);

@@ -13,12 +13,14 @@ use crate::error::{Error, Result};
 use crate::monitor::Monitor;
 use crate::network;
 use crate::problem::{Model, Problem};
+use crate::proof::Derivation;
 use crate::search::{LazyProblem, Options, SolveStatus, StoppedBy, Strategy, WarmStart, is_closed};
 
 /// Limits may be missed by this, relative to the sizes of the terms.
 const WITHIN: f64 = 1e-9;
 
-/// Solves a problem with inequalities or bounds. `earlier` is the start of a warm start.
+/// Solves a problem with inequalities or bounds. `earlier` is the start of a warm start. `record` receives what a
+/// proof is made from, if branch and bound searches.
 ///
 /// # Errors
 /// Those of [`solve`](crate::solve()).
@@ -27,6 +29,7 @@ pub(super) fn solve_limited(
     model: &Model,
     options: &Options,
     earlier: &[f64],
+    record: Option<&mut Derivation>,
     monitor: &mut Monitor,
 ) -> Result<Solution> {
     let found = match as_network(problem, model, options, monitor)? {
@@ -36,10 +39,10 @@ pub(super) fn solve_limited(
                 return Ok(solution);
             }
             let start = (options.warm_start != WarmStart::Off).then_some(earlier);
-            branch::solve(problem, model, options, start, None, monitor)?
+            branch::solve(problem, model, options, start, None, record, monitor)?
         }
     };
-    solution(problem, model, options, found, monitor)
+    conclude(problem, model, options, found, monitor)
 }
 
 /// Solves a problem to which a caller adds rows.
@@ -62,12 +65,15 @@ pub(super) fn solve_growing<'e>(
     monitor.check()?;
     let start = (options.warm_start != WarmStart::Off).then_some(earlier);
     let stated = lazy.problem().clone();
-    let found = branch::solve(&stated, model, options, start, Some(lazy), monitor)?;
-    solution(lazy.problem(), model, options, found, monitor)
+    let found = branch::solve(&stated, model, options, start, Some(lazy), None, monitor)?;
+    conclude(lazy.problem(), model, options, found, monitor)
 }
 
-/// The solution that branch and bound, or the search of a network, has found.
-fn solution(
+/// The solution that was found, measured on the problem as given.
+///
+/// # Errors
+/// [`Error::NotFinite`].
+pub(super) fn conclude(
     problem: &Problem,
     model: &Model,
     options: &Options,

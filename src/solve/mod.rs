@@ -7,6 +7,7 @@ mod dispatch;
 mod eliminated;
 mod expand;
 mod limited;
+mod prove;
 mod reformulate;
 mod relax;
 pub mod replay;
@@ -17,6 +18,7 @@ mod solver;
 mod subject_to;
 mod verify;
 
+pub use prove::{Proved, solve_with_proof};
 pub use run::{solve, solve_with, solve_with_lazy_rows};
 pub use solution::{Counts, Seconds, Solution};
 pub use solver::Solver;

@@ -70,7 +70,7 @@ fn solve_alone(problem: &Problem, options: &Options, mut monitor: Monitor) -> Re
     tell_of_ignored_hint(&model, &mut monitor);
     drop(watch);
     if problem.is_limited() {
-        solve_limited(problem, &model, options, model.guess(), &mut monitor)
+        solve_limited(problem, &model, options, model.guess(), None, &mut monitor)
     } else {
         solve_unlimited(problem, &model, options, model.guess(), &mut monitor)
     }

@@ -222,7 +222,7 @@ impl Solver {
         self.refresh()?;
         tell_of_ignored_hint(&self.model, monitor);
         let earlier = self.earlier.as_deref().unwrap_or(self.model.guess());
-        solve_limited(&self.problem, &self.model, options, earlier, monitor)
+        solve_limited(&self.problem, &self.model, options, earlier, None, monitor)
     }
 
     /// Makes the model that of the current problem.

@@ -14,11 +14,12 @@ use page::{Block, blocks, pages, root};
 const NAMES: [&str; 2] = ["cargo run --release -p roundel-cli -- ", "roundel "];
 
 /// The commands of the program.
-const COMMANDS: [&str; 10] = [
+const COMMANDS: [&str; 11] = [
     "quad",
     "field",
     "parametrize",
     "check",
+    "check-proof",
     "extract",
     "repair",
     "solve",

@@ -10,6 +10,7 @@ mod outputs;
 mod page;
 mod parametrize;
 mod problem;
+mod proof;
 mod quad;
 mod repair;
 mod run;

@@ -174,9 +174,13 @@ fn every_command_prints_what_the_schema_says() {
     let square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\n";
     fs::write(&folded, format!("{square}f 1/1 2/2 3/3\nf 1/1 3/3 4/2\n")).unwrap();
     let shape = "shape:torus:300";
-    let runs: [(&str, &[&str]); 14] = [
+    let proof = path("proof.jsonl");
+    let runs: [(&str, &[&str]); 17] = [
         ("solve", &["solve", &problem]),
         ("solve", &["solve", &problem, "--strategy", "relax"]),
+        ("solve", &["solve", &problem, "--proof", &proof]),
+        ("check_proof", &["check-proof", &proof]),
+        ("check_proof", &["check-proof", &problem]),
         ("field", &["field", shape]),
         (
             "parametrize",

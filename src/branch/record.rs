@@ -1,0 +1,102 @@
+//! The record of a search, from which a proof is made.
+//!
+//! Rows and unknowns are those of the form until the search ends; [`of_whole`] names those of the whole problem.
+
+use super::form::Form;
+use crate::error::Conflicting;
+use crate::proof::{Ending, Multiplied, Searched, Step, Visited};
+
+/// The nodes of a tree.
+#[derive(Debug)]
+pub(super) struct Record(Vec<Visited>);
+
+impl Default for Record {
+    /// The root alone.
+    fn default() -> Self {
+        Record(vec![Visited::default()])
+    }
+}
+
+impl Record {
+    pub fn into_nodes(self) -> Vec<Visited> {
+        self.0
+    }
+
+    /// Bounds were tightened, until the row `missed` left no point.
+    pub fn tightened(&mut self, node: usize, steps: Vec<Step>, missed: Option<usize>) {
+        let node = &mut self.0[node];
+        node.steps = steps;
+        if let Some(row) = missed {
+            node.ending = Ending::Missed(row as u32);
+        }
+    }
+
+    /// A bound was found. It is of use where it is above that of the parent.
+    pub fn bounded(&mut self, node: usize, parent: f64, (bound, kept): (f64, Multiplied)) {
+        let is_root = parent == f64::NEG_INFINITY;
+        if !kept.point.is_empty() && (bound > parent || is_root) {
+            self.0[node].certificate = Some(kept);
+        }
+    }
+
+    /// Rows with these multipliers contradict each other. They are numbered after the unknowns.
+    pub fn contradiction(&mut self, node: usize, rows: &[(u32, f64)], unknowns: usize) {
+        let rows = rows.iter();
+        let rows = rows.filter_map(|&(row, by)| Some((row.checked_sub(unknowns as u32)?, by)));
+        self.0[node].ending = Ending::Contradiction(rows.collect());
+    }
+
+    /// The node was branched on. Returns its children.
+    pub fn branched(&mut self, node: usize, unknown: u32, at: f64) -> [usize; 2] {
+        let first = self.0.len();
+        self.0.extend([Visited::default(), Visited::default()]);
+        let children = [first, first + 1];
+        self.0[node].ending = Ending::Branched {
+            unknown,
+            at,
+            children,
+        };
+        children
+    }
+}
+
+/// The search of a part in the rows and unknowns of the whole, which has this many equality constraints.
+pub(super) fn of_whole(
+    form: &Form,
+    members: &[u32],
+    constraints: usize,
+    mut nodes: Vec<Visited>,
+) -> Searched {
+    let row_of = |row: u32| match form.origins[row as usize] {
+        Conflicting::Constraint(k) => k as u32,
+        Conflicting::Inequality(k) => (constraints + k) as u32,
+        // No row of a form comes from bounds.
+        Conflicting::Bounds(_) => u32::MAX,
+    };
+    let unknown_of = |unknown: u32| members[unknown as usize];
+    for node in &mut nodes {
+        for step in &mut node.steps {
+            *step = match *step {
+                Step::Lower(row, unknown, to) => Step::Lower(row_of(row), unknown_of(unknown), to),
+                Step::Upper(row, unknown, to) => Step::Upper(row_of(row), unknown_of(unknown), to),
+                Step::RowLower(row, to) => Step::RowLower(row_of(row), to),
+                Step::RowUpper(row, to) => Step::RowUpper(row_of(row), to),
+            };
+        }
+        if let Some(certificate) = &mut node.certificate {
+            for (row, _) in &mut certificate.multipliers {
+                *row = row_of(*row);
+            }
+        }
+        match &mut node.ending {
+            Ending::Bounded => {}
+            Ending::Branched { unknown, .. } => *unknown = unknown_of(*unknown),
+            Ending::Contradiction(rows) => rows.iter_mut().for_each(|(row, _)| *row = row_of(*row)),
+            Ending::Missed(row) => *row = row_of(*row),
+        }
+    }
+    Searched {
+        unknowns: members.to_vec(),
+        nodes,
+    }
+}

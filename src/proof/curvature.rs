@@ -1,0 +1,57 @@
+//! The choice of a curvature.
+//!
+//! A positive one makes bounds of unknowns without limits, whose slopes are rounding errors. A small negative one
+//! covers a block that is singular up to the rounding of its entries; it needs limits.
+
+use super::convex::{Block, blocks};
+use super::exact::Exact;
+use super::minorant::PartObjective;
+use super::problem::{Limits, Side};
+
+/// The parts of the diagonal that are tried, as powers of two.
+const POSITIVE: [i32; 4] = [-4, -10, -20, -30];
+const NEGATIVE: [i32; 3] = [-36, -32, -28];
+
+/// A curvature of the objective: a power of two or its negative for each unknown of a block that has one, else
+/// zero.
+pub(super) fn choose(part: &PartObjective, limits: &Limits) -> Vec<f64> {
+    let mut chosen = vec![0.0; part.members.len()];
+    for block in blocks(part) {
+        let is_bounded = block.members.iter().all(|&k| {
+            let side = |side| limits.side(part.members[k], side).is_some();
+            side(Side::Lower) && side(Side::Upper)
+        });
+        if let Some(curvature) = of_block(&block, is_bounded) {
+            for (&k, d) in block.members.iter().zip(curvature) {
+                chosen[k] = d;
+            }
+        }
+    }
+    chosen
+}
+
+fn of_block(block: &Block, is_bounded: bool) -> Option<Vec<f64>> {
+    let diagonal = block.diagonal();
+    if diagonal.iter().any(|d| !(1e-150..1e150).contains(d)) {
+        return None;
+    }
+    let of_power = |sign: f64, power: i32| -> Vec<f64> {
+        let power_below = |d: &f64| sign * 2f64.powi(d.log2().floor() as i32 + power);
+        diagonal.iter().map(power_below).collect()
+    };
+    let has = |curvature: &Vec<f64>| {
+        let exact: Option<Vec<Exact>> = curvature.iter().map(|&d| Exact::of(d)).collect();
+        exact.is_some_and(|exact| block.has_curvature_at_once(&exact))
+    };
+    let positive = POSITIVE.into_iter().map(|power| of_power(1.0, power));
+    if let Some(found) = positive.into_iter().find(has) {
+        return Some(found);
+    }
+    if !is_bounded || block.has_curvature(&vec![Exact::zero(); diagonal.len()]) {
+        return None;
+    }
+    NEGATIVE
+        .into_iter()
+        .map(|power| of_power(-1.0, power))
+        .find(has)
+}

@@ -1,0 +1,117 @@
+//! Proofs that a stranger can check: of the least energy, or that there is no point.
+//!
+//! ```text
+//! search --derivation--> seal --lines--> file --lines--> check
+//! ```
+//!
+//! A proof holds the problem, a point and its energy, and a tree of bounds: at every leaf the objective is above
+//! the claimed bound, or no point is left. [`check`] confirms it in exact numbers by code that shares nothing with
+//! the search, and refuses a proof with a false step by a [`Fault`] that names the line.
+//!
+//! | File | Step |
+//! | --- | --- |
+//! | `exact` | exact numbers |
+//! | `format`, `statement` | the lines of a proof; the statement of a problem |
+//! | `problem`, `steps` | the problem in exact numbers, and bounds that its rows imply |
+//! | `minorant`, `estimate`, `held`, `convex` | a bound from a point and multipliers; its estimate in floats; convexity |
+//! | `tree`, `check`, `fault` | the checker |
+//! | `derivation`, `curvature`, `repair`, `seal` | the writer |
+
+mod check;
+mod convex;
+mod curvature;
+mod derivation;
+mod estimate;
+mod exact;
+mod fault;
+mod format;
+mod held;
+mod minorant;
+mod problem;
+mod repair;
+mod seal;
+mod statement;
+mod steps;
+mod tree;
+
+use std::io::{self, BufRead, Write};
+
+use crate::error::Result;
+use crate::problem::Problem;
+pub use check::{TOLERANCE, Verdict};
+pub(crate) use derivation::{Derivation, Ending, Multiplied, Searched, Visited};
+pub use fault::{Fault, FaultKind};
+pub(crate) use format::Step;
+use format::{Claim, Line, Statement};
+
+/// A proof of a bound on the energy of all points, or that there is no point.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Proof {
+    lines: Vec<Line>,
+}
+
+impl Proof {
+    /// The proof of what a search has done.
+    ///
+    /// # Errors
+    /// [`Error::NotSupported`](crate::Error::NotSupported) for what cannot be proved in exact numbers.
+    pub(crate) fn new(
+        problem: &Problem,
+        derivation: &Derivation,
+        values: Option<&[f64]>,
+    ) -> Result<Self> {
+        let lines = seal::seal(Statement::of(problem), derivation, values)?;
+        Ok(Proof { lines })
+    }
+
+    fn claim(&self) -> Option<&Claim> {
+        self.lines.iter().find_map(|line| match line {
+            Line::Claim(claim) => Some(claim),
+            _ => None,
+        })
+    }
+
+    /// No point has less energy than this. Nothing if the proof is that there is no point.
+    pub fn lower_bound(&self) -> Option<f64> {
+        self.claim()?.lower_bound
+    }
+
+    /// The energy of the point, rounded to the next float above.
+    pub fn energy(&self) -> Option<f64> {
+        self.claim()?.energy
+    }
+
+    /// The number of nodes.
+    pub fn nodes(&self) -> usize {
+        let is_node = |line: &&Line| matches!(line, Line::Node(_));
+        self.lines.iter().filter(is_node).count()
+    }
+
+    /// Writes the proof, one JSON object a line.
+    ///
+    /// # Errors
+    /// Those of the writer.
+    pub fn write(&self, mut to: impl Write) -> io::Result<()> {
+        for line in &self.lines {
+            serde_json::to_writer(&mut to, line)?;
+            to.write_all(b"\n")?;
+        }
+        to.flush()
+    }
+}
+
+/// Checks the proof in a text. Returns what it proves.
+///
+/// # Errors
+/// The first fault.
+pub fn check(reader: impl BufRead) -> std::result::Result<Verdict, Fault> {
+    check::check_lines(reader, None)
+}
+
+/// Checks the proof in a text, which must be a proof of this problem.
+///
+/// # Errors
+/// The first fault.
+pub fn check_of(problem: &Problem, reader: impl BufRead) -> std::result::Result<Verdict, Fault> {
+    check::check_lines(reader, Some(&Statement::of(problem)))
+}

@@ -1,0 +1,231 @@
+//! Proofs: those of random problems are accepted and prove the exact optimum, and planted lies are refused.
+
+mod altered;
+#[path = "../branch/check.rs"]
+#[allow(dead_code)] // The checks of solutions without a proof.
+mod check;
+#[path = "../branch/instance.rs"]
+#[allow(dead_code)] // Disguises.
+mod instance;
+#[path = "../branch/kinds.rs"]
+mod kinds;
+#[path = "../branch/lcp.rs"]
+mod lcp;
+mod lies;
+#[path = "../branch/oracle.rs"]
+#[allow(dead_code)] // What real unknowns alone allow.
+mod oracle;
+mod planted;
+#[path = "../common/random.rs"]
+#[allow(dead_code)] // Generators of other tests.
+mod random;
+#[path = "../certificate/rational.rs"]
+#[allow(dead_code)] // The search for the least energy, which has no rows.
+mod rational;
+mod stated;
+
+use instance::Instance;
+use oracle::{Truth, truth};
+use rational::exact;
+use roundel::proof::check_of;
+use roundel::{Error, Monitor, Options, Problem, Proof, Proved, solve_with_proof};
+
+type Kind = fn(u64) -> Instance;
+
+const KINDS: [(&str, Kind); 13] = [
+    ("bounds", kinds::bounds),
+    ("ranges", kinds::ranges),
+    ("equalities", kinds::equalities),
+    ("free integers", kinds::free_integers),
+    ("linear", kinds::linear),
+    ("singular", kinds::singular),
+    ("contradictory", kinds::contradictory),
+    ("integrality", kinds::integrality),
+    ("unbounded", kinds::unbounded),
+    ("degenerate", kinds::degenerate),
+    ("large", kinds::large),
+    ("pinned", kinds::pinned),
+    ("not convex", kinds::not_convex),
+];
+
+/// A bound is this close to the optimum, as a part of the sizes of the terms.
+const CLOSE: f64 = 1e-7;
+
+fn prove(problem: &Problem) -> Result<Proved, Error> {
+    solve_with_proof(problem, &Options::default(), Monitor::default())
+}
+
+fn text(proof: &Proof) -> Vec<u8> {
+    let mut text = Vec::new();
+    proof.write(&mut text).unwrap();
+    text
+}
+
+/// What became of the problems of a kind.
+#[derive(Default, Debug)]
+struct Tally {
+    /// The bound is the optimum, or it is proved that there is no point.
+    proved: usize,
+    empty: usize,
+    /// The bound is true, and below the optimum.
+    weak: usize,
+    /// There is a typed error in place of a proof.
+    unproved: usize,
+    /// The energy falls for ever, or curves downwards.
+    other: usize,
+}
+
+/// Holds the proof of an instance against the exact answer.
+fn hold(of: &Instance, tally: &mut Tally) -> Result<(), String> {
+    let problem = of.problem();
+    let proved = match prove(&problem) {
+        Ok(proved) => proved,
+        Err(Error::NotSupported { .. }) => {
+            tally.unproved += 1;
+            return Ok(());
+        }
+        Err(error) if matches!(error.code(), "unbounded" | "not_convex") => {
+            tally.other += 1;
+            return Ok(());
+        }
+        Err(error) => return Err(error.to_string()),
+    };
+    let verdict = check_of(&problem, text(&proved.proof).as_slice());
+    let verdict = verdict.map_err(|fault| format!("refused: {fault}"))?;
+    if (verdict.energy, verdict.lower_bound) != (proved.proof.energy(), proved.proof.lower_bound())
+    {
+        return Err(format!("{verdict:?} is not what the proof says"));
+    }
+    match (verdict.lower_bound, truth(of)) {
+        (None, Truth::Infeasible | Truth::NothingNear | Truth::TooLarge) => tally.empty += 1,
+        (Some(_), Truth::TooLarge) => tally.proved += 1,
+        (Some(bound), Truth::Optimum(optimum)) => {
+            if exact(bound) > optimum {
+                return Err(format!(
+                    "a bound of {bound} above {}",
+                    check::float(&optimum)
+                ));
+            }
+            let values = verdict.values.unwrap();
+            let size = of.energy_size(&values).max(1.0);
+            let is_weak = check::float(&optimum) - bound > CLOSE * size;
+            tally.weak += usize::from(is_weak);
+            tally.proved += usize::from(!is_weak);
+        }
+        (bound, truth) => return Err(format!("{bound:?} is proved: {truth:?}")),
+    }
+    Ok(())
+}
+
+fn hold_all(name: &str, seeds: std::ops::Range<u64>) -> Tally {
+    let (_, kind) = KINDS.iter().find(|(of, _)| *of == name).unwrap();
+    let mut tally = Tally::default();
+    for seed in seeds {
+        if let Err(fault) = hold(&kind(seed), &mut tally) {
+            panic!("{name}, seed {seed}: {fault}");
+        }
+    }
+    tally
+}
+
+/// A test for each kind, with the least number of proofs.
+macro_rules! kinds {
+    ($($test:ident: $name:literal, $least:literal;)*) => {
+        $(
+            #[test]
+            fn $test() {
+                let tally = hold_all($name, 0..150);
+                let found = tally.proved + tally.empty;
+                assert!(found >= $least, "{tally:?}");
+                assert!(tally.weak + tally.unproved <= 1, "{tally:?}");
+            }
+        )*
+    };
+}
+
+kinds! {
+    bounds_are_proved: "bounds", 150;
+    two_sided_rows_are_proved: "ranges", 150;
+    constraints_are_proved: "equalities", 150;
+    integers_without_bounds_are_proved: "free integers", 150;
+    objectives_without_curvature_are_proved: "linear", 120;
+    objectives_of_less_than_full_rank_are_proved: "singular", 140;
+    contradictions_are_proved: "contradictory", 148;
+    gaps_between_integers_are_proved: "integrality", 150;
+    unknowns_without_bounds_are_proved: "unbounded", 90;
+    degenerate_vertices_are_proved: "degenerate", 135;
+    large_coefficients_are_proved: "large", 150;
+    pins_are_proved: "pinned", 145;
+    what_curves_downwards_between_fixed_integers_is_proved: "not convex", 50;
+}
+
+#[test]
+fn problems_without_inequalities_and_bounds_are_proved() {
+    let mut proved = 0;
+    for seed in 0..100 {
+        let mut of = kinds::equalities(seed);
+        of.rows.retain(|row| row.is_constraint);
+        of.lower.fill(-instance::NONE);
+        of.upper.fill(instance::NONE);
+        let mut tally = Tally::default();
+        hold(&of, &mut tally).unwrap_or_else(|fault| panic!("seed {seed}: {fault}"));
+        proved += tally.proved + tally.empty;
+    }
+    assert!(proved >= 98, "{proved}");
+}
+
+#[test]
+fn a_proof_changes_nothing_in_the_solution() {
+    for seed in 0..50 {
+        let problem = kinds::ranges(seed).problem();
+        let plain = roundel::solve(&problem, &Options::default());
+        let proved = prove(&problem).unwrap();
+        let outcome = proved.outcome.map(|solution| solution.energy());
+        let plain = plain.map(|solution| solution.energy());
+        match (plain, outcome) {
+            (Ok(a), Ok(b)) => assert!((a - b).abs() <= 1e-9 * a.abs().max(1.0), "{seed}: {a} {b}"),
+            (a, b) => assert_eq!(a, b),
+        }
+    }
+}
+
+/// Of a search that a limit of nodes has ended.
+#[test]
+fn a_search_that_ended_early_proves_the_bound_that_it_reached() {
+    let problem = stated::many_nodes();
+    let options = |nodes| Options {
+        nodes,
+        ..Options::default()
+    };
+    let bound_after = |nodes| {
+        let proved = solve_with_proof(&problem, &options(nodes), Monitor::default()).unwrap();
+        let verdict = check_of(&problem, text(&proved.proof).as_slice()).unwrap();
+        (verdict.lower_bound.unwrap(), verdict.energy.unwrap())
+    };
+    let (early, _) = bound_after(3);
+    let (late, energy) = bound_after(1_000_000);
+    assert!(
+        early < late - 1e-3 && late <= energy,
+        "{early} {late} {energy}"
+    );
+    assert!(energy - late <= 1e-8 * energy.abs());
+}
+
+#[test]
+fn a_strategy_that_proves_nothing_is_refused() {
+    let options = Options {
+        strategy: roundel::Strategy::Greedy,
+        ..Options::default()
+    };
+    let error = solve_with_proof(&stated::small(), &options, Monitor::default()).unwrap_err();
+    assert_eq!(error.code(), "invalid_argument");
+}
+
+#[test]
+#[ignore = "20,000 proofs against exact answers: minutes"]
+fn twenty_thousand_proofs_are_true() {
+    for (name, _) in KINDS {
+        let tally = hold_all(name, 1_000..2_539);
+        eprintln!("{name}: {tally:?}");
+    }
+}

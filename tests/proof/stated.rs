@@ -1,0 +1,87 @@
+//! The problems whose proofs are altered.
+
+use roundel::{Problem, Triangle};
+
+const NONE: f64 = f64::INFINITY;
+
+/// Two parts and a pinned unknown. x0, x1 are integers with the free real x2 and a row that binds, x3, x4, x5 are
+/// integers with a row of even coefficients whose sides are odd, and a constraint; x6 is pinned. Both trees branch.
+pub fn small() -> Problem {
+    let mut problem = Problem::new(7).unwrap();
+    problem.add_least_squares(&[0], &[1.0], 2.4, 1.0).unwrap();
+    problem.add_least_squares(&[1], &[1.0], 3.6, 1.0).unwrap();
+    problem
+        .add_least_squares(&[0, 1, 2], &[1.0, -1.0, 1.0], 0.3, 0.7)
+        .unwrap();
+    problem
+        .add_least_squares(&[2, 6], &[1.0, 0.5], 0.9, 0.2)
+        .unwrap();
+    problem
+        .add_quadratic_triplets(
+            Triangle::Lower,
+            &[3, 4, 4, 5],
+            &[3, 3, 4, 5],
+            &[2.0, 0.5, 3.0, 1.0],
+        )
+        .unwrap();
+    problem
+        .add_linear(&[0.0, 0.0, 0.0, -3.1, 1.7, -0.4, 0.0])
+        .unwrap();
+    problem.add_constant(1.25).unwrap();
+    // Row 0.
+    problem
+        .add_constraint(&[3, 4, 5], &[1.0, 1.0, -1.0], 1.0)
+        .unwrap();
+    // Rows 1 and 2.
+    problem
+        .add_inequality(&[0, 1, 2], &[2.0, 3.0, 0.5], -NONE, 12.25)
+        .unwrap();
+    problem
+        .add_inequality(&[3, 4], &[2.0, -4.0], -5.0, 7.0)
+        .unwrap();
+    let all: Vec<usize> = (0..7).collect();
+    let lower = [0.0, 0.0, -NONE, -3.0, -3.0, -6.0, -NONE];
+    let upper = [10.0, 10.0, NONE, 3.0, 3.0, 6.0, NONE];
+    problem.set_bounds(&all, &lower, &upper).unwrap();
+    problem.set_integers(&[0, 1, 3, 4, 5]).unwrap();
+    problem.pin(6, 2.5).unwrap();
+    problem
+}
+
+/// No point: of five integers on a cycle no two neighbours may be one, and their sum with a small real is to be above
+/// two. Reals could, which only branches and sums of rows exclude.
+pub fn empty() -> Problem {
+    let mut problem = Problem::new(6).unwrap();
+    for j in 0..6 {
+        problem.add_least_squares(&[j], &[1.0], 0.4, 1.0).unwrap();
+    }
+    for j in 0..5 {
+        problem
+            .add_inequality(&[j, (j + 1) % 5], &[1.0, 1.0], -NONE, 1.0)
+            .unwrap();
+    }
+    let all = [0, 1, 2, 3, 4, 5];
+    problem.add_inequality(&all, &[1.0; 6], 2.2, NONE).unwrap();
+    problem
+        .set_bounds(&all, &[0.0; 6], &[1.0, 1.0, 1.0, 1.0, 1.0, 0.125])
+        .unwrap();
+    problem.set_integers(&[0, 1, 2, 3, 4]).unwrap();
+    problem
+}
+
+/// A knapsack of twelve binaries.
+pub fn many_nodes() -> Problem {
+    let n = 12;
+    let mut problem = Problem::new(n).unwrap();
+    let all: Vec<usize> = (0..n).collect();
+    let number = |k: usize, of: usize| ((k * k * 31 + 7 * k) % of) as f64;
+    let sizes: Vec<f64> = all.iter().map(|&k| 20.0 + number(k, 17)).collect();
+    let worth: Vec<f64> = all.iter().map(|&k| -20.0 - number(k + 3, 13)).collect();
+    problem.add_linear(&worth).unwrap();
+    for &k in &all {
+        problem.add_least_squares(&[k], &[1.0], 0.5, 0.25).unwrap();
+    }
+    problem.add_inequality(&all, &sizes, -NONE, 150.5).unwrap();
+    problem.set_binaries(&all).unwrap();
+    problem
+}
