@@ -17,6 +17,9 @@ use crate::search::{Options, SolveStatus, Strategy};
 /// The largest number of unknowns that Q couples, for a search after other methods.
 const LARGEST: usize = 3000;
 
+/// The nodes of a search after other methods. It may never close a tree of integers without bounds.
+const NODES: usize = 200_000;
+
 /// The outcome of a solve, with its proof.
 #[derive(Debug, Clone)]
 pub struct Proved {
@@ -77,6 +80,7 @@ fn prove(problem: &Problem, options: &Options, mut monitor: Monitor) -> Result<P
             } else {
                 Strategy::Exact
             },
+            nodes: options.nodes.min(NODES),
             ..options.clone()
         };
         let found = branch::solve(problem, &model, options, start, None, record, &mut monitor);
