@@ -233,18 +233,8 @@ impl<'a> DualActiveSet<'a> {
     /// Makes the factor again from the active rows.
     fn refresh(&mut self) {
         self.forget_from(0);
-        let active = std::mem::take(&mut self.active);
-        for row in &active {
-            self.place[row.row as usize] = NOT_ACTIVE;
-        }
-        self.factor.clear();
-        self.removals = 0;
-        for row in active {
-            if self.ends() {
-                break;
-            }
-            self.push(row);
-        }
+        let active = self.active.clone();
+        self.start_from(&active);
     }
 
     fn interval(&self, row: usize) -> Interval {
