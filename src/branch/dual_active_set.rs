@@ -35,8 +35,7 @@ pub(super) const FEASIBLE: f64 = 1e-9;
 /// The largest number of corrections.
 const CORRECTIONS: usize = 2;
 
-/// The factor is made again after this many removals. With many active rows that costs more than the removals, and is
-/// due after as many removals as half of the rows.
+/// The factor is made again after this many removals. After more, its rounding errors cost more steps than they save.
 const REFRESH: usize = 60;
 
 /// The multiplications after which the solve looks whether the call is to end.
@@ -310,7 +309,7 @@ impl<'a> DualActiveSet<'a> {
         let rest = (self.active.len() - at) as u64;
         self.work += rest * rest;
         self.removals += 1;
-        if self.removals >= REFRESH.max(self.active.len() / 2) {
+        if self.removals >= REFRESH {
             self.refresh();
         }
     }
