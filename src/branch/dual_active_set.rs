@@ -589,3 +589,7 @@ impl<'a> DualActiveSet<'a> {
         }
     }
 }
+
+#[cfg(test)]
+#[path = "dual_active_set_tests.rs"]
+mod tests;

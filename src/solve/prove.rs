@@ -4,12 +4,12 @@
 //! searches once more from their solution.
 
 use super::limited::{conclude, solve_limited};
-use super::run::{solve_unlimited, tell_of_ignored_hint};
+use super::run::{begin, solve_unlimited};
 use super::solution::Solution;
 use crate::branch;
 use crate::error::{Error, Result};
 use crate::linalg::DisjointSets;
-use crate::monitor::{Monitor, may_continue, watch_memory, with_threads};
+use crate::monitor::{Monitor, watch_memory, with_threads};
 use crate::problem::{Model, Problem};
 use crate::proof::{Derivation, Proof};
 use crate::search::{Options, SolveStatus, Strategy};
@@ -50,13 +50,7 @@ pub fn solve_with_proof(problem: &Problem, options: &Options, monitor: Monitor) 
 }
 
 fn prove(problem: &Problem, options: &Options, mut monitor: Monitor) -> Result<Proved> {
-    monitor.start(options.time_limit);
-    monitor.check()?;
-    let watch = monitor.watch();
-    may_continue()?;
-    let model = Model::new(problem)?;
-    tell_of_ignored_hint(&model, &mut monitor);
-    drop(watch);
+    let model = begin(problem, options, &mut monitor)?;
     let mut derivation = Derivation::default();
     let guess = model.guess();
     let mut outcome = if problem.is_limited() {

@@ -53,22 +53,24 @@ pub fn solve_with_lazy_rows(
     let mut lazy = LazyProblem::new(problem.clone(), &mut callback);
     let mut monitor = monitor;
     with_threads(options.threads, || {
-        monitor.start(options.time_limit);
-        monitor.check()?;
-        let model = Model::new(problem)?;
-        tell_of_ignored_hint(&model, &mut monitor);
+        let model = begin(problem, options, &mut monitor)?;
         solve_growing(&mut lazy, &model, options, &mut monitor)
     })
 }
 
-fn solve_alone(problem: &Problem, options: &Options, mut monitor: Monitor) -> Result<Solution> {
+/// Starts the clock of a solve and validates the problem.
+pub(super) fn begin(problem: &Problem, options: &Options, monitor: &mut Monitor) -> Result<Model> {
     monitor.start(options.time_limit);
     monitor.check()?;
-    let watch = monitor.watch();
+    let _watch = monitor.watch();
     may_continue()?;
     let model = Model::new(problem)?;
-    tell_of_ignored_hint(&model, &mut monitor);
-    drop(watch);
+    tell_of_ignored_hint(&model, monitor);
+    Ok(model)
+}
+
+fn solve_alone(problem: &Problem, options: &Options, mut monitor: Monitor) -> Result<Solution> {
+    let model = begin(problem, options, &mut monitor)?;
     if problem.is_limited() {
         solve_limited(problem, &model, options, model.guess(), None, &mut monitor)
     } else {

@@ -3,6 +3,26 @@
 use super::instance::{Instance, NONE, Row};
 use super::random::Random;
 
+/// Makes the problem of a seed.
+pub type Kind = fn(u64) -> Instance;
+
+/// All kinds, by name.
+pub const KINDS: [(&str, Kind); 13] = [
+    ("bounds", bounds),
+    ("ranges", ranges),
+    ("equalities", equalities),
+    ("free integers", free_integers),
+    ("linear", linear),
+    ("singular", singular),
+    ("contradictory", contradictory),
+    ("integrality", integrality),
+    ("unbounded", unbounded),
+    ("degenerate", degenerate),
+    ("large", large),
+    ("pinned", pinned),
+    ("not convex", not_convex),
+];
+
 fn whole(random: &mut Random, most: i32) -> f64 {
     f64::from(random.below(2 * most as usize + 1) as i32 - most)
 }

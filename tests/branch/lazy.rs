@@ -14,12 +14,17 @@ fn without_rows(of: &Instance) -> Problem {
 }
 
 /// Energy or error of the problem whose inequalities are added for candidates that violate them, or for any
-/// candidate at random if `early`. Also returns the number of rows.
-fn lazily(of: &Instance, early: Option<u64>) -> (Result<f64, Error>, usize) {
+/// candidate at random if `early`. Also returns the number of rows, and of relaxations that were shown.
+fn lazily(of: &Instance, early: Option<u64>) -> (Result<f64, Error>, usize, usize) {
     let all: Vec<usize> = (0..of.unknowns()).collect();
     let mut random = early.map(Random::new);
+    let mut relaxed = 0;
     let callback = |candidate: &Candidate, rows: &mut LazyRows| {
         assert_eq!(candidate.values.len(), of.unknowns());
+        let whole = |(x, is): (&f64, &bool)| !is || x.fract() == 0.0;
+        let is_integer = candidate.values.iter().zip(&of.integer).all(whole);
+        assert_eq!(candidate.is_integer, is_integer);
+        relaxed += usize::from(!is_integer);
         for row in of.rows.iter().filter(|row| !row.is_constraint) {
             let terms = row.coefficients.iter().zip(candidate.values);
             let value: f64 = terms.map(|(a, x)| a * x).sum();
@@ -40,25 +45,27 @@ fn lazily(of: &Instance, early: Option<u64>) -> (Result<f64, Error>, usize) {
         Ok(solution) => {
             assert_eq!(solution.status(), SolveStatus::Optimal);
             let rows = solution.counts().inequalities;
-            (Ok(solution.energy()), rows)
+            (Ok(solution.energy()), rows, relaxed)
         }
-        Err(error) => (Err(error), 0),
+        Err(error) => (Err(error), 0, relaxed),
     }
 }
 
-/// Holds lazy rows against rows that are there from the beginning. Returns the numbers of problems that both
-/// solve and of those that have no solution.
-pub fn check(of: &Instance, seed: u64) -> Result<(usize, usize), String> {
+/// Holds lazy rows against rows that are there from the beginning. Returns whether there is a solution, and
+/// how many relaxations were shown.
+pub fn check(of: &Instance, seed: u64) -> Result<(Option<bool>, usize), String> {
     if matches!(
         solve(&without_rows(of), &Options::default()),
         Err(Error::Unbounded { .. })
     ) {
         // Nothing tells which rows would hold the energy.
-        return Ok((0, 0));
+        return Ok((None, 0));
     }
     let whole = solve(&of.problem(), &Options::default());
+    let mut shown = 0;
     for early in [None, Some(seed)] {
-        let (lazily, rows) = lazily(of, early);
+        let (lazily, rows, relaxed) = lazily(of, early);
+        shown += relaxed;
         match (&whole, &lazily) {
             (Ok(whole), Ok(energy)) => {
                 let size = of.energy_size(whole.values()).max(1.0);
@@ -77,5 +84,32 @@ pub fn check(of: &Instance, seed: u64) -> Result<(usize, usize), String> {
             }
         }
     }
-    Ok((usize::from(whole.is_ok()), usize::from(whole.is_err())))
+    Ok((Some(whole.is_ok()), shown))
+}
+
+/// A row that cuts off a point which was accepted before is an error that names it.
+pub fn check_late_row() {
+    let mut problem = Problem::new(3).unwrap();
+    for i in 0..3 {
+        problem.add_least_squares(&[i], &[1.0], 5.4, 1.0).unwrap();
+    }
+    problem
+        .add_inequality(&[0, 1, 2], &[1.0; 3], f64::NEG_INFINITY, 7.0)
+        .unwrap();
+    problem.set_integers(&[0, 1, 2]).unwrap();
+    let mut integers = 0;
+    let callback = |candidate: &Candidate, rows: &mut LazyRows| {
+        integers += usize::from(candidate.is_integer);
+        if integers == 2 {
+            rows.add(&[0], &[1.0], f64::NEG_INFINITY, -100.0).unwrap();
+        }
+        Flow::Continue
+    };
+    let found = solve_with_lazy_rows(&problem, &Options::default(), Monitor::default(), callback);
+    let error = found.unwrap_err();
+    assert_eq!(
+        (error.code(), error.index()),
+        ("invalid_argument", Some(1)),
+        "{error}"
+    );
 }

@@ -25,28 +25,11 @@ mod rational;
 mod stated;
 
 use instance::Instance;
+use kinds::KINDS;
 use oracle::{Truth, truth};
 use rational::exact;
 use roundel::proof::check_of;
 use roundel::{Error, Monitor, Options, Problem, Proof, Proved, solve_with_proof};
-
-type Kind = fn(u64) -> Instance;
-
-const KINDS: [(&str, Kind); 13] = [
-    ("bounds", kinds::bounds),
-    ("ranges", kinds::ranges),
-    ("equalities", kinds::equalities),
-    ("free integers", kinds::free_integers),
-    ("linear", kinds::linear),
-    ("singular", kinds::singular),
-    ("contradictory", kinds::contradictory),
-    ("integrality", kinds::integrality),
-    ("unbounded", kinds::unbounded),
-    ("degenerate", kinds::degenerate),
-    ("large", kinds::large),
-    ("pinned", kinds::pinned),
-    ("not convex", kinds::not_convex),
-];
 
 /// A bound is this close to the optimum, as a part of the sizes of the terms.
 const CLOSE: f64 = 1e-7;
