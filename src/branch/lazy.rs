@@ -171,6 +171,7 @@ struct Paused<'m, 'e> {
     dives: u64,
     nodes: u64,
     next_part: u64,
+    next_run: u64,
     rounding: f64,
     work: u64,
     lazy: Option<LazyRows<'m, 'e>>,
@@ -189,6 +190,7 @@ impl<'m, 'e> Paused<'m, 'e> {
             dives: tree.dives,
             nodes: tree.nodes,
             next_part: tree.next_part,
+            next_run: tree.next_run,
             rounding: tree.rounding,
             work: tree.relaxation.solver.work,
             lazy: tree.lazy,
@@ -208,6 +210,7 @@ impl<'m, 'e> Paused<'m, 'e> {
             dives: self.dives,
             nodes: self.nodes,
             next_part: self.next_part,
+            next_run: self.next_run,
             rounding: self.rounding,
             lazy: self.lazy,
             ..Tree::new(form, shared, limits, self.monitor)

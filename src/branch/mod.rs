@@ -9,20 +9,25 @@
 //! | --- | --- |
 //! | `form` | the problem as the search reads it |
 //! | `presolve`, `propagate` | what is decided before the search; bounds tightened through rows |
+//! | `hull` | copies of unknowns that convex hulls of choices have, left out |
+//! | `symmetry`, `dominated` | choices that may change places, in one order |
 //! | `inverse`, `shared`, `working_set`, `dual_active_set`, `refine` | one strictly convex quadratic program |
 //! | `relaxation` | the relaxation of a node, also where Q is singular |
 //! | `safe_bound` | lower bounds that rounding errors cannot make false |
 //! | `pseudo_costs`, `branching`, `tree` | the search |
 //! | `record` | what a proof is made from |
-//! | `primal`, `exchange` | points with integers: rounding, exchanges, smaller problems |
+//! | `primal`, `exchange`, `anneal` | points with integers: rounding, exchanges, annealing, smaller problems |
 //! | `lazy` | rows that the caller adds during the search |
 //! | `conflict` | why there is no solution |
 
+mod anneal;
 mod branching;
 mod conflict;
+mod dominated;
 mod dual_active_set;
 mod exchange;
 mod form;
+mod hull;
 mod inverse;
 mod lazy;
 mod presolve;
@@ -34,6 +39,7 @@ mod refine;
 mod relaxation;
 mod safe_bound;
 mod shared;
+mod symmetry;
 mod tree;
 mod working_set;
 
@@ -46,6 +52,7 @@ use crate::problem::{Model, Problem};
 use crate::proof::{Derivation, Ending};
 use crate::search::{LazyProblem, Options, StoppedBy, Strategy};
 use form::Form;
+use hull::Projected;
 use lazy::LazyRows;
 use presolve::{Contradiction, Part, Presolved};
 use tree::Limits;
@@ -221,6 +228,14 @@ fn search_part(
     record: Option<&mut Derivation>,
     monitor: &mut Monitor,
 ) -> Result<tree::Found> {
+    // A proof is in the rows of the problem, and knows no symmetry.
+    if record.is_none() {
+        let found = match hull::project(&part.form)? {
+            Some(projected) => search_projected(&projected, start, limits, monitor),
+            None => search_ordered(&part.form, start, limits, monitor),
+        };
+        return with_point(problem, parts, part, found, monitor);
+    }
     let mut found = tree::search(&part.form, start, limits, monitor);
     if let (Some(record), Ok(found)) = (record, &mut found) {
         let nodes = std::mem::take(&mut found.visited);
@@ -229,6 +244,50 @@ fn search_part(
         record.parts.push(searched);
     }
     with_point(problem, parts, part, found, monitor)
+}
+
+/// Searches a form in one order of the choices that may change places.
+fn search_ordered(
+    form: &Form,
+    start: Option<Vec<f64>>,
+    limits: Limits,
+    monitor: &mut Monitor,
+) -> Result<tree::Found> {
+    let Some((ordered, start)) = symmetry::ordered(form, start.as_deref()) else {
+        return tree::search(form, start, limits, monitor);
+    };
+    let mut found = tree::search(&ordered, start, limits, monitor)?;
+    // Bounds of the order are none of the whole.
+    found.conflict.clear();
+    Ok(found)
+}
+
+/// Searches a part without the copies of its unknowns. What is returned has them.
+fn search_projected(
+    projected: &Projected,
+    start: Option<Vec<f64>>,
+    limits: Limits,
+    monitor: &mut Monitor,
+) -> Result<tree::Found> {
+    let kept = |start: Vec<f64>| projected.kept.iter().map(|&j| start[j as usize]).collect();
+    let mut found = match search_ordered(&projected.form, start.map(kept), limits, monitor) {
+        Err(Error::NotConvex {
+            variable,
+            direction,
+        }) => {
+            return Err(Error::NotConvex {
+                variable: projected.kept[variable] as usize,
+                direction: projected.scattered(&direction),
+            });
+        }
+        found => found?,
+    };
+    let best = found.best.take();
+    found.best = best.map(|(point, energy)| (projected.with_copies(&point), energy));
+    found.ray = found.ray.map(|ray| projected.scattered(&ray));
+    // Rows of the smaller problem name none of the whole.
+    found.conflict.clear();
+    Ok(found)
 }
 
 /// Searches the only part of a problem to which the caller adds rows. `whole` are the values of the other

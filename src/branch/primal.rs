@@ -1,5 +1,6 @@
 //! Points with integers: rounding, exchanges, and smaller problems around the incumbent.
 
+use super::anneal::{MOST, annealed};
 use super::dual_active_set::FEASIBLE;
 use super::exchange::exchanged;
 use super::form::Interval;
@@ -8,6 +9,12 @@ use super::tree::{Limits, Tree};
 
 /// The nodes of a smaller problem.
 const PART_NODES: u64 = 200;
+
+/// The largest number of chains of a run of simulated annealing, for each unknown.
+const CHAINS: u64 = 10_000;
+
+/// The multiplications of the search for each chain.
+const CHAIN: u64 = 1000;
 
 /// A smaller problem fixes at least this part of the integers.
 const FIXED: f64 = 0.3;
@@ -136,6 +143,23 @@ impl Tree<'_, '_, '_> {
             .as_ref()
             .is_none_or(|(_, best)| energy < *best)
             .then_some(energy)
+    }
+
+    /// Offers the best point of a run of simulated annealing from the incumbent, where all unknowns are integers.
+    pub fn anneal(&mut self) {
+        let seed = self.next_run;
+        self.next_run *= 2;
+        let n = self.form.dim();
+        let Some((best, _)) = self.best.as_ref().filter(|_| self.integers.len() == n) else {
+            return;
+        };
+        if n > MOST || self.limits.strict {
+            return;
+        }
+        let work = &mut self.relaxation.solver.work;
+        let chains = CHAINS.min(*work / CHAIN / n as u64) as usize * n;
+        let x = annealed(self.form, &self.root, best, chains, seed, work);
+        self.offer(x);
     }
 
     /// Searches the smaller problem in which the integers that incumbent and relaxation agree on are fixed

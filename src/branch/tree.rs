@@ -92,6 +92,9 @@ const DIVES: u64 = 50;
 /// The nodes before the first smaller problem is searched.
 const FIRST_PART: u64 = 50;
 
+/// The nodes before the first run of simulated annealing.
+const FIRST_RUN: u64 = 100;
+
 /// A gap below this part of the energy is none.
 const CLOSED: f64 = 5e-10;
 
@@ -135,6 +138,8 @@ pub(super) struct Tree<'a, 'm, 'e> {
     pub nodes: u64,
     /// The node after which the next smaller problem is searched.
     pub next_part: u64,
+    /// The node after which simulated annealing runs next.
+    pub next_run: u64,
     pub limits: Limits,
     pub conflict: Vec<(u32, f64)>,
     pub ray: Option<Vec<f64>>,
@@ -199,6 +204,7 @@ impl<'a, 'm, 'e> Tree<'a, 'm, 'e> {
             dives: 0,
             nodes: 0,
             next_part: FIRST_PART,
+            next_run: FIRST_RUN,
             limits,
             conflict: Vec::new(),
             ray: None,
@@ -389,6 +395,9 @@ impl<'a, 'm, 'e> Tree<'a, 'm, 'e> {
         }
         if self.nodes >= self.next_part && !fractional.is_empty() {
             self.search_part(&point);
+        }
+        if self.nodes >= self.next_run {
+            self.anneal();
         }
         if self.is_cut() {
             return Step::Ended(Box::new(node));
