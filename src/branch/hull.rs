@@ -10,10 +10,11 @@
 //! with `m` the largest value of the sum within the bounds of the `x_i`. Its relaxation is weaker, and several times
 //! smaller. A search through it takes more nodes and far less time.
 
+use std::collections::{HashMap, HashSet};
+
 use super::form::{Form, Interval, without_zeros};
 use crate::error::Result;
 use crate::linalg::Sparse;
-use std::collections::HashMap;
 
 /// A form without copies, and how its points become points of the form with them.
 pub(super) struct Projected {
@@ -115,8 +116,11 @@ pub(super) fn project(form: &Form) -> Result<Option<Projected>> {
             rows.push(terms, sides, copied.rows[1]);
         }
     }
-    let is_dropped = |i: u32| ordered.iter().any(|(_, copied)| copied.rows.contains(&i));
-    for i in (0..form.rows.rows() as u32).filter(|i| !is_dropped(*i)) {
+    let mut is_dropped = vec![false; form.rows.rows()];
+    for row in ordered.iter().flat_map(|(_, copied)| copied.rows) {
+        is_dropped[row as usize] = true;
+    }
+    for i in (0..form.rows.rows() as u32).filter(|&i| !is_dropped[i as usize]) {
         let row = form.rows.row(i as usize).map(|(j, a)| (j as u32, a));
         let row: Vec<(u32, f64)> = row.collect();
         let sides = form.row_limits[i as usize];
@@ -308,7 +312,7 @@ fn drop_unguarded(form: &Form, columns: &Sparse, copies: &mut HashMap<u32, Copie
             && !copies.contains_key(&copied.of);
         (!fits).then_some(sum)
     };
-    let wrong: Vec<u32> = copies.iter().filter_map(is_wrong).collect();
+    let wrong: HashSet<u32> = copies.iter().filter_map(is_wrong).collect();
     copies.retain(|_, copied| !wrong.contains(&copied.rows[1]));
     !wrong.is_empty()
 }
