@@ -42,7 +42,9 @@ impl Exit {
             Error::Infeasible { .. }
             | Error::Contradiction { .. }
             | Error::NoIntegerSolution { .. } => Exit::Infeasible,
-            Error::Unbounded { .. } | Error::NotConvex { .. } => Exit::Unbounded,
+            Error::Unbounded { .. } | Error::NotConvex { .. } | Error::NotConvexAt { .. } => {
+                Exit::Unbounded
+            }
             Error::Cancelled | Error::TimeLimit => Exit::Stopped,
             _ => Exit::Failed,
         }

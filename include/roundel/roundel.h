@@ -125,7 +125,7 @@ enum roundel_status
     ROUNDEL_ERROR_UNBOUNDED = 42,
     /**
      * The objective curves downwards along the direction given; the index is a variable that it
-     * moves.
+     * moves. In a file, the line is that of the entry that shows it.
      */
     ROUNDEL_ERROR_NOT_CONVEX = 43,
     /**
@@ -1818,8 +1818,8 @@ roundel_status roundel_solver_solve(struct roundel_solver *solver,
  * A file may maximise. The problem then minimises the negated objective, and 1 is written to `maximises`, else
  * 0; `maximises` may be NULL.
  *
- * Fails with ROUNDEL_ERROR_PARSE or ROUNDEL_ERROR_NOT_SUPPORTED and the line at fault, and with
- * ROUNDEL_ERROR_IO.
+ * Fails with ROUNDEL_ERROR_PARSE, ROUNDEL_ERROR_NOT_SUPPORTED or, where entries of Q show that the objective is not
+ * convex, ROUNDEL_ERROR_NOT_CONVEX, and the line at fault, and with ROUNDEL_ERROR_IO.
  */
 roundel_status roundel_problem_read(const char *file,
                                     int32_t *maximises,
@@ -1835,8 +1835,7 @@ roundel_status roundel_problem_write(const struct roundel_problem *problem,
 /**
  * Makes a problem from a file in MPS, gzipped or not, whatever its name is. See roundel_problem_read.
  *
- * Fails with ROUNDEL_ERROR_PARSE or ROUNDEL_ERROR_NOT_SUPPORTED and the line at fault, and with
- * ROUNDEL_ERROR_IO.
+ * Fails as roundel_problem_read does.
  */
 roundel_status roundel_problem_read_mps(const char *file,
                                         struct roundel_problem **problem);

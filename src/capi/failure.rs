@@ -66,9 +66,11 @@ impl Failure {
             index: error.as_ref().and_then(Error::index),
             line: error.as_ref().and_then(Error::line),
             direction: match error {
-                Some(Error::Unbounded { direction, .. } | Error::NotConvex { direction, .. }) => {
-                    direction
-                }
+                Some(
+                    Error::Unbounded { direction, .. }
+                    | Error::NotConvex { direction, .. }
+                    | Error::NotConvexAt { direction, .. },
+                ) => direction,
                 _ => Vec::new(),
             },
         };

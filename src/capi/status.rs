@@ -48,7 +48,7 @@ pub enum roundel_status {
     /// it moves.
     ROUNDEL_ERROR_UNBOUNDED = 42,
     /// The objective curves downwards along the direction given; the index is a variable that it
-    /// moves.
+    /// moves. In a file, the line is that of the entry that shows it.
     ROUNDEL_ERROR_NOT_CONVEX = 43,
     /// An edge of a mesh has more than two faces; the index is the lowest of them.
     ROUNDEL_ERROR_NON_MANIFOLD_EDGE = 50,
@@ -216,7 +216,7 @@ impl From<&Error> for roundel_status {
             Error::Infeasible { .. } | Error::Contradiction { .. } => ROUNDEL_ERROR_INFEASIBLE,
             Error::NoIntegerSolution { .. } => ROUNDEL_ERROR_NO_INTEGER_SOLUTION,
             Error::Unbounded { .. } => ROUNDEL_ERROR_UNBOUNDED,
-            Error::NotConvex { .. } => ROUNDEL_ERROR_NOT_CONVEX,
+            Error::NotConvex { .. } | Error::NotConvexAt { .. } => ROUNDEL_ERROR_NOT_CONVEX,
             Error::Cancelled => ROUNDEL_ERROR_CANCELLED,
             Error::TimeLimit => ROUNDEL_ERROR_TIME_LIMIT,
         }
