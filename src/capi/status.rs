@@ -40,6 +40,8 @@ pub enum roundel_status {
     ROUNDEL_ERROR_PARSE = 31,
     /// A file that cannot be read or written.
     ROUNDEL_ERROR_IO = 32,
+    /// A proof that does not hold, at the line given; the text says what is wrong with it.
+    ROUNDEL_ERROR_PROOF_REFUSED = 33,
     /// The constraint of this index contradicts the others.
     ROUNDEL_ERROR_INFEASIBLE = 40,
     /// The constraint of this index has no solution in integers.
@@ -133,6 +135,7 @@ const NAMES: &[(roundel_status, &CStr)] = &[
     (ROUNDEL_ERROR_NOT_SUPPORTED, c"not_supported"),
     (ROUNDEL_ERROR_PARSE, c"parse"),
     (ROUNDEL_ERROR_IO, c"io"),
+    (ROUNDEL_ERROR_PROOF_REFUSED, c"proof_refused"),
     (ROUNDEL_ERROR_INFEASIBLE, c"infeasible"),
     (ROUNDEL_ERROR_NO_INTEGER_SOLUTION, c"no_integer_solution"),
     (ROUNDEL_ERROR_UNBOUNDED, c"unbounded"),
