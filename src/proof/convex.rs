@@ -131,6 +131,9 @@ impl Block {
         if !self.has_quadratic && curvature.iter().all(Exact::is_zero) {
             return true;
         }
+        if !goes_on() {
+            return false;
+        }
         let entries = self.minus(curvature);
         let n = self.members.len();
         self.is_shown(&entries, goes_on)
@@ -139,12 +142,12 @@ impl Block {
 
     /// As [`has_curvature`](Self::has_curvature), by what takes little time.
     pub fn has_curvature_at_once(&self, curvature: &[Exact], goes_on: GoesOn) -> bool {
-        self.is_shown(&self.minus(curvature), goes_on)
+        goes_on() && self.is_shown(&self.minus(curvature), goes_on)
     }
 
     fn is_shown(&self, entries: &Entries, goes_on: GoesOn) -> bool {
         let n = self.members.len();
-        dominates(entries, n) || (n <= LARGEST && has_factor(entries, n, goes_on))
+        dominates(entries, n) || (n <= LARGEST && goes_on() && has_factor(entries, n, goes_on))
     }
 
     fn minus(&self, curvature: &[Exact]) -> Entries {

@@ -34,6 +34,7 @@ pub(super) fn seal(
 ) -> Result<Vec<Line>> {
     ask()?;
     let (mut problem, mut limits) = ExactProblem::of(&statement).map_err(unproved)?;
+    ask()?;
     let energy = values.and_then(|values| {
         let x: Option<Vec<Exact>> = values.iter().map(|&x| Exact::of(x)).collect();
         Some(problem.energy(&x?).above())
@@ -43,7 +44,9 @@ pub(super) fn seal(
         energy,
         lower_bound: None,
     };
+    ask()?;
     check_point(&problem, &limits, &claim).map_err(unproved)?;
+    ask()?;
     let root = Root {
         steps: taken(&mut problem, &mut limits, &derivation.steps, ask)?,
         empty: None,
@@ -89,6 +92,7 @@ fn seal_parts(
 ) -> Result<Sealed> {
     let members: Vec<Vec<u32>> = searched.iter().map(|part| part.unknowns.clone()).collect();
     let mut split = Split::of(problem, limits, &members).map_err(unproved)?;
+    ask()?;
     let mut all = Sealed {
         parts: Vec::new(),
         nodes: Vec::new(),
