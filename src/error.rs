@@ -135,6 +135,18 @@ pub enum Error {
         /// The direction, one number for each variable, with largest absolute value 1.
         direction: Vec<f64>,
     },
+    /// The same, seen in a file.
+    #[error("line {line}: {what}")]
+    NotConvexAt {
+        /// The line, counted from 1.
+        line: usize,
+        /// What shows it, with the names of the file, and what can be done.
+        what: String,
+        /// A variable that the direction moves (the one it moves most).
+        variable: usize,
+        /// The direction, one number for each variable, with largest absolute value 1.
+        direction: Vec<f64>,
+    },
     /// The library does not solve problems of this kind.
     #[error("not supported: {what}")]
     NotSupported {
@@ -212,7 +224,7 @@ impl Error {
             Error::Infeasible { .. } | Error::Contradiction { .. } => "infeasible",
             Error::NoIntegerSolution { .. } => "no_integer_solution",
             Error::Unbounded { .. } => "unbounded",
-            Error::NotConvex { .. } => "not_convex",
+            Error::NotConvex { .. } | Error::NotConvexAt { .. } => "not_convex",
             Error::NotSupported { .. } => "not_supported",
             Error::Parse { .. } => "parse",
             Error::Io { .. } => "io",
@@ -235,9 +247,9 @@ impl Error {
             Error::Infeasible { constraint, .. } | Error::NoIntegerSolution { constraint, .. } => {
                 Some(*constraint)
             }
-            Error::Unbounded { variable, .. } | Error::NotConvex { variable, .. } => {
-                Some(*variable)
-            }
+            Error::Unbounded { variable, .. }
+            | Error::NotConvex { variable, .. }
+            | Error::NotConvexAt { variable, .. } => Some(*variable),
             Error::Input(error) => error.index,
             _ => None,
         }
@@ -246,18 +258,18 @@ impl Error {
     /// The line of the file at fault, counted from 1.
     pub fn line(&self) -> Option<usize> {
         match self {
-            Error::Parse { line, .. } => Some(*line),
+            Error::Parse { line, .. } | Error::NotConvexAt { line, .. } => Some(*line),
             Error::NotSupported { line, .. } => *line,
             _ => None,
         }
     }
 
-    /// The direction that proves [`Error::Unbounded`] or [`Error::NotConvex`].
+    /// The direction that proves [`Error::Unbounded`], [`Error::NotConvex`] or [`Error::NotConvexAt`].
     pub fn direction(&self) -> Option<&[f64]> {
         match self {
-            Error::Unbounded { direction, .. } | Error::NotConvex { direction, .. } => {
-                Some(direction)
-            }
+            Error::Unbounded { direction, .. }
+            | Error::NotConvex { direction, .. }
+            | Error::NotConvexAt { direction, .. } => Some(direction),
             _ => None,
         }
     }

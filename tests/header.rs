@@ -27,6 +27,7 @@ const SOURCES: &[&str] = &[
     "solution",
     "solve",
     "lazy_rows",
+    "proof",
     "solver",
     "files",
     "mesh",

@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use roundel::problem::files::{self, NamedProblem};
 use roundel::solve::replay;
-use roundel::{Options, Proof, Result, Solution, Strategy};
+use roundel::{Options, Proof, Result, Solution, StoppedBy, Strategy};
 
 use crate::exit::{self, Exit};
 use crate::options::SolverOptions;
@@ -55,8 +55,15 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> Exit {
     let run = || solve(arguments);
     let solved = arguments.tracing.around(&arguments.solver, run);
-    let told = solved.and_then(|solved| tell(arguments, &solved));
-    output::conclude(&arguments.file, arguments.json, told)
+    let mut has_no_proof = false;
+    let told = solved.and_then(|solved| {
+        has_no_proof = matches!(solved.proof, Some(Err(_)));
+        tell(arguments, &solved)
+    });
+    match output::conclude(&arguments.file, arguments.json, told) {
+        Exit::Solved | Exit::Finished if has_no_proof => Exit::Stopped,
+        exit => exit,
+    }
 }
 
 /// What was read.
@@ -88,7 +95,7 @@ struct Solved {
     read: f64,
     maximise: bool,
     solution: Solution,
-    proof: Option<Proof>,
+    proof: Option<std::result::Result<Proof, StoppedBy>>,
 }
 
 fn solve(arguments: &Arguments) -> Result<Solved> {
@@ -100,16 +107,25 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
         .write(arguments.tracing.trace.as_ref(), TRACE)?;
     let mut progress = Progress::start(arguments.output.quiet)?;
     let mut input = read(arguments)?;
-    progress.limit(&mut input.options, started);
+    match arguments.proof {
+        // The limit of a solve ends its proof as well, that of a run does not.
+        Some(_) => input.options.time_limit -= started.elapsed().as_secs_f64(),
+        None => progress.limit(&mut input.options, started),
+    }
+    input.options.time_limit = input.options.time_limit.max(0.0);
     let (problem, options) = (input.named.problem(), &input.options);
+    let located = |error| input.named.located(error);
     let (solution, proof) = match &arguments.proof {
-        None => (
-            roundel::solve_with(problem, options, progress.monitor())?,
-            None,
-        ),
+        None => {
+            let solved = roundel::solve_with(problem, options, progress.monitor());
+            (solved.map_err(located)?, None)
+        }
         Some(path) => {
-            let proved = roundel::solve_with_proof(problem, options, progress.monitor())?;
-            output::write_proof(path, &proved.proof)?;
+            let proved = roundel::solve_with_proof(problem, options, progress.monitor());
+            let proved = proved.map_err(located)?;
+            if let Ok(proof) = &proved.proof {
+                output::write_proof(path, proof)?;
+            }
             (proved.outcome?, Some(proved.proof))
         }
     };

@@ -14,8 +14,8 @@ pub struct Summary<'a> {
     /// Whether the file maximises, so that its objective is minus the energy.
     pub maximise: bool,
     pub solution: &'a Solution,
-    /// Its proof, if there is one.
-    pub proof: Option<&'a Proof>,
+    /// Its proof, if one is wanted, or what stopped it.
+    pub proof: Option<&'a Result<Proof, StoppedBy>>,
 }
 
 impl fmt::Display for Summary<'_> {
@@ -43,7 +43,14 @@ impl fmt::Display for Summary<'_> {
         line(f, "read", &read, self.read)?;
         line(f, "eliminate", &reduced, seconds.eliminate)?;
         line(f, self.strategy, &found, seconds.factor + seconds.round)?;
-        let Some((proof, bound)) = self.proof.and_then(|p| Some((p, p.lower_bound()?))) else {
+        let proof = match self.proof {
+            Some(Ok(proof)) => proof,
+            Some(Err(stopped)) => {
+                return writeln!(f, "{:<10} none, stopped by {}", "proof", stopped.name());
+            }
+            None => return Ok(()),
+        };
+        let Some(bound) = proof.lower_bound() else {
             return Ok(());
         };
         let bound = if self.maximise { -bound } else { bound };

@@ -47,6 +47,13 @@ AT(roundel_seconds, factor, 8);
 AT(roundel_seconds, round, 16);
 AT(roundel_seconds, total, 24);
 
+_Static_assert(sizeof(roundel_proof_report) == 64, "proof report");
+AT(roundel_proof_report, energy, 0);
+AT(roundel_proof_report, lower_bound, 8);
+AT(roundel_proof_report, violation, 16);
+AT(roundel_proof_report, nodes, 24);
+AT(roundel_proof_report, stopped_by, 32);
+
 _Static_assert(sizeof(roundel_option) == 4 * WORD + 32, "option");
 AT(roundel_option, name, 0);
 AT(roundel_option, default_value, WORD);

@@ -111,6 +111,10 @@ enum roundel_status
      */
     ROUNDEL_ERROR_IO = 32,
     /**
+     * A proof that does not hold, at the line given; the text says what is wrong with it.
+     */
+    ROUNDEL_ERROR_PROOF_REFUSED = 33,
+    /**
      * The constraint of this index contradicts the others.
      */
     ROUNDEL_ERROR_INFEASIBLE = 40,
@@ -125,7 +129,7 @@ enum roundel_status
     ROUNDEL_ERROR_UNBOUNDED = 42,
     /**
      * The objective curves downwards along the direction given; the index is a variable that it
-     * moves.
+     * moves. In a file, the line is that of the entry that shows it.
      */
     ROUNDEL_ERROR_NOT_CONVEX = 43,
     /**
@@ -938,6 +942,38 @@ typedef int32_t (*roundel_lazy_callback)(const struct roundel_candidate *candida
                                          struct roundel_problem *rows,
                                          void *user_data);
 
+/**
+ * What a proof proves.
+ */
+typedef struct roundel_proof_report {
+    /**
+     * The energy of the point, rounded to the next number above; infinite if there is no point.
+     */
+    double energy;
+    /**
+     * No point within all rows, bounds and integers has less energy; infinite if there is no such point.
+     */
+    double lower_bound;
+    /**
+     * The largest violation of a row or bound by the point, relative to the sizes of its terms. The checker
+     * computes it; 0 after a solve.
+     */
+    double violation;
+    /**
+     * The nodes of all trees.
+     */
+    int64_t nodes;
+    /**
+     * What stopped the writing of the proof, a roundel_stopped_by: then there is no proof, energy is infinite and
+     * lower_bound is minus infinity. ROUNDEL_STOPPED_BY_NONE for a proof that is written, or accepted.
+     */
+    int32_t stopped_by;
+    /**
+     * Zero; reserved.
+     */
+    int32_t reserved[7];
+} roundel_proof_report;
+
 #ifdef __cplusplus
 extern "C" {
 #endif // __cplusplus
@@ -1724,6 +1760,40 @@ roundel_status roundel_problem_solve_lazy(const struct roundel_problem *problem,
                                           struct roundel_solution **solution);
 
 /**
+ * Solves a problem and writes a proof of the bound to a file, for roundel_proof_check. The strategy must be "exact"
+ * or "auto". `options`, `monitor` and `solution` are those of roundel_problem_solve. `report` receives what is
+ * proved; it may be NULL.
+ *
+ * Half of the option time_limit is for the search at most, so that time is left for the proof. A proof that the
+ * limit or a cancel ends is not written: the call succeeds, with the solution, and the member stopped_by of the
+ * report says why.
+ *
+ * A problem without a solution gets a proof of that. The call then fails as roundel_problem_solve does, with
+ * ROUNDEL_ERROR_INFEASIBLE or ROUNDEL_ERROR_NO_INTEGER_SOLUTION, and the proof is in the file.
+ *
+ * Apart from the errors of roundel_problem_solve, fails with ROUNDEL_ERROR_INVALID_ARGUMENT for another strategy, with
+ * ROUNDEL_ERROR_NOT_SUPPORTED for what cannot be proved, and with ROUNDEL_ERROR_IO. A file that exists is replaced
+ * once there is a proof, and no file is made without one.
+ */
+roundel_status roundel_problem_solve_with_proof(const struct roundel_problem *problem,
+                                                const struct roundel_options *options,
+                                                const struct roundel_monitor *monitor,
+                                                const char *file,
+                                                struct roundel_proof_report *report,
+                                                struct roundel_solution **solution);
+
+/**
+ * Checks the proof in a file, in exact numbers. `problem` is the problem that the proof must be of; NULL for any.
+ * `report` receives what is proved; it may be NULL.
+ *
+ * Fails with ROUNDEL_ERROR_PROOF_REFUSED and the line at fault for a proof that does not hold, and for a file that is
+ * no proof, and with ROUNDEL_ERROR_IO for one that cannot be opened.
+ */
+roundel_status roundel_proof_check(const char *file,
+                                   const struct roundel_problem *problem,
+                                   struct roundel_proof_report *report);
+
+/**
  * Makes a solver for a copy of a problem. To be freed with roundel_solver_free.
  *
  * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for an integer variable pinned to a fraction,
@@ -1818,8 +1888,8 @@ roundel_status roundel_solver_solve(struct roundel_solver *solver,
  * A file may maximise. The problem then minimises the negated objective, and 1 is written to `maximises`, else
  * 0; `maximises` may be NULL.
  *
- * Fails with ROUNDEL_ERROR_PARSE or ROUNDEL_ERROR_NOT_SUPPORTED and the line at fault, and with
- * ROUNDEL_ERROR_IO.
+ * Fails with ROUNDEL_ERROR_PARSE, ROUNDEL_ERROR_NOT_SUPPORTED or, where entries of Q show that the objective is not
+ * convex, ROUNDEL_ERROR_NOT_CONVEX, and the line at fault, and with ROUNDEL_ERROR_IO.
  */
 roundel_status roundel_problem_read(const char *file,
                                     int32_t *maximises,
@@ -1835,8 +1905,7 @@ roundel_status roundel_problem_write(const struct roundel_problem *problem,
 /**
  * Makes a problem from a file in MPS, gzipped or not, whatever its name is. See roundel_problem_read.
  *
- * Fails with ROUNDEL_ERROR_PARSE or ROUNDEL_ERROR_NOT_SUPPORTED and the line at fault, and with
- * ROUNDEL_ERROR_IO.
+ * Fails as roundel_problem_read does.
  */
 roundel_status roundel_problem_read_mps(const char *file,
                                         struct roundel_problem **problem);

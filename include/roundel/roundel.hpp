@@ -40,6 +40,7 @@
 #include <roundel/detail/mesh.hpp>
 #include <roundel/detail/options.hpp>
 #include <roundel/detail/problem.hpp>
+#include <roundel/detail/proof.hpp>
 #include <roundel/detail/quads.hpp>
 #include <roundel/detail/repair.hpp>
 #include <roundel/detail/solution.hpp>

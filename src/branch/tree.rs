@@ -475,7 +475,10 @@ impl<'a, 'm, 'e> Tree<'a, 'm, 'e> {
         }
     }
 
-    fn split(&mut self, node: Node, variable: u32, value: f64) -> Step {
+    fn split(&mut self, mut node: Node, variable: u32, value: f64) -> Step {
+        if node.limits.len() > 2 * self.form.dim() {
+            keep_last(&mut node.limits, self.form.dim());
+        }
         let before = self.relaxation.solver.limits()[variable as usize];
         let fraction = value - value.floor();
         let warm: Vec<Active> = self.relaxation.active().to_vec();
@@ -508,5 +511,33 @@ impl<'a, 'm, 'e> Tree<'a, 'm, 'e> {
         let first = usize::from(expected[1] < expected[0]);
         let (next, other) = (child(first), child(1 - first));
         Step::Split(next, other)
+    }
+}
+
+/// Leaves only the last limits of each unknown, which replace those before. A deep tree without bounds repeats
+/// each unknown at every level.
+fn keep_last(limits: &mut Vec<(u32, Interval)>, unknowns: usize) {
+    let mut last = vec![usize::MAX; unknowns];
+    for (at, (j, _)) in limits.iter().enumerate() {
+        last[*j as usize] = at;
+    }
+    let mut at = 0;
+    limits.retain(|(j, _)| {
+        at += 1;
+        last[*j as usize] == at - 1
+    });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_the_last_limits_of_each_unknown_are_kept() {
+        let at = |j: u32, value: f64| (j, Interval::point(value));
+        let mut limits = vec![at(1, 0.0), at(0, 1.0), at(1, 2.0), at(3, 3.0), at(1, 4.0)];
+        keep_last(&mut limits, 4);
+        let kept: Vec<(u32, f64)> = limits.iter().map(|(j, l)| (*j, l.lower)).collect();
+        assert_eq!(kept, [(0, 1.0), (3, 3.0), (1, 4.0)]);
     }
 }

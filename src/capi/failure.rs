@@ -4,6 +4,7 @@ use std::cell::RefCell;
 
 use super::status::roundel_status::{self, *};
 use crate::error::Error;
+use crate::proof::Fault;
 
 /// The reason of a failure: an error of the library, or one that only the C interface can have.
 #[derive(Debug)]
@@ -14,6 +15,8 @@ pub(super) enum Failure {
         row: usize,
         error: Error,
     },
+    /// A proof that is refused.
+    Refused(Fault),
     Null(&'static str),
     Panic(String),
     Unusable,
@@ -47,6 +50,10 @@ impl Failure {
         let (status, message) = match &self {
             Failure::Library(error) => (error.into(), error.to_string()),
             Failure::InRow { row, error } => (error.into(), format!("row {row}: {error}")),
+            Failure::Refused(fault) => (
+                ROUNDEL_ERROR_PROOF_REFUSED,
+                format!("the proof is refused ({}): {fault}", fault.kind.code()),
+            ),
             Failure::Null(what) => (ROUNDEL_ERROR_NULL_POINTER, format!("{what} is NULL")),
             Failure::Panic(text) => (
                 ROUNDEL_ERROR_PANIC,
@@ -57,6 +64,10 @@ impl Failure {
                 "the handle was given up in an earlier error and can only be freed".into(),
             ),
         };
+        let refused = match &self {
+            Failure::Refused(fault) => Some(fault.line),
+            _ => None,
+        };
         let error = match self {
             Failure::Library(error) | Failure::InRow { error, .. } => Some(error),
             _ => None,
@@ -64,11 +75,13 @@ impl Failure {
         let last = LastError {
             message,
             index: error.as_ref().and_then(Error::index),
-            line: error.as_ref().and_then(Error::line),
+            line: error.as_ref().and_then(Error::line).or(refused),
             direction: match error {
-                Some(Error::Unbounded { direction, .. } | Error::NotConvex { direction, .. }) => {
-                    direction
-                }
+                Some(
+                    Error::Unbounded { direction, .. }
+                    | Error::NotConvex { direction, .. }
+                    | Error::NotConvexAt { direction, .. },
+                ) => direction,
                 _ => Vec::new(),
             },
         };

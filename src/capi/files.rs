@@ -21,8 +21,8 @@ use crate::solve::replay;
 /// A file may maximise. The problem then minimises the negated objective, and 1 is written to `maximises`, else
 /// 0; `maximises` may be NULL.
 ///
-/// Fails with ROUNDEL_ERROR_PARSE or ROUNDEL_ERROR_NOT_SUPPORTED and the line at fault, and with
-/// ROUNDEL_ERROR_IO.
+/// Fails with ROUNDEL_ERROR_PARSE, ROUNDEL_ERROR_NOT_SUPPORTED or, where entries of Q show that the objective is not
+/// convex, ROUNDEL_ERROR_NOT_CONVEX, and the line at fault, and with ROUNDEL_ERROR_IO.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_problem_read(
     file: *const c_char,
@@ -65,8 +65,7 @@ pub unsafe extern "C" fn roundel_problem_write(
 
 /// Makes a problem from a file in MPS, gzipped or not, whatever its name is. See roundel_problem_read.
 ///
-/// Fails with ROUNDEL_ERROR_PARSE or ROUNDEL_ERROR_NOT_SUPPORTED and the line at fault, and with
-/// ROUNDEL_ERROR_IO.
+/// Fails as roundel_problem_read does.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_problem_read_mps(
     file: *const c_char,

@@ -40,6 +40,8 @@ pub enum roundel_status {
     ROUNDEL_ERROR_PARSE = 31,
     /// A file that cannot be read or written.
     ROUNDEL_ERROR_IO = 32,
+    /// A proof that does not hold, at the line given; the text says what is wrong with it.
+    ROUNDEL_ERROR_PROOF_REFUSED = 33,
     /// The constraint of this index contradicts the others.
     ROUNDEL_ERROR_INFEASIBLE = 40,
     /// The constraint of this index has no solution in integers.
@@ -48,7 +50,7 @@ pub enum roundel_status {
     /// it moves.
     ROUNDEL_ERROR_UNBOUNDED = 42,
     /// The objective curves downwards along the direction given; the index is a variable that it
-    /// moves.
+    /// moves. In a file, the line is that of the entry that shows it.
     ROUNDEL_ERROR_NOT_CONVEX = 43,
     /// An edge of a mesh has more than two faces; the index is the lowest of them.
     ROUNDEL_ERROR_NON_MANIFOLD_EDGE = 50,
@@ -133,6 +135,7 @@ const NAMES: &[(roundel_status, &CStr)] = &[
     (ROUNDEL_ERROR_NOT_SUPPORTED, c"not_supported"),
     (ROUNDEL_ERROR_PARSE, c"parse"),
     (ROUNDEL_ERROR_IO, c"io"),
+    (ROUNDEL_ERROR_PROOF_REFUSED, c"proof_refused"),
     (ROUNDEL_ERROR_INFEASIBLE, c"infeasible"),
     (ROUNDEL_ERROR_NO_INTEGER_SOLUTION, c"no_integer_solution"),
     (ROUNDEL_ERROR_UNBOUNDED, c"unbounded"),
@@ -216,7 +219,7 @@ impl From<&Error> for roundel_status {
             Error::Infeasible { .. } | Error::Contradiction { .. } => ROUNDEL_ERROR_INFEASIBLE,
             Error::NoIntegerSolution { .. } => ROUNDEL_ERROR_NO_INTEGER_SOLUTION,
             Error::Unbounded { .. } => ROUNDEL_ERROR_UNBOUNDED,
-            Error::NotConvex { .. } => ROUNDEL_ERROR_NOT_CONVEX,
+            Error::NotConvex { .. } | Error::NotConvexAt { .. } => ROUNDEL_ERROR_NOT_CONVEX,
             Error::Cancelled => ROUNDEL_ERROR_CANCELLED,
             Error::TimeLimit => ROUNDEL_ERROR_TIME_LIMIT,
         }

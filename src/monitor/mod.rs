@@ -139,6 +139,14 @@ impl<'a> Monitor<'a> {
         self.limit = Duration::try_from_secs_f64(limit).ok();
     }
 
+    /// Lets what follows the search of a solve go on until `limit` seconds from its start.
+    pub(crate) fn extend(&mut self, limit: f64) {
+        self.limit = Duration::try_from_secs_f64(limit).ok();
+        if self.stopped == Some(Stop::TimeLimit) {
+            self.stopped = None;
+        }
+    }
+
     pub(crate) fn seconds(&self) -> f64 {
         self.started.elapsed().as_secs_f64()
     }

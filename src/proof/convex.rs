@@ -23,6 +23,9 @@ const LARGEST: usize = 3000;
 /// Half a unit in the last place of 1.
 const UNIT: f64 = 0.5 * f64::EPSILON;
 
+/// Whether to go on, asked in every long loop. What is ended this way shows nothing.
+pub(super) type GoesOn<'a> = &'a dyn Fn() -> bool;
+
 /// Entries of a lower triangle.
 type Entries = BTreeMap<(usize, usize), Exact>;
 
@@ -92,18 +95,18 @@ pub(super) fn blocks(part: &PartObjective) -> Vec<Block> {
     blocks
 }
 
-/// Holds the curvature of a part against its objective.
+/// Holds the curvature of a part against its objective, as long as it may go on.
 ///
 /// # Errors
 /// [`FaultKind::NotConvex`].
-pub(super) fn check(part: &PartObjective) -> Checked<()> {
+pub(super) fn check(part: &PartObjective, goes_on: GoesOn) -> Checked<()> {
     for block in blocks(part) {
         let curvature: Vec<Exact> = block
             .members
             .iter()
             .map(|&k| part.curvature[k].clone())
             .collect();
-        if !block.has_curvature(&curvature) {
+        if !block.has_curvature(&curvature, goes_on) {
             let first = part.members[block.members[0]];
             let text = format!(
                 "the objective of x{first} and the {} unknowns that it is coupled with is not shown to have \
@@ -124,23 +127,27 @@ impl Block {
     }
 
     /// Whether the block minus a diagonal is positive semi-definite. No means that it could not be shown.
-    pub fn has_curvature(&self, curvature: &[Exact]) -> bool {
+    pub fn has_curvature(&self, curvature: &[Exact], goes_on: GoesOn) -> bool {
         if !self.has_quadratic && curvature.iter().all(Exact::is_zero) {
             return true;
         }
+        if !goes_on() {
+            return false;
+        }
         let entries = self.minus(curvature);
-        self.is_shown(&entries)
-            || (self.members.len() <= SMALL && has_no_negative_pivot(&entries, self.members.len()))
+        let n = self.members.len();
+        self.is_shown(&entries, goes_on)
+            || (n <= SMALL && has_no_negative_pivot(&entries, n, goes_on))
     }
 
     /// As [`has_curvature`](Self::has_curvature), by what takes little time.
-    pub fn has_curvature_at_once(&self, curvature: &[Exact]) -> bool {
-        self.is_shown(&self.minus(curvature))
+    pub fn has_curvature_at_once(&self, curvature: &[Exact], goes_on: GoesOn) -> bool {
+        goes_on() && self.is_shown(&self.minus(curvature), goes_on)
     }
 
-    fn is_shown(&self, entries: &Entries) -> bool {
+    fn is_shown(&self, entries: &Entries, goes_on: GoesOn) -> bool {
         let n = self.members.len();
-        dominates(entries, n) || (n <= LARGEST && has_factor(entries, n))
+        dominates(entries, n) || (n <= LARGEST && goes_on() && has_factor(entries, n, goes_on))
     }
 
     fn minus(&self, curvature: &[Exact]) -> Entries {
@@ -168,12 +175,12 @@ fn dominates(entries: &Entries, n: usize) -> bool {
 }
 
 /// Whether a Cholesky factor in floats leaves a rest that its diagonal dominates.
-fn has_factor(entries: &Entries, n: usize) -> bool {
-    rest_of_factor(entries, n) == Some(true)
+fn has_factor(entries: &Entries, n: usize, goes_on: GoesOn) -> bool {
+    rest_of_factor(entries, n, goes_on) == Some(true)
 }
 
-/// Nothing if there is no factor.
-fn rest_of_factor(entries: &Entries, n: usize) -> Option<bool> {
+/// Nothing if there is no factor, or it was not to go on.
+fn rest_of_factor(entries: &Entries, n: usize, goes_on: GoesOn) -> Option<bool> {
     // Powers of two bring the diagonal near one, and change nothing else.
     let mut scale = vec![0.0; n];
     for (k, scale) in scale.iter_mut().enumerate() {
@@ -192,6 +199,7 @@ fn rest_of_factor(entries: &Entries, n: usize) -> Option<bool> {
     let mut factor = vec![0.0; n * n];
     let mut lengths = vec![0.0; n];
     for i in 0..n {
+        goes_on().then_some(())?;
         for j in 0..=i {
             let (row, other) = (&factor[i * n..i * n + j], &factor[j * n..j * n + j]);
             let products: f64 = row.iter().zip(other).map(|(a, b)| a * b).sum();
@@ -209,6 +217,7 @@ fn rest_of_factor(entries: &Entries, n: usize) -> Option<bool> {
     }
     let mut left = vec![0.0; n];
     for i in 0..n {
+        goes_on().then_some(())?;
         for j in 0..=i {
             let (row, other) = (&factor[i * n..=i * n + j], &factor[j * n..=j * n + j]);
             let products: f64 = row.iter().zip(other).map(|(a, b)| a * b).sum();
@@ -228,7 +237,7 @@ fn rest_of_factor(entries: &Entries, n: usize) -> Option<bool> {
 }
 
 /// Whether elimination with integers meets no negative pivot, and no zero pivot whose row is not zero.
-fn has_no_negative_pivot(entries: &Entries, n: usize) -> bool {
+fn has_no_negative_pivot(entries: &Entries, n: usize, goes_on: GoesOn) -> bool {
     let mut rows: Vec<Vec<Exact>> = vec![vec![Exact::zero(); n]; n];
     for ((i, j), v) in entries {
         rows[*i][*j] = v.clone();
@@ -243,7 +252,7 @@ fn has_no_negative_pivot(entries: &Entries, n: usize) -> bool {
             }
             continue;
         }
-        if pivot.sign().is_lt() {
+        if pivot.sign().is_lt() || !goes_on() {
             return false;
         }
         for i in k + 1..n {
@@ -284,7 +293,7 @@ mod tests {
 
     fn has(rows: &[&[f64]], curvature: f64) -> bool {
         let curvature = vec![Exact::of(curvature).unwrap(); rows.len()];
-        block(rows).has_curvature(&curvature)
+        block(rows).has_curvature(&curvature, &|| true)
     }
 
     #[test]
@@ -319,9 +328,9 @@ mod tests {
                     entries.insert((i, j), Exact::of(v).unwrap());
                 }
             }
-            assert_eq!(has_factor(&entries, n), is_shown, "{excess}");
+            assert_eq!(has_factor(&entries, n, &|| true), is_shown, "{excess}");
             assert_eq!(
-                has_no_negative_pivot(&entries, n),
+                has_no_negative_pivot(&entries, n, &|| true),
                 excess >= 0.0,
                 "{excess}"
             );

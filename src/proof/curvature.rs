@@ -3,7 +3,7 @@
 //! A positive one makes bounds of unknowns without limits, whose slopes are rounding errors. A small negative one
 //! covers a block that is singular up to the rounding of its entries; it needs limits.
 
-use super::convex::{Block, blocks};
+use super::convex::{Block, GoesOn, blocks};
 use super::exact::Exact;
 use super::minorant::PartObjective;
 use super::problem::{Limits, Side};
@@ -14,14 +14,14 @@ const NEGATIVE: [i32; 3] = [-36, -32, -28];
 
 /// A curvature of the objective: a power of two or its negative for each unknown of a block that has one, else
 /// zero.
-pub(super) fn choose(part: &PartObjective, limits: &Limits) -> Vec<f64> {
+pub(super) fn choose(part: &PartObjective, limits: &Limits, goes_on: GoesOn) -> Vec<f64> {
     let mut chosen = vec![0.0; part.members.len()];
     for block in blocks(part) {
         let is_bounded = block.members.iter().all(|&k| {
             let side = |side| limits.side(part.members[k], side).is_some();
             side(Side::Lower) && side(Side::Upper)
         });
-        if let Some(curvature) = of_block(&block, is_bounded) {
+        if let Some(curvature) = of_block(&block, is_bounded, goes_on) {
             for (&k, d) in block.members.iter().zip(curvature) {
                 chosen[k] = d;
             }
@@ -30,7 +30,7 @@ pub(super) fn choose(part: &PartObjective, limits: &Limits) -> Vec<f64> {
     chosen
 }
 
-fn of_block(block: &Block, is_bounded: bool) -> Option<Vec<f64>> {
+fn of_block(block: &Block, is_bounded: bool, goes_on: GoesOn) -> Option<Vec<f64>> {
     let diagonal = block.diagonal();
     if diagonal.iter().any(|d| !(1e-150..1e150).contains(d)) {
         return None;
@@ -41,13 +41,13 @@ fn of_block(block: &Block, is_bounded: bool) -> Option<Vec<f64>> {
     };
     let has = |curvature: &Vec<f64>| {
         let exact: Option<Vec<Exact>> = curvature.iter().map(|&d| Exact::of(d)).collect();
-        exact.is_some_and(|exact| block.has_curvature_at_once(&exact))
+        exact.is_some_and(|exact| block.has_curvature_at_once(&exact, goes_on))
     };
     let positive = POSITIVE.into_iter().map(|power| of_power(1.0, power));
     if let Some(found) = positive.into_iter().find(has) {
         return Some(found);
     }
-    if !is_bounded || block.has_curvature(&vec![Exact::zero(); diagonal.len()]) {
+    if !is_bounded || block.has_curvature(&vec![Exact::zero(); diagonal.len()], goes_on) {
         return None;
     }
     NEGATIVE

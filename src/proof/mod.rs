@@ -51,16 +51,18 @@ pub struct Proof {
 }
 
 impl Proof {
-    /// The proof of what a search has done.
+    /// The proof of what a search has done. It is made as long as `ask` returns no error.
     ///
     /// # Errors
-    /// [`Error::NotSupported`](crate::Error::NotSupported) for what cannot be proved in exact numbers.
+    /// [`Error::NotSupported`](crate::Error::NotSupported) for what cannot be proved in exact numbers; that of
+    /// `ask`.
     pub(crate) fn new(
         problem: &Problem,
         derivation: &Derivation,
         values: Option<&[f64]>,
+        ask: &dyn Fn() -> Result<()>,
     ) -> Result<Self> {
-        let lines = seal::seal(Statement::of(problem), derivation, values)?;
+        let lines = seal::seal(Statement::of(problem), derivation, values, ask)?;
         Ok(Proof { lines })
     }
 

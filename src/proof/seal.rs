@@ -19,16 +19,22 @@ use super::repair::Place;
 use super::steps::take;
 use crate::error::{Error, Result};
 
+/// Whether to go on, asked at every node and in every long loop. Its error ends the writer.
+pub(super) type Ask<'a> = &'a dyn Fn() -> Result<()>;
+
 /// The lines of a proof of this statement. `values` are the best point, if there is one.
 ///
 /// # Errors
-/// [`Error::NotSupported`] for what cannot be proved.
+/// [`Error::NotSupported`] for what cannot be proved; that of `ask`.
 pub(super) fn seal(
     statement: Statement,
     derivation: &Derivation,
     values: Option<&[f64]>,
+    ask: Ask,
 ) -> Result<Vec<Line>> {
+    ask()?;
     let (mut problem, mut limits) = ExactProblem::of(&statement).map_err(unproved)?;
+    ask()?;
     let energy = values.and_then(|values| {
         let x: Option<Vec<Exact>> = values.iter().map(|&x| Exact::of(x)).collect();
         Some(problem.energy(&x?).above())
@@ -38,9 +44,11 @@ pub(super) fn seal(
         energy,
         lower_bound: None,
     };
+    ask()?;
     check_point(&problem, &limits, &claim).map_err(unproved)?;
+    ask()?;
     let root = Root {
-        steps: taken(&mut problem, &mut limits, &derivation.steps),
+        steps: taken(&mut problem, &mut limits, &derivation.steps, ask)?,
         empty: None,
     };
     let mut lines = vec![Line::RoundelProof(VERSION), Line::Statement(statement)];
@@ -51,7 +59,7 @@ pub(super) fn seal(
         return Ok(lines);
     }
     let searched = all_free(&problem, &limits, &derivation.parts, values);
-    let sealed = seal_parts(&mut problem, &mut limits, &searched)?;
+    let sealed = seal_parts(&mut problem, &mut limits, &searched, ask)?;
     // A point that misses rows by rounding errors may have less energy than all points.
     let most = claim.energy.unwrap_or(f64::INFINITY);
     claim.lower_bound = sealed.bound.map(|bound| bound.below().min(most));
@@ -80,9 +88,11 @@ fn seal_parts(
     problem: &mut ExactProblem,
     limits: &mut Limits,
     searched: &[Searched],
+    ask: Ask,
 ) -> Result<Sealed> {
     let members: Vec<Vec<u32>> = searched.iter().map(|part| part.unknowns.clone()).collect();
     let mut split = Split::of(problem, limits, &members).map_err(unproved)?;
+    ask()?;
     let mut all = Sealed {
         parts: Vec::new(),
         nodes: Vec::new(),
@@ -90,7 +100,7 @@ fn seal_parts(
     };
     let mut failed = None;
     for (searched, objective) in searched.iter().zip(&mut split.parts) {
-        let (part, mut nodes) = match seal_part(problem, limits, searched, objective) {
+        let (part, mut nodes) = match seal_part(problem, limits, searched, objective, ask) {
             Ok(sealed) => sealed,
             Err(error) => {
                 failed = failed.or(Some(error));
@@ -117,10 +127,15 @@ fn seal_part(
     limits: &mut Limits,
     searched: &Searched,
     objective: &mut PartObjective,
+    ask: Ask,
 ) -> Result<(Part, Vec<Node>)> {
-    let curvature = curvature::choose(objective, limits);
+    let goes_on = || ask().is_ok();
+    let curvature = curvature::choose(objective, limits, &goes_on);
+    ask()?;
     objective.set_curvature(&curvature).map_err(unproved)?;
-    super::convex::check(objective).map_err(unproved)?;
+    let checked = super::convex::check(objective, &goes_on);
+    ask()?;
+    checked.map_err(unproved)?;
     let mut sealer = Sealer {
         problem,
         limits,
@@ -130,6 +145,7 @@ fn seal_part(
         nodes: Vec::new(),
         above: Vec::new(),
         least: None,
+        ask,
     };
     let root = sealer.limits.mark();
     let sealed = sealer.seal();
@@ -164,16 +180,24 @@ fn overflow() -> Error {
 
 /// The steps that hold in exact numbers, taken. Bounds of reals may be off by rounding errors, and are then moved
 /// outwards.
-fn taken(problem: &mut ExactProblem, limits: &mut Limits, steps: &[Step]) -> Vec<Step> {
+fn taken(
+    problem: &mut ExactProblem,
+    limits: &mut Limits,
+    steps: &[Step],
+    ask: Ask,
+) -> Result<Vec<Step>> {
     let mut kept = Vec::new();
-    for &step in steps {
+    for (at, &step) in steps.iter().enumerate() {
+        if at % 64 == 63 {
+            ask()?;
+        }
         let right = outwards(step).find(|&step| take(problem, limits, step).is_ok());
         kept.extend(right);
         if limits.are_empty() {
             break;
         }
     }
-    kept
+    Ok(kept)
 }
 
 /// The step, and further ones with a bound that is less tight.
@@ -353,6 +377,7 @@ struct Sealer<'a> {
     above: Vec<Above>,
     /// The least bound of a leaf that is not empty.
     least: Option<Exact>,
+    ask: Ask<'a>,
 }
 
 impl Sealer<'_> {
@@ -366,6 +391,7 @@ impl Sealer<'_> {
             above: 0,
         }];
         while let Some(next) = waiting.pop() {
+            (self.ask)()?;
             self.limits.go_back(next.mark);
             self.above.truncate(next.above);
             if let Some((unknown, side, to)) = next.branch {
@@ -374,7 +400,7 @@ impl Sealer<'_> {
                     .tighten(self.problem, unknown as usize, side, to);
             }
             let visited = &self.searched.nodes[next.searched];
-            let steps = taken(self.problem, self.limits, &visited.steps);
+            let steps = taken(self.problem, self.limits, &visited.steps, self.ask)?;
             self.nodes.push(Node {
                 steps,
                 ..Node::default()
@@ -451,7 +477,7 @@ impl Sealer<'_> {
             limits,
             part,
         };
-        let leaf = self.nodes.len() - 1;
+        let (leaf, ask) = (self.nodes.len() - 1, self.ask);
         for (distance, above) in self.above.iter_mut().rev().enumerate() {
             let known = above.known.get_or_insert_with(|| {
                 let certificate = self.searched.nodes[above.searched].certificate.as_ref();
@@ -474,6 +500,7 @@ impl Sealer<'_> {
                 write(known.certificate.clone());
                 return Ok(None);
             }
+            ask()?;
             let minorant = known.exact(problem, limits, part).map_err(unproved)?;
             let found = match minorant.least(limits, part) {
                 Ok(least) => Some((least, known.certificate.clone())),

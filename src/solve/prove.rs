@@ -1,7 +1,7 @@
 //! A solve with a proof that code which shares nothing with the search can check.
 //!
 //! The proof is the tree of branch and bound. Where other methods have solved the problem, branch and bound
-//! searches once more from their solution.
+//! searches once more from their solution. Then the proof is written, as long as the caller lets it.
 
 use super::limited::{conclude, solve_limited};
 use super::run::{begin, solve_unlimited};
@@ -9,10 +9,10 @@ use super::solution::Solution;
 use crate::branch;
 use crate::error::{Error, Result};
 use crate::linalg::DisjointSets;
-use crate::monitor::{Monitor, watch_memory, with_threads};
+use crate::monitor::{Monitor, may_continue, watch_memory, with_threads};
 use crate::problem::{Model, Problem};
 use crate::proof::{Derivation, Proof};
-use crate::search::{Options, SolveStatus, Strategy};
+use crate::search::{Options, SolveStatus, StoppedBy, Strategy};
 
 /// The largest number of unknowns that Q couples, for a search after other methods.
 const LARGEST: usize = 3000;
@@ -20,17 +20,24 @@ const LARGEST: usize = 3000;
 /// The nodes of a search after other methods. It may never close a tree of integers without bounds.
 const NODES: usize = 200_000;
 
+/// The part of the time limit that searches may take. What they leave is for the proof.
+const SEARCH: f64 = 0.5;
+
 /// The outcome of a solve, with its proof.
 #[derive(Debug, Clone)]
 pub struct Proved {
     /// The solution, or the error of a problem that has none.
     pub outcome: Result<Solution>,
-    /// The proof of the bound, or that there is no point. Its bound may be lower than that of the solution.
-    pub proof: Proof,
+    /// The proof of the bound, or that there is no point. Its bound may be lower than that of the solution. If it was
+    /// stopped before it was complete, what stopped it: [`StoppedBy::Time`], [`StoppedBy::Cancel`] or
+    /// [`StoppedBy::Memory`].
+    pub proof: std::result::Result<Proof, StoppedBy>,
 }
 
-/// Solves `problem` and writes a proof. The strategy is `exact` or `auto`; limits hold as for a solve without
-/// one, and a search that ends early proves the bound that it has reached.
+/// Solves `problem` and makes a proof. The strategy is `exact` or `auto`. A search that ends early proves the bound
+/// that it has reached. Half of a time limit is for the search at most, so that time is left for the proof. A
+/// proof that the limit or a cancel ends is not made, and the solution is kept; a caller who wants the results so
+/// far ends the search alone.
 ///
 /// # Errors
 /// The errors of [`solve_with`](crate::solve_with), except for a problem without a point whose proof is the
@@ -50,6 +57,11 @@ pub fn solve_with_proof(problem: &Problem, options: &Options, monitor: Monitor) 
 }
 
 fn prove(problem: &Problem, options: &Options, mut monitor: Monitor) -> Result<Proved> {
+    let limit = options.time_limit;
+    let options = &Options {
+        time_limit: SEARCH * limit,
+        ..options.clone()
+    };
     let model = begin(problem, options, &mut monitor)?;
     let mut derivation = Derivation::default();
     let guess = model.guess();
@@ -79,12 +91,42 @@ fn prove(problem: &Problem, options: &Options, mut monitor: Monitor) -> Result<P
         };
         let found = branch::solve(problem, &model, options, start, None, record, &mut monitor);
         let again = found.and_then(|found| conclude(problem, &model, options, found, &monitor));
+        if let Some(stopped) = again.as_ref().err().and_then(stopped_by) {
+            return Ok(Proved {
+                outcome,
+                proof: Err(stopped),
+            });
+        }
         may_have_proof(&again)?;
         outcome = better(outcome, again)?;
     }
     let values = outcome.as_ref().ok().map(Solution::values);
-    let proof = Proof::new(problem, &derivation, values)?;
+    let search_ended = monitor.stopped().map(Error::from);
+    monitor.extend(limit);
+    let made = monitor.check().map_err(Error::from).and_then(|()| {
+        let _watch = monitor.watch();
+        Proof::new(problem, &derivation, values, &|| Ok(may_continue()?))
+    });
+    let proof = match made {
+        Ok(proof) => Ok(proof),
+        Err(error) => {
+            // A search that was stopped may have no bound yet.
+            let ended = search_ended.filter(|_| matches!(error, Error::NotSupported { .. }));
+            let stopped = stopped_by(&error).or_else(|| ended.as_ref().and_then(stopped_by));
+            Err(stopped.ok_or(error)?)
+        }
+    };
     Ok(Proved { outcome, proof })
+}
+
+/// What ended a step with this error, if the step was told to end.
+fn stopped_by(error: &Error) -> Option<StoppedBy> {
+    match error {
+        Error::Cancelled => Some(StoppedBy::Cancel),
+        Error::TimeLimit => Some(StoppedBy::Time),
+        Error::OutOfMemory { .. } => Some(StoppedBy::Memory),
+        _ => None,
+    }
 }
 
 /// Whether an outcome can be proved: a solution, or that there is none.
@@ -147,5 +189,112 @@ fn fits(model: &Model) -> Result<()> {
             line: None,
         }),
         _ => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::cell::Cell;
+
+    use super::*;
+    use crate::monitor::{CancelToken, Flow};
+
+    /// A knapsack whose tree has some nodes.
+    fn knapsack() -> Problem {
+        let n = 10;
+        let all: Vec<usize> = (0..n).collect();
+        let mut problem = Problem::new(n).unwrap();
+        for &k in &all {
+            let rhs = 0.3 + 0.07 * (k * k % 7) as f64;
+            problem.add_least_squares(&[k], &[1.0], rhs, 1.0).unwrap();
+        }
+        let row = [0, 1, 2, 3];
+        problem
+            .add_least_squares(&row, &[1.0, -1.0, 2.0, 1.0], 1.4, 0.5)
+            .unwrap();
+        let sizes: Vec<f64> = all.iter().map(|k| (3 + k * 5 % 8) as f64).collect();
+        problem
+            .add_inequality(&all, &sizes, 17.5, f64::INFINITY)
+            .unwrap();
+        problem.set_binaries(&all).unwrap();
+        problem
+    }
+
+    #[test]
+    fn a_proof_that_is_told_to_end_at_any_question_ends_there() {
+        let problem = knapsack();
+        let options = Options::default();
+        let mut monitor = Monitor::default();
+        let model = begin(&problem, &options, &mut monitor).unwrap();
+        let mut derivation = Derivation::default();
+        let record = Some(&mut derivation);
+        let guess = model.guess();
+        let solved = solve_limited(&problem, &model, &options, guess, record, &mut monitor);
+        let solution = solved.unwrap();
+        let make = |last: usize| {
+            let asked = Cell::new(0);
+            let ask = || {
+                asked.set(asked.get() + 1);
+                match asked.get() > last {
+                    true => Err(Error::TimeLimit),
+                    false => Ok(()),
+                }
+            };
+            (
+                Proof::new(&problem, &derivation, Some(solution.values()), &ask),
+                asked.get(),
+            )
+        };
+        let (whole, asked) = make(usize::MAX);
+        let whole = whole.unwrap();
+        assert!(whole.nodes() > 3 && asked > whole.nodes(), "{asked}");
+        for last in 0..asked {
+            assert_eq!(make(last).0, Err(Error::TimeLimit), "{last} of {asked}");
+        }
+        assert_eq!(make(asked).0, Ok(whole));
+    }
+
+    #[test]
+    fn a_cancelled_solve_keeps_its_solution_and_has_no_proof() {
+        let token = CancelToken::new();
+        let cancel = token.clone();
+        let monitor = Monitor::default()
+            .cancel_token(token)
+            .on_event(move |event| {
+                if event.energy.is_finite() {
+                    cancel.cancel();
+                }
+                Flow::Continue
+            });
+        let proved = solve_with_proof(&knapsack(), &Options::default(), monitor).unwrap();
+        assert_eq!(proved.outcome.unwrap().status(), SolveStatus::Cancelled);
+        assert_eq!(proved.proof, Err(StoppedBy::Cancel));
+    }
+
+    #[test]
+    fn a_caller_who_wants_the_results_so_far_gets_a_proof_of_the_bound_so_far() {
+        let token = CancelToken::new();
+        let finish = token.clone();
+        let monitor = Monitor::default()
+            .cancel_token(token)
+            .on_event(move |event| {
+                if event.energy.is_finite() && event.lower_bound.is_finite() {
+                    finish.finish();
+                }
+                Flow::Continue
+            });
+        let proved = solve_with_proof(&knapsack(), &Options::default(), monitor).unwrap();
+        let bound = proved.proof.unwrap().lower_bound().unwrap();
+        assert!(bound.is_finite() && bound <= proved.outcome.unwrap().energy());
+    }
+
+    #[test]
+    fn a_time_limit_before_the_first_solution_is_that_of_the_solve() {
+        let options = Options {
+            time_limit: 0.0,
+            ..Options::default()
+        };
+        let error = solve_with_proof(&knapsack(), &options, Monitor::default()).unwrap_err();
+        assert_eq!(error, Error::TimeLimit);
     }
 }

@@ -23,7 +23,7 @@ fn a_maximised_objective_is_negated() {
         assert_eq!(model.constant(), 5.0);
         assert_eq!(model.hessian().values(), [2.0]);
     }
-    assert!(!read(head).maximises());
+    assert!(!read(&head.replace("-2", "2")).maximises());
 }
 
 #[test]
@@ -47,7 +47,9 @@ BOUNDS
  UP BND SET   X ONE              4.0
  FR BND SET   Y
 QUADOBJ
+    X ONE     X ONE              2.0
     X ONE     Y                  0.5
+    Y         Y                  3.0
 ENDATA
 ",
     );
@@ -61,7 +63,7 @@ ENDATA
     assert_eq!(p.problem().bounds(0).unwrap(), (0.0, 4.0));
     let model = Model::new(p.problem()).unwrap();
     assert_eq!(model.gradient(), [1.0, 0.0]);
-    assert_eq!(model.hessian().values(), [0.5]);
+    assert_eq!(model.hessian().values(), [2.0, 0.5, 3.0]);
     // Free format has no blanks in names.
     let mut text = Vec::new();
     mps::write_to(&mut text, &p).unwrap();

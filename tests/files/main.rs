@@ -6,6 +6,7 @@ mod common;
 mod broken;
 #[cfg(feature = "gzip")]
 mod corpus;
+mod curvature;
 mod dialects;
 mod limits;
 mod lp;

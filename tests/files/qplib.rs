@@ -87,7 +87,8 @@ fn every_part_is_read() {
 
 #[test]
 fn sections_are_left_out_where_the_type_says_so() {
-    let p = read("b\nQBN\nmaximize\n2\n1\n2 1 3\n0\n0\n0\n1e20\n0\n0\n0\n0\n0\n0\n");
+    let p =
+        read("b\nQBN\nmaximize\n2\n3\n1 1 -2\n2 1 3\n2 2 -5\n0\n0\n0\n1e20\n0\n0\n0\n0\n0\n0\n");
     assert!(p.maximises());
     assert_eq!(p.problem().bounds(1).unwrap(), (0.0, 1.0));
     assert_eq!(Model::new(p.problem()).unwrap().integer(), [true; 2]);

@@ -66,9 +66,19 @@ pub fn problem() -> impl Strategy<Value = Problem> {
         |(n, quadratic, linear, constant, squares, rows, integer, limits)| {
             let mut p = Problem::new(n).unwrap();
             for (i, j, v) in quadratic {
-                let (i, j) = (i.max(j), i.min(j));
-                p.add_quadratic_triplets(Triangle::Lower, &[i], &[j], &[v])
-                    .unwrap();
+                // Readers refuse what is not convex: the diagonal dominates.
+                let (rows, cols) = ([i.max(j), i, j], [i.min(j), i, j]);
+                let (values, len) = match i == j {
+                    true => ([v.abs(); 3], 1),
+                    false => ([v, v.abs(), v.abs()], 3),
+                };
+                p.add_quadratic_triplets(
+                    Triangle::Lower,
+                    &rows[..len],
+                    &cols[..len],
+                    &values[..len],
+                )
+                .unwrap();
             }
             p.add_linear(&linear).unwrap();
             p.add_constant(constant).unwrap();

@@ -14,7 +14,7 @@ use crate::{prove, text};
 
 /// The lines of the proof of a problem.
 fn lines_of(problem: &Problem) -> Lines {
-    let proof = text(&prove(problem).unwrap().proof);
+    let proof = text(crate::made(&prove(problem).unwrap()));
     let lines = Cursor::new(proof).lines();
     lines
         .map(|line| serde_json::from_str(&line.unwrap()).unwrap())

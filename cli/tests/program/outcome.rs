@@ -197,9 +197,33 @@ fn an_objective_that_falls_forever_is_unbounded() {
 #[test]
 fn an_objective_that_curves_downwards_is_an_error_of_its_own() {
     let q = [("A", "A", -2.0), ("I", "I", 2.0), ("J", "J", 2.0)];
-    let (code, report) = solve_json("not-convex", &mps(&[], &[], &[], &q), &[]);
-    let told = told(&report);
-    assert_eq!((code, told), (4, ("error", "not_convex", &json!(0))));
+    let text = mps(&[], &[], &[], &q);
+    let (code, report) = solve_json("not-convex", &text, &[]);
+    let found = told(&report);
+    assert_eq!((code, found), (4, ("error", "not_convex", &json!(0))));
+    let at = text.lines().position(|line| line.contains("-2")).unwrap();
+    assert_eq!(report["error"]["line"], json!(at + 1), "{report}");
+}
+
+/// Each pair of unknowns is convex, all three together are not: the solver sees it, and the line is that of the
+/// unknown which its direction moves most.
+#[test]
+fn the_line_is_named_of_what_only_the_solver_sees() {
+    let text = "min\n f: [ x ^ 2\n + y ^ 2\n + z ^ 2 - 1.8 x * y - 1.8 y * z - 1.8 x * z ] / 2\n\
+        st\n c: x + y + z <= 4\nbounds\n x free\n y free\n z free\nend\n";
+    let scratch = Scratch::new("bent");
+    let file = scratch.write("bent.lp", text);
+    for proof in [None, Some("--proof=bent.jsonl")] {
+        let flags: Vec<&str> = proof.into_iter().chain(["--json"]).collect();
+        let mut command = solve(&file, &flags);
+        command.current_dir(scratch.path(""));
+        let (code, output) = finish(command);
+        let report = only_object(&output);
+        let (status, error, index) = told(&report);
+        assert_eq!((code, status, error), (4, "error", "not_convex"));
+        let line = index.as_u64().unwrap() + 2;
+        assert_eq!(report["error"]["line"], json!(line), "{report}");
+    }
 }
 
 #[test]

@@ -54,6 +54,7 @@ void bad_objective(fixture* f);
 void bad_constraints(fixture* f);
 void bad_inequalities(fixture* f);
 void bad_lazy_rows(fixture* f);
+void bad_proofs(fixture* f);
 void bad_least_squares(fixture* f);
 void bad_unknowns(fixture* f);
 void bad_options(fixture* f);

@@ -39,6 +39,8 @@ static const broken cases[] = {
      ROUNDEL_ERROR_NOT_SUPPORTED, "SC", 13, NONE},
     {"crossed bounds", HEAD COLUMNS_PART RHS_PART "BOUNDS\n LO B x 2\n UP B x 1\n",
      ROUNDEL_ERROR_PARSE, "'x'", 14, NONE},
+    {"not convex", "NAME p\nROWS\n N f\n L c\nCOLUMNS\n x c 1\n y c 1\nQUADOBJ\n y y -2\nENDATA\n",
+     ROUNDEL_ERROR_NOT_CONVEX, "'y'", 9, 1},
     {"both triangles", HEAD COLUMNS_PART RHS_PART BOUNDS_PART "QUADOBJ\n x y 1\n y x 1\nENDATA\n",
      ROUNDEL_ERROR_PARSE, "one triangle", 17, NONE},
 };

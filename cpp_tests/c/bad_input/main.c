@@ -45,6 +45,7 @@ int main(void) {
     bad_constraints(&f);
     bad_inequalities(&f);
     bad_lazy_rows(&f);
+    bad_proofs(&f);
     bad_least_squares(&f);
     bad_unknowns(&f);
     bad_options(&f);

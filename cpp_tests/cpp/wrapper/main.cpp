@@ -21,6 +21,7 @@ int main() {
     rows_and_bounds_limit_a_problem();
     rows_come_during_a_solve();
     files_may_maximise();
+    proofs_are_written_and_checked();
     failures_throw_or_are_reported();
     options_follow_the_librarys_list();
     callbacks_stop_and_throw();

@@ -13,6 +13,7 @@ void rows_given_together_are_rows_given_one_by_one();
 void rows_and_bounds_limit_a_problem();
 void rows_come_during_a_solve();
 void files_may_maximise();
+void proofs_are_written_and_checked();
 void failures_throw_or_are_reported();
 void options_follow_the_librarys_list();
 void callbacks_stop_and_throw();

@@ -1,6 +1,6 @@
 //! What a reader has gathered, and the problem that it becomes.
 
-use super::{NamedProblem, Names};
+use super::{NamedProblem, Names, curvature};
 use crate::error::Result;
 use crate::problem::{Layout, MatrixRef, Problem, Triangle};
 
@@ -26,11 +26,72 @@ pub(in crate::problem) struct Draft {
     pub upper: Vec<f64>,
     pub linear: Vec<f64>,
     pub constant: f64,
-    /// Entries of the lower triangle of Q: rows, columns and values.
-    pub quadratic: (Vec<usize>, Vec<usize>, Vec<f64>),
+    /// Entries of the lower triangle of Q.
+    pub quadratic: Entries,
     pub rows: Vec<DraftRow>,
     /// Entries of the rows: rows, columns and values.
     pub entries: (Vec<usize>, Vec<usize>, Vec<f64>),
+}
+
+/// Entries of the lower triangle of Q, each with the line that gives it.
+#[derive(Debug, Default)]
+pub(in crate::problem) struct Entries {
+    pub rows: Vec<usize>,
+    pub cols: Vec<usize>,
+    pub values: Vec<f64>,
+    pub lines: Vec<usize>,
+}
+
+impl Entries {
+    /// Adds an entry for two unknowns, in any order.
+    pub fn push(&mut self, line: usize, i: usize, j: usize, value: f64) {
+        self.rows.push(i.max(j));
+        self.cols.push(i.min(j));
+        self.values.push(value);
+        self.lines.push(line);
+    }
+
+    /// Rows, columns, values and lines.
+    pub fn iter(&self) -> impl Iterator<Item = (usize, usize, f64, usize)> + '_ {
+        let at = |k| (self.rows[k], self.cols[k], self.values[k], self.lines[k]);
+        (0..self.rows.len()).map(at)
+    }
+
+    /// The largest absolute value, if there is an entry.
+    pub fn largest(&self) -> Option<f64> {
+        let sizes = self.values.iter().map(|value| value.abs());
+        sizes.reduce(f64::max)
+    }
+
+    /// The positions of the entries by columns: those of column `j` are from `offsets[j]` to `offsets[j + 1]`.
+    pub fn by_column(&self, variables: usize) -> (Vec<usize>, Vec<usize>) {
+        let mut offsets = vec![0; variables + 1];
+        for &j in &self.cols {
+            offsets[j + 1] += 1;
+        }
+        for j in 0..variables {
+            offsets[j + 1] += offsets[j];
+        }
+        let mut next = offsets.clone();
+        let mut order = vec![0; self.cols.len()];
+        for (k, &j) in self.cols.iter().enumerate() {
+            order[next[j]] = k;
+            next[j] += 1;
+        }
+        (offsets, order)
+    }
+
+    /// For each unknown the last line of its diagonal entry or, without one, of any of its entries; 0 without any.
+    fn lines_of_unknowns(&self, variables: usize) -> Vec<usize> {
+        let mut lines = vec![0; if self.rows.is_empty() { 0 } else { variables }];
+        for is_diagonal in [false, true] {
+            for (i, j, _, line) in self.iter().filter(|(i, j, ..)| (i == j) == is_diagonal) {
+                lines[i] = line;
+                lines[j] = line;
+            }
+        }
+        lines
+    }
 }
 
 impl Draft {
@@ -40,11 +101,14 @@ impl Draft {
             let constant = std::iter::once(&mut self.constant);
             let values = constant
                 .chain(&mut self.linear)
-                .chain(&mut self.quadratic.2);
+                .chain(&mut self.quadratic.values);
             values.for_each(|value| *value = -*value);
         }
+        curvature::check(&self)?;
         let mut problem = Problem::new(self.variables.len())?;
-        let (rows, cols, values) = &self.quadratic;
+        let Entries {
+            rows, cols, values, ..
+        } = &self.quadratic;
         problem.add_quadratic_triplets(Triangle::Lower, rows, cols, values)?;
         problem.add_linear(&self.linear)?;
         problem.add_constant(self.constant)?;
@@ -70,9 +134,11 @@ impl Draft {
             constraints: names(equalities),
             inequalities: names(inequalities),
         };
+        let lines = self.quadratic.lines_of_unknowns(names.variables.len());
         Ok(NamedProblem {
             problem,
             names,
+            lines,
             maximise: self.maximise,
         })
     }

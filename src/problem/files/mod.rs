@@ -1,6 +1,7 @@
 //! Files of problems: what the formats share, and the choice of a format by the name of a file.
 
 pub(in crate::problem) mod compression;
+mod curvature;
 pub(in crate::problem) mod draft;
 pub(in crate::problem) mod lines;
 mod named;

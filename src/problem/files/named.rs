@@ -14,6 +14,8 @@ pub struct NamedProblem {
     pub(crate) problem: Problem,
     pub(crate) names: Names,
     pub(crate) maximise: bool,
+    /// The line of a file on which Q has an entry of each unknown; 0 for none, and empty without a file or Q.
+    pub(crate) lines: Vec<usize>,
 }
 
 /// The names of a problem's parts.
@@ -89,6 +91,7 @@ impl NamedProblem {
             problem,
             names,
             maximise: false,
+            lines: Vec::new(),
         }
     }
 
@@ -131,6 +134,7 @@ impl NamedProblem {
             problem,
             names,
             maximise: false,
+            lines: Vec::new(),
         })
     }
 
@@ -153,6 +157,31 @@ impl NamedProblem {
     /// The same problem, stated in files as maximisation of the negated objective if `maximise` is set.
     pub fn maximising(self, maximise: bool) -> Self {
         NamedProblem { maximise, ..self }
+    }
+
+    /// `error` with the line of the file and the name of the unknown, if it is [`Error::NotConvex`] and the file has
+    /// an entry of Q for the unknown. A reader sees only what single entries show; this is for the solver's error.
+    pub fn located(&self, error: Error) -> Error {
+        match error {
+            Error::NotConvex {
+                variable,
+                direction,
+            } if self.lines.get(variable).is_some_and(|line| *line > 0) => Error::NotConvexAt {
+                line: self.lines[variable],
+                what: format!(
+                    "the objective is not convex: it curves {} along a direction that moves variable {}",
+                    if self.maximise {
+                        "upwards"
+                    } else {
+                        "downwards"
+                    },
+                    quoted(&self.names.variables[variable])
+                ),
+                variable,
+                direction,
+            },
+            error => error,
+        }
     }
 
     /// The title, which may be empty.

@@ -3,6 +3,7 @@
 use super::tokens::{Token, Tokens};
 use super::words::is_infinity;
 use crate::error::Result;
+use crate::problem::files::draft::Entries;
 use crate::problem::files::lines::{fault, quoted, unsupported};
 use crate::problem::files::names::NameList;
 
@@ -15,12 +16,9 @@ pub(super) struct Expression {
     pub constant: Option<f64>,
 }
 
-/// Entries of the lower triangle of Q: rows, columns and values.
-pub(super) type Quadratic = (Vec<usize>, Vec<usize>, Vec<f64>);
-
 /// Where an expression stands, and with it which quadratic terms are allowed.
 pub(super) enum Place<'a> {
-    Objective(&'a mut Quadratic),
+    Objective(&'a mut Entries),
     Row,
 }
 
@@ -107,7 +105,7 @@ fn quadratic_terms(
     tokens: &mut Tokens,
     names: &mut NameList,
     outer: f64,
-    quadratic: &mut Quadratic,
+    quadratic: &mut Entries,
 ) -> Result<()> {
     let wrong = |what: &str, (token, line): (Token, usize)| {
         fault(line, format!("expected {what}, found {}", text_of(&token)))
@@ -119,8 +117,8 @@ fn quadratic_terms(
             factor *= number;
             tokens.next()?;
         }
-        let i = match tokens.next()? {
-            (Token::Name(name), line) => variable(names, line, &name)?,
+        let (i, line) = match tokens.next()? {
+            (Token::Name(name), line) => (variable(names, line, &name)?, line),
             other => return Err(wrong("a variable", other)),
         };
         let (j, value) = match (tokens.next()?, tokens.next()?) {
@@ -133,9 +131,7 @@ fn quadratic_terms(
             ((Token::Sign('*' | '^'), _), other) => return Err(wrong("a second factor", other)),
             (other, _) => return Err(wrong("^ 2 or * and a variable", other)),
         };
-        quadratic.0.push(i.max(j));
-        quadratic.1.push(i.min(j));
-        quadratic.2.push(value);
+        quadratic.push(line, i, j, value);
     }
     match (tokens.next()?, tokens.next()?) {
         ((Token::Sign('/'), _), (Token::Number(2.0), _)) => Ok(()),

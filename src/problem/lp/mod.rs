@@ -16,8 +16,10 @@
 //! most likely misspelt. An upper bound below 0 needs a lower bound as well, on which readers disagree.
 //!
 //! Quadratic constraints, semi-continuous unknowns, special ordered sets, indicators, lazy constraints and the
-//! like are [`Error::NotSupported`] with their line, other text [`Error::Parse`] with its line.
+//! like are [`Error::NotSupported`] with their line, an objective that is not convex is [`Error::NotConvexAt`] where
+//! entries of Q show it, other text is [`Error::Parse`] with its line.
 //!
+//! [`Error::NotConvexAt`]: crate::Error::NotConvexAt
 //! [`Error::NotSupported`]: crate::Error::NotSupported
 //! [`Error::Parse`]: crate::Error::Parse
 

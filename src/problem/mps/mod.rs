@@ -23,9 +23,11 @@
 //! by blanks. From the first line on that cannot be read so, they are cut by the columns of fixed format
 //! (2-3, 5-12, 15-22, 25-36, 40-47, 50-61), and names may have blanks in them. Every other feature of MPS
 //! (semi-continuous variables, quadratic constraints, special ordered sets, indicators, ...) is
-//! [`Error::NotSupported`] with its line. Text that is not MPS is [`Error::Parse`] with its line. Nothing is
-//! skipped or guessed, and no entry may be given twice.
+//! [`Error::NotSupported`] with its line. An objective that is not convex is [`Error::NotConvexAt`] with the line
+//! where entries of Q show it. Text that is not MPS is [`Error::Parse`] with its line. Nothing is skipped or
+//! guessed, and no entry may be given twice.
 //!
+//! [`Error::NotConvexAt`]: crate::Error::NotConvexAt
 //! [`Error::NotSupported`]: crate::Error::NotSupported
 //! [`Error::Parse`]: crate::Error::Parse
 //!
@@ -63,8 +65,10 @@ use crate::error::Result;
 ///
 /// # Errors
 /// [`Error::Io`] for a file that cannot be read or a damaged archive; [`Error::Parse`] and
-/// [`Error::NotSupported`] with the faulty line; [`Error::OutOfMemory`], [`Error::Overflow`].
+/// [`Error::NotSupported`] with the faulty line; [`Error::NotConvexAt`] with the line of an entry of Q that shows
+/// it, where it takes no factorization to see; [`Error::OutOfMemory`], [`Error::Overflow`].
 ///
+/// [`Error::NotConvexAt`]: crate::Error::NotConvexAt
 /// [`Error::Io`]: crate::Error::Io
 /// [`Error::Parse`]: crate::Error::Parse
 /// [`Error::NotSupported`]: crate::Error::NotSupported

@@ -2,6 +2,7 @@
 
 use super::lines::Line;
 use crate::error::Result;
+use crate::problem::files::draft::Entries;
 use crate::problem::files::lines::fault;
 use crate::problem::files::names::NameList;
 use crate::problem::matrix::SYMMETRY_TOLERANCE;
@@ -54,16 +55,16 @@ impl Quadratic {
         Ok(())
     }
 
-    /// The entries of the lower triangle, each once: rows, columns, values.
-    pub fn lower_triangle(self, variables: usize) -> Result<(Vec<usize>, Vec<usize>, Vec<f64>)> {
+    /// The entries of the lower triangle, each once.
+    pub fn lower_triangle(self, variables: usize) -> Result<Entries> {
         self.check(variables)?;
-        let full = self.full;
-        let kept = || self.entries.iter().filter(|e| !full || e.row >= e.col);
-        Ok((
-            kept().map(Entry::most).collect(),
-            kept().map(Entry::least).collect(),
-            kept().map(|e| e.value).collect(),
-        ))
+        let mut lower = Entries::default();
+        for e in &self.entries {
+            if !self.full || e.row >= e.col {
+                lower.push(e.line, e.row as usize, e.col as usize, e.value);
+            }
+        }
+        Ok(lower)
     }
 
     /// Checks that no entry is given twice and, with both triangles, that each entry agrees with its mirror

@@ -111,11 +111,8 @@ fn read_objective(
         let mut seen = HashSet::new();
         records.sparse("Q", [variables; 2], |line, [i, j], value| {
             // The lower triangle, though some files hold the upper.
-            let (i, j) = (i.max(j), i.min(j));
-            is_new(line, &mut seen, (i, j))?;
-            draft.quadratic.0.push(i);
-            draft.quadratic.1.push(j);
-            draft.quadratic.2.push(value);
+            is_new(line, &mut seen, (i.max(j), i.min(j)))?;
+            draft.quadratic.push(line, i, j, value);
             Ok(())
         })?;
     }

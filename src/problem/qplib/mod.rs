@@ -7,10 +7,11 @@
 //! binary (`B`), continuous and binary (`M`), integer (`I`) or of all kinds (`G`), and the constraints are none
 //! (`N`), bounds (`B`), linear (`L`) or quadratic (`D`, `C`, `Q`).
 //!
-//! A quadratic constraint is [`Error::NotSupported`] with its line, text that is no QPLIB file is
-//! [`Error::Parse`] with its line. Whether the objective is convex is for the solver to see. Starting points
-//! are checked and not kept. Variables without a name are x1, x2, ..., constraints c1, c2, ...
+//! A quadratic constraint is [`Error::NotSupported`] with its line, an objective that is not convex
+//! [`Error::NotConvexAt`] where entries of Q show it, and text that is no QPLIB file is [`Error::Parse`] with its
+//! line. Starting points are checked and not kept. Variables without a name are x1, x2, ..., constraints c1, c2, ...
 //!
+//! [`Error::NotConvexAt`]: crate::Error::NotConvexAt
 //! [`Error::NotSupported`]: crate::Error::NotSupported
 //! [`Error::Parse`]: crate::Error::Parse
 

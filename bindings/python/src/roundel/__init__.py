@@ -28,6 +28,7 @@ from .map import map as map
 from .mesh import Mesh
 from .options import Option, guidance_options, options, presets, quad_options, repair_options
 from .problem import Problem
+from .proof import Proof, check_proof
 from .quads import Quads, extract, quad
 from .repair import EditKind, Repair, Soup, repair
 from .solution import Solution
@@ -49,11 +50,13 @@ __all__ = [
     "Mesh",
     "Option",
     "Problem",
+    "Proof",
     "Quads",
     "Repair",
     "Solution",
     "Solver",
     "Soup",
+    "check_proof",
     "extract",
     "field",
     "guidance_options",

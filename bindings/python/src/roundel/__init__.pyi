@@ -253,6 +253,21 @@ class Problem:
     def guess(self, values: ArrayLike) -> None: ...
     def hint_cycles(self, offsets: ArrayLike, rows: ArrayLike, signs: ArrayLike) -> None: ...
 
+class Proof:
+    energy: Optional[float]
+    lower_bound: Optional[float]
+    violation: float
+    nodes: int
+    stopped_by: str
+    def __init__(
+        self,
+        energy: Optional[float],
+        lower_bound: Optional[float],
+        violation: float,
+        nodes: int,
+        stopped_by: str,
+    ) -> None: ...
+
 class Quads:
     def __iter__(self) -> Iterator[np.ndarray]: ...
     def __len__(self) -> int: ...
@@ -319,6 +334,7 @@ class Solution:
     integrality_violation: float
     counts: dict[str, int]
     seconds: dict[str, float]
+    proof: Optional[Proof]
     @property
     def proved(self) -> bool: ...
     def __init__(
@@ -334,6 +350,7 @@ class Solution:
         integrality_violation: float,
         counts: dict[str, int],
         seconds: dict[str, float],
+        proof: Optional[Proof] = None,
     ) -> None: ...
 
 class Solver:
@@ -389,6 +406,8 @@ class Soup:
     def vertices(self) -> np.ndarray: ...
     @property
     def polygons(self) -> list[np.ndarray]: ...
+
+def check_proof(file: File, problem: Optional[Problem] = None) -> Proof: ...
 
 def extract(V: MeshLike, F: Optional[ArrayLike] = None, uvs: Optional[ArrayLike] = None) -> Quads: ...
 
@@ -555,6 +574,7 @@ def solve(
     guess: Optional[ArrayLike] = None,
     triangle: Literal["full", "upper", "lower"] = "full",
     lazy_rows: LazyRows = None,
+    proof: Optional[File] = None,
     strategy: Strategy = "auto",
     time_limit: float = ...,
     gap: float = 0.0,
@@ -614,6 +634,8 @@ __all__ = [
     "PanicError",
     "ParseError",
     "Problem",
+    "Proof",
+    "ProofRefusedError",
     "Quads",
     "Repair",
     "RepeatedVertexError",
@@ -625,6 +647,7 @@ __all__ = [
     "UnknownOptionError",
     "UnusableError",
     "ZeroAreaError",
+    "check_proof",
     "extract",
     "field",
     "guidance_options",

@@ -34,6 +34,7 @@ __all__ = [
     "CountOverflowError",
     "PanicError",
     "ParseError",
+    "ProofRefusedError",
     "RepeatedVertexError",
     "TimeLimitError",
     "UnboundedError",
@@ -178,6 +179,10 @@ class IoError(Error):
     """A file cannot be read or written."""
 
 
+class ProofRefusedError(Error, ValueError):
+    """A proof does not hold, at `line`; the message says what is wrong."""
+
+
 class InfeasibleError(Error):
     """The constraint, inequality or bound `row` contradicts others; the message says which it is."""
 
@@ -197,7 +202,7 @@ class UnboundedError(Error):
 
 
 class NotConvexError(Error):
-    """The objective curves downwards along `direction`, which moves `variable`."""
+    """The objective curves downwards along `direction`, which moves `variable`; in a file, `line` shows it."""
 
     element = "variable"
 
@@ -280,6 +285,7 @@ classes: dict[int, type[Error]] = {
     lib.ROUNDEL_ERROR_NOT_SUPPORTED: NotSupportedError,
     lib.ROUNDEL_ERROR_PARSE: ParseError,
     lib.ROUNDEL_ERROR_IO: IoError,
+    lib.ROUNDEL_ERROR_PROOF_REFUSED: ProofRefusedError,
     lib.ROUNDEL_ERROR_INFEASIBLE: InfeasibleError,
     lib.ROUNDEL_ERROR_NO_INTEGER_SOLUTION: NoIntegerSolutionError,
     lib.ROUNDEL_ERROR_UNBOUNDED: UnboundedError,

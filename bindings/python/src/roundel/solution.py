@@ -11,6 +11,7 @@ from ._handle import Handle, number
 from ._library import ffi, lib, text
 from .arrays import pointer
 from .errors import check
+from .proof import Proof
 
 
 @dataclass(frozen=True, repr=False)
@@ -53,6 +54,8 @@ class Solution:
           "factor_nonzeros".
       seconds: dict[str, float]
           Wall-clock seconds by phase: eliminate, factor, round, total.
+      proof: Optional[Proof]
+          What the proof proves that `solve` was asked to write, or what stopped it; None without one.
     """
 
     values: np.ndarray
@@ -66,6 +69,7 @@ class Solution:
     integrality_violation: float
     counts: dict[str, int]
     seconds: dict[str, float]
+    proof: Optional[Proof] = None
 
     def __repr__(self) -> str:
         sizes = f"{self.counts['variables']} variables, {self.counts['integers']} integer"

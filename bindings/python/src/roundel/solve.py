@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any, Literal, Mapping, Optional, Union
 
 import numpy as np
 
 from ._groups import SOLVE, TUNING, WATCH
 from ._handle import Handle
-from ._library import ffi, lib
-from ._types import ArrayLike, MatrixLike
+from ._library import ffi, lib, path
+from ._types import ArrayLike, File, MatrixLike
 from .arrays import compressed, reals
 from .errors import ArgumentTypeError, refusal
 from .events import Progress
@@ -17,6 +18,7 @@ from .keywords import checked, takes
 from .lazy_rows import LazyRows, callback_of
 from .options import options_handle
 from .problem import Problem
+from .proof import report_of
 from .solution import Solution, taken_from
 from .watch import CancelToken, Watch
 
@@ -40,6 +42,7 @@ def solve(
     guess: Optional[ArrayLike] = None,
     triangle: Literal["full", "upper", "lower"] = "full",
     lazy_rows: LazyRows = None,
+    proof: Optional[File] = None,
     progress: Progress = None,
     cancel: Optional[CancelToken] = None,
     **options: Any,
@@ -68,6 +71,9 @@ def solve(
           constraints that it adds to the problem hold for the rest of the solve, and a point that they cut off
           is never the solution. What it adds must not depend on the order of its calls. A true value that it
           returns ends the solve.
+      proof: a file for a proof of the bound, or that there is no solution, which `check_proof` confirms. The
+          strategy must be "exact" or "auto". Half of `time_limit` is for the search at most. A proof that the
+          limit or a cancel ends is not written; `Solution.proof` tells.
 
     Python's lock is free during the solve. An exception of `progress` ends it and is raised again.
 
@@ -113,6 +119,15 @@ def solve(
     handle, watch = options_handle(options), Watch(progress, cancel)
     place = ffi.new("roundel_solution **")
     pointer = problem._handle.pointer
+    if proof is not None:
+        if lazy_rows is not None:
+            raise refusal(ArgumentTypeError, "proof: there is none of a problem with lazy_rows")
+        report = ffi.new("roundel_proof_report *")
+        with watch:
+            call = lib.roundel_problem_solve_with_proof
+            status = call(pointer, handle.pointer, watch.pointer, path(proof), report, place)
+        made = lambda: replace(taken_from(place), proof=report_of(report))  # noqa: E731
+        return watch.result(status, made, problem.variables)
     if lazy_rows is None:
         with watch:
             status = lib.roundel_problem_solve(pointer, handle.pointer, watch.pointer, place)
