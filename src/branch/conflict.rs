@@ -83,19 +83,29 @@ pub(super) fn of_limits(form: &Form, members: &[u32]) -> Result<Option<Vec<Confl
     Ok(has_none(&form).then(|| of_form(&form, members)))
 }
 
+/// A certificate that the relaxation of a form has no point; empty if it has one.
+pub(super) fn of_root(form: &Form) -> Vec<(u32, f64)> {
+    none_within(form, 1, u64::MAX).unwrap_or_default()
+}
+
 /// Whether a small search shows that the form has no solution.
 fn has_none(form: &Form) -> bool {
+    none_within(form, NODES, WORK).is_some()
+}
+
+/// The last certificate of a search of so many nodes and multiplications, if it shows that there is no solution.
+fn none_within(form: &Form, nodes: u64, work: u64) -> Option<Vec<(u32, f64)>> {
     let limits = Limits {
-        nodes: NODES,
-        work: WORK,
+        nodes,
+        work,
         gap: 0.0,
         elsewhere: 0.0,
         first: true,
         strict: true,
         recorded: false,
     };
-    let found = search(form, None, limits, &mut Monitor::default());
-    found.is_ok_and(|found| found.is_complete && found.best.is_none())
+    let found = search(form, None, limits, &mut Monitor::default()).ok()?;
+    (found.is_complete && found.best.is_none()).then_some(found.conflict)
 }
 
 /// The error that names the elements.
@@ -151,3 +161,7 @@ fn text(problem: &Problem, element: Conflicting) -> String {
         }
     }
 }
+
+#[cfg(test)]
+#[path = "conflict_tests.rs"]
+mod tests;

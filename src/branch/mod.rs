@@ -253,7 +253,11 @@ fn search_ordered(
     limits: Limits,
     monitor: &mut Monitor,
 ) -> Result<tree::Found> {
-    let Some((ordered, start)) = symmetry::ordered(form, start.as_deref()) else {
+    let ordered = {
+        let _watch = monitor.watch_search();
+        symmetry::ordered(form, start.as_deref())
+    };
+    let Some((ordered, start)) = ordered else {
         return tree::search(form, start, limits, monitor);
     };
     let mut found = tree::search(&ordered, start, limits, monitor)?;
@@ -349,11 +353,17 @@ fn with_point(
     if !found.is_complete {
         return Err(monitor.stopped().map_or(Error::Cancelled, Error::from));
     }
-    let mut elements = conflict::of_certificate(&part.form, &part.members, &found.conflict);
+    let rows = match found.nodes {
+        // A search of fewer unknowns or bounds has no certificate in rows of the part.
+        _ if found.conflict.is_empty() => conflict::of_root(&part.form),
+        0 | 1 => found.conflict,
+        _ => Vec::new(),
+    };
+    let mut elements = conflict::of_certificate(&part.form, &part.members, &rows);
     // No more rows than unknowns and one are needed (Helly); a certificate with more has some in it by
     // rounding errors.
     let is_small = !elements.is_empty() && elements.len() <= part.members.len() + 1;
-    if found.nodes > 1 || !is_small {
+    if !is_small {
         elements = conflict::of_form(&part.form, &part.members);
     }
     Err(conflict::error(problem, &elements))

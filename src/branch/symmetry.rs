@@ -10,6 +10,7 @@
 use super::dominated::with_bounds;
 use super::form::{Form, Interval};
 use crate::linalg::Sparse;
+use crate::monitor::may_continue;
 
 /// Rounds of new colours.
 const ROUNDS: usize = 50;
@@ -17,13 +18,21 @@ const ROUNDS: usize = 50;
 /// The largest number of choices that are looked at.
 const MOST: usize = 30;
 
+/// The largest sum of squared lengths of rows, for what looks at each two entries of a row.
+const PAIRS: usize = 50_000_000;
+
+/// The largest number of entries of the form, counted once for each exchange that is tried.
+const ENTRIES: usize = 3_000_000;
+
 /// An exchange: where each unknown goes. Done twice, it leaves all in place.
 type Exchange = Vec<u32>;
 
 /// The form with one order of its choices, and the start in that order, if its choices may change places.
 pub(super) fn ordered(form: &Form, start: Option<&[f64]>) -> Option<(Form, Option<Vec<f64>>)> {
     let rows = choice_rows(form);
-    if rows.len() < 2 {
+    let lengths = (0..form.rows.rows()).map(|i| form.rows.row(i).len());
+    let pairs = lengths.fold(0, |sum: usize, n| sum.saturating_add(n.saturating_mul(n)));
+    if rows.len() < 2 || pairs > PAIRS {
         return None;
     }
     // Bounds without effect shall not tell choices apart.
@@ -42,7 +51,10 @@ pub(super) fn ordered(form: &Form, start: Option<&[f64]>) -> Option<(Form, Optio
         })
         .find(|base| base.len() > 1)?;
     let first = graph.colours(|j| u64::from(j == base[0]));
-    let exchanges = base[1..].iter().filter_map(|&other| {
+    let entries = form.rows.entries().count() + form.hessian.entries().count();
+    let others = base[1..].iter().take(ENTRIES / entries.max(1));
+    let others = others.take_while(|_| may_continue().is_ok());
+    let exchanges = others.filter_map(|&other| {
         let second = graph.colours(|j| u64::from(j == other));
         graph.exchange(&rows, &first, &second)
     });
@@ -112,6 +124,12 @@ fn places(rows: &[Vec<u32>], exchanges: &[Exchange]) -> Vec<Vec<u32>> {
         let is_first = |j: &&u32| exchanges.iter().all(|to| to[**j as usize] != **j);
         let &first = row.iter().find(is_first)?;
         let others: Vec<u32> = exchanges.iter().map(|to| to[first as usize]).collect();
+        let mut different = others.clone();
+        different.sort_unstable();
+        different.dedup();
+        if different.len() < others.len() {
+            return None;
+        }
         // Each exchange moves the first place and one other.
         let moves = |(k, to): (usize, &Exchange)| {
             row.iter()
