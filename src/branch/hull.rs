@@ -236,10 +236,10 @@ fn copies(form: &Form, columns: &Sparse) -> HashMap<u32, Copied> {
         let mut row = form.rows.row(*i);
         sides.is_point() && sides.lower != 0.0 && row.all(|(j, a)| is_binary(j) && a == sides.lower)
     };
-    let choices: HashMap<Vec<usize>, usize> = rows
+    let choices: HashSet<Vec<usize>> = rows
         .clone()
         .filter(is_choice)
-        .map(|i| (form.rows.row(i).map(|(j, _)| j).collect(), i))
+        .map(|i| form.rows.row(i).map(|(j, _)| j).collect())
         .collect();
     // The binary that a copy is zero without, the largest value, and the row.
     let bound = |v: usize| {
@@ -275,7 +275,7 @@ fn copies(form: &Form, columns: &Sparse) -> HashMap<u32, Copied> {
         let bounds: Vec<_> = bounds.filter_map(|&(v, _)| Some((v, bound(v)?))).collect();
         let mut binaries: Vec<usize> = bounds.iter().map(|(_, (binary, ..))| *binary).collect();
         binaries.sort_unstable();
-        if bounds.len() != others.len() || !choices.contains_key(&binaries) {
+        if bounds.len() != others.len() || !choices.contains(&binaries) {
             continue;
         }
         for (v, (choice, most, row)) in bounds {
