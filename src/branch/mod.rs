@@ -218,6 +218,32 @@ pub(crate) fn solve<'e>(
     Ok(found)
 }
 
+/// Searches around a point, without presolve, as long as both limits allow. Returns the best point, if there
+/// is one, and the work.
+///
+/// # Errors
+/// Those of [`solve`] other than [`Error::Contradiction`] and the end of the call.
+pub(crate) fn around(
+    problem: &Problem,
+    start: Vec<f64>,
+    nodes: u64,
+    work: u64,
+    monitor: &mut Monitor,
+) -> Result<(Option<Vec<f64>>, u64)> {
+    let form = Form::of(problem, &Model::new(problem)?)?;
+    let limits = Limits {
+        nodes,
+        work,
+        gap: 0.0,
+        elsewhere: 0.0,
+        first: false,
+        strict: true,
+        recorded: false,
+    };
+    let found = tree::search(&form, Some(start), limits, monitor)?;
+    Ok((found.best.map(|(point, _)| point), found.work))
+}
+
 /// Searches a part. What is returned has a point.
 fn search_part(
     problem: &Problem,

@@ -1,18 +1,19 @@
 //! Strips between features that rounding may collapse to one line.
 //!
 //! Two feature curves that are closer together than the width of a quad often round to the same integer.
-//! The strip between them then collapses, and the quads lose one of the curves. The constraints found
+//! The strip between them then collapses, and the quads lose one of the curves. The rows found
 //! here keep such curves one unit apart, across the strip.
 
 use std::collections::{BTreeSet, VecDeque};
 
 use super::SeamlessProblem;
-use super::separation::SeparationConstraint;
+use super::separation::apart;
 use crate::error::Result;
 use crate::linalg::DisjointSets;
 use crate::mesh::TriangleMesh;
 use crate::mesh::vector::{dot, sub};
 use crate::monitor::may_continue;
+use crate::solve::SoftRow;
 
 /// Strips narrower than this part of a quad stay collapsed: quads in them would be slivers.
 const NARROWEST: f64 = 0.2;
@@ -25,11 +26,11 @@ const WIDEST: f64 = 1.5;
 const LEVEL: f64 = 0.5;
 
 impl SeamlessProblem {
-    /// The constraints that keep neighbouring curves apart, one for each pair and chart.
+    /// The rows that keep neighbouring curves apart, one for each pair and chart.
     ///
     /// # Errors
     /// The end of the call.
-    pub(crate) fn feature_strips(&self, mesh: &TriangleMesh) -> Result<Vec<SeparationConstraint>> {
+    pub(crate) fn feature_strips(&self, mesh: &TriangleMesh) -> Result<Vec<SoftRow>> {
         let lines = Lines::new(self);
         let mut found = Vec::new();
         let mut known = BTreeSet::new();
@@ -56,7 +57,7 @@ impl SeamlessProblem {
         mesh: &TriangleMesh,
         lines: &Lines,
         (vertex, copy, axis): (usize, u32, usize),
-        mut tell: impl FnMut(SeparationConstraint, [u32; 2]),
+        mut tell: impl FnMut(SoftRow, [u32; 2]),
     ) {
         let here = lines.of(copy, axis);
         let mut reached = BTreeSet::from([copy]);
@@ -86,11 +87,18 @@ impl SeamlessProblem {
                             copies.reverse();
                             curves.reverse();
                         }
-                        tell(SeparationConstraint::new(copies, axis, 1.0), curves);
+                        tell(apart(copies, axis, 1.0, across), curves);
                     }
                 }
             }
         }
+    }
+}
+
+impl SeamlessProblem {
+    /// For each unknown, the least unknown that isolines make equal to it.
+    pub(crate) fn lines(&self) -> Vec<u32> {
+        Lines::new(self).root
     }
 }
 

@@ -27,5 +27,5 @@ pub use seamless_map::{SeamlessMap, Transition};
 pub use sizing::Sizing;
 
 pub(crate) use from_values::gradient;
-pub(crate) use separation::{SeparationConstraint, constraints_of, solve_separated};
+pub(crate) use separation::{apart, constraints_of, row};
 pub(crate) use winding_defects::{has_winding_defect, winding_defects};

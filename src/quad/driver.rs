@@ -13,7 +13,7 @@
 //! ```
 //!
 //! Each try starts from what the last one kept: [`MapSolver`](super::map_solver::MapSolver) holds the
-//! solver of the map's problem, the separation constraints and the structure of its maps.
+//! solver of the map's problem, the separation rows and the structure of its maps.
 //! [`Driver::next`] alone decides what is tried next. Among all quads with the best
 //! [`Outcome`](super::outcome::Outcome) the first are kept.
 

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! map         integers are decided
-//! separation  cones that they collapse are separated, and integers are decided anew
+//! separation  integers are decided anew where they miss separation rows
 //! untangling  folds and winding defects are removed, with the integers fixed
 //! next try    a finer map, and then one that is finer only around the faults of the last
 //! ```
@@ -34,10 +34,6 @@ const FIRST: f64 = 0.5;
 /// The number of times that a map with folds is made finer around them alone.
 const GRADINGS: usize = 4;
 
-/// Untangling gets this part of its passes while integers still collapse cones and a finer map may be
-/// made, because it seldom helps then.
-const PART_OF_PASSES: usize = 8;
-
 /// The most faces that untangling may visit while a finer map may be made.
 const FACES_BEFORE_REFINING: usize = 500_000;
 
@@ -48,7 +44,7 @@ const PASSES_BEFORE_REFINING: usize = 5;
 /// A map, the solution that its integers are from, and the result of its untangling.
 #[derive(Debug)]
 pub struct FoldFreeMap {
-    /// The solution of the problem with the separation constraints. Its bound may be that without them.
+    /// The solution of the problem with the separation rows. Its bound may be that without them.
     pub solution: Solution,
     /// The map after untangling.
     pub untangled: Untangled,
@@ -81,7 +77,7 @@ impl FoldFreeMap {
     }
 }
 
-/// Solves the problem, separates the cones that the integers collapse and solves again, at most
+/// Solves the problem, adds the separation rows that its integers miss and solves again, at most
 /// `effort.rounds` times, and untangles the map. If folds or winding defects remain, the same is done for
 /// a finer map, at most `effort.refinements` times, and then with smaller quads around the faults alone.
 /// Among all maps with the fewest faults the first is kept. `monitor` watches each solve and each
@@ -229,10 +225,6 @@ impl<'m, M: Fn() -> Monitor<'m>> Driver<'_, M> {
             let faces = self.mesh.face_count().max(1);
             let few = PASSES_BEFORE_REFINING + FACES_BEFORE_REFINING / faces;
             effort.passes = effort.passes.min(few);
-            let outcome = separated.as_ref().map(|separated| separated.outcome);
-            if outcome.is_some_and(|outcome| outcome > Outcome::default()) {
-                effort.passes /= PART_OF_PASSES;
-            }
         }
         let rounds = separated.as_ref().map_or(0, |separated| separated.rounds);
         let better = separated.and_then(|separated| separated.better);

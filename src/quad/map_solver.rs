@@ -1,17 +1,17 @@
-//! A map's problem and the data that repeated solves share: its solver, the separation constraints found
-//! so far, and the structure that untangling uses.
+//! A map's problem and the data that repeated solves share: its solver, the separation rows that integers
+//! have missed so far, and the structure that untangling uses.
 
 use std::borrow::Cow;
 use std::rc::Rc;
 
 use super::outcome::Outcome;
 use crate::error::Result;
-use crate::map::{SeamlessMap, SeamlessProblem, SeparationConstraint, solve_separated};
+use crate::map::{SeamlessMap, SeamlessProblem};
 use crate::mesh::TriangleMesh;
 use crate::monitor::{Monitor, optional};
 use crate::search::{Options, Strategy};
-use crate::solve::{Solution, Solver};
-use crate::untangle::{Collapsed, Structure, UntangleOptions, Untangled};
+use crate::solve::{SoftRow, Solution, Solver};
+use crate::untangle::{Structure, UntangleOptions, Untangled};
 
 /// The most times that integers are decided anew because they collapse strips between features.
 const ROUNDS_FOR_FEATURES: usize = 3;
@@ -54,8 +54,6 @@ pub(super) struct Solved {
 pub(super) struct Separated {
     /// The best solution, if it is better than the one without separation.
     pub(super) better: Option<Solved>,
-    /// The elements that the integers of the best solution still collapse.
-    pub(super) outcome: Outcome,
     /// How often the integers were decided anew.
     pub(super) rounds: usize,
 }
@@ -68,8 +66,8 @@ pub(super) struct MapSolver<'a, M> {
     solver: Solver,
     options: &'a Options,
     monitor: &'a M,
-    /// The separation constraints of later solves.
-    separation: Vec<SeparationConstraint>,
+    /// The separation rows of later solves.
+    separation: Vec<SoftRow>,
     /// Known once there is a map; the same for every size.
     structure: Option<Rc<Structure>>,
 }
@@ -114,12 +112,12 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> MapSolver<'a, M> {
         Ok(())
     }
 
-    /// Drops all separation constraints.
+    /// Drops all separation rows.
     pub(super) fn forget_separation(&mut self) {
         self.separation.clear();
     }
 
-    /// Solves without separation constraints.
+    /// Solves without separation rows.
     pub(super) fn solve(&mut self) -> Result<Solved> {
         self.forget_separation();
         let solution = self.solver.solve_with(self.options, (self.monitor)())?;
@@ -136,9 +134,8 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> MapSolver<'a, M> {
     pub(super) fn separate_features(&mut self, first: &Solved) -> Result<Separated> {
         let strips = self.problem.feature_strips(self.mesh)?;
         self.separate(first, ROUNDS_FOR_FEATURES, |_, map| {
-            let collapsed = strips.iter().filter(|strip| strip.is_collapsed(map));
-            let collapsed: Vec<_> = collapsed.copied().collect();
-            (Outcome::of_integers(collapsed.len()), collapsed)
+            let missed = strips.iter().filter(|strip| strip.is_missed(map.values()));
+            missed.cloned().collect()
         })
     }
 
@@ -147,54 +144,47 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> MapSolver<'a, M> {
         let structure = self.structure(&first.map)?;
         let elements = structure.held_elements(self.mesh, &self.problem);
         self.separate(first, rounds, |this, map| {
-            let collapsed = Collapsed::find(&elements, map);
-            let constraints = collapsed.separation(this.mesh, &this.problem, map);
-            (Outcome::of_integers(collapsed.count()), constraints)
+            elements.missed(this.mesh, &this.problem, map)
         })
     }
 
-    /// Decides the integers anew, at most this many times, until `find` returns no further constraints.
-    /// For a map, `find` returns its outcome and the constraints that should be added.
+    /// Adds the rows that `missed` finds for a map, and decides the integers anew, at most this many times.
     fn separate(
         &mut self,
         first: &Solved,
         most_rounds: usize,
-        find: impl Fn(&Self, &SeamlessMap) -> (Outcome, Vec<SeparationConstraint>),
+        missed: impl Fn(&Self, &SeamlessMap) -> Vec<SoftRow>,
     ) -> Result<Separated> {
         let options = without_long_proof(self.options, self.problem.problem().variables());
-        let (mut outcome, mut wanted) = find(self, &first.map);
+        let mut wanted = missed(self, &first.map);
+        let mut outcome = Outcome::of_integers(wanted.len());
         let (mut better, mut rounds) = (None, 0);
         while rounds < most_rounds {
             let before = self.separation.len();
-            for constraint in wanted {
-                let is_same = |known: &SeparationConstraint| known.unknowns == constraint.unknowns;
-                if !self.separation.iter().any(is_same) {
-                    self.separation.push(constraint);
+            for row in wanted {
+                if !self.separation.contains(&row) {
+                    self.separation.push(row);
                 }
             }
             if self.separation.len() == before {
                 break;
             }
-            let (solver, separation) = (&mut self.solver, &mut self.separation);
-            let solved = optional(self.monitor, || {
-                solve_separated(solver, separation, &options, self.monitor)
+            let (solver, separation, monitor) = (&mut self.solver, &self.separation, self.monitor);
+            let solved = optional(monitor, || {
+                solver.solve_softly(separation, &options, monitor())
             });
-            let Some(solution) = solved?.flatten() else {
+            let Some(solution) = solved? else {
                 break;
             };
             rounds += 1;
             let found = self.solved(named_limit(solution, &options))?;
-            let of_found;
-            (of_found, wanted) = find(self, &found.map);
+            wanted = missed(self, &found.map);
+            let of_found = Outcome::of_integers(wanted.len());
             if of_found < outcome {
                 (better, outcome) = (Some(found), of_found);
             }
         }
-        Ok(Separated {
-            better,
-            outcome,
-            rounds,
-        })
+        Ok(Separated { better, rounds })
     }
 
     /// A map that is left as it is.

@@ -13,13 +13,14 @@ mod relax;
 pub mod replay;
 mod run;
 mod second_solve;
+mod soft_rows;
 mod solution;
 mod solver;
-mod subject_to;
 mod verify;
 
 pub use prove::{Proved, solve_with_proof};
 pub use run::{solve, solve_with, solve_with_lazy_rows};
+pub(crate) use soft_rows::SoftRow;
 pub use solution::{Counts, Seconds, Solution};
 pub use solver::Solver;
 pub use verify::{Verdict, verify};

@@ -7,15 +7,15 @@
 use super::Solution;
 use super::eliminated::EliminatedProblem;
 use super::limited::solve_limited;
-use super::run::{solve_eliminated, tell_of_ignored_hint};
-use super::subject_to::solve_subject_to;
+use super::run::{solve_eliminated, solve_with, tell_of_ignored_hint};
+use super::soft_rows::{SoftRow, solve_softly};
+use super::verify::verify;
 use crate::eliminate::Elimination;
 use crate::error::Result;
 use crate::linalg::Ordering;
 use crate::monitor::{Monitor, may_continue, watch_memory, with_threads};
-use crate::problem::RowList;
 use crate::problem::{Model, Problem};
-use crate::search::{Factors, Options, SolveStatus};
+use crate::search::{Factors, Options, SolveStatus, Strategy};
 
 /// A problem of fixed structure, with its elimination and factors kept from solve to solve.
 ///
@@ -196,23 +196,61 @@ impl Solver {
         Ok(solution)
     }
 
-    /// Solves the current problem under further constraints between integers, which hold for this solve
-    /// only. It uses the elimination and the factors of the problem without them. None if that is
-    /// impossible: see [`subject_to`](super::subject_to).
+    /// Solves the current problem under further rows between integers, which this solve keeps where it can.
+    /// It uses the elimination and the factors of the problem without them. The bound is that of the
+    /// relaxation without the rows.
     ///
     /// # Errors
-    /// The errors of [`solve_with`](crate::solve_with). The constraint that an error names is the row.
-    pub(crate) fn solve_subject_to(
+    /// The errors of [`solve_with`](crate::solve_with).
+    pub(crate) fn solve_softly(
         &mut self,
-        rows: &RowList,
+        rows: &[SoftRow],
         options: &Options,
         mut monitor: Monitor,
-    ) -> Result<Option<Solution>> {
+    ) -> Result<Solution> {
         let _memory = watch_memory(self.problem.size());
         with_threads(options.threads, || {
             let eliminated = self.prepare(options, &mut monitor)?;
-            solve_subject_to(eliminated, rows, options, &mut monitor)
+            match solve_softly(eliminated, rows, options, &mut monitor)? {
+                Some(solution) => Ok(solution),
+                None => self.solve_with_springs(rows, options, monitor),
+            }
         })
+    }
+
+    /// [`solve_softly`](Self::solve_softly) for many integers: every row is a spring in the objective.
+    pub(super) fn solve_with_springs(
+        &mut self,
+        rows: &[SoftRow],
+        options: &Options,
+        monitor: Monitor,
+    ) -> Result<Solution> {
+        let relaxed = Options {
+            strategy: Strategy::Relax,
+            ..options.clone()
+        };
+        let lower_bound = self.solve_with(&relaxed, monitor.silent())?.lower_bound;
+        let mut problem = self.problem.clone();
+        for row in rows {
+            let (indices, coefficients): (Vec<_>, Vec<_>) = row.terms.iter().copied().unzip();
+            problem.add_least_squares(&indices, &coefficients, row.least, 0.5 * row.weight)?;
+        }
+        let decided = match options.strategy {
+            // The optimum with springs proves nothing.
+            Strategy::Exact => Strategy::Auto,
+            strategy => strategy,
+        };
+        let options = Options {
+            strategy: decided,
+            ..options.clone()
+        };
+        let mut solution = solve_with(&problem, &options, monitor)?;
+        // The rows depend on integers alone, for which the other unknowns are the best without them as well.
+        solution.energy = verify(&self.problem, &solution.values)?.energy;
+        solution.lower_bound = lower_bound;
+        solution.complete = false;
+        solution.status = SolveStatus::unproved(solution.stopped_by);
+        Ok(solution)
     }
 
     /// Solves the current problem, which has inequalities or bounds.

@@ -36,7 +36,7 @@ pub(crate) fn grow_around(
     faults: impl Iterator<Item = usize>,
     lengths: &mut [f64],
 ) {
-    let reach = (REACH / problem.mean_aim(mesh)).max(LEAST_EDGES);
+    let reach = (REACH / mean_aim(problem, mesh)).max(LEAST_EDGES);
     let edges = edges_from(mesh, faults, reach as usize);
     for (face, length) in lengths.iter_mut().enumerate() {
         let nearest = mesh
@@ -70,6 +70,15 @@ fn edges_from(
         }
     }
     edges
+}
+
+/// The mean length of an edge in the map if the map had the gradients that are asked for.
+fn mean_aim(problem: &SeamlessProblem, mesh: &TriangleMesh) -> f64 {
+    let length = |face: usize| {
+        let [u, v] = problem.aim(mesh, face, 0, 1);
+        u.hypot(v)
+    };
+    (0..mesh.face_count()).map(length).sum::<f64>() / mesh.face_count() as f64
 }
 
 #[cfg(test)]

@@ -1,162 +1,83 @@
 //! Elements of a map whose shape the integers alone decide. Their vertices are cones, or those corners of
 //! features and of the boundary both of whose coordinates are integers.
 //!
-//! Two cones that are joined by a short path or by an isoline must not lie at one point, and the three
-//! corners of a face must not be collinear. Otherwise the faces between them have no area, wherever the
-//! other vertices move.
-
-use std::collections::{BTreeSet, VecDeque};
+//! Two cones near each other must keep their order ([`super::near_cones`]), and the three corners of a face
+//! must not be collinear. Otherwise the faces between them have no area, wherever the other vertices move.
 
 use super::isoline_triangles::IsolineTriangle;
-use crate::map::SeamlessProblem;
+use crate::map::{SeamlessMap, SeamlessProblem, apart, row};
 use crate::mesh::TriangleMesh;
+use crate::mesh::orientation;
 use crate::mesh::vector::{dot, sub};
-
-/// The most edges of a path between two cones, unless [`LONGEST_REACH`] allows more.
-const LONGEST_PATH: usize = 4;
-
-/// The length in quads up to which a path between two cones may have any number of edges.
-const LONGEST_REACH: f64 = 2.0;
+use crate::solve::SoftRow;
 
 /// The elements that integers may collapse, the same for all maps of one problem.
 pub(crate) struct HeldElements {
-    pub(super) pairs: Vec<NearCones>,
+    near: Vec<SoftRow>,
     /// Faces of three cones or corners.
-    pub(super) faces: Vec<usize>,
-    pub(super) isoline_triangles: Vec<IsolineTriangle>,
-}
-
-/// Two copies of cones in one chart, and the difference that their coordinates should have, second minus
-/// first, along a shortest path between them.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct NearCones {
-    pub copies: [u32; 2],
-    pub vertices: [u32; 2],
-    pub aim: [f64; 2],
+    faces: Vec<usize>,
+    isoline_triangles: Vec<IsolineTriangle>,
 }
 
 impl HeldElements {
     /// The elements of a problem in which integers hold these coordinates of every copy.
     pub(super) fn new(problem: &SeamlessProblem, mesh: &TriangleMesh, held: &[[bool; 2]]) -> Self {
-        let is_point: Vec<bool> = held.iter().map(|axes| *axes == [true; 2]).collect();
         let copies = &problem.sectors.copy;
-        let is_held = |&face: &usize| copies[face].iter().all(|&c| is_point[c as usize]);
+        let is_held = |&face: &usize| copies[face].iter().all(|&c| held[c as usize] == [true; 2]);
         HeldElements {
-            pairs: problem.near_cones(mesh, &is_point),
+            near: problem.near_rows(mesh, held),
             faces: (0..mesh.face_count()).filter(is_held).collect(),
             isoline_triangles: problem.isoline_triangles(mesh, held),
         }
     }
+
+    /// The rows that the integers of a map miss, and those that open the faces which they collapse or turn
+    /// over.
+    pub(crate) fn missed(
+        &self,
+        mesh: &TriangleMesh,
+        problem: &SeamlessProblem,
+        map: &SeamlessMap,
+    ) -> Vec<SoftRow> {
+        let near = self.near.iter().filter(|row| row.is_missed(map.values()));
+        let mut found: Vec<SoftRow> = near.cloned().collect();
+        for triangle in &self.isoline_triangles {
+            if let Some((ends, aim)) = triangle.wrong(map) {
+                let copies = ends.map(|k| problem.sectors.copy[triangle.face][k]);
+                found.push(apart(copies, triangle.axis, aim, aim));
+            }
+        }
+        if found.is_empty() {
+            let at = |face: usize| map.uv(face).map(|p| p.map(f64::round));
+            let lost = self
+                .faces
+                .iter()
+                .filter(|&&face| orientation(at(face)) <= 0.0);
+            found.extend(lost.flat_map(|&face| problem.upright(mesh, face)));
+        }
+        found
+    }
 }
 
 impl SeamlessProblem {
-    /// Pairs of cones and corners that are joined by an isoline or by a path of a few edges. The path
-    /// passes through no other cone and crosses no cut.
-    fn near_cones(&self, mesh: &TriangleMesh, held: &[bool]) -> Vec<NearCones> {
-        let longest = LONGEST_PATH.max((LONGEST_REACH / self.mean_aim(mesh)) as usize);
+    /// The rows that make a face the nearest counter-clockwise triangle whose sides from the first corner have
+    /// coordinates -1, 0 and 1.
+    fn upright(&self, mesh: &TriangleMesh, face: usize) -> Vec<SoftRow> {
+        let aims = [1, 2].map(|end| self.aim(mesh, face, 0, end));
+        let size = aims.map(|[u, v]| u.hypot(v));
+        let longest = size[0].max(size[1]).max(f64::MIN_POSITIVE);
+        let [ab, ac] = aims.map(|aim| aim.map(|entry| entry / longest));
+        let [first, second, third] = self.sectors.copy[face];
         let mut found = Vec::new();
-        for v in 0..mesh.vertex_count() {
-            for copy in self.sectors.first[v]..self.sectors.first[v + 1] {
-                if held[copy as usize] {
-                    self.paths_from(mesh, [v as u32, copy], longest, held, &mut found);
+        for (end, unit) in [second, third].into_iter().zip(units(ab, ac)) {
+            for axis in 0..2 {
+                let [from, end] = [first, end].map(|copy| 2 * copy as usize + axis);
+                for by in [1.0, -1.0] {
+                    found.push(row(vec![(end, by), (from, -by)], by * unit[axis], longest));
                 }
             }
         }
-        self.runs(mesh, held, &mut found);
         found
-    }
-
-    /// The mean length of an edge in the map if the map had the gradients that are asked for.
-    pub(super) fn mean_aim(&self, mesh: &TriangleMesh) -> f64 {
-        let faces = 0..mesh.face_count();
-        let length = |face: usize| {
-            let [u, v] = self.aim(mesh, face, 0, 1);
-            u.hypot(v)
-        };
-        faces.map(length).sum::<f64>() / mesh.face_count() as f64
-    }
-
-    /// Follows isolines from one cone or corner to the next, within a chart.
-    fn runs(&self, mesh: &TriangleMesh, held: &[bool], found: &mut Vec<NearCones>) {
-        let mut vertex_of = vec![0; self.sectors.count()];
-        for v in 0..mesh.vertex_count() {
-            for copy in self.sectors.first[v]..self.sectors.first[v + 1] {
-                vertex_of[copy as usize] = v as u32;
-            }
-        }
-        // The copy where a run began, the difference that its ends should have, and the copy that it has
-        // reached.
-        let mut run: Option<(u32, [f64; 2], u32)> = None;
-        for isoline in &self.isolines {
-            let [from, to] = isoline.ends;
-            let (begin, mut aim) = match run {
-                Some((begin, aim, at)) if at == from && !isoline.is_first => (begin, aim),
-                _ if held[from as usize] => (from, [0.0; 2]),
-                _ => {
-                    run = None;
-                    continue;
-                }
-            };
-            let step = self.aim_along(mesh, isoline.edge, [from, to]);
-            aim = [aim[0] + step[0], aim[1] + step[1]];
-            run = Some((begin, aim, to));
-            if held[to as usize] {
-                found.push(NearCones {
-                    copies: [begin, to],
-                    vertices: [begin, to].map(|copy| vertex_of[copy as usize]),
-                    aim,
-                });
-                run = None;
-            }
-        }
-    }
-
-    /// The difference that the coordinates should have along an edge, in the chart of its first face.
-    fn aim_along(&self, mesh: &TriangleMesh, edge: usize, [from, to]: [u32; 2]) -> [f64; 2] {
-        let (face, _) = mesh.edge(edge).first;
-        let copies = self.sectors.copy[face];
-        let corner = |copy: u32| copies.iter().position(|&c| c == copy).unwrap_or(0);
-        self.aim(mesh, face, corner(from), corner(to))
-    }
-
-    /// Searches breadth-first from a copy of a cone. Each pair is found from its lower cone.
-    fn paths_from(
-        &self,
-        mesh: &TriangleMesh,
-        [from, copy]: [u32; 2],
-        longest: usize,
-        held: &[bool],
-        found: &mut Vec<NearCones>,
-    ) {
-        let mut reached = BTreeSet::from([copy]);
-        let mut queue = VecDeque::from([(from as usize, copy, [0.0; 2], 0)]);
-        while let Some((v, at, aim, length)) = queue.pop_front() {
-            for (face, corner) in mesh.ring(v) {
-                if self.sectors.copy[face][corner] != at {
-                    continue;
-                }
-                for end in [(corner + 1) % 3, (corner + 2) % 3] {
-                    let next = self.sectors.copy[face][end];
-                    if !reached.insert(next) {
-                        continue;
-                    }
-                    let w = mesh.corners(face)[end];
-                    let step = self.aim(mesh, face, corner, end);
-                    let aim = [aim[0] + step[0], aim[1] + step[1]];
-                    if !held[next as usize] {
-                        if length + 1 < longest {
-                            queue.push_back((w, next, aim, length + 1));
-                        }
-                    } else if from < w as u32 {
-                        found.push(NearCones {
-                            copies: [copy, next],
-                            vertices: [from, w as u32],
-                            aim,
-                        });
-                    }
-                }
-            }
-        }
     }
 
     /// The difference that the coordinates of two corners of a face should have.
@@ -164,5 +85,33 @@ impl SeamlessProblem {
         let corners = mesh.corner_positions(face);
         let step = sub(corners[to], corners[from]);
         self.targets(mesh, face).map(|target| dot(target, step))
+    }
+}
+
+/// The two vectors nearest to the given ones whose entries are -1, 0 or 1, with the second to the left of
+/// the first.
+fn units(first: [f64; 2], second: [f64; 2]) -> [[f64; 2]; 2] {
+    let entries =
+        (0..81).map(|n: i32| [n / 27, n / 9 % 3, n / 3 % 3, n % 3].map(|e| f64::from(e - 1)));
+    let left = entries.filter(|[a, b, c, d]| a * d - b * c > 0.0);
+    let aim = [first[0], first[1], second[0], second[1]];
+    let distance = |e: &[f64; 4]| (0..4).map(|i| (e[i] - aim[i]).powi(2)).sum::<f64>();
+    let nearest = left.min_by(|a, b| distance(a).total_cmp(&distance(b)));
+    let [a, b, c, d] = nearest.unwrap_or([1.0, 0.0, 0.0, 1.0]);
+    [[a, b], [c, d]]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn units_are_the_right_way_round_and_near() {
+        assert_eq!(units([0.9, 0.2], [-0.1, 1.2]), [[1.0, 0.0], [0.0, 1.0]]);
+        for n in 0..50 {
+            let aim = [0, 1, 2, 3].map(|i| f64::from(n * 4 + i).sin());
+            let [[a, b], [c, d]] = units([aim[0], aim[1]], [aim[2], aim[3]]);
+            assert!(a * d - b * c > 0.0);
+        }
     }
 }

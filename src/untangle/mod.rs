@@ -17,13 +17,12 @@
 //! | a disk around a vertex | `disk` |
 //! | a disk around a cone, in polar coordinates | `polar` |
 //! | vertices with a wrong winding number | `unwind` |
-//! | elements whose shape integers alone decide | `held_elements`, `isoline_triangles` |
-//! | collapsed elements, and their separation | `collapsed` |
+//! | rows between cones near each other | `near_cones` |
+//! | all elements whose shape integers alone decide | `held_elements`, `isoline_triangles` |
 //! | smaller quads around the remaining faults | `grading` |
 //!
 //! [`solve_fold_free`](crate::quad::solve_fold_free) decides which of these is tried when.
 
-mod collapsed;
 mod disk;
 mod energy;
 mod freedom;
@@ -31,6 +30,7 @@ mod grading;
 mod held_elements;
 mod hessian;
 mod isoline_triangles;
+mod near_cones;
 mod polar;
 mod region;
 mod schedule;
@@ -39,7 +39,6 @@ mod stuck;
 mod system;
 mod unwind;
 
-pub(crate) use collapsed::Collapsed;
 pub(crate) use grading::{FINER, faulty, grow_around};
 pub(crate) use held_elements::HeldElements;
 
