@@ -203,7 +203,7 @@ impl<'a> Search<'a> {
     }
 
     fn separate_line(&self, state: &Reached, axis: usize, found: &mut Vec<SoftRow>) {
-        let axis = if state.quarters % 2 == 0 {
+        let axis = if state.quarters.is_multiple_of(2) {
             axis
         } else {
             1 - axis
