@@ -1,10 +1,9 @@
 //! Forms with and without copies have the same least energy.
 
-use super::super::tree::{Limits, search};
+use super::super::tree::least;
 use super::*;
 use crate::error::Conflicting;
 use crate::linalg::Random;
-use crate::monitor::Monitor;
 
 const UP_TO_ZERO: Interval = Interval {
     lower: f64::NEG_INFINITY,
@@ -95,22 +94,6 @@ fn apart(places: u32, random: &mut Random) -> Form {
     }
 }
 
-/// The least energy, and where it is.
-fn least(form: &Form) -> Option<(Vec<f64>, f64)> {
-    let limits = Limits {
-        nodes: u64::MAX,
-        work: u64::MAX,
-        gap: 0.0,
-        elsewhere: 0.0,
-        first: false,
-        strict: false,
-        recorded: false,
-    };
-    search(form, None, limits, &mut Monitor::default())
-        .unwrap()
-        .best
-}
-
 #[test]
 fn the_least_energy_is_the_same_without_copies() {
     let mut random = Random::new(3);
@@ -120,7 +103,7 @@ fn the_least_energy_is_the_same_without_copies() {
         let projected = project(&form).unwrap().expect("the form has copies");
         let pairs = form.integer.iter().filter(|i| **i).count() / 2;
         assert_eq!(form.dim() - projected.form.dim(), 4 * pairs);
-        let (with, without) = (least(&form), least(&projected.form));
+        let (with, without) = (least(&form, None), least(&projected.form, None));
         let (Some((_, energy)), Some((point, other))) = (&with, &without) else {
             assert_eq!(with.is_some(), without.is_some());
             continue;

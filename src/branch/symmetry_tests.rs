@@ -1,10 +1,9 @@
 //! One order of choices has the least energy of all.
 
-use super::super::tree::{Limits, search};
+use super::super::tree::least;
 use super::*;
 use crate::error::Conflicting;
 use crate::linalg::Random;
-use crate::monitor::Monitor;
 
 /// Things that go to places of a limited size, with an energy for each two that share one.
 fn shared(things: u32, places: u32, random: &mut Random) -> Form {
@@ -57,20 +56,6 @@ fn shared(things: u32, places: u32, random: &mut Random) -> Form {
         limits,
         integer: vec![true; n as usize],
     }
-}
-
-fn least(form: &Form, start: Option<Vec<f64>>) -> Option<(Vec<f64>, f64)> {
-    let limits = Limits {
-        nodes: u64::MAX,
-        work: u64::MAX,
-        gap: 0.0,
-        elsewhere: 0.0,
-        first: false,
-        strict: false,
-        recorded: false,
-    };
-    let found = search(form, start, limits, &mut Monitor::default());
-    found.unwrap().best
 }
 
 #[test]

@@ -528,6 +528,22 @@ fn keep_last(limits: &mut Vec<(u32, Interval)>, unknowns: usize) {
     });
 }
 
+/// The least energy of a form, and where it is. The search begins at `start`.
+#[cfg(test)]
+pub(super) fn least(form: &Form, start: Option<Vec<f64>>) -> Option<(Vec<f64>, f64)> {
+    let limits = Limits {
+        nodes: u64::MAX,
+        work: u64::MAX,
+        gap: 0.0,
+        elsewhere: 0.0,
+        first: false,
+        strict: false,
+        recorded: false,
+    };
+    let found = search(form, start, limits, &mut Monitor::default());
+    found.unwrap().best
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

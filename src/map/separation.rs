@@ -1,5 +1,5 @@
 //! Separation rows. They keep cones, corners of a triangle and feature curves in the order in which they lie
-//! on the surface (`bommes2013`, section 4).
+//! on the surface (`bommes2013`).
 
 use crate::error::Result;
 use crate::problem::Problem;
