@@ -14,7 +14,7 @@ use crate::mesh::features::FeatureGraph;
 use crate::monitor::{Monitor, Stage};
 use crate::search::{Options, Strategy};
 use crate::solve::Solution;
-use crate::untangle::{UntangleOptions, Untangled, faulty, grow_around};
+use crate::untangle::{NEAR, UntangleOptions, Untangled, faulty, grow_around};
 
 /// The most passes of untangling over the mesh if the quads conform and only miss features.
 const PASSES_FOR_FEATURES: usize = 10;
@@ -155,7 +155,7 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> FieldMap<'a, M> {
     /// mesh; `None` if no constraints separate them.
     pub(super) fn cones_apart(&mut self, passes: usize) -> Result<Option<(Solution, Untangled)>> {
         let rounds = self.effort.rounds;
-        let separated = self.maps.separate_cones(&self.at_hand, rounds)?;
+        let separated = self.maps.separate_cones(&self.at_hand, NEAR, rounds)?;
         let Some(Solved { solution, map }) = separated.better else {
             return Ok(None);
         };

@@ -4,7 +4,8 @@
 //! map         integers are decided
 //! separation  integers are decided anew where they miss separation rows
 //! untangling  folds and winding defects are removed, with the integers fixed
-//! next try    a finer map, and then one that is finer only around the faults of the last
+//! next try    separation of elements farther apart; a finer map; one that is finer only around the faults of
+//!             the last
 //! ```
 //!
 //! [`MapSolver`] keeps what later tries use again, and [`Driver::next`] decides what is tried next. Among
@@ -20,7 +21,7 @@ use crate::mesh::TriangleMesh;
 use crate::monitor::{Monitor, Phase, Stage, optional};
 use crate::search::{Options, Strategy};
 use crate::solve::{Solution, Solver};
-use crate::untangle::{UntangleOptions, Untangled, faulty, grow_around};
+use crate::untangle::{FAR, NEAR, UntangleOptions, Untangled, faulty, grow_around};
 
 /// The factor of a refinement in the lengths of the map: about twice as many quads.
 const REFINEMENT: f64 = std::f64::consts::SQRT_2;
@@ -78,8 +79,9 @@ impl FoldFreeMap {
 }
 
 /// Solves the problem, adds the separation rows that its integers miss and solves again, at most
-/// `effort.rounds` times, and untangles the map. If folds or winding defects remain, the same is done for
-/// a finer map, at most `effort.refinements` times, and then with smaller quads around the faults alone.
+/// `effort.rounds` times, and untangles the map. If folds or winding defects remain, the same is done with rows
+/// between elements farther apart, then for a finer map, at most `effort.refinements` times, and then with smaller
+/// quads around the faults alone.
 /// Among all maps with the fewest faults the first is kept. `monitor` watches each solve and each
 /// untangling.
 ///
@@ -119,8 +121,8 @@ pub fn solve_fold_free<'a>(
     }
     let mut size = Size::default();
     let most = match effort.refinements {
-        0 => 0,
-        refinements => refinements + GRADINGS,
+        0 => 1,
+        refinements => 1 + refinements + GRADINGS,
     };
     let mut best = run.with_share(share_of(0, most), || driver.attempt(size))?;
     let mut others = 0;
@@ -162,6 +164,8 @@ fn share_of(number: usize, most: usize) -> [f64; 2] {
 /// faults.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 struct Size {
+    /// Whether elements far apart are kept apart, too.
+    is_far: bool,
     refinements: usize,
     gradings: usize,
 }
@@ -181,7 +185,16 @@ struct Driver<'a, M> {
 impl<'m, M: Fn() -> Monitor<'m>> Driver<'_, M> {
     /// The next size to try, if there is one.
     fn next(&self, last: Size, best: &FoldFreeMap) -> Option<Size> {
-        if best.untangled.faults() == 0 || self.effort.refinements == 0 {
+        if best.untangled.faults() == 0 {
+            return None;
+        }
+        if !last.is_far {
+            return Some(Size {
+                is_far: true,
+                ..last
+            });
+        }
+        if self.effort.refinements == 0 {
             return None;
         }
         let most = match best.untangled.flipped_after {
@@ -191,12 +204,13 @@ impl<'m, M: Fn() -> Monitor<'m>> Driver<'_, M> {
         if last.gradings == 0 && last.refinements < most {
             return Some(Size {
                 refinements: last.refinements + 1,
-                gradings: 0,
+                ..last
             });
         }
         (last.gradings < GRADINGS).then_some(Size {
             refinements: best.refinements,
             gradings: last.gradings + 1,
+            ..last
         })
     }
 
@@ -219,7 +233,9 @@ impl<'m, M: Fn() -> Monitor<'m>> Driver<'_, M> {
     fn attempt(&mut self, size: Size) -> Result<FoldFreeMap> {
         let first = self.maps.solve()?;
         let (maps, monitor) = (&mut self.maps, self.monitor);
-        let separated = optional(monitor, || maps.separate_cones(&first, self.effort.rounds))?;
+        let reach = if size.is_far { FAR } else { NEAR };
+        let rounds = self.effort.rounds;
+        let separated = optional(monitor, || maps.separate_cones(&first, reach, rounds))?;
         let mut effort = *self.effort;
         if size.gradings > 0 || size.refinements < effort.refinements {
             let faces = self.mesh.face_count().max(1);

@@ -139,10 +139,16 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> MapSolver<'a, M> {
         })
     }
 
-    /// Separates cones and corners that the integers collapse, in at most this many rounds.
-    pub(super) fn separate_cones(&mut self, first: &Solved, rounds: usize) -> Result<Separated> {
+    /// Separates cones and corners within `reach` quads of each other that the integers collapse, in at most this
+    /// many rounds.
+    pub(super) fn separate_cones(
+        &mut self,
+        first: &Solved,
+        reach: f64,
+        rounds: usize,
+    ) -> Result<Separated> {
         let structure = self.structure(&first.map)?;
-        let elements = structure.held_elements(self.mesh, &self.problem);
+        let elements = structure.held_elements(self.mesh, &self.problem, reach);
         self.separate(first, rounds, |this, map| {
             elements.missed(this.mesh, &this.problem, map)
         })

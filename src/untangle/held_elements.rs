@@ -20,12 +20,18 @@ pub(crate) struct HeldElements {
 }
 
 impl HeldElements {
-    /// The elements of a problem in which integers hold these coordinates of every copy.
-    pub(super) fn new(problem: &SeamlessProblem, mesh: &TriangleMesh, held: &[[bool; 2]]) -> Self {
+    /// The elements of a problem in which integers hold these coordinates of every copy. Rows are between those
+    /// within `reach` quads of each other.
+    pub(super) fn new(
+        problem: &SeamlessProblem,
+        mesh: &TriangleMesh,
+        held: &[[bool; 2]],
+        reach: f64,
+    ) -> Self {
         let copies = &problem.sectors.copy;
         let is_held = |&face: &usize| copies[face].iter().all(|&c| held[c as usize] == [true; 2]);
         HeldElements {
-            near: problem.near_rows(mesh, held),
+            near: problem.near_rows(mesh, held, reach),
             faces: (0..mesh.face_count()).filter(is_held).collect(),
             isoline_triangles: problem.isoline_triangles(mesh, held),
         }

@@ -41,6 +41,7 @@ mod unwind;
 
 pub(crate) use grading::{FINER, faulty, grow_around};
 pub(crate) use held_elements::HeldElements;
+pub(crate) use near_cones::{FAR, NEAR};
 
 use crate::error::Result;
 use crate::map::{SeamlessMap, SeamlessProblem};
@@ -189,13 +190,15 @@ impl Structure {
         })
     }
 
-    /// The elements that integers alone may collapse in maps of this problem.
+    /// The elements that integers alone may collapse in maps of this problem, with rows between those within
+    /// `reach` quads of each other.
     pub(crate) fn held_elements(
         &self,
         mesh: &TriangleMesh,
         problem: &SeamlessProblem,
+        reach: f64,
     ) -> HeldElements {
-        HeldElements::new(problem, mesh, &self.freedom.held())
+        HeldElements::new(problem, mesh, &self.freedom.held(), reach)
     }
 
     /// [`untangle`], for a map of this structure.
@@ -225,9 +228,7 @@ impl Structure {
                 work.undo_folds(&region, schedule::FIRST_EPS, monitor)?;
             }
         }
-        if work.folded().is_empty() {
-            work.unwind(monitor)?;
-        }
+        work.unwind(monitor)?;
         monitor.progress(Phase::Untangle, 1.0)?;
         let left = work.folded();
         let stuck = Stuck::find(mesh, work.freedom, &work.values, &left);

@@ -13,8 +13,12 @@ use crate::map::{SeamlessProblem, row};
 use crate::mesh::{TriangleMesh, turned};
 use crate::solve::SoftRow;
 
-/// The length of the longest path, in quads.
-const REACH: f64 = 3.0;
+/// How far paths go at first, in quads: the order of elements nearer than this is decided wrongly most often.
+pub(crate) const NEAR: f64 = 3.0;
+
+/// How far paths go where faults remain. Elements farther apart than [`NEAR`] need only keep their order along
+/// one direction.
+pub(crate) const FAR: f64 = 6.0;
 
 /// Isolines nearer than this, in quads, are not kept apart from a cone: quads between them would be slivers.
 const NARROWEST: f64 = 0.2;
@@ -47,14 +51,20 @@ struct Chart {
 }
 
 impl SeamlessProblem {
-    /// The rows of all elements near each other. `held` says which coordinates of every copy integers decide.
-    pub(super) fn near_rows(&self, mesh: &TriangleMesh, held: &[[bool; 2]]) -> Vec<SoftRow> {
+    /// The rows of all elements within `reach` quads of each other. `held` says which coordinates of every copy
+    /// integers decide.
+    pub(super) fn near_rows(
+        &self,
+        mesh: &TriangleMesh,
+        held: &[[bool; 2]],
+        reach: f64,
+    ) -> Vec<SoftRow> {
         let lines = self.lines();
         let mut found = Vec::new();
         for v in 0..mesh.vertex_count() {
             let mut copies = self.sectors.first[v]..self.sectors.first[v + 1];
             if copies.any(|copy| held[copy as usize] == [true; 2]) {
-                Search::new(self, mesh, held, &lines).from(v, &mut found);
+                Search::new(self, mesh, held, &lines, reach).from(v, &mut found);
             }
         }
         found
@@ -67,6 +77,8 @@ struct Search<'a> {
     mesh: &'a TriangleMesh,
     held: &'a [[bool; 2]],
     lines: &'a [u32],
+    /// The length of the longest path, in quads.
+    reach: f64,
     charts: Vec<Chart>,
     /// By the bits of the length, then by number.
     heap: BinaryHeap<Reverse<(u64, usize)>>,
@@ -79,12 +91,14 @@ impl<'a> Search<'a> {
         mesh: &'a TriangleMesh,
         held: &'a [[bool; 2]],
         lines: &'a [u32],
+        reach: f64,
     ) -> Self {
         Search {
             problem,
             mesh,
             held,
             lines,
+            reach,
             charts: Vec::new(),
             heap: BinaryHeap::new(),
             states: Vec::new(),
@@ -92,7 +106,7 @@ impl<'a> Search<'a> {
     }
 
     fn push(&mut self, length: f64, state: Reached) {
-        if length <= REACH {
+        if length <= self.reach {
             self.heap
                 .push(Reverse((length.to_bits(), self.states.len())));
             self.states.push(state);
@@ -214,28 +228,31 @@ impl<'a> Search<'a> {
     }
 
     /// The rows for the direction of one cone from another, to the nearest eighth of a turn: along an axis it
-    /// deviates by an eighth at most, and along a diagonal it stays in the quadrant.
+    /// deviates by an eighth at most, and along a diagonal it stays in the quadrant. Far apart, it need only have a
+    /// part in this direction.
     fn separate_points(&self, state: &Reached, found: &mut Vec<SoftRow>) {
         let [u, v] = state.aim;
         let distance = u.hypot(v);
         let eighths = (v.atan2(u) / FRAC_PI_4).round() as i32;
         let signs = [1f64.copysign(u), 1f64.copysign(v)];
-        let mut push =
-            |by: [f64; 2], least| found.push(row(self.terms(state, by), least, distance));
-        if eighths % 2 == 0 {
-            let axis = usize::from(v.abs() > u.abs());
-            let mut along = [0.0; 2];
-            along[axis] = signs[axis];
-            push(along, 1.0);
-            for side in [1.0, -1.0] {
-                let mut beside = along;
-                beside[1 - axis] = side;
-                push(beside, 0.0);
+        let axis = usize::from(v.abs() > u.abs());
+        let mut along = [0.0; 2];
+        along[axis] = signs[axis];
+        let (direction, limits) = match eighths % 2 == 0 {
+            true => {
+                let beside = [1.0, -1.0].map(|side| {
+                    let mut beside = along;
+                    beside[1 - axis] = side;
+                    beside
+                });
+                (along, beside)
             }
-        } else {
-            push(signs, 1.0);
-            push([signs[0], 0.0], 0.0);
-            push([0.0, signs[1]], 0.0);
+            false => (signs, [[signs[0], 0.0], [0.0, signs[1]]]),
+        };
+        found.push(row(self.terms(state, direction), 1.0, distance));
+        if distance <= NEAR {
+            let limits = limits.map(|by| row(self.terms(state, by), 0.0, distance));
+            found.extend(limits);
         }
     }
 

@@ -8,7 +8,7 @@ use crate::mesh::{TriangleMesh, shape};
 use crate::monitor::Monitor;
 use crate::search::{Options, Strategy};
 use crate::solve::{SoftRow, solve};
-use crate::untangle::Structure;
+use crate::untangle::{FAR, NEAR, Structure};
 
 /// A grid of unit squares, two triangles each, and the problem of its map along x and y.
 struct Grid {
@@ -42,6 +42,10 @@ impl Grid {
 
     /// The rows if integers decide both coordinates of these vertices and one of the vertices on lines.
     fn rows(&self, cones: &[[usize; 2]]) -> Vec<SoftRow> {
+        self.rows_within(NEAR, cones)
+    }
+
+    fn rows_within(&self, reach: f64, cones: &[[usize; 2]]) -> Vec<SoftRow> {
         let mut held = vec![[false; 2]; self.mesh.vertex_count()];
         for isoline in &self.problem.isolines {
             isoline
@@ -50,7 +54,7 @@ impl Grid {
                 .for_each(|&end| held[end as usize][isoline.axis] = true);
         }
         cones.iter().for_each(|&[i, j]| held[7 * i + j] = [true; 2]);
-        self.problem.near_rows(&self.mesh, &held)
+        self.problem.near_rows(&self.mesh, &held, reach)
     }
 
     /// How many of the rows a map of the positions misses.
@@ -97,6 +101,18 @@ fn cones_far_apart_or_behind_another_have_no_rows() {
 }
 
 #[test]
+fn cones_far_apart_keep_their_order_alone() {
+    let grid = Grid::new(&[]);
+    for [from, to] in [[[1, 1], [5, 1]], [[1, 1], [4, 4]]] {
+        let rows = grid.rows_within(FAR, &[from, to]);
+        assert_eq!(rows.len(), 1, "{from:?} {to:?}");
+        assert_eq!(grid.missed(&rows, |p| p), 0);
+        assert_eq!(grid.missed(&rows, |_| [2.0, 2.0]), 1);
+        assert_eq!(grid.missed(&rows, |[x, y]| [-x, -y]), 1);
+    }
+}
+
+#[test]
 fn a_cone_stays_on_its_side_of_an_isoline() {
     let lines: Vec<[usize; 2]> = (0..6).map(|j| [7 * 3 + j, 7 * 3 + j + 1]).collect();
     let grid = Grid::new(&lines);
@@ -129,7 +145,7 @@ fn integers_decide_rows_over_the_cut() {
         let map: SeamlessMap = problem.map(&mesh, &solution).unwrap();
         let mut monitor = Monitor::default();
         let structure = Structure::new(&mesh, &problem, &map, &mut monitor).unwrap();
-        for row in problem.near_rows(&mesh, &structure.freedom.held()) {
+        for row in problem.near_rows(&mesh, &structure.freedom.held(), NEAR) {
             let value: f64 = row.terms.iter().map(|&(i, c)| c * map.values()[i]).sum();
             assert!(
                 (value - value.round()).abs() < 1e-6,

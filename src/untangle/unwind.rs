@@ -1,9 +1,9 @@
-//! Correction of vertices that a map without folds winds around once too often.
+//! Correction of vertices that a map winds around once too often, and of folds at cones.
 //!
 //! Removing folds may leave a cone of -1/4 with a total angle of one quarter turn, next to a vertex with
 //! two full turns. No motion without folds leads out of that state. A disk around both is therefore laid
 //! out anew in polar coordinates, with larger and larger radii. The folds that this causes are untangled
-//! again.
+//! again. The same is tried where a fold remains at a cone: most of these wind wrongly, too.
 
 use std::collections::BTreeSet;
 
@@ -13,7 +13,7 @@ use super::polar::{Layout, faces_within};
 use super::region::regions;
 use crate::error::Result;
 use crate::map::{has_winding_defect, winding_defects};
-use crate::mesh::orientation;
+use crate::mesh::{TriangleMesh, orientation};
 use crate::monitor::Monitor;
 
 /// The radii of the disks that are laid out anew around a cone, in units of the map, in this order.
@@ -35,41 +35,87 @@ const FIRST_EPS: [f64; 3] = [1.0, 0.1, 0.01];
 /// How many rings of faces around the new folds may move, attempt after attempt.
 const RINGS: [usize; 3] = [2, 5, 12];
 
+/// The faults of a map, increasing.
+#[derive(Debug, Clone, PartialEq)]
+struct Faults {
+    folded: Vec<usize>,
+    defects: Vec<usize>,
+}
+
+impl Faults {
+    fn count(&self) -> usize {
+        self.folded.len() + self.defects.len()
+    }
+
+    /// The vertices at faults.
+    fn vertices(&self, mesh: &TriangleMesh) -> BTreeSet<usize> {
+        let corners = self.folded.iter().flat_map(|&face| mesh.corners(face));
+        self.defects.iter().copied().chain(corners).collect()
+    }
+}
+
+/// What remains of a list where nothing changed, and those of what changed for which `holds`.
+fn replaced(
+    list: &[usize],
+    changed: &BTreeSet<usize>,
+    holds: impl Fn(&usize) -> bool,
+) -> Vec<usize> {
+    let far = list.iter().filter(|k| !changed.contains(k)).copied();
+    let mut left: Vec<usize> = far.chain(changed.iter().copied().filter(holds)).collect();
+    left.sort_unstable();
+    left
+}
+
 impl Untangling<'_> {
     /// The vertices around which the winding of the map differs from that of the field.
     pub(super) fn winding_defects(&self) -> Vec<usize> {
         winding_defects(self.mesh, self.quarters, |face| self.uv(face))
     }
 
-    /// Removes as many winding defects of cones as it can from a map without folds.
+    fn faults(&self) -> Faults {
+        Faults {
+            folded: self.folded(),
+            defects: self.winding_defects(),
+        }
+    }
+
+    /// Removes as many folds and winding defects at cones as it can.
     pub(super) fn unwind(&mut self, monitor: &mut Monitor) -> Result<()> {
-        self.budget = self
-            .budget
-            .min(PASSES.saturating_mul(self.mesh.face_count()));
-        let mut defects = self.winding_defects();
+        let whole = self.budget;
+        self.budget = PASSES.saturating_mul(self.mesh.face_count());
+        let mut faults = self.faults();
         let mut left_behind = BTreeSet::new();
+        let is_cone = |v: &usize| self.quarters[*v] != Some(4);
+        let cones = |faults: &Faults| -> BTreeSet<usize> {
+            faults
+                .vertices(self.mesh)
+                .into_iter()
+                .filter(is_cone)
+                .collect()
+        };
         for _ in 0..ROUNDS {
-            let before = defects.clone();
-            for cone in before.iter().copied() {
-                if self.quarters[cone] != Some(4) && defects.contains(&cone) {
-                    self.unwind_cone(cone, &mut defects, &mut left_behind, monitor)?;
+            let before = faults.clone();
+            for cone in cones(&before) {
+                if cones(&faults).contains(&cone) {
+                    self.unwind_cone(cone, &mut faults, &mut left_behind, monitor)?;
                 }
             }
-            if defects.is_empty() || defects == before {
+            if faults.count() == 0 || faults == before {
                 break;
             }
         }
+        self.budget = whole;
         Ok(())
     }
 
-    /// Lays larger and larger disks around a cone out anew until fewer winding defects remain.
+    /// Lays larger and larger disks around a cone out anew until fewer faults remain.
     ///
     /// If no disk reduces their number, the first one is kept that moves the defect to a cone that
     /// was not `left_behind` before: that cone may have more room around it.
     fn unwind_cone(
         &mut self,
         cone: usize,
-        defects: &mut Vec<usize>,
+        faults: &mut Faults,
         left_behind: &mut BTreeSet<usize>,
         monitor: &mut Monitor,
     ) -> Result<()> {
@@ -92,30 +138,31 @@ impl Untangling<'_> {
                 let before = self.values.clone();
                 self.lay(&layout);
                 self.untangle_disk(&disk, first_eps, monitor)?;
-                let left = self.defects_after_move(&before, defects);
+                let left = self.faults_after_move(&before, faults);
                 let now = std::mem::replace(&mut self.values, before);
-                let Some(left) = left else { continue };
-                if left.len() < defects.len() {
-                    (self.values, *defects) = (now, left);
+                if left.folded.len() > faults.folded.len() {
+                    continue;
+                }
+                if left.count() < faults.count() {
+                    (self.values, *faults) = (now, left);
                     return Ok(());
                 }
                 let is_other = |v: &usize| !left_behind.contains(v);
-                let moves = left.len() == defects.len() && !left.contains(&cone);
-                if instead.is_none() && moves && left.iter().all(is_other) {
+                let moves = left.count() == faults.count() && !left.defects.contains(&cone);
+                if instead.is_none() && moves && left.defects.iter().all(is_other) {
                     instead = Some((now, left));
                 }
             }
         }
         if let Some((values, left)) = instead {
             left_behind.insert(cone);
-            (self.values, *defects) = (values, left);
+            (self.values, *faults) = (values, left);
         }
         Ok(())
     }
 
-    /// The winding defects after a move, given the values and the defects before it; `None` if a face
-    /// that moved is folded.
-    fn defects_after_move(&self, before: &[f64], defects: &[usize]) -> Option<Vec<usize>> {
+    /// The faults after a move, given the values and the faults before it.
+    fn faults_after_move(&self, before: &[f64], faults: &Faults) -> Faults {
         let first = &self.problem.sectors.first;
         let vertex = |i: usize| first.partition_point(|&copy| copy as usize <= i / 2) - 1;
         let both = self.values.iter().zip(before).enumerate();
@@ -125,18 +172,15 @@ impl Untangling<'_> {
             .collect();
         let around = moved.iter().flat_map(|&v| self.mesh.ring(v));
         let faces: BTreeSet<usize> = around.map(|(face, _)| face).collect();
-        if faces.iter().any(|&face| orientation(self.uv(face)) <= 0.0) {
-            return None;
-        }
         let corners = faces.iter().flat_map(|&face| self.mesh.corners(face));
         let near: BTreeSet<usize> = corners.collect();
+        let is_folded = |face: &usize| orientation(self.uv(*face)) <= 0.0;
         let uv = |face| self.uv(face);
         let has_winding_defect = |v: &usize| has_winding_defect(self.mesh, self.quarters, uv, *v);
-        let far = defects.iter().filter(|v| !near.contains(v));
-        let found = near.iter().copied().filter(has_winding_defect);
-        let mut left: Vec<usize> = far.copied().chain(found).collect();
-        left.sort_unstable();
-        Some(left)
+        Faults {
+            folded: replaced(&faults.folded, &faces, is_folded),
+            defects: replaced(&faults.defects, &near, has_winding_defect),
+        }
     }
 
     /// The disk within `radius` of a cone in the map, without vertices that cannot move freely. Those are
@@ -222,7 +266,8 @@ mod tests {
                 continue;
             };
             let layout = work.layout(&disk).unwrap().unwrap();
-            let (before, winding_defects) = (work.values.clone(), work.winding_defects());
+            let (before, none) = (work.values.clone(), work.faults());
+            assert_eq!(none.count(), 0);
             // This removes the old shape: all inner vertices are put beside one point.
             let center = faces_within(&mesh, cone, 9.0, &|face| work.uv(face));
             let beside = |face: usize, v: usize| center[&face].map(|x| x + 1e-6 * v as f64);
@@ -232,11 +277,8 @@ mod tests {
                 places: places.collect(),
             });
             let crushed = work.folded().len();
-            assert_eq!(
-                work.defects_after_move(&before, &winding_defects),
-                None,
-                "folded"
-            );
+            // The update from the moved faces alone agrees with a full computation.
+            assert_eq!(work.faults_after_move(&before, &none), work.faults());
             work.lay(&layout);
             let folded = work.folded().len();
             assert!(4 * folded < crushed, "{cone}: {folded} of {crushed}");
@@ -245,16 +287,13 @@ mod tests {
                 work.folded().is_empty() && work.winding_defects().is_empty(),
                 "{cone}"
             );
-            // The update from the moved faces alone agrees with a full computation.
-            assert_eq!(
-                work.defects_after_move(&before, &winding_defects),
-                Some(Vec::new())
-            );
-            assert_eq!(work.defects_after_move(&before, &[]), Some(Vec::new()));
-            assert_eq!(
-                work.defects_after_move(&work.values, &[cone]),
-                Some(vec![cone])
-            );
+            assert_eq!(work.faults_after_move(&before, &none), none);
+            // What did not move stays.
+            let far = Faults {
+                folded: vec![0],
+                defects: vec![cone],
+            };
+            assert_eq!(work.faults_after_move(&work.values, &far), far);
             laid += 1;
         }
         assert!(laid > 3, "{laid}");
