@@ -29,6 +29,12 @@ pub(super) fn nearer(one: &Window, two: &Window, from: f64, to: f64) -> Nearer {
 fn nearer_of_points(one: &Window, two: &Window, from: f64, to: f64) -> Nearer {
     let middle = 0.5 * (from + to);
     let (difference, places) = equal_distances(one, two, middle);
+    if is_tie(one, two, difference, from, to) {
+        return Nearer {
+            first: true,
+            changes: NEVER,
+        };
+    }
     let inside = places.map(|t| if from < t && t < to { t } else { f64::INFINITY });
     let passed = places.iter().filter(|t| from < **t && **t < middle).count();
     let [a, b] = inside;
@@ -37,6 +43,24 @@ fn nearer_of_points(one: &Window, two: &Window, from: f64, to: f64) -> Nearer {
         changes: if b < a { [b, a] } else { [a, b] },
     }
 }
+
+/// Whether two windows are equally near on an interval, up to rounding, by the difference of their distances in its
+/// middle. Rounding would cut them into ever more pieces.
+fn is_tie(one: &Window, two: &Window, difference: f64, from: f64, to: f64) -> bool {
+    let middle = 0.5 * (from + to);
+    let noise = NOISE * (one.s - one.y);
+    if difference.abs() > noise {
+        return false;
+    }
+    let slope = |w: &Window| {
+        let along = middle - w.x;
+        along / (along * along + w.y * w.y).sqrt()
+    };
+    (slope(one) - slope(two)).abs() * (to - from) <= noise
+}
+
+/// The share of a distance that rounding may change.
+const NOISE: f64 = 1e-15;
 
 /// By the signs of the difference of distances at the ends and at its extremum.
 fn nearer_of_any(one: &Window, two: &Window, from: f64, to: f64) -> Nearer {

@@ -159,7 +159,16 @@ impl Wavefront<'_> {
     }
 }
 
-/// Whether lines pass a window: rounding leaves none where they run along the edge.
+/// Whether lines pass a window. Rounding leaves none where they run along the edge, or so few that nothing lies
+/// between their neighbours: the angle between the first and the last is less than that by which lines miss vertices.
 fn is_open(window: &Window) -> bool {
-    window.y < 0.0 && window.a < window.b
+    if !(window.y < 0.0 && window.a < window.b) {
+        return false;
+    }
+    let along = window.a - window.x;
+    let width = (window.b - window.a) * -window.y;
+    window.is_line || width > NO_ANGLE * (along * along + window.y * window.y)
 }
+
+/// The least angle of a window.
+const NO_ANGLE: f64 = 1e-14;

@@ -16,7 +16,7 @@ use super::window::Window;
 const EXCESS: f64 = 1e-12;
 
 /// Directions are taken wider by this angle: windows that overlap do no harm, gaps do.
-const WIDER: f64 = 1e-7;
+const WIDER: f64 = 1e-12;
 
 /// A face around a vertex, which is its corner `k`.
 struct Sector {
