@@ -98,11 +98,8 @@ fn append(out: &mut Vec<Window>, window: Window) {
     if window.a >= window.b {
         return;
     }
-    if let Some(last) = out.last_mut() {
-        if last.b == window.a && last.has_image_of(&window) {
-            last.b = window.b;
-            return;
-        }
+    match out.last_mut() {
+        Some(last) if last.b == window.a && last.has_image_of(&window) => last.b = window.b,
+        _ => out.push(window),
     }
-    out.push(window);
 }

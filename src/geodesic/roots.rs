@@ -52,7 +52,7 @@ impl Roots {
                 index: None,
             });
         }
-        found.sort_by(|a, b| (a.key, a.source).cmp(&(b.key, b.source)));
+        found.sort_by_key(|f| (f.key, f.source));
         found.dedup_by(|later, kept| later.key == kept.key);
         let mut roots = Roots::default();
         for Found { source, ends, .. } in found {

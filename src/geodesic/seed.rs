@@ -114,10 +114,9 @@ impl Wavefront<'_> {
 
     /// A window that leaves a face over its local edge `k`; nothing at the boundary.
     fn start_window(&mut self, face: usize, k: usize, window: Window) {
-        if let Some((across, j)) = self.mesh.neighbor(face, k) {
-            if window.y < 0.0 && window.a < window.b {
-                self.deliver_one(3 * across + j, window);
-            }
+        let is_open = window.y < 0.0 && window.a < window.b;
+        if let (Some(twin), true) = (self.twin(face, k), is_open) {
+            self.deliver_one(twin, window);
         }
     }
 

@@ -178,10 +178,9 @@ fn least(list: &[Window]) -> f64 {
     let mut last: Option<&Window> = None;
     for window in list {
         let touching = last.is_some_and(|w| w.b == window.a);
-        if let Some(before) = last.filter(|w| w.falls()) {
-            if !(touching && window.falls()) {
-                least = least.min(before.at(before.b));
-            }
+        let falls_on = touching && window.falls();
+        if let (Some(before), false) = (last.filter(|w| w.falls()), falls_on) {
+            least = least.min(before.at(before.b));
         }
         if window.rises() {
             if !(touching && last.is_some_and(Window::rises)) {
