@@ -99,6 +99,8 @@ mod book {
     struct Readme;
     #[doc = include_str!("../docs/errors.md")]
     struct Errors;
+    #[doc = include_str!("../docs/geodesic.md")]
+    struct Geodesic;
     #[doc = include_str!("../docs/options.md")]
     struct Options;
     #[doc = include_str!("../docs/problems.md")]

@@ -3,7 +3,7 @@
 //! A small software renderer, since a field is looked at far more often than it is computed and a
 //! graphics library would be the largest dependency of all. [`draw_field`] gives an [`Image`]:
 //! streamlines of the field, evenly spaced, on a softly lit surface, and irregular vertices as
-//! balls. [`FieldModel`] is what MeshLab and Blender open: the mesh, a cross in every face and
+//! balls. [`draw_colors`] draws a mesh with a colour at every vertex. [`FieldModel`] is what MeshLab and Blender open: the mesh, a cross in every face and
 //! the same balls. Everything is the same on every run.
 //!
 //! Irregular vertices of index 1/4 are red, as at the corner of a cube, those of index -1/4 blue,
@@ -25,7 +25,7 @@ mod scene;
 mod shading;
 mod streamlines;
 
-pub use draw::{View, draw_field};
+pub use draw::{View, draw_colors, draw_field};
 pub use model::FieldModel;
 pub use png::Image;
 
