@@ -1,4 +1,4 @@
-//! Lists of windows on one half-edge: in order, none covering what another covers, each the nearest where it is.
+//! Lists of windows on one half-edge: in order of place, each the nearest where it is, but for small overlaps.
 
 use super::bisector::nearer;
 use super::window::Window;
@@ -35,6 +35,14 @@ pub(super) fn merge(old: &[Window], new: &[Window], out: &mut Vec<Window>) {
     }
 }
 
+/// Windows that follow each other may overlap by this share of the narrower one. To cut them at every edge would
+/// take more time than to carry the overlap to the next.
+const OVERLAP: f64 = 0.5;
+
+fn width(window: &Window) -> f64 {
+    window.b - window.a
+}
+
 /// Adds a window that follows those of a list. It may start before the last ones end, as lines from different roots
 /// cross within a face.
 pub(super) fn push(list: &mut Vec<Window>, mut window: Window, spare: &mut Vec<Window>) {
@@ -42,7 +50,11 @@ pub(super) fn push(list: &mut Vec<Window>, mut window: Window, spare: &mut Vec<W
         if window.a >= last.b {
             break;
         }
-        if window.a < last.a || window.b < last.b {
+        let is_in_order = last.a <= window.a && last.b <= window.b;
+        if is_in_order && last.b - window.a <= OVERLAP * width(last).min(width(&window)) {
+            break;
+        }
+        if !is_in_order {
             return insert(list, window, spare);
         }
         let found = nearer(last, &window, window.a, last.b);

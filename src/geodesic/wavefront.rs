@@ -177,7 +177,7 @@ fn least(list: &[Window]) -> f64 {
     let mut least = f64::INFINITY;
     let mut last: Option<&Window> = None;
     for window in list {
-        let touching = last.is_some_and(|w| w.b == window.a);
+        let touching = last.is_some_and(|w| w.b >= window.a);
         let falls_on = touching && window.falls();
         if let (Some(before), false) = (last.filter(|w| w.falls()), falls_on) {
             least = least.min(before.at(before.b));
