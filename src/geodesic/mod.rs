@@ -22,6 +22,7 @@
 mod bisector;
 mod cross;
 mod distance;
+mod draw;
 mod envelope;
 mod frame;
 mod leave;
@@ -36,6 +37,7 @@ mod wavefront;
 mod window;
 
 pub use distance::{GeodesicDistance, GeodesicOptions, geodesic_distance};
+pub use draw::draw_polyline;
 pub use source::{BARYCENTRIC_TOLERANCE, Source, SurfacePoint};
 
 #[cfg(test)]

@@ -104,7 +104,11 @@ impl Roots {
 }
 
 /// The faces that hold both places, in increasing order.
-fn common_faces(mesh: &TriangleMesh, one: Place, two: Place) -> Vec<(usize, [f64; 3], [f64; 3])> {
+pub(super) fn common_faces(
+    mesh: &TriangleMesh,
+    one: Place,
+    two: Place,
+) -> Vec<(usize, [f64; 3], [f64; 3])> {
     let others = two.faces(mesh);
     let mut common = Vec::new();
     for (face, weights) in one.faces(mesh) {

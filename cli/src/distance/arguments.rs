@@ -1,6 +1,6 @@
 //! The command line of `roundel distance`.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use crate::exit;
 use crate::field::{direction, size};
@@ -16,7 +16,8 @@ pub struct Arguments {
     #[arg(value_name = "MESH")]
     pub mesh: PathBuf,
 
-    /// Measure from here: vertex:NUMBER, features or boundary; may be repeated
+    /// Measure from here: vertex:NUMBER, features, boundary, or an OBJ file whose line elements are drawn
+    /// onto the surface; may be repeated
     #[arg(long, value_name = "SOURCE", required = true, value_parser = from)]
     pub from: Vec<From>,
 
@@ -67,6 +68,17 @@ pub enum From {
     Vertex(usize),
     Features,
     Boundary,
+    File(PathBuf),
+}
+
+impl From {
+    /// The file that is read.
+    pub fn file(&self) -> Option<&Path> {
+        match self {
+            From::File(path) => Some(path),
+            _ => None,
+        }
+    }
 }
 
 fn from(text: &str) -> Result<From, String> {
@@ -75,7 +87,8 @@ fn from(text: &str) -> Result<From, String> {
         "boundary" => Ok(From::Boundary),
         _ => match text.strip_prefix("vertex:").map(str::parse) {
             Some(Ok(vertex)) => Ok(From::Vertex(vertex)),
-            _ => Err("expected vertex:NUMBER, features or boundary".into()),
+            None if text.to_lowercase().ends_with(".obj") => Ok(From::File(text.into())),
+            _ => Err("expected vertex:NUMBER, features, boundary or a file LINES.obj".into()),
         },
     }
 }
@@ -103,6 +116,7 @@ mod tests {
         assert_eq!(from("vertex:12"), Ok(From::Vertex(12)));
         assert_eq!(from("features"), Ok(From::Features));
         assert_eq!(from("boundary"), Ok(From::Boundary));
+        assert_eq!(from("lines.OBJ"), Ok(From::File("lines.OBJ".into())));
         for text in ["", "12", "vertex", "vertex:-1", "vertex:x", "face:3"] {
             assert!(from(text).is_err(), "{text}");
         }

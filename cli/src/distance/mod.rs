@@ -2,10 +2,13 @@
 
 mod arguments;
 mod bands;
+mod lines;
 
 use std::time::Instant;
 
-use roundel::geodesic::{GeodesicDistance, GeodesicOptions, Source, geodesic_distance};
+use roundel::geodesic::{
+    GeodesicDistance, GeodesicOptions, Source, draw_polyline, geodesic_distance,
+};
 use roundel::mesh::TriangleMesh;
 use roundel::mesh::features::FeatureGraph;
 use roundel::mesh::io::{self, Drawing};
@@ -51,7 +54,9 @@ pub fn run(arguments: &Arguments) -> Exit {
 }
 
 fn measure(arguments: &Arguments) -> Result<Report> {
-    let outputs = Outputs::of(&[Some(&arguments.mesh)], arguments.output.force)
+    let mut read = vec![Some(arguments.mesh.as_path())];
+    read.extend(arguments.from.iter().map(From::file));
+    let outputs = Outputs::of(&read, arguments.output.force)
         .write(arguments.out.as_ref(), Content::Mesh)?
         .write(arguments.picture.as_ref(), PICTURE)?;
     outputs.tell(arguments.json || arguments.output.quiet);
@@ -62,12 +67,12 @@ fn measure(arguments: &Arguments) -> Result<Report> {
     let Input { mesh, repair, .. } = input;
     let read = started.elapsed().as_secs_f64();
     let started = Instant::now();
-    let sources = sources(arguments, &mesh)?;
+    let monitor = Monitor::default().cancel_token(interrupt::cancel_token()?);
+    let sources = sources(arguments, &mesh, &monitor)?;
     let options = GeodesicOptions {
         limit: arguments.limit.unwrap_or(f64::INFINITY),
         ..GeodesicOptions::default()
     };
-    let monitor = Monitor::default().cancel_token(interrupt::cancel_token()?);
     let found = geodesic_distance(&mesh, &sources, &options, &monitor)?;
     let distance = started.elapsed().as_secs_f64();
     let started = Instant::now();
@@ -92,7 +97,11 @@ fn measure(arguments: &Arguments) -> Result<Report> {
 }
 
 /// The sources of the command line, in its order.
-fn sources(arguments: &Arguments, mesh: &TriangleMesh) -> Result<Vec<Source>> {
+fn sources(
+    arguments: &Arguments,
+    mesh: &TriangleMesh,
+    monitor: &Monitor<'_>,
+) -> Result<Vec<Source>> {
     let mut sources = Vec::new();
     for from in &arguments.from {
         let (name, found) = match from {
@@ -102,10 +111,15 @@ fn sources(arguments: &Arguments, mesh: &TriangleMesh) -> Result<Vec<Source>> {
                 let graph = FeatureGraph::by_angle(mesh, arguments.features.to_radians())?;
                 ("features", Source::features(&graph))
             }
+            From::File(path) => {
+                let drawn = lines::read(path)?.into_iter();
+                let drawn = drawn.map(|line| draw_polyline(mesh, &line, false, monitor));
+                ("FILE", drawn.collect::<Result<_>>()?)
+            }
         };
         if found.is_empty() {
             return Err(Error::InvalidArgument {
-                what: format!("--from {name}: the mesh has none"),
+                what: format!("--from {name}: there are none"),
                 index: None,
             });
         }

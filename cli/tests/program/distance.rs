@@ -92,3 +92,24 @@ fn sources_that_the_mesh_lacks_are_errors() {
     ]));
     assert_eq!(exit, 2);
 }
+
+#[test]
+fn lines_of_a_file_are_drawn_onto_the_surface() {
+    let scratch = Scratch::new("distance_lines");
+    let run = |text: &str| {
+        let file = scratch.write("lines.obj", text);
+        let file = file.to_str().unwrap().to_owned();
+        let words = ["distance", "shape:plane:200", "--json", "--from", &file];
+        let (code, output) = finish(program(&words));
+        (code, only_object(&output))
+    };
+    // The left side of the square, a little above it, and a point on it.
+    let (code, told) = run("v -1 -1 0.1\nv -1 1 0.1\nl 1 2\nl -1\n");
+    assert_eq!((code, &told["sources"]), (0, &2.into()));
+    assert!((told["largest_distance"].as_f64().unwrap() - 2.0).abs() < 1e-14);
+    for (text, line) in [("v 0 0\n", 1), ("v 0 0 0\nl 1 2\n", 2), ("v 0 0 x\n", 1)] {
+        let (code, told) = run(text);
+        assert_eq!((code, &told["error"]["line"]), (1, &line.into()), "{text}");
+    }
+    assert_eq!(run("v 0 0 0\n").1["error"]["code"], "invalid_argument");
+}

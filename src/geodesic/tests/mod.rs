@@ -4,6 +4,7 @@ mod anywhere;
 mod bad_input;
 mod brute;
 mod closed_forms;
+mod drawn;
 mod exact;
 mod invariance;
 mod polylines;
