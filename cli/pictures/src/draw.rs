@@ -89,32 +89,8 @@ pub fn draw_field(mesh: &TriangleMesh, field: &OrientationField, view: &View) ->
     Ok(scene.draw(&camera, view.width, view.height))
 }
 
-/// Draws a mesh with a colour at every vertex.
-///
-/// # Errors
-/// As [`draw_field`]; [`Error::LengthMismatch`] for another number of colours.
-pub fn draw_colors(mesh: &TriangleMesh, colors: &[[u8; 3]], view: &View) -> Result<Image> {
-    view.check()?;
-    if colors.len() != mesh.vertex_count() {
-        return Err(Error::LengthMismatch {
-            what: "colors of vertices",
-            expected: mesh.vertex_count(),
-            actual: colors.len(),
-        });
-    }
-    let size = [view.width as f64, view.height as f64];
-    let camera = Camera::fitted(mesh.vertices(), view.from, view.up, size);
-    let mut scene = surface(mesh);
-    // The surface has three vertices for each face, those of its corners.
-    let corners = (0..mesh.face_count()).flat_map(|f| mesh.corners(f));
-    for (vertex, v) in scene.vertices.iter_mut().zip(corners) {
-        vertex.color = linear(colors[v]);
-    }
-    Ok(scene.draw(&camera, view.width, view.height))
-}
-
 /// The mesh with smooth normals and the sky that it leaves visible.
-fn surface(mesh: &TriangleMesh) -> Scene {
+pub(super) fn surface(mesh: &TriangleMesh) -> Scene {
     let normals = corner_normals(mesh);
     let mean = |v: usize| -> Vec3 {
         normalize(
@@ -140,7 +116,7 @@ fn surface(mesh: &TriangleMesh) -> Scene {
 }
 
 impl View {
-    fn check(&self) -> Result<()> {
+    pub(super) fn check(&self) -> Result<()> {
         let refuse = |what: String| Err(Error::InvalidArgument { what, index: None });
         for side in [self.width, self.height] {
             if !(1..=LARGEST).contains(&side) {

@@ -15,18 +15,23 @@ const SCALE: [[f64; 3]; 3] = [
 /// The colour of what is not reached.
 const NOT_REACHED: [u8; 3] = [128, 128, 128];
 
-/// The colour of every vertex.
-pub fn colors(found: &GeodesicDistance) -> Vec<[u8; 3]> {
-    let largest = found.farthest().1;
-    let share = |d: f64| if largest > 0.0 { d / largest } else { 0.0 };
-    let color = |&d: &f64| match d.is_finite() {
-        true => color(share(d)),
-        false => NOT_REACHED,
-    };
-    found.vertices().iter().map(color).collect()
+/// The width of a band.
+pub fn width(found: &GeodesicDistance) -> f64 {
+    match found.farthest().1 {
+        0.0 => 1.0,
+        largest => largest / BANDS,
+    }
 }
 
-fn color(share: f64) -> [u8; 3] {
+/// The colour of a distance.
+pub fn color(found: &GeodesicDistance, distance: f64) -> [u8; 3] {
+    match distance.is_finite() {
+        true => of_share(distance / (BANDS * width(found))),
+        false => NOT_REACHED,
+    }
+}
+
+fn of_share(share: f64) -> [u8; 3] {
     let place = 2.0 * share.clamp(0.0, 1.0);
     let (low, high) = if place < 1.0 { (0, 1) } else { (1, 2) };
     let part = place - low as f64;
@@ -39,13 +44,13 @@ fn color(share: f64) -> [u8; 3] {
 
 #[cfg(test)]
 mod tests {
-    use super::color;
+    use super::of_share;
 
     #[test]
     fn the_scale_runs_from_red_to_blue() {
-        assert_eq!(color(0.0), [178, 24, 43]);
-        assert_eq!(color(1.0), [33, 102, 172]);
-        let [near, far] = [0.01, 0.05].map(color);
+        assert_eq!(of_share(0.0), [178, 24, 43]);
+        assert_eq!(of_share(1.0), [33, 102, 172]);
+        let [near, far] = [0.01, 0.05].map(of_share);
         assert!(near[0] > far[0], "bands differ in lightness");
     }
 }

@@ -13,7 +13,7 @@ use roundel::mesh::TriangleMesh;
 use roundel::mesh::features::FeatureGraph;
 use roundel::mesh::io::{self, Drawing};
 use roundel::{Error, Monitor, Result};
-use roundel_pictures::{View, draw_colors};
+use roundel_pictures::{View, draw_bands};
 use serde::Serialize;
 
 use crate::exit::Exit;
@@ -129,11 +129,12 @@ fn sources(
 }
 
 fn write(arguments: &Arguments, mesh: &TriangleMesh, found: &GeodesicDistance) -> Result<()> {
-    if arguments.out.is_none() && arguments.picture.is_none() {
-        return Ok(());
-    }
-    let colors = bands::colors(found);
     if let Some(path) = &arguments.out {
+        let colors: Vec<[u8; 3]> = found
+            .vertices()
+            .iter()
+            .map(|&d| bands::color(found, d))
+            .collect();
         let drawing = Drawing {
             vertex_colors: Some(&colors),
             vertex_quality: Some(found.vertices()),
@@ -149,7 +150,8 @@ fn write(arguments: &Arguments, mesh: &TriangleMesh, found: &GeodesicDistance) -
             from: arguments.picture_from,
             up: arguments.picture_up,
         };
-        draw_colors(mesh, &colors, &view)?.write_png(path)?;
+        let color = |d: f64| bands::color(found, d);
+        draw_bands(mesh, found.vertices(), bands::width(found), color, &view)?.write_png(path)?;
     }
     Ok(())
 }
