@@ -41,6 +41,7 @@
 //! | [`Monitor`], [`Event`], [`CancelToken`], [`monitor`] | progress, cancel, time limit |
 //! | [`soup`] | polygon soups: files of any kind, and their repair |
 //! | [`mesh`], [`field`], [`map`], [`untangle`], [`check`] | meshes, orientation fields, seamless maps, their repair and their check |
+//! | [`geodesic`] | exact distances along the surface, and shortest paths |
 //! | [`extract`], [`smooth`], [`quad`] | quads from a map; all the way from a mesh to quads |
 //! | [`Error`], [`InputError`] | what can go wrong |
 //! | [`capi`] | the C interface |
@@ -57,6 +58,7 @@ mod eliminate;
 mod error;
 pub mod extract;
 pub mod field;
+pub mod geodesic;
 #[doc(hidden)]
 pub mod internals;
 mod lattice;
@@ -97,6 +99,8 @@ mod book {
     struct Readme;
     #[doc = include_str!("../docs/errors.md")]
     struct Errors;
+    #[doc = include_str!("../docs/geodesic.md")]
+    struct Geodesic;
     #[doc = include_str!("../docs/options.md")]
     struct Options;
     #[doc = include_str!("../docs/problems.md")]

@@ -7,7 +7,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The layers from the lowest to the highest. A file names its own layer and lower ones, nothing else.
-const LAYERS: [&str; 24] = [
+const LAYERS: [&str; 25] = [
     "error",
     "monitor",
     "linalg",
@@ -24,6 +24,7 @@ const LAYERS: [&str; 24] = [
     "solve",
     "soup",
     "mesh",
+    "geodesic",
     "field",
     "map",
     "untangle",

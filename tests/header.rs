@@ -36,6 +36,8 @@ const SOURCES: &[&str] = &[
     "edit_kind",
     "repair_options",
     "repair",
+    "geodesic_sources",
+    "geodesic",
     "guidance",
     "curvature",
     "field",

@@ -71,7 +71,12 @@ def _for_callers(member, value):
 
 
 #: What `__init__` sets.
-_ATTRIBUTES = {"Field": {"mesh": "Mesh"}, "Map": {"field": "Field"}, "Interrupted": {"incumbent": "Any"}}
+_ATTRIBUTES = {
+    "Field": {"mesh": "Mesh"},
+    "GeodesicDistance": {"mesh": "Mesh"},
+    "Map": {"field": "Field"},
+    "Interrupted": {"incumbent": "Any"},
+}
 
 
 def _member(name, value):

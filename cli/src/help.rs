@@ -15,7 +15,7 @@ const COMMON: [&str; 3] = ["strategy", "time_limit", "threads"];
 const EXPERT: [&str; 3] = ["preset", "stiffen", "stiffenings"];
 
 /// Examples of each command.
-const EXAMPLES: [(&str, &str); 11] = [
+const EXAMPLES: [(&str, &str); 12] = [
     (
         "solve",
         "\
@@ -45,6 +45,12 @@ const EXAMPLES: [(&str, &str); 11] = [
         "\
   roundel check uv.obj
   roundel check uv.obj --features 40 --json",
+    ),
+    (
+        "distance",
+        "\
+  roundel distance bunny.obj --from vertex:12 -o distance.ply
+  roundel distance fandisk.obj --from features --picture distance.png --json",
     ),
     (
         "repair",

@@ -3,6 +3,7 @@
 mod changes;
 mod check;
 mod check_proof;
+mod distance;
 mod evaluate;
 mod exit;
 mod extract;
@@ -45,6 +46,7 @@ enum Command {
     Parametrize(parametrize::Arguments),
     Check(check::Arguments),
     CheckProof(check_proof::Arguments),
+    Distance(distance::Arguments),
     Repair(repair::Arguments),
     Quad(quad::Arguments),
     Extract(extract::Arguments),
@@ -64,6 +66,7 @@ fn main() -> ExitCode {
         Command::Parametrize(arguments) => parametrize::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::CheckProof(arguments) => check_proof::run(&arguments),
+        Command::Distance(arguments) => distance::run(&arguments),
         Command::Repair(arguments) => repair::run(&arguments),
         Command::Quad(arguments) => quad::run(&arguments),
         Command::Extract(arguments) => extract::run(&arguments),

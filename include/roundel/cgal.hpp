@@ -108,6 +108,26 @@ cgal::Elements<G> adapt(const G& graph, Status* status = nullptr) {
     return adapt(graph, get(CGAL::vertex_point, graph), status);
 }
 
+/// Writes the exact distance along the surface from sources to a writable property map of vertices.
+/// Sources number vertices and faces in the order of vertices(graph) and faces(graph). Returns
+/// whether it succeeded.
+template <class G, class Distance, cgal::enable<G> = 0>
+bool store_distance(const G& graph, const Sources& sources, Distance distance,
+                    const GeodesicOptions& options = {}, Status* status = nullptr) {
+    const auto elements = adapt(graph, status);
+    if (!elements) {
+        return false;
+    }
+    const auto found = geodesic_distance(elements.mesh, sources, options, status);
+    if (!found) {
+        return false;
+    }
+    for (std::size_t i = 0; i < elements.vertices.size(); ++i) {
+        put(distance, elements.vertices[i], found.distances()[i]);
+    }
+    return true;
+}
+
 /// The smoothest field of a FaceGraph that satisfies the constraints. Their faces are numbered in
 /// the order of faces(graph).
 template <class G, cgal::enable<G> = 0>

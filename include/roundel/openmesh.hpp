@@ -88,6 +88,31 @@ openmesh::Elements adapt(const M& mesh, Status* status = nullptr) {
     return elements;
 }
 
+/// Writes the exact distance along the surface from sources to the vertex property
+/// "roundel:distance", which is added if it does not exist. Sources number vertices and faces
+/// without the deleted ones.
+template <class M, openmesh::enable<M> = 0>
+OpenMesh::VPropHandleT<double> store_distance(M& mesh, const Sources& sources,
+                                              const GeodesicOptions& options = {},
+                                              Status* status = nullptr) {
+    OpenMesh::VPropHandleT<double> to;
+    const auto elements = adapt(mesh, status);
+    if (!elements) {
+        return to;
+    }
+    const auto found = geodesic_distance(elements.mesh, sources, options, status);
+    if (!found) {
+        return to;
+    }
+    if (!mesh.get_property_handle(to, "roundel:distance")) {
+        mesh.add_property(to, "roundel:distance");
+    }
+    for (std::size_t i = 0; i < elements.vertices.size(); ++i) {
+        mesh.property(to, elements.vertices[i]) = found.distances()[i];
+    }
+    return to;
+}
+
 /// The smoothest field of an OpenMesh mesh that satisfies the constraints. Their faces are numbered
 /// without the deleted ones.
 template <class M, openmesh::enable<M> = 0>

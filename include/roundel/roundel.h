@@ -604,6 +604,12 @@ typedef struct roundel_cancel_token roundel_cancel_token;
 typedef struct roundel_field roundel_field;
 
 /**
+ * The exact distance along the surface of every vertex of a mesh to the nearest of some sources. The mesh may be
+ * freed before it, but is needed for what is asked about other points.
+ */
+typedef struct roundel_geodesic roundel_geodesic;
+
+/**
  * The requirements of a field, and the edges that become isolines of its map: features, the boundary,
  * given directions, the curvature, given indices. If several give a direction for one face, the first of
  * these decides: a given direction, a feature or the boundary, a reliable curvature.
@@ -704,6 +710,13 @@ typedef struct roundel_solver roundel_solver;
  * once made. roundel_soup_repair makes a mesh of it.
  */
 typedef struct roundel_soup roundel_soup;
+
+/**
+ * Sources of geodesic distances, numbered from 0 as they are added: vertices, points, polylines and sets of
+ * edges. Distance is 0 on all of a source. Numbers of vertices, faces and edges are those of the mesh that the
+ * sources are used with, and are checked when they are used.
+ */
+typedef struct roundel_sources roundel_sources;
 
 /**
  * The description of one preset. The texts live as long as the library is loaded.
@@ -2274,6 +2287,143 @@ roundel_status roundel_repair_soup_vertex_count(const struct roundel_repair *rep
 roundel_status roundel_repair_welded_to(const struct roundel_repair *repair,
                                         int32_t *vertices,
                                         size_t length);
+
+/**
+ * Makes an empty list of sources. To be freed with roundel_sources_free.
+ */
+roundel_status roundel_sources_new(struct roundel_sources **sources);
+
+/**
+ * Frees sources. NULL is allowed.
+ */
+roundel_status roundel_sources_free(struct roundel_sources *sources);
+
+/**
+ * Adds `count` vertices, each a source.
+ */
+roundel_status roundel_sources_add_vertices(struct roundel_sources *sources,
+                                            size_t count,
+                                            const int32_t *vertices);
+
+/**
+ * Adds `count` points of the surface, each a source: a face each, and in `barycentric` the weights of its three
+ * corners, which add up to 1.
+ */
+roundel_status roundel_sources_add_points(struct roundel_sources *sources,
+                                          size_t count,
+                                          const int32_t *faces,
+                                          const double *barycentric);
+
+/**
+ * Adds a polyline through `count` points, given as for roundel_sources_add_points: one source. Points that follow
+ * each other lie on a common face, its boundary included. If `closed` is not 0, a segment joins the last point
+ * with the first.
+ */
+roundel_status roundel_sources_add_polyline(struct roundel_sources *sources,
+                                            size_t count,
+                                            const int32_t *faces,
+                                            const double *barycentric,
+                                            int32_t closed);
+
+/**
+ * Adds a set of `count` edges: one source.
+ */
+roundel_status roundel_sources_add_edges(struct roundel_sources *sources,
+                                         size_t count,
+                                         const int32_t *edges);
+
+/**
+ * Adds the boundary of a mesh: each loop a source.
+ */
+roundel_status roundel_sources_add_boundary(struct roundel_sources *sources,
+                                            const struct roundel_mesh *mesh);
+
+/**
+ * Gives the number of sources.
+ */
+roundel_status roundel_sources_count(const struct roundel_sources *sources, size_t *count);
+
+/**
+ * Computes distances from sources to all vertices. Distances above `limit` are infinite; INFINITY is no limit. If
+ * `everywhere` is not 0, distances, gradients and paths can be asked for at any point, which takes more memory;
+ * else at vertices alone. The monitor may be NULL; it is asked whether the call ends, and told nothing.
+ *
+ * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT without sources, for a limit that is negative or not a number, and for
+ * a point that is not in its face, or points of a polyline that lie on no common face;
+ * ROUNDEL_ERROR_INDEX_OUT_OF_RANGE for a vertex, face or edge that the mesh does not have; ROUNDEL_ERROR_NOT_FINITE
+ * for barycentric coordinates that are no numbers. roundel_last_error_index is the number of the source.
+ */
+roundel_status roundel_geodesic_new(const struct roundel_mesh *mesh,
+                                    const struct roundel_sources *sources,
+                                    double limit,
+                                    int32_t everywhere,
+                                    const struct roundel_monitor *monitor,
+                                    struct roundel_geodesic **geodesic);
+
+/**
+ * Frees geodesic distances. NULL is allowed.
+ */
+roundel_status roundel_geodesic_free(struct roundel_geodesic *geodesic);
+
+/**
+ * Copies the distance of every vertex; INFINITY beyond the limit and where no source can be reached. `length` is
+ * the number of vertices.
+ */
+roundel_status roundel_geodesic_distances(const struct roundel_geodesic *geodesic,
+                                          double *distances,
+                                          size_t length);
+
+/**
+ * Copies the number of the nearest source of every vertex; -1 where the distance is infinite. `length` is the
+ * number of vertices.
+ */
+roundel_status roundel_geodesic_nearest_sources(const struct roundel_geodesic *geodesic,
+                                                int32_t *sources,
+                                                size_t length);
+
+/**
+ * Gives the distances of `count` points of the surface, given as for roundel_sources_add_points. `mesh` is the one
+ * that the distances are of.
+ *
+ * Fails for points that are not at vertices with ROUNDEL_ERROR_INVALID_ARGUMENT if the distances were not computed
+ * everywhere.
+ */
+roundel_status roundel_geodesic_distances_at(const struct roundel_geodesic *geodesic,
+                                             const struct roundel_mesh *mesh,
+                                             size_t count,
+                                             const int32_t *faces,
+                                             const double *barycentric,
+                                             double *distances);
+
+/**
+ * Gives the gradients of the distance at `count` points of the surface, given as for roundel_sources_add_points: x,
+ * y, z of a unit vector in the plane of a face each, null on the sources and where the distance is infinite.
+ *
+ * Fails as roundel_geodesic_distances_at.
+ */
+roundel_status roundel_geodesic_gradients_at(const struct roundel_geodesic *geodesic,
+                                             const struct roundel_mesh *mesh,
+                                             size_t count,
+                                             const int32_t *faces,
+                                             const double *barycentric,
+                                             double *gradients);
+
+/**
+ * Gives a shortest path from a point, the face and three barycentric coordinates, to the nearest source: points
+ * that follow each other lie on a common face, the first is the point itself. `path_faces` has room for `capacity`
+ * numbers, `path_barycentric` for three times as many. The number of points goes to `count`: 0 where the distance
+ * is infinite. With a capacity of 0, both arrays may be NULL and only the number is given.
+ *
+ * Fails as roundel_geodesic_distances_at, and with ROUNDEL_ERROR_LENGTH_MISMATCH if the room is too small.
+ */
+roundel_status roundel_geodesic_path(const struct roundel_geodesic *geodesic,
+                                     const struct roundel_mesh *mesh,
+                                     int32_t face,
+                                     const double *barycentric,
+                                     size_t capacity,
+                                     int32_t *path_faces,
+                                     double *path_barycentric,
+                                     size_t *count);
 
 /**
  * Makes a guidance. To be freed with roundel_guidance_free.

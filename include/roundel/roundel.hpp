@@ -22,8 +22,8 @@
 /// also takes a `Status*` as its last argument. With a Status it throws nothing and reports the
 /// failure there. Built without exceptions, a failure without a Status ends the program.
 ///
-/// Problem, Solution, Solver, Mesh, Soup, Repair, Field, Map, Quads and CancelToken own their C
-/// objects. They can be moved and not copied. A const object may be used by several threads at
+/// Problem, Solution, Solver, Mesh, Soup, Repair, Sources, GeodesicDistance, Field, Map, Quads and
+/// CancelToken own their C objects. They can be moved and not copied. A const object may be used by several threads at
 /// once, any other by one.
 ///
 /// Adapters for meshes of other libraries: <roundel/openmesh.hpp>, <roundel/cgal.hpp>,
@@ -35,6 +35,7 @@
 #include <roundel/detail/error.hpp>
 #include <roundel/detail/features.hpp>
 #include <roundel/detail/field.hpp>
+#include <roundel/detail/geodesic.hpp>
 #include <roundel/detail/lazy_rows.hpp>
 #include <roundel/detail/map.hpp>
 #include <roundel/detail/mesh.hpp>

@@ -90,7 +90,7 @@ pub fn draw_field(mesh: &TriangleMesh, field: &OrientationField, view: &View) ->
 }
 
 /// The mesh with smooth normals and the sky that it leaves visible.
-fn surface(mesh: &TriangleMesh) -> Scene {
+pub(super) fn surface(mesh: &TriangleMesh) -> Scene {
     let normals = corner_normals(mesh);
     let mean = |v: usize| -> Vec3 {
         normalize(
@@ -116,7 +116,7 @@ fn surface(mesh: &TriangleMesh) -> Scene {
 }
 
 impl View {
-    fn check(&self) -> Result<()> {
+    pub(super) fn check(&self) -> Result<()> {
         let refuse = |what: String| Err(Error::InvalidArgument { what, index: None });
         for side in [self.width, self.height] {
             if !(1..=LARGEST).contains(&side) {

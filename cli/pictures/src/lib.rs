@@ -3,7 +3,7 @@
 //! A small software renderer, since a field is looked at far more often than it is computed and a
 //! graphics library would be the largest dependency of all. [`draw_field`] gives an [`Image`]:
 //! streamlines of the field, evenly spaced, on a softly lit surface, and irregular vertices as
-//! balls. [`FieldModel`] is what MeshLab and Blender open: the mesh, a cross in every face and
+//! balls. [`draw_bands`] draws a number at every vertex, in bands. [`FieldModel`] is what MeshLab and Blender open: the mesh, a cross in every face and
 //! the same balls. Everything is the same on every run.
 //!
 //! Irregular vertices of index 1/4 are red, as at the corner of a cube, those of index -1/4 blue,
@@ -14,6 +14,7 @@
 
 mod ambient;
 mod balls;
+mod bands;
 mod camera;
 mod draw;
 mod model;
@@ -25,6 +26,7 @@ mod scene;
 mod shading;
 mod streamlines;
 
+pub use bands::draw_bands;
 pub use draw::{View, draw_field};
 pub use model::FieldModel;
 pub use png::Image;

@@ -64,7 +64,7 @@ impl FieldModel {
             vertices: &self.vertices,
             triangles: &self.triangles,
             vertex_colors: Some(&self.colors),
-            triangle_colors: None,
+            ..Drawing::default()
         }
     }
 

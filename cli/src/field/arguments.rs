@@ -81,7 +81,8 @@ fn symmetry(text: &str) -> Result<u8, String> {
     }
 }
 
-fn size(text: &str) -> Result<[usize; 2], String> {
+/// A size of a picture.
+pub fn size(text: &str) -> Result<[usize; 2], String> {
     let (width, height) = text.split_once('x').ok_or("expected WIDTHxHEIGHT")?;
     let pixels = |text: &str| match text.parse() {
         Ok(pixels) if (1..=8_192).contains(&pixels) => Ok(pixels),
@@ -90,7 +91,8 @@ fn size(text: &str) -> Result<[usize; 2], String> {
     Ok([pixels(width)?, pixels(height)?])
 }
 
-fn direction(text: &str) -> Result<[f64; 3], String> {
+/// A direction in space.
+pub fn direction(text: &str) -> Result<[f64; 3], String> {
     let numbers: Result<Vec<f64>, _> = text.split(',').map(str::parse).collect();
     let numbers = numbers.map_err(|_| "expected X,Y,Z")?;
     numbers

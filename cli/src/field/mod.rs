@@ -22,7 +22,7 @@ use crate::output;
 use crate::outputs::{Content, Outputs, PAGE, PICTURE, PROBLEM, TRACE};
 use crate::progress::Progress;
 use crate::report::Preparation;
-pub use arguments::Arguments;
+pub use arguments::{Arguments, direction, size};
 pub use directions::{Directions, named};
 use report::FieldReport;
 use solved::Solved;

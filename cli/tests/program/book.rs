@@ -14,12 +14,13 @@ use page::{Block, blocks, pages, root};
 const NAMES: [&str; 2] = ["cargo run --release -p roundel-cli -- ", "roundel "];
 
 /// The commands of the program.
-const COMMANDS: [&str; 11] = [
+const COMMANDS: [&str; 12] = [
     "quad",
     "field",
     "parametrize",
     "check",
     "check-proof",
+    "distance",
     "extract",
     "repair",
     "solve",

@@ -1,6 +1,7 @@
 //! The program as its users meet it: run from outside, on files.
 
 mod book;
+mod distance;
 mod evaluate;
 mod field;
 mod interrupt;

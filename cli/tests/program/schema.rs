@@ -175,13 +175,14 @@ fn every_command_prints_what_the_schema_says() {
     fs::write(&folded, format!("{square}f 1/1 2/2 3/3\nf 1/1 3/3 4/2\n")).unwrap();
     let shape = "shape:torus:300";
     let proof = path("proof.jsonl");
-    let runs: [(&str, &[&str]); 17] = [
+    let runs: [(&str, &[&str]); 18] = [
         ("solve", &["solve", &problem]),
         ("solve", &["solve", &problem, "--strategy", "relax"]),
         ("solve", &["solve", &problem, "--proof", &proof]),
         ("check_proof", &["check-proof", &proof]),
         ("check_proof", &["check-proof", &problem]),
         ("field", &["field", shape]),
+        ("distance", &["distance", shape, "--from", "vertex:3"]),
         (
             "parametrize",
             &["parametrize", shape, "--quads", "100", "-o", &uv],

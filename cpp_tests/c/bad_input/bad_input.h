@@ -67,5 +67,6 @@ void bad_solvers(fixture* f);
 void bad_guidance(fixture* f);
 void bad_quads(fixture* f);
 void bad_soups(fixture* f);
+void bad_geodesics(fixture* f);
 
 #endif

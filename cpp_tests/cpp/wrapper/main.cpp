@@ -36,5 +36,7 @@ int main() {
     soups_become_meshes_and_say_how();
     repair_follows_its_options();
     files_of_polygons_become_meshes();
+    distances_follow_the_surface();
+    the_boundary_points_and_edges_are_sources();
     return failures != 0;
 }

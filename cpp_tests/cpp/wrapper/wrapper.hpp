@@ -28,6 +28,8 @@ void unset_quad_options_have_the_librarys_defaults();
 void soups_become_meshes_and_say_how();
 void repair_follows_its_options();
 void files_of_polygons_become_meshes();
+void distances_follow_the_surface();
+void the_boundary_points_and_edges_are_sources();
 
 /// A chain of `n` variables with target differences of 0.3, in which every second one is an
 /// integer.

@@ -168,6 +168,20 @@ void property_maps_hold_a_map() {
     holds_a_map(polyhedron, uvs, other.transitions().size());
 }
 
+void property_maps_hold_distances() {
+    const auto plane = roundel::Mesh::shape("plane", 200);
+    Mesh mesh = build(plane);
+    roundel::Sources sources;
+    sources.add_vertex(0);
+    const auto map = mesh.add_property_map<Mesh::Vertex_index, double>("v:distance").first;
+    CHECK(roundel::store_distance(mesh, sources, map));
+    const auto from = mesh.point(Mesh::Vertex_index(0));
+    for (const auto v : mesh.vertices()) {
+        const double exact = std::sqrt((mesh.point(v) - from).squared_length());
+        CHECK(std::fabs(map[v] - exact) < 1e-14);
+    }
+}
+
 void polygons_are_refused_by_number() {
     Mesh mesh;
     std::vector<Mesh::Vertex_index> v;
@@ -190,6 +204,7 @@ int main() {
     removed_elements_are_skipped();
     other_face_graphs_have_fields();
     property_maps_hold_a_map();
+    property_maps_hold_distances();
     polygons_are_refused_by_number();
     return failures != 0;
 }

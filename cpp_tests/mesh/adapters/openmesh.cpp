@@ -184,6 +184,24 @@ void quads_come_back_as_a_mesh_of_polygons() {
     }
 }
 
+void distances_are_kept_on_vertices() {
+    TriMesh mesh;
+    std::vector<TriMesh::VertexHandle> v;
+    for (const float x : {0.0f, 3.0f}) {
+        v.push_back(mesh.add_vertex({x, 0.0f, 0.0f}));
+        v.push_back(mesh.add_vertex({x, 4.0f, 0.0f}));
+    }
+    mesh.add_face(v[0], v[2], v[3]);
+    mesh.add_face(v[0], v[3], v[1]);
+    roundel::Sources sources;
+    sources.add_vertex(1);
+    const auto to = roundel::store_distance(mesh, sources);
+    const double expected[] = {4.0, 0.0, 5.0, 3.0};
+    for (std::size_t i = 0; i < 4; ++i) {
+        CHECK(std::fabs(mesh.property(to, v[i]) - expected[i]) < 1e-15);
+    }
+}
+
 void polygons_are_refused_by_number() {
     PolyMesh mesh;
     std::vector<OpenMesh::VertexHandle> v;
@@ -210,6 +228,7 @@ int main() {
     deleted_elements_are_skipped();
     maps_are_kept_on_half_edges();
     quads_come_back_as_a_mesh_of_polygons();
+    distances_are_kept_on_vertices();
     polygons_are_refused_by_number();
     return failures != 0;
 }

@@ -12,6 +12,8 @@ pub struct Drawing<'a> {
     pub triangles: &'a [[u32; 3]],
     /// Red, green, blue of every vertex. OBJ, PLY and OFF hold them.
     pub vertex_colors: Option<&'a [[u8; 3]]>,
+    /// A number for every vertex, such as a distance. PLY holds it, as `quality`, which MeshLab shows.
+    pub vertex_quality: Option<&'a [f64]>,
     /// Red, green, blue of every triangle. PLY and OFF hold them.
     pub triangle_colors: Option<&'a [[u8; 3]]>,
 }

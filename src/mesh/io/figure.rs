@@ -8,6 +8,7 @@ pub(super) struct Figure<'a> {
     pub(super) vertices: &'a [Vec3],
     pub(super) faces: Vec<&'a [u32]>,
     pub(super) vertex_colors: Option<&'a [[u8; 3]]>,
+    pub(super) vertex_quality: Option<&'a [f64]>,
     pub(super) face_colors: Option<&'a [[u8; 3]]>,
 }
 
@@ -17,6 +18,7 @@ impl<'a> From<&Drawing<'a>> for Figure<'a> {
             vertices: drawing.vertices,
             faces: drawing.triangles.iter().map(<[u32; 3]>::as_slice).collect(),
             vertex_colors: drawing.vertex_colors,
+            vertex_quality: drawing.vertex_quality,
             face_colors: drawing.triangle_colors,
         }
     }
@@ -28,6 +30,7 @@ impl<'a> From<&Polygons<'a>> for Figure<'a> {
             vertices: polygons.vertices,
             faces: polygons.faces.clone(),
             vertex_colors: None,
+            vertex_quality: None,
             face_colors: None,
         }
     }
@@ -37,6 +40,14 @@ impl Figure<'_> {
     pub(super) fn check(&self) -> Result<(), MeshError> {
         let vertices = self.vertices.len();
         fits("vertex", self.vertex_colors, vertices)?;
+        if let Some(quality) = self.vertex_quality.filter(|q| q.len() != vertices) {
+            return Err(MeshError::InvalidArgument {
+                what: format!(
+                    "there are {} numbers of vertices, not {vertices}",
+                    quality.len()
+                ),
+            });
+        }
         fits("triangle", self.face_colors, self.faces.len())?;
         for (face, corners) in self.faces.iter().enumerate() {
             if let Some(&vertex) = corners.iter().find(|&&v| v as usize >= vertices) {

@@ -1,5 +1,5 @@
-//! Writing of the polygon file format: binary, little endian, with double coordinates, and with colours
-//! as `red green blue`, which MeshLab and Blender show.
+//! Writing of the polygon file format: binary, little endian, with double coordinates, with colours as
+//! `red green blue`, which MeshLab and Blender show, and with a number for every vertex as `quality`.
 
 use std::io::Write;
 
@@ -16,10 +16,15 @@ pub(super) fn encode(figure: &Figure) -> Vec<u8> {
     let _ = write!(
         out,
         "ply\nformat binary_little_endian 1.0\n\
-         element vertex {}\nproperty double x\nproperty double y\nproperty double z\n{}\
+         element vertex {}\nproperty double x\nproperty double y\nproperty double z\n{}{}\
          element face {}\nproperty list {} int vertex_indices\n{}end_header\n",
         vertices.len(),
         colored(figure.vertex_colors),
+        if figure.vertex_quality.is_some() {
+            "property double quality\n"
+        } else {
+            ""
+        },
         faces.len(),
         if small { "uchar" } else { "int" },
         colored(figure.face_colors),
@@ -27,6 +32,12 @@ pub(super) fn encode(figure: &Figure) -> Vec<u8> {
     for (v, position) in vertices.iter().enumerate() {
         out.extend(position.iter().flat_map(|x| x.to_le_bytes()));
         out.extend(figure.vertex_colors.iter().flat_map(|colors| colors[v]));
+        out.extend(
+            figure
+                .vertex_quality
+                .iter()
+                .flat_map(|q| q[v].to_le_bytes()),
+        );
     }
     for (f, face) in faces.iter().enumerate() {
         let length = (face.len() as u32).to_le_bytes();

@@ -5,7 +5,7 @@
 
 `solve` solves a problem in matrices, `Problem` builds one part by part, and `Solver` solves one many
 times. `quad` makes quads of a triangle mesh, `field` and `map` the steps to them, and `repair` a mesh of
-a polygon soup. Elements are counted from 0. Angles are in radians and counter-clockwise, except for the
+a polygon soup. `geodesic_distance` measures along a mesh. Elements are counted from 0. Angles are in radians and counter-clockwise, except for the
 angle of features, which is in degrees.
 
     vertices, quads = roundel.quad("part.stl", quads=2000, features=40)
@@ -20,6 +20,7 @@ from ._library import lib as _lib, text as _text
 from .errors import *  # noqa: F403: one class for each status
 from .events import Event
 from .field import Field, field
+from .geodesic import GeodesicDistance, geodesic_distance
 from .lazy_rows import Candidate
 from .map import Map
 
@@ -45,6 +46,7 @@ __all__ = [
     "EditKind",
     "Event",
     "Field",
+    "GeodesicDistance",
     "Interrupted",
     "Map",
     "Mesh",
@@ -59,6 +61,7 @@ __all__ = [
     "check_proof",
     "extract",
     "field",
+    "geodesic_distance",
     "guidance_options",
     "options",
     "presets",

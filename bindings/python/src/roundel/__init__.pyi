@@ -80,6 +80,17 @@ class Field:
         file: Optional[File] = None,
     ) -> Any: ...
 
+class GeodesicDistance:
+    mesh: Mesh
+    @property
+    def distances(self) -> np.ndarray: ...
+    @property
+    def nearest_sources(self) -> np.ndarray: ...
+    def at(self, faces: ArrayLike, barycentric: ArrayLike) -> np.ndarray: ...
+    def gradients(self, faces: ArrayLike, barycentric: ArrayLike) -> np.ndarray: ...
+    def path(self, face: int, barycentric: ArrayLike) -> tuple[np.ndarray, np.ndarray]: ...
+    def path_from_vertex(self, vertex: int) -> np.ndarray: ...
+
 class Interrupted(KeyboardInterrupt):
     incumbent: Any
     def __init__(self, incumbent: Any = None) -> None: ...
@@ -449,6 +460,19 @@ def field(
     nodes: int = 10000000000,
 ) -> Field: ...
 
+def geodesic_distance(
+    V: MeshLike,
+    F: Optional[ArrayLike] = None,
+    *,
+    vertices: ArrayLike = (),
+    points: Optional[tuple[ArrayLike, ArrayLike]] = None,
+    polylines: Iterable[Sequence[Any]] = (),
+    edges: Iterable[ArrayLike] = (),
+    boundary: bool = False,
+    limit: float = ...,
+    everywhere: bool = False,
+) -> GeodesicDistance: ...
+
 def guidance_options() -> dict[str, Option]: ...
 
 def map(
@@ -608,6 +632,7 @@ __all__ = [
     "Error",
     "Event",
     "Field",
+    "GeodesicDistance",
     "InconsistentOrientationError",
     "IndexOutOfRangeError",
     "InfeasibleError",
@@ -650,6 +675,7 @@ __all__ = [
     "check_proof",
     "extract",
     "field",
+    "geodesic_distance",
     "guidance_options",
     "options",
     "presets",
