@@ -9,7 +9,7 @@ use crate::extract::Origin;
 use crate::field::{Constraint, Guidance, Guide};
 use crate::map::Sizing;
 use crate::mesh::features::FeatureGraph;
-use crate::mesh::refine::{Need, RefineOptions, Refined, needs_refinement, refine};
+use crate::mesh::refine::{Need, RefineOptions, Refined, SMALL_ANGLE, needs_refinement, refine};
 use crate::mesh::vector::{Vec3, add, cross, dot, scale, sub};
 use crate::mesh::{ClosestPoint, TriangleMesh};
 use crate::monitor::may_continue;
@@ -42,7 +42,8 @@ pub struct RefinedInput {
 }
 
 impl RefinedInput {
-    /// Refines a mesh if [`needs_refinement`] says so and the refinement changes anything.
+    /// Refines a mesh if [`needs_refinement`] says so and the refinement changes anything. A refinement is not used
+    /// if it ends at the bound on its triangles and leaves more needles than the mesh has.
     ///
     /// `features` are edges besides those of the guidance.
     ///
@@ -78,7 +79,7 @@ impl RefinedInput {
         let most = (TRIANGLES_PER_QUAD * quads).min(MOST_TRIANGLES) as usize;
         let options = RefineOptions::new(mesh, longest, most);
         let refined = refine(mesh, &held, &options)?;
-        if refined.is_unchanged() {
+        if refined.is_unchanged() || has_more_needles(mesh, &refined) {
             return Ok(None);
         }
         let parts = refined.parts_of(|edge| wanted.contains(edge));
@@ -130,6 +131,13 @@ impl RefinedInput {
             ..made
         }
     }
+}
+
+/// Whether a refinement that ended at its bound leaves more needles than the mesh has: held edges very near each
+/// other divide needles into needles without end.
+fn has_more_needles(mesh: &TriangleMesh, refined: &Refined) -> bool {
+    let is_needle = |angles: &&[f64; 3]| angles.iter().any(|&angle| angle < SMALL_ANGLE);
+    !refined.is_complete && refined.small_angles > mesh.angles().iter().filter(is_needle).count()
 }
 
 fn directed_faces(guidance: &Guidance) -> impl Iterator<Item = usize> + '_ {
