@@ -16,8 +16,8 @@ static void sources_are_checked(fixture* f, const roundel_mesh* mesh) {
     size_t count = 7;
     BAD(f, roundel_sources_new(NULL), null, "sources", NONE);
     GOOD(roundel_sources_new(&sources));
-    BAD(f, roundel_geodesic_new(mesh, sources, INFINITY, 0, NULL, &geodesic), invalid,
-        "no sources", NONE);
+    BAD(f, roundel_geodesic_new(mesh, sources, INFINITY, 0, NULL, &geodesic), invalid, "no sources",
+        NONE);
     BAD(f, roundel_sources_add_vertices(sources, 2, negative), range, "entry 1 is -1", 1);
     BAD(f, roundel_sources_add_vertices(sources, 2, NULL), null, "vertices", NONE);
     BAD(f, roundel_sources_add_points(sources, 2, NULL, inside), null, "faces", NONE);

@@ -64,8 +64,8 @@ void the_boundary_points_and_edges_are_sources() {
     const std::vector<std::int32_t> edges{5, 6};
     roundel::Sources both;
     both.add_points({&point, 1}).add_edges(edges);
-    const auto near = roundel::geodesic_distance(plane, both,
-                                                 roundel::GeodesicOptions().set_limit(0.5));
+    const auto near =
+        roundel::geodesic_distance(plane, both, roundel::GeodesicOptions().set_limit(0.5));
     CHECK(std::isinf(near.distances()[plane.vertices() - 1]));
     roundel::Status status;
     both.add_vertex(1000000);

@@ -1,4 +1,5 @@
-// Exact geodesic distances against CGAL's shortest paths, with exact predicates, on files of meshes.
+// Exact geodesic distances against CGAL's shortest paths, with exact predicates, on files of
+// meshes.
 //
 // Usage: geodesic_with_cgal FOLDER NAME...
 
@@ -24,7 +25,9 @@ using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 using Traits = CGAL::Surface_mesh_shortest_path_traits<Kernel, Mesh>;
 using Paths = CGAL::Surface_mesh_shortest_path<Traits>;
 
-double seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+double seconds() {
+    return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+}
 
 Mesh build(const roundel::Mesh& from) {
     Mesh mesh;

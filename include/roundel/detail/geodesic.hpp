@@ -50,8 +50,8 @@ class Sources {
 
     /// Adds vertices, each a source.
     Sources& add_vertices(span<const std::int32_t> vertices, Status* status = nullptr) {
-        detail::check(
-            roundel_sources_add_vertices(handle_.get(), vertices.size(), vertices.data()), status);
+        detail::check(roundel_sources_add_vertices(handle_.get(), vertices.size(), vertices.data()),
+                      status);
         return *this;
     }
 
@@ -136,10 +136,10 @@ class GeodesicDistance {
         : handle_(owned) {
         distances_.resize(mesh.vertices(status));
         sources_.resize(distances_.size());
-        if (detail::check(
-                roundel_geodesic_distances(owned, distances_.data(), distances_.size()), status)) {
-            detail::check(
-                roundel_geodesic_nearest_sources(owned, sources_.data(), sources_.size()), status);
+        if (detail::check(roundel_geodesic_distances(owned, distances_.data(), distances_.size()),
+                          status)) {
+            detail::check(roundel_geodesic_nearest_sources(owned, sources_.data(), sources_.size()),
+                          status);
         }
     }
 
@@ -222,10 +222,10 @@ inline GeodesicDistance geodesic_distance(const Mesh& mesh, const Sources& sourc
                                           const GeodesicOptions& options = {},
                                           Status* status = nullptr) {
     roundel_geodesic* made = nullptr;
-    const bool found = detail::check(roundel_geodesic_new(mesh.get(), sources.get(), options.limit,
-                                                          options.everywhere ? 1 : 0, nullptr,
-                                                          &made),
-                                     status);
+    const bool found =
+        detail::check(roundel_geodesic_new(mesh.get(), sources.get(), options.limit,
+                                           options.everywhere ? 1 : 0, nullptr, &made),
+                      status);
     return found ? GeodesicDistance(made, mesh, status) : GeodesicDistance();
 }
 
