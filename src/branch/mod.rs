@@ -57,7 +57,7 @@ use lazy::LazyRows;
 use presolve::{Contradiction, Part, Presolved};
 use tree::Limits;
 
-/// The multiplications after which `auto` ends with the best point so far.
+/// The multiplications after which `auto` ends with the best point so far, if it has one.
 const AUTO: u64 = 20_000_000_000;
 
 /// What a search has found.
@@ -83,7 +83,7 @@ pub(crate) struct Found {
 ///
 /// # Errors
 /// [`Error::Contradiction`], [`Error::Unbounded`], [`Error::NotConvex`], [`Error::OutOfMemory`], and
-/// [`Error::Cancelled`] or [`Error::TimeLimit`] before a first point.
+/// [`Error::Cancelled`], [`Error::TimeLimit`] or [`Error::SearchLimit`] before a first point.
 pub(crate) fn solve<'e>(
     problem: &Problem,
     model: &Model,
@@ -115,7 +115,7 @@ pub(crate) fn solve<'e>(
     }
     let presolved = match presolved {
         Ok(presolved) => presolved,
-        Err(contradiction) => return Err(no_point(problem, &given, contradiction)),
+        Err(contradiction) => return Err(no_point(problem, &given, contradiction, monitor)),
     };
     let Presolved {
         mut values,
@@ -147,7 +147,7 @@ pub(crate) fn solve<'e>(
         gap: options.gap / count.max(1) as f64,
         elsewhere: 0.0,
         first,
-        strict: false,
+        inner: false,
         recorded: false,
     };
     // A limit of time that ends the search of one part must find a point in each.
@@ -237,7 +237,7 @@ pub(crate) fn around(
         gap: 0.0,
         elsewhere: 0.0,
         first: false,
-        strict: true,
+        inner: true,
         recorded: false,
     };
     let found = tree::search(&form, Some(start), limits, monitor)?;
@@ -363,7 +363,7 @@ fn with_point(
     if let Some(ray) = found.ray {
         // Where there is no point, nothing falls.
         for part in parts {
-            if let Some(elements) = conflict::of_limits(&part.form, &part.members)? {
+            if let Some(elements) = conflict::of_limits(&part.form, &part.members, monitor)? {
                 return Err(conflict::error(problem, &elements));
             }
         }
@@ -377,11 +377,16 @@ fn with_point(
         return Ok(found);
     }
     if !found.is_complete {
-        return Err(monitor.stopped().map_or(Error::Cancelled, Error::from));
+        return Err(match (monitor.stopped(), found.stopped_by) {
+            (Some(stop), _) => stop.into(),
+            (None, StoppedBy::Nodes) => Error::SearchLimit { what: "nodes" },
+            (None, StoppedBy::Budget) => Error::SearchLimit { what: "work" },
+            (None, _) => Error::Cancelled,
+        });
     }
     let rows = match found.nodes {
         // A search of fewer unknowns or bounds has no certificate in rows of the part.
-        _ if found.conflict.is_empty() => conflict::of_root(&part.form),
+        _ if found.conflict.is_empty() => conflict::of_root(&part.form, monitor),
         0 | 1 => found.conflict,
         _ => Vec::new(),
     };
@@ -390,19 +395,24 @@ fn with_point(
     // rounding errors.
     let is_small = !elements.is_empty() && elements.len() <= part.members.len() + 1;
     if !is_small {
-        elements = conflict::of_form(&part.form, &part.members);
+        elements = conflict::of_form(&part.form, &part.members, monitor);
     }
     Err(conflict::error(problem, &elements))
 }
 
 /// The error for a contradiction that presolve found, with a small set of rows and bounds at fault.
-fn no_point(problem: &Problem, form: &Form, contradiction: Contradiction) -> Error {
+fn no_point(
+    problem: &Problem,
+    form: &Form,
+    contradiction: Contradiction,
+    monitor: &Monitor,
+) -> Error {
     let own = match contradiction {
         Contradiction::Row(row) => form.origins[row],
         Contradiction::Unknown(variable) => Conflicting::Bounds(variable),
     };
     let members: Vec<u32> = (0..form.dim() as u32).collect();
-    let mut elements = conflict::of_form(form, &members);
+    let mut elements = conflict::of_form(form, &members, monitor);
     if elements.is_empty() {
         elements.push(own);
     }

@@ -153,7 +153,7 @@ impl Tree<'_, '_, '_> {
         let Some((best, _)) = self.best.as_ref().filter(|_| self.integers.len() == n) else {
             return;
         };
-        if n > MOST || self.limits.strict {
+        if n > MOST || self.limits.inner {
             return;
         }
         let work = &mut self.relaxation.solver.work;
@@ -169,7 +169,7 @@ impl Tree<'_, '_, '_> {
         let Some((best, _)) = self.best.clone() else {
             return;
         };
-        if self.limits.strict {
+        if self.limits.inner {
             return;
         }
         let mut form = self.form.clone();
@@ -187,7 +187,7 @@ impl Tree<'_, '_, '_> {
         let limits = Limits {
             nodes: PART_NODES,
             first: false,
-            strict: true,
+            inner: true,
             recorded: false,
             ..self.limits
         };

@@ -80,8 +80,8 @@ pub(super) struct Limits {
     pub elsewhere: f64,
     /// Whether the first point is enough.
     pub first: bool,
-    /// Whether the limits hold before there is a point.
-    pub strict: bool,
+    /// Whether the search is a part of another one, and makes no smaller ones itself.
+    pub inner: bool,
     /// Whether to record all nodes for a proof.
     pub recorded: bool,
 }
@@ -94,6 +94,15 @@ const FIRST_PART: u64 = 50;
 
 /// The nodes before the first run of simulated annealing.
 const FIRST_RUN: u64 = 100;
+
+/// The multiplications that a node takes time for, apart from those of its relaxation.
+const NODE: u64 = 5000;
+
+/// The search for a first point may take this many times the work of the search for a better one.
+const FIRST: u64 = 10;
+
+/// A bound that is lower by this part of the energy is not due to the rounding errors of closed nodes.
+const DOUBT: f64 = 1e-6;
 
 /// A gap below this part of the energy is none.
 const CLOSED: f64 = 5e-10;
@@ -236,8 +245,13 @@ impl<'a, 'm, 'e> Tree<'a, 'm, 'e> {
         let bound = waiting.map(|node| node.bound).fold(self.done, f64::min);
         let energy = self.best.as_ref();
         let energy = energy.map_or(f64::INFINITY, |(_, energy)| *energy);
-        // A search that ends at its first point leaves nodes out.
-        let leaves_out = self.limits.first && self.best.is_some() && bound < self.enough(energy);
+        // A search that ends at its first point leaves nodes out, and so does one that takes a node for empty by
+        // rounding errors alone.
+        let doubt = match self.limits.first {
+            true => 0.0,
+            false => DOUBT * energy.abs() + 1e4 * self.rounding,
+        };
+        let leaves_out = self.best.is_some() && bound < self.enough(energy) - doubt;
         let is_complete = is_empty && !leaves_out;
         Found {
             bound: bound.min(energy),
@@ -324,12 +338,16 @@ impl<'a, 'm, 'e> Tree<'a, 'm, 'e> {
         }
     }
 
-    /// Whether to end. Without a point only the caller ends the search.
+    /// Whether to end.
     pub fn is_ended(&mut self) -> bool {
-        let found = self.best.is_some() || self.limits.strict;
-        if found && self.nodes >= self.limits.nodes {
+        let work = self.relaxation.solver.work + self.nodes * NODE;
+        let most = match self.best.is_some() || self.limits.inner {
+            true => self.limits.work,
+            false => self.limits.work.saturating_mul(FIRST),
+        };
+        if self.nodes >= self.limits.nodes {
             self.stopped_by = StoppedBy::Nodes;
-        } else if found && self.relaxation.solver.work >= self.limits.work {
+        } else if work >= most {
             self.stopped_by = StoppedBy::Budget;
         } else if self.ray.is_none() && !self.monitor.ends() {
             return false;
@@ -537,7 +555,7 @@ pub(super) fn least(form: &Form, start: Option<Vec<f64>>) -> Option<(Vec<f64>, f
         gap: 0.0,
         elsewhere: 0.0,
         first: false,
-        strict: false,
+        inner: false,
         recorded: false,
     };
     let found = search(form, start, limits, &mut Monitor::default());

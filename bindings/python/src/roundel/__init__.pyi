@@ -639,6 +639,7 @@ __all__ = [
     "Quads",
     "Repair",
     "RepeatedVertexError",
+    "SearchLimitError",
     "Solution",
     "Solver",
     "Soup",
