@@ -11,6 +11,7 @@
 //! | `presolve`, `propagate` | what is decided before the search; bounds tightened through rows |
 //! | `hull` | copies of unknowns that convex hulls of choices have, left out |
 //! | `symmetry`, `dominated` | choices that may change places, in one order |
+//! | `perspective` | squares that a binary switches on, with a larger bound |
 //! | `inverse`, `shared`, `working_set`, `dual_active_set`, `refine` | one strictly convex quadratic program |
 //! | `relaxation` | the relaxation of a node, also where Q is singular |
 //! | `safe_bound` | lower bounds that rounding errors cannot make false |
@@ -30,6 +31,7 @@ mod form;
 mod hull;
 mod inverse;
 mod lazy;
+mod perspective;
 mod presolve;
 mod primal;
 mod propagate;
@@ -137,13 +139,14 @@ pub(crate) fn solve<'e>(
         options.strategy,
         Strategy::Exact | Strategy::Auto | Strategy::Relax
     );
+    // What a part leaves of its share is for the others.
+    let (most, mut spent) = match options.strategy {
+        Strategy::Auto => (AUTO, 0),
+        _ => (u64::MAX, 0),
+    };
     let limits = Limits {
         nodes: options.nodes as u64,
-        work: if options.strategy == Strategy::Auto {
-            AUTO / count.max(1) as u64
-        } else {
-            u64::MAX
-        },
+        work: most / count.max(1) as u64,
         gap: options.gap / count.max(1) as f64,
         elsewhere: 0.0,
         first,
@@ -177,7 +180,9 @@ pub(crate) fn solve<'e>(
             f64::INFINITY
         };
         monitor.elsewhere(known, found.lower_bound);
+        let left = (count - done) as u64;
         let limits = Limits {
+            work: most.saturating_sub(spent) / left,
             elsewhere: found.energy,
             recorded: record.is_some(),
             ..limits
@@ -201,6 +206,7 @@ pub(crate) fn solve<'e>(
         found.lower_bound = sum_below(&[found.lower_bound, own.bound]);
         found.is_complete &= own.is_complete;
         found.work += own.work;
+        spent += own.work;
         found.unknowns += part.members.len();
         found.integers += part.integers();
         if found.stopped_by == StoppedBy::Nothing {
@@ -284,12 +290,28 @@ fn search_ordered(
         symmetry::ordered(form, start.as_deref())
     };
     let Some((ordered, start)) = ordered else {
-        return tree::search(form, start, limits, monitor);
+        return search_strengthened(form, start, limits, monitor);
     };
-    let mut found = tree::search(&ordered, start, limits, monitor)?;
+    let mut found = search_strengthened(&ordered, start, limits, monitor)?;
     // Bounds of the order are none of the whole.
     found.conflict.clear();
     Ok(found)
+}
+
+/// Searches a form after the perspective reformulation, if that raises its bound.
+fn search_strengthened(
+    form: &Form,
+    start: Option<Vec<f64>>,
+    limits: Limits,
+    monitor: &mut Monitor,
+) -> Result<tree::Found> {
+    let strengthened = perspective::strengthened(form, monitor)?;
+    tree::search(
+        strengthened.as_ref().unwrap_or(form),
+        start,
+        limits,
+        monitor,
+    )
 }
 
 /// Searches a part without the copies of its unknowns. What is returned has them.
