@@ -102,13 +102,9 @@ fn has_none(form: &Form, monitor: &Monitor) -> bool {
 /// Points that it finds are none of the problem: the caller is not told.
 fn none_within(form: &Form, nodes: u64, work: u64, monitor: &Monitor) -> Option<Vec<(u32, f64)>> {
     let limits = Limits {
-        nodes,
         work,
-        gap: 0.0,
-        elsewhere: 0.0,
         first: true,
-        inner: true,
-        recorded: false,
+        ..Limits::inner(nodes)
     };
     let found = search(form, None, limits, &mut monitor.silent()).ok()?;
     (found.is_complete && found.best.is_none()).then_some(found.conflict)

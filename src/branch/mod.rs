@@ -238,13 +238,8 @@ pub(crate) fn around(
 ) -> Result<(Option<Vec<f64>>, u64)> {
     let form = Form::of(problem, &Model::new(problem)?)?;
     let limits = Limits {
-        nodes,
         work,
-        gap: 0.0,
-        elsewhere: 0.0,
-        first: false,
-        inner: true,
-        recorded: false,
+        ..Limits::inner(nodes)
     };
     let found = tree::search(&form, Some(start), limits, monitor)?;
     Ok((found.best.map(|(point, _)| point), found.work))

@@ -86,6 +86,21 @@ pub(super) struct Limits {
     pub recorded: bool,
 }
 
+impl Limits {
+    /// Those of a search of so many nodes within another one.
+    pub fn inner(nodes: u64) -> Self {
+        Limits {
+            nodes,
+            work: u64::MAX,
+            gap: 0.0,
+            elsewhere: 0.0,
+            first: false,
+            inner: true,
+            recorded: false,
+        }
+    }
+}
+
 /// The dives without an incumbent after which the search goes on at the lowest bound.
 const DIVES: u64 = 50;
 
@@ -550,13 +565,8 @@ fn keep_last(limits: &mut Vec<(u32, Interval)>, unknowns: usize) {
 #[cfg(test)]
 pub(super) fn least(form: &Form, start: Option<Vec<f64>>) -> Option<(Vec<f64>, f64)> {
     let limits = Limits {
-        nodes: u64::MAX,
-        work: u64::MAX,
-        gap: 0.0,
-        elsewhere: 0.0,
-        first: false,
         inner: false,
-        recorded: false,
+        ..Limits::inner(u64::MAX)
     };
     let found = search(form, start, limits, &mut Monitor::default());
     found.unwrap().best
