@@ -13,7 +13,7 @@
 //! | `symmetry`, `dominated` | choices that may change places, in one order |
 //! | `perspective` | squares that a binary switches on, with a larger bound |
 //! | `inverse`, `shared`, `working_set`, `dual_active_set`, `refine` | one strictly convex quadratic program |
-//! | `relaxation` | the relaxation of a node, also where Q is singular |
+//! | `relaxation`, `interior` | the relaxation of a node, also where Q is singular, and where many rows are active |
 //! | `safe_bound` | lower bounds that rounding errors cannot make false |
 //! | `pseudo_costs`, `branching`, `tree` | the search |
 //! | `record` | what a proof is made from |
@@ -29,6 +29,7 @@ mod dual_active_set;
 mod exchange;
 mod form;
 mod hull;
+mod interior;
 mod inverse;
 mod lazy;
 mod perspective;

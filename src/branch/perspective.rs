@@ -89,7 +89,7 @@ pub(super) fn strengthened(form: &Form, monitor: &mut Monitor) -> Result<Option<
             shared => shared?,
         };
         let mut relaxation = Relaxation::new(&next, &shared);
-        relaxation.solver.start_from(&active);
+        relaxation.start_from(&active);
         let Relaxed::Solved { bound } = relaxation.solve(f64::INFINITY, &next.boxes) else {
             break;
         };

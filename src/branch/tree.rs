@@ -116,7 +116,8 @@ const NODE: u64 = 5000;
 /// The search for a first point may take this many times the work of the search for a better one.
 const FIRST: u64 = 10;
 
-/// A bound that is lower by this part of the energy is not due to the rounding errors of closed nodes.
+/// A bound that is lower by this part of the energy, or of this number, is not due to the rounding errors of closed
+/// nodes.
 const DOUBT: f64 = 1e-6;
 
 /// A gap below this part of the energy is none.
@@ -190,6 +191,10 @@ pub(super) fn search(
     let shared = Shared::new(form, &regularization(form))?;
     let _watch = monitor.watch_search();
     let mut tree = Tree::new(form, &shared, limits, monitor);
+    if limits.inner || limits.recorded {
+        // The certificate of the dual active-set method names few rows, and is more precise for a proof.
+        tree.relaxation.interior = None;
+    }
     if let Some(start) = start {
         tree.round(&start);
     }
@@ -264,7 +269,7 @@ impl<'a, 'm, 'e> Tree<'a, 'm, 'e> {
         // rounding errors alone.
         let doubt = match self.limits.first {
             true => 0.0,
-            false => DOUBT * energy.abs() + 1e4 * self.rounding,
+            false => DOUBT * energy.abs().max(DOUBT) + 1e4 * self.rounding,
         };
         let leaves_out = self.best.is_some() && bound < self.enough(energy) - doubt;
         let is_complete = is_empty && !leaves_out;
@@ -344,7 +349,7 @@ impl<'a, 'm, 'e> Tree<'a, 'm, 'e> {
             self.relaxation.solver.set_limits(j, limits);
         }
         self.dive_to(node);
-        self.relaxation.solver.start_from(&node.warm);
+        self.relaxation.start_from(&node.warm);
     }
 
     fn dive_to(&mut self, node: &Node) {
@@ -388,7 +393,7 @@ impl<'a, 'm, 'e> Tree<'a, 'm, 'e> {
         }
         match solved {
             Relaxed::Infeasible(rows) => {
-                if !is_contradiction(self.form, &boxes, &rows) {
+                if !rows.is_empty() && !is_contradiction(self.form, &boxes, &rows) {
                     // Rounding errors leave a doubt, and so the bound stays.
                     self.done = self.done.min(node.bound);
                 }
@@ -514,7 +519,10 @@ impl<'a, 'm, 'e> Tree<'a, 'm, 'e> {
         }
         let before = self.relaxation.solver.limits()[variable as usize];
         let fraction = value - value.floor();
-        let warm: Vec<Active> = self.relaxation.active().to_vec();
+        let warm: Vec<Active> = match self.relaxation.interior {
+            None => self.relaxation.active().to_vec(),
+            Some(_) => Vec::new(),
+        };
         let visited = match &mut self.record {
             None => [0; 2],
             Some(record) => record.branched(node.visited, variable, floor_between(before, value)),
