@@ -180,6 +180,12 @@ pub enum Error {
     /// Out of time before a first solution was found.
     #[error("the time limit passed before a first solution was found")]
     TimeLimit,
+    /// A limit other than that of time ended the search before a first solution was found.
+    #[error("the limit of {what} ended the search before a first solution was found")]
+    SearchLimit {
+        /// What the limit is of: nodes, which the caller limits, or the work of `auto`.
+        what: &'static str,
+    },
 }
 
 /// A row or the bounds of an unknown, of several that contradict each other.
@@ -231,6 +237,7 @@ impl Error {
             Error::Input(error) => error.code,
             Error::Cancelled => "cancelled",
             Error::TimeLimit => "time_limit",
+            Error::SearchLimit { .. } => "search_limit",
         }
     }
 

@@ -15,7 +15,7 @@ pub enum Exit {
     Infeasible = 3,
     /// The objective has no minimum.
     Unbounded = 4,
-    /// The run was cancelled or out of time before a first solution, or before its proof.
+    /// The run was cancelled or met a limit before a first solution, or before its proof.
     Stopped = 5,
     /// A map or a proof was checked and is not valid.
     Invalid = 6,
@@ -31,7 +31,7 @@ Exit codes:
   2  usage: the command line is wrong
   3  infeasible: the constraints contradict each other, or have no integer solution
   4  unbounded: the objective has no least value, or is not convex
-  5  stopped: time limit or cancel, before a first solution or before the proof that was asked for
+  5  stopped: a limit or cancel, before a first solution or before the proof that was asked for
   6  invalid: what was checked is not what it should be
   7  finished early: Ctrl-C came, and the result is that of the best integers so far";
 
@@ -45,7 +45,7 @@ impl Exit {
             Error::Unbounded { .. } | Error::NotConvex { .. } | Error::NotConvexAt { .. } => {
                 Exit::Unbounded
             }
-            Error::Cancelled | Error::TimeLimit => Exit::Stopped,
+            Error::Cancelled | Error::TimeLimit | Error::SearchLimit { .. } => Exit::Stopped,
             _ => Exit::Failed,
         }
     }

@@ -153,7 +153,7 @@ fn status(error: &Error) -> &'static str {
         | Error::NoIntegerSolution { .. } => "infeasible",
         Error::Unbounded { .. } => "unbounded",
         Error::Cancelled => "cancelled",
-        Error::TimeLimit => "limit",
+        Error::TimeLimit | Error::SearchLimit { .. } => "limit",
         _ => "error",
     }
 }
@@ -218,6 +218,7 @@ mod tests {
             ),
             (Error::Cancelled, "cancelled"),
             (Error::TimeLimit, "limit"),
+            (Error::SearchLimit { what: "nodes" }, "limit"),
             (Error::Empty, "error"),
         ];
         for (error, word) in cases {

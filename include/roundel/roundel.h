@@ -169,6 +169,10 @@ enum roundel_status
      */
     ROUNDEL_ERROR_TIME_LIMIT = 61,
     /**
+     * The option nodes, or the budget of auto, ended the search before a first solution was found.
+     */
+    ROUNDEL_ERROR_SEARCH_LIMIT = 62,
+    /**
      * A defect of the library, kept inside. The handle can only be freed from now on.
      */
     ROUNDEL_ERROR_PANIC = 90,
@@ -1746,7 +1750,8 @@ roundel_status roundel_solution_violations(const struct roundel_solution *soluti
  *
  * Apart from bad input, fails with ROUNDEL_ERROR_INFEASIBLE, ROUNDEL_ERROR_NO_INTEGER_SOLUTION,
  * ROUNDEL_ERROR_UNBOUNDED and ROUNDEL_ERROR_NOT_CONVEX. Fails with ROUNDEL_ERROR_CANCELLED or
- * ROUNDEL_ERROR_TIME_LIMIT if it ends before a first solution is found.
+ * ROUNDEL_ERROR_TIME_LIMIT, and with inequalities or bounds ROUNDEL_ERROR_SEARCH_LIMIT, if it ends before a first
+ * solution is found.
  */
 roundel_status roundel_problem_solve(const struct roundel_problem *problem,
                                      const struct roundel_options *options,

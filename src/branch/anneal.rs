@@ -34,6 +34,9 @@ pub(super) fn annealed(
     seed: u64,
     work: &mut u64,
 ) -> Vec<f64> {
+    if chains == 0 {
+        return x.to_vec();
+    }
     let mut state = State::new(form, limits, x, seed);
     let mut best = (0.0, x.to_vec());
     let mut energy = 0.0;
@@ -273,5 +276,17 @@ mod tests {
             let energy = form.energy(&found);
             assert!((energy - least).abs() < 1e-9, "{energy} {least}");
         }
+    }
+
+    #[test]
+    fn no_chains_take_no_work() {
+        let form = groups(&mut Random::new(5));
+        let start = vec![0.0; 15];
+        let mut work = 0;
+        assert_eq!(
+            annealed(&form, &form.limits, &start, 0, 1, &mut work),
+            start
+        );
+        assert_eq!(work, 0);
     }
 }

@@ -67,7 +67,7 @@ impl Tree<'_, '_, '_> {
         let cutoff = self.cutoff();
         let base = node.bound;
         for (expected, j) in scored {
-            if self.costs.is_reliable(j as usize) {
+            if self.costs.is_reliable(j as usize) || self.relaxation.interior.is_some() {
                 if first || expected > best.0 {
                     best = (expected, j);
                     first = false;

@@ -40,10 +40,11 @@ pub(super) fn of_certificate(
 }
 
 /// A small set of rows and bounds of a form without a solution. Where no real point exists either, the set has none.
-pub(super) fn of_form(whole: &Form, members: &[u32]) -> Vec<Conflicting> {
+/// The set is larger where the monitor ends the call.
+pub(super) fn of_form(whole: &Form, members: &[u32], monitor: &Monitor) -> Vec<Conflicting> {
     let mut form = whole.clone();
     form.integer.fill(false);
-    if !has_none(&form) {
+    if !has_none(&form, monitor) {
         form.integer.clone_from(&whole.integer);
     }
     let n = form.dim();
@@ -59,7 +60,7 @@ pub(super) fn of_form(whole: &Form, members: &[u32]) -> Vec<Conflicting> {
         };
         let before = std::mem::replace(sides, Interval::ALL);
         form.boxes.fill(Interval::ALL);
-        if all.len() <= TRIED && has_none(&form) {
+        if all.len() <= TRIED && has_none(&form, monitor) {
             continue;
         }
         match element.checked_sub(n) {
@@ -73,38 +74,39 @@ pub(super) fn of_form(whole: &Form, members: &[u32]) -> Vec<Conflicting> {
 
 /// A small set of rows and bounds that contradict each other, whatever the objective is, if a small search
 /// finds that there is no solution.
-pub(super) fn of_limits(form: &Form, members: &[u32]) -> Result<Option<Vec<Conflicting>>> {
+pub(super) fn of_limits(
+    form: &Form,
+    members: &[u32],
+    monitor: &Monitor,
+) -> Result<Option<Vec<Conflicting>>> {
     let n = form.dim();
     let form = Form {
         hessian: Sparse::from_triplets(n, n, std::iter::empty())?,
         gradient: vec![0.0; n],
         ..form.clone()
     };
-    Ok(has_none(&form).then(|| of_form(&form, members)))
+    Ok(has_none(&form, monitor).then(|| of_form(&form, members, monitor)))
 }
 
-/// A certificate that the relaxation of a form has no point; empty if it has one.
-pub(super) fn of_root(form: &Form) -> Vec<(u32, f64)> {
-    none_within(form, 1, u64::MAX).unwrap_or_default()
+/// A certificate that the relaxation of a form has no point; empty if it has one, or if the monitor ends the call.
+pub(super) fn of_root(form: &Form, monitor: &Monitor) -> Vec<(u32, f64)> {
+    none_within(form, 1, u64::MAX, monitor).unwrap_or_default()
 }
 
 /// Whether a small search shows that the form has no solution.
-fn has_none(form: &Form) -> bool {
-    none_within(form, NODES, WORK).is_some()
+fn has_none(form: &Form, monitor: &Monitor) -> bool {
+    none_within(form, NODES, WORK, monitor).is_some()
 }
 
 /// The last certificate of a search of so many nodes and multiplications, if it shows that there is no solution.
-fn none_within(form: &Form, nodes: u64, work: u64) -> Option<Vec<(u32, f64)>> {
+/// Points that it finds are none of the problem: the caller is not told.
+fn none_within(form: &Form, nodes: u64, work: u64, monitor: &Monitor) -> Option<Vec<(u32, f64)>> {
     let limits = Limits {
-        nodes,
         work,
-        gap: 0.0,
-        elsewhere: 0.0,
         first: true,
-        strict: true,
-        recorded: false,
+        ..Limits::inner(nodes)
     };
-    let found = search(form, None, limits, &mut Monitor::default()).ok()?;
+    let found = search(form, None, limits, &mut monitor.silent()).ok()?;
     (found.is_complete && found.best.is_none()).then_some(found.conflict)
 }
 

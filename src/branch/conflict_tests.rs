@@ -3,6 +3,7 @@
 use super::super::{hull, solve, symmetry};
 use super::*;
 use crate::error::Error;
+use crate::monitor::CancelToken;
 use crate::problem::Model;
 use crate::search::Options;
 
@@ -98,4 +99,20 @@ fn where_copies_are_left_out_the_set_is_small() {
     assert!(hull::project(&form_of(&problem)).unwrap().is_some());
     let expected: Vec<Conflicting> = (0..4).map(Conflicting::Inequality).collect();
     assert_eq!(named(&problem), expected);
+}
+
+#[test]
+fn the_naming_of_a_contradiction_ends_with_its_call() {
+    let problem = without_point(3, &[]);
+    let form = form_of(&problem);
+    let members = [0, 1, 2];
+    let going = Monitor::default();
+    assert_eq!(of_root(&form, &going).len(), 4);
+    assert_eq!(of_form(&form, &members, &going).len(), 4);
+    let token = CancelToken::new();
+    token.cancel();
+    let over = Monitor::default().cancel_token(token);
+    assert_eq!(of_root(&form, &over), []);
+    // Nothing is left out: four rows, and the bounds of three unknowns.
+    assert_eq!(of_form(&form, &members, &over).len(), 7);
 }

@@ -92,7 +92,7 @@ pub(super) struct DualActiveSet<'a> {
     centre: Vec<f64>,
     pub(super) active: Vec<Active>,
     /// The place of each unknown and row in `active`.
-    place: Vec<u32>,
+    pub(super) place: Vec<u32>,
     pub(super) factor: Ldl,
     removals: usize,
     /// By active row, as far as known: how far the minimiser without rows misses it, and the same after the

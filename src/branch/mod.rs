@@ -11,8 +11,9 @@
 //! | `presolve`, `propagate` | what is decided before the search; bounds tightened through rows |
 //! | `hull` | copies of unknowns that convex hulls of choices have, left out |
 //! | `symmetry`, `dominated` | choices that may change places, in one order |
+//! | `perspective` | squares that a binary switches on, with a larger bound |
 //! | `inverse`, `shared`, `working_set`, `dual_active_set`, `refine` | one strictly convex quadratic program |
-//! | `relaxation` | the relaxation of a node, also where Q is singular |
+//! | `relaxation`, `interior` | the relaxation of a node, also where Q is singular, and where many rows are active |
 //! | `safe_bound` | lower bounds that rounding errors cannot make false |
 //! | `pseudo_costs`, `branching`, `tree` | the search |
 //! | `record` | what a proof is made from |
@@ -28,8 +29,10 @@ mod dual_active_set;
 mod exchange;
 mod form;
 mod hull;
+mod interior;
 mod inverse;
 mod lazy;
+mod perspective;
 mod presolve;
 mod primal;
 mod propagate;
@@ -57,7 +60,7 @@ use lazy::LazyRows;
 use presolve::{Contradiction, Part, Presolved};
 use tree::Limits;
 
-/// The multiplications after which `auto` ends with the best point so far.
+/// The multiplications after which `auto` ends with the best point so far, if it has one.
 const AUTO: u64 = 20_000_000_000;
 
 /// What a search has found.
@@ -83,7 +86,7 @@ pub(crate) struct Found {
 ///
 /// # Errors
 /// [`Error::Contradiction`], [`Error::Unbounded`], [`Error::NotConvex`], [`Error::OutOfMemory`], and
-/// [`Error::Cancelled`] or [`Error::TimeLimit`] before a first point.
+/// [`Error::Cancelled`], [`Error::TimeLimit`] or [`Error::SearchLimit`] before a first point.
 pub(crate) fn solve<'e>(
     problem: &Problem,
     model: &Model,
@@ -115,7 +118,7 @@ pub(crate) fn solve<'e>(
     }
     let presolved = match presolved {
         Ok(presolved) => presolved,
-        Err(contradiction) => return Err(no_point(problem, &given, contradiction)),
+        Err(contradiction) => return Err(no_point(problem, &given, contradiction, monitor)),
     };
     let Presolved {
         mut values,
@@ -137,17 +140,18 @@ pub(crate) fn solve<'e>(
         options.strategy,
         Strategy::Exact | Strategy::Auto | Strategy::Relax
     );
+    // What a part leaves of its share is for the others.
+    let (most, mut spent) = match options.strategy {
+        Strategy::Auto => (AUTO, 0),
+        _ => (u64::MAX, 0),
+    };
     let limits = Limits {
         nodes: options.nodes as u64,
-        work: if options.strategy == Strategy::Auto {
-            AUTO / count.max(1) as u64
-        } else {
-            u64::MAX
-        },
+        work: most / count.max(1) as u64,
         gap: options.gap / count.max(1) as f64,
         elsewhere: 0.0,
         first,
-        strict: false,
+        inner: false,
         recorded: false,
     };
     // A limit of time that ends the search of one part must find a point in each.
@@ -177,7 +181,9 @@ pub(crate) fn solve<'e>(
             f64::INFINITY
         };
         monitor.elsewhere(known, found.lower_bound);
+        let left = (count - done) as u64;
         let limits = Limits {
+            work: most.saturating_sub(spent) / left,
             elsewhere: found.energy,
             recorded: record.is_some(),
             ..limits
@@ -201,6 +207,7 @@ pub(crate) fn solve<'e>(
         found.lower_bound = sum_below(&[found.lower_bound, own.bound]);
         found.is_complete &= own.is_complete;
         found.work += own.work;
+        spent += own.work;
         found.unknowns += part.members.len();
         found.integers += part.integers();
         if found.stopped_by == StoppedBy::Nothing {
@@ -232,13 +239,8 @@ pub(crate) fn around(
 ) -> Result<(Option<Vec<f64>>, u64)> {
     let form = Form::of(problem, &Model::new(problem)?)?;
     let limits = Limits {
-        nodes,
         work,
-        gap: 0.0,
-        elsewhere: 0.0,
-        first: false,
-        strict: true,
-        recorded: false,
+        ..Limits::inner(nodes)
     };
     let found = tree::search(&form, Some(start), limits, monitor)?;
     Ok((found.best.map(|(point, _)| point), found.work))
@@ -284,12 +286,28 @@ fn search_ordered(
         symmetry::ordered(form, start.as_deref())
     };
     let Some((ordered, start)) = ordered else {
-        return tree::search(form, start, limits, monitor);
+        return search_strengthened(form, start, limits, monitor);
     };
-    let mut found = tree::search(&ordered, start, limits, monitor)?;
+    let mut found = search_strengthened(&ordered, start, limits, monitor)?;
     // Bounds of the order are none of the whole.
     found.conflict.clear();
     Ok(found)
+}
+
+/// Searches a form after the perspective reformulation, if that raises its bound.
+fn search_strengthened(
+    form: &Form,
+    start: Option<Vec<f64>>,
+    limits: Limits,
+    monitor: &mut Monitor,
+) -> Result<tree::Found> {
+    let strengthened = perspective::strengthened(form, monitor)?;
+    tree::search(
+        strengthened.as_ref().unwrap_or(form),
+        start,
+        limits,
+        monitor,
+    )
 }
 
 /// Searches a part without the copies of its unknowns. What is returned has them.
@@ -363,7 +381,7 @@ fn with_point(
     if let Some(ray) = found.ray {
         // Where there is no point, nothing falls.
         for part in parts {
-            if let Some(elements) = conflict::of_limits(&part.form, &part.members)? {
+            if let Some(elements) = conflict::of_limits(&part.form, &part.members, monitor)? {
                 return Err(conflict::error(problem, &elements));
             }
         }
@@ -377,11 +395,16 @@ fn with_point(
         return Ok(found);
     }
     if !found.is_complete {
-        return Err(monitor.stopped().map_or(Error::Cancelled, Error::from));
+        return Err(match (monitor.stopped(), found.stopped_by) {
+            (Some(stop), _) => stop.into(),
+            (None, StoppedBy::Nodes) => Error::SearchLimit { what: "nodes" },
+            (None, StoppedBy::Budget) => Error::SearchLimit { what: "work" },
+            (None, _) => Error::Cancelled,
+        });
     }
     let rows = match found.nodes {
         // A search of fewer unknowns or bounds has no certificate in rows of the part.
-        _ if found.conflict.is_empty() => conflict::of_root(&part.form),
+        _ if found.conflict.is_empty() => conflict::of_root(&part.form, monitor),
         0 | 1 => found.conflict,
         _ => Vec::new(),
     };
@@ -390,19 +413,24 @@ fn with_point(
     // rounding errors.
     let is_small = !elements.is_empty() && elements.len() <= part.members.len() + 1;
     if !is_small {
-        elements = conflict::of_form(&part.form, &part.members);
+        elements = conflict::of_form(&part.form, &part.members, monitor);
     }
     Err(conflict::error(problem, &elements))
 }
 
 /// The error for a contradiction that presolve found, with a small set of rows and bounds at fault.
-fn no_point(problem: &Problem, form: &Form, contradiction: Contradiction) -> Error {
+fn no_point(
+    problem: &Problem,
+    form: &Form,
+    contradiction: Contradiction,
+    monitor: &Monitor,
+) -> Error {
     let own = match contradiction {
         Contradiction::Row(row) => form.origins[row],
         Contradiction::Unknown(variable) => Conflicting::Bounds(variable),
     };
     let members: Vec<u32> = (0..form.dim() as u32).collect();
-    let mut elements = conflict::of_form(form, &members);
+    let mut elements = conflict::of_form(form, &members, monitor);
     if elements.is_empty() {
         elements.push(own);
     }

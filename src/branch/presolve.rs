@@ -247,7 +247,7 @@ fn always(form: &Form, row: usize) -> bool {
 }
 
 /// The form of the unknowns `members`, with the others at `values`.
-fn part(
+pub(super) fn part(
     form: &Form,
     values: &[f64],
     slopes: &[f64],

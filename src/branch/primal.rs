@@ -4,7 +4,9 @@ use super::anneal::{MOST, annealed};
 use super::dual_active_set::FEASIBLE;
 use super::exchange::exchanged;
 use super::form::Interval;
-use super::relaxation::Relaxed;
+use super::presolve;
+use super::relaxation::{Relaxation, Relaxed, regularization};
+use super::shared::Shared;
 use super::tree::{Limits, Tree};
 
 /// The nodes of a smaller problem.
@@ -15,6 +17,9 @@ const CHAINS: u64 = 10_000;
 
 /// The multiplications of the search for each chain.
 const CHAIN: u64 = 1000;
+
+/// Real bounds this close to each other fix their unknown.
+const FIXED_REAL: f64 = 1e-9;
 
 /// A smaller problem fixes at least this part of the integers.
 const FIXED: f64 = 0.3;
@@ -33,6 +38,12 @@ impl Tree<'_, '_, '_> {
             return;
         }
         if limits.iter().any(|l| l.width() < -1e-6) {
+            return;
+        }
+        if self.relaxation.interior.is_some() {
+            if let Some(x) = self.without_fixed(&limits) {
+                self.offer(x);
+            }
             return;
         }
         let solver = &mut self.relaxation.solver;
@@ -58,6 +69,37 @@ impl Tree<'_, '_, '_> {
         if let Some(x) = offered {
             self.offer(x);
         }
+    }
+
+    /// The real unknowns that are best where all integers are fixed, from a form that has only these. Most are fixed
+    /// as well where the form is large.
+    fn without_fixed(&mut self, limits: &[Interval]) -> Option<Vec<f64>> {
+        let form = self.form;
+        let is_fixed = |j: usize| form.integer[j] || limits[j].width() <= FIXED_REAL;
+        let value = |j: usize| match is_fixed(j) {
+            true => self.root[j].nearest(limits[j].lower),
+            false => 0.0,
+        };
+        let mut x: Vec<f64> = (0..form.dim()).map(value).collect();
+        let members = (0..form.dim() as u32).filter(|&j| !is_fixed(j as usize));
+        let members: Vec<u32> = members.collect();
+        let is_left = |&i: &u32| form.rows.row(i as usize).any(|(j, _)| !is_fixed(j));
+        let rows = (0..form.rows.rows() as u32).filter(is_left).collect();
+        let curved = form.hessian.mul_symmetric(&x);
+        let slopes = form.gradient.iter().zip(&curved).map(|(q, c)| q + c);
+        let slopes: Vec<f64> = slopes.collect();
+        let part = presolve::part(form, &x, &slopes, members, rows).ok()?;
+        let shared = Shared::new(&part.form, &regularization(&part.form)).ok()?;
+        let mut relaxation = Relaxation::new(&part.form, &shared);
+        let found = relaxation.solve(f64::INFINITY, &part.form.boxes);
+        self.relaxation.solver.work += relaxation.solver.work;
+        let Relaxed::Solved { .. } = found else {
+            return None;
+        };
+        for (&j, value) in part.members.iter().zip(relaxation.solver.point()) {
+            x[j as usize] = *value;
+        }
+        Some(x)
     }
 
     /// Bounds on all unknowns with all integers fixed near a point, or nothing where that contradicts the rows.
@@ -153,7 +195,7 @@ impl Tree<'_, '_, '_> {
         let Some((best, _)) = self.best.as_ref().filter(|_| self.integers.len() == n) else {
             return;
         };
-        if n > MOST || self.limits.strict {
+        if n > MOST || self.limits.inner {
             return;
         }
         let work = &mut self.relaxation.solver.work;
@@ -169,7 +211,7 @@ impl Tree<'_, '_, '_> {
         let Some((best, _)) = self.best.clone() else {
             return;
         };
-        if self.limits.strict {
+        if self.limits.inner {
             return;
         }
         let mut form = self.form.clone();
@@ -187,7 +229,7 @@ impl Tree<'_, '_, '_> {
         let limits = Limits {
             nodes: PART_NODES,
             first: false,
-            strict: true,
+            inner: true,
             recorded: false,
             ..self.limits
         };

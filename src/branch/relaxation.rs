@@ -7,6 +7,8 @@
 
 use super::dual_active_set::{Active, DualActiveSet, Outcome};
 use super::form::{Form, Interval};
+use super::interior::{self, Ended};
+use super::propagate::Propagator;
 use super::safe_bound::safe_bound;
 use super::shared::Shared;
 use super::working_set::Ldl;
@@ -21,6 +23,9 @@ const STEPS: usize = 30;
 /// Proximal steps end when the bound is within this part of the energy.
 const CLOSE: f64 = 1e-10;
 
+/// The largest number of times that bounds are tightened through all rows before the interior-point method.
+const ROUNDS: usize = 5;
+
 /// Iterations of one solve of the dual active-set method, for each unknown and row.
 const ITERATIONS: usize = 20;
 
@@ -31,6 +36,8 @@ pub(super) struct Relaxation<'a> {
     /// The centre of the next proximal step, or nothing where the Hessian is definite.
     centre: Option<Vec<f64>>,
     most: u64,
+    /// What tightens the bounds of real unknowns, where an interior-point method solves the relaxations.
+    pub interior: Option<Propagator>,
     /// The best bound of a solve with its point and multipliers, for a proof.
     pub kept: Option<(f64, Multiplied)>,
 }
@@ -44,7 +51,8 @@ pub(super) enum Relaxed {
     Cutoff { bound: f64 },
     /// The energy falls for ever in this direction.
     Unbounded(Vec<f64>),
-    /// No point is within the limits; the rows and their multipliers show it.
+    /// No point is within the limits; the rows and their multipliers show it, or bounds tightened through rows if
+    /// there are none.
     Infeasible(Vec<(u32, f64)>),
     /// The iterations were not enough, or the call is to end. The bound is true.
     Stopped { bound: f64 },
@@ -77,6 +85,7 @@ impl<'a> Relaxation<'a> {
             solver: DualActiveSet::new(form, shared),
             centre: (!is_definite).then(|| form.limits.iter().map(nearest).collect()),
             most: (ITERATIONS * (form.dim() + form.rows.rows() + 10)) as u64,
+            interior: interior::is_for(form).then(|| Propagator::new(form)),
             kept: None,
         }
     }
@@ -104,6 +113,9 @@ impl<'a> Relaxation<'a> {
     /// `boxes` are bounds on all unknowns for all points that matter.
     pub fn solve(&mut self, cutoff: f64, boxes: &[Interval]) -> Relaxed {
         let form = self.solver.form();
+        if let Some(solved) = self.solve_inside(cutoff, boxes) {
+            return solved;
+        }
         let Some(mut centre) = self.centre.take() else {
             let level = cutoff - form.constant;
             return match self.solver.solve(level + 1e-9 * level.abs(), self.most) {
@@ -170,6 +182,42 @@ impl<'a> Relaxation<'a> {
         }
         self.centre = Some(centre);
         result.unwrap_or(Relaxed::Solved { bound: best })
+    }
+
+    /// Starts the next solve from these rows. The interior-point method has no use for them.
+    pub fn start_from(&mut self, warm: &[Active]) {
+        if self.interior.is_none() {
+            self.solver.start_from(warm);
+        }
+    }
+
+    /// What the interior-point method says, where it is used and has a result.
+    fn solve_inside(&mut self, cutoff: f64, boxes: &[Interval]) -> Option<Relaxed> {
+        let form = self.solver.form();
+        let propagator = self.interior.as_mut()?;
+        let mut tight = boxes.to_vec();
+        if propagator.all(form, &mut tight, true, ROUNDS).is_err() {
+            return Some(Relaxed::Infeasible(Vec::new()));
+        }
+        match interior::solve(form, self.solver.limits(), &tight) {
+            Ended::Solved { point, rows, work } => {
+                self.solver.take(point, rows);
+                self.solver.work += work;
+                let bound = self.bound(&tight);
+                Some(match bound >= cutoff {
+                    true => Relaxed::Cutoff { bound },
+                    false => Relaxed::Solved { bound },
+                })
+            }
+            Ended::Empty => Some(Relaxed::Infeasible(Vec::new())),
+            Ended::Stopped => Some(Relaxed::Stopped {
+                bound: f64::NEG_INFINITY,
+            }),
+            Ended::Failed => {
+                self.solver.start_from(&[]);
+                None
+            }
+        }
     }
 
     /// An estimate of the minimum with the solver's limits after few iterations: a bound of the proximal

@@ -80,10 +80,25 @@ pub(super) struct Limits {
     pub elsewhere: f64,
     /// Whether the first point is enough.
     pub first: bool,
-    /// Whether the limits hold before there is a point.
-    pub strict: bool,
+    /// Whether the search is a part of another one, and makes no smaller ones itself.
+    pub inner: bool,
     /// Whether to record all nodes for a proof.
     pub recorded: bool,
+}
+
+impl Limits {
+    /// Those of a search of so many nodes within another one.
+    pub fn inner(nodes: u64) -> Self {
+        Limits {
+            nodes,
+            work: u64::MAX,
+            gap: 0.0,
+            elsewhere: 0.0,
+            first: false,
+            inner: true,
+            recorded: false,
+        }
+    }
 }
 
 /// The dives without an incumbent after which the search goes on at the lowest bound.
@@ -94,6 +109,16 @@ const FIRST_PART: u64 = 50;
 
 /// The nodes before the first run of simulated annealing.
 const FIRST_RUN: u64 = 100;
+
+/// The multiplications that a node takes time for, apart from those of its relaxation.
+const NODE: u64 = 5000;
+
+/// The search for a first point may take this many times the work of the search for a better one.
+const FIRST: u64 = 10;
+
+/// A bound that is lower by this part of the energy, or of this number, is not due to the rounding errors of closed
+/// nodes.
+const DOUBT: f64 = 1e-6;
 
 /// A gap below this part of the energy is none.
 const CLOSED: f64 = 5e-10;
@@ -166,6 +191,10 @@ pub(super) fn search(
     let shared = Shared::new(form, &regularization(form))?;
     let _watch = monitor.watch_search();
     let mut tree = Tree::new(form, &shared, limits, monitor);
+    if limits.inner || limits.recorded {
+        // The certificate of the dual active-set method names few rows, and is more precise for a proof.
+        tree.relaxation.interior = None;
+    }
     if let Some(start) = start {
         tree.round(&start);
     }
@@ -236,8 +265,13 @@ impl<'a, 'm, 'e> Tree<'a, 'm, 'e> {
         let bound = waiting.map(|node| node.bound).fold(self.done, f64::min);
         let energy = self.best.as_ref();
         let energy = energy.map_or(f64::INFINITY, |(_, energy)| *energy);
-        // A search that ends at its first point leaves nodes out.
-        let leaves_out = self.limits.first && self.best.is_some() && bound < self.enough(energy);
+        // A search that ends at its first point leaves nodes out, and so does one that takes a node for empty by
+        // rounding errors alone.
+        let doubt = match self.limits.first {
+            true => 0.0,
+            false => DOUBT * energy.abs().max(DOUBT) + 1e4 * self.rounding,
+        };
+        let leaves_out = self.best.is_some() && bound < self.enough(energy) - doubt;
         let is_complete = is_empty && !leaves_out;
         Found {
             bound: bound.min(energy),
@@ -315,7 +349,7 @@ impl<'a, 'm, 'e> Tree<'a, 'm, 'e> {
             self.relaxation.solver.set_limits(j, limits);
         }
         self.dive_to(node);
-        self.relaxation.solver.start_from(&node.warm);
+        self.relaxation.start_from(&node.warm);
     }
 
     fn dive_to(&mut self, node: &Node) {
@@ -324,12 +358,16 @@ impl<'a, 'm, 'e> Tree<'a, 'm, 'e> {
         }
     }
 
-    /// Whether to end. Without a point only the caller ends the search.
+    /// Whether to end.
     pub fn is_ended(&mut self) -> bool {
-        let found = self.best.is_some() || self.limits.strict;
-        if found && self.nodes >= self.limits.nodes {
+        let work = self.relaxation.solver.work + self.nodes * NODE;
+        let most = match self.best.is_some() || self.limits.inner {
+            true => self.limits.work,
+            false => self.limits.work.saturating_mul(FIRST),
+        };
+        if self.nodes >= self.limits.nodes {
             self.stopped_by = StoppedBy::Nodes;
-        } else if found && self.relaxation.solver.work >= self.limits.work {
+        } else if work >= most {
             self.stopped_by = StoppedBy::Budget;
         } else if self.ray.is_none() && !self.monitor.ends() {
             return false;
@@ -355,7 +393,7 @@ impl<'a, 'm, 'e> Tree<'a, 'm, 'e> {
         }
         match solved {
             Relaxed::Infeasible(rows) => {
-                if !is_contradiction(self.form, &boxes, &rows) {
+                if !rows.is_empty() && !is_contradiction(self.form, &boxes, &rows) {
                     // Rounding errors leave a doubt, and so the bound stays.
                     self.done = self.done.min(node.bound);
                 }
@@ -481,7 +519,10 @@ impl<'a, 'm, 'e> Tree<'a, 'm, 'e> {
         }
         let before = self.relaxation.solver.limits()[variable as usize];
         let fraction = value - value.floor();
-        let warm: Vec<Active> = self.relaxation.active().to_vec();
+        let warm: Vec<Active> = match self.relaxation.interior {
+            None => self.relaxation.active().to_vec(),
+            Some(_) => Vec::new(),
+        };
         let visited = match &mut self.record {
             None => [0; 2],
             Some(record) => record.branched(node.visited, variable, floor_between(before, value)),
@@ -532,13 +573,8 @@ fn keep_last(limits: &mut Vec<(u32, Interval)>, unknowns: usize) {
 #[cfg(test)]
 pub(super) fn least(form: &Form, start: Option<Vec<f64>>) -> Option<(Vec<f64>, f64)> {
     let limits = Limits {
-        nodes: u64::MAX,
-        work: u64::MAX,
-        gap: 0.0,
-        elsewhere: 0.0,
-        first: false,
-        strict: false,
-        recorded: false,
+        inner: false,
+        ..Limits::inner(u64::MAX)
     };
     let found = search(form, start, limits, &mut Monitor::default());
     found.unwrap().best

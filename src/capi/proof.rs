@@ -168,13 +168,16 @@ pub unsafe extern "C" fn roundel_proof_check(
     unsafe { guard::read(problem, |problem| body(Some(problem))) }
 }
 
-/// Fails before the solve, and not after it, for a file that cannot be written.
+/// Fails before the solve, and not after it, for a file that cannot be written. A file that is made for that is
+/// removed again; a symbolic link to it stays.
 fn may_be_written(file: &Path) -> Outcome {
+    let failed = |reason| io_error(file, reason);
     let is_new = !file.exists();
     let opened = File::options().append(true).create(true).open(file);
-    opened.map_err(|reason| io_error(file, reason))?;
+    opened.map_err(failed)?;
     if is_new {
-        fs::remove_file(file).map_err(|reason| io_error(file, reason))?;
+        let made = fs::canonicalize(file).map_err(failed)?;
+        fs::remove_file(made).map_err(failed)?;
     }
     Ok(())
 }
@@ -183,4 +186,23 @@ fn write(file: &Path, proof: &Proof) -> Result<(), Error> {
     let made = File::create(file).map_err(|reason| io_error(file, reason))?;
     let written = proof.write(BufWriter::new(made));
     written.map_err(|reason| io_error(file, reason))
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    use super::*;
+    use std::os::unix::fs::symlink;
+
+    #[test]
+    fn a_link_to_a_file_that_does_not_exist_yet_stays() {
+        let folder = std::env::temp_dir().join(format!("roundel-link-{}", std::process::id()));
+        fs::create_dir_all(&folder).unwrap();
+        let (link, target) = (folder.join("link"), folder.join("target"));
+        symlink("target", &link).unwrap();
+        let written = may_be_written(&link);
+        let is_link = fs::symlink_metadata(&link).map(|found| found.is_symlink());
+        let is_made = target.exists();
+        fs::remove_dir_all(&folder).unwrap();
+        assert!(written.is_ok() && is_link.unwrap() && !is_made);
+    }
 }

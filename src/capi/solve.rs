@@ -19,7 +19,8 @@ use crate::search::Options;
 ///
 /// Apart from bad input, fails with ROUNDEL_ERROR_INFEASIBLE, ROUNDEL_ERROR_NO_INTEGER_SOLUTION,
 /// ROUNDEL_ERROR_UNBOUNDED and ROUNDEL_ERROR_NOT_CONVEX. Fails with ROUNDEL_ERROR_CANCELLED or
-/// ROUNDEL_ERROR_TIME_LIMIT if it ends before a first solution is found.
+/// ROUNDEL_ERROR_TIME_LIMIT, and with inequalities or bounds ROUNDEL_ERROR_SEARCH_LIMIT, if it ends before a first
+/// solution is found.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_problem_solve(
     problem: *const roundel_problem,

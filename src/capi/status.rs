@@ -70,6 +70,8 @@ pub enum roundel_status {
     ROUNDEL_ERROR_CANCELLED = 60,
     /// The time limit passed before a first solution was found.
     ROUNDEL_ERROR_TIME_LIMIT = 61,
+    /// The option nodes, or the budget of auto, ended the search before a first solution was found.
+    ROUNDEL_ERROR_SEARCH_LIMIT = 62,
     /// A defect of the library, kept inside. The handle can only be freed from now on.
     ROUNDEL_ERROR_PANIC = 90,
     /// The handle was given up in an earlier ROUNDEL_ERROR_PANIC.
@@ -152,6 +154,7 @@ const NAMES: &[(roundel_status, &CStr)] = &[
     (ROUNDEL_ERROR_REPEATED_VERTEX, c"repeated_vertex"),
     (ROUNDEL_ERROR_CANCELLED, c"cancelled"),
     (ROUNDEL_ERROR_TIME_LIMIT, c"time_limit"),
+    (ROUNDEL_ERROR_SEARCH_LIMIT, c"search_limit"),
     (ROUNDEL_ERROR_PANIC, c"panic"),
     (ROUNDEL_ERROR_UNUSABLE, c"unusable"),
 ];
@@ -222,6 +225,7 @@ impl From<&Error> for roundel_status {
             Error::NotConvex { .. } | Error::NotConvexAt { .. } => ROUNDEL_ERROR_NOT_CONVEX,
             Error::Cancelled => ROUNDEL_ERROR_CANCELLED,
             Error::TimeLimit => ROUNDEL_ERROR_TIME_LIMIT,
+            Error::SearchLimit { .. } => ROUNDEL_ERROR_SEARCH_LIMIT,
         }
     }
 }
@@ -291,6 +295,7 @@ mod tests {
             Error::Empty,
             Error::Cancelled,
             Error::TimeLimit,
+            Error::SearchLimit { what: "nodes" },
             Error::OutOfMemory { what: "" },
             Error::UnknownOption { name: "".into() },
             Error::NotConvex {

@@ -29,8 +29,8 @@ pub struct Proved {
     /// The solution, or the error of a problem that has none.
     pub outcome: Result<Solution>,
     /// The proof of the bound, or that there is no point. Its bound may be lower than that of the solution. If it was
-    /// stopped before it was complete, what stopped it: [`StoppedBy::Time`], [`StoppedBy::Cancel`] or
-    /// [`StoppedBy::Memory`].
+    /// stopped before it was complete, what stopped it: [`StoppedBy::Time`], [`StoppedBy::Cancel`],
+    /// [`StoppedBy::Memory`], or [`StoppedBy::Nodes`] and [`StoppedBy::Budget`] before the search had a point.
     pub proof: std::result::Result<Proof, StoppedBy>,
 }
 
@@ -124,6 +124,8 @@ fn stopped_by(error: &Error) -> Option<StoppedBy> {
     match error {
         Error::Cancelled => Some(StoppedBy::Cancel),
         Error::TimeLimit => Some(StoppedBy::Time),
+        Error::SearchLimit { what: "nodes" } => Some(StoppedBy::Nodes),
+        Error::SearchLimit { .. } => Some(StoppedBy::Budget),
         Error::OutOfMemory { .. } => Some(StoppedBy::Memory),
         _ => None,
     }

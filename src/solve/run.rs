@@ -14,7 +14,7 @@ use crate::search::{Candidate, Factors, LazyProblem, LazyRows, Options};
 ///
 /// # Errors
 /// Every kind of [`Error`](crate::Error): bad input, contradictory constraints, an objective that is
-/// unbounded or not convex, and the time limit before a first solution.
+/// unbounded or not convex, and a limit before a first solution.
 pub fn solve(problem: &Problem, options: &Options) -> Result<Solution> {
     solve_with(problem, options, Monitor::default())
 }

@@ -165,3 +165,26 @@ fn the_name_of_a_file_says_its_format() {
         assert_eq!(again.variables(), p.variables());
     }
 }
+
+#[test]
+fn infinity_is_above_zero() {
+    for infinity in ["0", "-1e10"] {
+        let text = COMPLETE.replace("1e10 # infinity", infinity);
+        let error = qplib::parse(text.as_bytes()).unwrap_err();
+        let line = 1 + text.lines().position(|line| line == infinity).unwrap();
+        assert_eq!(error.line(), Some(line), "{error}");
+        assert!(error.to_string().contains("is not above 0"), "{error}");
+    }
+}
+
+#[test]
+fn a_lower_limit_that_is_infinite_is_refused() {
+    let bounds = COMPLETE.replace("0 # lower bounds", "2e10 # lower bounds");
+    let bounds = bounds.replace("9 # upper bounds", "3e10 # upper bounds");
+    let sides = COMPLETE.replace("3 1e10\n", "3 -1e10\n");
+    for (text, what, index) in [(bounds, "bounds", 0), (sides, "sides of constraints", 2)] {
+        let error = qplib::parse(text.as_bytes()).unwrap_err();
+        assert_eq!(error.index(), Some(index), "{error}");
+        assert!(error.to_string().starts_with(what), "{error}");
+    }
+}

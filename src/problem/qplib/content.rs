@@ -52,7 +52,12 @@ pub(super) fn parse_text(reader: &mut dyn BufRead) -> Result<NamedProblem> {
             },
         )?;
     }
-    let infinity = records.number("the value of infinity")?;
+    let record = records.expect("the value of infinity")?;
+    let infinity = record.value(0)?;
+    if infinity <= 0.0 {
+        let message = format!("the value of infinity is {infinity}, which is not above 0");
+        return Err(fault(record.line, message));
+    }
     let sides = if kind.constraints {
         read_limits(&mut records, infinity, "sides of constraints", rows)?
     } else {
@@ -145,7 +150,15 @@ fn read_limits(
         _ => value,
     };
     let limits = lower.into_iter().zip(upper);
-    Ok(limits.map(|(l, u)| (limit(l), limit(u))).collect())
+    let limits: Vec<(f64, f64)> = limits.map(|(l, u)| (limit(l), limit(u))).collect();
+    let excludes_all = |&(l, u): &(f64, f64)| l == f64::INFINITY || u == f64::NEG_INFINITY;
+    match limits.iter().position(excludes_all) {
+        Some(i) => Err(Error::InvalidArgument {
+            what: format!("{what}: number {} is infinite on the wrong side", i + 1),
+            index: Some(i),
+        }),
+        None => Ok(limits),
+    }
 }
 
 /// Reads the type of each unknown: 0 is continuous, 1 integer, 2 binary.

@@ -664,6 +664,7 @@ __all__ = [
     "Quads",
     "Repair",
     "RepeatedVertexError",
+    "SearchLimitError",
     "Solution",
     "Solver",
     "Soup",

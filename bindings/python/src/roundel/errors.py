@@ -36,6 +36,7 @@ __all__ = [
     "ParseError",
     "ProofRefusedError",
     "RepeatedVertexError",
+    "SearchLimitError",
     "TimeLimitError",
     "UnboundedError",
     "UnknownOptionError",
@@ -257,6 +258,10 @@ class TimeLimitError(Error):
     """The time limit passed before a first solution was found."""
 
 
+class SearchLimitError(Error):
+    """The option `nodes`, or the budget of auto, ended the search before a first solution was found."""
+
+
 class MissingPackageError(Error, ImportError):
     """A package that the call needs, such as pyvista, is not installed."""
 
@@ -299,6 +304,7 @@ classes: dict[int, type[Error]] = {
     lib.ROUNDEL_ERROR_REPEATED_VERTEX: RepeatedVertexError,
     lib.ROUNDEL_ERROR_CANCELLED: CancelledError,
     lib.ROUNDEL_ERROR_TIME_LIMIT: TimeLimitError,
+    lib.ROUNDEL_ERROR_SEARCH_LIMIT: SearchLimitError,
     lib.ROUNDEL_ERROR_PANIC: PanicError,
     lib.ROUNDEL_ERROR_UNUSABLE: UnusableError,
 }

@@ -29,7 +29,7 @@ class Proof:
       nodes: int
           The nodes of all trees.
       stopped_by: str
-          What stopped the writing of the proof, "time", "cancel" or "memory": then there is none. "none" for a
+          What stopped the proof, "time", "cancel", "memory", "nodes" or "budget": then there is none. "none" for a
           proof that is written, or accepted.
     """
 
