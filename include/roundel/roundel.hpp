@@ -23,8 +23,8 @@
 /// failure there. Built without exceptions, a failure without a Status ends the program.
 ///
 /// Problem, Solution, Solver, Mesh, Soup, Repair, Sources, GeodesicDistance, Field, Map, Quads and
-/// CancelToken own their C objects. They can be moved and not copied. A const object may be used by several threads at
-/// once, any other by one.
+/// CancelToken own their C objects. They can be moved and not copied. A const object may be used by
+/// several threads at once, any other by one.
 ///
 /// Adapters for meshes of other libraries: <roundel/openmesh.hpp>, <roundel/cgal.hpp>,
 /// <roundel/eigen.hpp>, <roundel/vcg.hpp>.
