@@ -17,6 +17,7 @@ mod output;
 mod outputs;
 mod page;
 mod parametrize;
+mod picture;
 mod progress;
 mod quad;
 mod refinement;

@@ -3,9 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use crate::exit;
-use crate::field::{direction, size};
 use crate::mesh::MeshFlags;
 use crate::outputs::OutputFlags;
+use crate::picture::PictureFlags;
 
 /// Compute the exact distance along a triangle mesh from vertices, features or the boundary.
 #[derive(clap::Args)]
@@ -33,23 +33,8 @@ pub struct Arguments {
     #[arg(short, long, value_name = "OUT")]
     pub out: Option<PathBuf>,
 
-    /// Draw a picture to this PNG file
-    #[arg(long, value_name = "OUT.png")]
-    pub picture: Option<PathBuf>,
-
-    /// Width and height of the picture in pixels
-    #[arg(long, value_name = "WIDTHxHEIGHT", default_value = "1600x1200", value_parser = size)]
-    pub picture_size: [usize; 2],
-
-    /// The direction from which the picture looks at the mesh
-    #[arg(long, value_name = "X,Y,Z", default_value = "0.55,0.42,0.8", value_parser = direction)]
-    #[arg(allow_hyphen_values = true)]
-    pub picture_from: [f64; 3],
-
-    /// The direction that points upwards in the picture
-    #[arg(long, value_name = "X,Y,Z", default_value = "0,1,0", value_parser = direction)]
-    #[arg(allow_hyphen_values = true)]
-    pub picture_up: [f64; 3],
+    #[command(flatten)]
+    pub picture: PictureFlags,
 
     /// Print one JSON object instead of the summary
     #[arg(long)]

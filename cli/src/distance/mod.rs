@@ -13,7 +13,7 @@ use roundel::mesh::TriangleMesh;
 use roundel::mesh::features::FeatureGraph;
 use roundel::mesh::io::{self, Drawing};
 use roundel::{Error, Monitor, Result};
-use roundel_pictures::{View, draw_bands};
+use roundel_pictures::draw_bands;
 use serde::Serialize;
 
 use crate::exit::Exit;
@@ -58,7 +58,7 @@ fn measure(arguments: &Arguments) -> Result<Report> {
     read.extend(arguments.from.iter().map(From::file));
     let outputs = Outputs::of(&read, arguments.output.force)
         .write(arguments.out.as_ref(), Content::Mesh)?
-        .write(arguments.picture.as_ref(), PICTURE)?;
+        .write(arguments.picture.file.as_ref(), PICTURE)?;
     outputs.tell(arguments.json || arguments.output.quiet);
     let started = Instant::now();
     let input = arguments.input.read(&arguments.mesh, arguments.json)?;
@@ -142,14 +142,8 @@ fn write(arguments: &Arguments, mesh: &TriangleMesh, found: &GeodesicDistance) -
         };
         io::write(path, drawing)?;
     }
-    if let Some(path) = &arguments.picture {
-        let [width, height] = arguments.picture_size;
-        let view = View {
-            width,
-            height,
-            from: arguments.picture_from,
-            up: arguments.picture_up,
-        };
+    if let Some(path) = &arguments.picture.file {
+        let view = arguments.picture.view();
         let color = |d: f64| bands::color(found, d);
         draw_bands(mesh, found.vertices(), bands::width(found), color, &view)?.write_png(path)?;
     }

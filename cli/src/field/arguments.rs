@@ -7,6 +7,7 @@ use crate::exit;
 use crate::mesh::MeshFlags;
 use crate::options::SolverOptions;
 use crate::outputs::OutputFlags;
+use crate::picture::PictureFlags;
 use crate::threads::TraceFlags;
 
 /// Compute the smoothest cross field of a triangle mesh.
@@ -31,23 +32,8 @@ pub struct Arguments {
     #[arg(short, long, value_name = "OUT")]
     pub out: Option<PathBuf>,
 
-    /// Draw a picture to this PNG file
-    #[arg(long, value_name = "OUT.png")]
-    pub picture: Option<PathBuf>,
-
-    /// Width and height of the picture in pixels
-    #[arg(long, value_name = "WIDTHxHEIGHT", default_value = "1600x1200", value_parser = size)]
-    pub picture_size: [usize; 2],
-
-    /// The direction from which the picture looks at the mesh
-    #[arg(long, value_name = "X,Y,Z", default_value = "0.55,0.42,0.8", value_parser = direction)]
-    #[arg(allow_hyphen_values = true)]
-    pub picture_from: [f64; 3],
-
-    /// The direction that points upwards in the picture
-    #[arg(long, value_name = "X,Y,Z", default_value = "0,1,0", value_parser = direction)]
-    #[arg(allow_hyphen_values = true)]
-    pub picture_up: [f64; 3],
+    #[command(flatten)]
+    pub picture: PictureFlags,
 
     /// Write the mixed-integer problem to this file: MPS, compressed if it ends in .gz
     #[arg(long, value_name = "P.mps[.gz]")]
@@ -81,50 +67,15 @@ fn symmetry(text: &str) -> Result<u8, String> {
     }
 }
 
-/// A size of a picture.
-pub fn size(text: &str) -> Result<[usize; 2], String> {
-    let (width, height) = text.split_once('x').ok_or("expected WIDTHxHEIGHT")?;
-    let pixels = |text: &str| match text.parse() {
-        Ok(pixels) if (1..=8_192).contains(&pixels) => Ok(pixels),
-        _ => Err(format!("'{text}' is not a number of pixels from 1 to 8192")),
-    };
-    Ok([pixels(width)?, pixels(height)?])
-}
-
-/// A direction in space.
-pub fn direction(text: &str) -> Result<[f64; 3], String> {
-    let numbers: Result<Vec<f64>, _> = text.split(',').map(str::parse).collect();
-    let numbers = numbers.map_err(|_| "expected X,Y,Z")?;
-    numbers
-        .try_into()
-        .map_err(|_| String::from("expected X,Y,Z"))
-}
-
 #[cfg(test)]
 mod tests {
-    use super::{direction, size, symmetry};
+    use super::symmetry;
 
     #[test]
     fn a_symmetry_is_one_that_fields_have() {
         assert_eq!(symmetry("6"), Ok(6));
         for text in ["0", "3", "8", "4.0", "cross"] {
             assert!(symmetry(text).is_err(), "{text}");
-        }
-    }
-
-    #[test]
-    fn a_direction_of_view_is_three_numbers() {
-        assert_eq!(direction("-1,0.5,2"), Ok([-1.0, 0.5, 2.0]));
-        for text in ["", "1,2", "1,2,3,4", "1,2,z"] {
-            assert!(direction(text).is_err(), "{text}");
-        }
-    }
-
-    #[test]
-    fn a_size_is_two_numbers_of_pixels() {
-        assert_eq!(size("640x480"), Ok([640, 480]));
-        for text in ["640", "640x", "0x480", "640x8193", "-1x2", "640x480x2"] {
-            assert!(size(text).is_err(), "{text}");
         }
     }
 }

@@ -14,7 +14,7 @@ use roundel::field::{FieldProblem, OrientationField, solve_field};
 use roundel::mesh::{TriangleMesh, io};
 use roundel::problem::files::{self, NamedProblem};
 use roundel::{Error, Options, Result};
-use roundel_pictures::{FieldModel, View, draw_field};
+use roundel_pictures::{FieldModel, draw_field};
 
 use crate::exit::Exit;
 use crate::mesh::Input;
@@ -22,7 +22,7 @@ use crate::output;
 use crate::outputs::{Content, Outputs, PAGE, PICTURE, PROBLEM, TRACE};
 use crate::progress::Progress;
 use crate::report::Preparation;
-pub use arguments::{Arguments, direction, size};
+pub use arguments::Arguments;
 pub use directions::{Directions, named};
 use report::FieldReport;
 use solved::Solved;
@@ -96,7 +96,7 @@ fn check_outputs(arguments: &Arguments) -> Result<()> {
     let read = [Some(arguments.mesh.as_path()), lines, guide];
     let outputs = Outputs::of(&read, arguments.output.force)
         .write(arguments.out.as_ref(), Content::Field)?
-        .write(arguments.picture.as_ref(), PICTURE)?
+        .write(arguments.picture.file.as_ref(), PICTURE)?
         .write(arguments.report.as_ref(), PAGE)?
         .write(arguments.tracing.trace.as_ref(), TRACE)?
         .write(arguments.write_problem.as_ref(), PROBLEM)?;
@@ -110,7 +110,7 @@ fn is_text(path: &Path) -> bool {
 }
 
 fn draws(arguments: &Arguments) -> bool {
-    arguments.picture.is_some() || arguments.out.as_ref().is_some_and(|path| !is_text(path))
+    arguments.picture.file.is_some() || arguments.out.as_ref().is_some_and(|path| !is_text(path))
 }
 
 fn write(arguments: &Arguments, mesh: &TriangleMesh, field: &OrientationField) -> Result<()> {
@@ -120,15 +120,8 @@ fn write(arguments: &Arguments, mesh: &TriangleMesh, field: &OrientationField) -
             false => io::write(path, FieldModel::new(mesh, field).drawing())?,
         }
     }
-    if let Some(path) = &arguments.picture {
-        let [width, height] = arguments.picture_size;
-        let view = View {
-            width,
-            height,
-            from: arguments.picture_from,
-            up: arguments.picture_up,
-        };
-        draw_field(mesh, field, &view)?.write_png(path)?;
+    if let Some(path) = &arguments.picture.file {
+        draw_field(mesh, field, &arguments.picture.view())?.write_png(path)?;
     }
     Ok(())
 }

@@ -46,7 +46,7 @@ impl fmt::Display for FieldSummary<'_> {
         line(f, "assemble", &assemble, before.assemble.unwrap_or(0.0))?;
         line(f, strategy.name(), &found, seconds.total)?;
         let irregular = counted_vertices(field.irregular_vertices(mesh).len(), "irregular ");
-        let files: Vec<String> = [&self.arguments.out, &self.arguments.picture]
+        let files: Vec<String> = [&self.arguments.out, &self.arguments.picture.file]
             .into_iter()
             .flatten()
             .map(|path| path.display().to_string())
