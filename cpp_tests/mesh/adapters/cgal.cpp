@@ -1,6 +1,7 @@
 // <roundel/cgal.hpp>: fields of CGAL's FaceGraphs, removed elements, results in property maps.
 
 #include "../../cpp/check.hpp"
+#include "../surface_mesh.hpp"
 
 #include <roundel/cgal.hpp>
 
@@ -24,22 +25,6 @@ using Polyhedron = CGAL::Polyhedron_3<Kernel>;
 
 constexpr double half_pi = 1.57079632679489661923;
 
-Mesh build(const roundel::Mesh& from) {
-    Mesh mesh;
-    const auto xyz = from.coordinates();
-    const auto corners = from.corners();
-    const auto vertex = [](std::int32_t v) {
-        return Mesh::Vertex_index(static_cast<Mesh::size_type>(v));
-    };
-    for (std::size_t v = 0; v < xyz.size(); v += 3) {
-        mesh.add_vertex(Kernel::Point_3(xyz[v], xyz[v + 1], xyz[v + 2]));
-    }
-    for (std::size_t f = 0; f < corners.size(); f += 3) {
-        mesh.add_face(vertex(corners[f]), vertex(corners[f + 1]), vertex(corners[f + 2]));
-    }
-    return mesh;
-}
-
 /// The energy, computed from the property maps that hold the field.
 template <class G, class Angle, class Jump, class Kappa>
 double energy_in(const G& graph, Angle angle, Jump jump, Kappa kappa) {
@@ -58,7 +43,7 @@ double energy_in(const G& graph, Angle angle, Jump jump, Kappa kappa) {
 }
 
 void property_maps_hold_the_field() {
-    auto mesh = build(roundel::Mesh::shape("torus", 900).jittered(1e-3, 1));
+    auto mesh = surface_mesh<Kernel>(roundel::Mesh::shape("torus", 900).jittered(1e-3, 1));
     const auto field = roundel::orientation_field(
         mesh, roundel::FieldOptions().set_constraints({{5, 0.25}, {400, 1.0}}));
     const auto p = roundel::store(field, mesh);
@@ -75,7 +60,7 @@ void property_maps_hold_the_field() {
 
 /// While a graph has removed elements, numbers skip them and the maps cover the remaining ones.
 void removed_elements_are_skipped() {
-    auto mesh = build(roundel::Mesh::shape("sphere", 500).jittered(1e-3, 1));
+    auto mesh = surface_mesh<Kernel>(roundel::Mesh::shape("sphere", 500).jittered(1e-3, 1));
     CGAL::Euler::remove_center_vertex(mesh.halfedge(Mesh::Vertex_index(17)), mesh);
     CGAL::Euler::remove_face(mesh.halfedge(Mesh::Vertex_index(100)), mesh);
     std::vector<Mesh::Face_index> polygons;
@@ -109,8 +94,8 @@ void removed_elements_are_skipped() {
 /// A FaceGraph that is not a Surface_mesh, with property maps of the caller.
 void other_face_graphs_have_fields() {
     Polyhedron polyhedron;
-    CGAL::copy_face_graph(build(roundel::Mesh::shape("genus-2", 700).jittered(1e-3, 1)),
-                          polyhedron);
+    CGAL::copy_face_graph(
+        surface_mesh<Kernel>(roundel::Mesh::shape("genus-2", 700).jittered(1e-3, 1)), polyhedron);
     const auto field = roundel::orientation_field(
         polyhedron, roundel::FieldOptions().set_constraints({{0, 0.125}}));
     CHECK(field.angles().size() == num_faces(polyhedron));
@@ -150,7 +135,7 @@ template <class G, class Uv> void holds_a_map(const G& graph, Uv uv, std::size_t
 }
 
 void property_maps_hold_a_map() {
-    auto mesh = build(roundel::Mesh::shape("genus-2", 900).jittered(1e-3, 1));
+    auto mesh = surface_mesh<Kernel>(roundel::Mesh::shape("genus-2", 900).jittered(1e-3, 1));
     const auto field = roundel::orientation_field(mesh);
     const auto map = roundel::parametrize(mesh, field, roundel::MapOptions().set_quads(300));
     const auto uv = roundel::store(map, mesh);
@@ -170,7 +155,7 @@ void property_maps_hold_a_map() {
 
 void property_maps_hold_distances() {
     const auto plane = roundel::Mesh::shape("plane", 200);
-    Mesh mesh = build(plane);
+    Mesh mesh = surface_mesh<Kernel>(plane);
     roundel::Sources sources;
     sources.add_vertex(0);
     const auto map = mesh.add_property_map<Mesh::Vertex_index, double>("v:distance").first;

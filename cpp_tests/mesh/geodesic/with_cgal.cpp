@@ -4,6 +4,7 @@
 // Usage: geodesic_with_cgal FOLDER NAME...
 
 #include "../../cpp/check.hpp"
+#include "../surface_mesh.hpp"
 
 #include <roundel/cgal.hpp>
 
@@ -29,25 +30,9 @@ double seconds() {
     return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
 
-Mesh build(const roundel::Mesh& from) {
-    Mesh mesh;
-    const auto xyz = from.coordinates();
-    const auto corners = from.corners();
-    const auto vertex = [](std::int32_t v) {
-        return Mesh::Vertex_index(static_cast<Mesh::size_type>(v));
-    };
-    for (std::size_t v = 0; v < xyz.size(); v += 3) {
-        mesh.add_vertex(Kernel::Point_3(xyz[v], xyz[v + 1], xyz[v + 2]));
-    }
-    for (std::size_t f = 0; f < corners.size(); f += 3) {
-        mesh.add_face(vertex(corners[f]), vertex(corners[f + 1]), vertex(corners[f + 2]));
-    }
-    return mesh;
-}
-
 /// The largest relative difference of distances from one vertex.
 void compare(const std::string& name, const roundel::Mesh& from) {
-    Mesh mesh = build(from);
+    Mesh mesh = surface_mesh<Kernel>(from);
     const auto source = static_cast<std::int32_t>(from.vertices() / 3);
     const auto map = mesh.add_property_map<Mesh::Vertex_index, double>("v:distance").first;
     roundel::Sources sources;
