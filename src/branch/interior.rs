@@ -21,8 +21,7 @@ const ROWS: usize = 500;
 const ENTRIES: usize = 20;
 
 /// Real bounds this close to each other fix their unknown.
-#[cfg(feature = "interior-point")]
-const CLOSE: f64 = 1e-9;
+pub(super) const CLOSE: f64 = 1e-9;
 
 /// The relative precision.
 #[cfg(feature = "interior-point")]

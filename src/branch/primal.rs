@@ -4,6 +4,7 @@ use super::anneal::{MOST, annealed};
 use super::dual_active_set::FEASIBLE;
 use super::exchange::exchanged;
 use super::form::Interval;
+use super::interior::CLOSE;
 use super::presolve;
 use super::relaxation::{Relaxation, Relaxed, regularization};
 use super::shared::Shared;
@@ -17,9 +18,6 @@ const CHAINS: u64 = 10_000;
 
 /// The multiplications of the search for each chain.
 const CHAIN: u64 = 1000;
-
-/// Real bounds this close to each other fix their unknown.
-const FIXED_REAL: f64 = 1e-9;
 
 /// A smaller problem fixes at least this part of the integers.
 const FIXED: f64 = 0.3;
@@ -75,7 +73,7 @@ impl Tree<'_, '_, '_> {
     /// as well where the form is large.
     fn without_fixed(&mut self, limits: &[Interval]) -> Option<Vec<f64>> {
         let form = self.form;
-        let is_fixed = |j: usize| form.integer[j] || limits[j].width() <= FIXED_REAL;
+        let is_fixed = |j: usize| form.integer[j] || limits[j].width() <= CLOSE;
         let value = |j: usize| match is_fixed(j) {
             true => self.root[j].nearest(limits[j].lower),
             false => 0.0,

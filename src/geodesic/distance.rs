@@ -151,12 +151,6 @@ impl GeodesicDistance {
         )
     }
 
-    /// The number of windows that are kept for other points than vertices.
-    pub fn window_count(&self) -> usize {
-        let kept = self.crossed.iter().flatten();
-        kept.map(Vec::len).sum()
-    }
-
     /// Where a point lies, if it can be asked about.
     pub(super) fn place(&self, mesh: &TriangleMesh, point: &SurfacePoint) -> Result<Place> {
         if self.distance.len() != mesh.vertex_count() {

@@ -1,6 +1,5 @@
 //! The first windows: of points and segments within the faces that hold them.
 
-use super::frame::Frame;
 use super::roots::{Point2, Root, at, flat};
 use super::wavefront::{Arrival, Wavefront};
 use super::window::Window;
@@ -118,11 +117,6 @@ impl Wavefront<'_> {
         if let (Some(twin), true) = (self.twin(face, k), is_open) {
             self.deliver_one(twin, window);
         }
-    }
-
-    /// The frame of a half-edge, for callers that know it by number.
-    pub(super) fn frame(&self, half: usize) -> Frame {
-        Frame::new(self.mesh, half / 3, half % 3)
     }
 }
 

@@ -5,6 +5,7 @@
 //! happens.
 
 use super::envelope::merge;
+use super::frame::Frame;
 use super::queue::Queue;
 use super::roots::Roots;
 use super::window::{SLACK, Window};
@@ -164,6 +165,11 @@ impl<'m> Wavefront<'m> {
 
     pub(super) fn is_segment(&self, root: u32) -> bool {
         self.roots.is_segment(self.mesh, root)
+    }
+
+    /// The frame of a half-edge.
+    pub(super) fn frame(&self, half: usize) -> Frame {
+        Frame::new(self.mesh, half / 3, half % 3)
     }
 
     pub(super) fn twin(&self, face: usize, k: usize) -> Option<usize> {

@@ -119,20 +119,20 @@ pub fn solve_fold_free<'a>(
         let relaxed = driver.maps.solve()?;
         return FoldFreeMap::untouched(mesh, problem, relaxed.solution, relaxed.map);
     }
-    let mut size = Size::default();
+    let mut current = Try::default();
     let most = match effort.refinements {
         0 => 1,
         refinements => 1 + refinements + GRADINGS,
     };
-    let mut best = run.with_share(share_of(0, most), || driver.attempt(size))?;
+    let mut best = run.with_share(share_of(0, most), || driver.attempt(current))?;
     let mut others = 0;
-    while let Some(next) = driver.next(size, &best) {
-        size = next;
+    while let Some(next) = driver.next(current, &best) {
+        current = next;
         others += 1;
         let found = optional(&monitor, || {
             run.with_share(share_of(others, most), || {
-                driver.resize(size, &best)?;
-                driver.attempt(size)
+                driver.resize(current, &best)?;
+                driver.attempt(current)
             })
         });
         let Some(found) = found? else {
@@ -160,10 +160,10 @@ fn share_of(number: usize, most: usize) -> [f64; 2] {
     }
 }
 
-/// How much finer a map is than asked for: first the refinements as a whole, then those around its
-/// faults.
+/// How a try differs from the first: which elements are kept apart, and how much finer the map is, as a whole and
+/// then around the faults.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-struct Size {
+struct Try {
     /// Whether elements far apart are kept apart, too.
     is_far: bool,
     refinements: usize,
@@ -183,13 +183,13 @@ struct Driver<'a, M> {
 }
 
 impl<'m, M: Fn() -> Monitor<'m>> Driver<'_, M> {
-    /// The next size to try, if there is one.
-    fn next(&self, last: Size, best: &FoldFreeMap) -> Option<Size> {
+    /// What to try next, if there is anything.
+    fn next(&self, last: Try, best: &FoldFreeMap) -> Option<Try> {
         if best.untangled.faults() == 0 {
             return None;
         }
         if !last.is_far {
-            return Some(Size {
+            return Some(Try {
                 is_far: true,
                 ..last
             });
@@ -202,42 +202,42 @@ impl<'m, M: Fn() -> Monitor<'m>> Driver<'_, M> {
             _ => self.effort.refinements,
         };
         if last.gradings == 0 && last.refinements < most {
-            return Some(Size {
+            return Some(Try {
                 refinements: last.refinements + 1,
                 ..last
             });
         }
-        (last.gradings < GRADINGS).then_some(Size {
+        (last.gradings < GRADINGS).then_some(Try {
             refinements: best.refinements,
             gradings: last.gradings + 1,
             ..last
         })
     }
 
-    /// Changes to another size.
-    fn resize(&mut self, size: Size, best: &FoldFreeMap) -> Result<()> {
+    /// Changes to the size of a try.
+    fn resize(&mut self, next: Try, best: &FoldFreeMap) -> Result<()> {
         let (mesh, problem) = (self.mesh, self.problem);
-        let factor = REFINEMENT.powi(size.refinements as i32);
-        if size.gradings == 1 {
+        let factor = REFINEMENT.powi(next.refinements as i32);
+        if next.gradings == 1 {
             self.lengths = vec![factor; mesh.face_count()];
             let faults = faulty(mesh, &best.untangled);
             grow_around(mesh, problem, faults, &mut self.lengths);
         }
-        self.maps.resize(|solver| match size.gradings {
+        self.maps.resize(|solver| match next.gradings {
             0 => problem.refined(mesh, factor, solver),
             _ => problem.graded(mesh, &self.lengths, solver),
         })
     }
 
     /// A map of the current size.
-    fn attempt(&mut self, size: Size) -> Result<FoldFreeMap> {
+    fn attempt(&mut self, current: Try) -> Result<FoldFreeMap> {
         let first = self.maps.solve()?;
         let (maps, monitor) = (&mut self.maps, self.monitor);
-        let reach = if size.is_far { FAR } else { NEAR };
+        let reach = if current.is_far { FAR } else { NEAR };
         let rounds = self.effort.rounds;
         let separated = optional(monitor, || maps.separate_cones(&first, reach, rounds))?;
         let mut effort = *self.effort;
-        if size.gradings > 0 || size.refinements < effort.refinements {
+        if current.gradings > 0 || current.refinements < effort.refinements {
             let faces = self.mesh.face_count().max(1);
             let few = PASSES_BEFORE_REFINING + FACES_BEFORE_REFINING / faces;
             effort.passes = effort.passes.min(few);
@@ -249,7 +249,7 @@ impl<'m, M: Fn() -> Monitor<'m>> Driver<'_, M> {
             Some(untangled) => untangled,
             None => self.maps.untouched(map)?,
         };
-        if size.gradings > 0 {
+        if current.gradings > 0 {
             // The next map is finer around the faults of this one.
             let faults = faulty(self.mesh, &untangled);
             grow_around(self.mesh, self.problem, faults, &mut self.lengths);
@@ -258,8 +258,8 @@ impl<'m, M: Fn() -> Monitor<'m>> Driver<'_, M> {
             untangled,
             solution,
             rounds,
-            refinements: size.refinements,
-            gradings: size.gradings,
+            refinements: current.refinements,
+            gradings: current.gradings,
         })
     }
 }
