@@ -1,5 +1,7 @@
 //! Cancelling a solve from another thread, at any moment of any phase.
 
+#![cfg(feature = "mesh-io")]
+
 use std::cell::Cell;
 use std::time::{Duration, Instant};
 

@@ -227,6 +227,17 @@ fn small_meshes_get_valid_maps() {
     }
 }
 
+/// Three cones of `diplodocus` would lie on one line, and disks around others are wound wrongly beside that fold:
+/// elements far apart must keep their order, and disks are laid out anew where folds remain.
+#[test]
+fn faults_that_neighbours_cannot_mend_are_mended() {
+    let Some(folder) = archive() else {
+        return common::skip::skip_unless_ci(MISSING);
+    };
+    let (found, is_valid) = fold_free_map(&load(&folder, "diplodocus").unwrap());
+    assert!(is_valid && found.refinements <= 1 && found.gradings == 0);
+}
+
 /// Edges of `anchor_dense` at which the surface turns lie so near each other that its needles can only be divided
 /// into more needles.
 #[test]

@@ -95,6 +95,21 @@ fn both_methods_have_the_same_minimiser_and_bound() {
 }
 
 #[test]
+fn it_is_for_many_rows_that_are_sparse() {
+    let mut random = Random::new(9);
+    for (rows, is_chosen) in [(40, false), (ROWS as u32, true)] {
+        let form = random_form(rows, &mut random);
+        let shared = Shared::new(&form, &regularization(&form)).unwrap();
+        let relaxation = Relaxation::new(&form, &shared);
+        assert_eq!(relaxation.interior.is_some(), is_chosen, "{rows}");
+    }
+    let mut dense = random_form(ROWS as u32, &mut random);
+    let all = (0..ROWS as u32).flat_map(|i| (0..50).map(move |j| (i, j, 1.0)));
+    dense.rows = Sparse::from_triplets(ROWS, ROWS, all).unwrap();
+    assert!(!is_for(&dense));
+}
+
+#[test]
 fn rows_without_a_point_are_found() {
     let mut form = random_form(40, &mut Random::new(9));
     // The sum of three rows is far from what each of them allows.

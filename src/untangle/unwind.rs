@@ -279,6 +279,11 @@ mod tests {
             let crushed = work.folded().len();
             // The update from the moved faces alone agrees with a full computation.
             assert_eq!(work.faults_after_move(&before, &none), work.faults());
+            let folds = work.values.clone();
+            work.unwind(watch).unwrap();
+            let left = work.folded().len();
+            assert!(4 * left < crushed, "{cone}: {left} of {crushed}");
+            work.values = folds;
             work.lay(&layout);
             let folded = work.folded().len();
             assert!(4 * folded < crushed, "{cone}: {folded} of {crushed}");

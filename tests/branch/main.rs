@@ -114,6 +114,51 @@ fn a_search_that_finds_no_point_ends_at_the_limit_of_nodes() {
     }
 }
 
+/// Customers with squares of their shares, each share switched on by its place.
+fn places(customers: usize, places: usize) -> Problem {
+    let mut problem = Problem::new((customers + 1) * places).unwrap();
+    let open = |j: usize| customers * places + j;
+    for i in 0..customers {
+        let shares: Vec<usize> = (0..places).map(|j| i * places + j).collect();
+        let ones = vec![1.0; places];
+        problem.add_inequality(&shares, &ones, 1.0, 1.0).unwrap();
+        for (j, &x) in shares.iter().enumerate() {
+            let cost = 1.0 + (1.7 * (i * places + j) as f64).sin().abs();
+            problem.add_least_squares(&[x], &[1.0], 0.0, cost).unwrap();
+            problem
+                .add_inequality(&[x, open(j)], &[1.0, -1.0], f64::NEG_INFINITY, 0.0)
+                .unwrap();
+            problem.set_bounds(&[x], &[0.0], &[1.0]).unwrap();
+        }
+    }
+    for j in 0..places {
+        problem.add_linear_term(open(j), 1.0).unwrap();
+    }
+    problem
+}
+
+#[test]
+fn squares_that_are_switched_on_have_the_bound_of_their_perspective() {
+    let (customers, count) = (6, 6);
+    let binaries: Vec<usize> = (customers * count..(customers + 1) * count).collect();
+    let mut real = places(customers, count);
+    real.set_bounds(&binaries, &vec![0.0; count], &vec![1.0; count])
+        .unwrap();
+    let relaxed = solve(&real, &Options::default()).unwrap().energy();
+    let mut problem = places(customers, count);
+    problem.set_binaries(&binaries).unwrap();
+    let exact = |nodes| Options {
+        strategy: Strategy::Exact,
+        nodes,
+        ..Options::default()
+    };
+    let least = solve(&problem, &exact(usize::MAX)).unwrap().energy();
+    let first = solve(&problem, &exact(1)).unwrap();
+    let bound = first.lower_bound().unwrap();
+    let gaps = [least - relaxed, least - bound];
+    assert!(gaps[1] > -1e-9 && gaps[1] < 0.5 * gaps[0], "{gaps:?}");
+}
+
 #[test]
 fn rows_that_come_during_the_search_count_like_those_before_it() {
     let (mut solved, mut without, mut relaxed) = (0, 0, 0);
