@@ -159,7 +159,9 @@ impl Sparse {
             self.offsets[i + 1] = kept;
         }
         self.indices.truncate(kept);
+        self.indices.shrink_to_fit();
         self.values.truncate(kept);
+        self.values.shrink_to_fit();
     }
 
     /// Number of rows.

@@ -20,6 +20,9 @@ use crate::monitor::{collect_in_turn, may_continue, may_continue_at};
 /// them.
 const ROWS: usize = 1 << 13;
 
+/// The blocks of rows that are condensed before they are appended to the others.
+const BLOCKS: usize = 32;
+
 /// A difference this small, relative to its terms, has cancelled and counts as zero.
 const CANCELLED: f64 = 1e-12;
 
@@ -192,8 +195,11 @@ impl StaticCondensation {
             diagonal: Vec::new(),
             local: Vec::new(),
         };
-        for part in collect_in_turn(blocks, |k| all.condensed(block(k))) {
-            condensed.append(part?);
+        for first in (0..blocks).step_by(BLOCKS) {
+            let count = BLOCKS.min(blocks - first);
+            for part in collect_in_turn(count, |k| all.condensed(block(first + k))) {
+                condensed.append(part?);
+            }
         }
         if condensed.entries.len() > u32::MAX as usize {
             return Err(Error::OutOfMemory {

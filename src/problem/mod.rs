@@ -32,23 +32,23 @@ use matrix::lower_triangle;
 /// A mixed-integer quadratic problem under construction.
 ///
 /// Parts may be added in any order and any number of times; quadratic and linear terms are summed. A call
-/// that fails changes nothing. Copies share the least-squares rows until one of them changes its rows. The
+/// that fails changes nothing. Copies share rows and what is given for each unknown until one of them changes it. The
 /// [crate] page states the problem and its signs.
 #[derive(Debug, Clone)]
 pub struct Problem {
     variables: usize,
     /// Entries of the lower triangle of Q. Duplicates are not summed yet.
     quadratic: Vec<(u32, u32, f64)>,
-    linear: Vec<f64>,
+    linear: Arc<Vec<f64>>,
     constant: f64,
     least_squares: Arc<RowList>,
     weights: Arc<Vec<f64>>,
     constraints: RowList,
     inequalities: Inequalities,
     bounds: Bounds,
-    integer: Vec<bool>,
-    pinned: Vec<Option<f64>>,
-    guess: Vec<f64>,
+    integer: Arc<Vec<bool>>,
+    pinned: Arc<Vec<Option<f64>>>,
+    guess: Arc<Vec<f64>>,
     cycles: Arc<CycleHint>,
 }
 
@@ -71,16 +71,16 @@ impl Problem {
         Ok(Problem {
             variables,
             quadratic: Vec::new(),
-            linear: filled(variables, 0.0)?,
+            linear: Arc::new(filled(variables, 0.0)?),
             constant: 0.0,
             least_squares: Arc::default(),
             weights: Arc::default(),
             constraints: RowList::default(),
             inequalities: Inequalities::default(),
             bounds: Bounds::default(),
-            integer: filled(variables, false)?,
-            pinned: filled(variables, None)?,
-            guess: filled(variables, 0.0)?,
+            integer: Arc::new(filled(variables, false)?),
+            pinned: Arc::new(filled(variables, None)?),
+            guess: Arc::new(filled(variables, 0.0)?),
             cycles: Arc::default(),
         })
     }
@@ -223,7 +223,8 @@ impl Problem {
     pub fn add_linear(&mut self, values: &[f64]) -> Result<()> {
         same_length("linear terms", self.variables, values.len())?;
         all_finite("linear terms", values)?;
-        for (q, v) in self.linear.iter_mut().zip(values) {
+        let linear = Arc::make_mut(&mut self.linear);
+        for (q, v) in linear.iter_mut().zip(values) {
             *q += v;
         }
         Ok(())
@@ -236,7 +237,7 @@ impl Problem {
     pub fn add_linear_term(&mut self, variable: usize, value: f64) -> Result<()> {
         in_range("variable", &[variable], self.variables)?;
         finite("linear term", value)?;
-        self.linear[variable] += value;
+        Arc::make_mut(&mut self.linear)[variable] += value;
         Ok(())
     }
 
@@ -248,7 +249,7 @@ impl Problem {
     pub fn set_linear(&mut self, values: &[f64]) -> Result<()> {
         same_length("linear terms", self.variables, values.len())?;
         all_finite("linear terms", values)?;
-        self.linear.copy_from_slice(values);
+        Arc::make_mut(&mut self.linear).copy_from_slice(values);
         Ok(())
     }
 
@@ -492,8 +493,9 @@ impl Problem {
     /// [`Error::IndexOutOfRange`].
     pub fn set_integers(&mut self, variables: &[usize]) -> Result<()> {
         in_range("integer variables", variables, self.variables)?;
+        let integer = Arc::make_mut(&mut self.integer);
         for &i in variables {
-            self.integer[i] = true;
+            integer[i] = true;
         }
         Ok(())
     }
@@ -501,7 +503,7 @@ impl Problem {
     /// A copy without integers.
     pub(crate) fn relaxed(&self) -> Problem {
         let mut relaxed = self.clone();
-        relaxed.integer.fill(false);
+        Arc::make_mut(&mut relaxed.integer).fill(false);
         relaxed
     }
 
@@ -513,7 +515,7 @@ impl Problem {
     pub fn pin(&mut self, variable: usize, value: f64) -> Result<()> {
         in_range("variable", &[variable], self.variables)?;
         finite("pinned value", value)?;
-        self.pinned[variable] = Some(value);
+        Arc::make_mut(&mut self.pinned)[variable] = Some(value);
         Ok(())
     }
 
@@ -523,7 +525,7 @@ impl Problem {
     /// [`Error::IndexOutOfRange`].
     pub fn unpin(&mut self, variable: usize) -> Result<()> {
         in_range("variable", &[variable], self.variables)?;
-        self.pinned[variable] = None;
+        Arc::make_mut(&mut self.pinned)[variable] = None;
         Ok(())
     }
 
@@ -535,7 +537,7 @@ impl Problem {
     pub fn set_guess(&mut self, values: &[f64]) -> Result<()> {
         same_length("initial guess", self.variables, values.len())?;
         all_finite("initial guess", values)?;
-        self.guess.copy_from_slice(values);
+        Arc::make_mut(&mut self.guess).copy_from_slice(values);
         Ok(())
     }
 

@@ -20,9 +20,9 @@ pub struct Model {
     weights: Arc<Vec<f64>>,
     constraints: Arc<Sparse>,
     constraint_rhs: Vec<f64>,
-    integer: Vec<bool>,
-    pinned: Vec<Option<f64>>,
-    guess: Vec<f64>,
+    integer: Arc<Vec<bool>>,
+    pinned: Arc<Vec<Option<f64>>>,
+    guess: Arc<Vec<f64>>,
     cycles: Arc<CycleHint>,
     ignored_hint: Option<usize>,
 }
@@ -123,7 +123,7 @@ impl Model {
         let pinned = self.pinned.iter();
         Model {
             constraint_rhs: rhs,
-            pinned: pinned.map(|pin| pin.map(|_| 0.0)).collect(),
+            pinned: Arc::new(pinned.map(|pin| pin.map(|_| 0.0)).collect()),
             ..self.clone()
         }
     }
@@ -203,7 +203,7 @@ impl Model {
 
 /// q and c, with the contributions of the least-squares rows.
 fn linear_part(problem: &Problem) -> Result<(Vec<f64>, f64)> {
-    let mut gradient = problem.linear.clone();
+    let mut gradient = problem.linear.to_vec();
     let mut constant = problem.constant;
     for (k, &w) in problem.weights.iter().enumerate() {
         may_continue_at(k)?;

@@ -1,5 +1,7 @@
 //! Rows `a . x = r` as the caller gave them, in the order given.
 
+use std::sync::Arc;
+
 use super::check::{all_finite, finite, in_range, same_length};
 use super::{Layout, MatrixRef};
 use crate::error::{Error, Result};
@@ -7,22 +9,27 @@ use crate::linalg::Sparse;
 use crate::linalg::sparse::reserve;
 
 /// A growing list of sparse rows, each with a right side. The indices within a row are stored as given:
-/// unsorted, with duplicates not yet summed.
-#[derive(Debug, Clone, PartialEq)]
+/// unsorted, with duplicates not yet summed. Copies share the entries until one of them gets more rows.
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct RowList {
-    offsets: Vec<usize>,
-    indices: Vec<u32>,
-    values: Vec<f64>,
+    entries: Arc<Entries>,
     rhs: Vec<f64>,
 }
 
-impl Default for RowList {
+/// The entries of all rows. Those of row `i` are `offsets[i]..offsets[i + 1]`.
+#[derive(Debug, Clone, PartialEq)]
+struct Entries {
+    offsets: Vec<usize>,
+    indices: Vec<u32>,
+    values: Vec<f64>,
+}
+
+impl Default for Entries {
     fn default() -> Self {
-        RowList {
+        Entries {
             offsets: vec![0],
             indices: Vec::new(),
             values: Vec::new(),
-            rhs: Vec::new(),
         }
     }
 }
@@ -35,7 +42,7 @@ impl RowList {
 
     /// Number of entries of all rows.
     pub(super) fn entries(&self) -> usize {
-        self.indices.len()
+        self.entries.indices.len()
     }
 
     /// Whether there is no row.
@@ -58,10 +65,11 @@ impl RowList {
 
     /// The entries `(variable, coefficient)` of row `i`, as given.
     pub fn row(&self, i: usize) -> impl ExactSizeIterator<Item = (usize, f64)> + Clone + '_ {
-        let range = self.offsets[i]..self.offsets[i + 1];
-        self.indices[range.clone()]
+        let of_all = &*self.entries;
+        let range = of_all.offsets[i]..of_all.offsets[i + 1];
+        of_all.indices[range.clone()]
             .iter()
-            .zip(&self.values[range])
+            .zip(&of_all.values[range])
             .map(|(&j, &v)| (j as usize, v))
     }
 
@@ -77,25 +85,27 @@ impl RowList {
         in_range(what, indices, variables)?;
         all_finite(what, coefficients)?;
         finite("right side", rhs)?;
-        self.reserve(1, indices.len())?;
-        self.indices.extend(indices.iter().map(|&i| i as u32));
-        self.values.extend_from_slice(coefficients);
-        self.offsets.push(self.indices.len());
+        let entries = self.reserve(1, indices.len())?;
+        entries.indices.extend(indices.iter().map(|&i| i as u32));
+        entries.values.extend_from_slice(coefficients);
+        entries.offsets.push(entries.indices.len());
         self.rhs.push(rhs);
         Ok(self.rhs.len() - 1)
     }
 
     /// Appends the rows of a validated matrix and returns the number of the first.
     pub(super) fn append(&mut self, matrix: &MatrixRef, rhs: &[f64]) -> Result<usize> {
-        self.reserve(rhs.len(), matrix.indices.len())?;
-        let (first, base) = (self.rhs.len(), self.indices.len());
+        let first = self.rhs.len();
+        let entries = self.reserve(rhs.len(), matrix.indices.len())?;
+        let base = entries.indices.len();
         match matrix.layout {
             Layout::Rows => {
-                self.indices
+                entries
+                    .indices
                     .extend(matrix.indices.iter().map(|&j| j as u32));
-                self.values.extend_from_slice(matrix.values);
+                entries.values.extend_from_slice(matrix.values);
                 let ends = matrix.offsets[1..].iter().map(|&end| base + end);
-                self.offsets.extend(ends);
+                entries.offsets.extend(ends);
             }
             Layout::Columns => {
                 // A counting sort by rows, which leaves each row in the order of the columns.
@@ -107,13 +117,13 @@ impl RowList {
                 for i in 0..rhs.len() {
                     next[i + 1] += next[i] - base;
                 }
-                self.offsets.extend_from_slice(&next[1..]);
-                self.indices.resize(base + matrix.indices.len(), 0);
-                self.values.resize(base + matrix.indices.len(), 0.0);
+                entries.offsets.extend_from_slice(&next[1..]);
+                entries.indices.resize(base + matrix.indices.len(), 0);
+                entries.values.resize(base + matrix.indices.len(), 0.0);
                 for (i, j, v) in matrix.entries() {
                     let at = &mut next[i as usize];
-                    self.indices[*at] = j;
-                    self.values[*at] = v;
+                    entries.indices[*at] = j;
+                    entries.values[*at] = v;
                     *at += 1;
                 }
             }
@@ -122,15 +132,19 @@ impl RowList {
         Ok(first)
     }
 
-    /// Makes room for this many more rows and entries. Changes nothing if that fails.
-    fn reserve(&mut self, rows: usize, entries: usize) -> Result<()> {
+    /// Makes room for this many more rows and entries, and returns the entries. Changes nothing if that fails.
+    fn reserve(&mut self, rows: usize, more: usize) -> Result<&mut Entries> {
+        let entries = Arc::make_mut(&mut self.entries);
         let reserved = self
-            .offsets
+            .rhs
             .try_reserve(rows)
-            .and_then(|()| self.rhs.try_reserve(rows))
-            .and_then(|()| self.indices.try_reserve(entries))
-            .and_then(|()| self.values.try_reserve(entries));
-        reserved.map_err(|_| Error::OutOfMemory { what: "the rows" })
+            .and_then(|()| entries.offsets.try_reserve(rows))
+            .and_then(|()| entries.indices.try_reserve(more))
+            .and_then(|()| entries.values.try_reserve(more));
+        match reserved {
+            Ok(()) => Ok(entries),
+            Err(_) => Err(Error::OutOfMemory { what: "the rows" }),
+        }
     }
 
     /// The rows as a matrix of `cols` columns: sorted, duplicates summed.
