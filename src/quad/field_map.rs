@@ -98,9 +98,9 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> FieldMap<'a, M> {
         Ok(true)
     }
 
-    /// Makes the problem one of a map that is `factor` times as large in length.
-    pub(super) fn scale(&mut self, factor: f64) -> Result<()> {
-        self.maps.scale(factor)
+    /// Makes the lengths of the problem's maps larger by a factor for every face.
+    pub(super) fn size(&mut self, factors: &[f64]) -> Result<()> {
+        self.maps.grade(factors)
     }
 
     /// A map of the problem as it is now, with feature curves separated.
