@@ -4,7 +4,7 @@
 //! relaxation: the number of quads is nearly proportional to the square of the scale, in the steps that the
 //! integers allow. So the map of the field that the quads follow is solved for again at other scales, until
 //! as many unit squares are covered as quads were asked for. Where the step between two scales is too large,
-//! sizes that grow a little along an axis make other integers change first. Only linear terms change, and the
+//! sizes that change a little along an axis make other integers change first. Only linear terms change, and the
 //! solver keeps its factors. Quads are extracted from the maps that promise a better number, and the nearest
 //! number whose quads are as whole as those at first is kept.
 
@@ -41,8 +41,9 @@ const MOST_MAPS: usize = 6;
 /// The most of them whose quads are extracted.
 const EXTRACTIONS: usize = 3;
 
-/// By what part sizes change from one end of the bounding box to the other.
-const TILT: f64 = 0.1;
+/// By what part sizes change from the middle of the bounding box to both ends of an axis. What changed from one
+/// end to the other would cancel out around symmetric shapes.
+const BULGE: f64 = 0.15;
 
 /// The square of a scale, and the number of quads there.
 type Step = [f64; 2];
@@ -235,14 +236,16 @@ impl<'m, M: Fn() -> Monitor<'m>> Meeting<'_, '_, M> {
     }
 }
 
-/// A factor for every face: this scale, and along an axis of the bounding box more at one end and less at the other.
+/// A factor for every face: this scale, and along an axis of the bounding box more at both ends and less between
+/// them.
 fn factors(mesh: &TriangleMesh, scale: f64, axis: Option<usize>) -> Vec<f64> {
     let [low, high] = mesh.bounding_box();
     let of_face = |face: usize| match axis {
         Some(axis) if high[axis] > low[axis] => {
             let corners = mesh.corners(face).map(|v| mesh.position(v)[axis]);
             let middle = corners.iter().sum::<f64>() / 3.0;
-            scale * (1.0 + TILT * ((middle - low[axis]) / (high[axis] - low[axis]) - 0.5))
+            let from_middle = 2.0 * (middle - low[axis]) / (high[axis] - low[axis]) - 1.0;
+            scale * (1.0 + BULGE * (from_middle * from_middle - 1.0 / 3.0))
         }
         _ => scale,
     };
