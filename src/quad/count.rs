@@ -118,6 +118,8 @@ struct Meeting<'d, 'a, M> {
     per_square: f64,
     /// By how much the lengths of the map's problem are larger than at first, in every face.
     factors: Vec<f64>,
+    /// The same for the best quads.
+    of_best: Vec<f64>,
     maps: usize,
     extractions: usize,
 }
@@ -141,14 +143,20 @@ pub(super) fn meet<'m, M: Fn() -> Monitor<'m>>(
         driver,
         best,
         factors: vec![1.0; mesh.face_count()],
+        of_best: vec![1.0; mesh.face_count()],
         maps: 0,
         extractions: 0,
     };
     match optional(monitor, || meeting.search()) {
-        Err(error) if is_final(&error) => Err(error),
+        Err(error) if is_final(&error) => return Err(error),
         // The quads that there are remain.
-        _ => Ok((meeting.best, meeting.maps)),
+        _ => {}
     }
+    // Other strategies are compared by the problem of the best.
+    if !meeting.driver.options.compare.is_empty() {
+        meeting.size(meeting.of_best.clone())?;
+    }
+    Ok((meeting.best, meeting.maps))
 }
 
 impl<'m, M: Fn() -> Monitor<'m>> Meeting<'_, '_, M> {
@@ -170,6 +178,7 @@ impl<'m, M: Fn() -> Monitor<'m>> Meeting<'_, '_, M> {
             self.size(factors.clone())?;
             let solved = self.driver.at_hand().solve(mesh)?;
             self.maps += 1;
+            self.driver.spend(&solved.solution);
             let count = self.per_square * area(mesh, &solved.map);
             if axis.is_none() {
                 scales.add([square, count]);
@@ -231,6 +240,7 @@ impl<'m, M: Fn() -> Monitor<'m>> Meeting<'_, '_, M> {
         let is_nearer = self.off(found.quads.quads.len() as f64) < self.off_at_best();
         if is_nearer && found.outcome.is_as_whole_as(&self.best.outcome) {
             self.best = found;
+            self.of_best.clone_from(&self.factors);
         }
         Ok(())
     }

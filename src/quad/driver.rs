@@ -402,13 +402,18 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Driver<'a, M> {
 
     fn quads(&mut self, (solution, map): (Solution, Untangled)) -> Result<Attempt> {
         self.visits = self.visits.saturating_sub(map.visited);
-        let spent = self.effort_of(solution.counts().reduced_integers);
-        self.work.set(self.work.get().saturating_sub(spent));
+        self.spend(&solution);
         self.enter(Stage::Quads);
         let field = self.current;
         let features: Vec<usize> = self.features.edges().collect();
         let monitor = (self.monitor)();
         Attempt::new(self.mesh, &features, field, solution, map, monitor)
+    }
+
+    /// Counts the work of a map.
+    pub(super) fn spend(&self, solution: &Solution) {
+        let spent = self.effort_of(solution.counts().reduced_integers);
+        self.work.set(self.work.get().saturating_sub(spent));
     }
 
     /// What a map with this number of integers takes, in faces.
