@@ -22,6 +22,7 @@ use std::time::Instant;
 
 use super::attempt::{Attempt, is_hopeless};
 use super::compare::compare;
+use super::count::meet;
 use super::field_map::FieldMap;
 use super::final_error::is_final;
 use super::missed::missed;
@@ -208,13 +209,14 @@ fn of_mesh<'a>(
         }
         last = next;
     }
-    driver.finish(best)
+    let (best, maps) = meet(&mut driver, best)?;
+    driver.finish(best, maps)
 }
 
 /// The tries, in this order; untangling and the separation of cones follow again after each of the last
 /// three.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Try {
+pub(super) enum Try {
     /// Use smaller quads on parts of the mesh that have lost theirs.
     SmallerQuads,
     /// Untangle the current map, with the integers fixed.
@@ -230,12 +232,12 @@ enum Try {
 }
 
 /// The data that all tries share.
-struct Driver<'a, M> {
-    mesh: &'a TriangleMesh,
-    options: &'a QuadOptions,
+pub(super) struct Driver<'a, M> {
+    pub(super) mesh: &'a TriangleMesh,
+    pub(super) options: &'a QuadOptions,
     effort: Effort,
     /// What may still be spent, in faces whose field, map and quads are computed.
-    work: &'a Cell<u64>,
+    pub(super) work: &'a Cell<u64>,
     /// The current size of the quads.
     sizing: Sizing,
     /// How often it was changed.
@@ -245,11 +247,11 @@ struct Driver<'a, M> {
     /// How often quads around folds were made smaller.
     gradings: usize,
     /// The field whose map is at hand.
-    current: usize,
+    pub(super) current: usize,
     /// The faces that untangling may still visit.
     visits: usize,
     features: FeatureGraph,
-    monitor: &'a M,
+    pub(super) monitor: &'a M,
     started: Instant,
     /// One for each size of quads or details that was tried.
     fields: Vec<FieldMap<'a, M>>,
@@ -268,9 +270,7 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Driver<'a, M> {
                 Some(Try::Graded)
             }
             Try::SmallerQuads | Try::LessDetail | Try::FeaturesAsRounded | Try::Graded
-                if self.options.untangle
-                    && self.passes() > 0
-                    && !at_hand.is_hopeless(self.mesh) =>
+                if self.may_untangle() =>
             {
                 Some(Try::Untangled)
             }
@@ -295,6 +295,12 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Driver<'a, M> {
         }
     }
 
+    /// Whether the map at hand may be untangled.
+    pub(super) fn may_untangle(&self) -> bool {
+        let at_hand = &self.fields[self.current];
+        self.options.untangle && self.passes() > 0 && !at_hand.is_hopeless(self.mesh)
+    }
+
     /// Whether the best map has so many folds that untangling has to wait.
     fn is_tangled(&self, best: &Attempt) -> bool {
         TANGLED_PART * best.map.flipped_after > self.mesh.face_count()
@@ -311,7 +317,7 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Driver<'a, M> {
     }
 
     /// The quads of a try, if it can be made.
-    fn attempt(&mut self, next: Try, best: &Attempt) -> Result<Option<Attempt>> {
+    pub(super) fn attempt(&mut self, next: Try, best: &Attempt) -> Result<Option<Attempt>> {
         Ok(match next {
             Try::SmallerQuads => match self.smaller(best) {
                 Some(sizing) => {
@@ -387,7 +393,7 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Driver<'a, M> {
     }
 
     /// The quads of the current map as it is.
-    fn as_solved(&mut self) -> Result<Attempt> {
+    pub(super) fn as_solved(&mut self) -> Result<Attempt> {
         let map = self.at_hand().as_solved()?;
         let found = self.quads(map)?;
         self.at_hand().limit_effort(found.outcome.conforms());
@@ -396,13 +402,18 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Driver<'a, M> {
 
     fn quads(&mut self, (solution, map): (Solution, Untangled)) -> Result<Attempt> {
         self.visits = self.visits.saturating_sub(map.visited);
-        let spent = self.effort_of(solution.counts().reduced_integers);
-        self.work.set(self.work.get().saturating_sub(spent));
+        self.spend(&solution);
         self.enter(Stage::Quads);
         let field = self.current;
         let features: Vec<usize> = self.features.edges().collect();
         let monitor = (self.monitor)();
         Attempt::new(self.mesh, &features, field, solution, map, monitor)
+    }
+
+    /// Counts the work of a map.
+    pub(super) fn spend(&self, solution: &Solution) {
+        let spent = self.effort_of(solution.counts().reduced_integers);
+        self.work.set(self.work.get().saturating_sub(spent));
     }
 
     /// What a map with this number of integers takes, in faces.
@@ -420,12 +431,12 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Driver<'a, M> {
     }
 
     /// The field whose map is at hand.
-    fn at_hand(&mut self) -> &mut FieldMap<'a, M> {
+    pub(super) fn at_hand(&mut self) -> &mut FieldMap<'a, M> {
         &mut self.fields[self.current]
     }
 
     /// Smooths the quads, and compares strategies if the options ask for it.
-    fn finish(mut self, best: Attempt) -> Result<Quadrangulation> {
+    fn finish(mut self, best: Attempt, maps_for_count: usize) -> Result<Quadrangulation> {
         let (mesh, options, monitor) = (self.mesh, self.options, self.monitor);
         let mut seconds = self.seconds;
         seconds.extract = self.started.elapsed().as_secs_f64() - seconds.field - seconds.map;
@@ -478,6 +489,7 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Driver<'a, M> {
             seconds,
             refined: None,
             apart: Vec::new(),
+            maps_for_count,
         })
     }
 }

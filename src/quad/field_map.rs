@@ -9,6 +9,7 @@ use super::map_solver::{MapSolver, Solved};
 use super::quadrangulation::timed;
 use crate::error::Result;
 use crate::field::{FieldOptions, Guidance, OrientationField};
+use crate::map::SeamlessMap;
 use crate::mesh::TriangleMesh;
 use crate::mesh::features::FeatureGraph;
 use crate::monitor::{Monitor, Stage};
@@ -95,6 +96,26 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> FieldMap<'a, M> {
         self.maps.grade(&factors)?;
         (self.at_hand, self.features_as_rounded) = solved(mesh, &mut self.maps)?;
         Ok(true)
+    }
+
+    /// Makes the lengths of the problem's maps larger by a factor for every face.
+    pub(super) fn size(&mut self, factors: &[f64]) -> Result<()> {
+        self.maps.grade(factors)
+    }
+
+    /// A map of the problem as it is now, with feature curves separated.
+    pub(super) fn solve(&mut self, mesh: &TriangleMesh) -> Result<Solved> {
+        Ok(solved(mesh, &mut self.maps)?.0)
+    }
+
+    /// Makes a map of the problem the current one.
+    pub(super) fn put(&mut self, map: Solved) {
+        (self.at_hand, self.features_as_rounded) = (map, None);
+    }
+
+    /// The current map.
+    pub(super) fn map(&self) -> &SeamlessMap {
+        &self.at_hand.map
     }
 
     /// Whether so much of the current map is folded that it is given up.

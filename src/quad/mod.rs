@@ -10,6 +10,7 @@
 //! | a map without folds, from its problem | `fold_free` |
 //! | a field and its current map | `field_map` |
 //! | the choice of the field | `fields`, `aim` |
+//! | a number of quads, met | `count` |
 //! | repeated solves of a map's problem | `map_solver` |
 //! | the quads of one map | `attempt`, `missed` |
 //! | smaller quads where there are none | `smaller` |
@@ -20,6 +21,7 @@ mod apart;
 mod attempt;
 mod by_component;
 mod compare;
+mod count;
 mod coverage;
 mod driver;
 mod field_map;
@@ -40,6 +42,7 @@ mod stage_ends;
 mod tries;
 
 pub use compare::Compared;
+pub use count::Count;
 pub use fold_free::{FoldFreeMap, solve_fold_free};
 pub use options::{QUAD_OPTIONS, QuadOptions};
 pub use quadrangulate::quadrangulate;

@@ -1,5 +1,6 @@
 //! All options from a mesh to quads, in one table.
 
+use super::Count;
 use crate::field::Guidance;
 use crate::map::{SeamlessOptions, Sizing};
 use crate::search::table::options;
@@ -16,6 +17,8 @@ options! {
 
     /// The options of quads, besides those of the guidance and of the two solves.
     QUAD_OPTIONS {
+        count: Count = Count::Exact, "exact" in Count::WORDS,
+            "exact: a number of quads is met within 1 %, or as nearly as a few maps of other sizes come; about: one map is made, whose number differs by up to a fifth";
         /// Several fields are tried on meshes that are not large, unless curvature has no weight or
         /// indices are prescribed.
         vary_curvature: bool = true, "1" in "[0, 1]",

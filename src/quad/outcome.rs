@@ -72,6 +72,12 @@ impl Outcome {
         !self.does_not_conform
     }
 
+    /// Whether quads conform and miss no more features, if the others do.
+    pub(super) fn is_as_whole_as(&self, other: &Self) -> bool {
+        self.does_not_conform <= other.does_not_conform
+            && self.missed_features <= other.missed_features
+    }
+
     /// Whether quads conform and miss no features: other faults of the map do not matter then.
     pub(super) fn is_whole(&self) -> bool {
         self.conforms() && self.missed_features == 0

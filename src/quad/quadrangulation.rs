@@ -38,6 +38,8 @@ pub struct Quadrangulation {
     /// The faces of the mesh that was given whose components were tried alone, in increasing order. Their
     /// quads follow fields and maps of their own, and not those above.
     pub apart: Vec<usize>,
+    /// The number of maps at other scales that were solved for to meet the number of quads.
+    pub maps_for_count: usize,
 }
 
 impl Quadrangulation {

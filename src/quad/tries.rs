@@ -4,7 +4,7 @@ use std::cell::Cell;
 
 use super::driver::{Effort, by_options};
 use super::rank::{Rank, has_features};
-use super::{QuadOptions, Quadrangulation};
+use super::{Count, QuadOptions, Quadrangulation};
 use crate::error::{Error, Result};
 use crate::field::Guidance;
 use crate::map::Sizing;
@@ -155,6 +155,7 @@ fn others(mesh: &TriangleMesh, options: &QuadOptions) -> Vec<QuadOptions> {
         .filter(|&more| more >= MORE)
         .map(|more| QuadOptions {
             sizing: finer(&options.sizing, more),
+            count: Count::About,
             ..options.clone()
         });
     others.extend(finer);

@@ -2,6 +2,7 @@
 
 use roundel::Solution;
 use roundel::extract::QuadMesh;
+use roundel::map::Sizing;
 use roundel::smooth::QuadQuality;
 use serde::Serialize;
 
@@ -26,12 +27,36 @@ pub(super) struct QuadReport<'a> {
     flipped_before: usize,
     flipped: usize,
     missed_features: Vec<[usize; 2]>,
+    /// Where a number of quads was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    count: Option<CountReport>,
     #[serde(flatten)]
     quads: QuadCounts,
     /// Where strategies are compared.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     compared: Vec<Compared>,
     phases: Phases,
+}
+
+/// How a number of quads was met.
+#[derive(Serialize)]
+struct CountReport {
+    asked: usize,
+    found: usize,
+    maps: usize,
+}
+
+impl CountReport {
+    fn new(solved: &Solved) -> Option<Self> {
+        let Sizing::Quads(asked) = solved.options.sizing else {
+            return None;
+        };
+        Some(CountReport {
+            asked,
+            found: solved.made.quads.quads.len(),
+            maps: solved.made.maps_for_count,
+        })
+    }
 }
 
 /// What one strategy finds.
@@ -164,6 +189,7 @@ impl<'a> QuadReport<'a> {
             flipped_before: made.untangled.flipped_before,
             flipped: made.untangled.flipped_after,
             missed_features: missed.map(|&e| solved.mesh.edge(e).vertices).collect(),
+            count: CountReport::new(solved),
             quads: QuadCounts::new(&made.quads),
             compared: made.compared.iter().map(Compared::new).collect(),
             phases: Phases {

@@ -21,6 +21,8 @@ static void settings(fixture* f) {
     BAD(f, roundel_quad_options_set_real(q, "edge_length", -1.0), beyond, "-1", NONE);
     BAD(f, roundel_quad_options_set_real(q, "edge_length", (double)NAN), beyond, "NaN", NONE);
     BAD(f, roundel_quad_options_set_text(q, "field_strategy", "luck"), beyond, "luck", NONE);
+    BAD(f, roundel_quad_options_set_text(q, "count", "nearly"), beyond, "nearly", NONE);
+    BAD(f, roundel_quad_options_set_int(q, "count", 1), ROUNDEL_ERROR_OPTION_TYPE, "word", NONE);
     BAD(f, roundel_quad_options_set_int(q, "triangles", 1), ROUNDEL_ERROR_UNKNOWN_OPTION,
         "triangles", NONE);
     for (size_t i = 0; i < roundel_quad_option_count(); ++i) {

@@ -38,6 +38,10 @@ struct QuadOptions {
     /// 1: move vertices over the surface to make the quads more like squares of one size. In [0,
     /// 1]; 1 by default.
     std::optional<bool> smooth = std::nullopt;
+    /// Exact: a number of quads is met within 1 %, or as nearly as a few maps of other sizes come;
+    /// about: one map is made, whose number differs by up to a fifth. One of exact, about; exact by
+    /// default.
+    std::optional<std::string> count = std::nullopt;
     /// 1: also try fields that follow curvature less than the guidance says, and keep the field
     /// whose map is least distorted. In [0, 1]; 1 by default.
     std::optional<bool> vary_curvature = std::nullopt;
@@ -78,6 +82,10 @@ struct QuadOptions {
     }
     QuadOptions& set_smooth(bool value) {
         smooth = value;
+        return *this;
+    }
+    QuadOptions& set_count(std::string value) {
+        count = std::move(value);
         return *this;
     }
     QuadOptions& set_vary_curvature(bool value) {
@@ -293,6 +301,9 @@ template <class Tell> bool each_quad_option(const QuadOptions& options, const Te
         return false;
     }
     if (options.smooth && !tell("smooth", *options.smooth)) {
+        return false;
+    }
+    if (options.count && !tell("count", *options.count)) {
         return false;
     }
     if (options.vary_curvature && !tell("vary_curvature", *options.vary_curvature)) {
