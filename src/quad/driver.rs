@@ -477,6 +477,7 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Driver<'a, M> {
             compared,
             seconds,
             refined: None,
+            mirrored: None,
             apart: Vec::new(),
         })
     }
