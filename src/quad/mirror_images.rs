@@ -3,6 +3,8 @@
 //! Vertices are of the seam of a plane if an edge of the boundary there lies in it. The image has their
 //! numbers for them, and runs the other way.
 
+use std::collections::BTreeMap;
+
 use crate::extract::QuadMesh;
 use crate::mesh::mirror::{Half, MirrorPlane};
 
@@ -55,8 +57,8 @@ impl Seams {
             }
         }
         for (v, on) in seams.vertices.iter().enumerate() {
-            for (k, plane) in planes.iter().enumerate().filter(|&(k, _)| on >> k & 1 == 1) {
-                let _ = k;
+            let own = planes.iter().enumerate().filter(|&(k, _)| on >> k & 1 == 1);
+            for (_, plane) in own {
                 quads.vertices[v] = plane.project(quads.vertices[v]);
             }
         }
@@ -87,8 +89,17 @@ impl Seams {
     }
 }
 
-/// Adds the image behind the plane of number `k`.
-pub(super) fn with_image(quads: &mut QuadMesh, seams: &mut Seams, plane: &MirrorPlane, k: usize) {
+/// Adds the image behind the plane of number `k`. Where a quad at the seam is missing, its two other sides and
+/// their images bound a quad of their own; such quads are added if the Euler characteristic is then that of
+/// `whole`.
+pub(super) fn with_image(
+    quads: &mut QuadMesh,
+    seams: &mut Seams,
+    plane: &MirrorPlane,
+    k: usize,
+    whole: i64,
+) {
+    let notches = notches(quads, seams, k);
     let mut image = Vec::with_capacity(quads.vertices.len());
     for v in 0..quads.vertices.len() {
         if seams.vertices[v] >> k & 1 == 1 {
@@ -106,4 +117,36 @@ pub(super) fn with_image(quads: &mut QuadMesh, seams: &mut Seams, plane: &Mirror
     let of = |polygon: &Vec<u32>| polygon.iter().rev().map(|&v| image[v as usize]).collect();
     let images: Vec<Vec<u32>> = quads.others.iter().map(of).collect();
     quads.others.extend(images);
+    let missing = whole - quads.figures().euler;
+    if !notches.is_empty() && missing == notches.len() as i64 {
+        let filled = notches
+            .iter()
+            .map(|&[a, b, c]| [b, a, image[b as usize], c]);
+        quads.quads.extend(filled);
+    }
+}
+
+/// The three vertices of each two edges of the boundary that lead from the seam to the seam, through a vertex
+/// that is not on it.
+fn notches(quads: &QuadMesh, seams: &Seams, k: usize) -> Vec<[u32; 3]> {
+    let is_on = |v: u32| seams.vertices[v as usize] >> k & 1 == 1;
+    let sides = quads.sides();
+    let boundary = sides
+        .chunk_by(|a, b| a.0 == b.0)
+        .filter(|side| side.len() == 1);
+    let mut next = BTreeMap::new();
+    let mut from_seam = Vec::new();
+    for &([low, high], forth) in boundary.map(|side| &side[0]) {
+        let (from, to) = if forth { (low, high) } else { (high, low) };
+        match (is_on(from), is_on(to)) {
+            (true, false) => from_seam.push([from, to]),
+            (false, true) => {
+                next.insert(from, to);
+            }
+            _ => {}
+        }
+    }
+    let notch = |[from, middle]: [u32; 2]| Some([from, middle, *next.get(&middle)?]);
+    let found = from_seam.into_iter().filter_map(notch);
+    found.filter(|&[from, _, to]| from != to).collect()
 }

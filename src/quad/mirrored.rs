@@ -119,8 +119,8 @@ fn with_images(
     let mut seams = Seams::of_quads(&mut quads, &planes, &half);
     let mut of_mesh = Seams::of_half(&half);
     for (k, plane) in planes.iter().enumerate() {
-        with_image(&mut quads, &mut seams, plane, k);
         of_mesh.count_image(k);
+        with_image(&mut quads, &mut seams, plane, k, of_mesh.euler());
     }
     quads.expected_euler = of_mesh.euler();
     let tree = ClosestPoint::new(mesh);
@@ -175,48 +175,4 @@ fn given_place(
         Some((face, foot)) => Origin::Face(face, weights(mesh.corner_positions(face), foot)),
         None => place,
     }
-}
-
-/// How many vertices of quads have no mirror image among them, to the last bit of `reflect`, for tests.
-#[cfg(test)]
-pub(super) fn asymmetric(
-    quads: &crate::extract::QuadMesh,
-    plane: &MirrorPlane,
-    tolerance: f64,
-) -> usize {
-    use std::collections::BTreeMap;
-
-    let cell = |p: Vec3| p.map(|x| (x / tolerance).round() as i64);
-    let mut near: BTreeMap<[i64; 3], Vec<usize>> = BTreeMap::new();
-    for (v, &p) in quads.vertices.iter().enumerate() {
-        near.entry(cell(p)).or_default().push(v);
-    }
-    let find = |p: Vec3| {
-        let [x, y, z] = cell(p);
-        let around = (0..27).map(|i| [x + i % 3 - 1, y + i / 3 % 3 - 1, z + i / 9 - 1]);
-        let mut found = around.filter_map(|c| near.get(&c)).flatten();
-        found.find(|&&v| (0..3).all(|i| (quads.vertices[v][i] - p[i]).abs() <= tolerance))
-    };
-    let images = quads
-        .vertices
-        .iter()
-        .map(|&p| find(plane.reflect(p)).copied());
-    let images: Vec<Option<usize>> = images.collect();
-    let sorted = |quad: [usize; 4]| {
-        let least = (0..4).fold(0, |k, i| if quad[i] < quad[k] { i } else { k });
-        [0, 1, 2, 3].map(|i| quad[(least + i) % 4])
-    };
-    let all: std::collections::BTreeSet<[usize; 4]> = quads
-        .quads
-        .iter()
-        .map(|q| sorted(q.map(|v| v as usize)))
-        .collect();
-    let lost = quads.quads.iter().filter(|q| {
-        let image = q.map(|v| images[v as usize]);
-        let [Some(a), Some(b), Some(c), Some(d)] = image else {
-            return true;
-        };
-        !all.contains(&sorted([d, c, b, a]))
-    });
-    images.iter().filter(|image| image.is_none()).count() + lost.count()
 }

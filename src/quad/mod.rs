@@ -29,6 +29,8 @@ mod final_error;
 mod fold_free;
 mod map_solver;
 mod mirror_images;
+#[cfg(test)]
+mod mirror_tests;
 mod mirrored;
 mod missed;
 mod options;

@@ -43,9 +43,9 @@ pub fn mirror_planes(
     asked: &[Mirror],
     tolerance: f64,
 ) -> Result<Vec<MirrorPlane>> {
-    if !(0.0..=1.0).contains(&tolerance) {
+    if tolerance.is_nan() || tolerance < 0.0 {
         return refused(
-            format!("the tolerance of mirror planes is {tolerance}; it must be from 0 to 1"),
+            format!("the tolerance of mirror planes is {tolerance}; it must be 0 or more"),
             None,
         );
     }
