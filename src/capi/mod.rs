@@ -48,6 +48,7 @@ mod matrix;
 mod memory;
 mod mesh;
 mod mesh_files;
+mod mirror;
 mod objective;
 mod option_list;
 mod options;

@@ -153,6 +153,29 @@ pub unsafe extern "C" fn roundel_quad_options_set_edge_lengths(
     unsafe { change(options, body) }
 }
 
+/// Adds a mirror plane about which the quads are symmetric: "x", "y" or "z" for the plane through the centre
+/// of the bounding box and perpendicular to that axis, of which the side of larger coordinates is kept; "-x",
+/// "-y" or "-z" for the other side; "auto" for the plane about which the mesh is most symmetric; or four
+/// numbers "NX,NY,NZ,D" for the points p with N . p = D |N|, of which the side is kept to which N points.
+/// Planes must be perpendicular to each other. roundel_mesh_mirror_plane tells which plane is meant.
+///
+/// Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for another text. A plane that cuts nothing, or about which the
+/// mesh is not symmetric within the option mirror_tolerance, is found when quads are made.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_quad_options_add_mirror(
+    options: *mut roundel_quad_options,
+    mirror: *const c_char,
+) -> roundel_status {
+    let body = |options: &mut QuadOptions| {
+        // SAFETY: the caller gives a text, or NULL.
+        let word = unsafe { text("mirror", mirror) }?;
+        options.mirror.push(word.parse()?);
+        Ok(())
+    };
+    // SAFETY: the caller gives a live handle, or NULL.
+    unsafe { change(options, body) }
+}
+
 /// Sets the guidance of the quads to a copy of `guidance`. NULL stands for the boundary and the
 /// curvature, as roundel_guidance_new_for_quads makes it.
 #[unsafe(no_mangle)]

@@ -42,7 +42,7 @@ impl QuadMesh {
     }
 
     /// The sides of all faces, sorted by edge.
-    pub(super) fn sides(&self) -> Vec<Side> {
+    pub(crate) fn sides(&self) -> Vec<Side> {
         let mut sides = Vec::with_capacity(4 * self.quads.len());
         for face in self.faces() {
             for (k, &a) in face.iter().enumerate() {

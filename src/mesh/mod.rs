@@ -27,6 +27,7 @@ mod from_soup;
 pub mod io;
 mod jitter;
 mod measure;
+pub mod mirror;
 mod orientation;
 mod plane;
 pub mod refine;

@@ -488,6 +488,7 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Driver<'a, M> {
             compared,
             seconds,
             refined: None,
+            mirrored: None,
             apart: Vec::new(),
             maps_for_count,
         })

@@ -6,6 +6,7 @@
 //! | other options, where quads are not good | `tries`, `final_error` |
 //! | components whose quads are not good | `apart`, `part`, `by_component` |
 //! | quads, by one set of options | `driver` |
+//! | a part of a mesh, and its mirror images | `mirrored`, `mirror_images` |
 //! | a mesh that is refined first | `refined_input` |
 //! | a map without folds, from its problem | `fold_free` |
 //! | a field and its current map | `field_map` |
@@ -29,6 +30,10 @@ mod fields;
 mod final_error;
 mod fold_free;
 mod map_solver;
+mod mirror_images;
+#[cfg(test)]
+mod mirror_tests;
+mod mirrored;
 mod missed;
 mod options;
 mod outcome;
@@ -44,6 +49,7 @@ mod tries;
 pub use compare::Compared;
 pub use count::Count;
 pub use fold_free::{FoldFreeMap, solve_fold_free};
+pub use mirrored::Mirrored;
 pub use options::{QUAD_OPTIONS, QuadOptions};
 pub use quadrangulate::quadrangulate;
 pub use quadrangulation::{QuadSeconds, Quadrangulation};

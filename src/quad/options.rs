@@ -3,6 +3,7 @@
 use super::Count;
 use crate::field::Guidance;
 use crate::map::{SeamlessOptions, Sizing};
+use crate::mesh::mirror::Mirror;
 use crate::search::table::options;
 use crate::search::{Options, Strategy};
 use crate::smooth::SmoothOptions;
@@ -30,6 +31,9 @@ options! {
             "1: untangle the map if its folds keep extraction from making quads";
         stiffenings: usize = UntangleOptions::default().stiffenings, "5" in "[0, 1000]",
             "the number of times that untangling first stiffens the surroundings of folded triangles";
+        /// See [`mirror_planes`](crate::mesh::mirror::mirror_planes).
+        mirror_tolerance: f64 = 0.05, "0.05" in "[0, 1]",
+            "how far a mirror plane may move a vertex from the surface, as a part of the diagonal of the bounding box";
     }
     and {
         /// The size of the quads.
@@ -47,6 +51,9 @@ options! {
         /// The options of smoothing; its features are added to those of the guidance. `None` leaves
         /// vertices where the map has them.
         smooth: Option<SmoothOptions> = Some(SmoothOptions::default());
+        /// Planes about which the quads are symmetric. They are those of the part of the mesh on the side of all
+        /// normals, with the cut as a feature, and its mirror images.
+        mirror: Vec<Mirror> = Vec::new();
         /// Further strategies that solve both problems, for comparison.
         compare: Vec<Strategy> = Vec::new();
     }

@@ -8,6 +8,7 @@ use super::by_component::Components;
 use super::coverage::far;
 use super::driver::{Effort, by_options};
 use super::final_error::is_final;
+use super::mirrored::mirrored;
 use super::rank::Rank;
 use super::tries::Tries;
 use super::{QuadOptions, Quadrangulation};
@@ -50,12 +51,16 @@ const FIRST: f64 = 0.97;
 /// with two that run the same way. Where nothing would be left, or the result could be taken for quads that
 /// conform, they stay as they are.
 ///
+/// With [`QuadOptions::mirror`] all of this holds for the part of the mesh on one side of the planes; the rest are
+/// its mirror images, and the number of quads is that of all.
+///
 /// A caller who [finishes](crate::Flow::Finish) the run after the field's first solution gets the quads of the
 /// best integers so far: nothing above is tried any more, and smoothing ends.
 ///
 /// # Errors
 /// [`Error::InvalidArgument`](crate::Error::InvalidArgument) if there are no quads of any size that was tried. Otherwise
 /// those of [`solve_field`](crate::field::solve_field), [`solve`](crate::solve()),
+/// [`mirror_planes`](crate::mesh::mirror::mirror_planes), [`Half::new`](crate::mesh::mirror::Half::new),
 /// [`SeamlessProblem::with_features`](crate::map::SeamlessProblem::with_features),
 /// [`untangle`](crate::untangle::untangle), [`extract`](crate::extract) and [`smooth`](crate::smooth::smooth).
 pub fn quadrangulate<'a>(
@@ -63,6 +68,9 @@ pub fn quadrangulate<'a>(
     options: &QuadOptions,
     monitor: impl Fn() -> Monitor<'a>,
 ) -> Result<Quadrangulation> {
+    if !options.mirror.is_empty() {
+        return mirrored(mesh, options, monitor);
+    }
     with_threads(options.field.threads, || {
         on_threads(mesh, options, &monitor)
     })

@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use super::Compared;
+use super::{Compared, Mirrored};
 use crate::error::Result;
 use crate::extract::QuadMesh;
 use crate::field::OrientationField;
@@ -35,6 +35,10 @@ pub struct Quadrangulation {
     /// The refined mesh, if the mesh was refined first. Then field and map are its field and map; features,
     /// and the origins of the quads, are those of the mesh that was given.
     pub refined: Option<Refined>,
+    /// The part of the mesh that the quads were made of, if they are mirrored. The field and the map are
+    /// then those of the part; features, origins and other elements are those of the mesh that was given. Of a part
+    /// that was refined, the origins of the refined mesh name elements of the part.
+    pub mirrored: Option<Mirrored>,
     /// The faces of the mesh that was given whose components were tried alone, in increasing order. Their
     /// quads follow fields and maps of their own, and not those above.
     pub apart: Vec<usize>,
@@ -43,9 +47,26 @@ pub struct Quadrangulation {
 }
 
 impl Quadrangulation {
-    /// The mesh that the field and the map belong to: the refined one, or the one that was given.
+    /// The mesh that the field and the map belong to: the refined one, the part that is mirrored, or the one
+    /// that was given.
     pub fn mesh<'a>(&'a self, given: &'a TriangleMesh) -> &'a TriangleMesh {
-        self.refined.as_ref().map_or(given, |refined| &refined.mesh)
+        match (&self.refined, &self.mirrored) {
+            (Some(refined), _) => &refined.mesh,
+            (None, Some(mirrored)) => &mirrored.half.mesh,
+            (None, None) => given,
+        }
+    }
+
+    /// The face of the given mesh of which a face of [`mesh`](Self::mesh) is a part.
+    pub fn face_of_given(&self, face: usize) -> usize {
+        let of_part = match &self.refined {
+            Some(refined) => refined.face_origin[face] as usize,
+            None => face,
+        };
+        match &self.mirrored {
+            Some(mirrored) => mirrored.half.face_origin[of_part] as usize,
+            None => of_part,
+        }
     }
 }
 

@@ -83,7 +83,7 @@ impl RefinedInput {
             return Ok(None);
         }
         let parts = refined.parts_of(|edge| wanted.contains(edge));
-        let guidance = divided(mesh, guidance, &refined, &parts);
+        let guidance = divided(mesh, guidance, &refined.mesh, &refined.face_origin, &parts);
         Ok(Some(RefinedInput {
             features: FeatureGraph::from_edges(&refined.mesh, &parts)?,
             guidance,
@@ -150,14 +150,15 @@ fn is_in_range(mesh: &TriangleMesh, guidance: &Guidance) -> bool {
     directed_faces(guidance).all(|face| face < mesh.face_count())
 }
 
-/// The guidance on the refined mesh.
-fn divided(
+/// The guidance on a mesh whose faces are parts of those of the given mesh.
+pub(super) fn divided(
     mesh: &TriangleMesh,
     guidance: &Guidance,
-    refined: &Refined,
+    refined: &TriangleMesh,
+    face_origin: &[u32],
     features: &[usize],
 ) -> Guidance {
-    let mut parts: Vec<(u32, usize)> = refined.face_origin.iter().copied().zip(0..).collect();
+    let mut parts: Vec<(u32, usize)> = face_origin.iter().copied().zip(0..).collect();
     parts.sort_unstable();
     let parts_of = |face: usize| {
         let first = parts.partition_point(|&(origin, _)| (origin as usize) < face);
@@ -168,7 +169,7 @@ fn divided(
     let turned = |face: usize, angle: f64, part: usize| {
         let [x, y] = mesh.frame(face);
         let direction = add(scale(x, angle.cos()), scale(y, angle.sin()));
-        let [x, y] = refined.mesh.frame(part).map(|axis| dot(direction, axis));
+        let [x, y] = refined.frame(part).map(|axis| dot(direction, axis));
         y.atan2(x)
     };
     let constraints = guidance.constraints.iter().flat_map(|given| {
@@ -220,7 +221,7 @@ fn original_place(
 }
 
 /// The barycentric coordinates of a point of a triangle.
-fn weights([a, b, c]: [Vec3; 3], p: Vec3) -> [f64; 3] {
+pub(super) fn weights([a, b, c]: [Vec3; 3], p: Vec3) -> [f64; 3] {
     let normal = cross(sub(b, a), sub(c, a));
     let whole = dot(normal, normal);
     let of = |u: Vec3, v: Vec3| dot(cross(sub(u, p), sub(v, p)), normal) / whole;

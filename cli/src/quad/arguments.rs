@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use roundel::Strategy;
+use roundel::mesh::mirror::Mirror;
 
 use crate::exit;
 use crate::field::Directions;
@@ -40,6 +41,13 @@ pub struct Arguments {
     #[arg(long, value_name = "WORD", default_value = "adaptive", value_parser = deciding)]
     pub field_strategy: Strategy,
 
+    /// Make the quads symmetric about a plane, cut the mesh there, and mirror one side: x, y, z (through
+    /// the centre of the bounding box; the side of larger coordinates is kept), -x, -y, -z (the other side),
+    /// auto (the plane is found), or NX,NY,NZ,D (the points p with N . p = D |N|; N points to the side that is
+    /// kept). May be repeated for planes that are perpendicular to each other
+    #[arg(long, value_name = "PLANE", value_parser = mirror, allow_hyphen_values = true)]
+    pub mirror: Vec<Mirror>,
+
     #[command(flatten)]
     pub flags: QuadFlags,
 
@@ -67,6 +75,11 @@ pub struct Arguments {
 
     #[command(flatten)]
     pub solver: SolverOptions,
+}
+
+fn mirror(text: &str) -> Result<Mirror, String> {
+    text.parse()
+        .map_err(|error: roundel::Error| error.to_string())
 }
 
 fn deciding(text: &str) -> Result<Strategy, String> {

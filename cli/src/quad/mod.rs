@@ -2,6 +2,7 @@
 
 mod arguments;
 mod faults;
+mod mirrored;
 mod page;
 mod report;
 mod steps;

@@ -8,6 +8,7 @@ use roundel::smooth::QuadQuality;
 use roundel::{Result, Solution};
 
 use super::Arguments;
+use super::mirrored::mirror_words;
 use super::steps::Solved;
 use super::words;
 use crate::page::{Page, Rows, Scene, Tables, bound, gap, mesh_rows, seconds_rows, solve_rows};
@@ -18,8 +19,9 @@ use crate::summary::{outcome, thousands};
 pub(super) fn write(path: &Path, arguments: &Arguments, solved: &Solved) -> Result<()> {
     let made = &solved.made;
     let given = &solved.mesh;
-    let refined = made.refined.as_ref().map(|refined| &refined.mesh);
-    let mesh = refined.unwrap_or(given);
+    let mesh = made.mesh(given);
+    let is_other = made.refined.is_some() || made.mirrored.is_some();
+    let refined = is_other.then_some(mesh);
     let scene = Scene::new(given, refined, &solved.changes)
         .features(given, &made.features, &made.missed_features)
         .field(mesh, &made.field)
@@ -41,6 +43,9 @@ fn tables(solved: &Solved) -> Tables {
     let mut rows = mesh_rows(&solved.mesh, &solved.changes);
     rows.push(("feature edges", thousands(made.features.len())));
     rows.push(("of these missed", thousands(made.missed_features.len())));
+    if let Some(mirrored) = &made.mirrored {
+        rows.push(("mirrored", mirror_words(mirrored)));
+    }
     if let Some(refined) = &made.refined {
         rows.push(("refined", Refinement::new(refined).to_string()));
     }

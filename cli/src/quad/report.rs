@@ -8,6 +8,7 @@ use serde::Serialize;
 
 use super::Arguments;
 use super::faults::Faults;
+use super::mirrored::{Plane, planes};
 use super::steps::Solved;
 use crate::mesh::RepairCounts;
 use crate::refinement::Refinement;
@@ -23,6 +24,9 @@ pub(super) struct QuadReport<'a> {
     faces: usize,
     #[serde(skip_serializing_if = "Option::is_none")]
     refined: Option<Refinement>,
+    /// Where quads are mirrored: the planes.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    mirror: Vec<Plane>,
     field_irregular_vertices: usize,
     flipped_before: usize,
     flipped: usize,
@@ -185,6 +189,7 @@ impl<'a> QuadReport<'a> {
             repair: &solved.repair,
             faces: solved.mesh.face_count(),
             refined: made.refined.as_ref().map(Refinement::new),
+            mirror: made.mirrored.as_ref().map(planes).unwrap_or_default(),
             field_irregular_vertices: made.untangled.map.cones().len(),
             flipped_before: made.untangled.flipped_before,
             flipped: made.untangled.flipped_after,

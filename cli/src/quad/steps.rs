@@ -51,6 +51,7 @@ pub(super) fn solve(arguments: &Arguments) -> Result<Solved> {
             ..map.clone()
         },
         map,
+        mirror: arguments.mirror.clone(),
         compare: arguments.compare_strategies.clone(),
         ..default
     };
@@ -59,9 +60,13 @@ pub(super) fn solve(arguments: &Arguments) -> Result<Solved> {
     if let Some(path) = &arguments.out {
         output::write_quads(&made.quads, path)?;
     }
-    let changes = match &made.refined {
-        Some(refined) => changes.on_refined(&refined.face_origin),
-        None => changes,
+    let changes = match made.refined.is_some() || made.mirrored.is_some() {
+        true => {
+            let faces = 0..made.mesh(&mesh).face_count();
+            let given = faces.map(|face| made.face_of_given(face) as u32);
+            changes.on_refined(&given.collect::<Vec<_>>())
+        }
+        false => changes,
     };
     Ok(Solved {
         mesh,

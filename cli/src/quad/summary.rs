@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use super::mirrored::mirror_words;
 use super::steps::Solved;
 use super::{Arguments, words};
 use crate::refinement::Refinement;
@@ -19,6 +20,9 @@ impl fmt::Display for QuadSummary<'_> {
         let (made, seconds) = (&solved.made, solved.made.seconds);
         let read = counted(solved.mesh.face_count(), "face");
         line(f, "read", &read, solved.read_seconds)?;
+        if let Some(mirrored) = &made.mirrored {
+            writeln!(f, "{:<10} {}", "mirror", mirror_words(mirrored))?;
+        }
         if let Some(refined) = &made.refined {
             let seconds = seconds.refine;
             line(f, "refine", &Refinement::new(refined).to_string(), seconds)?;

@@ -37,6 +37,10 @@ static void settings(fixture* f) {
     BAD(f, roundel_quad_options_set_edge_lengths(NULL, NULL, 0), null, "quad options", NONE);
     BAD(f, roundel_quad_options_set_edge_lengths(q, NULL, 2), null, "edge lengths", NONE);
     BAD(f, roundel_quad_options_set_edge_lengths(q, lengths, 3), invalid, "two a face", NONE);
+    BAD(f, roundel_quad_options_add_mirror(NULL, "x"), null, "quad options", NONE);
+    BAD(f, roundel_quad_options_add_mirror(q, NULL), null, "mirror", NONE);
+    BAD(f, roundel_quad_options_add_mirror(q, "1,2,3"), invalid, "'1,2,3'", NONE);
+    BAD(f, roundel_quad_options_set_real(q, "mirror_tolerance", -1), beyond, "-1", NONE);
     BAD(f, roundel_quad_options_set_guidance(NULL, NULL), null, "quad options", NONE);
     BAD(f, roundel_quad_options_set_field_options(NULL, NULL), null, "quad options", NONE);
     BAD(f, roundel_quad_options_set_map_options(NULL, NULL), null, "quad options", NONE);
@@ -64,10 +68,37 @@ static void sizes(fixture* f, const roundel_mesh* torus) {
     GOOD(roundel_quad_options_free(q));
 }
 
+static void mirrors(fixture* f, const roundel_mesh* torus) {
+    const roundel_status invalid = ROUNDEL_ERROR_INVALID_ARGUMENT;
+    roundel_quads* made = NULL;
+    roundel_quad_options* q = NULL;
+    double plane[4] = {7, 7, 7, 7};
+    double deviation = 7;
+    GOOD(roundel_quad_options_new(&q));
+    GOOD(roundel_quad_options_add_mirror(q, "1,0,0,9"));
+    GOOD(roundel_quad_options_set_real(q, "mirror_tolerance", 1));
+    BAD(f, roundel_quads_make(torus, q, NULL, &made), invalid, "mirror plane 0", 0);
+    HOLDS(made == NULL);
+    GOOD(roundel_quad_options_free(q));
+    BAD(f, roundel_mesh_mirror_plane(NULL, "x", plane, &deviation), ROUNDEL_ERROR_NULL_POINTER,
+        "mesh", NONE);
+    BAD(f, roundel_mesh_mirror_plane(torus, NULL, plane, &deviation), ROUNDEL_ERROR_NULL_POINTER,
+        "mirror", NONE);
+    BAD(f, roundel_mesh_mirror_plane(torus, "x", NULL, &deviation), ROUNDEL_ERROR_NULL_POINTER,
+        "plane", NONE);
+    BAD(f, roundel_mesh_mirror_plane(torus, "x", plane, NULL), ROUNDEL_ERROR_NULL_POINTER,
+        "deviation", NONE);
+    BAD(f, roundel_mesh_mirror_plane(torus, "0,0,0,1", plane, &deviation), invalid, "normal", 0);
+    HOLDS(plane[0] == 7 && deviation == 7);
+    GOOD(roundel_mesh_mirror_plane(torus, "-y", plane, &deviation));
+    HOLDS(plane[0] == 0 && plane[1] == -1 && plane[2] == 0 && deviation < 0.1);
+}
+
 void bad_quads(fixture* f) {
     roundel_mesh* torus = NULL;
     GOOD(roundel_mesh_make_shape("torus", 200, &torus));
     settings(f);
     sizes(f, torus);
+    mirrors(f, torus);
     GOOD(roundel_mesh_free(torus));
 }

@@ -5,6 +5,7 @@
 
 #include <roundel/detail/error.hpp>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -18,6 +19,16 @@ ROUNDEL_NAMESPACE_BEGIN
 struct FieldConstraint {
     std::int32_t face;
     double angle;
+};
+
+/// A mirror plane of a mesh: the points p with normal . p = offset.
+struct MirrorPlane {
+    /// Of length 1; it points to the side that is kept.
+    std::array<double, 3> normal{};
+    double offset = 0;
+    /// The largest distance of a mirrored vertex from the surface, as a part of the diagonal of the
+    /// bounding box.
+    double deviation = 0;
 };
 
 /// An oriented triangle mesh, with or without boundary, which does not change after construction.
@@ -111,6 +122,18 @@ class Mesh {
         return number<std::int64_t>(roundel_mesh_euler_characteristic, status);
     }
 
+    /// The mirror plane that a text means, as QuadOptions::mirror takes it.
+    MirrorPlane mirror_plane(const std::string& mirror = "auto", Status* status = nullptr) const {
+        MirrorPlane found;
+        std::array<double, 4> plane{};
+        const auto code =
+            roundel_mesh_mirror_plane(get(), mirror.c_str(), plane.data(), &found.deviation);
+        if (detail::check(code, status)) {
+            found.normal = {plane[0], plane[1], plane[2]};
+            found.offset = plane[3];
+        }
+        return found;
+    }
     /// x, y, z of every vertex.
     std::vector<double> coordinates(Status* status = nullptr) const {
         return copied<double>(roundel_mesh_coordinates, 3 * vertices(status), status);

@@ -24,6 +24,10 @@ ROUNDEL_NAMESPACE_BEGIN
 struct QuadOptions {
     /// Edges of two lengths a face instead: along the arm that the field stores there, and across.
     std::vector<double> edge_lengths = {};
+    /// Planes about which the quads are symmetric: "x", "y", "z" (through the centre of the
+    /// bounding box; the side of larger coordinates is kept), "-x", "-y", "-z" (the other side),
+    /// "auto" (the plane is found) or "NX,NY,NZ,D". See Mesh::mirror_plane.
+    std::vector<std::string> mirror = {};
     /// Edges that become chains of edges of the quads, instead of the boundary alone.
     std::optional<Features> features = std::nullopt;
     // Table of options: members.
@@ -119,6 +123,10 @@ struct QuadOptions {
     // End of the table.
     QuadOptions& set_edge_lengths(std::vector<double> value) {
         edge_lengths = std::move(value);
+        return *this;
+    }
+    QuadOptions& set_mirror(std::vector<std::string> value) {
+        mirror = std::move(value);
         return *this;
     }
     QuadOptions& set_features(Features value) {
@@ -385,6 +393,11 @@ inline QuadOptionsHandle handle_for(const QuadOptions& options, Status* status) 
         (lengths.empty() ||
          check(roundel_quad_options_set_edge_lengths(made, lengths.data(), lengths.size()),
                status));
+    for (const auto& plane : options.mirror) {
+        if (!told || !check(roundel_quad_options_add_mirror(made, plane.c_str()), status)) {
+            return nullptr;
+        }
+    }
     return told ? std::move(handle) : nullptr;
 }
 

@@ -85,9 +85,18 @@ SIZE = Group(
 )
 
 #: The options of quads.
-QUADS = Group("The quads", of_table(quad_options())).but(
+_MIRROR = Keyword(
+    "mirror",
+    "Union[str, Sequence[Union[str, Sequence[float]]], None]",
+    None,
+    "Planes about which the quads are symmetric, one or several that are perpendicular to each other: 'x', "
+    "'y' or 'z' (through the centre of the bounding box; the side of larger coordinates is kept), '-x', '-y' "
+    "or '-z' (the other side), 'auto' (the plane is found), or nx, ny, nz, d. See `Mesh.mirror_plane`.",
+)
+_OF_TABLE = Group("The quads", of_table(quad_options())).but(
     edge_length={"type": "Union[float, ArrayLike, None]", "text": _LENGTHS}
 )
+QUADS = Group("The quads", (*_OF_TABLE.keywords, _MIRROR))
 
 #: The options of repair.
 REPAIR = Group("What may be done beyond what a mesh needs", of_table(repair_options()))

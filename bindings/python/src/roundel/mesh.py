@@ -190,6 +190,22 @@ class Mesh:
         call = lib.roundel_mesh_euler_characteristic
         return number(call, self._handle.pointer, kind="int64_t")
 
+    def mirror_plane(self, plane: str = "auto") -> tuple[np.ndarray, float, float]:
+        """The mirror plane that a word means, as `quad` takes it: its normal n, its offset d and its deviation.
+
+        Points of the plane have n . p = d; n points to the side that is kept. The deviation is the largest
+        distance of a mirrored vertex from the surface, as a part of the diagonal of the bounding box.
+
+        >>> import roundel
+        >>> normal, offset, deviation = roundel.Mesh.shape("torus", 600).mirror_plane("-x")
+        >>> normal.tolist(), offset, deviation < 1e-9
+        ([-1.0, 0.0, 0.0], 0.0, True)
+        """
+        found, deviation = np.empty(4), ffi.new("double *")
+        arguments = (plane.encode(), pointer(found), deviation)
+        check(lib.roundel_mesh_mirror_plane(self._handle.pointer, *arguments))
+        return found[:3], float(found[3]), deviation[0]
+
     def _int32(self, call: Any, count: Any, width: int) -> np.ndarray:
         found = np.empty((number(count, self._handle.pointer), width), dtype=np.int32)
         check(call(self._handle.pointer, pointer(found), found.size))

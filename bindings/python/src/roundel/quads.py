@@ -263,6 +263,10 @@ def quad(
     >>> vertices, quads = found = roundel.quad(cube.vertices, cube.faces, quads=100)
     >>> found.conforming, len(vertices) - len(quads)
     (True, 2)
+    >>> half = roundel.quad(cube, quads=100, mirror="x")
+    >>> left, right = (half.vertices[half.vertices[:, 0] * side > 0] for side in (-1, 1))
+    >>> sorted(map(tuple, left * [-1, 1, 1])) == sorted(map(tuple, right))
+    True
     >>> gear = roundel.Mesh.shape("gear", 1500)
     >>> sharp = roundel.quad(gear, quads=400, features=40)
     >>> sharp.conforming
@@ -287,6 +291,10 @@ def quad(
     if length is not None and np.ndim(length) > 0:
         lengths = lengths_of_faces(own.pop("edge_length"))
         check(lib.roundel_quad_options_set_edge_lengths(how.pointer, pointer(lengths), lengths.size))
+    mirror = own.pop("mirror", None) or []
+    for plane in [mirror] if isinstance(mirror, str) else mirror:
+        word = plane if isinstance(plane, str) else ",".join(repr(float(x)) for x in plane)
+        check(lib.roundel_quad_options_add_mirror(how.pointer, word.encode()))
     for name, value in own.items():
         set_option(how.pointer, "quad_options", name, value)
     watch = Watch(progress, cancel)

@@ -1,0 +1,178 @@
+//! Quads that are mirrored: the mesh is cut by its mirror planes, the part on one side is turned into quads
+//! with the cut as a feature, and the other parts are its mirror images.
+
+use super::mirror_images::{Seams, with_image};
+use super::refined_input::{divided, weights};
+use super::{QuadOptions, Quadrangulation, quadrangulate};
+use crate::error::{Error, Result};
+use crate::extract::Origin;
+use crate::map::Sizing;
+use crate::mesh::features::FeatureGraph;
+use crate::mesh::mirror::{Half, MirrorPlane, mirror_planes};
+use crate::mesh::vector::{Vec3, add, scale};
+use crate::mesh::{ClosestPoint, TriangleMesh};
+use crate::monitor::{Monitor, with_threads};
+use crate::smooth::SmoothOptions;
+
+/// The part of a mesh that was turned into quads, and the planes that its mirror images are behind.
+#[derive(Debug, Clone)]
+pub struct Mirrored {
+    /// The planes, in the order of [`QuadOptions::mirror`].
+    pub planes: Vec<MirrorPlane>,
+    /// The part of the mesh on the side of their normals. Field and map belong to it, or to it refined.
+    pub half: Half,
+}
+
+/// The quads of the part on one side of the planes, and their mirror images.
+///
+/// # Errors
+/// Those of [`mirror_planes`], [`Half::new`] and [`quadrangulate`](super::quadrangulate()), and
+/// [`Error::InvalidArgument`] for indices that are prescribed.
+pub(super) fn mirrored<'a>(
+    mesh: &TriangleMesh,
+    options: &QuadOptions,
+    monitor: impl Fn() -> Monitor<'a>,
+) -> Result<Quadrangulation> {
+    let (planes, half, given) = with_threads(options.field.threads, || {
+        let (_watch, _memory) = (monitor().watch(), mesh.watch_memory());
+        options.sizing.check(mesh)?;
+        let planes = mirror_planes(mesh, &options.mirror, options.mirror_tolerance)?;
+        let half = Half::new(mesh, &planes)?;
+        let given = of_half(mesh, &half, options)?;
+        Ok::<_, Error>((planes, half, given))
+    })?;
+    let made = quadrangulate(&half.mesh, &given, monitor)?;
+    Ok(with_images(mesh, planes, half, made))
+}
+
+/// The options for the part.
+fn of_half(mesh: &TriangleMesh, half: &Half, options: &QuadOptions) -> Result<QuadOptions> {
+    if options.guidance.indices.is_some() {
+        return Err(Error::InvalidArgument {
+            what: "indices are prescribed for the whole mesh, and only a part of one that is mirrored has a field: leave out one of both".into(),
+            index: None,
+        });
+    }
+    check_faces(mesh, options)?;
+    let wanted = options.guidance.features(mesh)?;
+    let mut features = half.parts_of(|edge| wanted.contains(edge));
+    let mut guidance = divided(mesh, &options.guidance, &half.mesh, &half.face_origin, &[]);
+    features.extend(&half.seam);
+    guidance.feature_edges = features;
+    let smooth = match &options.smooth {
+        Some(given) => {
+            let kept = FeatureGraph::from_edges(mesh, &given.features)?;
+            Some(SmoothOptions {
+                features: half.parts_of(|edge| kept.contains(edge)),
+                ..given.clone()
+            })
+        }
+        None => None,
+    };
+    let images = 1 << options.mirror.len();
+    Ok(QuadOptions {
+        sizing: match &options.sizing {
+            Sizing::Quads(quads) => Sizing::Quads(quads.div_ceil(images)),
+            Sizing::Lengths(lengths) => {
+                let of_face = half.face_origin.iter().map(|&f| lengths[f as usize]);
+                Sizing::Lengths(of_face.collect())
+            }
+            other => other.clone(),
+        },
+        guidance,
+        smooth,
+        mirror: Vec::new(),
+        ..options.clone()
+    })
+}
+
+/// A direction of a face that is not there is an error here: the part has other faces.
+fn check_faces(mesh: &TriangleMesh, options: &QuadOptions) -> Result<()> {
+    let constraints = options.guidance.constraints.iter().map(|c| c.face);
+    let guides = options.guidance.guides.iter().map(|g| g.face);
+    let lists = [
+        ("faces with a direction", constraints.collect::<Vec<_>>()),
+        ("faces with a guide", guides.collect()),
+    ];
+    for (what, faces) in lists {
+        if let Some(position) = faces.iter().position(|&f| f >= mesh.face_count()) {
+            return Err(Error::IndexOutOfRange {
+                what,
+                position,
+                value: faces[position] as i64,
+                len: mesh.face_count(),
+            });
+        }
+    }
+    Ok(())
+}
+
+/// The result for the whole mesh, with elements of the given mesh where it names elements.
+fn with_images(
+    mesh: &TriangleMesh,
+    planes: Vec<MirrorPlane>,
+    half: Half,
+    made: Quadrangulation,
+) -> Quadrangulation {
+    let mut quads = made.quads;
+    let kept = quads.vertices.len();
+    let mut seams = Seams::of_quads(&mut quads, &planes, &half);
+    let mut of_mesh = Seams::of_half(&half);
+    for (k, plane) in planes.iter().enumerate() {
+        of_mesh.count_image(k);
+        with_image(&mut quads, &mut seams, plane, k, of_mesh.euler());
+    }
+    quads.expected_euler = of_mesh.euler();
+    let tree = ClosestPoint::new(mesh);
+    for v in 0..quads.origins.len() {
+        let (origin, at) = (quads.origins[v], quads.vertices[v]);
+        quads.origins[v] = given_place(mesh, &half, &tree, origin, (v < kept).then_some(at), at);
+    }
+    quads.folded = given(quads.folded.iter().map(|&f| half.face_origin[f]));
+    let edges = |of: Vec<usize>| given(of.into_iter().filter_map(|e| half.edge_origin[e]));
+    let apart = made.apart.iter().map(|&f| half.face_origin[f]);
+    Quadrangulation {
+        quads,
+        features: edges(made.features),
+        missed_features: edges(made.missed_features),
+        apart: given(apart),
+        mirrored: Some(Mirrored { planes, half }),
+        ..made
+    }
+}
+
+fn given(numbers: impl Iterator<Item = u32>) -> Vec<usize> {
+    let mut numbers: Vec<usize> = numbers.map(|n| n as usize).collect();
+    numbers.sort_unstable();
+    numbers.dedup();
+    numbers
+}
+
+/// The place on the given mesh of a vertex of the quads: that of its place on the part, or, of a mirror
+/// image, the closest to it.
+fn given_place(
+    mesh: &TriangleMesh,
+    half: &Half,
+    tree: &ClosestPoint,
+    place: Origin,
+    kept: Option<Vec3>,
+    at: Vec3,
+) -> Origin {
+    let (point, hint) = match place {
+        Origin::Middle => return place,
+        _ if kept.is_none() => (at, None),
+        Origin::Vertex(v) => match half.vertex_origin[v] {
+            Some(vertex) => return Origin::Vertex(vertex as usize),
+            None => (half.mesh.position(v), None),
+        },
+        Origin::Face(face, weights) => {
+            let corners = half.mesh.corner_positions(face);
+            let point = (0..3).fold([0.0; 3], |p, k| add(p, scale(corners[k], weights[k])));
+            (point, Some(half.face_origin[face] as usize))
+        }
+    };
+    match tree.find(point, hint) {
+        Some((face, foot)) => Origin::Face(face, weights(mesh.corner_positions(face), foot)),
+        None => place,
+    }
+}
