@@ -30,19 +30,19 @@ pub(super) fn aim(
     let solution = solver.solve_with(&options, monitor)?;
     may_continue()?;
     let squares = area(mesh, &problem.map(mesh, &solution)?);
-    let &Sizing::Quads(wanted) = sizing else {
+    let Some(wanted) = sizing.quads() else {
         return Ok(solution.energy());
     };
     let more = (wanted as f64 / squares).clamp(1.0, MOST);
     let asked = (more * wanted as f64).round() as usize;
     if asked != wanted {
-        problem.resize(mesh, &Sizing::Quads(asked), solver)?;
+        problem.resize(mesh, &sizing.with_quads(asked), solver)?;
     }
     Ok(solution.energy() / squares * wanted as f64)
 }
 
-/// The area of a map in unit squares.
-fn area(mesh: &TriangleMesh, map: &SeamlessMap) -> f64 {
+/// The area of a map in unit squares: the number of its quads, if it has no folds and its integers are decided.
+pub(super) fn area(mesh: &TriangleMesh, map: &SeamlessMap) -> f64 {
     let area = |face: usize| {
         let [a, b, c] = map.uv(face);
         0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]))

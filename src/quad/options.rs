@@ -2,10 +2,20 @@
 
 use crate::field::Guidance;
 use crate::map::{SeamlessOptions, Sizing};
-use crate::search::table::options;
+use crate::search::table::{options, words};
 use crate::search::{Options, Strategy};
 use crate::smooth::SmoothOptions;
 use crate::untangle::UntangleOptions;
+
+words! {
+    /// How exactly a number of quads is to be met.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+    pub enum Count {
+        #[default]
+        Met = "met": "Within 1 percent, or as near as the integers of the map allow.",
+        About = "about": "As the map of that many unit squares has it.",
+    }
+}
 
 options! {
     /// How to make quads. By default, [`SeamlessOptions`] gives their number, and they follow the
@@ -23,6 +33,9 @@ options! {
         /// Fields and maps then belong to the refined mesh: see [`Quadrangulation`](super::Quadrangulation).
         refine: bool = true, "1" in "[0, 1]",
             "1: refine the mesh first where edges are longer than three edges of the quads or angles are below 2 degrees";
+        /// The scale of the map is changed, and its integers are decided anew, a few times at most.
+        count: Count = Count::Met, "met" in Count::WORDS,
+            "whether a number of quads is met within 1 percent, or as near as integers allow, or only about";
         untangle: bool = true, "1" in "[0, 1]",
             "1: untangle the map if its folds keep extraction from making quads";
         stiffenings: usize = UntangleOptions::default().stiffenings, "5" in "[0, 1000]",

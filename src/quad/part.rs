@@ -65,6 +65,10 @@ impl Part {
             Sizing::Lengths(lengths) => {
                 Sizing::Lengths(self.faces.iter().map(|&face| lengths[face]).collect())
             }
+            Sizing::Graded { lengths, .. } => Sizing::Graded {
+                quads: (area / (edge * edge)).max(LEAST).round() as usize,
+                lengths: self.faces.iter().map(|&face| lengths[face]).collect(),
+            },
         }
     }
 
