@@ -49,6 +49,19 @@ impl Sizing {
         }
     }
 
+    /// The lengths at every vertex, where they are graded: the mean of the faces around it. Else none.
+    pub(crate) fn vertex_lengths(&self, mesh: &TriangleMesh) -> Vec<f64> {
+        let Sizing::Graded { lengths, .. } = self else {
+            return Vec::new();
+        };
+        let mean = |v: usize| {
+            let ring = mesh.ring(v);
+            let count = ring.len() as f64;
+            ring.map(|(face, _)| lengths[face]).sum::<f64>() / count
+        };
+        (0..mesh.vertex_count()).map(mean).collect()
+    }
+
     /// The length of an edge of quads, in units of the mesh; where faces have their own, the mean.
     pub fn edge_length(&self, mesh: &TriangleMesh) -> f64 {
         let area = mesh.surface_area();

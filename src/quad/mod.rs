@@ -36,13 +36,15 @@ mod quadrangulate;
 mod quadrangulation;
 mod rank;
 mod refined_input;
+mod size_metric;
 mod smaller;
 mod stage_ends;
 mod tries;
 
 pub use compare::Compared;
 pub use fold_free::{FoldFreeMap, solve_fold_free};
-pub use options::{Count, QUAD_OPTIONS, QuadOptions};
+pub use options::{Count, Near, QUAD_OPTIONS, QuadOptions};
 pub use quadrangulate::quadrangulate;
 pub use quadrangulation::{QuadSeconds, Quadrangulation};
 pub use refined_input::RefinedInput;
+pub use size_metric::SizeMetric;

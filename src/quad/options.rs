@@ -17,6 +17,18 @@ words! {
     }
 }
 
+words! {
+    /// What sizes change near.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+    pub enum Near {
+        #[default]
+        Nothing = "nothing": "Nothing.",
+        Features = "features": "The features, the boundary among them where it is followed.",
+        Boundary = "boundary": "The boundary.",
+        Vertices = "vertices": "The vertices of the options.",
+    }
+}
+
 options! {
     /// How to make quads. By default, [`SeamlessOptions`] gives their number, and they follow the
     /// curvature where it is clear. Lattice decoding decides the integers of the map. Adaptive rounding
@@ -33,6 +45,21 @@ options! {
         /// Fields and maps then belong to the refined mesh: see [`Quadrangulation`](super::Quadrangulation).
         refine: bool = true, "1" in "[0, 1]",
             "1: refine the mesh first where edges are longer than three edges of the quads or angles are below 2 degrees";
+        /// See [`SizeMetric`](super::SizeMetric).
+        adapt: f64 = 0.0, "0" in "[0, 1]",
+            "how far quads get smaller where the surface curves: 0: not at all, 1: until edges deviate from it equally far everywhere";
+        min_length: Option<f64> = None, "unset" in "(0, inf)",
+            "the least length of an edge of quads that is aimed at, in units of the mesh";
+        max_length: Option<f64> = None, "unset" in "(0, inf)",
+            "the largest length of an edge of quads that is aimed at, in units of the mesh";
+        gradation: f64 = 1.5, "1.5" in "(1, inf)",
+            "the ratio of the lengths of neighbouring edges that is aimed at where sizes vary, at most";
+        near: Near = Near::Nothing, "nothing" in Near::WORDS,
+            "what sizes change near, by distance along the surface";
+        near_size: f64 = 0.5, "0.5" in "(0, inf)",
+            "the factor of lengths there: below 1 quads are smaller there, above 1 larger";
+        near_distance: Option<f64> = None, "unset" in "(0, inf)",
+            "the distance up to which they change, in units of the mesh; unset: ten edges of quads";
         /// The scale of the map is changed, and its integers are decided anew, a few times at most.
         count: Count = Count::Met, "met" in Count::WORDS,
             "whether a number of quads is met within 1 percent, or as near as integers allow, or only about";
@@ -44,6 +71,10 @@ options! {
     and {
         /// The size of the quads.
         sizing: Sizing = Sizing::Quads(SeamlessOptions::default().quads);
+        /// How dense quads are at every vertex of the mesh, as a factor of the number of edges a length; empty: evenly.
+        density: Vec<f64> = Vec::new();
+        /// The vertices that quads change their size near, if [`near`](Self::near) says so.
+        near_vertices: Vec<usize> = Vec::new();
         /// The guidance. Features, and the boundary where it is aligned, become chains of edges.
         guidance: Guidance = Guidance {
             constrain_curvature: 0.005,

@@ -227,7 +227,7 @@ fn original_place(
 }
 
 /// The barycentric coordinates of a point of a triangle.
-fn weights([a, b, c]: [Vec3; 3], p: Vec3) -> [f64; 3] {
+pub(super) fn weights([a, b, c]: [Vec3; 3], p: Vec3) -> [f64; 3] {
     let normal = cross(sub(b, a), sub(c, a));
     let whole = dot(normal, normal);
     let of = |u: Vec3, v: Vec3| dot(cross(sub(u, p), sub(v, p)), normal) / whole;

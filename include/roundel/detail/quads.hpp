@@ -24,6 +24,10 @@ ROUNDEL_NAMESPACE_BEGIN
 struct QuadOptions {
     /// Edges of two lengths a face instead: along the arm that the field stores there, and across.
     std::vector<double> edge_lengths = {};
+    /// How dense quads are at every vertex, as a factor of the number of their edges along a length.
+    std::vector<double> density = {};
+    /// The vertices that sizes change near, where `near` is "vertices".
+    std::vector<std::int32_t> near_vertices = {};
     /// Edges that become chains of edges of the quads, instead of the boundary alone.
     std::optional<Features> features = std::nullopt;
     // Table of options: members.
@@ -111,6 +115,14 @@ struct QuadOptions {
     // End of the table.
     QuadOptions& set_edge_lengths(std::vector<double> value) {
         edge_lengths = std::move(value);
+        return *this;
+    }
+    QuadOptions& set_density(std::vector<double> value) {
+        density = std::move(value);
+        return *this;
+    }
+    QuadOptions& set_near_vertices(std::vector<std::int32_t> value) {
+        near_vertices = std::move(value);
         return *this;
     }
     QuadOptions& set_features(Features value) {
@@ -373,7 +385,13 @@ inline QuadOptionsHandle handle_for(const QuadOptions& options, Status* status) 
         (!curved || tell("vary_curvature", false)) && each_quad_option(options, tell) &&
         (lengths.empty() ||
          check(roundel_quad_options_set_edge_lengths(made, lengths.data(), lengths.size()),
-               status));
+               status)) &&
+        check(roundel_quad_options_set_density(made, options.density.data(),
+                                               options.density.size()),
+              status) &&
+        check(roundel_quad_options_set_near_vertices(made, options.near_vertices.size(),
+                                                     options.near_vertices.data()),
+              status);
     return told ? std::move(handle) : nullptr;
 }
 

@@ -85,9 +85,24 @@ SIZE = Group(
 )
 
 #: The options of quads.
-QUADS = Group("The quads", of_table(quad_options())).but(
-    edge_length={"type": "Union[float, ArrayLike, None]", "text": _LENGTHS}
-)
+QUADS = Group(
+    "The quads",
+    (
+        *of_table(quad_options()),
+        Keyword(
+            "density",
+            "Optional[ArrayLike]",
+            None,
+            "How dense quads are at every vertex, as a factor of the number of their edges along a length.",
+        ),
+        Keyword(
+            "near_vertices",
+            "Optional[ArrayLike]",
+            None,
+            "The vertices that sizes change near, where `near` is 'vertices'.",
+        ),
+    ),
+).but(edge_length={"type": "Union[float, ArrayLike, None]", "text": _LENGTHS})
 
 #: The options of repair.
 REPAIR = Group("What may be done beyond what a mesh needs", of_table(repair_options()))

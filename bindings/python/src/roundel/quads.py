@@ -287,6 +287,13 @@ def quad(
     if length is not None and np.ndim(length) > 0:
         lengths = lengths_of_faces(own.pop("edge_length"))
         check(lib.roundel_quad_options_set_edge_lengths(how.pointer, pointer(lengths), lengths.size))
+    density, near = own.pop("density", None), own.pop("near_vertices", None)
+    if density is not None:
+        dense = reals(density, "density")
+        check(lib.roundel_quad_options_set_density(how.pointer, pointer(dense), dense.size))
+    if near is not None:
+        near = indices32(near, "near_vertices")
+        check(lib.roundel_quad_options_set_near_vertices(how.pointer, near.size, pointer(near)))
     for name, value in own.items():
         set_option(how.pointer, "quad_options", name, value)
     watch = Watch(progress, cancel)
