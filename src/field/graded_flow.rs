@@ -75,3 +75,95 @@ fn opposite(mesh: &TriangleMesh, face: usize, k: usize) -> f64 {
     let [a, b, c] = [0, 1, 2].map(|i| corners[(k + i) % 3]);
     cotangent(sub(a, c), sub(b, c))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::field::solve_field;
+    use crate::mesh::shape::by_name;
+    use crate::monitor::Monitor;
+    use crate::search::Options;
+
+    fn of(lengths: Vec<f64>) -> FieldOptions {
+        FieldOptions {
+            lengths,
+            ..FieldOptions::default()
+        }
+    }
+
+    #[test]
+    fn equal_lengths_turn_nothing() {
+        let mesh = by_name("torus", 800).unwrap();
+        for lengths in [Vec::new(), vec![0.3; mesh.vertex_count()]] {
+            let flow = graded_flow(&mesh, &of(lengths)).unwrap();
+            assert!(flow.iter().all(|&turn| turn == 0.0));
+        }
+    }
+
+    /// In the metric of lengths |p|^2 a plane is flat but for the origin: polar coordinates of the
+    /// inversion. Around every vertex but those near the origin curvature stays 0.
+    #[test]
+    fn lengths_of_a_conformal_map_of_the_plane_leave_it_flat() {
+        let mesh = by_name("plane", 20_000).unwrap();
+        let square = |v: usize| mesh.position(v).iter().map(|x| x * x).sum::<f64>();
+        let lengths = (0..mesh.vertex_count())
+            .map(|v| square(v).max(1e-9))
+            .collect();
+        let flow = graded_flow(&mesh, &of(lengths)).unwrap();
+        let mut inflow = vec![0.0; mesh.vertex_count()];
+        for (edge, turn) in mesh.edges().zip(&flow) {
+            let [a, b] = edge.vertices;
+            inflow[a] -= turn;
+            inflow[b] += turn;
+        }
+        let far = |v: usize| square(v) > 0.1 && !mesh.is_boundary_vertex(v);
+        let most = (0..inflow.len())
+            .filter(|&v| far(v))
+            .map(|v| inflow[v].abs())
+            .fold(0.0, f64::max);
+        assert!(most < 2e-4, "{most}");
+        // log |p|^-2 has a source of -4 pi.
+        let inside: f64 = (0..inflow.len())
+            .filter(|&v| square(v) <= 0.1)
+            .map(|v| inflow[v])
+            .sum();
+        assert!(
+            (inside.abs() / (4.0 * std::f64::consts::PI) - 1.0).abs() < 0.01,
+            "{inside}"
+        );
+    }
+
+    #[test]
+    fn small_quads_in_a_plane_have_irregular_vertices_around_them() {
+        let mesh = by_name("plane", 3_000).unwrap();
+        let middle = |v: usize| mesh.position(v).iter().map(|x| x * x).sum::<f64>();
+        let lengths: Vec<f64> = (0..mesh.vertex_count())
+            .map(|v| 1.0 - 0.9 * (-8.0 * middle(v)).exp())
+            .collect();
+        let irregular = |lengths: Vec<f64>| {
+            let solve = Options::default();
+            let found = solve_field(&mesh, &of(lengths), &solve, Monitor::default).unwrap();
+            let steps = found.0.vertex_index_steps(&mesh);
+            steps.iter().filter(|&&s| s != 0).count()
+        };
+        assert_eq!(irregular(Vec::new()), 0);
+        assert!(irregular(lengths) >= 4);
+    }
+
+    #[test]
+    fn lengths_are_as_many_as_vertices_finite_and_above_zero() {
+        let mesh = by_name("torus", 800).unwrap();
+        let refused = |length: f64| {
+            let mut lengths = vec![1.0; mesh.vertex_count()];
+            lengths[3] = length;
+            let error = graded_flow(&mesh, &of(lengths)).unwrap_err();
+            (error.code(), error.index())
+        };
+        assert_eq!(refused(0.0), ("invalid_argument", Some(3)));
+        assert_eq!(refused(f64::INFINITY), ("not_finite", Some(3)));
+        assert_eq!(
+            graded_flow(&mesh, &of(vec![1.0])).unwrap_err().code(),
+            "length_mismatch"
+        );
+    }
+}

@@ -41,8 +41,8 @@ pub(super) fn aim(
     Ok(solution.energy() / squares * wanted as f64)
 }
 
-/// The area of a map in unit squares: the number of its quads, if it has no folds and its integers are decided.
-pub(super) fn area(mesh: &TriangleMesh, map: &SeamlessMap) -> f64 {
+/// The area of a map in unit squares.
+fn area(mesh: &TriangleMesh, map: &SeamlessMap) -> f64 {
     let area = |face: usize| {
         let [a, b, c] = map.uv(face);
         0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]))

@@ -22,11 +22,10 @@ use std::time::Instant;
 
 use super::attempt::{Attempt, is_hopeless};
 use super::compare::compare;
-use super::count::ScaleSearch;
 use super::field_map::FieldMap;
 use super::final_error::is_final;
 use super::missed::missed;
-use super::options::{Count, QuadOptions};
+use super::options::QuadOptions;
 use super::quadrangulation::timed;
 use super::refined_input::{RefinedInput, weights};
 use super::size_metric::SizeMetric;
@@ -205,7 +204,6 @@ fn of_mesh<'a>(
         options,
         effort,
         work,
-        wanted: sizing.quads(),
         lengths: match &sizing {
             Sizing::Graded { lengths, .. } => Some(lengths.clone()),
             _ => None,
@@ -239,7 +237,6 @@ fn of_mesh<'a>(
         }
         last = next;
     }
-    let best = driver.meet_count(best)?;
     driver.finish(best)
 }
 
@@ -268,8 +265,6 @@ struct Driver<'a, M> {
     effort: Effort,
     /// What may still be spent, in faces whose field, map and quads are computed.
     work: &'a Cell<u64>,
-    /// The number of quads to meet, if there is one.
-    wanted: Option<usize>,
     /// The lengths of edges of quads that are aimed at in every face, where they vary.
     lengths: Option<Vec<f64>>,
     /// The current size of the quads.
@@ -458,68 +453,6 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Driver<'a, M> {
     /// The field whose map is at hand.
     fn at_hand(&mut self) -> &mut FieldMap<'a, M> {
         &mut self.fields[self.current]
-    }
-
-    /// Quads at another scale of the map whose number is nearer to the one that was asked for, if the options want
-    /// that and the quads conform.
-    fn meet_count(&mut self, mut best: Attempt) -> Result<Attempt> {
-        let Some(wanted) = self.wanted else {
-            return Ok(best);
-        };
-        if self.options.count == Count::About || !best.outcome.conforms() {
-            return Ok(best);
-        }
-        let mut search = ScaleSearch::new(wanted);
-        let (mut scale, mut squares) = (1.0, best.quads.quads.len() as f64);
-        self.current = best.field;
-        while !search.is_met(best.quads.quads.len() as f64) && self.work.get() > 0 {
-            let Some(next) = search.next(scale, squares) else {
-                break;
-            };
-            let error = search.error(best.quads.quads.len() as f64);
-            let found = optional(self.monitor, || {
-                let area = self.scale(next / scale)?;
-                match search.error(area) < error {
-                    true => Ok((area, Some(self.whole(&best)?))),
-                    false => Ok((area, None)),
-                }
-            });
-            let (area, found) = match found {
-                Ok(Some(found)) => found,
-                Ok(None) => break,
-                Err(error) if is_final(&error) => return Err(error),
-                // The quads that there are remain.
-                Err(_) => break,
-            };
-            if let Some(found) = found
-                && found.outcome.is_as_whole_as(&best.outcome)
-                && search.error(found.quads.quads.len() as f64) < error
-            {
-                best = found;
-            }
-            (scale, squares) = (next, area);
-        }
-        Ok(best)
-    }
-
-    /// Goes on to a map that is larger by a factor in length, and returns its area.
-    fn scale(&mut self, factor: f64) -> Result<f64> {
-        self.enter(Stage::Map);
-        let (mesh, mut seconds) = (self.mesh, self.seconds.map);
-        let area = timed(&mut seconds, || self.at_hand().scale(mesh, factor));
-        self.seconds.map = seconds;
-        area
-    }
-
-    /// The quads of the current map, untangled if they are not as whole as these otherwise.
-    fn whole(&mut self, best: &Attempt) -> Result<Attempt> {
-        let found = self.as_solved()?;
-        let passes = self.passes();
-        if found.outcome.is_as_whole_as(&best.outcome) || !self.options.untangle || passes == 0 {
-            return Ok(found);
-        }
-        let map = self.at_hand().untangled(passes)?;
-        self.quads(map)
     }
 
     /// Smooths the quads, and compares strategies if the options ask for it.

@@ -3,7 +3,6 @@
 use std::borrow::Cow;
 
 use super::QuadOptions;
-use super::aim::area;
 use super::attempt::is_hopeless;
 use super::fields::choose_field;
 use super::map_solver::{MapSolver, Solved};
@@ -96,13 +95,6 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> FieldMap<'a, M> {
         self.maps.grade(&factors)?;
         (self.at_hand, self.features_as_rounded) = solved(mesh, &mut self.maps)?;
         Ok(true)
-    }
-
-    /// Goes on to a map that is larger by a factor in length, and returns its area in unit squares.
-    pub(super) fn scale(&mut self, mesh: &TriangleMesh, factor: f64) -> Result<f64> {
-        self.maps.scale(factor)?;
-        (self.at_hand, self.features_as_rounded) = solved(mesh, &mut self.maps)?;
-        Ok(area(mesh, &self.at_hand.map))
     }
 
     /// Whether so much of the current map is folded that it is given up.

@@ -105,13 +105,6 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> MapSolver<'a, M> {
         Ok(())
     }
 
-    /// Makes the map larger by a factor in length.
-    pub(super) fn scale(&mut self, factor: f64) -> Result<()> {
-        let scaled = self.problem.refined(self.mesh, factor, &mut self.solver)?;
-        self.problem = Cow::Owned(scaled);
-        Ok(())
-    }
-
     /// Makes the lengths of the map larger by a factor for every face.
     pub(super) fn grade(&mut self, factors: &[f64]) -> Result<()> {
         let graded = self.problem.graded(self.mesh, factors, &mut self.solver)?;

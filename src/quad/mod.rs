@@ -20,7 +20,6 @@ mod apart;
 mod attempt;
 mod by_component;
 mod compare;
-mod count;
 mod coverage;
 mod driver;
 mod field_map;
@@ -43,7 +42,7 @@ mod tries;
 
 pub use compare::Compared;
 pub use fold_free::{FoldFreeMap, solve_fold_free};
-pub use options::{Count, Near, QUAD_OPTIONS, QuadOptions};
+pub use options::{Near, QUAD_OPTIONS, QuadOptions};
 pub use quadrangulate::quadrangulate;
 pub use quadrangulation::{QuadSeconds, Quadrangulation};
 pub use refined_input::RefinedInput;

@@ -8,16 +8,6 @@ use crate::smooth::SmoothOptions;
 use crate::untangle::UntangleOptions;
 
 words! {
-    /// How exactly a number of quads is to be met.
-    #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-    pub enum Count {
-        #[default]
-        Met = "met": "Within 1 percent, or as near as the integers of the map allow.",
-        About = "about": "As the map of that many unit squares has it.",
-    }
-}
-
-words! {
     /// What sizes change near.
     #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
     pub enum Near {
@@ -60,9 +50,6 @@ options! {
             "the factor of lengths there: below 1 quads are smaller there, above 1 larger";
         near_distance: Option<f64> = None, "unset" in "(0, inf)",
             "the distance up to which they change, in units of the mesh; unset: ten edges of quads";
-        /// The scale of the map is changed, and its integers are decided anew, a few times at most.
-        count: Count = Count::Met, "met" in Count::WORDS,
-            "whether a number of quads is met within 1 percent, or as near as integers allow, or only about";
         untangle: bool = true, "1" in "[0, 1]",
             "1: untangle the map if its folds keep extraction from making quads";
         stiffenings: usize = UntangleOptions::default().stiffenings, "5" in "[0, 1000]",

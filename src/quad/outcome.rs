@@ -72,11 +72,6 @@ impl Outcome {
         !self.does_not_conform
     }
 
-    /// Whether quads conform and miss no more features than others.
-    pub(super) fn is_as_whole_as(&self, other: &Outcome) -> bool {
-        self.conforms() && self.missed_features <= other.missed_features
-    }
-
     /// Whether quads conform and miss no features: other faults of the map do not matter then.
     pub(super) fn is_whole(&self) -> bool {
         self.conforms() && self.missed_features == 0

@@ -47,7 +47,6 @@ static void settings(fixture* f) {
     BAD(f, roundel_quad_options_set_real(q, "max_length", -1.0), beyond, "(0,", NONE);
     BAD(f, roundel_quad_options_set_real(q, "gradation", 1.0), beyond, "(1,", NONE);
     BAD(f, roundel_quad_options_set_text(q, "near", "far"), beyond, "features", NONE);
-    BAD(f, roundel_quad_options_set_text(q, "count", "exactly"), beyond, "about", NONE);
     BAD(f, roundel_quad_options_set_guidance(NULL, NULL), null, "quad options", NONE);
     BAD(f, roundel_quad_options_set_field_options(NULL, NULL), null, "quad options", NONE);
     BAD(f, roundel_quad_options_set_map_options(NULL, NULL), null, "quad options", NONE);

@@ -83,7 +83,6 @@ void unset_quad_options_have_the_librarys_defaults() {
         QuadOptions().set_edge_length(0.1),
         QuadOptions().set_edge_lengths(std::vector<double>(2 * mesh.faces(), 0.3)),
         QuadOptions().set_quads(150).set_adapt(1.0),
-        QuadOptions().set_quads(150).set_count("about"),
         QuadOptions().set_quads(150).set_near("vertices").set_near_vertices({0}),
         QuadOptions().set_quads(150).set_density(rising),
     };

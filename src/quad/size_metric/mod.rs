@@ -1,9 +1,11 @@
 //! Sizes of quads that vary over the surface: by curvature, painted density, and distance.
 //!
-//! All of them multiply a length for every vertex. A chord of length h deviates from a curve of curvature k by k h^2 / 8
-//! to first order, so lengths that grow with k^(-1/2) make it deviate equally far everywhere; [`adapt`] is the share
-//! of that power that is taken. Then lengths are kept between the least and the largest, and made to grow along the
-//! surface by no more than the gradation allows, by one pass of Dijkstra's algorithm over the edges:
+//! All of them multiply a length for every vertex. A square patch of edges h that follow the principal curvatures a
+//! and b deviates from the surface, to first order, by |a + b| h^2 / 8 in its middle and by |a| h^2 / 8 at edges. So
+//! lengths that grow with k^(-1/2), k the larger of |a + b| and |a|, make patches deviate equally far everywhere;
+//! [`adapt`] is the share of that power that is taken. Then lengths are kept between the least and the largest, and
+//! made to grow along the surface by no more than the gradation allows, by one pass of Dijkstra's algorithm over the
+//! edges:
 //!
 //! ```text
 //! h(y) <= h(x) + (gradation - 1) distance(x, y)
@@ -17,7 +19,7 @@
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-use super::options::{Near, QuadOptions};
+use super::{Near, QuadOptions};
 use crate::error::{Error, Result};
 use crate::geodesic::{GeodesicOptions, Source, geodesic_distance};
 use crate::map::Sizing;
@@ -245,17 +247,22 @@ impl Bounds {
 /// The factor of lengths by curvature at every vertex.
 fn by_curvature(mesh: &TriangleMesh, adapt: f64) -> Result<Vec<f64>> {
     let curvature = watched_curvature(mesh, SMOOTHING_ROUNDS)?;
-    let of_face: Vec<f64> = curvature.k1.iter().map(|k| k.abs()).collect();
+    let principal = curvature.k1.iter().zip(&curvature.k2);
+    let of_face: Vec<f64> = principal
+        .map(|(k1, k2)| k1.abs().max((k1 + k2).abs()))
+        .collect();
     let areas = (0..mesh.face_count()).map(|face| mesh.area(face));
     let mean = areas.zip(&of_face).map(|(area, k)| area * k).sum::<f64>() / mesh.surface_area();
-    let at_vertex = at_vertices(mesh, &of_face).into_iter();
     let factor = |k: f64| match mean > 0.0 {
         true => (k / mean)
             .clamp(LEAST_CURVATURE, MOST_CURVATURE)
             .powf(-0.5 * adapt),
         false => 1.0,
     };
-    Ok(at_vertex.map(factor).collect())
+    Ok(at_vertices(mesh, &of_face)
+        .into_iter()
+        .map(factor)
+        .collect())
 }
 
 /// The factor of lengths by distance at every vertex.
@@ -323,3 +330,6 @@ fn at_faces(mesh: &TriangleMesh, of_vertex: &[f64]) -> Vec<f64> {
     };
     (0..mesh.face_count()).map(mean).collect()
 }
+
+#[cfg(test)]
+mod tests;
