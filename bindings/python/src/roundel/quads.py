@@ -11,7 +11,7 @@ from ._groups import QUADS, SOLVE, TUNING, WATCH
 from ._handle import Handle, number
 from ._library import ffi, lib, path
 from ._types import ArrayLike, File, MeshLike
-from .arrays import pointer, reals
+from .arrays import indices32, pointer, reals
 from .errors import ArgumentTypeError, check, refusal
 from .events import Progress
 from .guidance import GUIDANCE, guidance_handle, says_curvature, split
