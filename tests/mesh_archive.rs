@@ -19,8 +19,11 @@ use roundel::field::solve_field;
 use roundel::map::{SeamlessProblem, Sizing};
 use roundel::mesh::features::FeatureGraph;
 use roundel::mesh::refine::needs_refinement;
-use roundel::mesh::{MeshError, TriangleMesh, io};
-use roundel::quad::{FoldFreeMap, QuadOptions, RefinedInput, solve_fold_free};
+use roundel::mesh::vector::{Vec3, add, norm, scale, sub};
+use roundel::mesh::{ClosestPoint, MeshError, TriangleMesh, io};
+use roundel::extract::QuadMesh;
+use roundel::quad::{FoldFreeMap, QuadOptions, RefinedInput, quadrangulate, solve_fold_free};
+use roundel::smooth::QuadQuality;
 use roundel::untangle::UntangleOptions;
 use roundel::{Monitor, Options, Strategy};
 
@@ -285,5 +288,67 @@ fn all_sound_meshes_get_valid_maps() {
         }
         println!("{valid} of {} valid", meshes.len());
         assert_eq!(valid, meshes.len());
+    }
+}
+
+/// The quads of a mesh whose sizes follow curvature by this share.
+fn adapted(mesh: &TriangleMesh, quads: usize, adapt: f64) -> QuadMesh {
+    let options = QuadOptions {
+        sizing: Sizing::Quads(quads),
+        adapt,
+        ..QuadOptions::default()
+    };
+    quadrangulate(mesh, &options, Monitor::default)
+        .unwrap()
+        .quads
+}
+
+/// The largest distance of 25 points of each quad from a mesh.
+fn farthest(mesh: &TriangleMesh, quads: &QuadMesh) -> f64 {
+    let tree = ClosestPoint::new(mesh);
+    let part = |k: usize| k as f64 / 4.0;
+    let between = |a: Vec3, b: Vec3, t: f64| add(scale(a, 1.0 - t), scale(b, t));
+    let mut most = 0.0f64;
+    for quad in &quads.quads {
+        let [a, b, c, d] = quad.map(|v| quads.vertices[v as usize]);
+        for (i, j) in (0..25).map(|k| (part(k / 5), part(k % 5))) {
+            let p = between(between(a, b, i), between(d, c, i), j);
+            let (_, foot) = tree.find(p, None).unwrap();
+            most = most.max(norm(sub(p, foot)));
+        }
+    }
+    most
+}
+
+#[test]
+#[ignore = "half a minute of work"]
+fn sizes_that_follow_curvature_bring_quads_nearer_to_the_surface() {
+    let Some(folder) = archive() else {
+        return common::skip::skip_unless_ci(MISSING);
+    };
+    for (name, count) in [("bunny00", 2_000), ("homer", 2_000), ("retinal", 500)] {
+        let mesh = load(&folder, name).unwrap();
+        let [even, by_curvature] = [0.0, 1.0].map(|adapt| {
+            let quads = adapted(&mesh, count, adapt);
+            assert!((quads.quads.len() as f64 / count as f64 - 1.0).abs() < 0.05);
+            farthest(&mesh, &quads)
+        });
+        println!("{name:<12} {even:.5} {by_curvature:.5}");
+        assert!(by_curvature < 2.0 / 3.0 * even, "{name}");
+    }
+}
+
+#[test]
+#[ignore = "minutes of work"]
+fn quads_whose_sizes_follow_curvature_conform() {
+    let Some(folder) = archive() else {
+        return common::skip::skip_unless_ci(MISSING);
+    };
+    for &(name, _, _) in CLOSED {
+        let mesh = load(&folder, name).unwrap();
+        let quads = adapted(&mesh, 1_000, 1.0);
+        let inverted = QuadQuality::new(&quads).inverted;
+        println!("{name:<26} {} quads, {inverted} inverted", quads.quads.len());
+        assert!(quads.is_conforming() && inverted == 0, "{name}");
     }
 }

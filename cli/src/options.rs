@@ -9,7 +9,7 @@ use clap::parser::ValueSource;
 use clap::{Arg, ArgAction, ArgMatches, Args, Command, FromArgMatches};
 use roundel::Options;
 use roundel::quad::{QUAD_OPTIONS, QuadOptions};
-use roundel::search::{OPTIONS, OptionInfo, OptionKind, OptionValue, PRESETS};
+use roundel::search::{OPTIONS, OptionInfo, OptionKind, OptionValue, PRESETS, UNSET};
 use roundel::soup::{REPAIR_OPTIONS, RepairOptions};
 
 /// Options of the solver, from flags named as the options are, `-` for `_`.
@@ -204,9 +204,11 @@ fn switch(info: &'static OptionInfo) -> Arg {
 }
 
 fn flag(info: &'static OptionInfo, accepts: fn(&str, &OptionValue) -> bool) -> Arg {
-    let flag = Arg::new(info.name)
-        .long(info.name.replace('_', "-"))
-        .default_value(info.default);
+    let flag = Arg::new(info.name).long(info.name.replace('_', "-"));
+    let flag = match info.default {
+        UNSET => flag,
+        default => flag.default_value(default),
+    };
     match info.kind {
         // clap lists the words itself.
         OptionKind::Text => flag

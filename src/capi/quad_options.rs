@@ -5,7 +5,7 @@ use std::ffi::c_char;
 use super::failure::Outcome;
 use super::guard::{self, Guarded, Object, boundary, object};
 use super::guidance::roundel_guidance;
-use super::input::{slice, text};
+use super::input::{indices, slice, text};
 use super::options::roundel_options;
 use super::output::Out;
 use super::status::roundel_status;
@@ -170,6 +170,42 @@ pub unsafe extern "C" fn roundel_quad_options_add_mirror(
         // SAFETY: the caller gives a text, or NULL.
         let word = unsafe { text("mirror", mirror) }?;
         options.mirror.push(word.parse()?);
+        Ok(())
+    };
+    // SAFETY: the caller gives a live handle, or NULL.
+    unsafe { change(options, body) }
+}
+
+/// Sets how dense quads are at every vertex of the mesh, as a factor of the number of their edges along a length;
+/// none, if `length` is 0: evenly. All densities are above 0, and `length` is the number of vertices: both are
+/// checked when quads are made.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_quad_options_set_density(
+    options: *mut roundel_quad_options,
+    densities: *const f64,
+    length: usize,
+) -> roundel_status {
+    let body = |options: &mut QuadOptions| {
+        // SAFETY: the caller gives an array of `length` numbers, or NULL.
+        let densities = unsafe { slice("densities of vertices", densities, length) }?;
+        options.density = densities.to_vec();
+        Ok(())
+    };
+    // SAFETY: the caller gives a live handle, or NULL.
+    unsafe { change(options, body) }
+}
+
+/// Sets the vertices that sizes change near where the option `near` is "vertices".
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_quad_options_set_near_vertices(
+    options: *mut roundel_quad_options,
+    count: usize,
+    vertices: *const i32,
+) -> roundel_status {
+    let body = |options: &mut QuadOptions| {
+        let what = "vertices that sizes change near";
+        // SAFETY: the caller gives an array of `count` numbers, or NULL.
+        options.near_vertices = unsafe { indices(what, vertices, count, i32::MAX as usize + 1) }?;
         Ok(())
     };
     // SAFETY: the caller gives a live handle, or NULL.

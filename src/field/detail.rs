@@ -7,6 +7,7 @@
 //! curvature flows along each edge, and the transport over the edge turns by as much more.
 
 use super::FieldOptions;
+use super::graded_flow::graded_flow;
 use crate::error::{Error, Result};
 use crate::linalg::{Cholesky, Sparse};
 use crate::mesh::TriangleMesh;
@@ -34,7 +35,7 @@ const LEAST: usize = 1 << 12;
 /// [`FieldOptions::fixed_angles`].
 pub(super) fn detail(mesh: &TriangleMesh, options: &FieldOptions) -> Result<Vec<f64>> {
     let _span = span("detail");
-    let mut flow = vec![0.0; mesh.edge_count()];
+    let mut flow = graded_flow(mesh, options)?;
     let length = length(mesh, options)?;
     if length == 0.0 {
         return Ok(flow);
@@ -44,6 +45,10 @@ pub(super) fn detail(mesh: &TriangleMesh, options: &FieldOptions) -> Result<Vec<
     let time = length * length / STEPS as f64;
     let mut mass = vec![0.0; vertices];
     let mut curvature = vec![std::f64::consts::TAU; vertices];
+    for (&moved, [a, b]) in flow.iter().zip(ends(mesh)) {
+        curvature[a] -= moved;
+        curvature[b] += moved;
+    }
     let areas = collect_in_parts(mesh.face_count(), LEAST, |face| mesh.area(face));
     for (face, (area, angles)) in areas.into_iter().zip(mesh.angles()).enumerate() {
         for (v, angle) in mesh.corners(face).into_iter().zip(angles) {

@@ -122,6 +122,7 @@ impl Guidance {
             guides: self.guides.clone(),
             indices: self.indices.clone(),
             detail,
+            lengths: Vec::new(),
         };
         options.constrain_others(match self.symmetry {
             4 => feature_constraints(mesh, features)?,

@@ -10,6 +10,7 @@ mod directions;
 mod feasible_indices;
 mod feature_alignment;
 mod file;
+mod graded_flow;
 mod guidance;
 mod guidance_file;
 mod index;

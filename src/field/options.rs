@@ -56,6 +56,11 @@ pub struct FieldOptions {
     /// vertices. [`solve_field`](super::solve_field) lets it decide the indices alone. Where it is
     /// not 0, the energy of [`FieldProblem`](super::FieldProblem) is not that of its field.
     pub detail: f64,
+    /// Lengths at every vertex, in any unit, that the field shall see as equal: it is the smoothest in the
+    /// metric in which they are, so that irregular vertices lie where quads of these sizes need them. Empty where
+    /// sizes are the same everywhere. Where it is not, the energy of
+    /// [`FieldProblem`](super::FieldProblem) is that of this metric.
+    pub lengths: Vec<f64>,
 }
 
 impl Default for FieldOptions {
@@ -67,6 +72,7 @@ impl Default for FieldOptions {
             guides: Vec::new(),
             indices: None,
             detail: 0.0,
+            lengths: Vec::new(),
         }
     }
 }

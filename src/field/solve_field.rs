@@ -6,6 +6,7 @@
 
 use super::detail::detail;
 use super::feasible_indices::feasible_indices;
+use super::graded_flow::graded_flow;
 use super::{Constraint, FieldOptions, FieldProblem, OrientationField, PrescribedIndex};
 use crate::error::{Error, Result};
 use crate::mesh::TriangleMesh;
@@ -82,13 +83,14 @@ fn prepared(
 fn smoothest_with(
     mesh: &TriangleMesh,
     problem: &FieldProblem,
+    given: &FieldOptions,
     solver: &mut Solver,
     options: &Options,
     monitor: Monitor,
 ) -> Result<(OrientationField, Solution)> {
     may_continue()?;
-    let nothing = vec![0.0; mesh.edge_count()];
-    solver.set_least_squares_right_sides(&problem.right_sides(mesh, &nothing))?;
+    let of_sizes = graded_flow(mesh, given)?;
+    solver.set_least_squares_right_sides(&problem.right_sides(mesh, &of_sizes))?;
     let keep = Options {
         warm_start: WarmStart::Keep,
         ..options.clone()
@@ -134,7 +136,7 @@ pub fn solve_field<'a>(
     may_continue()?;
     if steps == found {
         return match options.detail > 0.0 {
-            true => smoothest_with(mesh, &problem, &mut kept, solver, monitor()),
+            true => smoothest_with(mesh, &problem, options, &mut kept, solver, monitor()),
             false => Ok((field, solution)),
         };
     }

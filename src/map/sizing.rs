@@ -13,6 +13,13 @@ pub enum Sizing {
     /// Edges of these lengths in every face: along the arm that the field stores (its angle), and
     /// across it.
     Lengths(Vec<[f64; 2]>),
+    /// As many quads as this, whose edges have lengths in these proportions in every face.
+    Graded {
+        /// How many.
+        quads: usize,
+        /// A length for every face, in any unit.
+        lengths: Vec<f64>,
+    },
 }
 
 impl Sizing {
@@ -22,11 +29,46 @@ impl Sizing {
         Density::new(mesh, self).map(drop)
     }
 
+    /// The number of quads, where one is asked for.
+    pub fn quads(&self) -> Option<usize> {
+        match self {
+            Sizing::Quads(quads) | Sizing::Graded { quads, .. } => Some(*quads),
+            Sizing::EdgeLength(_) | Sizing::Lengths(_) => None,
+        }
+    }
+
+    /// The same sizes with another number of quads, where one is asked for.
+    pub(crate) fn with_quads(&self, quads: usize) -> Self {
+        match self {
+            Sizing::Quads(_) => Sizing::Quads(quads),
+            Sizing::Graded { lengths, .. } => Sizing::Graded {
+                quads,
+                lengths: lengths.clone(),
+            },
+            other => other.clone(),
+        }
+    }
+
+    /// The lengths at every vertex, where they are graded: the mean of the faces around it. Else none.
+    pub(crate) fn vertex_lengths(&self, mesh: &TriangleMesh) -> Vec<f64> {
+        let Sizing::Graded { lengths, .. } = self else {
+            return Vec::new();
+        };
+        let mean = |v: usize| {
+            let ring = mesh.ring(v);
+            let count = ring.len() as f64;
+            ring.map(|(face, _)| lengths[face]).sum::<f64>() / count
+        };
+        (0..mesh.vertex_count()).map(mean).collect()
+    }
+
     /// The length of an edge of quads, in units of the mesh; where faces have their own, the mean.
     pub fn edge_length(&self, mesh: &TriangleMesh) -> f64 {
         let area = mesh.surface_area();
         match self {
-            Sizing::Quads(quads) => (area / (*quads).max(1) as f64).sqrt(),
+            Sizing::Quads(quads) | Sizing::Graded { quads, .. } => {
+                (area / (*quads).max(1) as f64).sqrt()
+            }
             Sizing::EdgeLength(length) => *length,
             Sizing::Lengths(lengths) => {
                 let of_face = |(face, [along, across]): (usize, &[f64; 2])| {
@@ -53,7 +95,7 @@ impl Density {
     /// face where there is one; [`Error::NotFinite`]; [`Error::LengthMismatch`].
     pub(super) fn new(mesh: &TriangleMesh, sizing: &Sizing) -> Result<Self> {
         match sizing {
-            Sizing::Quads(0) => Err(Error::InvalidArgument {
+            Sizing::Quads(0) | Sizing::Graded { quads: 0, .. } => Err(Error::InvalidArgument {
                 what: "the number of quads is 0; it must be at least 1".into(),
                 index: None,
             }),
@@ -66,18 +108,29 @@ impl Density {
                 Ok(Density::Uniform(1.0 / length))
             }
             Sizing::Lengths(lengths) => {
-                if lengths.len() != mesh.face_count() {
-                    return Err(Error::LengthMismatch {
-                        what: "edge lengths of faces",
-                        expected: mesh.face_count(),
-                        actual: lengths.len(),
-                    });
-                }
+                check_count(mesh, lengths.len())?;
                 for (face, &[along, across]) in lengths.iter().enumerate() {
                     check("edge lengths of faces", along, Some(face))?;
                     check("edge lengths of faces", across, Some(face))?;
                 }
                 let densities = lengths.iter().map(|pair| pair.map(|length| 1.0 / length));
+                Ok(Density::Faces(densities.collect()))
+            }
+            Sizing::Graded { quads, lengths } => {
+                check_count(mesh, lengths.len())?;
+                let mut squares = 0.0;
+                for (face, &length) in lengths.iter().enumerate() {
+                    check("edge lengths of faces", length, Some(face))?;
+                    squares += mesh.area(face) / (length * length);
+                }
+                let scale = (*quads as f64 / squares).sqrt();
+                if !scale.is_normal() {
+                    return Err(Error::NotFinite {
+                        what: "the proportions of edge lengths",
+                        position: 0,
+                    });
+                }
+                let densities = lengths.iter().map(|length| [scale / length; 2]);
                 Ok(Density::Faces(densities.collect()))
             }
         }
@@ -115,6 +168,17 @@ impl Density {
                 }
             }
         }
+    }
+}
+
+fn check_count(mesh: &TriangleMesh, actual: usize) -> Result<()> {
+    match actual == mesh.face_count() {
+        true => Ok(()),
+        false => Err(Error::LengthMismatch {
+            what: "edge lengths of faces",
+            expected: mesh.face_count(),
+            actual,
+        }),
     }
 }
 

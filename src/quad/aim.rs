@@ -30,13 +30,13 @@ pub(super) fn aim(
     let solution = solver.solve_with(&options, monitor)?;
     may_continue()?;
     let squares = area(mesh, &problem.map(mesh, &solution)?);
-    let &Sizing::Quads(wanted) = sizing else {
+    let Some(wanted) = sizing.quads() else {
         return Ok(solution.energy());
     };
     let more = (wanted as f64 / squares).clamp(1.0, MOST);
     let asked = (more * wanted as f64).round() as usize;
     if asked != wanted {
-        problem.resize(mesh, &Sizing::Quads(asked), solver)?;
+        problem.resize(mesh, &sizing.with_quads(asked), solver)?;
     }
     Ok(solution.energy() / squares * wanted as f64)
 }

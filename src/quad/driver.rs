@@ -28,7 +28,8 @@ use super::final_error::is_final;
 use super::missed::missed;
 use super::options::QuadOptions;
 use super::quadrangulation::timed;
-use super::refined_input::RefinedInput;
+use super::refined_input::{RefinedInput, weights};
+use super::size_metric::SizeMetric;
 use super::smaller::{SIZES, smaller_quads};
 use super::stage_ends::stage_ends;
 use super::{QuadSeconds, Quadrangulation};
@@ -37,8 +38,9 @@ use crate::field::FieldProblem;
 use crate::map::Sizing;
 use crate::mesh::TriangleMesh;
 use crate::mesh::features::FeatureGraph;
+use crate::mesh::refine::Refined;
 use crate::monitor::{Monitor, Stage, may_continue, optional};
-use crate::smooth::{SmoothOptions, smooth};
+use crate::smooth::{SmoothOptions, smooth_to};
 use crate::solve::Solution;
 use crate::untangle::{FINER, Untangled};
 
@@ -109,6 +111,7 @@ pub(super) fn by_options<'a>(
     monitor: &impl Fn() -> Monitor<'a>,
 ) -> Result<Quadrangulation> {
     options.sizing.check(mesh)?;
+    SizeMetric::check(mesh, options)?;
     may_continue()?;
     let features = options.guidance.features(mesh)?;
     may_continue()?;
@@ -131,12 +134,30 @@ pub(super) fn by_options<'a>(
         guidance: input.guidance.clone(),
         sizing: input.sizing.clone(),
         smooth,
+        density: on_refined(mesh, &input.refined, &options.density),
         ..options.clone()
     };
     let features = input.features.clone();
     let mut made = of_mesh(&input.refined.mesh, features, &given, effort, work, monitor)?;
     made.seconds.refine = seconds;
     Ok(input.result_for(mesh, made))
+}
+
+/// Values of vertices on a refined mesh: those of new vertices are interpolated in the faces that they lie in.
+fn on_refined(mesh: &TriangleMesh, refined: &Refined, values: &[f64]) -> Vec<f64> {
+    if values.is_empty() {
+        return Vec::new();
+    }
+    let of = |v: usize| match refined.vertex_origin[v] {
+        Some(origin) => values[origin as usize],
+        None => {
+            let face = refined.vertex_face[v] as usize;
+            let weights = weights(mesh.corner_positions(face), refined.mesh.position(v));
+            let corners = mesh.corners(face);
+            (0..3).map(|k| weights[k] * values[corners[k]]).sum()
+        }
+    };
+    (0..refined.mesh.vertex_count()).map(of).collect()
 }
 
 /// The refined mesh, where the options allow it and the mesh needs it.
@@ -175,12 +196,20 @@ fn of_mesh<'a>(
         Effort::Full | Effort::OfSeveral => FACES,
     };
     let most = PASSES * mesh.face_count().min(faces);
+    let sizing = match SizeMetric::new(mesh, options, &features, &monitor())? {
+        Some(metric) => metric.sizing,
+        None => options.sizing.clone(),
+    };
     let mut driver = Driver {
         mesh,
         options,
         effort,
         work,
-        sizing: options.sizing.clone(),
+        lengths: match &sizing {
+            Sizing::Graded { lengths, .. } => Some(lengths.clone()),
+            _ => None,
+        },
+        sizing,
         sizes: 0,
         details: 0,
         gradings: 0,
@@ -238,6 +267,8 @@ pub(super) struct Driver<'a, M> {
     effort: Effort,
     /// What may still be spent, in faces whose field, map and quads are computed.
     pub(super) work: &'a Cell<u64>,
+    /// The lengths of edges of quads that are aimed at in every face, where they vary.
+    lengths: Option<Vec<f64>>,
     /// The current size of the quads.
     sizing: Sizing,
     /// How often it was changed.
@@ -460,7 +491,13 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Driver<'a, M> {
                     features: [&given.features[..], &features].concat(),
                     ..given.clone()
                 };
-                smooth(&mut quads, mesh, &given, &mut monitor())?;
+                smooth_to(
+                    &mut quads,
+                    mesh,
+                    &given,
+                    self.lengths.as_deref(),
+                    &mut monitor(),
+                )?;
                 missed_features = missed(mesh, &quads, &missed_features);
                 Ok(())
             })?;

@@ -154,7 +154,8 @@ fn follow<'a>(
 ) -> Result<Followed> {
     let mut seconds = [0.0; 2];
     let [of_field, of_map] = &mut seconds;
-    let field_options = options.guidance.field_options(mesh, features)?;
+    let mut field_options = options.guidance.field_options(mesh, features)?;
+    field_options.lengths = options.sizing.vertex_lengths(mesh);
     let (field, solution) = timed(of_field, || {
         solve_field(mesh, &field_options, &options.field, monitor)
     })?;

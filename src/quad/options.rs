@@ -4,10 +4,22 @@ use super::Count;
 use crate::field::Guidance;
 use crate::map::{SeamlessOptions, Sizing};
 use crate::mesh::mirror::Mirror;
-use crate::search::table::options;
+use crate::search::table::{options, words};
 use crate::search::{Options, Strategy};
 use crate::smooth::SmoothOptions;
 use crate::untangle::UntangleOptions;
+
+words! {
+    /// What sizes change near.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+    pub enum Near {
+        #[default]
+        Nothing = "nothing": "Nothing.",
+        Features = "features": "The features, the boundary among them where it is followed.",
+        Boundary = "boundary": "The boundary.",
+        Vertices = "vertices": "The vertices of the options.",
+    }
+}
 
 options! {
     /// How to make quads. By default, [`SeamlessOptions`] gives their number, and they follow the
@@ -18,7 +30,7 @@ options! {
 
     /// The options of quads, besides those of the guidance and of the two solves.
     QUAD_OPTIONS {
-        count: Count = Count::Exact, "exact" in Count::WORDS,
+        count: Count = Count::About, "about" in Count::WORDS,
             "exact: a number of quads is met within 1 %, or as nearly as a few maps of other sizes come; about: one map is made, whose number differs by up to a fifth";
         /// Several fields are tried on meshes that are not large, unless curvature has no weight or
         /// indices are prescribed.
@@ -27,6 +39,21 @@ options! {
         /// Fields and maps then belong to the refined mesh: see [`Quadrangulation`](super::Quadrangulation).
         refine: bool = true, "1" in "[0, 1]",
             "1: refine the mesh first where edges are longer than three edges of the quads or angles are below 2 degrees";
+        /// See [`SizeMetric`](super::SizeMetric).
+        adapt: f64 = 0.0, "0" in "[0, 1]",
+            "how far quads get smaller where the surface curves: 0: not at all, 1: until edges deviate from it equally far everywhere";
+        min_length: Option<f64> = None, "unset" in "(0, inf)",
+            "the least length of an edge of quads that is aimed at, in units of the mesh";
+        max_length: Option<f64> = None, "unset" in "(0, inf)",
+            "the largest length of an edge of quads that is aimed at, in units of the mesh";
+        gradation: f64 = 1.5, "1.5" in "(1, inf)",
+            "the ratio of the lengths of neighbouring edges that is aimed at where sizes vary, at most";
+        near: Near = Near::Nothing, "nothing" in Near::WORDS,
+            "what sizes change near, by distance along the surface";
+        near_size: f64 = 0.5, "0.5" in "(0, inf)",
+            "the factor of lengths there: below 1 quads are smaller there, above 1 larger";
+        near_distance: Option<f64> = None, "unset" in "(0, inf)",
+            "the distance up to which they change, in units of the mesh; unset: ten edges of quads";
         untangle: bool = true, "1" in "[0, 1]",
             "1: untangle the map if its folds keep extraction from making quads";
         stiffenings: usize = UntangleOptions::default().stiffenings, "5" in "[0, 1000]",
@@ -38,6 +65,10 @@ options! {
     and {
         /// The size of the quads.
         sizing: Sizing = Sizing::Quads(SeamlessOptions::default().quads);
+        /// How dense quads are at every vertex of the mesh, as a factor of the number of edges a length; empty: evenly.
+        density: Vec<f64> = Vec::new();
+        /// The vertices that quads change their size near, if [`near`](Self::near) says so.
+        near_vertices: Vec<usize> = Vec::new();
         /// The guidance. Features, and the boundary where it is aligned, become chains of edges.
         guidance: Guidance = Guidance {
             constrain_curvature: 0.005,

@@ -51,6 +51,11 @@ impl Part {
             sizing: self.sizing(whole, &options.sizing),
             guidance: self.guidance(whole, &options.guidance),
             smooth,
+            density: match options.density.is_empty() {
+                true => Vec::new(),
+                false => self.vertices.iter().map(|&v| options.density[v]).collect(),
+            },
+            near_vertices: self.own(&options.near_vertices),
             compare: Vec::new(),
             ..options.clone()
         }
@@ -65,6 +70,10 @@ impl Part {
             Sizing::Lengths(lengths) => {
                 Sizing::Lengths(self.faces.iter().map(|&face| lengths[face]).collect())
             }
+            Sizing::Graded { lengths, .. } => Sizing::Graded {
+                quads: (area / (edge * edge)).max(LEAST).round() as usize,
+                lengths: self.faces.iter().map(|&face| lengths[face]).collect(),
+            },
         }
     }
 
@@ -99,6 +108,12 @@ impl Part {
             feature_edges: self.edges(whole, &given.feature_edges),
             ..given.clone()
         }
+    }
+
+    /// Those of these vertices of the whole mesh that are vertices of the part.
+    fn own(&self, vertices: &[usize]) -> Vec<usize> {
+        let own = vertices.iter().map(|v| self.vertices.binary_search(v).ok());
+        own.flatten().collect()
     }
 
     /// The number of a face of the whole mesh in the part.

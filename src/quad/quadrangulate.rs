@@ -30,8 +30,8 @@ const FIRST: f64 = 0.97;
 /// mesh that are lost get smaller quads, and so does a mesh without any quads
 /// ([`Sizing::Lengths`](crate::map::Sizing::Lengths)).
 ///
-/// A number of quads is met within 1 %, or as nearly as a few maps of other sizes come, unless the options say
-/// [`Count::About`](super::Count::About), or the quads do not conform.
+/// With [`Count::Exact`](super::Count::Exact) a number of quads is met within 1 %, or as nearly as a few maps of
+/// other sizes come, unless the quads do not conform.
 ///
 /// Where quads still do not conform, those around the folds of the map are made smaller, at most four times,
 /// until there are more than four for each that was asked for. Where more than one triangle in twenty is folded,

@@ -92,6 +92,13 @@ impl RefinedInput {
                     let of_face = refined.face_origin.iter().map(|&f| lengths[f as usize]);
                     Sizing::Lengths(of_face.collect())
                 }
+                Sizing::Graded { quads, lengths } => {
+                    let of_face = refined.face_origin.iter().map(|&f| lengths[f as usize]);
+                    Sizing::Graded {
+                        quads: *quads,
+                        lengths: of_face.collect(),
+                    }
+                }
                 other => other.clone(),
             },
             refined,

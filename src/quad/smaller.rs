@@ -32,6 +32,13 @@ pub(super) fn smaller_quads(
     let is_lost: Vec<bool> = parts.iter().map(|part| !part.is_conforming()).collect();
     let lengths: Vec<[f64; 2]> = match sizing {
         Sizing::Lengths(lengths) => lengths.clone(),
+        Sizing::Graded { quads, lengths } => {
+            let squares = |face: usize, length: f64| mesh.area(face) / (length * length);
+            let all = lengths.iter().enumerate();
+            let all: f64 = all.map(|(face, &length)| squares(face, length)).sum();
+            let scale = (all / *quads as f64).sqrt();
+            lengths.iter().map(|length| [scale * length; 2]).collect()
+        }
         other => vec![[other.edge_length(mesh); 2]; mesh.face_count()],
     };
     let mut room = vec![0.0; components.count];

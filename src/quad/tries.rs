@@ -168,6 +168,10 @@ fn finer(sizing: &Sizing, more: f64) -> Sizing {
     match sizing {
         Sizing::Quads(quads) => Sizing::Quads((more * *quads as f64).ceil() as usize),
         Sizing::EdgeLength(length) => Sizing::EdgeLength(shorter(*length)),
+        Sizing::Graded { quads, lengths } => Sizing::Graded {
+            quads: (more * *quads as f64).ceil() as usize,
+            lengths: lengths.clone(),
+        },
         Sizing::Lengths(lengths) => {
             Sizing::Lengths(lengths.iter().map(|pair| pair.map(shorter)).collect())
         }

@@ -365,7 +365,10 @@ pub(crate) fn hold<T: Default>(
                 let other = info.range.split('|').find(|&word| word != text);
                 OptionValue::Text(other.unwrap().into())
             }
-            OptionKind::Real => OptionValue::Real(0.25),
+            OptionKind::Real => OptionValue::Real(match allows(info.range, 0.25) {
+                true => 0.25,
+                false => 1.25,
+            }),
             OptionKind::Integer => match text.parse::<i64>() {
                 Ok(number) if allows(info.range, number - 1) => OptionValue::Integer(number - 1),
                 _ => OptionValue::Integer(1),

@@ -17,7 +17,7 @@ mod square;
 mod surface;
 
 use crate::error::{Error, Result};
-use crate::extract::QuadMesh;
+use crate::extract::{Origin, QuadMesh};
 use crate::mesh::TriangleMesh;
 use crate::mesh::features::FeatureGraph;
 use crate::mesh::vector::{add, scale, sub};
@@ -66,6 +66,17 @@ pub fn smooth(
     options: &SmoothOptions,
     monitor: &mut Monitor,
 ) -> Result<()> {
+    smooth_to(quads, mesh, options, None, monitor)
+}
+
+/// As [`smooth`], where edges of quads are to have these lengths, in any unit, in every face of the mesh.
+pub(crate) fn smooth_to(
+    quads: &mut QuadMesh,
+    mesh: &TriangleMesh,
+    options: &SmoothOptions,
+    lengths: Option<&[f64]>,
+    monitor: &mut Monitor,
+) -> Result<()> {
     let _span = span("smooth");
     check(options)?;
     let (_watch, _memory) = (monitor.watch(), mesh.watch_memory());
@@ -77,6 +88,7 @@ pub fn smooth(
     let mut surface = Surface::new(quads, mesh, &features)?;
     chains::close(quads, mesh, &mut surface);
     let home = quads.vertices.clone();
+    let sizes = lengths.map(|lengths| relative_sizes(quads, mesh, lengths));
     for round in 0..options.rounds {
         if monitor.finishes() || surface.has_spent_its_work() {
             break;
@@ -85,6 +97,7 @@ pub fn smooth(
         let size = square::mean_edge(quads);
         let targets = collect_in_parts(quads.quads.len(), LEAST, |q| {
             let corners = quads.quads[q].map(|v| quads.vertices[v as usize]);
+            let size = sizes.as_ref().map_or(size, |sizes| size * sizes[q]);
             square::closest(corners, size, options.uniformity)
         });
         let mut sum = vec![([0.0; 3], 0.0); quads.vertices.len()];
@@ -103,6 +116,32 @@ pub fn smooth(
     }
     mend::mend(quads, &mut surface);
     Ok(())
+}
+
+/// The length that edges of each quad are to have, over the mean of all, from the places where it was extracted.
+fn relative_sizes(quads: &QuadMesh, mesh: &TriangleMesh, lengths: &[f64]) -> Vec<f64> {
+    let of_vertex = |v: usize| {
+        let ring = mesh.ring(v);
+        let count = ring.len() as f64;
+        ring.map(|(face, _)| lengths[face]).sum::<f64>() / count
+    };
+    let of_origin = |&origin: &Origin| match origin {
+        Origin::Vertex(v) => Some(of_vertex(v)),
+        Origin::Face(face, _) => Some(lengths[face]),
+        Origin::Middle => None,
+    };
+    let at: Vec<Option<f64>> = quads.origins.iter().map(of_origin).collect();
+    let of_quad = |quad: &[u32; 4]| {
+        let known: Vec<f64> = quad.iter().filter_map(|&v| at[v as usize]).collect();
+        (!known.is_empty()).then(|| known.iter().sum::<f64>() / known.len() as f64)
+    };
+    let sizes: Vec<Option<f64>> = quads.quads.iter().map(of_quad).collect();
+    let known = sizes.iter().flatten();
+    let mean = known.clone().sum::<f64>() / known.count().max(1) as f64;
+    sizes
+        .iter()
+        .map(|size| size.map_or(1.0, |size| size / mean))
+        .collect()
 }
 
 fn check(options: &SmoothOptions) -> Result<()> {

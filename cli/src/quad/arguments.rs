@@ -34,6 +34,15 @@ pub struct Arguments {
     #[command(flatten)]
     pub sizing: SizingFlags,
 
+    /// Take from this file a number for each vertex: how dense quads are there, as a factor of the number of edges
+    /// along a length
+    #[arg(long, value_name = "DENSITY.txt")]
+    pub density: Option<PathBuf>,
+
+    /// A vertex that sizes change near with --near vertices; may be repeated
+    #[arg(long, value_name = "VERTEX")]
+    pub near_vertex: Vec<usize>,
+
     #[command(flatten)]
     pub directions: Directions,
 

@@ -1,6 +1,7 @@
 //! `roundel quad`: from a mesh to quads in one command.
 
 mod arguments;
+mod density;
 mod faults;
 mod mirrored;
 mod page;

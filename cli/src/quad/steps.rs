@@ -6,7 +6,7 @@ use roundel::mesh::TriangleMesh;
 use roundel::quad::{QuadOptions, Quadrangulation, quadrangulate};
 use roundel::{Options, Result};
 
-use super::Arguments;
+use super::{Arguments, density};
 use crate::changes::Changes;
 use crate::mesh::{Input, RepairCounts};
 use crate::output;
@@ -33,17 +33,25 @@ pub(super) fn solve(arguments: &Arguments) -> Result<Solved> {
     progress.limit(&mut map, started);
     let input = arguments.input.read(&arguments.mesh, arguments.json)?;
     arguments.directions.keep_numbers(&input)?;
+    input.keeps_numbers("--density", arguments.density.is_some())?;
+    input.keeps_numbers("--near-vertex", !arguments.near_vertex.is_empty())?;
     let Input {
         mesh,
         repair,
         changes,
     } = input;
+    let density = match &arguments.density {
+        Some(path) => density::read(path)?,
+        None => Vec::new(),
+    };
     let read_seconds = started.elapsed().as_secs_f64();
     let (mut guidance, features) = arguments.directions.of_map(&mesh)?;
     // Those of the command line's file are among them.
     guidance.feature_edges = features.edges().collect();
     let options = QuadOptions {
         sizing: arguments.sizing.of()?,
+        density,
+        near_vertices: arguments.near_vertex.clone(),
         guidance,
         vary_curvature: !arguments.directions.says_curvature(),
         field: Options {
@@ -82,7 +90,14 @@ pub(super) fn solve(arguments: &Arguments) -> Result<Solved> {
 fn check_outputs(arguments: &Arguments) -> Result<()> {
     let [lines, guide] = arguments.directions.files();
     let lengths = arguments.sizing.edge_lengths.as_deref();
-    let read = [Some(arguments.mesh.as_path()), lines, guide, lengths];
+    let density = arguments.density.as_deref();
+    let read = [
+        Some(arguments.mesh.as_path()),
+        lines,
+        guide,
+        lengths,
+        density,
+    ];
     let outputs = Outputs::of(&read, arguments.output.force)
         .write(arguments.out.as_ref(), Content::Mesh)?
         .write(arguments.report.as_ref(), PAGE)?

@@ -7,6 +7,7 @@ static void settings(fixture* f) {
     const roundel_status invalid = ROUNDEL_ERROR_INVALID_ARGUMENT;
     const roundel_status beyond = ROUNDEL_ERROR_OPTION_RANGE;
     const double lengths[3] = {1.0, 1.0, 1.0};
+    const int32_t bad_vertices[2] = {0, -1};
     roundel_option unknown;
     roundel_quad_options* q = NULL;
     BAD(f, roundel_quad_options_new(NULL), null, "quad options", NONE);
@@ -41,6 +42,17 @@ static void settings(fixture* f) {
     BAD(f, roundel_quad_options_add_mirror(q, NULL), null, "mirror", NONE);
     BAD(f, roundel_quad_options_add_mirror(q, "1,2,3"), invalid, "'1,2,3'", NONE);
     BAD(f, roundel_quad_options_set_real(q, "mirror_tolerance", -1), beyond, "-1", NONE);
+    BAD(f, roundel_quad_options_set_density(NULL, NULL, 0), null, "quad options", NONE);
+    BAD(f, roundel_quad_options_set_density(q, NULL, 2), null, "densities", NONE);
+    BAD(f, roundel_quad_options_set_near_vertices(NULL, 0, NULL), null, "quad options", NONE);
+    BAD(f, roundel_quad_options_set_near_vertices(q, 1, NULL), null, "vertices", NONE);
+    BAD(f, roundel_quad_options_set_near_vertices(q, 2, bad_vertices),
+        ROUNDEL_ERROR_INDEX_OUT_OF_RANGE, "vertices", 1);
+    BAD(f, roundel_quad_options_set_real(q, "adapt", 1.5), beyond, "[0, 1]", NONE);
+    BAD(f, roundel_quad_options_set_real(q, "min_length", 0.0), beyond, "(0,", NONE);
+    BAD(f, roundel_quad_options_set_real(q, "max_length", -1.0), beyond, "(0,", NONE);
+    BAD(f, roundel_quad_options_set_real(q, "gradation", 1.0), beyond, "(1,", NONE);
+    BAD(f, roundel_quad_options_set_text(q, "near", "far"), beyond, "features", NONE);
     BAD(f, roundel_quad_options_set_guidance(NULL, NULL), null, "quad options", NONE);
     BAD(f, roundel_quad_options_set_field_options(NULL, NULL), null, "quad options", NONE);
     BAD(f, roundel_quad_options_set_map_options(NULL, NULL), null, "quad options", NONE);
@@ -94,11 +106,46 @@ static void mirrors(fixture* f, const roundel_mesh* torus) {
     HOLDS(plane[0] == 0 && plane[1] == -1 && plane[2] == 0 && deviation < 0.1);
 }
 
+static void densities(fixture* f, const roundel_mesh* torus) {
+    double dense[256];
+    const int32_t far[1] = {1000000};
+    size_t vertices = 0;
+    roundel_quad_options* q = NULL;
+    roundel_quads* made = NULL;
+    GOOD(roundel_mesh_vertex_count(torus, &vertices));
+    HOLDS(vertices <= 256);
+    for (size_t v = 0; v < 256; ++v) {
+        dense[v] = 1.0;
+    }
+    GOOD(roundel_quad_options_new(&q));
+    GOOD(roundel_quad_options_set_density(q, dense, 2));
+    BAD(f, roundel_quads_make(torus, q, NULL, &made), ROUNDEL_ERROR_LENGTH_MISMATCH, "densities",
+        NONE);
+    dense[7] = 0.0;
+    GOOD(roundel_quad_options_set_density(q, dense, vertices));
+    BAD(f, roundel_quads_make(torus, q, NULL, &made), ROUNDEL_ERROR_INVALID_ARGUMENT, "above 0", 7);
+    dense[7] = (double)NAN;
+    GOOD(roundel_quad_options_set_density(q, dense, vertices));
+    BAD(f, roundel_quads_make(torus, q, NULL, &made), ROUNDEL_ERROR_NOT_FINITE, "densities", 7);
+    GOOD(roundel_quad_options_set_density(q, NULL, 0));
+    GOOD(roundel_quad_options_set_text(q, "near", "vertices"));
+    GOOD(roundel_quad_options_set_near_vertices(q, 1, far));
+    BAD(f, roundel_quads_make(torus, q, NULL, &made), ROUNDEL_ERROR_INDEX_OUT_OF_RANGE, "near", 0);
+    GOOD(roundel_quad_options_set_near_vertices(q, 0, NULL));
+    GOOD(roundel_quad_options_set_real(q, "min_length", 2.0));
+    GOOD(roundel_quad_options_set_real(q, "max_length", 1.0));
+    BAD(f, roundel_quads_make(torus, q, NULL, &made), ROUNDEL_ERROR_INVALID_ARGUMENT, "largest",
+        NONE);
+    HOLDS(made == NULL);
+    GOOD(roundel_quad_options_free(q));
+}
+
 void bad_quads(fixture* f) {
     roundel_mesh* torus = NULL;
     GOOD(roundel_mesh_make_shape("torus", 200, &torus));
     settings(f);
     sizes(f, torus);
     mirrors(f, torus);
+    densities(f, torus);
     GOOD(roundel_mesh_free(torus));
 }

@@ -72,12 +72,19 @@ void unset_quad_options_have_the_librarys_defaults() {
     runs_are_followed_and_finished(mesh);
 
     // Every option has an effect.
+    std::vector<double> rising(mesh.vertices().size() / 3);
+    for (std::size_t v = 0; v < rising.size(); ++v) {
+        rising[v] = 1.0 + static_cast<double>(v) / static_cast<double>(rising.size());
+    }
     const std::vector<QuadOptions> others = {
         QuadOptions().set_quads(150).set_constrain_curvature(0.5),
         QuadOptions().set_quads(150).set_detail(0.7),
         QuadOptions().set_quads(150).set_smooth(false),
         QuadOptions().set_edge_length(0.1),
         QuadOptions().set_edge_lengths(std::vector<double>(2 * mesh.faces(), 0.3)),
+        QuadOptions().set_quads(150).set_adapt(1.0),
+        QuadOptions().set_quads(150).set_near("vertices").set_near_vertices({0}),
+        QuadOptions().set_quads(150).set_density(rising),
     };
     for (const auto& other : others) {
         const auto made = roundel::quadrangulate(mesh, other);

@@ -28,6 +28,10 @@ struct QuadOptions {
     /// bounding box; the side of larger coordinates is kept), "-x", "-y", "-z" (the other side),
     /// "auto" (the plane is found) or "NX,NY,NZ,D". See Mesh::mirror_plane.
     std::vector<std::string> mirror = {};
+    /// How dense quads are at every vertex, as a factor of the number of their edges along a length.
+    std::vector<double> density = {};
+    /// The vertices that sizes change near, where `near` is "vertices".
+    std::vector<std::int32_t> near_vertices = {};
     /// Edges that become chains of edges of the quads, instead of the boundary alone.
     std::optional<Features> features = std::nullopt;
     // Table of options: members.
@@ -127,6 +131,14 @@ struct QuadOptions {
     }
     QuadOptions& set_mirror(std::vector<std::string> value) {
         mirror = std::move(value);
+        return *this;
+    }
+    QuadOptions& set_density(std::vector<double> value) {
+        density = std::move(value);
+        return *this;
+    }
+    QuadOptions& set_near_vertices(std::vector<std::int32_t> value) {
+        near_vertices = std::move(value);
         return *this;
     }
     QuadOptions& set_features(Features value) {
@@ -392,7 +404,13 @@ inline QuadOptionsHandle handle_for(const QuadOptions& options, Status* status) 
         (!curved || tell("vary_curvature", false)) && each_quad_option(options, tell) &&
         (lengths.empty() ||
          check(roundel_quad_options_set_edge_lengths(made, lengths.data(), lengths.size()),
-               status));
+               status)) &&
+        check(roundel_quad_options_set_density(made, options.density.data(),
+                                               options.density.size()),
+              status) &&
+        check(roundel_quad_options_set_near_vertices(made, options.near_vertices.size(),
+                                                     options.near_vertices.data()),
+              status);
     for (const auto& plane : options.mirror) {
         if (!told || !check(roundel_quad_options_add_mirror(made, plane.c_str()), status)) {
             return nullptr;

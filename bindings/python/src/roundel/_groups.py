@@ -96,7 +96,25 @@ _MIRROR = Keyword(
 _OF_TABLE = Group("The quads", of_table(quad_options())).but(
     edge_length={"type": "Union[float, ArrayLike, None]", "text": _LENGTHS}
 )
-QUADS = Group("The quads", (*_OF_TABLE.keywords, _MIRROR))
+QUADS = Group(
+    "The quads",
+    (
+        *_OF_TABLE.keywords,
+        _MIRROR,
+        Keyword(
+            "density",
+            "Optional[ArrayLike]",
+            None,
+            "How dense quads are at every vertex, as a factor of the number of their edges along a length.",
+        ),
+        Keyword(
+            "near_vertices",
+            "Optional[ArrayLike]",
+            None,
+            "The vertices that sizes change near, where `near` is 'vertices'.",
+        ),
+    ),
+)
 
 #: The options of repair.
 REPAIR = Group("What may be done beyond what a mesh needs", of_table(repair_options()))

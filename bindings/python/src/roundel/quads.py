@@ -11,7 +11,7 @@ from ._groups import QUADS, SOLVE, TUNING, WATCH
 from ._handle import Handle, number
 from ._library import ffi, lib, path
 from ._types import ArrayLike, File, MeshLike
-from .arrays import pointer, reals
+from .arrays import indices32, pointer, reals
 from .errors import ArgumentTypeError, check, refusal
 from .events import Progress
 from .guidance import GUIDANCE, guidance_handle, says_curvature, split
@@ -295,6 +295,13 @@ def quad(
     for plane in [mirror] if isinstance(mirror, str) else mirror:
         word = plane if isinstance(plane, str) else ",".join(repr(float(x)) for x in plane)
         check(lib.roundel_quad_options_add_mirror(how.pointer, word.encode()))
+    density, near = own.pop("density", None), own.pop("near_vertices", None)
+    if density is not None:
+        dense = reals(density, "density")
+        check(lib.roundel_quad_options_set_density(how.pointer, pointer(dense), dense.size))
+    if near is not None:
+        near = indices32(near, "near_vertices")
+        check(lib.roundel_quad_options_set_near_vertices(how.pointer, near.size, pointer(near)))
     for name, value in own.items():
         set_option(how.pointer, "quad_options", name, value)
     watch = Watch(progress, cancel)
