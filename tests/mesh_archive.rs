@@ -15,13 +15,13 @@ use std::process::Command;
 use std::sync::OnceLock;
 
 use roundel::check::{CheckOptions, check_map};
+use roundel::extract::QuadMesh;
 use roundel::field::solve_field;
 use roundel::map::{SeamlessProblem, Sizing};
 use roundel::mesh::features::FeatureGraph;
 use roundel::mesh::refine::needs_refinement;
 use roundel::mesh::vector::{Vec3, add, norm, scale, sub};
 use roundel::mesh::{ClosestPoint, MeshError, TriangleMesh, io};
-use roundel::extract::QuadMesh;
 use roundel::quad::{FoldFreeMap, QuadOptions, RefinedInput, quadrangulate, solve_fold_free};
 use roundel::smooth::QuadQuality;
 use roundel::untangle::UntangleOptions;
@@ -348,7 +348,10 @@ fn quads_whose_sizes_follow_curvature_conform() {
         let mesh = load(&folder, name).unwrap();
         let quads = adapted(&mesh, 1_000, 1.0);
         let inverted = QuadQuality::new(&quads).inverted;
-        println!("{name:<26} {} quads, {inverted} inverted", quads.quads.len());
+        println!(
+            "{name:<26} {} quads, {inverted} inverted",
+            quads.quads.len()
+        );
         assert!(quads.is_conforming() && inverted == 0, "{name}");
     }
 }

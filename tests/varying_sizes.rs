@@ -42,7 +42,10 @@ fn lengths(quads: &QuadMesh, height: f64) -> [f64; 2] {
 #[test]
 fn edges_are_shorter_where_the_density_is_higher() {
     let mesh = by_name("sphere", 3_000).unwrap();
-    let density = mesh.vertices().iter().map(|p| if p[2] > 0.0 { 2.0 } else { 1.0 });
+    let density = mesh
+        .vertices()
+        .iter()
+        .map(|p| if p[2] > 0.0 { 2.0 } else { 1.0 });
     let made = quads(
         &mesh,
         QuadOptions {

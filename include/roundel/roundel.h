@@ -2967,6 +2967,22 @@ roundel_status roundel_quad_options_set_edge_lengths(struct roundel_quad_options
                                                      size_t length);
 
 /**
+ * Sets how dense quads are at every vertex of the mesh, as a factor of the number of their edges along a length;
+ * none, if `length` is 0: evenly. All densities are above 0, and `length` is the number of vertices: both are
+ * checked when quads are made.
+ */
+roundel_status roundel_quad_options_set_density(struct roundel_quad_options *options,
+                                                const double *densities,
+                                                size_t length);
+
+/**
+ * Sets the vertices that sizes change near where the option `near` is "vertices".
+ */
+roundel_status roundel_quad_options_set_near_vertices(struct roundel_quad_options *options,
+                                                      size_t count,
+                                                      const int32_t *vertices);
+
+/**
  * Sets the guidance of the quads to a copy of `guidance`. NULL stands for the boundary and the
  * curvature, as roundel_guidance_new_for_quads makes it.
  */

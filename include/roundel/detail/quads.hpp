@@ -28,7 +28,8 @@ struct QuadOptions {
     /// bounding box; the side of larger coordinates is kept), "-x", "-y", "-z" (the other side),
     /// "auto" (the plane is found) or "NX,NY,NZ,D". See Mesh::mirror_plane.
     std::vector<std::string> mirror = {};
-    /// How dense quads are at every vertex, as a factor of the number of their edges along a length.
+    /// How dense quads are at every vertex, as a factor of the number of their edges along a
+    /// length.
     std::vector<double> density = {};
     /// The vertices that sizes change near, where `near` is "vertices".
     std::vector<std::int32_t> near_vertices = {};
@@ -56,6 +57,25 @@ struct QuadOptions {
     /// 1: refine the mesh first where edges are longer than three edges of the quads or angles are
     /// below 2 degrees. In [0, 1]; 1 by default.
     std::optional<bool> refine = std::nullopt;
+    /// How far quads get smaller where the surface curves: 0: not at all, 1: until edges deviate
+    /// from it equally far everywhere. In [0, 1]; 0 by default.
+    std::optional<double> adapt = std::nullopt;
+    /// The least length of an edge of quads that is aimed at, in units of the mesh. In (0, inf).
+    std::optional<double> min_length = std::nullopt;
+    /// The largest length of an edge of quads that is aimed at, in units of the mesh. In (0, inf).
+    std::optional<double> max_length = std::nullopt;
+    /// The ratio of the lengths of neighbouring edges that is aimed at where sizes vary, at most.
+    /// In (1, inf); 1.5 by default.
+    std::optional<double> gradation = std::nullopt;
+    /// What sizes change near, by distance along the surface. One of nothing, features, boundary,
+    /// vertices; nothing by default.
+    std::optional<std::string> near = std::nullopt;
+    /// The factor of lengths there: below 1 quads are smaller there, above 1 larger. In (0, inf);
+    /// 0.5 by default.
+    std::optional<double> near_size = std::nullopt;
+    /// The distance up to which they change, in units of the mesh; unset: ten edges of quads. In
+    /// (0, inf).
+    std::optional<double> near_distance = std::nullopt;
     /// 1: untangle the map if its folds keep extraction from making quads. In [0, 1]; 1 by default.
     std::optional<bool> untangle = std::nullopt;
     /// The number of times that untangling first stiffens the surroundings of folded triangles. In
@@ -102,6 +122,34 @@ struct QuadOptions {
     }
     QuadOptions& set_refine(bool value) {
         refine = value;
+        return *this;
+    }
+    QuadOptions& set_adapt(double value) {
+        adapt = value;
+        return *this;
+    }
+    QuadOptions& set_min_length(double value) {
+        min_length = value;
+        return *this;
+    }
+    QuadOptions& set_max_length(double value) {
+        max_length = value;
+        return *this;
+    }
+    QuadOptions& set_gradation(double value) {
+        gradation = value;
+        return *this;
+    }
+    QuadOptions& set_near(std::string value) {
+        near = std::move(value);
+        return *this;
+    }
+    QuadOptions& set_near_size(double value) {
+        near_size = value;
+        return *this;
+    }
+    QuadOptions& set_near_distance(double value) {
+        near_distance = value;
         return *this;
     }
     QuadOptions& set_untangle(bool value) {
@@ -332,6 +380,27 @@ template <class Tell> bool each_quad_option(const QuadOptions& options, const Te
     if (options.refine && !tell("refine", *options.refine)) {
         return false;
     }
+    if (options.adapt && !tell("adapt", *options.adapt)) {
+        return false;
+    }
+    if (options.min_length && !tell("min_length", *options.min_length)) {
+        return false;
+    }
+    if (options.max_length && !tell("max_length", *options.max_length)) {
+        return false;
+    }
+    if (options.gradation && !tell("gradation", *options.gradation)) {
+        return false;
+    }
+    if (options.near && !tell("near", *options.near)) {
+        return false;
+    }
+    if (options.near_size && !tell("near_size", *options.near_size)) {
+        return false;
+    }
+    if (options.near_distance && !tell("near_distance", *options.near_distance)) {
+        return false;
+    }
     if (options.untangle && !tell("untangle", *options.untangle)) {
         return false;
     }
@@ -405,9 +474,9 @@ inline QuadOptionsHandle handle_for(const QuadOptions& options, Status* status) 
         (lengths.empty() ||
          check(roundel_quad_options_set_edge_lengths(made, lengths.data(), lengths.size()),
                status)) &&
-        check(roundel_quad_options_set_density(made, options.density.data(),
-                                               options.density.size()),
-              status) &&
+        check(
+            roundel_quad_options_set_density(made, options.density.data(), options.density.size()),
+            status) &&
         check(roundel_quad_options_set_near_vertices(made, options.near_vertices.size(),
                                                      options.near_vertices.data()),
               status);
