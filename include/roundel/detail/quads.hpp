@@ -48,7 +48,7 @@ struct QuadOptions {
     /// 1]; 1 by default.
     std::optional<bool> smooth = std::nullopt;
     /// Exact: a number of quads is met within 1 %, or as nearly as a few maps of other sizes come;
-    /// about: one map is made, whose number differs by up to a fifth. One of exact, about; exact by
+    /// about: one map is made, whose number differs by up to a fifth. One of exact, about; about by
     /// default.
     std::optional<std::string> count = std::nullopt;
     /// 1: also try fields that follow curvature less than the guidance says, and keep the field
@@ -81,6 +81,9 @@ struct QuadOptions {
     /// The number of times that untangling first stiffens the surroundings of folded triangles. In
     /// [0, 1000]; 5 by default.
     std::optional<std::int64_t> stiffenings = std::nullopt;
+    /// How far a mirror plane may move a vertex from the surface, as a part of the diagonal of the
+    /// bounding box. In [0, 1]; 0.05 by default.
+    std::optional<double> mirror_tolerance = std::nullopt;
     /// The fraction of the faces that take the direction of least absolute curvature: those where
     /// it is most reliable. In [0, 1]; 0.005 by default.
     std::optional<double> constrain_curvature = std::nullopt;
@@ -158,6 +161,10 @@ struct QuadOptions {
     }
     QuadOptions& set_stiffenings(std::int64_t value) {
         stiffenings = value;
+        return *this;
+    }
+    QuadOptions& set_mirror_tolerance(double value) {
+        mirror_tolerance = value;
         return *this;
     }
     QuadOptions& set_constrain_curvature(double value) {
@@ -405,6 +412,9 @@ template <class Tell> bool each_quad_option(const QuadOptions& options, const Te
         return false;
     }
     if (options.stiffenings && !tell("stiffenings", *options.stiffenings)) {
+        return false;
+    }
+    if (options.mirror_tolerance && !tell("mirror_tolerance", *options.mirror_tolerance)) {
         return false;
     }
     return true;

@@ -1,3 +1,5 @@
+//! Sizes that vary: bounds, gradation, the scale that keeps the number of quads, and bad input.
+
 use super::*;
 use crate::mesh::shape::by_name;
 
