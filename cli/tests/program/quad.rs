@@ -47,7 +47,7 @@ fn mirrored_quads_tell_their_planes_and_have_as_many_vertices_on_both_sides() {
     let scratch = Scratch::new("quad-mirror");
     let file = scratch.path("quads.obj");
     let words = ["quad", "shape:torus:1000", "--quads", "300", "--mirror"];
-    let (code, report) = run(&[&words[..], &["-x", "--json", "-o", text(&file)]].concat());
+    let (code, report) = run(&[&words[..], &["-1,0,0,0", "--json", "-o", text(&file)]].concat());
     assert_eq!(code, 0, "{report}");
     assert_eq!(report["conforming"], json!(true), "{report}");
     assert_eq!(report["mirror"][0]["normal"], json!([-1.0, 0.0, 0.0]));
