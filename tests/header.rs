@@ -32,6 +32,7 @@ const SOURCES: &[&str] = &[
     "files",
     "mesh",
     "mesh_files",
+    "mirror",
     "soup",
     "edit_kind",
     "repair_options",

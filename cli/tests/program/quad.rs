@@ -43,6 +43,28 @@ fn a_shape_becomes_quads_of_its_topology() {
 }
 
 #[test]
+fn mirrored_quads_tell_their_planes_and_have_as_many_vertices_on_both_sides() {
+    let scratch = Scratch::new("quad-mirror");
+    let file = scratch.path("quads.obj");
+    let words = ["quad", "shape:torus:1000", "--quads", "300", "--mirror"];
+    let (code, report) = run(&[&words[..], &["-1,0,0,0", "--json", "-o", text(&file)]].concat());
+    assert_eq!(code, 0, "{report}");
+    assert_eq!(report["conforming"], json!(true), "{report}");
+    assert_eq!(report["mirror"][0]["normal"], json!([-1.0, 0.0, 0.0]));
+    let content = fs::read_to_string(&file).unwrap();
+    let vertices = content.lines().filter_map(|line| line.strip_prefix("v "));
+    let points = vertices.map(|line| line.split(' ').map(|x| x.parse().unwrap()).collect());
+    let points: Vec<Vec<f64>> = points.collect();
+    let has_image = |p: &Vec<f64>| points.contains(&vec![-p[0], p[1], p[2]]);
+    assert!(points.iter().all(has_image));
+    assert!(points.iter().any(|p| p[0] == 0.0));
+    for plane in ["1,0,0,9", "w"] {
+        let (code, output) = finish(program(&[&words[..], &[plane, "--json"]].concat()));
+        assert!(code == 1 || code == 2, "{plane}: {code} {output:?}");
+    }
+}
+
+#[test]
 fn maps_of_other_programs_are_extracted() {
     let scratch = Scratch::new("quad-extract");
     let (map, file) = (scratch.path("uv.obj"), scratch.path("quads.obj"));

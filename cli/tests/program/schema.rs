@@ -175,7 +175,7 @@ fn every_command_prints_what_the_schema_says() {
     fs::write(&folded, format!("{square}f 1/1 2/2 3/3\nf 1/1 3/3 4/2\n")).unwrap();
     let shape = "shape:torus:300";
     let proof = path("proof.jsonl");
-    let runs: [(&str, &[&str]); 18] = [
+    let runs: [(&str, &[&str]); 19] = [
         ("solve", &["solve", &problem]),
         ("solve", &["solve", &problem, "--strategy", "relax"]),
         ("solve", &["solve", &problem, "--proof", &proof]),
@@ -207,6 +207,10 @@ fn every_command_prints_what_the_schema_says() {
             ],
         ),
         ("quad", &["quad", "shape:gear:200", "--quads", "300"]),
+        (
+            "quad",
+            &["quad", shape, "--mirror", "auto", "--mirror", "-z"],
+        ),
         ("repaired", &["repair", &soup]),
         ("failure", &["quad", "nothing.obj"]),
         ("failure", &["solve", &problem, "--time-limit", "0"]),

@@ -197,8 +197,8 @@ class Mesh:
         distance of a mirrored vertex from the surface, as a part of the diagonal of the bounding box.
 
         >>> import roundel
-        >>> normal, offset, deviation = roundel.Mesh.shape("torus", 600).mirror_plane("-x")
-        >>> normal.tolist(), offset, deviation < 1e-9
+        >>> normal, offset, deviation = roundel.Mesh.shape("torus", 600).mirror_plane("-1,0,0,0")
+        >>> normal.tolist(), offset, deviation < 0.05
         ([-1.0, 0.0, 0.0], 0.0, True)
         """
         found, deviation = np.empty(4), ffi.new("double *")
