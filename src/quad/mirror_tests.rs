@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::{QuadOptions, Quadrangulation, quadrangulate};
+use super::{Near, QuadOptions, Quadrangulation, quadrangulate};
 use crate::error::Result;
 use crate::extract::{Origin, QuadMesh};
 use crate::field::PrescribedIndex;
@@ -160,6 +160,34 @@ fn components_on_both_sides_need_no_seam() {
         asymmetric(&found.quads, &found.mirrored.unwrap().planes[0], 1e-12),
         0
     );
+}
+
+#[test]
+fn a_density_is_that_of_the_side_that_is_kept() {
+    let mesh = by_name("torus", 3000).unwrap();
+    let is_high = |p: &Vec3| p[1] > 0.0;
+    let mut options = options(&["x"], 800);
+    options.density = mesh
+        .vertices()
+        .iter()
+        .map(|p| if is_high(p) { 2.0 } else { 1.0 })
+        .collect();
+    let quads = made(&mesh, &options).unwrap().quads;
+    assert!(quads.is_conforming());
+    let high = quads.vertices.iter().filter(|p| is_high(p)).count();
+    assert!(3 * high > 2 * quads.vertices.len(), "{high}");
+    // Vertices on the other side change nothing.
+    let beyond = (0..mesh.vertex_count()).find(|&v| mesh.position(v)[0] < -0.1);
+    options.density.clear();
+    let evenly = made(&mesh, &options).unwrap().quads;
+    options.near = Near::Vertices;
+    options.near_vertices = vec![beyond.unwrap()];
+    assert_eq!(
+        made(&mesh, &options).unwrap().quads.vertices,
+        evenly.vertices
+    );
+    options.density = vec![1.0; 3];
+    assert_eq!(made(&mesh, &options).unwrap_err().code(), "length_mismatch");
 }
 
 #[test]

@@ -3,7 +3,8 @@
 
 use super::mirror_images::{Seams, with_image};
 use super::refined_input::{divided, weights};
-use super::{QuadOptions, Quadrangulation, quadrangulate};
+use super::size_metric::SizeMetric;
+use super::{Near, QuadOptions, Quadrangulation, quadrangulate};
 use crate::error::{Error, Result};
 use crate::extract::Origin;
 use crate::map::Sizing;
@@ -36,6 +37,7 @@ pub(super) fn mirrored<'a>(
     let (planes, half, given) = with_threads(options.field.threads, || {
         let (_watch, _memory) = (monitor().watch(), mesh.watch_memory());
         options.sizing.check(mesh)?;
+        SizeMetric::check(mesh, options)?;
         let planes = mirror_planes(mesh, &options.mirror, options.mirror_tolerance)?;
         let half = Half::new(mesh, &planes)?;
         let given = of_half(mesh, &half, options)?;
@@ -70,6 +72,11 @@ fn of_half(mesh: &TriangleMesh, half: &Half, options: &QuadOptions) -> Result<Qu
         None => None,
     };
     let images = 1 << options.mirror.len();
+    let is_near = |&v: &usize| {
+        let origin = half.vertex_origin[v];
+        origin.is_some_and(|w| options.near_vertices.contains(&(w as usize)))
+    };
+    let near_vertices: Vec<usize> = (0..half.mesh.vertex_count()).filter(is_near).collect();
     Ok(QuadOptions {
         sizing: match &options.sizing {
             Sizing::Quads(quads) => Sizing::Quads(quads.div_ceil(images)),
@@ -77,13 +84,40 @@ fn of_half(mesh: &TriangleMesh, half: &Half, options: &QuadOptions) -> Result<Qu
                 let of_face = half.face_origin.iter().map(|&f| lengths[f as usize]);
                 Sizing::Lengths(of_face.collect())
             }
+            Sizing::Graded { quads, lengths } => Sizing::Graded {
+                quads: quads.div_ceil(images),
+                lengths: (half.face_origin.iter())
+                    .map(|&f| lengths[f as usize])
+                    .collect(),
+            },
             other => other.clone(),
         },
         guidance,
         smooth,
+        density: of_vertices(mesh, half, &options.density),
+        near: match options.near {
+            Near::Vertices if near_vertices.is_empty() => Near::Nothing,
+            near => near,
+        },
+        near_vertices,
         mirror: Vec::new(),
         ..options.clone()
     })
+}
+
+/// The values of the part's vertices; those that the cut made have the mean of a face of the mesh beside them.
+fn of_vertices(mesh: &TriangleMesh, half: &Half, values: &[f64]) -> Vec<f64> {
+    if values.is_empty() {
+        return Vec::new();
+    }
+    let of = |v: usize| match half.vertex_origin[v] {
+        Some(origin) => values[origin as usize],
+        None => half.mesh.ring(v).next().map_or(1.0, |(face, _)| {
+            let corners = mesh.corners(half.face_origin[face] as usize);
+            corners.iter().map(|&w| values[w]).sum::<f64>() / 3.0
+        }),
+    };
+    (0..half.mesh.vertex_count()).map(of).collect()
 }
 
 /// A direction of a face that is not there is an error here: the part has other faces.
