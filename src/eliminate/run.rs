@@ -11,8 +11,11 @@ use super::{
 };
 use crate::error::Result;
 use crate::linalg::{Ordering, Sparse, principal_submatrix};
-use crate::monitor::{Monitor, Phase, may_continue, span};
+use crate::monitor::{Monitor, Phase, both, may_continue, span};
 use crate::problem::Model;
+
+/// The least number of unknowns that are worth a thread.
+const LEAST: usize = 1 << 14;
 
 /// Eliminates the equality constraints and the pinned unknowns of `model`, in an order that keeps the reduced
 /// Hessian sparse.
@@ -142,18 +145,26 @@ impl Elimination {
         free: &[u32],
     ) -> Result<ReducedModel> {
         let expansion = Expansion::new(Arc::clone(matrix), offset);
-        let (gradient, constant) = project::linear(model, &expansion)?;
-        may_continue()?;
         let is_integer = |&y: &u32| self.record.unknowns.integer[free[y as usize] as usize];
-        let (integers, continuous) = (0..free.len() as u32).partition(is_integer);
-        let guess = self.definitions.evaluate(model.guess());
+        let (linear, (integers, continuous, guess)) = both(
+            free.len() >= LEAST,
+            || project::linear(model, &expansion),
+            || {
+                let (integers, continuous) = (0..free.len() as u32).partition(is_integer);
+                let guess = self.definitions.evaluate(model.guess());
+                let guess = free.iter().map(|&u| guess[u as usize]).collect();
+                (integers, continuous, guess)
+            },
+        );
+        let (gradient, constant) = linear?;
+        may_continue()?;
         Ok(ReducedModel {
             hessian: Arc::clone(hessian),
             gradient,
             constant,
             integers,
             continuous,
-            guess: free.iter().map(|&u| guess[u as usize]).collect(),
+            guess,
             origin: Vec::new(),
             rounding: Rounding::default(),
             free: free.to_vec(),

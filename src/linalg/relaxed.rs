@@ -11,7 +11,9 @@ use super::local_integers::local_integers;
 use super::minimise::{CANCELLED, Lowest, Minimum, minimise};
 use super::{Cholesky, NO_PLACE, Ordering, Sparse, coupling, places};
 use crate::error::Result;
-use crate::monitor::{collect_in_parts, in_parts, may_continue, may_continue_at};
+use crate::monitor::{
+    collect_in_parts, for_each_part, in_parts, may_continue, may_continue_at, parts_of,
+};
 
 /// The least number of rows that are worth a thread.
 const LEAST: usize = 1 << 13;
@@ -168,15 +170,24 @@ impl RelaxedFactor {
     /// Copies the values of the other unknowns into `b` and computes the local integers from their right
     /// sides in `b`.
     fn embed(&self, inner: &[f64], b: &mut [f64]) {
-        for (k, &p) in self.local.iter().enumerate() {
-            let pull: f64 = self.coupling.row(k).map(|(i, v)| v * inner[i]).sum();
-            b[p as usize] = (b[p as usize] - pull) / self.curvature[k];
-        }
-        for (b, &place) in b.iter_mut().zip(&self.place) {
-            if place != NO_PLACE {
-                *b = inner[place as usize];
+        let mut rest = b;
+        let parts = parts_of(self.place.len(), LEAST).into_iter().map(|range| {
+            let (part, others) = std::mem::take(&mut rest).split_at_mut(range.len());
+            rest = others;
+            (range, part)
+        });
+        for_each_part(parts.collect(), |(range, part)| {
+            let mut k = self.local.partition_point(|&p| (p as usize) < range.start);
+            for (b, &place) in part.iter_mut().zip(&self.place[range]) {
+                if place != NO_PLACE {
+                    *b = inner[place as usize];
+                    continue;
+                }
+                let pull: f64 = self.coupling.row(k).map(|(i, v)| v * inner[i]).sum();
+                *b = (*b - pull) / self.curvature[k];
+                k += 1;
             }
-        }
+        });
     }
 }
 

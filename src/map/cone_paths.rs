@@ -9,15 +9,15 @@ use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 use crate::error::Result;
-use crate::mesh::TriangleMesh;
+use crate::mesh::{Components, TriangleMesh};
 use crate::monitor::{collect_in_parts, may_continue_at};
 
 /// The least number of edges that are worth a thread.
 const LEAST: usize = 1 << 14;
 
 /// Adds the paths to `is_cut`.
-pub(super) fn join_cones(mesh: &TriangleMesh, cones: &[usize], is_cut: &mut [bool]) -> Result<()> {
-    let mut sweep = Sweep::new(mesh, cones);
+pub(super) fn join_cones(mut sweep: Sweep, cones: &[usize], is_cut: &mut [bool]) -> Result<()> {
+    let mesh = sweep.mesh;
     for (e, edge) in mesh.edges().enumerate() {
         if is_cut[e] || edge.second.is_none() {
             edge.vertices.into_iter().for_each(|v| sweep.start(v));
@@ -37,8 +37,10 @@ pub(super) fn join_cones(mesh: &TriangleMesh, cones: &[usize], is_cut: &mut [boo
     Ok(())
 }
 
-struct Sweep<'a> {
+/// The sweep, which starts from nothing yet.
+pub(super) struct Sweep<'a> {
     mesh: &'a TriangleMesh,
+    components: Components,
     /// The length of every edge.
     length: Vec<f64>,
     distance: Vec<f64>,
@@ -51,7 +53,7 @@ struct Sweep<'a> {
 }
 
 impl<'a> Sweep<'a> {
-    fn new(mesh: &'a TriangleMesh, cones: &[usize]) -> Self {
+    pub(super) fn new(mesh: &'a TriangleMesh, cones: &[usize]) -> Self {
         let mut is_open = vec![false; mesh.vertex_count()];
         cones.iter().for_each(|&v| is_open[v] = true);
         let length = |e| {
@@ -60,6 +62,7 @@ impl<'a> Sweep<'a> {
         };
         Sweep {
             mesh,
+            components: mesh.components(),
             length: collect_in_parts(mesh.edge_count(), LEAST, length),
             distance: vec![f64::INFINITY; mesh.vertex_count()],
             via: vec![0; mesh.vertex_count()],
@@ -84,7 +87,7 @@ impl<'a> Sweep<'a> {
     /// Starts at one vertex of every component that has neither cut nor boundary, and returns
     /// these: the lowest cone there, or the lowest vertex.
     fn seed_closed_spheres(&mut self, cones: &[usize]) -> Vec<usize> {
-        let components = self.mesh.components();
+        let components = &self.components;
         let of_vertex = |v: usize| {
             let face = self.mesh.ring(v).next().map_or(0, |(face, _)| face);
             components.of_face[face] as usize

@@ -7,10 +7,13 @@
 
 use std::collections::VecDeque;
 
-use super::cone_paths::join_cones;
+use super::cone_paths::{Sweep, join_cones};
 use crate::error::{Error, Result};
 use crate::mesh::TriangleMesh;
-use crate::monitor::{may_continue, may_continue_at};
+use crate::monitor::{both, may_continue, may_continue_at};
+
+/// The least number of faces that are worth a thread.
+const LEAST: usize = 1 << 14;
 
 /// A set of interior edges that cuts each component into one disk without a cone in its interior.
 ///
@@ -36,11 +39,19 @@ impl CutGraph {
                 len: vertices,
             });
         }
-        let mut is_cut = edges_off_the_dual_tree(mesh)?;
-        may_continue()?;
-        prune(mesh, &mut is_cut)?;
-        may_continue()?;
-        join_cones(mesh, cones, &mut is_cut)?;
+        let (is_cut, sweep) = both(
+            mesh.face_count() >= LEAST,
+            || -> Result<_> {
+                let mut is_cut = edges_off_the_dual_tree(mesh)?;
+                may_continue()?;
+                prune(mesh, &mut is_cut)?;
+                may_continue()?;
+                Ok(is_cut)
+            },
+            || Sweep::new(mesh, cones),
+        );
+        let mut is_cut = is_cut?;
+        join_cones(sweep, cones, &mut is_cut)?;
         Ok(CutGraph { is_cut })
     }
 

@@ -19,7 +19,7 @@ use super::sectors::Sectors;
 use crate::error::Result;
 use crate::mesh::TriangleMesh;
 use crate::mesh::vector::{Vec3, cotangent, cross, dot, norm, sub};
-use crate::monitor::{collect_in_parts, may_continue, may_continue_at};
+use crate::monitor::{both, collect_in_parts, may_continue, may_continue_at};
 use crate::problem::{Problem, Triangle};
 
 /// The least number of faces that are worth a thread.
@@ -56,14 +56,8 @@ impl Dirichlet {
         unknowns: usize,
         targets: impl Fn(usize) -> [Vec3; 2] + Sync,
     ) -> Result<Self> {
-        let mut sum = Dirichlet {
-            diagonal: vec![0.0; sectors.count()],
-            pairs: Vec::with_capacity(mesh.edge_count() + 1000),
-            linear: vec![0.0; unknowns],
-            constant: 0.0,
-        };
         // By local edge, the weight and how far its ends are to be apart.
-        let edges = collect_in_parts(mesh.face_count(), LEAST, |face| {
+        let edges: Vec<OfEdges> = collect_in_parts(mesh.face_count(), LEAST, |face| {
             let targets = targets(face);
             let corners = mesh.corner_positions(face);
             let relief = relief(corners);
@@ -74,38 +68,22 @@ impl Dirichlet {
             })
         });
         may_continue()?;
-        // The weight of an edge that is not cut waits here for its second face.
-        let mut pending = vec![0.0; mesh.edge_count()];
-        for (face, edges) in edges.into_iter().enumerate() {
-            may_continue_at(face)?;
-            let copy = sectors.copy[face];
-            for (k, (weight, aims)) in edges.into_iter().enumerate() {
-                let ends = [copy[k], copy[(k + 1) % 3]];
-                sum.add_edge(ends, weight, aims);
-
-                let e = mesh.edge_of(face, k);
-                let waits = mesh.is_first_side(face, k) && mesh.neighbor(face, k).is_some();
-                if cut.contains(e) {
-                    sum.pairs.push((ends, weight));
-                } else if waits {
-                    pending[e] = weight;
-                } else {
-                    sum.pairs.push((ends, weight + pending[e]));
-                }
-            }
-        }
-        Ok(sum)
-    }
-
-    fn add_edge(&mut self, [a, b]: [u32; 2], weight: f64, aims: [f64; 2]) {
-        let [a, b] = [a as usize, b as usize];
-        self.diagonal[a] += weight;
-        self.diagonal[b] += weight;
-        for (axis, aim) in aims.into_iter().enumerate() {
-            self.linear[2 * a + axis] += 2.0 * weight * aim;
-            self.linear[2 * b + axis] -= 2.0 * weight * aim;
-            self.constant += weight * aim * aim;
-        }
+        let (sums, pairs) = both(
+            mesh.face_count() >= LEAST,
+            || Sums::new(sectors, unknowns, &edges),
+            || pairs(mesh, sectors, cut, &edges),
+        );
+        let Sums {
+            diagonal,
+            linear,
+            constant,
+        } = sums?;
+        Ok(Dirichlet {
+            diagonal,
+            pairs: pairs?,
+            linear,
+            constant,
+        })
     }
 
     pub(super) fn add_to(&self, problem: &mut Problem) -> Result<()> {
@@ -132,6 +110,74 @@ impl Dirichlet {
         problem.add_linear(&self.linear)?;
         problem.add_constant(self.constant)
     }
+}
+
+/// What each local edge of a face adds: its weight, and how far its ends are to be apart.
+type OfEdges = [(f64, [f64; 2]); 3];
+
+/// What is summed over the edges of all faces, in their order.
+struct Sums {
+    diagonal: Vec<f64>,
+    linear: Vec<f64>,
+    constant: f64,
+}
+
+impl Sums {
+    fn new(sectors: &Sectors, unknowns: usize, edges: &[OfEdges]) -> Result<Self> {
+        let mut sum = Sums {
+            diagonal: vec![0.0; sectors.count()],
+            linear: vec![0.0; unknowns],
+            constant: 0.0,
+        };
+        for (face, edges) in edges.iter().enumerate() {
+            may_continue_at(face)?;
+            let copy = sectors.copy[face];
+            for (k, &(weight, aims)) in edges.iter().enumerate() {
+                sum.add_edge([copy[k], copy[(k + 1) % 3]], weight, aims);
+            }
+        }
+        Ok(sum)
+    }
+
+    fn add_edge(&mut self, [a, b]: [u32; 2], weight: f64, aims: [f64; 2]) {
+        let [a, b] = [a as usize, b as usize];
+        self.diagonal[a] += weight;
+        self.diagonal[b] += weight;
+        for (axis, aim) in aims.into_iter().enumerate() {
+            self.linear[2 * a + axis] += 2.0 * weight * aim;
+            self.linear[2 * b + axis] -= 2.0 * weight * aim;
+            self.constant += weight * aim * aim;
+        }
+    }
+}
+
+/// The pairs of copies, and the weight between them.
+fn pairs(
+    mesh: &TriangleMesh,
+    sectors: &Sectors,
+    cut: &CutGraph,
+    edges: &[OfEdges],
+) -> Result<Vec<([u32; 2], f64)>> {
+    let mut pairs = Vec::with_capacity(mesh.edge_count() + 1000);
+    // The weight of an edge that is not cut waits here for its second face.
+    let mut pending = vec![0.0; mesh.edge_count()];
+    for (face, edges) in edges.iter().enumerate() {
+        may_continue_at(face)?;
+        let copy = sectors.copy[face];
+        for (k, &(weight, _)) in edges.iter().enumerate() {
+            let ends = [copy[k], copy[(k + 1) % 3]];
+            let e = mesh.edge_of(face, k);
+            let waits = mesh.is_first_side(face, k) && mesh.neighbor(face, k).is_some();
+            if cut.contains(e) {
+                pairs.push((ends, weight));
+            } else if waits {
+                pending[e] = weight;
+            } else {
+                pairs.push((ends, weight + pending[e]));
+            }
+        }
+    }
+    Ok(pairs)
 }
 
 #[cfg(test)]

@@ -346,6 +346,9 @@ impl SeamlessProblem {
                 self.pin_first_copy(v, 1)?;
             }
         }
+        if is_pinned.iter().all(|&axes| axes == [true; 2]) {
+            return Ok(());
+        }
         // The values of isolines are integer: only an integer shift is free, which a pin decides.
         let component_of_copy = self.component_of_copy(mesh, &components.of_face);
         for isoline in &self.isolines {

@@ -42,8 +42,9 @@ struct Spokes {
 impl Spokes {
     fn new(mesh: &TriangleMesh, is_feature: &[bool]) -> Self {
         let mut ends: Vec<(u32, u32)> = Vec::new();
-        for (e, edge) in mesh.edges().enumerate().filter(|&(e, _)| is_feature[e]) {
-            ends.extend(edge.vertices.map(|v| (v as u32, e as u32)));
+        for e in (0..is_feature.len()).filter(|&e| is_feature[e]) {
+            let vertices = mesh.edge(e).vertices;
+            ends.extend(vertices.map(|v| (v as u32, e as u32)));
         }
         ends.sort_unstable();
         let mut start = vec![0; mesh.vertex_count() + 1];

@@ -13,6 +13,7 @@ mod look;
 mod obj;
 mod off;
 mod off_binary;
+mod plain_obj;
 mod ply;
 mod statements;
 mod stl;

@@ -1,4 +1,5 @@
-//! Wavefront OBJ (appendix B of the Advanced Visualizer manual), parsed by `tobj`.
+//! Wavefront OBJ (appendix B of the Advanced Visualizer manual): plain files by [`plain_obj`], all others by
+//! `tobj`.
 //!
 //! `tobj` serves renderers: it numbers vertices anew in the order of their first use, drops unused
 //! ones, starts over at every group, joins no continued lines, ends lines at LF only, wants three
@@ -13,10 +14,18 @@ use std::io::{BufRead, Cursor, Read, Write};
 
 use tobj::{LoadError, LoadOptions, Mesh};
 
+use super::plain_obj;
 use super::statements::{Statement, Statements, corner_number};
 use crate::soup::{PolygonSoup, SoupError};
 
 pub(super) fn parse(bytes: &[u8]) -> Result<PolygonSoup, SoupError> {
+    match plain_obj::parse(bytes) {
+        Some(soup) => Ok(soup),
+        None => parse_by_tobj(bytes),
+    }
+}
+
+pub(super) fn parse_by_tobj(bytes: &[u8]) -> Result<PolygonSoup, SoupError> {
     let is_vertex = |read: &(usize, Statement)| matches!(read.1, Statement::Vertex(_));
     let vertices = Statements::new(bytes).filter(is_vertex).count();
     if vertices == 0 {
