@@ -80,7 +80,7 @@ mod tests {
     fn any_number_of_threads_finds_those_of_the_definition() {
         let n = 2 * LEAST + 10;
         let mut random = Random::new(3);
-        let integer: Vec<bool> = (0..n).map(|_| random.next() % 3 == 0).collect();
+        let integer: Vec<bool> = (0..n).map(|_| random.next().is_multiple_of(3)).collect();
         let entries: Vec<(u32, u32, f64)> = (0..n)
             .flat_map(|i| {
                 let diagonal = [-1.0, 0.0, 2.0, 3.0, 4.0][random.next() as usize % 5];
