@@ -61,7 +61,7 @@ fn every_strategy_gives_the_same_bits_at_any_number_of_threads() {
     }
 }
 
-/// The numbers of threads of the requirement.
+/// The numbers of threads that are compared.
 const THREADS: [usize; 6] = [1, 2, 3, 4, 8, 16];
 
 /// The digests of field, map and quads of a mesh.

@@ -11,9 +11,7 @@ use super::local_integers::local_integers;
 use super::minimise::{CANCELLED, Lowest, Minimum, minimise};
 use super::{Cholesky, NO_PLACE, Ordering, Sparse, coupling, places};
 use crate::error::Result;
-use crate::monitor::{
-    collect_in_parts, for_each_part, in_parts, may_continue, may_continue_at, parts_of,
-};
+use crate::monitor::{change_in_parts, collect_in_parts, in_parts, may_continue, may_continue_at};
 
 /// The least number of rows that are worth a thread.
 const LEAST: usize = 1 << 13;
@@ -170,23 +168,13 @@ impl RelaxedFactor {
     /// Copies the values of the other unknowns into `b` and computes the local integers from their right
     /// sides in `b`.
     fn embed(&self, inner: &[f64], b: &mut [f64]) {
-        let mut rest = b;
-        let parts = parts_of(self.place.len(), LEAST).into_iter().map(|range| {
-            let (part, others) = std::mem::take(&mut rest).split_at_mut(range.len());
-            rest = others;
-            (range, part)
-        });
-        for_each_part(parts.collect(), |(range, part)| {
-            let mut k = self.local.partition_point(|&p| (p as usize) < range.start);
-            for (b, &place) in part.iter_mut().zip(&self.place[range]) {
-                if place != NO_PLACE {
-                    *b = inner[place as usize];
-                    continue;
-                }
-                let pull: f64 = self.coupling.row(k).map(|(i, v)| v * inner[i]).sum();
+        change_in_parts(b, LEAST, |i, b| match self.place[i] {
+            NO_PLACE => {
+                let k = self.local.partition_point(|&p| (p as usize) < i);
+                let pull: f64 = self.coupling.row(k).map(|(j, v)| v * inner[j]).sum();
                 *b = (*b - pull) / self.curvature[k];
-                k += 1;
             }
+            place => *b = inner[place as usize],
         });
     }
 }

@@ -11,6 +11,7 @@ pub mod mps;
 mod objective;
 pub mod qplib;
 mod rows;
+mod shared;
 mod text;
 
 pub use cycles::CycleHint;
@@ -28,6 +29,10 @@ use crate::error::{Error, Result};
 use check::{all_finite, finite, in_range, same_length};
 use limits::check_both;
 use matrix::lower_triangle;
+use shared::own;
+
+/// What memory is asked for.
+const WHAT: &str = "the variables";
 
 /// A mixed-integer quadratic problem under construction.
 ///
@@ -41,7 +46,7 @@ pub struct Problem {
     quadratic: Vec<(u32, u32, f64)>,
     linear: Arc<Vec<f64>>,
     constant: f64,
-    least_squares: Arc<RowList>,
+    least_squares: RowList,
     weights: Arc<Vec<f64>>,
     constraints: RowList,
     inequalities: Inequalities,
@@ -73,7 +78,7 @@ impl Problem {
             quadratic: Vec::new(),
             linear: Arc::new(filled(variables, 0.0)?),
             constant: 0.0,
-            least_squares: Arc::default(),
+            least_squares: RowList::default(),
             weights: Arc::default(),
             constraints: RowList::default(),
             inequalities: Inequalities::default(),
@@ -93,7 +98,7 @@ impl Problem {
     /// The number of unknowns and coefficients, by which memory is estimated.
     pub(crate) fn size(&self) -> usize {
         let rows = [
-            &*self.least_squares,
+            &self.least_squares,
             &self.constraints,
             &self.inequalities.rows,
         ];
@@ -223,7 +228,7 @@ impl Problem {
     pub fn add_linear(&mut self, values: &[f64]) -> Result<()> {
         same_length("linear terms", self.variables, values.len())?;
         all_finite("linear terms", values)?;
-        let linear = Arc::make_mut(&mut self.linear);
+        let linear = own(&mut self.linear, 0, WHAT)?;
         for (q, v) in linear.iter_mut().zip(values) {
             *q += v;
         }
@@ -237,7 +242,7 @@ impl Problem {
     pub fn add_linear_term(&mut self, variable: usize, value: f64) -> Result<()> {
         in_range("variable", &[variable], self.variables)?;
         finite("linear term", value)?;
-        Arc::make_mut(&mut self.linear)[variable] += value;
+        own(&mut self.linear, 0, WHAT)?[variable] += value;
         Ok(())
     }
 
@@ -249,7 +254,7 @@ impl Problem {
     pub fn set_linear(&mut self, values: &[f64]) -> Result<()> {
         same_length("linear terms", self.variables, values.len())?;
         all_finite("linear terms", values)?;
-        Arc::make_mut(&mut self.linear).copy_from_slice(values);
+        own(&mut self.linear, 0, WHAT)?.copy_from_slice(values);
         Ok(())
     }
 
@@ -266,7 +271,7 @@ impl Problem {
     /// # Errors
     /// [`Error::LengthMismatch`], [`Error::NotFinite`].
     pub fn set_least_squares_right_sides(&mut self, rhs: &[f64]) -> Result<()> {
-        Arc::make_mut(&mut self.least_squares).set_rhs("least-squares right sides", rhs)
+        self.least_squares.set_rhs("least-squares right sides", rhs)
     }
 
     /// Replaces the constant of the objective. The contributions of least-squares rows to it stay.
@@ -309,11 +314,8 @@ impl Problem {
                 index: None,
             });
         }
-        let weights = Arc::make_mut(&mut self.weights);
-        weights.try_reserve(1).map_err(|_| Error::OutOfMemory {
-            what: "the weights",
-        })?;
-        let row = Arc::make_mut(&mut self.least_squares).push(
+        let weights = own(&mut self.weights, 1, "the weights")?;
+        let row = self.least_squares.push(
             "least-squares row",
             self.variables,
             indices,
@@ -350,12 +352,8 @@ impl Problem {
                 });
             }
         }
-        let kept = Arc::make_mut(&mut self.weights);
-        kept.try_reserve(rhs.len())
-            .map_err(|_| Error::OutOfMemory {
-                what: "the weights",
-            })?;
-        let first = Arc::make_mut(&mut self.least_squares).append(matrix, rhs)?;
+        let kept = own(&mut self.weights, rhs.len(), "the weights")?;
+        let first = self.least_squares.append(matrix, rhs)?;
         match weights {
             Some(weights) => kept.extend_from_slice(weights),
             None => kept.resize(kept.len() + rhs.len(), 1.0),
@@ -493,7 +491,7 @@ impl Problem {
     /// [`Error::IndexOutOfRange`].
     pub fn set_integers(&mut self, variables: &[usize]) -> Result<()> {
         in_range("integer variables", variables, self.variables)?;
-        let integer = Arc::make_mut(&mut self.integer);
+        let integer = own(&mut self.integer, 0, WHAT)?;
         for &i in variables {
             integer[i] = true;
         }
@@ -503,7 +501,7 @@ impl Problem {
     /// A copy without integers.
     pub(crate) fn relaxed(&self) -> Problem {
         let mut relaxed = self.clone();
-        Arc::make_mut(&mut relaxed.integer).fill(false);
+        relaxed.integer = Arc::new(vec![false; self.variables]);
         relaxed
     }
 
@@ -515,7 +513,7 @@ impl Problem {
     pub fn pin(&mut self, variable: usize, value: f64) -> Result<()> {
         in_range("variable", &[variable], self.variables)?;
         finite("pinned value", value)?;
-        Arc::make_mut(&mut self.pinned)[variable] = Some(value);
+        own(&mut self.pinned, 0, WHAT)?[variable] = Some(value);
         Ok(())
     }
 
@@ -525,7 +523,7 @@ impl Problem {
     /// [`Error::IndexOutOfRange`].
     pub fn unpin(&mut self, variable: usize) -> Result<()> {
         in_range("variable", &[variable], self.variables)?;
-        Arc::make_mut(&mut self.pinned)[variable] = None;
+        own(&mut self.pinned, 0, WHAT)?[variable] = None;
         Ok(())
     }
 
@@ -537,7 +535,7 @@ impl Problem {
     pub fn set_guess(&mut self, values: &[f64]) -> Result<()> {
         same_length("initial guess", self.variables, values.len())?;
         all_finite("initial guess", values)?;
-        Arc::make_mut(&mut self.guess).copy_from_slice(values);
+        own(&mut self.guess, 0, WHAT)?.copy_from_slice(values);
         Ok(())
     }
 
@@ -560,9 +558,8 @@ impl Problem {
 
 fn filled<T: Clone>(len: usize, value: T) -> Result<Vec<T>> {
     let mut v = Vec::new();
-    v.try_reserve_exact(len).map_err(|_| Error::OutOfMemory {
-        what: "the variables",
-    })?;
+    v.try_reserve_exact(len)
+        .map_err(|_| Error::OutOfMemory { what: WHAT })?;
     v.resize(len, value);
     Ok(v)
 }

@@ -16,7 +16,7 @@ pub struct Model {
     hessian: Arc<Sparse>,
     gradient: Vec<f64>,
     constant: f64,
-    least_squares: Arc<RowList>,
+    least_squares: RowList,
     weights: Arc<Vec<f64>>,
     constraints: Arc<Sparse>,
     constraint_rhs: Vec<f64>,

@@ -3,35 +3,43 @@
 use std::sync::Arc;
 
 use super::check::{all_finite, finite, in_range, same_length};
+use super::shared::own;
 use super::{Layout, MatrixRef};
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::linalg::Sparse;
 use crate::linalg::sparse::reserve;
 
+/// What memory is asked for.
+const WHAT: &str = "the rows";
+
 /// A growing list of sparse rows, each with a right side. The indices within a row are stored as given:
-/// unsorted, with duplicates not yet summed. Copies share the entries until one of them gets more rows.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct RowList {
-    entries: Arc<Entries>,
-    rhs: Vec<f64>,
-}
-
-/// The entries of all rows. Those of row `i` are `offsets[i]..offsets[i + 1]`.
+/// unsorted, with duplicates not yet summed. Copies share what none of them changes.
 #[derive(Debug, Clone, PartialEq)]
-struct Entries {
-    offsets: Vec<usize>,
-    indices: Vec<u32>,
-    values: Vec<f64>,
+pub struct RowList {
+    /// The entries of row `i` are `offsets[i]..offsets[i + 1]`.
+    offsets: Arc<Vec<usize>>,
+    indices: Arc<Vec<u32>>,
+    values: Arc<Vec<f64>>,
+    rhs: Arc<Vec<f64>>,
 }
 
-impl Default for Entries {
+impl Default for RowList {
     fn default() -> Self {
-        Entries {
-            offsets: vec![0],
-            indices: Vec::new(),
-            values: Vec::new(),
+        RowList {
+            offsets: Arc::new(vec![0]),
+            indices: Arc::default(),
+            values: Arc::default(),
+            rhs: Arc::default(),
         }
     }
+}
+
+/// The lists of rows that may be changed.
+struct Own<'a> {
+    offsets: &'a mut Vec<usize>,
+    indices: &'a mut Vec<u32>,
+    values: &'a mut Vec<f64>,
+    rhs: &'a mut Vec<f64>,
 }
 
 impl RowList {
@@ -42,7 +50,7 @@ impl RowList {
 
     /// Number of entries of all rows.
     pub(super) fn entries(&self) -> usize {
-        self.entries.indices.len()
+        self.indices.len()
     }
 
     /// Whether there is no row.
@@ -59,17 +67,16 @@ impl RowList {
     pub(super) fn set_rhs(&mut self, what: &'static str, rhs: &[f64]) -> Result<()> {
         same_length(what, self.len(), rhs.len())?;
         all_finite(what, rhs)?;
-        self.rhs.copy_from_slice(rhs);
+        own(&mut self.rhs, 0, WHAT)?.copy_from_slice(rhs);
         Ok(())
     }
 
     /// The entries `(variable, coefficient)` of row `i`, as given.
     pub fn row(&self, i: usize) -> impl ExactSizeIterator<Item = (usize, f64)> + Clone + '_ {
-        let of_all = &*self.entries;
-        let range = of_all.offsets[i]..of_all.offsets[i + 1];
-        of_all.indices[range.clone()]
+        let range = self.offsets[i]..self.offsets[i + 1];
+        self.indices[range.clone()]
             .iter()
-            .zip(&of_all.values[range])
+            .zip(&self.values[range])
             .map(|(&j, &v)| (j as usize, v))
     }
 
@@ -85,27 +92,24 @@ impl RowList {
         in_range(what, indices, variables)?;
         all_finite(what, coefficients)?;
         finite("right side", rhs)?;
-        let entries = self.reserve(1, indices.len())?;
-        entries.indices.extend(indices.iter().map(|&i| i as u32));
-        entries.values.extend_from_slice(coefficients);
-        entries.offsets.push(entries.indices.len());
-        self.rhs.push(rhs);
-        Ok(self.rhs.len() - 1)
+        let own = self.own(1, indices.len())?;
+        own.indices.extend(indices.iter().map(|&i| i as u32));
+        own.values.extend_from_slice(coefficients);
+        own.offsets.push(own.indices.len());
+        own.rhs.push(rhs);
+        Ok(own.rhs.len() - 1)
     }
 
     /// Appends the rows of a validated matrix and returns the number of the first.
     pub(super) fn append(&mut self, matrix: &MatrixRef, rhs: &[f64]) -> Result<usize> {
-        let first = self.rhs.len();
-        let entries = self.reserve(rhs.len(), matrix.indices.len())?;
-        let base = entries.indices.len();
+        let own = self.own(rhs.len(), matrix.indices.len())?;
+        let (first, base) = (own.rhs.len(), own.indices.len());
         match matrix.layout {
             Layout::Rows => {
-                entries
-                    .indices
-                    .extend(matrix.indices.iter().map(|&j| j as u32));
-                entries.values.extend_from_slice(matrix.values);
+                own.indices.extend(matrix.indices.iter().map(|&j| j as u32));
+                own.values.extend_from_slice(matrix.values);
                 let ends = matrix.offsets[1..].iter().map(|&end| base + end);
-                entries.offsets.extend(ends);
+                own.offsets.extend(ends);
             }
             Layout::Columns => {
                 // A counting sort by rows, which leaves each row in the order of the columns.
@@ -117,34 +121,29 @@ impl RowList {
                 for i in 0..rhs.len() {
                     next[i + 1] += next[i] - base;
                 }
-                entries.offsets.extend_from_slice(&next[1..]);
-                entries.indices.resize(base + matrix.indices.len(), 0);
-                entries.values.resize(base + matrix.indices.len(), 0.0);
+                own.offsets.extend_from_slice(&next[1..]);
+                own.indices.resize(base + matrix.indices.len(), 0);
+                own.values.resize(base + matrix.indices.len(), 0.0);
                 for (i, j, v) in matrix.entries() {
                     let at = &mut next[i as usize];
-                    entries.indices[*at] = j;
-                    entries.values[*at] = v;
+                    own.indices[*at] = j;
+                    own.values[*at] = v;
                     *at += 1;
                 }
             }
         }
-        self.rhs.extend_from_slice(rhs);
+        own.rhs.extend_from_slice(rhs);
         Ok(first)
     }
 
-    /// Makes room for this many more rows and entries, and returns the entries. Changes nothing if that fails.
-    fn reserve(&mut self, rows: usize, more: usize) -> Result<&mut Entries> {
-        let entries = Arc::make_mut(&mut self.entries);
-        let reserved = self
-            .rhs
-            .try_reserve(rows)
-            .and_then(|()| entries.offsets.try_reserve(rows))
-            .and_then(|()| entries.indices.try_reserve(more))
-            .and_then(|()| entries.values.try_reserve(more));
-        match reserved {
-            Ok(()) => Ok(entries),
-            Err(_) => Err(Error::OutOfMemory { what: "the rows" }),
-        }
+    /// The lists with room for this many more rows and entries. Changes nothing if that fails.
+    fn own(&mut self, rows: usize, entries: usize) -> Result<Own<'_>> {
+        Ok(Own {
+            offsets: own(&mut self.offsets, rows, WHAT)?,
+            indices: own(&mut self.indices, entries, WHAT)?,
+            values: own(&mut self.values, entries, WHAT)?,
+            rhs: own(&mut self.rhs, rows, WHAT)?,
+        })
     }
 
     /// The rows as a matrix of `cols` columns: sorted, duplicates summed.

@@ -5,7 +5,7 @@ use std::str::FromStr;
 use crate::soup::SoupError;
 
 /// What the editors of some systems put before UTF-8.
-pub(super) const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
+const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 
 /// The lines of a text and their numbers.
 #[derive(Clone)]

@@ -15,7 +15,7 @@ use std::io::{BufRead, Cursor, Read, Write};
 use tobj::{LoadError, LoadOptions, Mesh};
 
 use super::plain_obj;
-use super::statements::{Statement, Statements, corner_number};
+use super::statements::{Statement, Statements, corner_number, words};
 use crate::soup::{PolygonSoup, SoupError};
 
 pub(super) fn parse(bytes: &[u8]) -> Result<PolygonSoup, SoupError> {
@@ -77,12 +77,9 @@ fn faces(bytes: &[u8], mut soup: PolygonSoup) -> Result<PolygonSoup, SoupError> 
     for (line, statement) in Statements::new(bytes) {
         match statement {
             Statement::Vertex(_) => vertices += 1,
-            Statement::Face(words) => {
+            Statement::Face(said) => {
                 corners.clear();
-                for word in words
-                    .split(u8::is_ascii_whitespace)
-                    .filter(|w| !w.is_empty())
-                {
+                for word in words(&said) {
                     let first = word.split(|&b| b == b'/').next();
                     let corner = first.and_then(|number| corner_number(number, vertices));
                     corners.push(corner.ok_or_else(|| wrong_corner(line))?);
@@ -150,12 +147,8 @@ impl<'a> Feeder<'a> {
 
 /// A vertex of two coordinates lies in the plane z = 0. A fourth number is a weight. With more, three
 /// are the position, and the others are the colour that some programs add.
-fn feed_vertex(words: &[u8], out: &mut Vec<u8>) {
-    let words: Vec<_> = words
-        .split(u8::is_ascii_whitespace)
-        .filter(|word| !word.is_empty())
-        .take(5)
-        .collect();
+fn feed_vertex(said: &[u8], out: &mut Vec<u8>) {
+    let words: Vec<_> = words(said).take(5).collect();
     let said = match words.len() {
         5.. => &words[..3],
         _ => &words[..],

@@ -2,9 +2,11 @@
 //! faces whose corners are numbers from 1 on, each on a line of its own. All other files are read by
 //! [`obj`](super::obj), which also finds the errors.
 
+use std::borrow::Cow;
 use std::ops::Range;
 
-use super::lines::{BYTE_ORDER_MARK, number, said};
+use super::lines::number;
+use super::statements::{Statement, Statements, words};
 use crate::monitor::in_parts;
 use crate::soup::PolygonSoup;
 
@@ -25,7 +27,6 @@ struct Lists {
 
 /// The soup of a file; none of a file that is not as above.
 pub(super) fn parse(bytes: &[u8]) -> Option<PolygonSoup> {
-    let bytes = bytes.strip_prefix(BYTE_ORDER_MARK).unwrap_or(bytes);
     let mut parts = in_parts(bytes.len(), LEAST, |part| lists(lines_from(bytes, part)));
     let mut all = parts.remove(0)?;
     for part in parts {
@@ -44,13 +45,14 @@ pub(super) fn parse(bytes: &[u8]) -> Option<PolygonSoup> {
     Some(PolygonSoup::of_lists(all.positions, all.corners, starts))
 }
 
-/// The lines that begin in this part of the text.
+/// The lines that begin in this part of the text, after the end of the line before: what looks like a byte order mark
+/// there is none.
 fn lines_from(text: &[u8], part: Range<usize>) -> &[u8] {
     let start = |at: usize| match at {
         0 => 0,
         _ => {
             let before = text[at - 1..].iter().position(|&b| b == b'\n');
-            before.map_or(text.len(), |k| at + k)
+            before.map_or(text.len(), |k| at - 1 + k)
         }
     };
     &text[start(part.start)..start(part.end)]
@@ -58,30 +60,10 @@ fn lines_from(text: &[u8], part: Range<usize>) -> &[u8] {
 
 fn lists(text: &[u8]) -> Option<Lists> {
     let mut all = Lists::default();
-    for line in text.split(|&b| b == b'\n') {
-        let line = line.strip_suffix(b"\r").unwrap_or(line);
-        // A return alone ends a line, too.
-        if line.contains(&b'\r') {
-            return None;
-        }
-        let line = line.trim_ascii_start();
-        let end = line
-            .iter()
-            .position(|b| b.is_ascii_whitespace() || b"#\\".contains(b));
-        let (keyword, rest) = line.split_at(end.unwrap_or(line.len()));
-        if !matches!(keyword, b"v" | b"vt" | b"f" | b"fo") {
-            continue;
-        }
-        let rest = said(rest);
-        // The statement may continue on the next line.
-        if rest.contains(&b'\\') {
-            return None;
-        }
-        let mut words = rest
-            .split(u8::is_ascii_whitespace)
-            .filter(|word| !word.is_empty());
-        match keyword {
-            b"v" => {
+    for (_, statement) in Statements::new(text) {
+        match statement {
+            Statement::Vertex(Cow::Borrowed(said)) => {
+                let mut words = words(said);
                 let mut next = || number::<f64>(words.next()?);
                 all.positions.push([next()?, next()?, next()?]);
                 // A fourth number alone is a weight.
@@ -89,10 +71,9 @@ fn lists(text: &[u8]) -> Option<Lists> {
                     return None;
                 }
             }
-            b"vt" => {}
-            _ => {
+            Statement::Face(Cow::Borrowed(said)) => {
                 let before = all.corners.len();
-                for word in words {
+                for word in words(said) {
                     all.corners.push(corner(word)?);
                 }
                 if all.corners.len() < before + 3 {
@@ -100,6 +81,9 @@ fn lists(text: &[u8]) -> Option<Lists> {
                 }
                 all.ends.push(all.corners.len());
             }
+            Statement::Texture(Cow::Borrowed(_)) => {}
+            // What is continued on the next line may go on in the next part.
+            _ => return None,
         }
     }
     Some(all)
@@ -129,6 +113,7 @@ fn corner(word: &[u8]) -> Option<i64> {
 mod tests {
     use super::super::obj::parse_by_tobj;
     use super::*;
+    use crate::linalg::Random;
     use crate::mesh::shape::by_name;
     use crate::monitor::{spawned, with_threads};
 
@@ -140,6 +125,7 @@ mod tests {
             "f 1 2 3",
             "# a comment\r\nf 1/7 2/8 3/9 # and one more\r\n",
             "vn 0 0 1\nvt 0 1\n  f\t1/1/1 2//4  3/1/1\ng v\nv 1 2 3 0.1 0.2 0.3\nf 4 3 2 1\n",
+            "f 1 2 3\rf 1 3 2\n",
             "s off\nusemtl a\\\nfo 3 2 1\n\n\nv 9 8 7 0.5 0.5\n",
         ];
         for text in texts {
@@ -159,7 +145,6 @@ mod tests {
             "f 0 1 2\n",
             "f 1 2\n",
             "f 1 2 \\\n3\n",
-            "f 1 2 3\rf 1 3 2\n",
             "f 1 2 3/\n",
             "f 1/2/3/4 2 3\n",
             "f 1 2 3x\n",
@@ -176,6 +161,72 @@ mod tests {
     }
 
     #[test]
+    fn what_is_read_here_is_what_tobj_reads() {
+        let pieces = [
+            "v 0 0 1\n",
+            "v 1 2 3 4\n",
+            "v 1 2 3 .1 .2 .3\n",
+            "v 1 2 3 a b\n",
+            "v nan 1 2\n",
+            "v 1 -inf 2\n",
+            "v 1e999 0 0\n",
+            "v +1 .5 2.\r",
+            "v 1 2\n",
+            "v ",
+            "vt 0 1\n",
+            "vt 1\n",
+            "vn 0 0 1\n",
+            "f 1 2 3\n",
+            "f 1 1 1\n",
+            "f 3 2 1 1\r\n",
+            "f 1/1 2/2 3/1\n",
+            "f 1//1 2//1 3//1\n",
+            "f 01 +2 3\n",
+            "f 1 2 -1\n",
+            "f 1 2\n",
+            "f 1 2 9\n",
+            "f 1 2 3 # \\\n",
+            "f 1 2 \\\n",
+            "3 3\n",
+            "fo 2 1 3\n",
+            "f",
+            " 1 2 3\n",
+            "l 1 2\n",
+            "g a\n",
+            "o b\n",
+            "usemtl c\\\n",
+            "# d\n",
+            "\n",
+            "\\\n",
+            "\t",
+            "\u{feff}",
+            "p 1\n",
+        ];
+        let mut random = Random::new(7);
+        let (mut here, mut elsewhere) = (0, 0);
+        for _ in 0..20_000 {
+            let mut text = String::from("v 0 0 0\nv 1 0 0\nv 0 1 0\n");
+            for _ in 0..1 + random.next() % 6 {
+                text += pieces[random.next() as usize % pieces.len()];
+            }
+            match parse(text.as_bytes()) {
+                None => elsewhere += 1,
+                Some(soup) => {
+                    here += 1;
+                    let other = parse_by_tobj(text.as_bytes()).map_err(|error| error.to_string());
+                    // Not equal by value where there are NaNs.
+                    assert_eq!(
+                        format!("{:?}", Ok::<_, String>(soup)),
+                        format!("{other:?}"),
+                        "{text:?}"
+                    );
+                }
+            }
+        }
+        assert!(here > 1_000 && elsewhere > 1_000, "{here} {elsewhere}");
+    }
+
+    #[test]
     fn any_number_of_threads_reads_the_same() {
         let mesh = by_name("torus", 8_000).unwrap();
         let mut text = String::new();
@@ -185,6 +236,8 @@ mod tests {
         for [a, b, c] in mesh.triangles() {
             text += &format!("f {} {} {}\n", a + 1, b + 1, c + 1);
         }
+        // Words that are no keyword, wherever a part begins.
+        text += &"\u{feff}v 7 7 7\r\n".repeat(50_000);
         let one = with_threads(1, || parse(text.as_bytes()));
         assert_eq!(one, parse_by_tobj(text.as_bytes()).ok());
         let started = spawned(|| {

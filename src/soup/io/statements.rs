@@ -67,6 +67,12 @@ impl<'a> Iterator for Statements<'a> {
     }
 }
 
+/// The words of a statement.
+pub(super) fn words(said: &[u8]) -> impl Iterator<Item = &[u8]> {
+    let words = said.split(u8::is_ascii_whitespace);
+    words.filter(|word| !word.is_empty())
+}
+
 /// The number, counted from 0, that a word names: it counts from 1 onwards, or backwards from the last of
 /// those so far. Nothing is assumed of how many there will be.
 pub(crate) fn corner_number(word: &[u8], so_far: i64) -> Option<i64> {
