@@ -2080,6 +2080,19 @@ roundel_status roundel_mesh_write(const struct roundel_mesh *mesh,
                                   const char *file);
 
 /**
+ * Gives the mirror plane that a text means for a mesh, as roundel_quad_options_add_mirror takes it: the
+ * points p with n . p = d. `plane` is four numbers: n, of length 1, which points to the side that is kept,
+ * and d. `deviation` is the largest distance of a mirrored vertex from the surface, as a part of the diagonal
+ * of the bounding box: 0 for a mesh that is symmetric.
+ *
+ * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for another text or a plane without a direction.
+ */
+roundel_status roundel_mesh_mirror_plane(const struct roundel_mesh *mesh,
+                                         const char *mirror,
+                                         double *plane,
+                                         double *deviation);
+
+/**
  * Makes a soup of `vertex_count` vertices, whose `coordinates` are x, y, z in turn, and `polygon_count`
  * polygons. `sizes` are their numbers of corners, and `corners` the vertices of all polygons, one polygon
  * after the other. Corners that name no vertex are kept, for repair to tell.

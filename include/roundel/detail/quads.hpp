@@ -53,6 +53,9 @@ struct QuadOptions {
     /// The number of times that untangling first stiffens the surroundings of folded triangles. In
     /// [0, 1000]; 5 by default.
     std::optional<std::int64_t> stiffenings = std::nullopt;
+    /// How far a mirror plane may move a vertex from the surface, as a part of the diagonal of the
+    /// bounding box. In [0, 1]; 0.05 by default.
+    std::optional<double> mirror_tolerance = std::nullopt;
     /// The fraction of the faces that take the direction of least absolute curvature: those where
     /// it is most reliable. In [0, 1]; 0.005 by default.
     std::optional<double> constrain_curvature = std::nullopt;
@@ -98,6 +101,10 @@ struct QuadOptions {
     }
     QuadOptions& set_stiffenings(std::int64_t value) {
         stiffenings = value;
+        return *this;
+    }
+    QuadOptions& set_mirror_tolerance(double value) {
+        mirror_tolerance = value;
         return *this;
     }
     QuadOptions& set_constrain_curvature(double value) {
@@ -313,6 +320,9 @@ template <class Tell> bool each_quad_option(const QuadOptions& options, const Te
         return false;
     }
     if (options.stiffenings && !tell("stiffenings", *options.stiffenings)) {
+        return false;
+    }
+    if (options.mirror_tolerance && !tell("mirror_tolerance", *options.mirror_tolerance)) {
         return false;
     }
     return true;
