@@ -33,6 +33,7 @@ int main() {
     maps_are_solved_again_at_another_size();
     unset_quad_options_have_the_librarys_defaults();
     meshes_become_quads_of_their_topology();
+    quads_are_mirrored();
     soups_become_meshes_and_say_how();
     repair_follows_its_options();
     files_of_polygons_become_meshes();

@@ -95,6 +95,34 @@ void unset_quad_options_have_the_librarys_defaults() {
     CHECK(!roundel::quadrangulate(mesh, unknown, &status) && !status);
 }
 
+/// Quads are symmetric to the last bit, and a plane that cuts nothing is refused.
+void quads_are_mirrored() {
+    const auto torus = roundel::Mesh::shape("torus", 600);
+    const auto plane = torus.mirror_plane("-1,0,0,0");
+    CHECK(plane.normal[0] == -1.0 && plane.offset == 0.0 && plane.deviation < 0.05);
+    const auto options = roundel::QuadOptions().set_quads(200).set_mirror({"-1,0,0,0"});
+    const auto made = roundel::quadrangulate(torus, options);
+    CHECK(made.conforming());
+    const auto points = made.vertices();
+    std::size_t images = 0;
+    for (std::size_t v = 0; v < points.size(); v += 3) {
+        for (std::size_t w = 0; w < points.size(); w += 3) {
+            const bool is_image = points[w] == -points[v] && points[w + 1] == points[v + 1] &&
+                                  points[w + 2] == points[v + 2];
+            images += is_image ? 1 : 0;
+        }
+    }
+    CHECK(3 * images == points.size());
+    roundel::Status status;
+    const auto beside = roundel::QuadOptions().set_mirror({"1,0,0,9"}).set_mirror_tolerance(1.0);
+    CHECK(!roundel::quadrangulate(torus, beside, &status));
+    CHECK(status.code == ROUNDEL_ERROR_INVALID_ARGUMENT);
+    CHECK(!roundel::quadrangulate(torus, roundel::QuadOptions().set_mirror({"w"}), &status));
+    CHECK(status.code == ROUNDEL_ERROR_INVALID_ARGUMENT);
+    torus.mirror_plane("w", &status);
+    CHECK(status.code == ROUNDEL_ERROR_INVALID_ARGUMENT);
+}
+
 void meshes_become_quads_of_their_topology() {
     const auto mesh = roundel::Mesh::shape("torus", 800);
     const auto made = roundel::quadrangulate(mesh, roundel::QuadOptions().set_quads(300));

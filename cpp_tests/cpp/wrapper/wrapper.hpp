@@ -24,6 +24,7 @@ void a_solver_gives_the_same_as_a_solve();
 void fields_follow_their_options();
 void maps_are_solved_again_at_another_size();
 void meshes_become_quads_of_their_topology();
+void quads_are_mirrored();
 void unset_quad_options_have_the_librarys_defaults();
 void soups_become_meshes_and_say_how();
 void repair_follows_its_options();
