@@ -11,9 +11,10 @@
 //! transport over the edge turns by it.
 
 use super::FieldOptions;
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::mesh::TriangleMesh;
 use crate::mesh::vector::{cotangent, sub};
+use crate::mesh::vertex_values::check_positive;
 use crate::monitor::collect_in_parts;
 
 /// The largest weight of an edge: thin triangles would turn the field by any angle.
@@ -26,34 +27,13 @@ const LEAST: usize = 1 << 12;
 /// moves from the first end of the edge to the second. 0 where the options give no lengths.
 ///
 /// # Errors
-/// [`Error::LengthMismatch`]; with the vertex, [`Error::NotFinite`] and [`Error::InvalidArgument`] for a length that
-/// is not above 0.
+/// Those of [`check_positive`].
 pub(super) fn graded_flow(mesh: &TriangleMesh, options: &FieldOptions) -> Result<Vec<f64>> {
     let lengths = &options.lengths;
     if lengths.is_empty() {
         return Ok(vec![0.0; mesh.edge_count()]);
     }
-    if lengths.len() != mesh.vertex_count() {
-        return Err(Error::LengthMismatch {
-            what: "lengths of vertices",
-            expected: mesh.vertex_count(),
-            actual: lengths.len(),
-        });
-    }
-    for (position, &length) in lengths.iter().enumerate() {
-        if !length.is_finite() {
-            return Err(Error::NotFinite {
-                what: "lengths of vertices",
-                position,
-            });
-        }
-        if length <= 0.0 {
-            return Err(Error::InvalidArgument {
-                what: format!("the length of vertex {position} is {length}; it must be above 0"),
-                index: Some(position),
-            });
-        }
-    }
+    check_positive(mesh, "lengths of vertices", lengths)?;
     let moved = |e: usize| {
         let edge = mesh.edge(e);
         let Some(second) = edge.second else {

@@ -36,6 +36,7 @@ pub mod shape;
 mod subdivide;
 mod topology;
 mod triangle_mesh;
+pub(crate) mod vertex_values;
 
 pub use crate::linalg::vector;
 pub use crate::soup::ZERO_AREA_TOLERANCE;

@@ -105,7 +105,9 @@ fn improve(quads: &mut QuadMesh, surface: &mut Surface, v: usize, around: &[u32]
     let before = quads.vertices[v];
     let mut best = (worst(quads, around) + GAIN, before);
     for place in places(quads, v, around) {
-        let place = surface.project(v, place);
+        let Some(place) = surface.project(v, place) else {
+            continue;
+        };
         quads.vertices[v] = place;
         let found = worst(quads, around);
         if found > best.0 {

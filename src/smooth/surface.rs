@@ -1,10 +1,12 @@
 //! The constraint of each vertex: to the surface, to a curve on it, or to a point.
 
+use std::collections::BTreeMap;
+
 use super::curve::Curve;
 use crate::error::Result;
 use crate::extract::{Origin, QuadMesh};
 use crate::mesh::features::FeatureGraph;
-use crate::mesh::vector::Vec3;
+use crate::mesh::vector::{Vec3, cross, dot, norm, sub};
 use crate::mesh::{ClosestPoint, TriangleMesh};
 use crate::monitor::{collect_in_parts, may_continue};
 
@@ -21,6 +23,9 @@ pub(super) enum Bond {
 /// than those of needles across the axes, sixty rounds take about 500.
 const WORK_PER_VERTEX: u64 = 20_000;
 
+/// How far from an edge of the boundary a point counts as on it, as a part of the length of the edge.
+const ON_RIM: f64 = 1e-12;
+
 /// The least number of vertices that are worth a thread.
 const LEAST: usize = 1 << 8;
 
@@ -32,6 +37,8 @@ pub(super) struct Surface {
     pub(super) bonds: Vec<Bond>,
     /// The vertex of the mesh at which each fixed vertex lies, where curves end, meet or turn.
     pub(super) node: Vec<Option<usize>>,
+    /// The edges of the boundary that each triangle touches, if it touches some.
+    rims: BTreeMap<usize, Vec<[Vec3; 2]>>,
     /// The triangle or segment in which each vertex was last found.
     hints: Vec<Option<usize>>,
     pub(super) fixed: Vec<Vec3>,
@@ -64,6 +71,7 @@ impl Surface {
         Ok(Surface {
             faces,
             curves: features.curves().iter().map(curve).collect(),
+            rims: rims(mesh),
             bonds,
             node,
             hints: quads.origins.iter().map(|_| None).collect(),
@@ -77,18 +85,19 @@ impl Surface {
         self.work > WORK_PER_VERTEX * self.fixed.len() as u64
     }
 
-    /// The point nearest to `p` that satisfies the constraint of the vertex.
-    pub(super) fn project(&mut self, vertex: usize, p: Vec3) -> Vec3 {
+    /// The point nearest to `p` that satisfies the constraint of the vertex. None for a vertex inside the surface that
+    /// would come to lie on its boundary, and touch what is beyond it.
+    pub(super) fn project(&mut self, vertex: usize, p: Vec3) -> Option<Vec3> {
         let found = self.find(vertex, p);
         self.keep(vertex, found)
     }
 
-    /// Moves each vertex to the point nearest to its wanted one that satisfies its constraint.
+    /// Moves each vertex to the point nearest to its wanted one that satisfies its constraint, if there is one.
     pub(super) fn project_all(&mut self, wanted: &[Option<Vec3>], vertices: &mut [Vec3]) {
         let found = collect_in_parts(wanted.len(), LEAST, |v| Some(self.find(v, wanted[v]?)));
         for (v, found) in found.into_iter().enumerate() {
-            if let Some(found) = found {
-                vertices[v] = self.keep(v, found);
+            if let Some(point) = found.and_then(|found| self.keep(v, found)) {
+                vertices[v] = point;
             }
         }
     }
@@ -104,14 +113,41 @@ impl Surface {
         Found { at, work }
     }
 
-    fn keep(&mut self, vertex: usize, found: Found) -> Vec3 {
+    /// Whether a vertex inside the surface would come to lie on the boundary.
+    fn is_driven_out(&self, vertex: usize, face: usize, point: Vec3) -> bool {
+        let is_on = |&[a, b]: &[Vec3; 2]| {
+            let (along, there) = (sub(b, a), sub(point, a));
+            let square = dot(along, along);
+            let part = dot(there, along) / square;
+            norm(cross(there, along)) <= ON_RIM * square && (-ON_RIM..=1.0 + ON_RIM).contains(&part)
+        };
+        self.bonds[vertex] == Bond::Surface
+            && self
+                .rims
+                .get(&face)
+                .is_some_and(|rims| rims.iter().any(is_on))
+    }
+
+    fn keep(&mut self, vertex: usize, found: Found) -> Option<Vec3> {
         self.work += found.work;
         let Some((hint, point)) = found.at else {
-            return self.fixed[vertex];
+            return Some(self.fixed[vertex]);
         };
         self.hints[vertex] = Some(hint);
-        point
+        (!self.is_driven_out(vertex, hint, point)).then_some(point)
     }
+}
+
+/// The edges of the boundary that each triangle touches, if it touches some.
+fn rims(mesh: &TriangleMesh) -> BTreeMap<usize, Vec<[Vec3; 2]>> {
+    let mut rims: BTreeMap<usize, Vec<[Vec3; 2]>> = BTreeMap::new();
+    for edge in mesh.edges().filter(|edge| edge.second.is_none()) {
+        let ends = edge.vertices.map(|v| mesh.position(v));
+        for (face, _) in edge.vertices.iter().flat_map(|&v| mesh.ring(v)) {
+            rims.entry(face).or_default().push(ends);
+        }
+    }
+    rims
 }
 
 /// A closest point.
@@ -188,6 +224,40 @@ mod tests {
             }
         }
         surface.has_spent_its_work()
+    }
+
+    #[test]
+    fn vertices_inside_stay_off_the_boundary_and_those_on_it_stay_on_it() {
+        let mesh = by_name("plane", 200).unwrap();
+        let boundary = FeatureGraph::boundary(&mesh);
+        let mut quads = vertices_of(&mesh);
+        quads.origins = (0..mesh.vertex_count()).map(Origin::Vertex).collect();
+        let mut surface = Surface::new(&quads, &mesh, &boundary).unwrap();
+        let mut points = quads.vertices.clone();
+        // Far beyond the corner, and beyond each side.
+        for out in [[9.0, 9.0, 0.0], [9.0, 0.01, 0.0], [0.01, -9.0, 0.0]] {
+            let wanted = vec![Some(out); points.len()];
+            surface.project_all(&wanted, &mut points);
+            for (v, &before) in quads.vertices.iter().enumerate() {
+                match surface.bonds[v] {
+                    Bond::Surface => assert_eq!(points[v], before),
+                    _ => assert!(
+                        points[v]
+                            .map(f64::abs)
+                            .contains(&quads.vertices[0][0].abs())
+                    ),
+                }
+                assert_eq!(
+                    surface.project(v, out).is_none(),
+                    surface.bonds[v] == Bond::Surface
+                );
+            }
+        }
+        let wanted = vec![Some([0.01, 0.02, 0.3]); points.len()];
+        surface.project_all(&wanted, &mut points);
+        let inside = surface.bonds.iter().position(|&b| b == Bond::Surface);
+        let moved = sub(points[inside.unwrap()], [0.01, 0.02, 0.0]);
+        assert!(norm(moved) < 1e-15, "{moved:?}");
     }
 
     #[test]

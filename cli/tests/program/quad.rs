@@ -58,10 +58,21 @@ fn mirrored_quads_tell_their_planes_and_have_as_many_vertices_on_both_sides() {
     let has_image = |p: &Vec<f64>| points.contains(&vec![-p[0], p[1], p[2]]);
     assert!(points.iter().all(has_image));
     assert!(points.iter().any(|p| p[0] == 0.0));
-    for plane in ["1,0,0,9", "w"] {
+    let refused = |plane| {
         let (code, output) = finish(program(&[&words[..], &[plane, "--json"]].concat()));
-        assert!(code == 1 || code == 2, "{plane}: {code} {output:?}");
-    }
+        let printed = [output.stdout, output.stderr].concat();
+        (code, String::from_utf8(printed).unwrap())
+    };
+    let (code, printed) = refused("1,0,0,9");
+    assert!(
+        code == 1 && printed.contains("the mesh is not symmetric"),
+        "{printed}"
+    );
+    let (code, printed) = refused("w");
+    assert!(
+        code == 2 && printed.contains("'w' is no mirror"),
+        "{printed}"
+    );
 }
 
 #[test]

@@ -26,6 +26,7 @@ use crate::map::Sizing;
 use crate::mesh::TriangleMesh;
 use crate::mesh::curvature::{SMOOTHING_ROUNDS, watched_curvature};
 use crate::mesh::features::FeatureGraph;
+use crate::mesh::vertex_values::check_positive;
 use crate::monitor::{Monitor, may_continue};
 
 /// Curvatures of less than this part of the mean count as this part: flat faces have no finite length.
@@ -119,34 +120,18 @@ impl SizeMetric {
 
     /// The errors of [`new`](Self::new), as far as the mesh does not have to be looked at.
     pub(super) fn check(mesh: &TriangleMesh, options: &QuadOptions) -> Result<()> {
-        let invalid = |what: String, index| Err(Error::InvalidArgument { what, index });
-        let density = &options.density;
-        if !density.is_empty() && density.len() != mesh.vertex_count() {
-            return Err(Error::LengthMismatch {
-                what: "densities of vertices",
-                expected: mesh.vertex_count(),
-                actual: density.len(),
-            });
-        }
-        for (position, &value) in density.iter().enumerate() {
-            if !value.is_finite() {
-                return Err(Error::NotFinite {
-                    what: "densities of vertices",
-                    position,
-                });
-            }
-            if value <= 0.0 {
-                let what =
-                    format!("the density of vertex {position} is {value}; it must be above 0");
-                return invalid(what, Some(position));
-            }
+        if !options.density.is_empty() {
+            check_positive(mesh, "densities of vertices", &options.density)?;
         }
         if let (Some(least), Some(largest)) = (options.min_length, options.max_length)
             && least > largest
         {
-            let what =
-                format!("the least length of edges, {least}, is above the largest, {largest}");
-            return invalid(what, None);
+            return Err(Error::InvalidArgument {
+                what: format!(
+                    "the least length of edges, {least}, is above the largest, {largest}"
+                ),
+                index: None,
+            });
         }
         for (position, &vertex) in options.near_vertices.iter().enumerate() {
             if vertex >= mesh.vertex_count() {
