@@ -1,4 +1,4 @@
-//! The statements of an OBJ file that describe a surface, each on a line of its own or continued over
+//! The statements of an OBJ file that describe a surface and its parts, each on a line of its own or continued over
 //! several by a backslash.
 
 use std::borrow::Cow;
@@ -11,8 +11,25 @@ pub(crate) enum Statement<'a> {
     Vertex(Cow<'a, [u8]>),
     /// `vt`: texture coordinates.
     Texture(Cow<'a, [u8]>),
+    /// `vn`: a normal.
+    Normal(Cow<'a, [u8]>),
     /// `f`, or `fo` as old files have it: the corners of a face.
     Face(Cow<'a, [u8]>),
+    /// What the faces that follow have.
+    Label(LabelKind, &'a [u8]),
+}
+
+/// What a statement may give the faces that follow it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum LabelKind {
+    /// `usemtl`.
+    Material,
+    /// `g`.
+    Group,
+    /// `o`.
+    Object,
+    /// `s`.
+    Smoothing,
 }
 
 /// The statements of a file, each with the number of its first line, counted from 1.
@@ -59,7 +76,12 @@ impl<'a> Iterator for Statements<'a> {
             let statement = match keyword {
                 b"v" => Statement::Vertex(self.continued(rest)),
                 b"vt" => Statement::Texture(self.continued(rest)),
+                b"vn" => Statement::Normal(self.continued(rest)),
                 b"f" | b"fo" => Statement::Face(self.continued(rest)),
+                b"usemtl" => Statement::Label(LabelKind::Material, said(rest)),
+                b"g" => Statement::Label(LabelKind::Group, said(rest)),
+                b"o" => Statement::Label(LabelKind::Object, said(rest)),
+                b"s" => Statement::Label(LabelKind::Smoothing, said(rest)),
                 _ => continue,
             };
             return Some((number, statement));
