@@ -1,7 +1,7 @@
 //! Features from what a file's polygons have: edges whose two faces differ in an attribute.
 
 use super::FeatureGraph;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::mesh::{MeshError, TriangleMesh};
 use crate::soup::io::{Attribute, Attributes};
 use crate::soup::{PolygonSoup, Repaired};
@@ -18,7 +18,7 @@ impl FeatureGraph {
     /// # Errors
     /// [`MeshError::InvalidArgument`] for an attribute that the file lacks, with those that it has;
     /// [`SoupError::Malformed`](crate::soup::SoupError::Malformed) for attributes of another soup; and
-    /// [`Error::LengthMismatch`](crate::Error::LengthMismatch) for the repair of another mesh.
+    /// [`Error::LengthMismatch`](crate::Error::LengthMismatch) for a soup or a repair of another mesh.
     pub fn by_attribute(
         mesh: &TriangleMesh,
         (soup, repaired): (&PolygonSoup, Option<&Repaired>),
@@ -29,14 +29,7 @@ impl FeatureGraph {
             return Err(missing(attributes, attribute).into());
         };
         attributes.check(soup).map_err(MeshError::from)?;
-        let faces = repaired.map_or(soup.polygon_count(), |r| r.triangle_origin.len());
-        if faces != mesh.face_count() {
-            return Err(crate::Error::LengthMismatch {
-                what: "triangles of the repaired soup",
-                expected: mesh.face_count(),
-                actual: faces,
-            });
-        }
+        check_origins(mesh, soup, repaired)?;
         let origin = Origin { soup, repaired };
         let differs: Box<dyn Fn(usize) -> bool> = match attribute {
             Attribute::Seams | Attribute::Normals => {
@@ -64,6 +57,65 @@ impl FeatureGraph {
             mesh,
             (0..mesh.edge_count()).map(differs).collect(),
         ))
+    }
+}
+
+/// Refuses a soup and a repair that are not those of the mesh.
+fn check_origins(
+    mesh: &TriangleMesh,
+    soup: &PolygonSoup,
+    repaired: Option<&Repaired>,
+) -> Result<()> {
+    let lengths = match repaired {
+        Some(repaired) => {
+            let origins = repaired.triangle_origin.iter().flatten();
+            let last = origins.max().map_or(0, |&polygon| polygon as usize + 1);
+            [
+                (
+                    "triangles of the repair",
+                    mesh.face_count(),
+                    repaired.triangle_origin.len(),
+                ),
+                (
+                    "vertices of the soup",
+                    repaired.input_vertex_count(),
+                    soup.positions().len(),
+                ),
+                (
+                    "polygons of the soup",
+                    last.max(soup.polygon_count()),
+                    soup.polygon_count(),
+                ),
+            ]
+        }
+        None => [
+            (
+                "polygons of the soup",
+                mesh.face_count(),
+                soup.polygon_count(),
+            ),
+            (
+                "corners of the soup",
+                3 * mesh.face_count(),
+                soup.corners().len(),
+            ),
+            (
+                "vertices of the soup",
+                mesh.vertex_count(),
+                soup.positions().len(),
+            ),
+        ],
+    };
+    let wrong = lengths
+        .into_iter()
+        .find(|(_, expected, actual)| expected != actual);
+    match wrong {
+        Some((what, expected, actual)) => Err(Error::LengthMismatch {
+            what,
+            expected,
+            actual,
+        }),
+        None => Ok(()),
     }
 }
 

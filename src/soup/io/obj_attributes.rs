@@ -14,7 +14,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Attributes, SoupError> {
     let (mut object, mut group): (&[u8], &[u8]) = (b"", b"");
     let mut textures = OfCorners::new("texture coordinates");
     let mut normals = OfCorners::new("normal");
-    for (line, statement) in Statements::new(bytes) {
+    for (line, statement) in Statements::with_attributes(bytes) {
         match statement {
             Statement::Vertex(_) => {}
             Statement::Texture(said) => textures.add(line, &said, 2)?,

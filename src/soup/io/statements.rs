@@ -35,12 +35,23 @@ pub(crate) enum LabelKind {
 /// The statements of a file, each with the number of its first line, counted from 1.
 pub(crate) struct Statements<'a> {
     lines: Lines<'a>,
+    /// Whether normals and labels are among them.
+    with_attributes: bool,
 }
 
 impl<'a> Statements<'a> {
     pub(crate) fn new(bytes: &'a [u8]) -> Self {
         Statements {
             lines: Lines::new(bytes),
+            with_attributes: false,
+        }
+    }
+
+    /// The same with normals and labels, which [`new`](Self::new) passes over.
+    pub(super) fn with_attributes(bytes: &'a [u8]) -> Self {
+        Statements {
+            with_attributes: true,
+            ..Statements::new(bytes)
         }
     }
 
@@ -76,8 +87,9 @@ impl<'a> Iterator for Statements<'a> {
             let statement = match keyword {
                 b"v" => Statement::Vertex(self.continued(rest)),
                 b"vt" => Statement::Texture(self.continued(rest)),
-                b"vn" => Statement::Normal(self.continued(rest)),
                 b"f" | b"fo" => Statement::Face(self.continued(rest)),
+                _ if !self.with_attributes => continue,
+                b"vn" => Statement::Normal(self.continued(rest)),
                 b"usemtl" => Statement::Label(LabelKind::Material, said(rest)),
                 b"g" => Statement::Label(LabelKind::Group, said(rest)),
                 b"o" => Statement::Label(LabelKind::Object, said(rest)),
