@@ -37,6 +37,7 @@ const SOURCES: &[&str] = &[
     "edit_kind",
     "repair_options",
     "repair",
+    "attributes",
     "geodesic_sources",
     "geodesic",
     "guidance",

@@ -3,8 +3,9 @@
 use std::io::Read;
 use std::path::Path;
 
+use roundel::mesh::features::FeatureGraph;
 use roundel::mesh::{MeshError, TriangleMesh, io, shape};
-use roundel::soup::io::Format;
+use roundel::soup::io::{Attribute, Attributes, Format};
 use roundel::soup::{EditKind, Edits, PolygonSoup, RepairOptions, Repaired, io as soup};
 use roundel::{Error, Result};
 use serde::{Serialize, Serializer};
@@ -39,6 +40,8 @@ pub struct Input {
     pub mesh: TriangleMesh,
     pub repair: RepairCounts,
     pub changes: Changes,
+    /// The edges at which the attributes that were asked for change.
+    pub features: Option<FeatureGraph>,
 }
 
 /// How often each kind of repair was done; those that were not are left out.
@@ -87,29 +90,71 @@ impl MeshFlags {
     /// # Errors
     /// Those of reading and of repair; with `--strict` those of [`TriangleMesh::new`].
     pub fn read(&self, name: &Path, json: bool) -> Result<Input> {
+        self.read_with(name, json, &[])
+    }
+
+    /// As [`read`](Self::read), with the edges at which these attributes of the file change.
+    ///
+    /// # Errors
+    /// Those of [`read`](Self::read) and of [`FeatureGraph::by_attribute`].
+    pub fn read_with(&self, name: &Path, json: bool, attributes: &[Attribute]) -> Result<Input> {
         if let Some(drawn) = name.to_str().and_then(shape::from_spec) {
-            return Ok(Input {
-                mesh: suggesting(drawn)?,
-                repair: RepairCounts::default(),
-                changes: Changes::default(),
-            });
+            if let Some(first) = attributes.first() {
+                return Err(Error::InvalidArgument {
+                    what: format!("a shape has no {first}: it is no file"),
+                    index: None,
+                });
+            }
+            return Ok(unchanged(suggesting(drawn)?));
         }
-        if self.strict {
-            return Ok(Input {
-                mesh: self.read_strictly(name)?,
-                repair: RepairCounts::default(),
-                changes: Changes::default(),
-            });
+        if attributes.is_empty() {
+            return match self.strict {
+                true => Ok(unchanged(self.read_strictly(name)?)),
+                false => Ok(self.repaired_input(name, &self.read_soup(name)?, json)?.0),
+            };
         }
-        let (mesh, repaired) = self.repaired(&self.read_soup(name)?)?;
+        let format = self.format_of(name)?;
+        let bytes = match is_stdin(name) {
+            true => stdin()?,
+            false => std::fs::read(name)
+                .map_err(|reason| output::io_error(&name.display().to_string(), &reason))?,
+        };
+        let soup = soup::parse_in(&bytes, format, name.parent())?;
+        let read = Attributes::parse(&bytes, format, &soup)?;
+        let (mut input, repaired) = match self.strict {
+            true => (unchanged(io::parse(&bytes, format)?), None),
+            false => {
+                let (input, repaired) = self.repaired_input(name, &soup, json)?;
+                (input, Some(repaired))
+            }
+        };
+        let mesh = &input.mesh;
+        let mut features = FeatureGraph::none(mesh);
+        for &attribute in attributes {
+            let origin = (&soup, repaired.as_ref());
+            let found = FeatureGraph::by_attribute(mesh, origin, &read, attribute)?;
+            features = features.with(mesh, &found)?;
+        }
+        input.features = Some(features);
+        Ok(input)
+    }
+
+    fn repaired_input(
+        &self,
+        name: &Path,
+        soup: &PolygonSoup,
+        json: bool,
+    ) -> Result<(Input, Repaired)> {
+        let (mesh, repaired) = self.repaired(soup)?;
         if !repaired.edits.is_empty() && !json {
             output::note(name, &format!("repaired: {}", repaired.edits.summary()));
         }
-        Ok(Input {
-            mesh,
+        let input = Input {
             repair: RepairCounts::new(&repaired.edits),
             changes: Changes::new(&repaired),
-        })
+            ..unchanged(mesh)
+        };
+        Ok((input, repaired))
     }
 
     /// The soup in a file, or on standard input.
@@ -149,6 +194,16 @@ impl MeshFlags {
             }),
             None => Ok(Format::of(name).map_err(MeshError::from)?),
         }
+    }
+}
+
+/// A mesh to which nothing was done.
+fn unchanged(mesh: TriangleMesh) -> Input {
+    Input {
+        mesh,
+        repair: RepairCounts::default(),
+        changes: Changes::default(),
+        features: None,
     }
 }
 

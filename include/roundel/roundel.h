@@ -2307,6 +2307,21 @@ roundel_status roundel_repair_welded_to(const struct roundel_repair *repair,
                                         size_t length);
 
 /**
+ * Marks the edges of a repaired mesh whose two faces differ in an attribute of the file that the soup was
+ * read from: 1 for each, 0 for all others. Attributes are "materials", "groups", "smoothing", "seams" (of
+ * texture coordinates) and "normals" of OBJ files, and "colors" of the faces of PLY files. `length` is the
+ * number of edges of the mesh. roundel_guidance_set_feature_edges makes edges features.
+ *
+ * Fails as roundel_soup_read does, with ROUNDEL_ERROR_INVALID_ARGUMENT for another attribute and for one that
+ * the file lacks, and with ROUNDEL_ERROR_LENGTH_MISMATCH for a file of another soup.
+ */
+roundel_status roundel_repair_mark_attribute(const struct roundel_repair *repair,
+                                             const char *file,
+                                             const char *attribute,
+                                             int32_t *marks,
+                                             size_t length);
+
+/**
  * Makes an empty list of sources. To be freed with roundel_sources_free.
  */
 roundel_status roundel_sources_new(struct roundel_sources **sources);

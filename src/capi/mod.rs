@@ -21,6 +21,7 @@
 )]
 
 mod abi;
+mod attributes;
 mod cancel;
 mod constraints;
 mod curvature;

@@ -23,6 +23,13 @@ pub(super) struct Made {
     repaired: Repaired,
 }
 
+impl Made {
+    #[cfg(feature = "mesh-io")]
+    pub(super) fn parts(&self) -> (&TriangleMesh, &Repaired) {
+        (&self.mesh, &self.repaired)
+    }
+}
+
 object!(roundel_repair, Made, "repair");
 
 /// Repairs a soup. `options` may be NULL for new repair options. A soup that roundel_mesh_new accepts comes

@@ -103,3 +103,21 @@ def test_stl_becomes_the_mesh_that_was_written(tmp_path, cube):
     assert set(done.counts) == {"vertex_welded"}
     assert len(done.mesh.vertices) == len(cube.vertices)
     assert done.mesh.euler_characteristic == 2
+
+
+def test_edges_between_materials_are_features(tmp_path):
+    file = tmp_path / "two.obj"
+    corners = "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\nv 1 1 0\nv 2 1 0\nv 1 0 0\nv 1 1 0\n"
+    file.write_text(corners + "usemtl a\nf 1 2 5 4\nusemtl b\nf 7 3 6 8\n")
+    done = roundel.repair(file)
+    edges = done.attribute_edges(file, "materials")
+    assert sorted(edges[0].tolist()) == [1, 4] and len(edges) == 1
+    roundel.field(done.mesh, features=edges)
+    with pytest.raises(roundel.InvalidArgumentError, match="no seams; it has materials"):
+        done.attribute_edges(file, "seams")
+    with pytest.raises(roundel.InvalidArgumentError, match="no attribute"):
+        done.attribute_edges(file, "uv")
+    other = tmp_path / "other.obj"
+    other.write_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nusemtl a\nf 1 2 3\n")
+    with pytest.raises(roundel.LengthMismatchError):
+        done.attribute_edges(other, "materials")

@@ -7,7 +7,9 @@ use roundel::field::{Constraint, Guidance};
 use roundel::mesh::TriangleMesh;
 use roundel::mesh::features::FeatureGraph;
 use roundel::quad::QuadOptions;
+use roundel::soup::io::Attribute;
 
+use super::feature_sources::FeatureSources;
 use crate::mesh::Input;
 
 /// The default fraction of faces that have the direction of their curvature.
@@ -16,11 +18,12 @@ const CURVED: f64 = 0.1;
 /// Features, and directions from curvature, for single faces and from a file.
 #[derive(clap::Args)]
 pub struct Directions {
-    /// Follow feature edges, those at which the surface turns by this many degrees or more; in a map
-    /// they are isolines
-    #[arg(long, value_name = "DEGREES", value_parser = feature_angle)]
+    /// Follow feature edges; in a map they are isolines. A list of: an angle in degrees (40 or angle:40), at
+    /// which and above which the surface is sharp, and names of what the two faces of an edge differ in:
+    /// materials, groups, smoothing, seams (of texture coordinates), normals (OBJ), colors (of faces, PLY)
+    #[arg(long, value_name = "DEGREES|NAMES", value_parser = FeatureSources::parse)]
     #[arg(allow_negative_numbers = true)]
-    pub features: Option<f64>,
+    pub features: Option<FeatureSources>,
 
     /// Follow the edges that are line elements (l V1 V2 ...) of this OBJ file. It must have the
     /// vertices of the mesh, and may be the file of the mesh
@@ -68,17 +71,25 @@ impl Directions {
         [self.feature_lines.as_deref(), self.guide.as_deref()]
     }
 
-    /// The guidance of the command line, for a field of this symmetry, and the edges to follow.
+    /// The attributes of the file whose changes are features.
+    pub fn attributes(&self) -> &[Attribute] {
+        self.features.as_ref().map_or(&[], |f| &f.attributes)
+    }
+
+    /// The guidance of the command line, for a field of this symmetry, and the edges to follow, among them
+    /// those by attributes.
     pub fn of(
         &self,
         mesh: &TriangleMesh,
+        by_attributes: Option<&FeatureGraph>,
         symmetry: u8,
     ) -> roundel::Result<(Guidance, FeatureGraph)> {
+        let angle = self.features.as_ref().and_then(|f| f.angle);
         let mut guidance = Guidance {
             symmetry,
             constraints: self.fix.clone(),
             curvature_weight: self.curvature_weight.unwrap_or(0.0),
-            feature_angle: self.features.map(f64::to_radians),
+            feature_angle: angle.map(f64::to_radians),
             align_boundary: !self.free_boundary,
             detail: self.detail,
             ..Guidance::default()
@@ -93,6 +104,9 @@ impl Directions {
         let default = if by_all { CURVED } else { 0.0 };
         guidance.constrain_curvature = self.constrain_curvature.unwrap_or(default);
         let mut features = guidance.features(mesh)?;
+        if let Some(given) = by_attributes {
+            features = features.with(mesh, given)?;
+        }
         if let Some(path) = &self.feature_lines {
             let lines = FeatureGraph::read(mesh, path).map_err(|error| named(path, error))?;
             features = features.with(mesh, &lines)?;
@@ -114,8 +128,12 @@ impl Directions {
 
     /// As [`of`](Self::of), for crosses that a map follows: without flags for curvature, the defaults
     /// of quads hold.
-    pub fn of_map(&self, mesh: &TriangleMesh) -> roundel::Result<(Guidance, FeatureGraph)> {
-        let (mut guidance, features) = self.of(mesh, 4)?;
+    pub fn of_map(
+        &self,
+        mesh: &TriangleMesh,
+        by_attributes: Option<&FeatureGraph>,
+    ) -> roundel::Result<(Guidance, FeatureGraph)> {
+        let (mut guidance, features) = self.of(mesh, by_attributes, 4)?;
         if !self.says_curvature() && guidance.indices.is_none() {
             let default = QuadOptions::default().guidance;
             guidance.constrain_curvature = default.constrain_curvature;
@@ -138,14 +156,6 @@ pub fn named(path: &Path, error: Error) -> Error {
             message: format!("{message} ({})", path.display()),
         },
         other => other,
-    }
-}
-
-fn feature_angle(text: &str) -> Result<f64, String> {
-    let value: f64 = text.parse().map_err(|_| "not a number")?;
-    match value > 0.0 && value <= 180.0 {
-        true => Ok(value),
-        false => Err("the angle must be above 0 and at most 180 degrees".into()),
     }
 }
 
@@ -182,7 +192,7 @@ fn constraint(text: &str) -> Result<Constraint, String> {
 
 #[cfg(test)]
 mod tests {
-    use super::{constraint, feature_angle, fraction, weight};
+    use super::{constraint, fraction, weight};
 
     #[test]
     fn a_direction_is_a_face_and_finite_degrees() {
@@ -204,11 +214,7 @@ mod tests {
     }
 
     #[test]
-    fn features_are_of_an_angle_and_weights_not_negative() {
-        assert_eq!(feature_angle("180"), Ok(180.0));
-        for text in ["0", "-40", "181", "nan", "sharp"] {
-            assert!(feature_angle(text).is_err(), "{text}");
-        }
+    fn weights_are_not_negative() {
         assert_eq!(weight("0"), Ok(0.0));
         for text in ["-1", "inf", "nan", "much"] {
             assert!(weight(text).is_err(), "{text}");

@@ -2,6 +2,7 @@
 
 mod arguments;
 mod directions;
+mod feature_sources;
 mod page;
 mod report;
 mod solved;
@@ -42,12 +43,16 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
     let mut progress = Progress::start(arguments.output.quiet)?;
     let mut options = arguments.solver.over(Options::default())?;
     progress.limit(&mut options, started);
-    let input = arguments.input.read(&arguments.mesh, arguments.json)?;
+    let attributes = arguments.directions.attributes();
+    let input = arguments
+        .input
+        .read_with(&arguments.mesh, arguments.json, attributes)?;
     arguments.directions.keep_numbers(&input)?;
     let Input {
         mesh,
         repair,
         changes,
+        features: by_attributes,
     } = input;
     let read = started.elapsed().as_secs_f64();
     let started = Instant::now();
@@ -57,7 +62,10 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
             index: None,
         });
     }
-    let (guidance, features) = arguments.directions.of(&mesh, arguments.symmetry)?;
+    let (guidance, features) =
+        arguments
+            .directions
+            .of(&mesh, by_attributes.as_ref(), arguments.symmetry)?;
     let follows = guidance.field_options(&mesh, &features)?;
     let problem = FieldProblem::with_options(&mesh, &follows)?;
     let assemble = started.elapsed().as_secs_f64();

@@ -76,16 +76,20 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
     let mut options = arguments.solver.over(Options::default())?;
     progress.limit(&mut options, started);
     let monitor = || progress.monitor();
-    let input = arguments.input.read(&arguments.mesh, arguments.json)?;
+    let attributes = arguments.directions.attributes();
+    let input = arguments
+        .input
+        .read_with(&arguments.mesh, arguments.json, attributes)?;
     arguments.directions.keep_numbers(&input)?;
     input.keeps_numbers("--field", arguments.field.is_some())?;
     let Input {
         mesh,
         repair,
         changes,
+        features: by_attributes,
     } = input;
     let read = started.elapsed().as_secs_f64();
-    let (guidance, features) = arguments.directions.of_map(&mesh)?;
+    let (guidance, features) = arguments.directions.of_map(&mesh, by_attributes.as_ref())?;
     let sizing = arguments.sizing.of()?;
     let given_faces = mesh.face_count();
     let input = match arguments.field.is_some() || arguments.no_refine {

@@ -31,7 +31,10 @@ pub(super) fn solve(arguments: &Arguments) -> Result<Solved> {
     let default = QuadOptions::default();
     let mut map = arguments.solver.over(default.map.clone())?;
     progress.limit(&mut map, started);
-    let input = arguments.input.read(&arguments.mesh, arguments.json)?;
+    let attributes = arguments.directions.attributes();
+    let input = arguments
+        .input
+        .read_with(&arguments.mesh, arguments.json, attributes)?;
     arguments.directions.keep_numbers(&input)?;
     input.keeps_numbers("--density", arguments.density.is_some())?;
     input.keeps_numbers("--near-vertex", !arguments.near_vertex.is_empty())?;
@@ -39,13 +42,14 @@ pub(super) fn solve(arguments: &Arguments) -> Result<Solved> {
         mesh,
         repair,
         changes,
+        features: by_attributes,
     } = input;
     let density = match &arguments.density {
         Some(path) => density::read(path)?,
         None => Vec::new(),
     };
     let read_seconds = started.elapsed().as_secs_f64();
-    let (mut guidance, features) = arguments.directions.of_map(&mesh)?;
+    let (mut guidance, features) = arguments.directions.of_map(&mesh, by_attributes.as_ref())?;
     // Those of the command line's file are among them.
     guidance.feature_edges = features.edges().collect();
     let options = QuadOptions {

@@ -222,6 +222,11 @@ static void results(fixture* f, const roundel_soup* soup) {
     BAD(f, roundel_repair_welded_to(NULL, a, 5), null, "repair", NONE);
     BAD(f, roundel_repair_welded_to(repair, NULL, 5), null, "welded", NONE);
     BAD(f, roundel_repair_welded_to(repair, a, 4), length, "expected 5", NONE);
+    BAD(f, roundel_repair_mark_attribute(NULL, "x.obj", "seams", a, 5), null, "repair", NONE);
+    BAD(f, roundel_repair_mark_attribute(repair, NULL, "seams", a, 5), null, "file", NONE);
+    BAD(f, roundel_repair_mark_attribute(repair, "x.obj", NULL, a, 5), null, "attribute", NONE);
+    BAD(f, roundel_repair_mark_attribute(repair, "none.obj", "seams", a, 5), ROUNDEL_ERROR_IO,
+        "none.obj", NONE);
     HOLDS(mesh == NULL && count == 7 && a[0] == 7 && b[0] == 7 && c[0] == 7 && text[0] == '7');
 
     /* After all these calls the repair is intact: what was done, and the mesh. */

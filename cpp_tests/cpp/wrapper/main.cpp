@@ -37,6 +37,7 @@ int main() {
     soups_become_meshes_and_say_how();
     repair_follows_its_options();
     files_of_polygons_become_meshes();
+    edges_between_materials_are_told();
     distances_follow_the_surface();
     the_boundary_points_and_edges_are_sources();
     return failures != 0;

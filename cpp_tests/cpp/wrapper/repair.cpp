@@ -112,3 +112,26 @@ void files_of_polygons_become_meshes() {
     CHECK(!roundel::Mesh::repaired("never.stl", &status) && status.code == ROUNDEL_ERROR_IO);
     CHECK(std::remove(file.c_str()) == 0);
 }
+
+void edges_between_materials_are_told() {
+    const std::string file = "wrapper_materials.obj";
+    std::FILE* out = std::fopen(file.c_str(), "w");
+    CHECK(out != nullptr);
+    std::fputs("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nusemtl a\nf 1 2 3\nusemtl b\nf 1 3 4\n", out);
+    std::fclose(out);
+    const auto repair = roundel::repair(roundel::Soup::read(file));
+    const auto edges = repair.attribute_edges(file, "materials");
+    CHECK(edges.size() == 1);
+    const auto marks = roundel::mark_features(
+        repair.mesh(), roundel::Features().set_edges(edges).set_boundary(false));
+    CHECK(marks[static_cast<std::size_t>(edges[0])] == 1);
+    roundel::Status status;
+    CHECK(repair.attribute_edges(file, "seams", &status).empty());
+    CHECK(status.code == ROUNDEL_ERROR_INVALID_ARGUMENT);
+    CHECK(status.message.find("it has materials") != std::string::npos);
+    CHECK(repair.attribute_edges(file, "colour", &status).empty());
+    CHECK(status.code == ROUNDEL_ERROR_INVALID_ARGUMENT);
+    CHECK(roundel::Repair().attribute_edges(file, "seams", &status).empty());
+    CHECK(status.code == ROUNDEL_ERROR_NULL_POINTER);
+    CHECK(std::remove(file.c_str()) == 0);
+}

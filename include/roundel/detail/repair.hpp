@@ -233,6 +233,26 @@ class Repair {
         return copied(roundel_repair_welded_to, count, status);
     }
 
+    /// The edges of the mesh whose two faces differ in an attribute of the file that the soup was
+    /// read from: "materials", "groups", "smoothing", "seams" or "normals" of OBJ, "colors" of the
+    /// faces of PLY. They may be Features::edges.
+    std::vector<std::int32_t> attribute_edges(const std::string& file, const std::string& attribute,
+                                              Status* status = nullptr) const {
+        const Mesh made = mesh(status);
+        std::vector<std::int32_t> marks(made ? made.edges(status) : 0);
+        std::vector<std::int32_t> edges;
+        if (detail::check(roundel_repair_mark_attribute(get(), file.c_str(), attribute.c_str(),
+                                                        marks.data(), marks.size()),
+                          status)) {
+            for (std::size_t edge = 0; edge < marks.size(); ++edge) {
+                if (marks[edge] != 0) {
+                    edges.push_back(static_cast<std::int32_t>(edge));
+                }
+            }
+        }
+        return edges;
+    }
+
     /// The handle for calls of the C interface.
     const roundel_repair* get() const noexcept { return handle_.get(); }
 

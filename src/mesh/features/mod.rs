@@ -1,9 +1,11 @@
 //! Feature graphs: the edges that a quad mesh should keep, as curves between nodes.
 //!
-//! Edges come from the angle between faces, from the line elements of a file, or from the caller. A
+//! Edges come from the angle between faces, from the line elements or the attributes of a file, or from the caller. A
 //! node is a corner, where three or more feature edges meet or two meet at a sharp turn, or an open
 //! end, where a single feature edge stops.
 
+#[cfg(feature = "mesh-io")]
+mod attributes;
 mod curves;
 mod detect;
 #[cfg(feature = "mesh-io")]
@@ -178,5 +180,7 @@ fn out_of_range(what: &'static str, position: usize, value: usize, len: usize) -
     }
 }
 
+#[cfg(all(test, feature = "mesh-io"))]
+mod attribute_tests;
 #[cfg(test)]
 mod tests;

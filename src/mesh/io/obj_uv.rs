@@ -67,7 +67,7 @@ fn corners(bytes: &[u8]) -> Result<Vec<[[f64; 2]; 3]>, MeshError> {
                 }
                 faces.push((line, corners));
             }
-            Statement::Vertex(_) => {}
+            _ => {}
         }
     }
     let of_face = |&(line, corners): &(usize, [usize; 3])| {

@@ -2,8 +2,10 @@
 //!
 //! A reader gives what the file says: vertices and polygons keep the numbers of the file, polygons have
 //! any number of corners, and corners that name no vertex are kept. Normals, texture coordinates,
-//! colours, materials and groups are ignored. A file of points or lines gives a soup without polygons.
+//! colours, materials and groups are ignored; [`Attributes`] reads them. A file of points or lines gives a
+//! soup without polygons.
 
+mod attributes;
 mod bytes;
 mod format;
 mod gltf;
@@ -11,6 +13,7 @@ mod gzip;
 mod lines;
 mod look;
 mod obj;
+mod obj_attributes;
 mod off;
 mod off_binary;
 mod plain_obj;
@@ -24,6 +27,7 @@ use std::path::Path;
 use super::{PolygonSoup, SoupError};
 use crate::monitor::span;
 
+pub use attributes::{Attribute, Attributes};
 pub use format::Format;
 
 pub(crate) use format::is_compressed;

@@ -86,7 +86,7 @@ fn faces(bytes: &[u8], mut soup: PolygonSoup) -> Result<PolygonSoup, SoupError> 
                 }
                 soup.add_polygon(corners.iter().copied());
             }
-            Statement::Texture(_) => {}
+            _ => {}
         }
     }
     Ok(soup)

@@ -1,4 +1,4 @@
-//! The statements of an OBJ file that describe a surface, each on a line of its own or continued over
+//! The statements of an OBJ file that describe a surface and its parts, each on a line of its own or continued over
 //! several by a backslash.
 
 use std::borrow::Cow;
@@ -11,19 +11,47 @@ pub(crate) enum Statement<'a> {
     Vertex(Cow<'a, [u8]>),
     /// `vt`: texture coordinates.
     Texture(Cow<'a, [u8]>),
+    /// `vn`: a normal.
+    Normal(Cow<'a, [u8]>),
     /// `f`, or `fo` as old files have it: the corners of a face.
     Face(Cow<'a, [u8]>),
+    /// What the faces that follow have.
+    Label(LabelKind, &'a [u8]),
+}
+
+/// What a statement may give the faces that follow it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum LabelKind {
+    /// `usemtl`.
+    Material,
+    /// `g`.
+    Group,
+    /// `o`.
+    Object,
+    /// `s`.
+    Smoothing,
 }
 
 /// The statements of a file, each with the number of its first line, counted from 1.
 pub(crate) struct Statements<'a> {
     lines: Lines<'a>,
+    /// Whether normals and labels are among them.
+    with_attributes: bool,
 }
 
 impl<'a> Statements<'a> {
     pub(crate) fn new(bytes: &'a [u8]) -> Self {
         Statements {
             lines: Lines::new(bytes),
+            with_attributes: false,
+        }
+    }
+
+    /// The same with normals and labels, which [`new`](Self::new) passes over.
+    pub(super) fn with_attributes(bytes: &'a [u8]) -> Self {
+        Statements {
+            with_attributes: true,
+            ..Statements::new(bytes)
         }
     }
 
@@ -60,6 +88,12 @@ impl<'a> Iterator for Statements<'a> {
                 b"v" => Statement::Vertex(self.continued(rest)),
                 b"vt" => Statement::Texture(self.continued(rest)),
                 b"f" | b"fo" => Statement::Face(self.continued(rest)),
+                _ if !self.with_attributes => continue,
+                b"vn" => Statement::Normal(self.continued(rest)),
+                b"usemtl" => Statement::Label(LabelKind::Material, said(rest)),
+                b"g" => Statement::Label(LabelKind::Group, said(rest)),
+                b"o" => Statement::Label(LabelKind::Object, said(rest)),
+                b"s" => Statement::Label(LabelKind::Smoothing, said(rest)),
                 _ => continue,
             };
             return Some((number, statement));

@@ -255,6 +255,21 @@ class Repair:
         """The vertex to which each vertex of the soup was welded: itself if to none, -1 if it is not finite."""
         return self._int32(lib.roundel_repair_welded_to, lib.roundel_repair_soup_vertex_count)
 
+    def attribute_edges(self, file: File, attribute: str) -> np.ndarray:
+        """The edges whose two faces differ in an attribute of the file that the soup was read from.
+
+        `attribute` is "materials", "groups", "smoothing", "seams" (of texture coordinates) or "normals" of an
+        OBJ file, or "colors" of the faces of a PLY file. Edges are given by their two vertices, in an array of
+        shape (edges, 2), which may be `features` of a field, a map or quads.
+        """
+        mesh = self.mesh
+        marks = np.empty(len(mesh.edge_faces), dtype=np.int32)
+        call = lib.roundel_repair_mark_attribute
+        check(call(self._handle.pointer, path(file), attribute.encode(), pointer(marks), marks.size))
+        ends = np.empty((marks.size, 2), dtype=np.int32)
+        ends[mesh.face_edges] = np.stack([mesh.faces, np.roll(mesh.faces, -1, axis=1)], axis=2)
+        return ends[marks != 0]
+
     def _int32(self, call: Any, count: Any) -> np.ndarray:
         found = np.empty(number(count, self._handle.pointer), dtype=np.int32)
         check(call(self._handle.pointer, pointer(found), found.size))

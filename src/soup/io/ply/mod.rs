@@ -6,6 +6,7 @@
 //! are not UTF-8, and lines that end in CR; it forgets one of two properties of the same name, and so
 //! misreads what follows; and its errors in binary files name no byte.
 
+mod colors;
 mod data;
 mod header;
 
@@ -13,6 +14,7 @@ use super::bytes::{Bytes, plausible};
 use super::lines::Words;
 use super::strips;
 use crate::soup::{PolygonSoup, SoupError};
+pub(super) use colors::face_colors;
 use data::Data;
 use header::{Element, Encoding, Header};
 
@@ -20,14 +22,7 @@ const CORNERS: [&[u8]; 2] = [b"vertex_indices", b"vertex_index"];
 
 pub(super) fn parse(bytes: &[u8]) -> Result<PolygonSoup, SoupError> {
     let header = Header::parse(bytes)?;
-    let start = bytes.len() - header.data.rest().len();
-    let mut data = match header.encoding {
-        Encoding::Ascii => Data::Text(Words::of(header.data)),
-        encoding => Data::Binary {
-            bytes: Bytes::new(bytes, start),
-            big: encoding == Encoding::BigEndian,
-        },
-    };
+    let (mut data, start) = data_of(bytes, &header);
     let mut soup = PolygonSoup::default();
     for element in &header.elements {
         if element.properties.is_empty() {
@@ -60,6 +55,19 @@ pub(super) fn parse(bytes: &[u8]) -> Result<PolygonSoup, SoupError> {
         }
     }
     Ok(soup)
+}
+
+/// The numbers after the header, and the byte at which they start.
+fn data_of<'a>(bytes: &'a [u8], header: &Header<'a>) -> (Data<'a>, usize) {
+    let start = bytes.len() - header.data.rest().len();
+    let data = match header.encoding {
+        Encoding::Ascii => Data::Text(Words::of(header.data.clone())),
+        encoding => Data::Binary {
+            bytes: Bytes::new(bytes, start),
+            big: encoding == Encoding::BigEndian,
+        },
+    };
+    (data, start)
 }
 
 fn vertices(
