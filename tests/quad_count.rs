@@ -93,11 +93,11 @@ fn components_meet_their_number_together() {
 #[test]
 fn the_count_is_set_by_its_word() {
     let mut options = QuadOptions::default();
-    assert_eq!(options.count, Count::About);
+    assert_eq!(options.count, Count::Exact);
     let set = |options: &mut QuadOptions, word: &str| {
         options.set("count", &OptionValue::Text(word.into()))
     };
-    set(&mut options, "exact").unwrap();
-    assert_eq!(options.count, Count::Exact);
+    set(&mut options, "about").unwrap();
+    assert_eq!(options.count, Count::About);
     assert!(set(&mut options, "nearly").is_err());
 }

@@ -30,7 +30,7 @@ options! {
 
     /// The options of quads, besides those of the guidance and of the two solves.
     QUAD_OPTIONS {
-        count: Count = Count::About, "about" in Count::WORDS,
+        count: Count = Count::Exact, "exact" in Count::WORDS,
             "exact: a number of quads is met within 1 %, or as nearly as a few maps of other sizes come; about: one map is made, whose number differs by up to a fifth";
         /// Several fields are tried on meshes that are not large, unless curvature has no weight or
         /// indices are prescribed.

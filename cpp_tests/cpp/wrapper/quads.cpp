@@ -72,7 +72,7 @@ void unset_quad_options_have_the_librarys_defaults() {
     runs_are_followed_and_finished(mesh);
 
     // Every option has an effect.
-    std::vector<double> rising(mesh.vertices().size() / 3);
+    std::vector<double> rising(mesh.vertices());
     for (std::size_t v = 0; v < rising.size(); ++v) {
         rising[v] = 1.0 + static_cast<double>(v) / static_cast<double>(rising.size());
     }

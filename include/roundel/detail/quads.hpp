@@ -48,7 +48,7 @@ struct QuadOptions {
     /// 1]; 1 by default.
     std::optional<bool> smooth = std::nullopt;
     /// Exact: a number of quads is met within 1 %, or as nearly as a few maps of other sizes come;
-    /// about: one map is made, whose number differs by up to a fifth. One of exact, about; about by
+    /// about: one map is made, whose number differs by up to a fifth. One of exact, about; exact by
     /// default.
     std::optional<std::string> count = std::nullopt;
     /// 1: also try fields that follow curvature less than the guidance says, and keep the field

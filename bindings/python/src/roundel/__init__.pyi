@@ -202,6 +202,7 @@ class Mesh:
     def boundary_loops(self) -> int: ...
     @property
     def euler_characteristic(self) -> int: ...
+    def mirror_plane(self, plane: str = "auto") -> tuple[np.ndarray, float, float]: ...
 
 class Problem:
     def __init__(self, variables: int) -> None: ...
@@ -541,6 +542,8 @@ def quad(
     near_distance: Optional[float] = None,
     untangle: bool = True,
     stiffenings: int = 5,
+    mirror_tolerance: float = 0.05,
+    mirror: Union[str, Sequence[Union[str, Sequence[float]]], None] = None,
     density: Optional[ArrayLike] = None,
     near_vertices: Optional[ArrayLike] = None,
     features: Union[float, ArrayLike, None] = None,

@@ -89,8 +89,8 @@ _MIRROR = Keyword(
     "mirror",
     "Union[str, Sequence[Union[str, Sequence[float]]], None]",
     None,
-    "Planes about which the quads are symmetric, one or several that are perpendicular to each other: 'x', "
-    "'y' or 'z' (through the centre of the bounding box; the side of larger coordinates is kept), '-x', '-y' "
+    "Planes about which the quads are symmetric, one or several that are perpendicular to each other. A plane is "
+    "'x', 'y' or 'z' (through the centre of the bounding box; the side of larger coordinates is kept), '-x', '-y' "
     "or '-z' (the other side), 'auto' (the plane is found), or nx, ny, nz, d. See `Mesh.mirror_plane`.",
 )
 _OF_TABLE = Group("The quads", of_table(quad_options())).but(
