@@ -530,7 +530,7 @@ def quad(
     edge_length: Union[float, ArrayLike, None] = None,
     field_strategy: Strategy = "adaptive",
     smooth: bool = True,
-    count: Literal["exact", "about"] = "about",
+    count: Literal["exact", "about"] = "exact",
     vary_curvature: bool = True,
     refine: bool = True,
     adapt: float = 0.0,
