@@ -25,9 +25,7 @@ pub(super) fn feasible_indices(
     let regular: BTreeSet<usize> = regular.iter().copied().collect();
     for v in 0..steps.len() {
         while steps[v] > MOST {
-            let Some(to) = nearest(mesh, v, |w| {
-                steps[w] < 1 && !regular.contains(&w)
-            }) else {
+            let Some(to) = nearest(mesh, v, |w| steps[w] < 1 && !regular.contains(&w)) else {
                 return steps;
             };
             steps[v] -= 1;
