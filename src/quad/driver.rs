@@ -8,7 +8,7 @@
 //! quads       are extracted from the map
 //! next try    while quads have holes or miss features: smaller quads on small parts that have lost
 //!             theirs; untangle the map; separate collapsed cones; do not separate feature curves;
-//!             use a field that sees fewer details; smaller quads around folds
+//!             use a field that moves no cones onto features, or sees fewer details; smaller quads around folds
 //! smoothing
 //! ```
 //!
