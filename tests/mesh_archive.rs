@@ -16,13 +16,15 @@ use std::sync::OnceLock;
 
 use roundel::check::{CheckOptions, check_map};
 use roundel::extract::QuadMesh;
-use roundel::field::solve_field;
+use roundel::field::{near_features, solve_field};
 use roundel::map::{SeamlessProblem, Sizing};
 use roundel::mesh::features::FeatureGraph;
 use roundel::mesh::refine::needs_refinement;
 use roundel::mesh::vector::{Vec3, add, norm, scale, sub};
 use roundel::mesh::{ClosestPoint, MeshError, TriangleMesh, io};
-use roundel::quad::{FoldFreeMap, QuadOptions, RefinedInput, quadrangulate, solve_fold_free};
+use roundel::quad::{
+    FoldFreeMap, QuadOptions, Quadrangulation, RefinedInput, quadrangulate, solve_fold_free,
+};
 use roundel::smooth::QuadQuality;
 use roundel::untangle::UntangleOptions;
 use roundel::{Monitor, Options, Strategy};
@@ -257,6 +259,52 @@ fn a_refinement_that_leaves_more_needles_is_not_used() {
         assert!(needs_refinement(&mesh, sizing.edge_length(&mesh)).is_some());
         let refined = RefinedInput::new(&mesh, &guidance, &none, &sizing).unwrap();
         assert_eq!(refined.is_some(), is_refined, "{name}");
+    }
+}
+
+/// The quads of a mesh with sharp edges as features, and how many irregular vertices of its field lie nearer to them
+/// than an edge of the quads.
+fn near_features_of(mesh: &TriangleMesh, clearance: Option<f64>) -> (Quadrangulation, usize) {
+    let mut options = QuadOptions {
+        sizing: Sizing::Quads(1_000),
+        ..QuadOptions::default()
+    };
+    options.guidance.feature_angle = Some(40f64.to_radians());
+    options.guidance.clearance = clearance;
+    let made = quadrangulate(mesh, &options, Monitor::default).unwrap();
+    let is_feature = |e: &usize| made.features.binary_search(e).is_ok();
+    let edges: Vec<usize> = match &made.refined {
+        Some(refined) => {
+            let parts = refined.edge_origin.iter().enumerate();
+            let parts =
+                parts.filter(|(_, origin)| origin.is_some_and(|e| is_feature(&(e as usize))));
+            parts.map(|(part, _)| part).collect()
+        }
+        None => made.features.clone(),
+    };
+    let of_field = made.mesh(mesh);
+    let features = FeatureGraph::from_edges(of_field, &edges).unwrap();
+    let lengths = vec![options.sizing.edge_length(mesh); of_field.vertex_count()];
+    let near = near_features(of_field, &features, &lengths, &Monitor::default()).unwrap();
+    let steps = made.field.vertex_index_steps(of_field);
+    let count = near.iter().filter(|&&v| steps[v] != 0).count();
+    (made, count)
+}
+
+#[test]
+fn irregular_vertices_keep_an_edge_away_from_features() {
+    let Some(folder) = archive() else {
+        return common::skip::skip_unless_ci(MISSING);
+    };
+    for (name, before) in [("fandisk", 4), ("anchor_dense", 28), ("rotor", 16)] {
+        let mesh = load(&folder, name).unwrap();
+        let (_, free) = near_features_of(&mesh, Some(0.0));
+        let (made, kept) = near_features_of(&mesh, None);
+        println!("{name}: {free} -> {kept}");
+        assert!(free >= before / 2, "{name}: {free}");
+        assert_eq!((kept, made.near_features), (0, 0), "{name}");
+        assert!(made.quads.is_conforming() && made.missed_features.is_empty());
+        assert_eq!(QuadQuality::new(&made.quads).inverted, 0, "{name}");
     }
 }
 

@@ -16,18 +16,25 @@ pub(super) const MOST: i32 = 2;
 const LEAST: i32 = -2;
 
 /// The indices in quarters, changed so that a map can have each of them, as long as other vertices can
-/// take the rest.
-pub(super) fn feasible_indices(mesh: &TriangleMesh, mut steps: Vec<i32>) -> Vec<i32> {
+/// take the rest. Those that are to be regular take none.
+pub(super) fn feasible_indices(
+    mesh: &TriangleMesh,
+    mut steps: Vec<i32>,
+    regular: &[usize],
+) -> Vec<i32> {
+    let regular: BTreeSet<usize> = regular.iter().copied().collect();
     for v in 0..steps.len() {
         while steps[v] > MOST {
-            let Some(to) = nearest(mesh, v, |w| steps[w] < 1) else {
+            let Some(to) = nearest(mesh, v, |w| steps[w] < 1 && !regular.contains(&w)) else {
                 return steps;
             };
             steps[v] -= 1;
             steps[to] += 1;
         }
         while steps[v] < least(mesh, v) {
-            let Some(to) = nearest(mesh, v, |w| steps[w] > least(mesh, w).max(-1)) else {
+            let Some(to) = nearest(mesh, v, |w| {
+                steps[w] > least(mesh, w).max(-1) && !regular.contains(&w)
+            }) else {
                 return steps;
             };
             steps[v] += 1;

@@ -7,12 +7,13 @@
 use super::feature_alignment::edge_constraints;
 use super::{
     Constraint, FieldOptions, Guide, PrescribedIndex, curvature_guidance, feature_constraints,
+    near_features,
 };
 use crate::error::{Error, Result};
 use crate::mesh::TriangleMesh;
 use crate::mesh::curvature::{SMOOTHING_ROUNDS, watched_curvature};
 use crate::mesh::features::FeatureGraph;
-use crate::monitor::may_continue;
+use crate::monitor::{Monitor, may_continue};
 use crate::search::table::options;
 
 options! {
@@ -43,6 +44,9 @@ options! {
         /// [`quadrangulate`](crate::quad::quadrangulate).
         detail: Option<f64> = None, "unset" in "[0, inf)",
             "details smaller than this length attract no irregular vertices; unset: 0 for a field, an edge of the quads for a map, a quarter of an edge for quads";
+        /// See [`near_features`](super::near_features).
+        clearance: Option<f64> = None, "unset" in "[0, inf)",
+            "irregular vertices keep this far from features, or lie on them; unset: 0 for a field or a map, for quads an edge of theirs if there are features inside the surface";
     }
     and {
         /// Directions that faces have, each face at most once.
@@ -85,14 +89,51 @@ impl Guidance {
     /// # Errors
     /// [`Error::LengthMismatch`] for features of another mesh, [`Error::InvalidArgument`] for
     /// features of a field of single directions, and those of [`feature_constraints`],
-    /// [`curvature_constraints`](super::curvature_constraints) and
-    /// [`curvature_guides`](super::curvature_guides).
+    /// [`curvature_constraints`](super::curvature_constraints), [`curvature_guides`](super::curvature_guides) and
+    /// [`near_features`](super::near_features).
     pub fn field_options(
         &self,
         mesh: &TriangleMesh,
         features: &FeatureGraph,
     ) -> Result<FieldOptions> {
-        self.options_at(mesh, features, self.detail.unwrap_or(0.0))
+        let regular = self.regular(mesh, features, None, &Monitor::default())?;
+        self.options_with(mesh, features, regular)
+    }
+
+    /// The same with vertices that should be regular.
+    pub(crate) fn options_with(
+        &self,
+        mesh: &TriangleMesh,
+        features: &FeatureGraph,
+        regular: Vec<usize>,
+    ) -> Result<FieldOptions> {
+        Ok(FieldOptions {
+            regular,
+            ..self.options_at(mesh, features, self.detail.unwrap_or(0.0))?
+        })
+    }
+
+    /// The vertices that should be regular to be as far from features as the clearance asks for, or, where it is not
+    /// set, these lengths at every vertex.
+    ///
+    /// # Errors
+    /// Those of [`near_features`], and of a clearance that is no length.
+    pub(crate) fn regular(
+        &self,
+        mesh: &TriangleMesh,
+        features: &FeatureGraph,
+        otherwise: Option<Vec<f64>>,
+        monitor: &Monitor,
+    ) -> Result<Vec<usize>> {
+        let lengths = match self.clearance {
+            Some(0.0) => None,
+            Some(clearance) => Some(vec![clearance; mesh.vertex_count()]),
+            None => otherwise,
+        };
+        match lengths {
+            Some(lengths) => near_features(mesh, features, &lengths, monitor),
+            None => Ok(Vec::new()),
+        }
     }
 
     /// The same for the field that a map with quads of this edge length shall follow.
@@ -106,7 +147,11 @@ impl Guidance {
         edge_length: f64,
     ) -> Result<FieldOptions> {
         let detail = self.detail.unwrap_or(edge_length);
-        self.options_at(mesh, features, detail)
+        let regular = self.regular(mesh, features, None, &Monitor::default())?;
+        Ok(FieldOptions {
+            regular,
+            ..self.options_at(mesh, features, detail)?
+        })
     }
 
     fn options_at(
@@ -121,6 +166,8 @@ impl Guidance {
             firm: usize::MAX,
             guides: self.guides.clone(),
             indices: self.indices.clone(),
+            regular: Vec::new(),
+            kept_turns: Vec::new(),
             detail,
             lengths: Vec::new(),
         };

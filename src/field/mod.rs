@@ -4,6 +4,7 @@
 //! `bommes2009`, section 4; `bommes2012`, section 8.2. A client of the solver: it builds a
 //! [`Problem`](crate::Problem) and reads a [`Solution`](crate::Solution).
 
+mod clearance;
 mod curvature_guidance;
 mod detail;
 mod directions;
@@ -18,10 +19,12 @@ mod options;
 mod orientation_field;
 mod prescribed_indices;
 mod problem;
+mod regular_vertices;
 mod solve_field;
 mod spanning_forest;
 mod traced_index;
 
+pub use clearance::near_features;
 pub use curvature_guidance::{curvature_constraints, curvature_guides};
 pub use feature_alignment::feature_constraints;
 pub use guidance::{GUIDANCE_OPTIONS, Guidance};

@@ -52,6 +52,14 @@ pub struct FieldOptions {
     /// The index of every irregular vertex, all others of the interior being regular; none leaves
     /// that to the energy.
     pub indices: Option<Vec<PrescribedIndex>>,
+    /// Interior vertices that should be regular. Where the field is not,
+    /// [`solve_field`](super::solve_field) and [`smoothest_field`](super::smoothest_field) solve for it again with
+    /// these regular; others take the indices. They keep the first field where there is no other. The problem of
+    /// the options, [`FieldProblem`](super::FieldProblem), does not have these constraints.
+    pub regular: Vec<usize>,
+    /// Vertices that take no index from those, as do features where quads shall stay as many on either side:
+    /// between constrained faces the field turns around them as the first one does.
+    pub kept_turns: Vec<usize>,
     /// Curvature of details smaller than this length does not count: they attract no irregular
     /// vertices. [`solve_field`](super::solve_field) lets it decide the indices alone. Where it is
     /// not 0, the energy of [`FieldProblem`](super::FieldProblem) is not that of its field.
@@ -71,6 +79,8 @@ impl Default for FieldOptions {
             firm: usize::MAX,
             guides: Vec::new(),
             indices: None,
+            regular: Vec::new(),
+            kept_turns: Vec::new(),
             detail: 0.0,
             lengths: Vec::new(),
         }
@@ -91,6 +101,27 @@ impl FieldOptions {
         let taken: std::collections::BTreeSet<usize> = self.guides.iter().map(|g| g.face).collect();
         let others = guides.into_iter().filter(|g| !taken.contains(&g.face));
         self.guides.extend(others);
+    }
+
+    /// Whether vertices that should be regular or keep their turns are there.
+    pub(super) fn check_regular(&self, mesh: &TriangleMesh) -> Result<()> {
+        for (position, &v) in self.regular.iter().chain(&self.kept_turns).enumerate() {
+            if v >= mesh.vertex_count() {
+                return Err(Error::IndexOutOfRange {
+                    what: "regular vertices and those that keep their turns",
+                    position,
+                    value: i64::try_from(v).unwrap_or(i64::MAX),
+                    len: mesh.vertex_count(),
+                });
+            }
+            if position < self.regular.len() && mesh.is_boundary_vertex(v) {
+                return Err(Error::InvalidArgument {
+                    what: format!("vertex {v} cannot be regular: it lies on the boundary"),
+                    index: Some(position),
+                });
+            }
+        }
+        Ok(())
     }
 
     /// The angle from arm to arm.

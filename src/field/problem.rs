@@ -11,6 +11,8 @@
 //! without the edges between two constrained faces. Jumps are zero on a spanning forest, which grows
 //! from the constrained and guided faces: their frames cannot be turned to move a jump away.
 
+use std::f64::consts::TAU;
+
 use super::detail::detail;
 use super::prescribed_indices::{ring_sum, steps};
 use super::spanning_forest::spanning_forest;
@@ -26,7 +28,7 @@ const LEAST: usize = 1 << 12;
 
 /// What is known of one interior edge.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Jump {
+pub(super) enum Jump {
     /// The edge has no other face.
     Boundary,
     /// In the problem as this unknown.
@@ -41,7 +43,7 @@ enum Jump {
 /// edges. Least-squares rows follow the order of the edges as well, then that of guided faces.
 #[derive(Debug, Clone)]
 pub struct FieldProblem {
-    problem: Problem,
+    pub(super) problem: Problem,
     symmetry: u8,
     jumps: Vec<Jump>,
     kappa: Vec<f64>,
@@ -104,7 +106,7 @@ impl FieldProblem {
                 .add_least_squares(&[face], &[1.0], angle, weight)?;
         }
         if let Some(given) = &options.indices {
-            this.prescribe(mesh, step, &steps(mesh, options.symmetry, given)?)?;
+            this.prescribe(mesh, &steps(mesh, options.symmetry, given)?)?;
         }
         may_continue()?;
         hint_rings(mesh, &row_of_edge, &mut this.problem)?;
@@ -153,21 +155,19 @@ impl FieldProblem {
     }
 
     /// Constrains the jumps around every interior vertex to its index.
-    fn prescribe(&mut self, mesh: &TriangleMesh, step: f64, steps: &[i32]) -> Result<()> {
+    fn prescribe(&mut self, mesh: &TriangleMesh, steps: &[i32]) -> Result<()> {
         let (mut unknowns, mut signs) = (Vec::new(), Vec::new());
         for v in (0..mesh.vertex_count()).filter(|&v| !mesh.is_boundary_vertex(v)) {
             may_continue_at(v)?;
-            let mut sum = ring_sum(mesh, &self.kappa, step, v, steps[v]);
+            let mut sum = self.ring_sum(mesh, v, steps[v]);
             unknowns.clear();
             signs.clear();
             for (face, corner) in mesh.ring(v) {
                 let k = (corner + 2) % 3;
-                let e = mesh.edge_of(face, k);
-                let sign = mesh.out_of(face, k, 1.0);
-                match self.jumps[e] {
-                    Jump::Boundary => {}
-                    Jump::Known(p) => sum -= sign * f64::from(p),
-                    Jump::Unknown(p) => {
+                match self.jump(mesh, face, k) {
+                    (Jump::Boundary, _) => {}
+                    (Jump::Known(p), sign) => sum -= sign * f64::from(p),
+                    (Jump::Unknown(p), sign) => {
                         unknowns.push(p as usize);
                         signs.push(sign);
                     }
@@ -185,6 +185,18 @@ impl FieldProblem {
             }
         }
         Ok(())
+    }
+
+    /// The jump over a side of a face, and the sign of its edge's direction out of the face.
+    pub(super) fn jump(&self, mesh: &TriangleMesh, face: usize, k: usize) -> (Jump, f64) {
+        let e = mesh.edge_of(face, k);
+        (self.jumps[e], mesh.out_of(face, k, 1.0))
+    }
+
+    /// What the jumps around an interior vertex sum to, counter-clockwise, for an index of `steps`.
+    pub(super) fn ring_sum(&self, mesh: &TriangleMesh, vertex: usize, steps: i32) -> f64 {
+        let step = TAU / f64::from(self.symmetry);
+        ring_sum(mesh, &self.kappa, step, vertex, steps)
     }
 
     /// The problem, to be solved by any strategy.

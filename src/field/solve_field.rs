@@ -10,7 +10,7 @@ use super::graded_flow::graded_flow;
 use super::{Constraint, FieldOptions, FieldProblem, OrientationField, PrescribedIndex};
 use crate::error::{Error, Result};
 use crate::mesh::TriangleMesh;
-use crate::monitor::{Monitor, Stage, both, may_continue};
+use crate::monitor::{Monitor, Stage, both, may_continue, optional};
 use crate::search::{Options, WarmStart};
 use crate::solve::{Solution, Solver, solve_with};
 
@@ -33,6 +33,10 @@ pub fn smoothest_field<'a>(
     if options.detail > 0.0 {
         return solve_field(mesh, options, solver, monitor);
     }
+    if !options.regular.is_empty() {
+        let found = decided(mesh, options, solver, &monitor)?;
+        return Ok((found.field, found.solution));
+    }
     solve_stated(mesh, options, solver, monitor())
 }
 
@@ -50,11 +54,76 @@ fn solve_stated(
     Ok((problem.field(mesh, &solution)?, solution))
 }
 
+/// A field, the problem that it solves, and the solver with what it has kept.
+struct Decided {
+    problem: FieldProblem,
+    solver: Solver,
+    solution: Solution,
+    field: OrientationField,
+}
+
+impl Decided {
+    /// The field of these options; with a first one, of the problem in which vertices are
+    /// [regular](FieldOptions::regular).
+    fn new(
+        mesh: &TriangleMesh,
+        options: &FieldOptions,
+        first: Option<&OrientationField>,
+        solver: &Options,
+        monitor: [Monitor; 3],
+    ) -> Result<Self> {
+        let [watched, prepares, solves] = monitor;
+        let watch = watched.watch();
+        let (problem, mut kept) = prepared(mesh, options, first, solver, prepares)?;
+        // The best solution of a solve that ends early has a field, too.
+        drop(watch);
+        let solution = kept.solve_with(solver, solves)?;
+        let _memory = mesh.watch_memory();
+        let field = problem.field(mesh, &solution)?;
+        Ok(Decided {
+            problem,
+            solver: kept,
+            solution,
+            field,
+        })
+    }
+}
+
+/// The field whose problem decides the indices: the first, or one in which vertices are
+/// [regular](FieldOptions::regular) that the first makes irregular.
+fn decided<'a>(
+    mesh: &TriangleMesh,
+    options: &FieldOptions,
+    solver: &Options,
+    monitor: &impl Fn() -> Monitor<'a>,
+) -> Result<Decided> {
+    options.check_regular(mesh)?;
+    let monitors = || [monitor(), monitor(), monitor()];
+    let first = Decided::new(mesh, options, None, solver, monitors())?;
+    may_continue()?;
+    if options.regular.is_empty() || options.indices.is_some() {
+        return Ok(first);
+    }
+    let steps = first.field.vertex_index_steps(mesh);
+    let is_irregular = |v: &usize| steps.get(*v).is_some_and(|&n| n != 0);
+    if !options.regular.iter().any(is_irregular) {
+        return Ok(first);
+    }
+    let again = || Decided::new(mesh, options, Some(&first.field), solver, monitors());
+    match optional(monitor, again) {
+        Ok(found) => Ok(found.unwrap_or(first)),
+        // Features alone may decide indices.
+        Err(Error::Infeasible { .. } | Error::NoIntegerSolution { .. }) => Ok(first),
+        Err(error) => Err(error),
+    }
+}
+
 /// The problem of a field and its solver, up to the elimination. Details change only right sides, and so they are
 /// found at the same time.
 fn prepared(
     mesh: &TriangleMesh,
     options: &FieldOptions,
+    first: Option<&OrientationField>,
     solver: &Options,
     monitor: Monitor,
 ) -> Result<(FieldProblem, Solver)> {
@@ -66,7 +135,10 @@ fn prepared(
     let (made, ignored): (Result<_>, _) = both(
         is_large,
         || {
-            let problem = FieldProblem::with_options(mesh, &with_all)?;
+            let mut problem = FieldProblem::with_options(mesh, &with_all)?;
+            if let Some(first) = first {
+                problem.keep_regular(mesh, options, first)?;
+            }
             let mut kept = Solver::new(problem.problem())?;
             kept.eliminate(solver, monitor)?;
             Ok((problem, kept))
@@ -104,6 +176,9 @@ fn smoothest_with(
 /// With a length of [details](FieldOptions::detail) a first field, solved for without the details,
 /// decides the indices. The result is the smoothest field with these indices.
 ///
+/// If the field makes a vertex irregular that should be [regular](FieldOptions::regular), a second one decides the
+/// indices, in which it is regular.
+///
 /// Indices that the caller prescribes are kept in any case, and so are the [firm](FieldOptions::firm)
 /// constraints. Other directions of faces around a vertex are dropped if they alone decide an index that
 /// no map can have.
@@ -120,19 +195,19 @@ pub fn solve_field<'a>(
     let run = monitor().run();
     run.name_stage(Stage::Field);
     let monitor = || monitor().of_run(&run);
-    let watch = monitor().watch();
-    let (problem, mut kept) = prepared(mesh, options, solver, monitor())?;
-    // The best solution of a solve that ends early has a field, too.
-    drop(watch);
-    let solution = kept.solve_with(solver, monitor())?;
+    let Decided {
+        problem,
+        solver: mut kept,
+        solution,
+        field,
+    } = decided(mesh, options, solver, &monitor)?;
     let _memory = mesh.watch_memory();
-    let field = problem.field(mesh, &solution)?;
     may_continue()?;
     if options.indices.is_some() || options.symmetry != 4 {
         return Ok((field, solution));
     }
     let found = field.vertex_index_steps(mesh);
-    let steps = feasible_indices(mesh, found.clone());
+    let steps = feasible_indices(mesh, found.clone(), &options.regular);
     may_continue()?;
     if steps == found {
         return match options.detail > 0.0 {

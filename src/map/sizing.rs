@@ -62,6 +62,24 @@ impl Sizing {
         (0..mesh.vertex_count()).map(mean).collect()
     }
 
+    /// The length of an edge of quads at every vertex, in units of the mesh: the mean of the faces around it.
+    ///
+    /// # Errors
+    /// As [`Density::new`].
+    pub(crate) fn lengths_at_vertices(&self, mesh: &TriangleMesh) -> Result<Vec<f64>> {
+        let faces = match Density::new(mesh, self)? {
+            Density::Uniform(density) => return Ok(vec![1.0 / density; mesh.vertex_count()]),
+            Density::Faces(faces) => faces,
+        };
+        let mean = |v: usize| {
+            let ring = mesh.ring(v);
+            let count = ring.len() as f64;
+            let lengths = ring.map(|(face, _)| 1.0 / (faces[face][0] * faces[face][1]).sqrt());
+            lengths.sum::<f64>() / count
+        };
+        Ok((0..mesh.vertex_count()).map(mean).collect())
+    }
+
     /// The length of an edge of quads, in units of the mesh; where faces have their own, the mean.
     pub fn edge_length(&self, mesh: &TriangleMesh) -> f64 {
         let area = mesh.surface_area();

@@ -8,7 +8,7 @@
 //! quads       are extracted from the map
 //! next try    while quads have holes or miss features: smaller quads on small parts that have lost
 //!             theirs; untangle the map; separate collapsed cones; do not separate feature curves;
-//!             use a field that sees fewer details; smaller quads around folds
+//!             use a field that moves no cones onto features, or sees fewer details; smaller quads around folds
 //! smoothing
 //! ```
 //!
@@ -21,6 +21,7 @@ use std::cell::Cell;
 use std::time::Instant;
 
 use super::attempt::{Attempt, is_hopeless};
+use super::clearance::near_features;
 use super::compare::compare;
 use super::count::meet;
 use super::field_map::FieldMap;
@@ -213,6 +214,7 @@ fn of_mesh<'a>(
         sizes: 0,
         details: 0,
         gradings: 0,
+        was_off_features: false,
         current: 0,
         visits: most,
         features,
@@ -221,7 +223,7 @@ fn of_mesh<'a>(
         fields: Vec::new(),
         seconds: QuadSeconds::default(),
     };
-    let mut best = driver.follow()?;
+    let mut best = driver.follow(false)?;
     let mut last = Try::SmallerQuads;
     while let Some(next) = driver.next(last, &best) {
         let found = match optional(monitor, || driver.attempt(next, &best)) {
@@ -243,7 +245,7 @@ fn of_mesh<'a>(
 }
 
 /// The tries, in this order; untangling and the separation of cones follow again after each of the last
-/// three.
+/// four.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Try {
     /// Use smaller quads on parts of the mesh that have lost theirs.
@@ -254,6 +256,8 @@ pub(super) enum Try {
     ConesApart,
     /// Use the map whose feature curves are not separated.
     FeaturesAsRounded,
+    /// Use a field whose irregular vertices keep away from features, but do not move onto them, and its map.
+    OffFeatures,
     /// Use another field, which sees fewer details, and its map.
     LessDetail,
     /// Use smaller quads around the folds of the best map.
@@ -277,6 +281,8 @@ pub(super) struct Driver<'a, M> {
     details: usize,
     /// How often quads around folds were made smaller.
     gradings: usize,
+    /// Whether a field was tried whose irregular vertices do not move onto features.
+    was_off_features: bool,
     /// The field whose map is at hand.
     pub(super) current: usize,
     /// The faces that untangling may still visit.
@@ -294,13 +300,18 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Driver<'a, M> {
     fn next(&self, last: Try, best: &Attempt) -> Option<Try> {
         let at_hand = self.fields.get(self.current)?;
         match last {
-            _ if best.outcome.is_whole() || self.work.get() == 0 => None,
+            _ if self.work.get() == 0 => None,
+            _ if best.outcome.is_whole() && !self.may_mend(best) => None,
             Try::SmallerQuads if self.smaller(best).is_some() => Some(Try::SmallerQuads),
             _ if self.effort == Effort::OfSeveral && !best.outcome.conforms() => None,
             Try::SmallerQuads | Try::Graded if self.is_tangled(best) && self.may_grade(best) => {
                 Some(Try::Graded)
             }
-            Try::SmallerQuads | Try::LessDetail | Try::FeaturesAsRounded | Try::Graded
+            Try::SmallerQuads
+            | Try::LessDetail
+            | Try::OffFeatures
+            | Try::FeaturesAsRounded
+            | Try::Graded
                 if self.may_untangle() =>
             {
                 Some(Try::Untangled)
@@ -312,7 +323,17 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Driver<'a, M> {
             {
                 Some(Try::ConesApart)
             }
-            _ if at_hand.holds_features_apart() => Some(Try::FeaturesAsRounded),
+            _ if at_hand.holds_features_apart() && !best.outcome.is_whole() => {
+                Some(Try::FeaturesAsRounded)
+            }
+            _ if best.outcome.conforms()
+                && self.may_mend(best)
+                && !self.was_off_features
+                && at_hand.moves_away() =>
+            {
+                Some(Try::OffFeatures)
+            }
+            _ if best.outcome.is_whole() => None,
             _ => {
                 let may_see_less = self.options.guidance.detail.is_none()
                     && self.details + 1 < DETAILS.len()
@@ -324,6 +345,12 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Driver<'a, M> {
                 }
             }
         }
+    }
+
+    /// Whether quads that are whole were repaired where irregular vertices keep away from features: repairs put others
+    /// next to them.
+    fn may_mend(&self, best: &Attempt) -> bool {
+        best.quads.repaired > 0 && !self.fields[best.field].options.regular.is_empty()
     }
 
     /// Whether the map at hand may be untangled.
@@ -354,7 +381,7 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Driver<'a, M> {
                 Some(sizing) => {
                     self.sizing = sizing;
                     self.sizes += 1;
-                    Some(self.follow()?)
+                    Some(self.follow(false)?)
                 }
                 None => None,
             },
@@ -372,13 +399,17 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Driver<'a, M> {
                     None => None,
                 }
             }
+            Try::OffFeatures => {
+                self.was_off_features = true;
+                Some(self.follow(true)?)
+            }
             Try::FeaturesAsRounded => {
                 self.at_hand().forget_separation();
                 Some(self.as_solved()?)
             }
             Try::LessDetail => {
                 self.details += 1;
-                Some(self.follow()?)
+                Some(self.follow(false)?)
             }
             Try::Graded => {
                 self.gradings += 1;
@@ -397,16 +428,17 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Driver<'a, M> {
     }
 
     /// The quads of the next field and its map.
-    fn follow(&mut self) -> Result<Attempt> {
+    fn follow(&mut self, off_features: bool) -> Result<Attempt> {
         let (mesh, of_map) = (self.mesh, &self.options.map);
         let given = QuadOptions {
             sizing: self.sizing.clone(),
             ..self.options.clone()
         };
         let detail = DETAILS[self.details] * given.sizing.edge_length(mesh);
+        let seen = (detail, off_features);
         let of_both = [&mut self.seconds.field, &mut self.seconds.map];
         let (features, monitor) = (&self.features, self.monitor);
-        let next = FieldMap::new(mesh, &given, of_map, features, detail, monitor, of_both)?;
+        let next = FieldMap::new(mesh, &given, of_map, features, seen, monitor, of_both)?;
         self.current = self.fields.len();
         self.fields.push(next);
         self.as_solved()
@@ -514,6 +546,7 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Driver<'a, M> {
             let compared = optional(monitor, || compare(both, &options.compare, monitor));
             Ok(compared?.unwrap_or_default())
         })?;
+        let near_features = near_features(mesh, &followed.field, &followed.options);
         Ok(Quadrangulation {
             quads,
             field: followed.field,
@@ -522,6 +555,7 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Driver<'a, M> {
             solution: best.solution,
             features,
             missed_features,
+            near_features,
             compared,
             seconds,
             refined: None,

@@ -41,14 +41,15 @@ pub(super) struct FieldMap<'a, M> {
 }
 
 impl<'a, 'm, M: Fn() -> Monitor<'m>> FieldMap<'a, M> {
-    /// The field that sees no details smaller than this, unless the guidance says otherwise, and its map
+    /// The field that sees no details smaller than this, unless the guidance says otherwise, and whose irregular
+    /// vertices may have to stay off features, and its map
     /// with feature curves separated, whose integers `of_map_solve` decides. The times of fields and maps are added to `seconds`.
     pub(super) fn new(
         mesh: &'a TriangleMesh,
         given: &QuadOptions,
         of_map_solve: &'a Options,
         features: &FeatureGraph,
-        detail: f64,
+        (detail, off_features): (f64, bool),
         monitor: &'a M,
         [of_field, of_map]: [&mut f64; 2],
     ) -> Result<Self> {
@@ -59,7 +60,14 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> FieldMap<'a, M> {
             },
             ..given.clone()
         };
-        let chosen = choose_field(mesh, &options, features, monitor, [of_field, of_map])?;
+        let chosen = choose_field(
+            mesh,
+            &options,
+            features,
+            monitor,
+            off_features,
+            [of_field, of_map],
+        )?;
         let problem = Cow::Owned(chosen.problem);
         let mut maps = MapSolver::new(mesh, problem, chosen.solver, of_map_solve, monitor);
         monitor().run().enter(Stage::Map, 0, 1);
@@ -77,6 +85,11 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> FieldMap<'a, M> {
             },
             is_relaxed: of_map_solve.strategy == Strategy::Relax,
         })
+    }
+
+    /// Whether irregular vertices of the field keep away from features where those of another would not.
+    pub(super) fn moves_away(&self) -> bool {
+        !self.options.regular.is_empty() && self.solution.counts().constraints > 0
     }
 
     /// Goes on to a map with smaller quads around the faults of one, and around the boundary loops that are

@@ -10,6 +10,7 @@ use std::time::Instant;
 
 use super::QuadOptions;
 use super::aim::aim;
+use super::clearance::Clearance;
 use super::final_error::is_final;
 use super::outcome::Outcome;
 use super::quadrangulation::timed;
@@ -71,9 +72,11 @@ pub(super) fn choose_field<'a>(
     options: &QuadOptions,
     features: &FeatureGraph,
     monitor: &impl Fn() -> Monitor<'a>,
+    off_features: bool,
     [of_field, of_map]: [&mut f64; 2],
 ) -> Result<ChosenField> {
     let (run, count) = (monitor().run(), field_count(mesh, options));
+    let clearance = Clearance::new(mesh, options, features, off_features, &monitor())?;
     let all: Vec<QuadOptions> = std::iter::once(options.clone())
         .chain(others(mesh, options))
         .collect();
@@ -83,7 +86,7 @@ pub(super) fn choose_field<'a>(
         monitor,
         |done| run.enter(Stage::Field, done, count),
         |k, monitor| {
-            let follow = || follow(mesh, &all[k], features, count == 1, &monitor);
+            let follow = || follow(mesh, &all[k], (features, &clearance), count == 1, &monitor);
             if k == 0 {
                 return follow().map(Some);
             }
@@ -148,13 +151,15 @@ struct Followed {
 fn follow<'a>(
     mesh: &TriangleMesh,
     options: &QuadOptions,
-    features: &FeatureGraph,
+    (features, clearance): (&FeatureGraph, &Clearance),
     is_only: bool,
     monitor: &impl Fn() -> Monitor<'a>,
 ) -> Result<Followed> {
     let mut seconds = [0.0; 2];
     let [of_field, of_map] = &mut seconds;
-    let mut field_options = options.guidance.field_options(mesh, features)?;
+    let regular = clearance.regular.clone();
+    let mut field_options = options.guidance.options_with(mesh, features, regular)?;
+    field_options.kept_turns = clearance.kept_turns.clone();
     field_options.lengths = options.sizing.vertex_lengths(mesh);
     let (field, solution) = timed(of_field, || {
         solve_field(mesh, &field_options, &options.field, monitor)

@@ -21,6 +21,7 @@ mod aim;
 mod apart;
 mod attempt;
 mod by_component;
+mod clearance;
 mod compare;
 mod count;
 mod coverage;

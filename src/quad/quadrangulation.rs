@@ -28,6 +28,9 @@ pub struct Quadrangulation {
     pub features: Vec<usize>,
     /// Those of these edges that no edge of a quad follows, because the map collapses or folds them.
     pub missed_features: Vec<usize>,
+    /// The number of irregular vertices of the field that lie nearer to features than the
+    /// [clearance](crate::field::Guidance::clearance), and not on them: those that features alone decide.
+    pub near_features: usize,
     /// The solutions of other strategies for both problems, if the options ask for them.
     pub compared: Vec<Compared>,
     /// The time of each step.

@@ -54,6 +54,12 @@ pub struct Directions {
     #[arg(allow_negative_numbers = true)]
     pub detail: Option<f64>,
 
+    /// Keep irregular vertices this far from features, along the surface and in units of the mesh, or on
+    /// them; 0 turns it off [default: 0; for quads with features, the edge length of the quads]
+    #[arg(long, value_name = "LENGTH", value_parser = weight)]
+    #[arg(allow_negative_numbers = true)]
+    pub clearance: Option<f64>,
+
     /// Constrain this face to this direction, in degrees counter-clockwise from its first edge; may be
     /// repeated, and takes precedence over all other flags
     #[arg(long, value_name = "FACE:DEGREES", value_parser = constraint)]
@@ -92,6 +98,7 @@ impl Directions {
             feature_angle: angle.map(f64::to_radians),
             align_boundary: !self.free_boundary,
             detail: self.detail,
+            clearance: self.clearance,
             ..Guidance::default()
         };
         if let Some(path) = &self.guide {

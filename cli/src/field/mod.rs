@@ -11,7 +11,7 @@ mod summary;
 use std::path::Path;
 use std::time::Instant;
 
-use roundel::field::{FieldProblem, OrientationField, solve_field};
+use roundel::field::{FieldProblem, OrientationField, smoothest_field};
 use roundel::mesh::{TriangleMesh, io};
 use roundel::problem::files::{self, NamedProblem};
 use roundel::{Error, Options, Result};
@@ -73,8 +73,8 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
         files::write(path, &NamedProblem::new(problem.problem().clone()))?;
     }
     let monitor = || progress.monitor();
-    let (field, solution) = match follows.detail > 0.0 {
-        true => solve_field(&mesh, &follows, &options, monitor)?,
+    let (field, solution) = match follows.detail > 0.0 || !follows.regular.is_empty() {
+        true => smoothest_field(&mesh, &follows, &options, monitor)?,
         false => {
             let solution = roundel::solve_with(problem.problem(), &options, monitor())?;
             (problem.field(&mesh, &solution)?, solution)

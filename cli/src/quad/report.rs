@@ -28,6 +28,7 @@ pub(super) struct QuadReport<'a> {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     mirror: Vec<Plane>,
     field_irregular_vertices: usize,
+    near_features: usize,
     flipped_before: usize,
     flipped: usize,
     missed_features: Vec<[usize; 2]>,
@@ -191,6 +192,7 @@ impl<'a> QuadReport<'a> {
             refined: made.refined.as_ref().map(Refinement::new),
             mirror: made.mirrored.as_ref().map(planes).unwrap_or_default(),
             field_irregular_vertices: made.untangled.map.cones().len(),
+            near_features: made.near_features,
             flipped_before: made.untangled.flipped_before,
             flipped: made.untangled.flipped_after,
             missed_features: missed.map(|&e| solved.mesh.edge(e).vertices).collect(),

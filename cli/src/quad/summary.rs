@@ -27,7 +27,10 @@ impl fmt::Display for QuadSummary<'_> {
             let seconds = seconds.refine;
             line(f, "refine", &Refinement::new(refined).to_string(), seconds)?;
         }
-        let irregular = counted_vertices(made.untangled.map.cones().len(), "irregular ");
+        let mut irregular = counted_vertices(made.untangled.map.cones().len(), "irregular ");
+        if made.near_features > 0 {
+            irregular += &format!(", {} near features", made.near_features);
+        }
         line(f, "field", &irregular, seconds.field)?;
         let map = format!(
             "{}, {}, {} flipped",

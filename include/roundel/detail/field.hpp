@@ -52,6 +52,9 @@ struct FieldOptions {
     /// Details smaller than this length attract no irregular vertices; unset: 0 for a field, an
     /// edge of the quads for a map, a quarter of an edge for quads. In [0, inf).
     std::optional<double> detail = std::nullopt;
+    /// Irregular vertices keep this far from features, or lie on them; unset: 0 for a field or a
+    /// map, for quads an edge of theirs if there are features inside the surface. In [0, inf).
+    std::optional<double> clearance = std::nullopt;
     // End of the table.
     /// How the problem is solved.
     Options solve = {};
@@ -87,6 +90,10 @@ struct FieldOptions {
     }
     FieldOptions& set_detail(double value) {
         detail = value;
+        return *this;
+    }
+    FieldOptions& set_clearance(double value) {
+        clearance = value;
         return *this;
     }
     // End of the table.
@@ -219,6 +226,9 @@ template <class Tell> bool each_guidance_option(const FieldOptions& options, con
         return false;
     }
     if (options.detail && !tell("detail", *options.detail)) {
+        return false;
+    }
+    if (options.clearance && !tell("clearance", *options.clearance)) {
         return false;
     }
     return true;

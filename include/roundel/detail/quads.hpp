@@ -93,6 +93,9 @@ struct QuadOptions {
     /// Details smaller than this length attract no irregular vertices; unset: 0 for a field, an
     /// edge of the quads for a map, a quarter of an edge for quads. In [0, inf).
     std::optional<double> detail = std::nullopt;
+    /// Irregular vertices keep this far from features, or lie on them; unset: 0 for a field or a
+    /// map, for quads an edge of theirs if there are features inside the surface. In [0, inf).
+    std::optional<double> clearance = std::nullopt;
     // End of the table.
     /// How the map is solved, by lattice decoding where no strategy or preset is given; and, but
     /// for the strategy, the field.
@@ -177,6 +180,10 @@ struct QuadOptions {
     }
     QuadOptions& set_detail(double value) {
         detail = value;
+        return *this;
+    }
+    QuadOptions& set_clearance(double value) {
+        clearance = value;
         return *this;
     }
     // End of the table.
@@ -427,6 +434,9 @@ template <class Tell> bool each_guidance_option(const QuadOptions& options, cons
         return false;
     }
     if (options.detail && !tell("detail", *options.detail)) {
+        return false;
+    }
+    if (options.clearance && !tell("clearance", *options.clearance)) {
         return false;
     }
     return true;
