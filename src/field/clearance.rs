@@ -30,9 +30,9 @@ const REACH: f64 = 2.0;
 /// the middle of the gap.
 ///
 /// # Errors
-/// [`LengthMismatch`](crate::Error::LengthMismatch) for features of another mesh or another number of lengths; with the vertex,
-/// [`NotFinite`](crate::Error::NotFinite) and [`InvalidArgument`](crate::Error::InvalidArgument) for a length that is not above 0; otherwise those of
-/// [`geodesic_distance`].
+/// [`LengthMismatch`](crate::Error::LengthMismatch) for features of another mesh or another number of lengths; with
+/// the vertex, [`NotFinite`](crate::Error::NotFinite) and [`InvalidArgument`](crate::Error::InvalidArgument) for a
+/// length that is not above 0; otherwise those of [`geodesic_distance`].
 pub fn near_features(
     mesh: &TriangleMesh,
     features: &FeatureGraph,
