@@ -195,6 +195,17 @@ impl SeamlessProblem {
         self.with_density(mesh, self.density.scaled(factor), solver)
     }
 
+    /// As [`refined`](Self::refined) with a factor for u and one for v in every face.
+    pub(crate) fn stretched(
+        &self,
+        mesh: &TriangleMesh,
+        factors: &[[f64; 2]],
+        solver: &mut Solver,
+    ) -> Result<Self> {
+        let density = self.density.stretched(factors, self.combing.quarters());
+        self.with_density(mesh, density, solver)
+    }
+
     /// As [`refined`](Self::refined) with a factor for every face.
     pub(crate) fn graded(
         &self,

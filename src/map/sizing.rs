@@ -174,6 +174,20 @@ impl Density {
         Density::Faces(graded.map(|(face, f)| of(face).map(|d| f * d)).collect())
     }
 
+    /// This density times two factors for every face, along the two arms of faces that are combed by these quarter
+    /// turns.
+    pub(super) fn stretched(&self, factors: &[[f64; 2]], quarters: &[u8]) -> Self {
+        let stretched = |(face, [along, across]): (usize, &[f64; 2])| {
+            let of_arms = self.of(face, quarters[face]);
+            let new = [along * of_arms[0], across * of_arms[1]];
+            match quarters[face] % 2 {
+                0 => new,
+                _ => [new[1], new[0]],
+            }
+        };
+        Density::Faces(factors.iter().enumerate().map(stretched).collect())
+    }
+
     /// The densities along the two arms of a face that is combed by these quarter turns.
     pub(super) fn of(&self, face: usize, quarters: u8) -> [f64; 2] {
         match self {

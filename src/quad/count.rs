@@ -4,8 +4,8 @@
 //! relaxation: the number of quads is nearly proportional to the square of the scale, in the steps that the
 //! integers allow. So the map of the field that the quads follow is solved for again at other scales, until
 //! as many unit squares are covered as quads were asked for. Where the step between two scales is too large,
-//! sizes that change a little along an axis make other integers change first. Only linear terms change, and the
-//! solver keeps its factors. Quads are extracted from the maps that promise a better number, and the nearest
+//! there are two of a [strip](super::strips) of as many quads as are missing. Only linear terms change, and
+//! the solver keeps its factors. Quads are extracted from the maps that promise a better number, and the nearest
 //! number whose quads are as whole as those at first is kept.
 
 use super::aim::area;
@@ -14,9 +14,9 @@ use super::driver::{Driver, Try};
 use super::fields::field_count;
 use super::final_error::is_final;
 use super::map_solver::Solved;
+use super::strips::Strips;
 use crate::error::Result;
-use crate::map::Sizing;
-use crate::mesh::TriangleMesh;
+use crate::map::{SeamlessProblem, Sizing};
 use crate::monitor::{Monitor, optional};
 use crate::search::table::words;
 
@@ -32,6 +32,9 @@ words! {
 /// The part of a number of quads by which it may be missed.
 const TOLERANCE: f64 = 0.01;
 
+/// The same for a strip: its number of quads is known nearly as well.
+const TOLERANCE_OF_STRIPS: f64 = 0.009;
+
 /// The most maps of other sizes for one field that was tried: each takes a sixth of the time of a run at most.
 const MAPS: usize = 3;
 
@@ -40,10 +43,6 @@ const MOST_MAPS: usize = 6;
 
 /// The most of them whose quads are extracted.
 const EXTRACTIONS: usize = 3;
-
-/// By what part sizes change from the middle of the bounding box to both ends of an axis. What changed from one
-/// end to the other would cancel out around symmetric shapes.
-const BULGE: f64 = 0.15;
 
 /// The square of a scale, and the number of quads there.
 type Step = [f64; 2];
@@ -109,6 +108,15 @@ impl Scales {
     }
 }
 
+/// A map that is known, and the number of quads that it promises.
+struct Known {
+    count: f64,
+    scale: f64,
+    solved: Solved,
+    /// Whether one of its strips was doubled.
+    is_used: bool,
+}
+
 /// The search for the number of quads.
 struct Meeting<'d, 'a, M> {
     driver: &'d mut Driver<'a, M>,
@@ -116,10 +124,11 @@ struct Meeting<'d, 'a, M> {
     best: Attempt,
     /// Quads a unit square: what repairs add and boundaries that no line follows take.
     per_square: f64,
-    /// By how much the lengths of the map's problem are larger than at first, in every face.
-    factors: Vec<f64>,
-    /// The same for the best quads.
-    of_best: Vec<f64>,
+    /// The problem at first.
+    problem: SeamlessProblem,
+    /// The scale of the best quads.
+    of_best: f64,
+    known: Vec<Known>,
     maps: usize,
     extractions: usize,
 }
@@ -140,10 +149,11 @@ pub(super) fn meet<'m, M: Fn() -> Monitor<'m>>(
     let mut meeting = Meeting {
         asked: asked as f64,
         per_square: best.quads.quads.len() as f64 / area(mesh, &best.map.map),
+        problem: driver.at_hand().maps.problem().clone(),
         driver,
         best,
-        factors: vec![1.0; mesh.face_count()],
-        of_best: vec![1.0; mesh.face_count()],
+        of_best: 1.0,
+        known: Vec::new(),
         maps: 0,
         extractions: 0,
     };
@@ -154,7 +164,7 @@ pub(super) fn meet<'m, M: Fn() -> Monitor<'m>>(
     }
     // Other strategies are compared by the problem of the best.
     if !meeting.driver.options.compare.is_empty() {
-        meeting.size(meeting.of_best.clone())?;
+        meeting.size(meeting.of_best)?;
     }
     Ok((meeting.best, meeting.maps))
 }
@@ -162,41 +172,93 @@ pub(super) fn meet<'m, M: Fn() -> Monitor<'m>>(
 impl<'m, M: Fn() -> Monitor<'m>> Meeting<'_, '_, M> {
     fn search(&mut self) -> Result<()> {
         let mesh = self.driver.mesh;
-        let squares = area(mesh, self.driver.at_hand().map());
-        let mut scales = Scales::new(self.asked, [1.0, self.per_square * squares]);
+        let first = self.driver.at_hand().at_hand();
+        let mut scales = Scales::new(self.asked, [1.0, self.count(&first)]);
+        self.known.push(Known {
+            count: self.count(&first),
+            scale: 1.0,
+            solved: first,
+            is_used: false,
+        });
         let fields = field_count(mesh, self.driver.options);
         let most = (MAPS + fields - 1).min(MOST_MAPS);
-        let mut axes = 0..3;
-        let mut kept = Vec::new();
         while !self.is_met() && self.maps < most && self.driver.work.get() > 0 {
+            let is_last = self.maps + 1 == most;
+            if (scales.is_stuck || is_last) && self.double_strip()? {
+                continue;
+            }
             let square = scales.next();
-            let axis = match scales.is_stuck {
-                true => axes.next(),
-                false => None,
-            };
-            let factors = factors(mesh, square.sqrt(), axis);
-            self.size(factors.clone())?;
+            self.size(square.sqrt())?;
             let solved = self.driver.at_hand().solve(mesh)?;
-            self.maps += 1;
-            self.driver.spend(&solved.solution);
-            let count = self.per_square * area(mesh, &solved.map);
-            if axis.is_none() {
-                scales.add([square, count]);
-            }
-            match self.off(count) <= TOLERANCE * self.asked {
-                true => self.extract(solved)?,
-                false => kept.push((count, factors, solved)),
-            }
+            scales.add([square, self.count(&solved)]);
+            self.meet(square.sqrt(), solved)?;
         }
-        kept.sort_by(|a, b| self.off(a.0).total_cmp(&self.off(b.0)));
-        for (count, factors, solved) in kept {
+        let mut known = std::mem::take(&mut self.known);
+        known.sort_by(|a, b| self.off(a.count).total_cmp(&self.off(b.count)));
+        for Known {
+            count,
+            scale,
+            solved,
+            ..
+        } in known
+        {
             // Areas are rounded; integers that are known are not tried again.
             if self.off(count) + 0.5 < self.off_at_best() {
-                self.size(factors)?;
-                self.extract(solved)?;
+                self.size(scale)?;
+                self.extract(scale, solved)?;
             }
         }
         Ok(())
+    }
+
+    /// Solves for a map with the integers of a known one but for one more strip; `false` if no strip has as many quads
+    /// as are missing.
+    fn double_strip(&mut self) -> Result<bool> {
+        let mesh = self.driver.mesh;
+        for number in 0..self.known.len() {
+            let known = &mut self.known[number];
+            let wanted = (self.asked - known.count) / self.per_square;
+            if wanted < 0.0 || std::mem::replace(&mut known.is_used, true) {
+                continue;
+            }
+            let strips = Strips::new(mesh, &known.solved.map);
+            let tolerance = TOLERANCE_OF_STRIPS * self.asked / self.per_square;
+            let Some(strip) = strips.of_quads(wanted, tolerance) else {
+                continue;
+            };
+            let scale = known.scale;
+            let factors = strips.factors(mesh, strip, scale);
+            let at_hand = self.driver.at_hand();
+            at_hand.size(mesh, &self.problem, &factors)?;
+            at_hand.solve(mesh)?;
+            self.size(scale)?;
+            let solved = self.driver.at_hand().keep_integers()?;
+            self.meet(scale, solved)?;
+            return Ok(true);
+        }
+        Ok(false)
+    }
+
+    /// Extracts the quads of a map of the size that there is if their number is met, and keeps it for later if not.
+    fn meet(&mut self, scale: f64, solved: Solved) -> Result<()> {
+        self.maps += 1;
+        self.driver.spend(&solved.solution);
+        let count = self.count(&solved);
+        if self.off(count) <= TOLERANCE * self.asked {
+            return self.extract(scale, solved);
+        }
+        self.known.push(Known {
+            count,
+            scale,
+            solved,
+            is_used: false,
+        });
+        Ok(())
+    }
+
+    /// How many quads a map promises.
+    fn count(&self, solved: &Solved) -> f64 {
+        self.per_square * area(self.driver.mesh, &solved.map)
     }
 
     /// By how many quads a number misses what was asked for.
@@ -212,18 +274,16 @@ impl<'m, M: Fn() -> Monitor<'m>> Meeting<'_, '_, M> {
         self.off_at_best() <= TOLERANCE * self.asked
     }
 
-    /// Makes lengths larger by these factors than at first.
-    fn size(&mut self, factors: Vec<f64>) -> Result<()> {
-        let both = factors.iter().zip(&self.factors);
-        let more: Vec<f64> = both.map(|(new, old)| new / old).collect();
-        self.driver.at_hand().size(&more)?;
-        self.factors = factors;
-        Ok(())
+    /// Makes lengths larger by this factor than at first.
+    fn size(&mut self, scale: f64) -> Result<()> {
+        let mesh = self.driver.mesh;
+        let factors = vec![[scale; 2]; mesh.face_count()];
+        self.driver.at_hand().size(mesh, &self.problem, &factors)
     }
 
-    /// The quads of a map of the sizes as they are, which are kept if their number is nearer and they are as whole
+    /// The quads of a map of the size that there is, which are kept if their number is nearer and they are as whole
     /// as the best.
-    fn extract(&mut self, solved: Solved) -> Result<()> {
+    fn extract(&mut self, scale: f64, solved: Solved) -> Result<()> {
         if self.extractions == EXTRACTIONS {
             return Ok(());
         }
@@ -240,26 +300,10 @@ impl<'m, M: Fn() -> Monitor<'m>> Meeting<'_, '_, M> {
         let is_nearer = self.off(found.quads.quads.len() as f64) < self.off_at_best();
         if is_nearer && found.outcome.is_as_whole_as(&self.best.outcome) {
             self.best = found;
-            self.of_best.clone_from(&self.factors);
+            self.of_best = scale;
         }
         Ok(())
     }
-}
-
-/// A factor for every face: this scale, and along an axis of the bounding box more at both ends and less between
-/// them.
-fn factors(mesh: &TriangleMesh, scale: f64, axis: Option<usize>) -> Vec<f64> {
-    let [low, high] = mesh.bounding_box();
-    let of_face = |face: usize| match axis {
-        Some(axis) if high[axis] > low[axis] => {
-            let corners = mesh.corners(face).map(|v| mesh.position(v)[axis]);
-            let middle = corners.iter().sum::<f64>() / 3.0;
-            let from_middle = 2.0 * (middle - low[axis]) / (high[axis] - low[axis]) - 1.0;
-            scale * (1.0 + BULGE * (from_middle * from_middle - 1.0 / 3.0))
-        }
-        _ => scale,
-    };
-    (0..mesh.face_count()).map(of_face).collect()
 }
 
 #[cfg(test)]

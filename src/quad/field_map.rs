@@ -9,7 +9,7 @@ use super::map_solver::{MapSolver, Solved};
 use super::quadrangulation::timed;
 use crate::error::Result;
 use crate::field::{FieldOptions, Guidance, OrientationField};
-use crate::map::SeamlessMap;
+use crate::map::SeamlessProblem;
 use crate::mesh::TriangleMesh;
 use crate::mesh::features::FeatureGraph;
 use crate::monitor::{Monitor, Stage};
@@ -41,9 +41,10 @@ pub(super) struct FieldMap<'a, M> {
 }
 
 impl<'a, 'm, M: Fn() -> Monitor<'m>> FieldMap<'a, M> {
-    /// The field that sees no details smaller than this, unless the guidance says otherwise, and whose irregular
-    /// vertices may have to stay off features, and its map
-    /// with feature curves separated, whose integers `of_map_solve` decides. The times of fields and maps are added to `seconds`.
+    /// The field that sees no details smaller than `detail`, unless the guidance says otherwise, and its map with
+    /// feature curves separated. With `off_features`, no irregular vertices of the field move onto features. The
+    /// integers of the map are decided by `of_map_solve`. The times of fields and maps are added to `of_field` and
+    /// `of_map`.
     pub(super) fn new(
         mesh: &'a TriangleMesh,
         given: &QuadOptions,
@@ -111,14 +112,25 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> FieldMap<'a, M> {
         Ok(true)
     }
 
-    /// Makes the lengths of the problem's maps larger by a factor for every face.
-    pub(super) fn size(&mut self, factors: &[f64]) -> Result<()> {
-        self.maps.grade(factors)
+    /// Changes to the map's problem of `first` with lengths larger by two factors for every face, those of u and v.
+    pub(super) fn size(
+        &mut self,
+        mesh: &TriangleMesh,
+        first: &SeamlessProblem,
+        factors: &[[f64; 2]],
+    ) -> Result<()> {
+        self.maps
+            .resize(|solver| first.stretched(mesh, factors, solver))
     }
 
     /// A map of the problem as it is now, with feature curves separated.
     pub(super) fn solve(&mut self, mesh: &TriangleMesh) -> Result<Solved> {
         Ok(solved(mesh, &mut self.maps)?.0)
+    }
+
+    /// A map of the problem as it is now, with the integers of the last.
+    pub(super) fn keep_integers(&mut self) -> Result<Solved> {
+        self.maps.keep_integers()
     }
 
     /// Makes a map of the problem the current one.
@@ -127,8 +139,8 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> FieldMap<'a, M> {
     }
 
     /// The current map.
-    pub(super) fn map(&self) -> &SeamlessMap {
-        &self.at_hand.map
+    pub(super) fn at_hand(&self) -> Solved {
+        self.at_hand.clone()
     }
 
     /// Whether so much of the current map is folded that it is given up.

@@ -9,7 +9,7 @@ use crate::error::Result;
 use crate::map::{SeamlessMap, SeamlessProblem};
 use crate::mesh::TriangleMesh;
 use crate::monitor::{Monitor, optional};
-use crate::search::{Options, Strategy};
+use crate::search::{Options, Strategy, WarmStart};
 use crate::solve::{SoftRow, Solution, Solver};
 use crate::untangle::{Structure, UntangleOptions, Untangled};
 
@@ -45,6 +45,7 @@ fn named_limit(solution: Solution, options: &Options) -> Solution {
 }
 
 /// A solution, and its map.
+#[derive(Clone)]
 pub(super) struct Solved {
     pub(super) solution: Solution,
     pub(super) map: SeamlessMap,
@@ -122,6 +123,16 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> MapSolver<'a, M> {
         self.forget_separation();
         let solution = self.solver.solve_with(self.options, (self.monitor)())?;
         let solution = named_limit(solution, self.options);
+        self.solved(solution)
+    }
+
+    /// Solves with the integers of the last solution.
+    pub(super) fn keep_integers(&mut self) -> Result<Solved> {
+        let options = Options {
+            warm_start: WarmStart::Keep,
+            ..self.options.clone()
+        };
+        let solution = self.solver.solve_with(&options, (self.monitor)())?;
         self.solved(solution)
     }
 

@@ -46,6 +46,7 @@ mod refined_input;
 mod size_metric;
 mod smaller;
 mod stage_ends;
+mod strips;
 mod tries;
 
 pub use compare::Compared;

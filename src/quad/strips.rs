@@ -1,0 +1,321 @@
+//! The strips of quads of a map, and targets that ask for one more of them.
+//!
+//! Between two neighbouring integer lines lies a strip. It runs straight on from quad to quad until it closes or
+//! ends at the boundary. A second strip beside it changes no irregular vertex, and adds as many quads as the
+//! first one has: these are the smallest steps that the integers allow. Where the target of the gradient across a
+//! strip is twice as long, the relaxation of the surface beyond moves by a whole line, and so do its integers.
+
+use std::collections::BTreeMap;
+
+use crate::linalg::DisjointSets;
+use crate::map::SeamlessMap;
+use crate::mesh::TriangleMesh;
+
+/// A strip that covers less than this part of a face or an edge is not seen there: coordinates are rounded.
+const SEEN: f64 = 1e-6;
+
+/// The part of a strip in one face.
+#[derive(Debug, Clone, Copy)]
+struct Piece {
+    face: usize,
+    /// The coordinate across the strip: 0 for u, 1 for v.
+    axis: usize,
+    /// The strip lies between this integer and the next.
+    level: i64,
+    /// What part of the face it covers.
+    share: f64,
+}
+
+/// All strips of a map.
+pub(super) struct Strips {
+    /// By face, axis and level.
+    pieces: Vec<Piece>,
+    /// The strip of every piece.
+    strip_of: Vec<usize>,
+    strips: Vec<Strip>,
+}
+
+#[derive(Debug, Clone, Copy, Default)]
+struct Strip {
+    /// The number of quads. One that the strip crosses itself counts twice.
+    quads: f64,
+    /// The number of those that it crosses itself.
+    crossings: f64,
+    /// On the surface.
+    area: f64,
+}
+
+impl Strips {
+    pub(super) fn new(mesh: &TriangleMesh, map: &SeamlessMap) -> Self {
+        let pieces = pieces(mesh, map);
+        let (strip_of, count) = joined(mesh, map, &pieces);
+        let mut strips = vec![Strip::default(); count];
+        for (piece, &strip) in pieces.iter().zip(&strip_of) {
+            strips[strip].quads += piece.share * squares(map.uv(piece.face));
+            strips[strip].area += piece.share * mesh.area(piece.face);
+        }
+        count_crossings(map, &pieces, &strip_of, &mut strips);
+        Strips {
+            pieces,
+            strip_of,
+            strips,
+        }
+    }
+
+    /// The strip that adds this number of quads within a tolerance if there are two of it. Of several it is the one of
+    /// the largest quads.
+    pub(super) fn of_quads(&self, wanted: f64, tolerance: f64) -> Option<usize> {
+        let size = |strip: &Strip| strip.area / strip.quads;
+        let fits = |strip: &Strip| (strip.quads + strip.crossings - wanted).abs() <= tolerance;
+        let fitting = (0..self.strips.len()).filter(|&i| fits(&self.strips[i]));
+        // The first of equals.
+        fitting.reduce(
+            |best, other| match size(&self.strips[other]) > size(&self.strips[best]) {
+                true => other,
+                false => best,
+            },
+        )
+    }
+
+    /// The factors of the two lengths of the map in every face with which the relaxation has a strip twice, times
+    /// `scale`.
+    pub(super) fn factors(&self, mesh: &TriangleMesh, twice: usize, scale: f64) -> Vec<[f64; 2]> {
+        let mut factors = vec![[scale; 2]; mesh.face_count()];
+        for (piece, &strip) in self.pieces.iter().zip(&self.strip_of) {
+            if strip == twice {
+                factors[piece.face][piece.axis] += scale * piece.share;
+            }
+        }
+        factors
+    }
+}
+
+/// The number of unit squares that a face covers.
+fn squares([a, b, c]: [[f64; 2]; 3]) -> f64 {
+    0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])).abs()
+}
+
+/// The part of a triangle in which a coordinate is below a level.
+fn share_below(corners: [f64; 3], level: f64) -> f64 {
+    let mut sorted = corners;
+    sorted.sort_by(f64::total_cmp);
+    let [low, middle, high] = sorted;
+    if level <= low {
+        0.0
+    } else if level >= high {
+        1.0
+    } else if level < middle {
+        (level - low) / (high - low) * ((level - low) / (middle - low))
+    } else {
+        1.0 - (high - level) / (high - low)
+            * ((high - level) / (high - middle).max(f64::MIN_POSITIVE))
+    }
+}
+
+fn pieces(mesh: &TriangleMesh, map: &SeamlessMap) -> Vec<Piece> {
+    let mut pieces = Vec::new();
+    for face in 0..mesh.face_count() {
+        let uv = map.uv(face);
+        for axis in 0..2 {
+            let corners = uv.map(|p| p[axis]);
+            let low = corners.iter().copied().fold(f64::INFINITY, f64::min);
+            let high = corners.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+            for level in (low.floor() as i64)..=(high.floor() as i64) {
+                let [from, to] = [level, level + 1].map(|l| share_below(corners, l as f64));
+                if to - from > SEEN {
+                    let share = to - from;
+                    pieces.push(Piece {
+                        face,
+                        axis,
+                        level,
+                        share,
+                    });
+                }
+            }
+        }
+    }
+    pieces
+}
+
+/// The strip of every piece, and the number of strips: pieces are joined over edges that their strip crosses.
+fn joined(mesh: &TriangleMesh, map: &SeamlessMap, pieces: &[Piece]) -> (Vec<usize>, usize) {
+    let at = |face: usize, axis: usize, level: i64| {
+        let key = (face, axis, level);
+        let of = |piece: &Piece| (piece.face, piece.axis, piece.level);
+        pieces.binary_search_by_key(&key, of).ok()
+    };
+    let transitions: BTreeMap<usize, _> = map.transitions().iter().map(|t| (t.edge, t)).collect();
+    let mut sets = DisjointSets::new(pieces.len());
+    for (number, piece) in pieces.iter().enumerate() {
+        let uv = map.uv(piece.face);
+        for k in 0..3 {
+            let (Some((across, _)), true) = (
+                mesh.neighbor(piece.face, k),
+                mesh.is_first_side(piece.face, k),
+            ) else {
+                continue;
+            };
+            let ends = [uv[k][piece.axis], uv[(k + 1) % 3][piece.axis]];
+            let level = piece.level as f64;
+            let seen = ends[0].max(ends[1]).min(level + 1.0) - ends[0].min(ends[1]).max(level);
+            if seen <= SEEN {
+                continue;
+            }
+            let (mut axis, mut there) = (piece.axis, piece.level);
+            if let Some(transition) = transitions.get(&mesh.edge_of(piece.face, k)) {
+                let mut middle = [0.0; 2];
+                middle[axis] = level + 0.5;
+                let moved = transition.apply(middle);
+                axis = (axis + usize::from(transition.quarters)) % 2;
+                there = moved[axis].floor() as i64;
+            }
+            if let Some(other) = at(across, axis, there) {
+                sets.join(number, other);
+            }
+        }
+    }
+    let mut numbers = BTreeMap::new();
+    let strip_of = (0..pieces.len()).map(|number| {
+        let next = numbers.len();
+        *numbers.entry(sets.root(number)).or_insert(next)
+    });
+    let strip_of: Vec<usize> = strip_of.collect();
+    (strip_of, numbers.len())
+}
+
+/// Counts the quads in which strips cross themselves: those whose middle lies in a face.
+fn count_crossings(map: &SeamlessMap, pieces: &[Piece], strip_of: &[usize], strips: &mut [Strip]) {
+    let numbered: Vec<(&Piece, usize)> = pieces.iter().zip(strip_of.iter().copied()).collect();
+    for of_face in numbered.chunk_by(|a, b| a.0.face == b.0.face) {
+        let uv = map.uv(of_face[0].0.face);
+        let split = of_face.partition_point(|(piece, _)| piece.axis == 0);
+        for (across, a) in &of_face[..split] {
+            for (along, b) in &of_face[split..] {
+                let middle = [across.level, along.level].map(|level| level as f64 + 0.5);
+                if a == b && contains(uv, middle) {
+                    strips[*a].crossings += 1.0;
+                }
+            }
+        }
+    }
+}
+
+/// Whether a point lies in a triangle, whichever way its corners run.
+fn contains(uv: [[f64; 2]; 3], p: [f64; 2]) -> bool {
+    let side = |k: usize| {
+        let (a, b) = (uv[k], uv[(k + 1) % 3]);
+        (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0])
+    };
+    let sides = [0, 1, 2].map(side);
+    sides.iter().all(|&s| s > 0.0) || sides.iter().all(|&s| s < 0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::extract::{QuadMesh, extract};
+    use crate::field::smoothest_field;
+    use crate::map::{SeamlessProblem, Sizing};
+    use crate::mesh::shape::by_name;
+    use crate::monitor::Monitor;
+    use crate::quad::aim::area;
+    use crate::search::Options;
+    use crate::solve::Solver;
+
+    struct Shape {
+        mesh: TriangleMesh,
+        problem: SeamlessProblem,
+        solver: Solver,
+    }
+
+    impl Shape {
+        fn new(name: &str, quads: usize) -> Self {
+            let mesh = by_name(name, 2_000).unwrap();
+            let (given, options) = (Default::default(), Options::default());
+            let (field, _) = smoothest_field(&mesh, &given, &options, Monitor::default).unwrap();
+            let problem = SeamlessProblem::new(&mesh, &field, &Sizing::Quads(quads)).unwrap();
+            let solver = Solver::new(problem.problem()).unwrap();
+            Shape {
+                mesh,
+                problem,
+                solver,
+            }
+        }
+
+        fn map(&mut self) -> SeamlessMap {
+            let solution = self.solver.solve(&Options::default()).unwrap();
+            self.problem.map(&self.mesh, &solution).unwrap()
+        }
+    }
+
+    /// The numbers of quads of all strips of closed quads, in increasing order, from one edge to the opposite one.
+    fn by_walking(quads: &QuadMesh) -> Vec<usize> {
+        let mut at = BTreeMap::new();
+        for (q, quad) in quads.quads.iter().enumerate() {
+            for k in 0..4 {
+                at.insert((quad[k], quad[(k + 1) % 4]), (q, k));
+            }
+        }
+        let mut is_seen = vec![[false; 2]; quads.quads.len()];
+        let mut lengths = Vec::new();
+        for start in 0..quads.quads.len() {
+            for axis in 0..2 {
+                let (mut quad, mut side, mut length) = (start, axis, 0);
+                while !std::mem::replace(&mut is_seen[quad][side % 2], true) {
+                    length += 1;
+                    let out = (side + 2) % 4;
+                    let corners = quads.quads[quad];
+                    (quad, side) = at[&(corners[(out + 1) % 4], corners[out])];
+                }
+                if length > 0 {
+                    lengths.push(length);
+                }
+            }
+        }
+        lengths.sort_unstable();
+        lengths
+    }
+
+    #[test]
+    fn strips_are_those_of_the_quads() {
+        for (name, quads) in [("torus", 500), ("rounded-cube", 300), ("genus-2", 900)] {
+            let mut shape = Shape::new(name, quads);
+            let map = shape.map();
+            assert!(map.flipped().is_empty(), "{name}");
+            let made = extract(&shape.mesh, &map, Monitor::default()).unwrap();
+            let strips = Strips::new(&shape.mesh, &map).strips;
+            let mut found: Vec<usize> = strips.iter().map(|s| s.quads.round() as usize).collect();
+            found.sort_unstable();
+            assert_eq!(found, by_walking(&made), "{name}");
+            assert!(
+                strips
+                    .iter()
+                    .all(|s| (s.quads - s.quads.round()).abs() < 1e-3)
+            );
+        }
+    }
+
+    #[test]
+    fn a_strip_that_there_is_twice_adds_its_quads() {
+        for (name, quads) in [("torus", 500), ("rounded-cube", 300), ("genus-2", 900)] {
+            let mut shape = Shape::new(name, quads);
+            let first = shape.map();
+            let strips = Strips::new(&shape.mesh, &first);
+            let shortest = |a: &usize, b: &usize| {
+                let quads = |s: usize| strips.strips[s].quads;
+                quads(*a).total_cmp(&quads(*b))
+            };
+            let strip = (0..strips.strips.len()).min_by(shortest).unwrap();
+            let factors = strips.factors(&shape.mesh, strip, 1.0);
+            let (mesh, solver) = (&shape.mesh, &mut shape.solver);
+            shape.problem = shape.problem.stretched(mesh, &factors, solver).unwrap();
+            let second = shape.map();
+            let added = area(&shape.mesh, &second) - area(&shape.mesh, &first);
+            let Strip {
+                quads, crossings, ..
+            } = strips.strips[strip];
+            assert!((added - quads - crossings).abs() < 1e-3, "{name}: {added}");
+            assert_eq!(strips.of_quads(added, 0.5), Some(strip), "{name}");
+        }
+    }
+}
