@@ -3,9 +3,10 @@
 //! A map without folds covers as many unit squares as it has quads, and scaling its gradients scales its
 //! relaxation: the number of quads is nearly proportional to the square of the scale, in the steps that the
 //! integers allow. So the map of the field that the quads follow is solved for again at other scales, until
-//! as many unit squares are covered as quads were asked for. Where the step between two scales is too large,
-//! there are two of a [strip](super::strips) of as many quads as are missing. Only linear terms change, and
-//! the solver keeps its factors. Quads are extracted from the maps that promise a better number, and the nearest
+//! as many unit squares are covered as quads were asked for. Where few are missing, one more
+//! [strip](super::strips) of as many quads is asked for. Where the step between two scales is too large, sizes that
+//! change a little along an axis make other integers change first. Only linear terms change, and the solver keeps
+//! its factors. Quads are extracted from the maps that promise a better number, and the nearest
 //! number whose quads are as whole as those at first is kept.
 
 use super::aim::area;
@@ -17,6 +18,7 @@ use super::map_solver::Solved;
 use super::strips::Strips;
 use crate::error::Result;
 use crate::map::{SeamlessProblem, Sizing};
+use crate::mesh::TriangleMesh;
 use crate::monitor::{Monitor, optional};
 use crate::search::table::words;
 
@@ -43,6 +45,13 @@ const MOST_MAPS: usize = 6;
 
 /// The most of them whose quads are extracted.
 const EXTRACTIONS: usize = 3;
+
+/// The part of a number of quads that one strip may add.
+const MOST_OF_STRIP: f64 = 0.03;
+
+/// By what part sizes change from the middle of the bounding box to both ends of an axis. What changed from one
+/// end to the other would cancel out around symmetric shapes.
+const BULGE: f64 = 0.15;
 
 /// The square of a scale, and the number of quads there.
 type Step = [f64; 2];
@@ -108,10 +117,41 @@ impl Scales {
     }
 }
 
+/// Lengths of a map, as multiples of those at first.
+#[derive(Debug, Clone, Copy)]
+struct Size {
+    scale: f64,
+    /// The axis of the bounding box at both ends of which lengths are larger, and smaller between them.
+    axis: Option<usize>,
+}
+
+impl Size {
+    /// The sizes at first.
+    const FIRST: Size = Size {
+        scale: 1.0,
+        axis: None,
+    };
+
+    /// The factors of both lengths in every face.
+    fn factors(self, mesh: &TriangleMesh) -> Vec<[f64; 2]> {
+        let [low, high] = mesh.bounding_box();
+        let of_face = |face: usize| match self.axis {
+            Some(axis) if high[axis] > low[axis] => {
+                let corners = mesh.corners(face).map(|v| mesh.position(v)[axis]);
+                let middle = corners.iter().sum::<f64>() / 3.0;
+                let from_middle = 2.0 * (middle - low[axis]) / (high[axis] - low[axis]) - 1.0;
+                [self.scale * (1.0 + BULGE * (from_middle * from_middle - 1.0 / 3.0)); 2]
+            }
+            _ => [self.scale; 2],
+        };
+        (0..mesh.face_count()).map(of_face).collect()
+    }
+}
+
 /// A map that is known, and the number of quads that it promises.
 struct Known {
     count: f64,
-    scale: f64,
+    size: Size,
     solved: Solved,
     /// Whether one of its strips was doubled.
     is_used: bool,
@@ -126,8 +166,8 @@ struct Meeting<'d, 'a, M> {
     per_square: f64,
     /// The problem at first.
     problem: SeamlessProblem,
-    /// The scale of the best quads.
-    of_best: f64,
+    /// The sizes of the best quads.
+    of_best: Size,
     known: Vec<Known>,
     maps: usize,
     extractions: usize,
@@ -152,7 +192,7 @@ pub(super) fn meet<'m, M: Fn() -> Monitor<'m>>(
         problem: driver.at_hand().maps.problem().clone(),
         driver,
         best,
-        of_best: 1.0,
+        of_best: Size::FIRST,
         known: Vec::new(),
         maps: 0,
         extractions: 0,
@@ -176,36 +216,45 @@ impl<'m, M: Fn() -> Monitor<'m>> Meeting<'_, '_, M> {
         let mut scales = Scales::new(self.asked, [1.0, self.count(&first)]);
         self.known.push(Known {
             count: self.count(&first),
-            scale: 1.0,
+            size: Size::FIRST,
             solved: first,
             is_used: false,
         });
         let fields = field_count(mesh, self.driver.options);
         let most = (MAPS + fields - 1).min(MOST_MAPS);
+        let mut axes = 0..3;
         while !self.is_met() && self.maps < most && self.driver.work.get() > 0 {
-            let is_last = self.maps + 1 == most;
-            if (scales.is_stuck || is_last) && self.double_strip()? {
+            if self.add_strip()? {
                 continue;
             }
             let square = scales.next();
-            self.size(square.sqrt())?;
+            let size = Size {
+                scale: square.sqrt(),
+                axis: match scales.is_stuck {
+                    true => axes.next(),
+                    false => None,
+                },
+            };
+            self.size(size)?;
             let solved = self.driver.at_hand().solve(mesh)?;
-            scales.add([square, self.count(&solved)]);
-            self.meet(square.sqrt(), solved)?;
+            if size.axis.is_none() {
+                scales.add([square, self.count(&solved)]);
+            }
+            self.meet(size, solved)?;
         }
         let mut known = std::mem::take(&mut self.known);
         known.sort_by(|a, b| self.off(a.count).total_cmp(&self.off(b.count)));
         for Known {
             count,
-            scale,
+            size,
             solved,
             ..
         } in known
         {
             // Areas are rounded; integers that are known are not tried again.
             if self.off(count) + 0.5 < self.off_at_best() {
-                self.size(scale)?;
-                self.extract(scale, solved)?;
+                self.size(size)?;
+                self.extract(size, solved)?;
             }
         }
         Ok(())
@@ -213,43 +262,45 @@ impl<'m, M: Fn() -> Monitor<'m>> Meeting<'_, '_, M> {
 
     /// Solves for a map with the integers of a known one but for one more strip; `false` if no strip has as many quads
     /// as are missing.
-    fn double_strip(&mut self) -> Result<bool> {
+    fn add_strip(&mut self) -> Result<bool> {
         let mesh = self.driver.mesh;
         for number in 0..self.known.len() {
             let known = &mut self.known[number];
-            let wanted = (self.asked - known.count) / self.per_square;
-            if wanted < 0.0 || std::mem::replace(&mut known.is_used, true) {
+            let missing = self.asked - known.count;
+            let is_near = missing > 0.0 && missing <= MOST_OF_STRIP * self.asked;
+            if !is_near || std::mem::replace(&mut known.is_used, true) {
                 continue;
             }
             let strips = Strips::new(mesh, &known.solved.map);
             let tolerance = TOLERANCE_OF_STRIPS * self.asked / self.per_square;
-            let Some(strip) = strips.of_quads(wanted, tolerance) else {
+            let Some(strip) = strips.of_quads(missing / self.per_square, tolerance) else {
                 continue;
             };
-            let scale = known.scale;
-            let factors = strips.factors(mesh, strip, scale);
+            let size = known.size;
+            let mut factors = size.factors(mesh);
+            strips.stretch(strip, &mut factors);
             let at_hand = self.driver.at_hand();
             at_hand.size(mesh, &self.problem, &factors)?;
             at_hand.solve(mesh)?;
-            self.size(scale)?;
+            self.size(size)?;
             let solved = self.driver.at_hand().keep_integers()?;
-            self.meet(scale, solved)?;
+            self.meet(size, solved)?;
             return Ok(true);
         }
         Ok(false)
     }
 
     /// Extracts the quads of a map of the size that there is if their number is met, and keeps it for later if not.
-    fn meet(&mut self, scale: f64, solved: Solved) -> Result<()> {
+    fn meet(&mut self, size: Size, solved: Solved) -> Result<()> {
         self.maps += 1;
         self.driver.spend(&solved.solution);
         let count = self.count(&solved);
         if self.off(count) <= TOLERANCE * self.asked {
-            return self.extract(scale, solved);
+            return self.extract(size, solved);
         }
         self.known.push(Known {
             count,
-            scale,
+            size,
             solved,
             is_used: false,
         });
@@ -274,16 +325,16 @@ impl<'m, M: Fn() -> Monitor<'m>> Meeting<'_, '_, M> {
         self.off_at_best() <= TOLERANCE * self.asked
     }
 
-    /// Makes lengths larger by this factor than at first.
-    fn size(&mut self, scale: f64) -> Result<()> {
+    /// Changes to the problem of other sizes.
+    fn size(&mut self, size: Size) -> Result<()> {
         let mesh = self.driver.mesh;
-        let factors = vec![[scale; 2]; mesh.face_count()];
+        let factors = size.factors(mesh);
         self.driver.at_hand().size(mesh, &self.problem, &factors)
     }
 
     /// The quads of a map of the size that there is, which are kept if their number is nearer and they are as whole
     /// as the best.
-    fn extract(&mut self, scale: f64, solved: Solved) -> Result<()> {
+    fn extract(&mut self, size: Size, solved: Solved) -> Result<()> {
         if self.extractions == EXTRACTIONS {
             return Ok(());
         }
@@ -300,7 +351,7 @@ impl<'m, M: Fn() -> Monitor<'m>> Meeting<'_, '_, M> {
         let is_nearer = self.off(found.quads.quads.len() as f64) < self.off_at_best();
         if is_nearer && found.outcome.is_as_whole_as(&self.best.outcome) {
             self.best = found;
-            self.of_best = scale;
+            self.of_best = size;
         }
         Ok(())
     }

@@ -79,16 +79,14 @@ impl Strips {
         )
     }
 
-    /// The factors of the two lengths of the map in every face with which the relaxation has a strip twice, times
-    /// `scale`.
-    pub(super) fn factors(&self, mesh: &TriangleMesh, twice: usize, scale: f64) -> Vec<[f64; 2]> {
-        let mut factors = vec![[scale; 2]; mesh.face_count()];
-        for (piece, &strip) in self.pieces.iter().zip(&self.strip_of) {
-            if strip == twice {
-                factors[piece.face][piece.axis] += scale * piece.share;
+    /// Changes the factors of both lengths of the map in every face to those with which the relaxation has a strip
+    /// twice.
+    pub(super) fn stretch(&self, strip: usize, factors: &mut [[f64; 2]]) {
+        for (piece, &of) in self.pieces.iter().zip(&self.strip_of) {
+            if of == strip {
+                factors[piece.face][piece.axis] *= 1.0 + piece.share;
             }
         }
-        factors
     }
 }
 
@@ -310,7 +308,8 @@ mod tests {
                 quads(*a).total_cmp(&quads(*b))
             };
             let strip = (0..strips.strips.len()).min_by(shortest).unwrap();
-            let factors = strips.factors(&shape.mesh, strip, 1.0);
+            let mut factors = vec![[1.0; 2]; shape.mesh.face_count()];
+            strips.stretch(strip, &mut factors);
             let (mesh, solver) = (&shape.mesh, &mut shape.solver);
             shape.problem = shape.problem.stretched(mesh, &factors, solver).unwrap();
             let second = shape.map();
