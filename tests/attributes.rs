@@ -510,3 +510,25 @@ fn numbers_that_are_linear_in_space_are_linear_on_quads() {
         assert!((value - linear(p)).abs() < 1e-12, "{p:?} {value}");
     }
 }
+
+#[test]
+fn usd_text_has_primvars_and_subsets() {
+    let text = String::from_utf8(encoded(Some(&all()), Format::Usda)).unwrap();
+    for part in [
+        "    texCoord2f[] primvars:st = [(0, 0), (0.5, 0), (0.5, 1), (0, 1), (0.5, 0), ",
+        "color3f[] primvars:displayColor = [(0, 0.3333333333333333, 1), ",
+        "    double[] primvars:heat = [1, 2.718281828459045, ",
+        "        int[] indices = [1, 2]\n        rel material:binding = </mesh/materials/dark_blue>\n",
+        "        def Material \"dark_blue\" (\n            displayName = \"dark blue\"\n",
+        "    def GeomSubset \"group_1\" (\n        displayName = \"right\"\n    )\n    {\n",
+    ] {
+        assert!(text.contains(part), "{part}\n{text}");
+    }
+    assert!(!text.contains("displayOpacity"));
+    let mut opaque = all();
+    opaque.vertex_colors = None;
+    let text = String::from_utf8(encoded(Some(&opaque), Format::Usda)).unwrap();
+    let opacity =
+        "float[] primvars:displayOpacity = [1, 1, 0.4, 1] (\n        interpolation = \"uniform\"\n";
+    assert!(text.contains(opacity), "{text}");
+}

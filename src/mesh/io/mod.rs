@@ -16,6 +16,7 @@ mod polygons;
 mod stl;
 mod strict;
 mod usda;
+mod usda_attributes;
 
 use std::io::Write;
 use std::path::Path;
