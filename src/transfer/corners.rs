@@ -16,7 +16,7 @@ use crate::mesh::vector::{Vec3, add, norm, scale, sub};
 use crate::mesh::{TriangleMesh, closest};
 use crate::monitor::{collect_in_parts, is_wanted, room_for};
 
-/// Triangles are near a quad within so many distances from its center to its farthest corner.
+/// Triangles are near a quad if their boxes are within so many distances from its center to its farthest corner.
 const NEAR: f64 = 1.25;
 
 /// How far a corner is moved towards the center of its quad, of two triangles as close to it to tell the one beneath
@@ -81,10 +81,7 @@ impl Seams {
 /// The triangles beneath and near a face of the quads on one side of the seams, in increasing order.
 fn patch(mesh: &TriangleMesh, seams: &Seams, samples: &[Sample], corners: &[Vec3]) -> Vec<usize> {
     let (center, reach) = (center(corners), NEAR * radius(corners));
-    let is_near = |face: usize| {
-        let point = closest(mesh.corner_positions(face), center);
-        norm(sub(point, center)) <= reach
-    };
+    let is_near = |face: usize| box_distance(mesh.corner_positions(face), center) <= reach;
     // Each triangle that was found, with the lowest triangle beneath a sample from which it was.
     let mut seeds: Vec<usize> = samples.iter().map(|s| s.triangle as usize).collect();
     seeds.sort_unstable();
@@ -117,21 +114,35 @@ fn patch(mesh: &TriangleMesh, seams: &Seams, samples: &[Sample], corners: &[Vec3
 fn place(mesh: &TriangleMesh, patch: &[usize], p: Vec3, corners: &[Vec3]) -> (usize, Vec3) {
     let inside = add(scale(p, 1.0 - INWARD), scale(center(corners), INWARD));
     let tie = TIE * radius(corners);
-    let distances = |face: usize| {
-        let at = |q: Vec3| closest(mesh.corner_positions(face), q);
-        let point = at(p);
-        (point, norm(sub(point, p)), norm(sub(at(inside), inside)))
-    };
-    let mut best: Option<(usize, Vec3, f64, f64)> = None;
+    let closest_in = |face: usize, q: Vec3| closest(mesh.corner_positions(face), q);
+    let inward = |face: usize| norm(sub(closest_in(face, inside), inside));
+    let mut best: Option<(usize, Vec3)> = None;
+    let mut least = f64::INFINITY;
     for &face in patch {
-        let (point, near, within) = distances(face);
-        let is_better = best.is_none_or(|(_, _, least, least_within)| {
-            near < least - tie || near <= least + tie && within < least_within
-        });
+        if box_distance(mesh.corner_positions(face), p) > least + tie {
+            continue;
+        }
+        let point = closest_in(face, p);
+        let near = norm(sub(point, p));
+        let is_better = match best {
+            Some(_) if near > least + tie => false,
+            Some((other, _)) if near >= least - tie => inward(face) < inward(other),
+            _ => true,
+        };
         if is_better {
-            best = Some((face, point, near, within));
+            (best, least) = (Some((face, point)), near);
         }
     }
     // A patch has a triangle.
-    best.map_or((0, p), |(face, point, ..)| (face, point))
+    best.unwrap_or((0, p))
+}
+
+/// The distance of a point from the bounding box of a triangle.
+fn box_distance(triangle: [Vec3; 3], p: Vec3) -> f64 {
+    let off = |k: usize| {
+        let [a, b, c] = triangle.map(|corner| corner[k]);
+        let (low, high) = (a.min(b).min(c), a.max(b).max(c));
+        (low - p[k]).max(p[k] - high).max(0.0)
+    };
+    norm([0, 1, 2].map(off))
 }
