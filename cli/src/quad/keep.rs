@@ -7,7 +7,9 @@ use roundel::mesh::io::{Format, format_of};
 use roundel::{Error, Result};
 use serde::Serialize;
 
+use super::Arguments;
 use crate::mesh::Reading;
+use crate::output;
 use crate::summary::counted;
 
 /// The attributes that quads get.
@@ -107,9 +109,20 @@ pub(super) struct Kept {
     pub(super) attributes: SurfaceAttributes,
     /// Of carrying them to the quads.
     pub(super) seconds: f64,
+    /// Why there are none, where the file has some that need not be kept.
+    pub(super) refused: Option<String>,
 }
 
 impl Kept {
+    /// Tells people why there are no attributes, and keeps it for `--json`.
+    pub(super) fn tell_refused(&mut self, reason: Option<Error>, arguments: &Arguments) {
+        self.refused = reason.map(|error| error.to_string());
+        if let Some(reason) = self.refused.as_ref().filter(|_| !arguments.json) {
+            let note = format!("attributes are not kept: {reason}");
+            output::note(&arguments.mesh, &note);
+        }
+    }
+
     /// What they are, for people.
     pub(super) fn words(&self) -> Option<String> {
         let all = &self.attributes;

@@ -39,6 +39,9 @@ pub(super) struct QuadReport<'a> {
     /// Where quads are written with attributes.
     #[serde(skip_serializing_if = "Option::is_none")]
     kept: Option<KeptReport<'a>>,
+    /// Why they are written without.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    not_kept: Option<&'a str>,
     #[serde(flatten)]
     quads: QuadCounts,
     /// Where strategies are compared.
@@ -202,6 +205,7 @@ impl<'a> QuadReport<'a> {
             missed_features: missed.map(|&e| solved.mesh.edge(e).vertices).collect(),
             count: CountReport::new(solved),
             kept: KeptReport::new(&solved.kept),
+            not_kept: solved.kept.refused.as_deref(),
             quads: QuadCounts::new(&made.quads),
             compared: made.compared.iter().map(Compared::new).collect(),
             phases: Phases {

@@ -11,7 +11,7 @@ use roundel::{Options, Result};
 use super::keep::Kept;
 use super::{Arguments, density};
 use crate::changes::Changes;
-use crate::mesh::{Input, RepairCounts, Wanted};
+use crate::mesh::{Input, Reading, RepairCounts, Wanted};
 use crate::output;
 use crate::outputs::{Content, Outputs, PAGE, TRACE, folder_of};
 use crate::progress::Progress;
@@ -55,10 +55,7 @@ pub(super) fn solve(arguments: &Arguments) -> Result<Solved> {
         refused,
     } = input;
     keep.choose(&mut attributes)?;
-    if let Some(reason) = refused.filter(|_| !arguments.json) {
-        let note = format!("attributes are not kept: {reason}");
-        output::note(&arguments.mesh, &note);
-    }
+    let mut not_kept = refused;
     let density = match &arguments.density {
         Some(path) => density::read(path)?,
         None => Vec::new(),
@@ -84,22 +81,22 @@ pub(super) fn solve(arguments: &Arguments) -> Result<Solved> {
     };
     let options = arguments.flags.over(options)?;
     let made = quadrangulate(&mesh, &options, || progress.monitor())?;
-    let kept = match &arguments.out {
-        Some(path) => {
-            let monitor = &mut progress.monitor();
-            let started = Instant::now();
-            let mut kept = transfer_attributes(&mesh, &made.quads, &attributes, monitor)?;
-            kept.keep_what_fits(format_of(path)?);
-            kept.move_libraries(folder_of(&arguments.mesh), folder_of(path));
-            let seconds = started.elapsed().as_secs_f64();
-            output::write_quads(&made.quads, &kept, path)?;
-            Kept {
-                attributes: kept,
-                seconds,
-            }
+    let mut kept = Kept::default();
+    if let Some(path) = &arguments.out {
+        attributes.keep_what_fits(format_of(path)?);
+        attributes.move_libraries(folder_of(&arguments.mesh), folder_of(path));
+        let started = Instant::now();
+        let monitor = &mut progress.monitor();
+        match transfer_attributes(&mesh, &made.quads, &attributes, monitor) {
+            Ok(attributes) => kept.attributes = attributes,
+            // Quads are worth more than what need not be kept.
+            Err(error) if wanted.attributes == Reading::IfSound => not_kept = Some(error),
+            Err(error) => return Err(error),
         }
-        None => Kept::default(),
-    };
+        kept.seconds = started.elapsed().as_secs_f64();
+        output::write_quads(&made.quads, &kept.attributes, path)?;
+    }
+    kept.tell_refused(not_kept, arguments);
     let changes = match made.refined.is_some() || made.mirrored.is_some() {
         true => {
             let faces = 0..made.mesh(&mesh).face_count();

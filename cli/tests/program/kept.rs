@@ -301,4 +301,10 @@ fn what_cannot_be_kept_is_refused_if_it_is_asked_for() {
     );
     let (_, attributes) = read(&out, Format::Obj);
     assert_eq!(attributes, Attributes::default());
+    let (code, report) = run(&words);
+    let reason = report["not_kept"].as_str().unwrap_or_default();
+    assert!(
+        code == 0 && reason.starts_with("line 57: a corner names no"),
+        "{report}"
+    );
 }

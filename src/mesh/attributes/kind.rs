@@ -93,12 +93,12 @@ impl SurfaceAttributes {
     }
 
     /// Leaves out what files of this format have no place for: all but materials, groups, colours of vertices and
-    /// texture coordinates in OBJ, nothing in PLY and USD, and everything in other formats.
+    /// texture coordinates in OBJ, the files of materials in PLY and USD, and everything in other formats.
     #[cfg(feature = "mesh-io")]
     pub fn keep_what_fits(&mut self, format: crate::soup::io::Format) {
         use crate::soup::io::Format;
         match format {
-            Format::Ply | Format::Usda => {}
+            Format::Ply | Format::Usda => self.libraries.clear(),
             Format::Obj => {
                 self.face_colors = None;
                 self.scalars.clear();
