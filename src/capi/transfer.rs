@@ -135,10 +135,11 @@ pub unsafe extern "C" fn roundel_quads_transfer_vertex_values(
     }
 }
 
-/// Gives each corner of the faces of quads numbers such as texture coordinates. `values` has `components` numbers for each
-/// of the three corners of each face of the mesh, and `result` as many for each corner of the quads, four corners each,
-/// and then of the other faces. An edge whose two faces have other values at one of its ends is a seam: the corners of one
-/// quad have values of one side, that of most of the area beneath the quad. NaN stands for none. `monitor` may be NULL.
+/// Gives each corner of the faces of quads numbers such as texture coordinates. `values` has `components` numbers
+/// for each of the three corners of each face of the mesh, and `result` as many for each corner of the quads, four
+/// corners each, and then of the other faces. An edge whose two faces have other values at one of its ends is a seam:
+/// the corners of one quad have values of one side, that of most of the area beneath the quad. NaN stands for none.
+/// `monitor` may be NULL.
 ///
 /// Fails with ROUNDEL_ERROR_LENGTH_MISMATCH, with ROUNDEL_ERROR_NOT_FINITE and the corner for an infinite number, and
 /// with ROUNDEL_ERROR_INVALID_ARGUMENT for 0 components.
