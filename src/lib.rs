@@ -43,6 +43,7 @@
 //! | [`mesh`], [`field`], [`map`], [`untangle`], [`check`] | meshes, orientation fields, seamless maps, their repair and their check |
 //! | [`geodesic`] | exact distances along the surface, and shortest paths |
 //! | [`extract`], [`smooth`], [`quad`] | quads from a map; all the way from a mesh to quads |
+//! | [`transfer`] | materials, colours and other values, from triangles to quads |
 //! | [`Error`], [`InputError`] | what can go wrong |
 //! | [`capi`] | the C interface |
 
@@ -75,6 +76,7 @@ pub mod search;
 pub mod smooth;
 pub mod solve;
 pub mod soup;
+pub mod transfer;
 pub mod untangle;
 
 #[cfg(test)]

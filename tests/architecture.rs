@@ -7,7 +7,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The layers from the lowest to the highest. A file names its own layer and lower ones, nothing else.
-const LAYERS: [&str; 25] = [
+const LAYERS: [&str; 26] = [
     "error",
     "monitor",
     "linalg",
@@ -31,6 +31,7 @@ const LAYERS: [&str; 25] = [
     "check",
     "extract",
     "smooth",
+    "transfer",
     "quad",
     "capi",
 ];

@@ -50,6 +50,7 @@ const SOURCES: &[&str] = &[
     "quad_options",
     "quads",
     "quads_results",
+    "transfer",
 ];
 
 /// Files that declare nothing for C.

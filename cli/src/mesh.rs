@@ -3,6 +3,7 @@
 use std::io::Read;
 use std::path::Path;
 
+use roundel::mesh::attributes::SurfaceAttributes;
 use roundel::mesh::features::FeatureGraph;
 use roundel::mesh::{MeshError, TriangleMesh, io, shape};
 use roundel::soup::io::{Attribute, Attributes, Format};
@@ -42,6 +43,30 @@ pub struct Input {
     pub changes: Changes,
     /// The edges at which the attributes that were asked for change.
     pub features: Option<FeatureGraph>,
+    /// What the faces, corners and vertices have, if that was asked for.
+    pub attributes: SurfaceAttributes,
+    /// Why there are none, where they cannot be read and need not be.
+    pub refused: Option<Error>,
+}
+
+/// What is wanted of a file beside its mesh.
+#[derive(Default, Clone, Copy)]
+pub struct Wanted<'a> {
+    /// Attributes whose changes are features.
+    pub features: &'a [Attribute],
+    /// Whether attributes are read.
+    pub attributes: Reading,
+}
+
+/// Whether something is read.
+#[derive(Default, Clone, Copy, PartialEq, Eq)]
+pub enum Reading {
+    #[default]
+    No,
+    /// Where it is damaged, it is left out.
+    IfSound,
+    /// Where it is damaged, the call fails.
+    Yes,
 }
 
 /// How often each kind of repair was done; those that were not are left out.
@@ -65,6 +90,32 @@ impl Serialize for RepairCounts {
 }
 
 impl Input {
+    /// Adds what is wanted of the attributes of a file.
+    fn add(
+        &mut self,
+        wanted: Wanted,
+        origin: (&PolygonSoup, Option<&Repaired>),
+        read: &Attributes,
+    ) -> Result<()> {
+        let mesh = &self.mesh;
+        if !wanted.features.is_empty() {
+            let mut features = FeatureGraph::none(mesh);
+            for &attribute in wanted.features {
+                let found = FeatureGraph::by_attribute(mesh, origin, read, attribute)?;
+                features = features.with(mesh, &found)?;
+            }
+            self.features = Some(features);
+        }
+        if wanted.attributes != Reading::No {
+            match SurfaceAttributes::of_file(mesh, origin, read) {
+                Ok(attributes) => self.attributes = attributes,
+                Err(error) if wanted.attributes == Reading::IfSound => self.refused = Some(error),
+                Err(error) => return Err(error),
+            }
+        }
+        Ok(())
+    }
+
     /// Refuses a flag whose argument counts faces or vertices, if repair has changed their numbers.
     ///
     /// # Errors
@@ -83,6 +134,12 @@ impl Input {
     }
 }
 
+impl Wanted<'_> {
+    fn may_lack_attributes(self) -> bool {
+        self.features.is_empty() && self.attributes == Reading::IfSound
+    }
+}
+
 impl MeshFlags {
     /// The mesh that `name` stands for: `shape:NAME[:TRIANGLES]`, a file, or `-` for standard input. What was
     /// repaired is told on stderr, unless `json` tells it.
@@ -90,28 +147,22 @@ impl MeshFlags {
     /// # Errors
     /// Those of reading and of repair; with `--strict` those of [`TriangleMesh::new`].
     pub fn read(&self, name: &Path, json: bool) -> Result<Input> {
-        self.read_with(name, json, &[])
+        self.read_with(name, json, Wanted::default())
     }
 
-    /// As [`read`](Self::read), with the edges at which these attributes of the file change.
+    /// As [`read`](Self::read), with what is wanted beside the mesh.
     ///
     /// # Errors
-    /// Those of [`read`](Self::read) and of [`FeatureGraph::by_attribute`].
-    pub fn read_with(&self, name: &Path, json: bool, attributes: &[Attribute]) -> Result<Input> {
+    /// Those of [`read`](Self::read), of [`FeatureGraph::by_attribute`], and of attributes that are to be read.
+    pub fn read_with(&self, name: &Path, json: bool, wanted: Wanted) -> Result<Input> {
         if let Some(drawn) = name.to_str().and_then(shape::from_spec) {
-            if let Some(first) = attributes.first() {
+            if let Some(first) = wanted.features.first() {
                 return Err(Error::InvalidArgument {
                     what: format!("a shape has no {first}: it is no file"),
                     index: None,
                 });
             }
             return Ok(unchanged(suggesting(drawn)?));
-        }
-        if attributes.is_empty() {
-            return match self.strict {
-                true => Ok(unchanged(self.read_strictly(name)?)),
-                false => Ok(self.repaired_input(name, &self.read_soup(name)?, json)?.0),
-            };
         }
         let format = self.format_of(name)?;
         let bytes = match is_stdin(name) {
@@ -120,22 +171,29 @@ impl MeshFlags {
                 .map_err(|reason| output::io_error(&name.display().to_string(), &reason))?,
         };
         let soup = soup::parse_in(&bytes, format, name.parent())?;
-        let read = Attributes::parse(&bytes, format, &soup)?;
+        let is_read = !wanted.features.is_empty()
+            || wanted.attributes != Reading::No && Attributes::are_in(&bytes, format)?;
+        let read = match is_read {
+            true => Attributes::parse(&bytes, format, &soup).map(Some),
+            false => Ok(None),
+        };
+        drop(bytes);
+        let (read, refused) = match read {
+            Ok(read) => (read, None),
+            Err(error) if wanted.may_lack_attributes() => (None, Some(error.into())),
+            Err(error) => return Err(error.into()),
+        };
         let (mut input, repaired) = match self.strict {
-            true => (unchanged(io::parse(&bytes, format)?), None),
+            true => (unchanged(io::of_soup(&soup, format)?), None),
             false => {
                 let (input, repaired) = self.repaired_input(name, &soup, json)?;
                 (input, Some(repaired))
             }
         };
-        let mesh = &input.mesh;
-        let mut features = FeatureGraph::none(mesh);
-        for &attribute in attributes {
-            let origin = (&soup, repaired.as_ref());
-            let found = FeatureGraph::by_attribute(mesh, origin, &read, attribute)?;
-            features = features.with(mesh, &found)?;
+        input.refused = refused;
+        if let Some(read) = read {
+            input.add(wanted, (&soup, repaired.as_ref()), &read)?;
         }
-        input.features = Some(features);
         Ok(input)
     }
 
@@ -177,14 +235,6 @@ impl MeshFlags {
         Ok(TriangleMesh::from_soup(soup, &options)?)
     }
 
-    fn read_strictly(&self, name: &Path) -> Result<TriangleMesh> {
-        let format = self.format_of(name)?;
-        Ok(match is_stdin(name) {
-            true => io::parse(&stdin()?, format)?,
-            false => io::read_as(name, format)?,
-        })
-    }
-
     fn format_of(&self, name: &Path) -> Result<Format> {
         match self.format {
             Some(format) => Ok(format),
@@ -204,6 +254,8 @@ fn unchanged(mesh: TriangleMesh) -> Input {
         repair: RepairCounts::default(),
         changes: Changes::default(),
         features: None,
+        attributes: SurfaceAttributes::default(),
+        refused: None,
     }
 }
 

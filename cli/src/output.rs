@@ -6,6 +6,7 @@ use std::path::Path;
 
 use roundel::extract::QuadMesh;
 use roundel::mesh;
+use roundel::mesh::attributes::SurfaceAttributes;
 use roundel::{Error, Proof, Result};
 use serde::Serialize;
 
@@ -121,10 +122,10 @@ pub fn io_error(name: &str, reason: &io::Error) -> Error {
     }
 }
 
-/// Writes quads, and says on stderr where the format holds triangles only.
-pub fn write_quads(quads: &QuadMesh, file: &Path) -> Result<()> {
+/// Writes quads with their attributes, and says on stderr where the format holds triangles only.
+pub fn write_quads(quads: &QuadMesh, attributes: &SurfaceAttributes, file: &Path) -> Result<()> {
     let format = mesh::io::format_of(file)?;
-    quads.write(file)?;
+    quads.write_with(file, attributes)?;
     if !format.holds_polygons() {
         let _ = writeln!(
             io::stderr(),

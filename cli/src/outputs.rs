@@ -145,7 +145,8 @@ fn check_folder(folder: &Path) -> io::Result<()> {
     fs::remove_file(&trial)
 }
 
-fn folder_of(file: &Path) -> &Path {
+/// The folder of a file.
+pub fn folder_of(file: &Path) -> &Path {
     match file.parent() {
         Some(folder) if folder != Path::new("") => folder,
         _ => Path::new("."),

@@ -3190,6 +3190,59 @@ roundel_status roundel_quads_faults(const struct roundel_quads *quads,
 roundel_status roundel_quads_write(const struct roundel_quads *quads,
                                    const char *file);
 
+/**
+ * Gives each face of quads the label of most of the area of the mesh beneath it, such as the number of a
+ * material. `labels` has a number from 0 on for each face of the mesh, or -1 for none; `result` gets one for each
+ * face of the quads: the quads first, and then the other faces. Of labels with the same area the lowest wins, and
+ * -1 only if there is no other. `monitor` may be NULL.
+ *
+ * Fails with ROUNDEL_ERROR_LENGTH_MISMATCH, and with ROUNDEL_ERROR_INVALID_ARGUMENT and the face for a label
+ * below -1.
+ */
+roundel_status roundel_quads_transfer_face_labels(const struct roundel_quads *quads,
+                                                  const struct roundel_mesh *mesh,
+                                                  const int32_t *labels,
+                                                  size_t label_count,
+                                                  const struct roundel_monitor *monitor,
+                                                  int32_t *result,
+                                                  size_t length);
+
+/**
+ * Gives each vertex of quads the numbers at the closest point of the mesh, interpolated linearly between its vertices:
+ * temperatures, or colours of three or four components. `values` has `components` numbers for each vertex of the mesh,
+ * `result` as many for each vertex of the quads. NaN stands for none. `monitor` may be NULL.
+ *
+ * Fails with ROUNDEL_ERROR_LENGTH_MISMATCH, with ROUNDEL_ERROR_NOT_FINITE and the vertex for an infinite number, and
+ * with ROUNDEL_ERROR_INVALID_ARGUMENT for 0 components.
+ */
+roundel_status roundel_quads_transfer_vertex_values(const struct roundel_quads *quads,
+                                                    const struct roundel_mesh *mesh,
+                                                    size_t components,
+                                                    const double *values,
+                                                    size_t count,
+                                                    const struct roundel_monitor *monitor,
+                                                    double *result,
+                                                    size_t length);
+
+/**
+ * Gives each corner of the faces of quads numbers such as texture coordinates. `values` has `components` numbers
+ * for each of the three corners of each face of the mesh, and `result` as many for each corner of the quads, four
+ * corners each, and then of the other faces. An edge whose two faces have other values at one of its ends is a seam:
+ * the corners of one quad have values of one side, that of most of the area beneath the quad. NaN stands for none.
+ * `monitor` may be NULL.
+ *
+ * Fails with ROUNDEL_ERROR_LENGTH_MISMATCH, with ROUNDEL_ERROR_NOT_FINITE and the corner for an infinite number, and
+ * with ROUNDEL_ERROR_INVALID_ARGUMENT for 0 components.
+ */
+roundel_status roundel_quads_transfer_corner_values(const struct roundel_quads *quads,
+                                                    const struct roundel_mesh *mesh,
+                                                    size_t components,
+                                                    const double *values,
+                                                    size_t count,
+                                                    const struct roundel_monitor *monitor,
+                                                    double *result,
+                                                    size_t length);
+
 #ifdef __cplusplus
 }  // extern "C"
 #endif  // __cplusplus

@@ -71,6 +71,7 @@ mod soup;
 mod status;
 #[cfg(feature = "test-panic")]
 mod test_panic;
+mod transfer;
 mod unknowns;
 mod version;
 
@@ -115,5 +116,6 @@ pub use soup::*;
 pub use status::*;
 #[cfg(feature = "test-panic")]
 pub use test_panic::*;
+pub use transfer::*;
 pub use unknowns::*;
 pub use version::*;

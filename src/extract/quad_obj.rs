@@ -7,6 +7,8 @@ use std::path::Path;
 use super::QuadMesh;
 use crate::error::Result;
 use crate::mesh::MeshError;
+#[cfg(feature = "mesh-io")]
+use crate::mesh::attributes::SurfaceAttributes;
 
 impl QuadMesh {
     /// Writes vertices and faces to a file whose extension tells the format: see
@@ -17,9 +19,21 @@ impl QuadMesh {
     /// [`Error::Input`](crate::Error::Input) for an unknown format.
     #[cfg(feature = "mesh-io")]
     pub fn write(&self, path: &Path) -> Result<()> {
+        self.write_with(path, &SurfaceAttributes::default())
+    }
+
+    /// As [`write`](Self::write), with attributes, of which the file has those that its format holds: see
+    /// [`Polygons::attributes`](crate::mesh::io::Polygons::attributes). They count the quads first, and then the other
+    /// faces.
+    ///
+    /// # Errors
+    /// Those of [`write`](Self::write), and [`Error::Input`](crate::Error::Input) for attributes that do not fit.
+    #[cfg(feature = "mesh-io")]
+    pub fn write_with(&self, path: &Path, attributes: &SurfaceAttributes) -> Result<()> {
         let polygons = crate::mesh::io::Polygons {
             vertices: &self.vertices,
             faces: self.faces().collect(),
+            attributes: Some(attributes),
         };
         Ok(crate::mesh::io::write_polygons(path, &polygons)?)
     }

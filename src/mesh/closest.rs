@@ -76,9 +76,34 @@ impl ClosestPoint {
         work: &mut u64,
     ) -> Option<(usize, Vec3)> {
         let start = hint.unwrap_or(0);
-        let mut best = (start, closest(*self.triangles.get(start)?, p));
-        let mut least = squared(sub(best.1, p));
-        let mut open = vec![0u32];
+        let first = (start, closest(*self.triangles.get(start)?, p));
+        let least = squared(sub(first.1, p));
+        self.search(p, Some(first), least, |_| true, work)
+    }
+
+    /// The closest of the triangles that are wanted, if one is less than `reach` away.
+    pub(crate) fn find_wanted(
+        &self,
+        p: Vec3,
+        reach: f64,
+        is_wanted: impl Fn(usize) -> bool,
+    ) -> Option<(usize, Vec3)> {
+        self.search(p, None, reach * reach, is_wanted, &mut 0)
+    }
+
+    /// The best of the triangles that are wanted, where the best so far has the squared distance `least`.
+    fn search(
+        &self,
+        p: Vec3,
+        mut best: Option<(usize, Vec3)>,
+        mut least: f64,
+        is_wanted: impl Fn(usize) -> bool,
+        work: &mut u64,
+    ) -> Option<(usize, Vec3)> {
+        let mut open = match self.boxes.is_empty() {
+            true => Vec::new(),
+            false => vec![0u32],
+        };
         while let Some(node) = open.pop() {
             let bounds = &self.boxes[node as usize];
             if distance(bounds, p) >= least {
@@ -89,8 +114,8 @@ impl ClosestPoint {
                 for &t in &self.order[bounds.first as usize..bounds.last as usize] {
                     let point = closest(self.triangles[t as usize], p);
                     let found = squared(sub(point, p));
-                    if found < least {
-                        (best, least) = ((t as usize, point), found);
+                    if found < least && is_wanted(t as usize) {
+                        (best, least) = (Some((t as usize, point)), found);
                     }
                 }
                 continue;
@@ -103,7 +128,7 @@ impl ClosestPoint {
                 halves
             });
         }
-        Some(best)
+        best
     }
 }
 
@@ -190,7 +215,7 @@ fn distance(bounds: &Node, p: Vec3) -> f64 {
 }
 
 /// The point of a triangle that is closest to `p`.
-fn closest([a, b, c]: [Vec3; 3], p: Vec3) -> Vec3 {
+pub(crate) fn closest([a, b, c]: [Vec3; 3], p: Vec3) -> Vec3 {
     let (ab, ac, ap) = (sub(b, a), sub(c, a), sub(p, a));
     let (d1, d2) = (dot(ab, ap), dot(ac, ap));
     if d1 <= 0.0 && d2 <= 0.0 {
@@ -246,6 +271,13 @@ mod tests {
             let (face, point) = tree.find(p, (i % 2 == 0).then_some(i)).unwrap();
             assert_eq!(distance(point), least);
             assert_eq!(closest(mesh.corner_positions(face), p), point);
+            let is_wanted = |f: usize| f % 7 == i % 7;
+            let wanted = (0..mesh.face_count()).filter(|&f| is_wanted(f));
+            let of_wanted = wanted.map(|f| distance(closest(mesh.corner_positions(f), p)));
+            let least = of_wanted.fold(f64::INFINITY, f64::min);
+            let (face, point) = tree.find_wanted(p, 10.0, is_wanted).unwrap();
+            assert_eq!((distance(point), face % 7), (least, i % 7));
+            assert_eq!(tree.find_wanted(p, 0.99 * least.sqrt(), is_wanted), None);
         }
     }
 

@@ -16,6 +16,7 @@
 //! # Ok::<(), roundel::mesh::MeshError>(())
 //! ```
 
+pub mod attributes;
 mod check;
 mod closest;
 mod connectivity;
@@ -29,6 +30,8 @@ mod jitter;
 mod measure;
 pub mod mirror;
 mod orientation;
+#[cfg(feature = "mesh-io")]
+mod origin;
 mod plane;
 pub mod refine;
 mod rings;
@@ -47,6 +50,7 @@ pub use subdivide::subdivide;
 pub use topology::Components;
 pub use triangle_mesh::{Edge, TriangleMesh};
 
+pub(crate) use closest::closest;
 pub(crate) use orientation::orientation;
 pub(crate) use plane::{angle_at, angle_between, turned};
 

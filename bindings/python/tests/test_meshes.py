@@ -184,3 +184,47 @@ def test_openmesh(cube):
 def test_an_object_that_is_not_a_mesh_is_refused():
     with pytest.raises(TypeError, match="object"):
         roundel.field(object())
+
+
+def test_labels_and_numbers_come_to_quads():
+    plane = roundel.Mesh.shape("plane", 800)
+    quads = roundel.quad(plane, quads=100)
+    points, corners = quads.vertices, quads.faces
+    middle = plane.vertices[:, 0].mean()
+    off = np.ptp(plane.vertices[:, 0]) / 10
+    labels = np.where(plane.vertices[plane.faces][:, :, 0].mean(axis=1) < middle, 4, -1)
+    found = quads.transfer_face_labels(plane, labels)
+    x = points[corners][:, :, 0].mean(axis=1) - middle
+    assert (found[x < -off] == 4).all() and (found[x > off] == -1).all()
+    assert (x < -off).any() and (x > off).any()
+    linear = lambda p: np.stack([1 + 2 * p[..., 0], p[..., 1] - p[..., 0]], axis=-1)  # noqa: E731
+    both = quads.transfer_vertex_values(plane, linear(plane.vertices))
+    assert np.abs(both - linear(points)).max() < 1e-12
+    one = quads.transfer_vertex_values(plane, linear(plane.vertices)[:, 0])
+    assert np.array_equal(one, both[:, 0])
+    uvs = quads.transfer_corner_values(plane, linear(plane.vertices[plane.faces]))
+    assert uvs.shape == (len(quads), 4, 2)
+    assert np.abs(uvs - linear(points[corners])).max() < 1e-12
+    assert quads.transfer_corner_values(plane, np.full(plane.faces.shape, 3.0)).shape == (len(quads), 4)
+
+
+def test_labels_and_numbers_that_do_not_fit_are_refused():
+    plane = roundel.Mesh.shape("plane", 200)
+    quads = roundel.quad(plane, quads=50)
+    with pytest.raises(roundel.LengthMismatchError):
+        quads.transfer_face_labels(plane, [1, 2])
+    with pytest.raises(roundel.InvalidArgumentError) as refused:
+        quads.transfer_face_labels(plane, [0, -2] + [0] * (len(plane.faces) - 2))
+    assert refused.value.index == 1
+    with pytest.raises(roundel.ArgumentTypeError):
+        quads.transfer_face_labels(plane, np.zeros(len(plane.faces)))
+    for shape in [(3,), (len(plane.vertices), 2, 2)]:
+        with pytest.raises(roundel.LengthMismatchError):
+            quads.transfer_vertex_values(plane, np.zeros(shape))
+    with pytest.raises(roundel.LengthMismatchError):
+        quads.transfer_corner_values(plane, np.zeros((len(plane.faces), 4)))
+    infinite = np.zeros(len(plane.vertices))
+    infinite[3] = np.inf
+    with pytest.raises(roundel.NotFiniteError) as refused:
+        quads.transfer_vertex_values(plane, infinite)
+    assert refused.value.index == 3

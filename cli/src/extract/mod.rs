@@ -6,6 +6,7 @@ use std::time::Instant;
 
 use roundel::Result;
 use roundel::extract::{IntegerGridMap, QuadMesh, extract};
+use roundel::mesh::attributes::SurfaceAttributes;
 use roundel::mesh::{TriangleMesh, io};
 use roundel::smooth::{SmoothOptions, smooth};
 use serde::Serialize;
@@ -91,7 +92,7 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
     }
     let smooth = started.elapsed().as_secs_f64();
     if let Some(path) = &arguments.out {
-        output::write_quads(&quads, path)?;
+        output::write_quads(&quads, &SurfaceAttributes::default(), path)?;
     }
     Ok(Solved {
         mesh,

@@ -18,7 +18,7 @@ use roundel::{Error, Options, Result};
 use roundel_pictures::{FieldModel, draw_field};
 
 use crate::exit::Exit;
-use crate::mesh::Input;
+use crate::mesh::{Input, Wanted};
 use crate::output;
 use crate::outputs::{Content, Outputs, PAGE, PICTURE, PROBLEM, TRACE};
 use crate::progress::Progress;
@@ -43,16 +43,20 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
     let mut progress = Progress::start(arguments.output.quiet)?;
     let mut options = arguments.solver.over(Options::default())?;
     progress.limit(&mut options, started);
-    let attributes = arguments.directions.attributes();
+    let wanted = Wanted {
+        features: arguments.directions.attributes(),
+        ..Wanted::default()
+    };
     let input = arguments
         .input
-        .read_with(&arguments.mesh, arguments.json, attributes)?;
+        .read_with(&arguments.mesh, arguments.json, wanted)?;
     arguments.directions.keep_numbers(&input)?;
     let Input {
         mesh,
         repair,
         changes,
         features: by_attributes,
+        ..
     } = input;
     let read = started.elapsed().as_secs_f64();
     let started = Instant::now();

@@ -18,7 +18,7 @@ use roundel::{Options, Result, Solution};
 
 use crate::changes::Changes;
 use crate::exit::Exit;
-use crate::mesh::{Input, RepairCounts};
+use crate::mesh::{Input, RepairCounts, Wanted};
 use crate::output;
 use crate::outputs::{MAP, Outputs, PAGE, PROBLEM, TRACE};
 use crate::progress::Progress;
@@ -76,10 +76,13 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
     let mut options = arguments.solver.over(Options::default())?;
     progress.limit(&mut options, started);
     let monitor = || progress.monitor();
-    let attributes = arguments.directions.attributes();
+    let wanted = Wanted {
+        features: arguments.directions.attributes(),
+        ..Wanted::default()
+    };
     let input = arguments
         .input
-        .read_with(&arguments.mesh, arguments.json, attributes)?;
+        .read_with(&arguments.mesh, arguments.json, wanted)?;
     arguments.directions.keep_numbers(&input)?;
     input.keeps_numbers("--field", arguments.field.is_some())?;
     let Input {
@@ -87,6 +90,7 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
         repair,
         changes,
         features: by_attributes,
+        ..
     } = input;
     let read = started.elapsed().as_secs_f64();
     let (guidance, features) = arguments.directions.of_map(&mesh, by_attributes.as_ref())?;

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use roundel::Strategy;
 use roundel::mesh::mirror::Mirror;
 
+use super::keep::Keep;
 use crate::exit;
 use crate::field::Directions;
 use crate::mesh::MeshFlags;
@@ -30,6 +31,12 @@ pub struct Arguments {
     /// quads, they are split into triangles
     #[arg(short, long, value_name = "QUADS.obj")]
     pub out: Option<PathBuf>,
+
+    /// Carry these attributes of the file to the quads, separated by commas: materials, groups, colors, uv
+    /// (texture coordinates), scalars (all other numbers of PLY vertices); or all, or none. By default all that
+    /// can be read
+    #[arg(long, value_name = "NAME,...", value_parser = Keep::parse)]
+    pub keep: Option<Keep>,
 
     #[command(flatten)]
     pub sizing: SizingFlags,

@@ -3,6 +3,7 @@
 mod arguments;
 mod density;
 mod faults;
+mod keep;
 mod mirrored;
 mod page;
 mod report;

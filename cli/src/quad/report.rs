@@ -8,6 +8,7 @@ use serde::Serialize;
 
 use super::Arguments;
 use super::faults::Faults;
+use super::keep::KeptReport;
 use super::mirrored::{Plane, planes};
 use super::steps::Solved;
 use crate::mesh::RepairCounts;
@@ -35,6 +36,12 @@ pub(super) struct QuadReport<'a> {
     /// Where a number of quads was asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     count: Option<CountReport>,
+    /// Where quads are written with attributes.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    kept: Option<KeptReport<'a>>,
+    /// Why they are written without.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    not_kept: Option<&'a str>,
     #[serde(flatten)]
     quads: QuadCounts,
     /// Where strategies are compared.
@@ -197,6 +204,8 @@ impl<'a> QuadReport<'a> {
             flipped: made.untangled.flipped_after,
             missed_features: missed.map(|&e| solved.mesh.edge(e).vertices).collect(),
             count: CountReport::new(solved),
+            kept: KeptReport::new(&solved.kept),
+            not_kept: solved.kept.refused.as_deref(),
             quads: QuadCounts::new(&made.quads),
             compared: made.compared.iter().map(Compared::new).collect(),
             phases: Phases {

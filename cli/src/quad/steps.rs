@@ -3,14 +3,17 @@
 use std::time::Instant;
 
 use roundel::mesh::TriangleMesh;
+use roundel::mesh::io::format_of;
 use roundel::quad::{QuadOptions, Quadrangulation, quadrangulate};
+use roundel::transfer::transfer_attributes;
 use roundel::{Options, Result};
 
+use super::keep::Kept;
 use super::{Arguments, density};
 use crate::changes::Changes;
-use crate::mesh::{Input, RepairCounts};
+use crate::mesh::{Input, Reading, RepairCounts, Wanted};
 use crate::output;
-use crate::outputs::{Content, Outputs, PAGE, TRACE};
+use crate::outputs::{Content, Outputs, PAGE, TRACE, folder_of};
 use crate::progress::Progress;
 
 /// Quads, and what they were made from.
@@ -21,6 +24,7 @@ pub(super) struct Solved {
     pub(super) changes: Changes,
     pub(super) options: QuadOptions,
     pub(super) made: Quadrangulation,
+    pub(super) kept: Kept,
     pub(super) read_seconds: f64,
 }
 
@@ -31,10 +35,14 @@ pub(super) fn solve(arguments: &Arguments) -> Result<Solved> {
     let default = QuadOptions::default();
     let mut map = arguments.solver.over(default.map.clone())?;
     progress.limit(&mut map, started);
-    let attributes = arguments.directions.attributes();
+    let keep = arguments.keep.clone().unwrap_or_default();
+    let wanted = Wanted {
+        features: arguments.directions.attributes(),
+        attributes: keep.reading(arguments.out.as_deref())?,
+    };
     let input = arguments
         .input
-        .read_with(&arguments.mesh, arguments.json, attributes)?;
+        .read_with(&arguments.mesh, arguments.json, wanted)?;
     arguments.directions.keep_numbers(&input)?;
     input.keeps_numbers("--density", arguments.density.is_some())?;
     input.keeps_numbers("--near-vertex", !arguments.near_vertex.is_empty())?;
@@ -43,7 +51,11 @@ pub(super) fn solve(arguments: &Arguments) -> Result<Solved> {
         repair,
         changes,
         features: by_attributes,
+        mut attributes,
+        refused,
     } = input;
+    keep.choose(&mut attributes)?;
+    let mut not_kept = refused;
     let density = match &arguments.density {
         Some(path) => density::read(path)?,
         None => Vec::new(),
@@ -69,9 +81,22 @@ pub(super) fn solve(arguments: &Arguments) -> Result<Solved> {
     };
     let options = arguments.flags.over(options)?;
     let made = quadrangulate(&mesh, &options, || progress.monitor())?;
+    let mut kept = Kept::default();
     if let Some(path) = &arguments.out {
-        output::write_quads(&made.quads, path)?;
+        attributes.keep_what_fits(format_of(path)?);
+        attributes.move_libraries(folder_of(&arguments.mesh), folder_of(path));
+        let started = Instant::now();
+        let monitor = &mut progress.monitor();
+        match transfer_attributes(&mesh, &made.quads, &attributes, monitor) {
+            Ok(attributes) => kept.attributes = attributes,
+            // Quads are worth more than what need not be kept.
+            Err(error) if wanted.attributes == Reading::IfSound => not_kept = Some(error),
+            Err(error) => return Err(error),
+        }
+        kept.seconds = started.elapsed().as_secs_f64();
+        output::write_quads(&made.quads, &kept.attributes, path)?;
     }
+    kept.tell_refused(not_kept, arguments);
     let changes = match made.refined.is_some() || made.mirrored.is_some() {
         true => {
             let faces = 0..made.mesh(&mesh).face_count();
@@ -86,6 +111,7 @@ pub(super) fn solve(arguments: &Arguments) -> Result<Solved> {
         changes,
         options,
         made,
+        kept,
         read_seconds,
     })
 }

@@ -45,6 +45,9 @@ impl fmt::Display for QuadSummary<'_> {
             &words(&made.quads),
             seconds.extract + seconds.smooth,
         )?;
+        if let Some(kept) = solved.kept.words() {
+            line(f, "kept", &kept, solved.kept.seconds)?;
+        }
         for one in &made.compared {
             for (problem, solution) in [("field", &one.field), ("map", &one.map)] {
                 let found = format!(

@@ -5,6 +5,7 @@ mod distance;
 mod evaluate;
 mod field;
 mod interrupt;
+mod kept;
 mod named_features;
 mod outcome;
 mod output;

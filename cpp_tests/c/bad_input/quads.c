@@ -140,6 +140,79 @@ static void densities(fixture* f, const roundel_mesh* torus) {
     GOOD(roundel_quad_options_free(q));
 }
 
+/* Labels and numbers of the torus, which has at most 256 faces and 768 corners. */
+static void transfers(fixture* f, const roundel_mesh* torus) {
+    const roundel_status mismatch = ROUNDEL_ERROR_LENGTH_MISMATCH;
+    const roundel_status null = ROUNDEL_ERROR_NULL_POINTER;
+    const roundel_status invalid = ROUNDEL_ERROR_INVALID_ARGUMENT;
+    static int32_t labels[256], found[4096];
+    static double values[1024], carried[16384];
+    size_t faces = 0, vertices = 0, count = 0, points = 0;
+    roundel_quads* quads = NULL;
+    GOOD(roundel_mesh_face_count(torus, &faces));
+    GOOD(roundel_mesh_vertex_count(torus, &vertices));
+    GOOD(roundel_quads_make(torus, NULL, NULL, &quads));
+    GOOD(roundel_quads_count(quads, &count));
+    GOOD(roundel_quads_vertex_count(quads, &points));
+    HOLDS(faces <= 256 && count <= 4096 && points <= 16384 && 4 * count <= 16384);
+    found[0] = 77;
+    carried[0] = 77.0;
+    BAD(f, roundel_quads_transfer_face_labels(NULL, torus, labels, faces, NULL, found, count), null,
+        "quads", NONE);
+    BAD(f, roundel_quads_transfer_face_labels(quads, NULL, labels, faces, NULL, found, count), null,
+        "mesh", NONE);
+    BAD(f, roundel_quads_transfer_face_labels(quads, torus, NULL, faces, NULL, found, count), null,
+        "labels", NONE);
+    BAD(f, roundel_quads_transfer_face_labels(quads, torus, labels, faces, NULL, NULL, count), null,
+        "labels", NONE);
+    BAD(f, roundel_quads_transfer_face_labels(quads, torus, labels, 3, NULL, found, count),
+        mismatch, "labels of faces", NONE);
+    BAD(f, roundel_quads_transfer_face_labels(quads, torus, labels, faces, NULL, found, 1),
+        mismatch, "labels of the quads", NONE);
+    labels[5] = -2;
+    BAD(f, roundel_quads_transfer_face_labels(quads, torus, labels, faces, NULL, found, count),
+        invalid, "below -1", 5);
+    BAD(f,
+        roundel_quads_transfer_vertex_values(NULL, torus, 1, values, vertices, NULL, carried,
+                                             points),
+        null, "quads", NONE);
+    BAD(f,
+        roundel_quads_transfer_vertex_values(quads, torus, 1, NULL, vertices, NULL, carried,
+                                             points),
+        null, "values", NONE);
+    BAD(f, roundel_quads_transfer_vertex_values(quads, torus, 0, values, 0, NULL, carried, 0),
+        invalid, "components", NONE);
+    BAD(f,
+        roundel_quads_transfer_vertex_values(quads, torus, 2, values, vertices, NULL, carried,
+                                             points),
+        mismatch, "values of vertices", NONE);
+    BAD(f,
+        roundel_quads_transfer_vertex_values(quads, torus, 1, values, vertices, NULL, carried,
+                                             points - 1),
+        mismatch, "values of the quads", NONE);
+    BAD(f,
+        roundel_quads_transfer_corner_values(quads, torus, SIZE_MAX, values, 3 * faces, NULL,
+                                             carried, 4 * count),
+        mismatch, "values of corners", NONE);
+    values[9] = (double)INFINITY;
+    BAD(f,
+        roundel_quads_transfer_vertex_values(quads, torus, 1, values, vertices, NULL, carried,
+                                             points),
+        ROUNDEL_ERROR_NOT_FINITE, "values of vertices", 9);
+    BAD(f,
+        roundel_quads_transfer_corner_values(quads, torus, 1, values, 3 * faces, NULL, carried,
+                                             4 * count),
+        ROUNDEL_ERROR_NOT_FINITE, "values of corners", 9);
+    HOLDS(found[0] == 77 && carried[0] == 77.0);
+    labels[5] = -1;
+    values[9] = 0.0;
+    GOOD(roundel_quads_transfer_face_labels(quads, torus, labels, faces, NULL, found, count));
+    GOOD(roundel_quads_transfer_vertex_values(quads, torus, 1, values, vertices, NULL, carried,
+                                              points));
+    HOLDS(found[0] == 0 && carried[0] == 0.0);
+    GOOD(roundel_quads_free(quads));
+}
+
 void bad_quads(fixture* f) {
     roundel_mesh* torus = NULL;
     GOOD(roundel_mesh_make_shape("torus", 200, &torus));
@@ -147,5 +220,6 @@ void bad_quads(fixture* f) {
     sizes(f, torus);
     mirrors(f, torus);
     densities(f, torus);
+    transfers(f, torus);
     GOOD(roundel_mesh_free(torus));
 }

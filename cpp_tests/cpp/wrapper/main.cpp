@@ -32,6 +32,7 @@ int main() {
     fields_follow_their_options();
     maps_are_solved_again_at_another_size();
     unset_quad_options_have_the_librarys_defaults();
+    labels_and_numbers_come_to_quads();
     meshes_become_quads_of_their_topology();
     quads_are_mirrored();
     soups_become_meshes_and_say_how();

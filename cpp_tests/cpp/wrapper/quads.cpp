@@ -3,6 +3,7 @@
 #include "wrapper.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -120,6 +121,75 @@ void quads_are_mirrored() {
     CHECK(!roundel::quadrangulate(torus, roundel::QuadOptions().set_mirror({"w"}), &status));
     CHECK(status.code == ROUNDEL_ERROR_INVALID_ARGUMENT);
     torus.mirror_plane("w", &status);
+    CHECK(status.code == ROUNDEL_ERROR_INVALID_ARGUMENT);
+}
+
+void labels_and_numbers_come_to_quads() {
+    const auto plane = roundel::Mesh::shape("plane", 800);
+    const auto points = plane.coordinates();
+    const auto triangles = plane.corners();
+    const auto quads = roundel::quadrangulate(plane, roundel::QuadOptions().set_quads(100));
+    CHECK(quads.conforming());
+    const auto center = [](const auto& at, const auto& corners, std::size_t from, std::size_t n) {
+        double x = 0.0;
+        for (std::size_t k = 0; k < n; ++k) {
+            x += at[3 * static_cast<std::size_t>(corners[from + k])];
+        }
+        return x / static_cast<double>(n);
+    };
+    std::vector<double> linear, corners;
+    const auto value = [&](std::size_t v) { return 2.0 * points[3 * v] - points[3 * v + 1]; };
+    for (std::size_t v = 0; v < points.size() / 3; ++v) {
+        linear.push_back(value(v));
+        linear.push_back(7.0);
+    }
+    for (const auto v : triangles) {
+        corners.push_back(value(static_cast<std::size_t>(v)));
+    }
+    // The middle of the plane, and a distance within which a quad may be of both sides.
+    double middle = 0.0, width = 0.0;
+    for (std::size_t v = 0; v < points.size(); v += 3) {
+        middle = std::max(middle, points[v]);
+        width = std::min(width, points[v]);
+    }
+    width = middle - width;
+    middle -= 0.5 * width;
+    std::vector<std::int32_t> labels;
+    for (std::size_t f = 0; f < triangles.size(); f += 3) {
+        labels.push_back(center(points, triangles, f, 3) < middle ? 4 : -1);
+    }
+    const auto found = quads.transfer_face_labels(plane, {labels.data(), labels.size()});
+    CHECK(found.size() == quads.size());
+    std::size_t sides = 0;
+    for (std::size_t q = 0; q < quads.size(); ++q) {
+        const double x = center(quads.vertices(), quads.corners(), 4 * q, 4) - middle;
+        if (std::abs(x) > 0.1 * width) {
+            CHECK(found[q] == (x < 0.0 ? 4 : -1));
+            ++sides;
+        }
+    }
+    CHECK(sides > 50);
+    const auto close = [](double a, double b) { return std::abs(a - b) < 1e-12; };
+    const auto expected = [&](std::size_t v) {
+        return 2.0 * quads.vertices()[3 * v] - quads.vertices()[3 * v + 1];
+    };
+    const auto of_vertices = quads.transfer_vertex_values(plane, 2, {linear.data(), linear.size()});
+    CHECK(3 * of_vertices.size() == 2 * quads.vertices().size());
+    for (std::size_t v = 0; 2 * v < of_vertices.size(); ++v) {
+        CHECK(close(of_vertices[2 * v], expected(v)) && of_vertices[2 * v + 1] == 7.0);
+    }
+    const auto of_corners =
+        quads.transfer_corner_values(plane, 1, {corners.data(), corners.size()});
+    CHECK(of_corners.size() == quads.corners().size());
+    for (std::size_t k = 0; k < of_corners.size(); ++k) {
+        CHECK(close(of_corners[k], expected(static_cast<std::size_t>(quads.corners()[k]))));
+    }
+    roundel::Status status;
+    CHECK(quads.transfer_face_labels(plane, {}, &status).empty());
+    CHECK(status.code == ROUNDEL_ERROR_LENGTH_MISMATCH);
+    CHECK(quads.transfer_vertex_values(plane, 3, {linear.data(), linear.size()}, &status).empty());
+    CHECK(status.code == ROUNDEL_ERROR_LENGTH_MISMATCH);
+    CHECK(quads.transfer_corner_values(plane, 0, {}, &status).empty());
     CHECK(status.code == ROUNDEL_ERROR_INVALID_ARGUMENT);
 }
 

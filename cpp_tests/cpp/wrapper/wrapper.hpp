@@ -23,6 +23,7 @@ void files_keep_the_problem();
 void a_solver_gives_the_same_as_a_solve();
 void fields_follow_their_options();
 void maps_are_solved_again_at_another_size();
+void labels_and_numbers_come_to_quads();
 void meshes_become_quads_of_their_topology();
 void quads_are_mirrored();
 void unset_quad_options_have_the_librarys_defaults();

@@ -312,6 +312,44 @@ class Quads {
         return *this;
     }
 
+    /// The label of most of the area of `mesh` beneath each face: the quads, then the other faces.
+    /// `labels` has a number from 0 on for each face of the mesh, or -1 for none.
+    std::vector<std::int32_t> transfer_face_labels(const Mesh& mesh,
+                                                   span<const std::int32_t> labels,
+                                                   Status* status = nullptr) const {
+        std::vector<std::int32_t> found(size() + others_.size());
+        if (!detail::check(roundel_quads_transfer_face_labels(get(), mesh.get(), labels.data(),
+                                                              labels.size(), nullptr, found.data(),
+                                                              found.size()),
+                           status)) {
+            found.clear();
+        }
+        return found;
+    }
+
+    /// Numbers at every vertex, interpolated at the closest point of `mesh`, which has
+    /// `components` of them for each vertex. NaN stands for none.
+    std::vector<double> transfer_vertex_values(const Mesh& mesh, std::size_t components,
+                                               span<const double> values,
+                                               Status* status = nullptr) const {
+        return carried(roundel_quads_transfer_vertex_values, mesh, components, values,
+                       vertices_.size() / 3, status);
+    }
+
+    /// Numbers such as texture coordinates at the corners of all faces: four of each quad, then
+    /// those of the other faces. `values` has `components` of them for each of the three corners
+    /// of each face of `mesh`. A quad has those of one side of the seams. NaN stands for none.
+    std::vector<double> transfer_corner_values(const Mesh& mesh, std::size_t components,
+                                               span<const double> values,
+                                               Status* status = nullptr) const {
+        std::size_t corners = corners_.size();
+        for (const auto& face : others_) {
+            corners += face.size();
+        }
+        return carried(roundel_quads_transfer_corner_values, mesh, components, values, corners,
+                       status);
+    }
+
     /// Writes the faces as OBJ, OFF, PLY or USD text, by extension; as STL or glTF, triangles.
     void write(const std::string& file, Status* status = nullptr) const {
         detail::check(roundel_quads_write(get(), file.c_str()), status);
@@ -320,6 +358,21 @@ class Quads {
     roundel_quads* get() const noexcept { return handle_.get(); }
 
   private:
+    template <class Function>
+    std::vector<double> carried(Function call, const Mesh& mesh, std::size_t components,
+                                span<const double> values, std::size_t elements,
+                                Status* status) const {
+        // More components than that are refused before anything is written.
+        const bool fits = components <= values.size();
+        std::vector<double> found(fits ? components * elements : 0);
+        if (!detail::check(call(get(), mesh.get(), components, values.data(), values.size(),
+                                nullptr, found.data(), found.size()),
+                           status)) {
+            found.clear();
+        }
+        return found;
+    }
+
     void read(Status* status) {
         std::size_t vertices = 0, quads = 0, count = 0, corners = 0;
         const auto told = [&](roundel_status code) { return detail::check(code, status); };

@@ -2,6 +2,7 @@
 
 use super::{Drawing, Polygons};
 use crate::mesh::MeshError;
+use crate::mesh::attributes::SurfaceAttributes;
 use crate::mesh::vector::{Vec3, dot, sub};
 
 pub(super) struct Figure<'a> {
@@ -10,6 +11,7 @@ pub(super) struct Figure<'a> {
     pub(super) vertex_colors: Option<&'a [[u8; 3]]>,
     pub(super) vertex_quality: Option<&'a [f64]>,
     pub(super) face_colors: Option<&'a [[u8; 3]]>,
+    pub(super) attributes: Option<&'a SurfaceAttributes>,
 }
 
 impl<'a> From<&Drawing<'a>> for Figure<'a> {
@@ -20,6 +22,7 @@ impl<'a> From<&Drawing<'a>> for Figure<'a> {
             vertex_colors: drawing.vertex_colors,
             vertex_quality: drawing.vertex_quality,
             face_colors: drawing.triangle_colors,
+            attributes: None,
         }
     }
 }
@@ -32,6 +35,7 @@ impl<'a> From<&Polygons<'a>> for Figure<'a> {
             vertex_colors: None,
             vertex_quality: None,
             face_colors: None,
+            attributes: polygons.attributes,
         }
     }
 }
@@ -57,6 +61,13 @@ impl Figure<'_> {
                     vertices,
                 });
             }
+        }
+        if let Some(attributes) = self.attributes {
+            let corners = self.faces.iter().map(|face| face.len()).sum();
+            let fit = attributes.check(vertices, self.faces.len(), corners);
+            fit.map_err(|error| MeshError::InvalidArgument {
+                what: error.to_string(),
+            })?;
         }
         Ok(())
     }

@@ -16,11 +16,13 @@ mod polygons;
 mod stl;
 mod strict;
 mod usda;
+mod usda_attributes;
 
 use std::io::Write;
 use std::path::Path;
 
 use super::{MeshError, TriangleMesh};
+use crate::soup::PolygonSoup;
 use crate::soup::io as soup;
 
 pub use crate::soup::io::Format;
@@ -58,6 +60,15 @@ pub fn read_as(path: impl AsRef<Path>, format: Format) -> Result<TriangleMesh, M
 /// As [`read`].
 pub fn parse(bytes: &[u8], format: Format) -> Result<TriangleMesh, MeshError> {
     strict::mesh(&soup::parse(bytes, format)?, format)
+}
+
+/// The mesh that the soup of a file of this format is, if it is one.
+///
+/// # Errors
+///
+/// As [`read`].
+pub fn of_soup(soup: &PolygonSoup, format: Format) -> Result<TriangleMesh, MeshError> {
+    strict::mesh(soup, format)
 }
 
 /// Writes a mesh or any other [`Drawing`]; the extension tells the format, and `.gz` after it compresses.

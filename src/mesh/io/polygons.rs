@@ -1,5 +1,6 @@
 //! Polygons to be written, such as quads.
 
+use crate::mesh::attributes::SurfaceAttributes;
 use crate::mesh::vector::Vec3;
 
 /// Polygons of any number of corners, to be written by [`write_polygons`](super::write_polygons).
@@ -9,4 +10,6 @@ pub struct Polygons<'a> {
     pub vertices: &'a [Vec3],
     /// Corners of each polygon.
     pub faces: Vec<&'a [u32]>,
+    /// Materials, colours and other values. OBJ, PLY and USD hold them; other formats leave them out.
+    pub attributes: Option<&'a SurfaceAttributes>,
 }

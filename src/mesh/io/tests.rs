@@ -95,6 +95,7 @@ fn polygons() -> Polygons<'static> {
     Polygons {
         vertices: &PENTAGON,
         faces: vec![&[0, 1, 2, 3], &[3, 2, 6, 5, 4]],
+        attributes: None,
     }
 }
 
@@ -131,6 +132,7 @@ fn where_there_are_no_quads_they_are_split_along_the_shorter_diagonal() {
     let square = Polygons {
         vertices: &square,
         faces: vec![&[0, 1, 2, 3]],
+        attributes: None,
     };
     let bytes = encode_polygons(&square, Format::Stl).expect("valid");
     let mesh = parse(&bytes, Format::Stl).expect("as written");

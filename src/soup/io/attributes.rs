@@ -1,4 +1,4 @@
-//! What the polygons of a file have beside their corners, as far as it tells parts of a surface apart.
+//! What the polygons, corners and vertices of a file have beside positions.
 
 use std::fmt;
 use std::path::Path;
@@ -19,7 +19,7 @@ pub enum Attribute {
     Seams,
     /// Normals of corners: `vn` of OBJ.
     Normals,
-    /// The colour of the face: `red`, `green` and `blue` of the faces of PLY.
+    /// The colour of the face: `red`, `green`, `blue` and `alpha` of the faces of PLY.
     Colors,
 }
 
@@ -64,15 +64,32 @@ pub(super) type Labels = Vec<u32>;
 /// Of what has no value.
 pub(super) const NO_LABEL: u32 = u32::MAX;
 
-/// The attributes of a file's polygons and of their corners, in the order of its [`PolygonSoup`].
+/// A colour: red, green, blue and alpha from 0 to 1.
+pub(super) type Color = [f64; 4];
+
+/// The attributes of a file's polygons, of their corners and of its vertices, in the order of its
+/// [`PolygonSoup`].
 ///
-/// Only whether two values are equal is kept. Texture coordinates, normals and colours are equal if their
-/// numbers are, whatever their places in the file.
+/// Polygons and corners have labels, which are equal where values are. Texture coordinates, normals and colours
+/// are equal if their numbers are, whatever their places in the file.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Attributes {
     /// The polygons' labels, by the place in [`Attribute::ALL`]; none for what the file lacks. Seams and
     /// normals have a label for each corner.
     labels: [Option<Labels>; Attribute::ALL.len()],
+    values: Values,
+}
+
+/// What the labels stand for, and the values of vertices.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(super) struct Values {
+    pub(super) libraries: Vec<String>,
+    pub(super) materials: Vec<String>,
+    pub(super) groups: Vec<String>,
+    pub(super) textures: Vec<[f64; 2]>,
+    pub(super) face_colors: Vec<Color>,
+    pub(super) vertex_colors: Option<Vec<Color>>,
+    pub(super) scalars: Vec<(String, Vec<f64>)>,
 }
 
 impl Attributes {
@@ -89,14 +106,24 @@ impl Attributes {
         look::check(bytes, format)?;
         let attributes = match format {
             Format::Obj => obj_attributes::parse(bytes)?,
-            Format::Ply => Attributes::default().with(
-                Attribute::Colors,
-                ply::face_colors(bytes)?.map(|colors| labels_of(&colors)),
-            ),
+            Format::Ply => ply::attributes(bytes)?,
             _ => Attributes::default(),
         };
         attributes.check(soup)?;
         Ok(attributes)
+    }
+
+    /// Whether the contents of a file may have attributes other than smoothing groups and normals. This takes
+    /// little time.
+    ///
+    /// # Errors
+    /// Those of [`parse`](super::parse) for a compressed file, and for the header of a PLY file.
+    pub fn are_in(bytes: &[u8], format: Format) -> Result<bool, SoupError> {
+        match format {
+            Format::Obj => Ok(obj_attributes::are_in(&gzip::inflated(bytes)?)),
+            Format::Ply => ply::has_attributes(&gzip::inflated(bytes)?),
+            _ => Ok(false),
+        }
     }
 
     /// The attributes in a file of this format, whose soup is `soup`.
@@ -119,6 +146,14 @@ impl Attributes {
         all.filter(|&attribute| self.labels(attribute).is_some())
     }
 
+    /// Those of no labels.
+    pub(super) fn of(values: Values) -> Self {
+        Attributes {
+            values,
+            ..Attributes::default()
+        }
+    }
+
     pub(super) fn with(mut self, attribute: Attribute, labels: Option<Labels>) -> Self {
         self.labels[attribute as usize] = labels;
         self
@@ -130,17 +165,62 @@ impl Attributes {
         self.labels[attribute as usize].as_deref()
     }
 
-    /// Refuses labels of other polygons.
+    /// The names of the materials or of the groups, by label; none of other attributes. The name of a group is
+    /// that of its object and its own, with a space between them.
+    pub fn names(&self, attribute: Attribute) -> &[String] {
+        match attribute {
+            Attribute::Materials => &self.values.materials,
+            Attribute::Groups => &self.values.groups,
+            _ => &[],
+        }
+    }
+
+    /// The files of materials that the file names: `mtllib` of OBJ.
+    pub fn libraries(&self) -> &[String] {
+        &self.values.libraries
+    }
+
+    /// Texture coordinates, by the labels of [`Attribute::Seams`].
+    pub fn texture_coordinates(&self) -> &[[f64; 2]] {
+        &self.values.textures
+    }
+
+    /// Red, green, blue and alpha from 0 to 1, by the labels of [`Attribute::Colors`].
+    pub fn face_colors(&self) -> &[[f64; 4]] {
+        &self.values.face_colors
+    }
+
+    /// Red, green, blue and alpha of every vertex from 0 to 1, if the file has them: `v x y z r g b` of OBJ, and
+    /// `red`, `green`, `blue` and `alpha` of PLY. NaN for a vertex without a colour.
+    pub fn vertex_colors(&self) -> Option<&[[f64; 4]]> {
+        self.values.vertex_colors.as_deref()
+    }
+
+    /// The other numbers that every vertex of a PLY file has, by name. Normals are not among them.
+    pub fn scalars(&self) -> impl Iterator<Item = (&str, &[f64])> {
+        let scalars = self.values.scalars.iter();
+        scalars.map(|(name, values)| (name.as_str(), values.as_slice()))
+    }
+
+    /// Refuses attributes of other polygons or vertices.
     pub(crate) fn check(&self, soup: &PolygonSoup) -> Result<(), SoupError> {
-        for attribute in self.present() {
+        let of_faces = self.present().map(|attribute| {
             let (expected, what) = match attribute {
                 Attribute::Seams | Attribute::Normals => (soup.corners().len(), "corners"),
                 _ => (soup.polygon_count(), "polygons"),
             };
             let found = self.labels(attribute).map_or(0, <[u32]>::len);
+            (attribute.name(), found, expected, what)
+        });
+        let colors = self.vertex_colors().map(|colors| ("colors", colors.len()));
+        let scalars = self.scalars().map(|(name, values)| (name, values.len()));
+        let vertices = soup.positions().len();
+        let of_vertices = colors.into_iter().chain(scalars);
+        let of_vertices = of_vertices.map(|(name, found)| (name, found, vertices, "vertices"));
+        for (name, found, expected, what) in of_faces.chain(of_vertices) {
             if found != expected {
                 return Err(SoupError::Malformed {
-                    message: format!("{attribute}: {found} for {expected} {what}"),
+                    message: format!("{name}: {found} for {expected} {what}"),
                 });
             }
         }

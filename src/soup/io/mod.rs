@@ -49,7 +49,6 @@ pub fn read(path: impl AsRef<Path>) -> Result<PolygonSoup, SoupError> {
 ///
 /// As [`read`].
 pub fn read_as(path: impl AsRef<Path>, format: Format) -> Result<PolygonSoup, SoupError> {
-    let _span = span("read");
     let path = path.as_ref();
     let bytes = std::fs::read(path).map_err(|reason| SoupError::of_file(path, &reason))?;
     parse_in(&bytes, format, path.parent())
@@ -74,6 +73,7 @@ pub fn parse_in(
     format: Format,
     folder: Option<&Path>,
 ) -> Result<PolygonSoup, SoupError> {
+    let _span = span("read");
     let bytes = &gzip::inflated(bytes)?;
     look::check(bytes, format)?;
     match format {

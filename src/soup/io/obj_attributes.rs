@@ -1,11 +1,31 @@
-//! The attributes of the faces of an OBJ file and of their corners.
+//! The attributes of the faces, corners and vertices of an OBJ file.
 
 use std::collections::HashMap;
 
-use super::attributes::{Attribute, Attributes, Labels, NO_LABEL, labels_of};
-use super::lines::number;
+use super::attributes::{Attribute, Attributes, Color, Labels, NO_LABEL, Values, labels_of};
+use super::lines::{Lines, number};
 use super::statements::{LabelKind, Statement, Statements, corner_number, words};
 use crate::soup::SoupError;
+
+/// Whether a line names a material, a group, an object or a texture, or the first vertex has a colour.
+pub(super) fn are_in(bytes: &[u8]) -> bool {
+    let mut before_vertices = true;
+    Lines::new(bytes).any(|(_, line)| {
+        let line = line.trim_ascii_start();
+        let is_first = line.starts_with(b"v ") && std::mem::take(&mut before_vertices);
+        is_first && color(line[2..].trim_ascii_end()).is_some()
+            || [&b"vt"[..], b"usemtl", b"g ", b"o "]
+                .iter()
+                .any(|keyword| line.starts_with(keyword))
+    })
+}
+
+/// The colour after the three coordinates of a vertex.
+fn color(said: &[u8]) -> Option<Color> {
+    let mut channels = words(said).skip(3).map(number::<f64>);
+    let mut next = || channels.next().flatten();
+    Some([next()?, next()?, next()?, 1.0])
+}
 
 pub(super) fn parse(bytes: &[u8]) -> Result<Attributes, SoupError> {
     let mut materials = Named::default();
@@ -14,9 +34,17 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Attributes, SoupError> {
     let (mut object, mut group): (&[u8], &[u8]) = (b"", b"");
     let mut textures = OfCorners::new("texture coordinates");
     let mut normals = OfCorners::new("normal");
+    let mut libraries = Vec::new();
+    let mut colors = Vec::new();
+    let mut is_colored = false;
     for (line, statement) in Statements::with_attributes(bytes) {
         match statement {
-            Statement::Vertex(_) => {}
+            Statement::Vertex(said) => {
+                let color = color(&said);
+                is_colored |= color.is_some();
+                colors.push(color.unwrap_or([f64::NAN; 4]));
+            }
+            Statement::Label(LabelKind::Library, name) => libraries.push(text(name)),
             Statement::Texture(said) => textures.add(line, &said, 2)?,
             Statement::Normal(said) => normals.add(line, &said, 3)?,
             Statement::Label(LabelKind::Material, name) => materials.set(vec![name]),
@@ -44,12 +72,21 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Attributes, SoupError> {
             }
         }
     }
-    Ok(Attributes::default()
+    let textures = textures.labels()?;
+    let values = Values {
+        libraries,
+        materials: materials.names(),
+        groups: groups.names(),
+        textures: textures.1,
+        vertex_colors: is_colored.then_some(colors),
+        ..Values::default()
+    };
+    Ok(Attributes::of(values)
         .with(Attribute::Materials, materials.labels())
         .with(Attribute::Groups, groups.labels())
         .with(Attribute::Smoothing, smoothing.labels())
-        .with(Attribute::Seams, textures.labels()?)
-        .with(Attribute::Normals, normals.labels()?))
+        .with(Attribute::Seams, textures.0)
+        .with(Attribute::Normals, normals.labels()?.0))
 }
 
 /// The labels of faces by names that hold until the next one.
@@ -69,6 +106,17 @@ impl<'a> Named<'a> {
 
     fn add_face(&mut self) {
         self.faces.push(self.current.unwrap_or(NO_LABEL));
+    }
+
+    /// The names by their numbers, each of several words with spaces between them.
+    fn names(&self) -> Vec<String> {
+        let mut names = vec![String::new(); self.numbers.len()];
+        for (words, &number) in &self.numbers {
+            let words = words.iter().filter(|word| !word.is_empty());
+            let words: Vec<_> = words.map(|word| text(word)).collect();
+            names[number as usize] = words.join(" ");
+        }
+        names
     }
 
     /// None if no face has a name.
@@ -132,17 +180,20 @@ impl OfCorners {
         Ok(())
     }
 
-    /// None if no corner has a value. Values may follow the corners that name them.
-    fn labels(self) -> Result<Option<Labels>, SoupError> {
+    /// The labels of the corners, none if no corner has a value; and the first two numbers of each value by its
+    /// label. Values may follow the corners that name them.
+    fn labels(self) -> Result<(Option<Labels>, Vec<[f64; 2]>), SoupError> {
         let Some((highest, line)) = self.highest else {
-            return Ok(None);
+            return Ok((None, Vec::new()));
         };
         if highest >= self.values.len() {
             return Err(self.wrong(line, "a corner names no"));
         }
         let of_values = labels_of(&self.values);
         let label = |value: &Option<usize>| value.map_or(NO_LABEL, |value| of_values[value]);
-        Ok(Some(self.corners.iter().map(label).collect()))
+        let labels = self.corners.iter().map(label).collect();
+        let values = self.values.iter().map(|&[u, v, _]| [u, v]).collect();
+        Ok((Some(labels), values))
     }
 
     fn wrong(&self, line: usize, how: &str) -> SoupError {
@@ -151,4 +202,8 @@ impl OfCorners {
             message: format!("{how} {}", self.what),
         }
     }
+}
+
+fn text(name: &[u8]) -> String {
+    String::from_utf8_lossy(name.trim_ascii()).into_owned()
 }

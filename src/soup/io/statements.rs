@@ -30,6 +30,8 @@ pub(crate) enum LabelKind {
     Object,
     /// `s`.
     Smoothing,
+    /// `mtllib`, which names a file of materials.
+    Library,
 }
 
 /// The statements of a file, each with the number of its first line, counted from 1.
@@ -93,6 +95,7 @@ impl<'a> Iterator for Statements<'a> {
                 b"usemtl" => Statement::Label(LabelKind::Material, said(rest)),
                 b"g" => Statement::Label(LabelKind::Group, said(rest)),
                 b"o" => Statement::Label(LabelKind::Object, said(rest)),
+                b"mtllib" => Statement::Label(LabelKind::Library, said(rest)),
                 b"s" => Statement::Label(LabelKind::Smoothing, said(rest)),
                 _ => continue,
             };

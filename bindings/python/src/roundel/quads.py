@@ -121,6 +121,80 @@ class Quads:
         arguments = (surface._handle.pointer, pointer_of(guidance), ffi.NULL)
         check(lib.roundel_quads_smooth(self._handle.pointer, *arguments))
 
+    def transfer_face_labels(self, mesh: MeshLike, labels: ArrayLike) -> np.ndarray:
+        """The label of most of the area of `mesh` beneath each face: the quads, then the other faces.
+
+        `labels` has a number for each face of the mesh, such as that of a material, from 0 on; -1 stands for none.
+
+        >>> import roundel
+        >>> cube = roundel.Mesh.shape("rounded-cube", 600)
+        >>> quads = roundel.quad(cube, quads=100)
+        >>> is_left = cube.vertices[cube.faces].mean(axis=1)[:, 0] < 0
+        >>> labels = quads.transfer_face_labels(cube, is_left.astype(int))
+        >>> len(labels) == len(quads) and set(labels.tolist()) == {0, 1}
+        True
+        """
+        given = indices32(labels, "labels")
+        surface = as_mesh(mesh)
+        found = np.empty(len(self) + len(self.others), dtype=np.int32)
+        arguments = (pointer(given), given.size, ffi.NULL, pointer(found), found.size)
+        check(
+            lib.roundel_quads_transfer_face_labels(
+                self._handle.pointer, surface._handle.pointer, *arguments
+            )
+        )
+        return found
+
+    def transfer_vertex_values(self, mesh: MeshLike, values: ArrayLike) -> np.ndarray:
+        """Numbers at every vertex, interpolated at the closest point of `mesh`.
+
+        `values` has a number for each vertex of the mesh, or a row of numbers, such as a colour. NaN stands for none.
+
+        >>> import roundel
+        >>> cube = roundel.Mesh.shape("rounded-cube", 600)
+        >>> quads = roundel.quad(cube, quads=100)
+        >>> points = quads.transfer_vertex_values(cube, cube.vertices)
+        >>> bool(abs(points - quads.vertices).max() < 1e-12)
+        True
+        """
+        call = lib.roundel_quads_transfer_vertex_values
+        return self._carried(call, mesh, values, "values", 1, len(self.vertices))
+
+    def transfer_corner_values(self, mesh: MeshLike, values: ArrayLike) -> np.ndarray:
+        """Numbers at the four corners of every quad, such as texture coordinates.
+
+        `values` is of shape (faces, 3) or (faces, 3, k), for the corners of the faces of `mesh`. The result is of shape
+        (quads, 4) or (quads, 4, k); where there are other faces, all corners come one after the other, first those of
+        the quads: (corners,) or (corners, k). An edge whose faces have other values at one of its ends is a seam, and a
+        quad has values of one side of it. NaN stands for none.
+
+        >>> import roundel
+        >>> cube = roundel.Mesh.shape("rounded-cube", 600)
+        >>> quads = roundel.quad(cube, quads=100)
+        >>> uvs = quads.transfer_corner_values(cube, cube.vertices[cube.faces][:, :, :2])
+        >>> uvs.shape == (len(quads), 4, 2)
+        True
+        """
+        others = self.others
+        count = 4 * len(self) + sum(map(len, others))
+        call = lib.roundel_quads_transfer_corner_values
+        found = self._carried(call, mesh, values, "values", 2, count)
+        return found if others else found.reshape(len(self), 4, *found.shape[1:])
+
+    def _carried(
+        self, call: Any, mesh: MeshLike, values: ArrayLike, what: str, depth: int, count: int
+    ) -> np.ndarray:
+        """Numbers of `count` elements. Those of the mesh are counted by the first `depth` axes of `values`."""
+        deep = np.ndim(values) > depth
+        shape = (-1, 3)[:depth] + (-1,) * deep
+        given = reals(values, what, shape)
+        components = given.shape[-1] if deep else 1
+        surface = as_mesh(mesh)
+        found = np.empty((count, components))
+        arguments = (components, pointer(given), given.size, ffi.NULL, pointer(found), found.size)
+        check(call(self._handle.pointer, surface._handle.pointer, *arguments))
+        return found if deep else found[:, 0]
+
     def write(self, file: File) -> None:
         """Writes the faces as OBJ, OFF, PLY or USD text, by extension; as STL or glTF, triangles."""
         check(lib.roundel_quads_write(self._handle.pointer, path(file)))

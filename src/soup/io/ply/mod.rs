@@ -6,7 +6,7 @@
 //! are not UTF-8, and lines that end in CR; it forgets one of two properties of the same name, and so
 //! misreads what follows; and its errors in binary files name no byte.
 
-mod colors;
+mod attributes;
 mod data;
 mod header;
 
@@ -14,7 +14,7 @@ use super::bytes::{Bytes, plausible};
 use super::lines::Words;
 use super::strips;
 use crate::soup::{PolygonSoup, SoupError};
-pub(super) use colors::face_colors;
+pub(super) use attributes::{attributes, has_attributes};
 use data::Data;
 use header::{Element, Encoding, Header};
 
