@@ -8,6 +8,7 @@ use roundel::{Options, Result};
 
 use super::{Arguments, density};
 use crate::changes::Changes;
+use crate::field::{CurveCounts, Followed};
 use crate::mesh::{Input, RepairCounts};
 use crate::output;
 use crate::outputs::{Content, Outputs, PAGE, TRACE};
@@ -19,6 +20,7 @@ pub(super) struct Solved {
     pub(super) repair: RepairCounts,
     /// On the mesh of field and map.
     pub(super) changes: Changes,
+    pub(super) curves: Option<CurveCounts>,
     pub(super) options: QuadOptions,
     pub(super) made: Quadrangulation,
     pub(super) read_seconds: f64,
@@ -49,11 +51,27 @@ pub(super) fn solve(arguments: &Arguments) -> Result<Solved> {
         None => Vec::new(),
     };
     let read_seconds = started.elapsed().as_secs_f64();
-    let (mut guidance, features) = arguments.directions.of_map(&mesh, by_attributes.as_ref())?;
-    // Those of the command line's file are among them.
-    guidance.feature_edges = features.edges().collect();
+    let given = arguments.directions.of_map(&mesh, by_attributes.as_ref())?;
+    let curves = &arguments.directions.curves;
+    let Followed {
+        cut,
+        guidance,
+        sizing,
+        counts: curves,
+        ..
+    } = curves.follow(&mesh, given, arguments.sizing.of()?)?;
+    let (mesh, density, changes) = match cut {
+        Some(cut) => {
+            let density = match density.is_empty() {
+                true => density,
+                false => cut.values_at_vertices(&mesh, &density)?,
+            };
+            (cut.mesh, density, changes.on_refined(&cut.face_origin))
+        }
+        None => (mesh, density, changes),
+    };
     let options = QuadOptions {
-        sizing: arguments.sizing.of()?,
+        sizing,
         density,
         near_vertices: arguments.near_vertex.clone(),
         guidance,
@@ -84,6 +102,7 @@ pub(super) fn solve(arguments: &Arguments) -> Result<Solved> {
         mesh,
         repair,
         changes,
+        curves,
         options,
         made,
         read_seconds,
@@ -92,16 +111,10 @@ pub(super) fn solve(arguments: &Arguments) -> Result<Solved> {
 
 /// Checks all that is to be written.
 fn check_outputs(arguments: &Arguments) -> Result<()> {
-    let [lines, guide] = arguments.directions.files();
     let lengths = arguments.sizing.edge_lengths.as_deref();
     let density = arguments.density.as_deref();
-    let read = [
-        Some(arguments.mesh.as_path()),
-        lines,
-        guide,
-        lengths,
-        density,
-    ];
+    let mut read = vec![Some(arguments.mesh.as_path()), lengths, density];
+    read.extend(arguments.directions.files());
     let outputs = Outputs::of(&read, arguments.output.force)
         .write(arguments.out.as_ref(), Content::Mesh)?
         .write(arguments.report.as_ref(), PAGE)?
