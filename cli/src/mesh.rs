@@ -42,7 +42,21 @@ pub struct Input {
     pub changes: Changes,
     /// The edges at which the attributes that were asked for change.
     pub features: Option<FeatureGraph>,
+    /// The values of vertices that were asked for; empty where none were.
+    pub values: Vec<f64>,
 }
+
+/// What of a file is read beside its mesh.
+#[derive(Clone, Copy, Default)]
+pub struct Asked<'a> {
+    /// Attributes whose changes are features.
+    pub attributes: &'a [Attribute],
+    /// How values of vertices are read from the contents of a file.
+    pub values: Option<ReadValues<'a>>,
+}
+
+/// Reads a value for every vertex from the contents of a file of some format.
+pub type ReadValues<'a> = &'a dyn Fn(&[u8], Format) -> Result<Vec<f64>>;
 
 /// How often each kind of repair was done; those that were not are left out.
 #[derive(Debug, Clone, Default)]
@@ -90,14 +104,16 @@ impl MeshFlags {
     /// # Errors
     /// Those of reading and of repair; with `--strict` those of [`TriangleMesh::new`].
     pub fn read(&self, name: &Path, json: bool) -> Result<Input> {
-        self.read_with(name, json, &[])
+        self.read_with(name, json, Asked::default())
     }
 
-    /// As [`read`](Self::read), with the edges at which these attributes of the file change.
+    /// As [`read`](Self::read), with what else of the file is asked for. Values of vertices are carried over to those
+    /// of the repaired mesh.
     ///
     /// # Errors
-    /// Those of [`read`](Self::read) and of [`FeatureGraph::by_attribute`].
-    pub fn read_with(&self, name: &Path, json: bool, attributes: &[Attribute]) -> Result<Input> {
+    /// Those of [`read`](Self::read), of [`FeatureGraph::by_attribute`] and of reading values.
+    pub fn read_with(&self, name: &Path, json: bool, asked: Asked<'_>) -> Result<Input> {
+        let attributes = asked.attributes;
         if let Some(drawn) = name.to_str().and_then(shape::from_spec) {
             if let Some(first) = attributes.first() {
                 return Err(Error::InvalidArgument {
@@ -105,9 +121,15 @@ impl MeshFlags {
                     index: None,
                 });
             }
+            if asked.values.is_some() {
+                return Err(Error::InvalidArgument {
+                    what: "the vertices of a shape have no values: it is no file".into(),
+                    index: None,
+                });
+            }
             return Ok(unchanged(suggesting(drawn)?));
         }
-        if attributes.is_empty() {
+        if attributes.is_empty() && asked.values.is_none() {
             return match self.strict {
                 true => Ok(unchanged(self.read_strictly(name)?)),
                 false => Ok(self.repaired_input(name, &self.read_soup(name)?, json)?.0),
@@ -136,6 +158,15 @@ impl MeshFlags {
             features = features.with(mesh, &found)?;
         }
         input.features = Some(features);
+        if let Some(read) = asked.values {
+            let values = read(&bytes, format)?;
+            input.values = match &repaired {
+                Some(repaired) => repaired
+                    .values_at_vertices(&values)
+                    .map_err(MeshError::from)?,
+                None => values,
+            };
+        }
         Ok(input)
     }
 
@@ -204,6 +235,7 @@ fn unchanged(mesh: TriangleMesh) -> Input {
         repair: RepairCounts::default(),
         changes: Changes::default(),
         features: None,
+        values: Vec::new(),
     }
 }
 

@@ -20,7 +20,7 @@ use roundel::{Error, Options, Result};
 use roundel_pictures::{FieldModel, draw_field};
 
 use crate::exit::Exit;
-use crate::mesh::Input;
+use crate::mesh::{Asked, Input};
 use crate::output;
 use crate::outputs::{Content, Outputs, PAGE, PICTURE, PROBLEM, TRACE};
 use crate::progress::Progress;
@@ -46,16 +46,20 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
     let mut progress = Progress::start(arguments.output.quiet)?;
     let mut options = arguments.solver.over(Options::default())?;
     progress.limit(&mut options, started);
-    let attributes = arguments.directions.attributes();
+    let asked = Asked {
+        attributes: arguments.directions.attributes(),
+        values: None,
+    };
     let input = arguments
         .input
-        .read_with(&arguments.mesh, arguments.json, attributes)?;
+        .read_with(&arguments.mesh, arguments.json, asked)?;
     arguments.directions.keep_numbers(&input)?;
     let Input {
         mesh,
         repair,
         changes,
         features: by_attributes,
+        values: _,
     } = input;
     let read = started.elapsed().as_secs_f64();
     let started = Instant::now();

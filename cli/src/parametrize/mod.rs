@@ -19,7 +19,7 @@ use roundel::{Options, Result, Solution};
 use crate::changes::Changes;
 use crate::exit::Exit;
 use crate::field::{CurveCounts, Followed};
-use crate::mesh::{Input, RepairCounts};
+use crate::mesh::{Asked, Input, RepairCounts};
 use crate::output;
 use crate::outputs::{MAP, Outputs, PAGE, PROBLEM, TRACE};
 use crate::progress::Progress;
@@ -78,10 +78,13 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
     let mut options = arguments.solver.over(Options::default())?;
     progress.limit(&mut options, started);
     let monitor = || progress.monitor();
-    let attributes = arguments.directions.attributes();
+    let asked = Asked {
+        attributes: arguments.directions.attributes(),
+        values: None,
+    };
     let input = arguments
         .input
-        .read_with(&arguments.mesh, arguments.json, attributes)?;
+        .read_with(&arguments.mesh, arguments.json, asked)?;
     arguments.directions.keep_numbers(&input)?;
     input.keeps_numbers("--field", arguments.field.is_some())?;
     let Input {
@@ -89,6 +92,7 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
         repair,
         changes,
         features: by_attributes,
+        values: _,
     } = input;
     let read = started.elapsed().as_secs_f64();
     let given = arguments.directions.of_map(&mesh, by_attributes.as_ref())?;

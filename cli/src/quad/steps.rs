@@ -6,10 +6,11 @@ use roundel::mesh::TriangleMesh;
 use roundel::quad::{QuadOptions, Quadrangulation, quadrangulate};
 use roundel::{Options, Result};
 
-use super::{Arguments, density};
+use super::Arguments;
+use super::density::{self, Density};
 use crate::changes::Changes;
 use crate::field::{CurveCounts, Followed};
-use crate::mesh::{Input, RepairCounts};
+use crate::mesh::{Asked, Input, RepairCounts};
 use crate::output;
 use crate::outputs::{Content, Outputs, PAGE, TRACE};
 use crate::progress::Progress;
@@ -33,22 +34,35 @@ pub(super) fn solve(arguments: &Arguments) -> Result<Solved> {
     let default = QuadOptions::default();
     let mut map = arguments.solver.over(default.map.clone())?;
     progress.limit(&mut map, started);
-    let attributes = arguments.directions.attributes();
+    let density = arguments.density.as_ref();
+    let values = |bytes: &[u8], format| match density {
+        Some(density) => density.of_mesh(bytes, format),
+        None => Ok(Vec::new()),
+    };
+    let asked = Asked {
+        attributes: arguments.directions.attributes(),
+        values: match density {
+            Some(density) if density.file().is_none() => Some(&values),
+            _ => None,
+        },
+    };
     let input = arguments
         .input
-        .read_with(&arguments.mesh, arguments.json, attributes)?;
+        .read_with(&arguments.mesh, arguments.json, asked)?;
     arguments.directions.keep_numbers(&input)?;
-    input.keeps_numbers("--density", arguments.density.is_some())?;
+    let density = density.and_then(Density::file);
+    input.keeps_numbers("--density FILE", density.is_some())?;
     input.keeps_numbers("--near-vertex", !arguments.near_vertex.is_empty())?;
     let Input {
         mesh,
         repair,
         changes,
         features: by_attributes,
+        values,
     } = input;
-    let density = match &arguments.density {
+    let density = match density {
         Some(path) => density::read(path)?,
-        None => Vec::new(),
+        None => values,
     };
     let read_seconds = started.elapsed().as_secs_f64();
     let given = arguments.directions.of_map(&mesh, by_attributes.as_ref())?;
@@ -112,7 +126,7 @@ pub(super) fn solve(arguments: &Arguments) -> Result<Solved> {
 /// Checks all that is to be written.
 fn check_outputs(arguments: &Arguments) -> Result<()> {
     let lengths = arguments.sizing.edge_lengths.as_deref();
-    let density = arguments.density.as_deref();
+    let density = arguments.density.as_ref().and_then(Density::file);
     let mut read = vec![Some(arguments.mesh.as_path()), lengths, density];
     read.extend(arguments.directions.files());
     let outputs = Outputs::of(&read, arguments.output.force)
