@@ -1,13 +1,20 @@
 //! Curves in space as guides of a field and as edge loops of quads, against closed forms.
 
+#![cfg(feature = "mesh-io")]
+
+mod common;
+
+use std::collections::BTreeMap;
 use std::f64::consts::{FRAC_PI_2, TAU};
+
+use common::archive::{MISSING, archive};
 
 use roundel::field::{Guidance, guides_along, smoothest_field};
 use roundel::geodesic::{SurfacePoint, cut_along, draw_curve};
 use roundel::map::Sizing;
 use roundel::mesh::refine::CutAlong;
 use roundel::mesh::vector::{Vec3, dot, norm, sub};
-use roundel::mesh::{TriangleMesh, shape};
+use roundel::mesh::{ClosestPoint, TriangleMesh, io, shape};
 use roundel::quad::{QuadOptions, Quadrangulation, quadrangulate};
 use roundel::{Monitor, Options};
 
@@ -36,9 +43,9 @@ fn cylinder(around: u32, up: u32) -> TriangleMesh {
     TriangleMesh::new(points.collect(), faces.collect()).unwrap()
 }
 
-/// A helix that rises at this slope, once around.
+/// A helix that rises at this slope, six tenths of the way around.
 fn helix(slope: f64, from: f64) -> Vec<Vec3> {
-    let angles = (0..=400).map(|i| TAU * f64::from(i) / 400.0);
+    let angles = (0..=400).map(|i| 0.6 * TAU * f64::from(i) / 400.0);
     angles
         .map(|a| [a.cos(), a.sin(), from + a * slope])
         .collect()
@@ -64,16 +71,14 @@ fn off(angle: f64) -> f64 {
 fn a_field_follows_a_helix_at_30_degrees() {
     let mesh = cylinder(60, 30);
     let slope = 30f64.to_radians();
-    let curve = drawn(&mesh, &helix(slope.tan() * 0.6, 0.35));
-    // Not the slope itself yet: one full turn would leave the cylinder.
-    let slope = (slope.tan() * 0.6).atan();
+    let curve = drawn(&mesh, &helix(slope.tan(), 0.35));
     for align_boundary in [false, true] {
         let guidance = Guidance {
             guides: guides_along(&mesh, &[curve.clone()], 4, 10.0).unwrap(),
             align_boundary,
             ..Guidance::default()
         };
-        assert!(guidance.guides.len() > 60);
+        assert!(guidance.guides.len() > 70);
         let features = guidance.features(&mesh).unwrap();
         let options = guidance.field_options(&mesh, &features).unwrap();
         let monitor = Monitor::default;
@@ -194,6 +199,76 @@ fn a_tilted_great_circle_is_an_edge_loop_of_a_sphere() {
     let length = closed_chain(&made, |p| dot(p, normal).abs() < near);
     let length = length.expect("a loop");
     assert!((length / TAU - 1.0).abs() < 0.02, "{length}");
+}
+
+#[test]
+fn a_curve_around_an_elephant_is_an_edge_loop() {
+    let Some(folder) = archive() else {
+        return common::skip::skip_unless_ci(MISSING);
+    };
+    let mesh = io::read(folder.join("elephant.off")).unwrap();
+    let section = section(&mesh, -0.036);
+    // Every eighth point, as a hand would draw it.
+    let few: Vec<Vec3> = section
+        .iter()
+        .step_by(8)
+        .chain(&section[..1])
+        .copied()
+        .collect();
+    assert!(few.len() >= 8, "{}", few.len());
+    let curve = drawn(&mesh, &few);
+    let places: Vec<Vec3> = curve.iter().map(|p| p.position(&mesh)).collect();
+    let whole: f64 = places.windows(2).map(|w| norm(sub(w[1], w[0]))).sum();
+    let cut = cut_along(&mesh, &[curve]).unwrap();
+    let made = quads(&cut, 2000);
+    // A closed chain of edges of the quads that lies on the edges of the cut.
+    let segments: Vec<[Vec3; 3]> = cut
+        .edges()
+        .iter()
+        .map(|&e| {
+            let [p, q] = cut
+                .cut
+                .mesh
+                .edge(e)
+                .vertices
+                .map(|v| cut.cut.mesh.position(v));
+            [p, q, q]
+        })
+        .collect();
+    let tree = ClosestPoint::of_triangles(segments);
+    let is_on = |p: Vec3| norm(sub(tree.find(p, None).unwrap().1, p)) < 1e-9;
+    let length = closed_chain(&made, is_on).expect("a loop");
+    assert!((length / whole - 1.0).abs() < 0.05, "{length} {whole}");
+}
+
+/// Where a plane across x cuts a mesh: the loop with most points.
+fn section(mesh: &TriangleMesh, x: f64) -> Vec<Vec3> {
+    let is_left = |v: usize| mesh.position(v)[0] < x;
+    let mut next = BTreeMap::new();
+    for face in 0..mesh.face_count() {
+        let corners = mesh.corners(face).map(is_left);
+        let side = |to: [bool; 2]| (0..3).find(|&k| [corners[k], corners[(k + 1) % 3]] == to);
+        if let (Some(k), Some(l)) = (side([true, false]), side([false, true])) {
+            next.insert(mesh.edge_of(face, k), mesh.edge_of(face, l));
+        }
+    }
+    let mut best: Vec<usize> = Vec::new();
+    while let Some((&first, _)) = next.first_key_value() {
+        let (mut edges, mut here) = (Vec::new(), first);
+        while let Some(there) = next.remove(&here) {
+            edges.push(here);
+            here = there;
+        }
+        if edges.len() > best.len() {
+            best = edges;
+        }
+    }
+    let point = |e: usize| {
+        let [p, q] = mesh.edge(e).vertices.map(|v| mesh.position(v));
+        let share = (x - p[0]) / (q[0] - p[0]);
+        [0, 1, 2].map(|i| p[i] + share * (q[i] - p[i]))
+    };
+    best.into_iter().map(point).collect()
 }
 
 #[test]
