@@ -22,7 +22,7 @@ static void curves_are_checked(fixture* f, const roundel_mesh* mesh) {
     BAD(f, roundel_curves_draw(curves, mesh, 0, NULL, NULL), invalid, "no points", NONE);
     BAD(f, roundel_curves_draw(curves, mesh, 2, nan, NULL), ROUNDEL_ERROR_NOT_FINITE, "points", 1);
     BAD(f, roundel_curves_add(curves, 2, NULL, inside), null, "faces", NONE);
-    BAD(f, roundel_curves_add(curves, 2, faces, NULL), null, "barycentric", NONE);
+    BAD(f, roundel_curves_add(curves, 1, faces, NULL), null, "barycentric", NONE);
     BAD(f, roundel_curves_add(curves, 2, faces, inside), ROUNDEL_ERROR_INDEX_OUT_OF_RANGE,
         "entry 1 is -1", 1);
     BAD(f, roundel_curves_count(NULL, &count), null, "curves", NONE);

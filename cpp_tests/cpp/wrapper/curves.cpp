@@ -16,10 +16,9 @@ void curves_guide_a_field_and_become_edges() {
     CHECK(guides.size() > 20);
     roundel::FieldOptions follow;
     follow.set_guides(guides).set_features(roundel::no_features());
-    const auto field = roundel::field(plane, follow);
+    const auto field = roundel::orientation_field(plane, follow);
     for (const auto& guide : guides) {
-        const double off =
-            field.angles()[static_cast<std::size_t>(guide.face)] - guide.angle;
+        const double off = field.angles()[static_cast<std::size_t>(guide.face)] - guide.angle;
         const double quarters = off / 1.57079632679489662;
         CHECK(std::fabs(quarters - std::round(quarters)) < 1e-3);
     }

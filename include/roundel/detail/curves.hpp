@@ -23,8 +23,8 @@ class Curves {
     }
 
     /// Draws a polyline in space, x, y, z in turn, onto a mesh: through closest points, along
-    /// shortest paths. It is closed if the last point is the first. A point that is too far from the
-    /// surface is a failure, whose index is the number of the point.
+    /// shortest paths. It is closed if the last point is the first. A point that is too far from
+    /// the surface is a failure, whose index is the number of the point.
     Curves& draw(const Mesh& mesh, span<const double> points, Status* status = nullptr) {
         detail::check(roundel_curves_draw(handle_.get(), mesh.get(), points.size() / 3,
                                           points.data(), nullptr),
@@ -49,8 +49,9 @@ class Curves {
         return count;
     }
 
-    /// Guides for all faces that curves pass, for FieldOptions::guides of this symmetry. The weight of a face is
-    /// `weight` times the length of the curves inside it over the square root of its area.
+    /// Guides for all faces that curves pass, for FieldOptions::guides of this symmetry. The weight
+    /// of a face is `weight` times the length of the curves inside it over the square root of its
+    /// area.
     std::vector<FieldGuide> guides(const Mesh& mesh, double weight = 10.0,
                                    std::int32_t symmetry = 4, Status* status = nullptr) const {
         std::size_t count = 0;
