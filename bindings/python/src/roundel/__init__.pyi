@@ -22,6 +22,12 @@ class CancelToken:
     @property
     def is_cancelled(self) -> bool: ...
 
+class Cut:
+    mesh: Mesh
+    face_origins: np.ndarray
+    edges: np.ndarray
+    def __init__(self, mesh: Mesh, face_origins: np.ndarray, edges: np.ndarray) -> None: ...
+
 class EditKind(IntEnum):
     VERTEX_NOT_FINITE = 0
     POLYGON_NOT_FINITE = 1
@@ -422,6 +428,16 @@ class Soup:
 
 def check_proof(file: File, problem: Optional[Problem] = None) -> Proof: ...
 
+def curve_guides(
+    mesh: MeshLike,
+    curves: Iterable[ArrayLike],
+    *,
+    weight: float = 10.0,
+    symmetry: int = 4,
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]: ...
+
+def cut_along(mesh: MeshLike, curves: Iterable[ArrayLike]) -> Cut: ...
+
 def extract(V: MeshLike, F: Optional[ArrayLike] = None, uvs: Optional[ArrayLike] = None) -> Quads: ...
 
 def field(
@@ -644,6 +660,7 @@ __all__ = [
     "CancelledError",
     "Candidate",
     "CountOverflowError",
+    "Cut",
     "EditKind",
     "EmptyError",
     "Error",
@@ -691,6 +708,8 @@ __all__ = [
     "UnusableError",
     "ZeroAreaError",
     "check_proof",
+    "curve_guides",
+    "cut_along",
     "extract",
     "field",
     "geodesic_distance",
