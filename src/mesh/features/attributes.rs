@@ -18,7 +18,7 @@ impl FeatureGraph {
     /// # Errors
     /// [`MeshError::InvalidArgument`] for an attribute that the file lacks, with those that it has;
     /// [`SoupError::Malformed`](crate::soup::SoupError::Malformed) for attributes of another soup; and
-    /// [`Error::LengthMismatch`](crate::Error::LengthMismatch) for a soup or a repair of another mesh.
+    /// [`Error::LengthMismatch`] for a soup or a repair of another mesh.
     pub fn by_attribute(
         mesh: &TriangleMesh,
         (soup, repaired): (&PolygonSoup, Option<&Repaired>),
