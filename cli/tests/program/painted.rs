@@ -107,7 +107,7 @@ fn densities_that_vertices_do_not_have_are_refused() {
     let weights = weights.to_str().unwrap();
     for (file, density, message) in [
         (weights, "property:size", "they have x, y, z, weight"),
-        (weights, "property:z", "density"),
+        (weights, "property:z", "not above 0"),
         (weights, "colors", "no colours"),
         ("shape:sphere:200", "colors", "no file"),
     ] {
