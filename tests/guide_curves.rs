@@ -74,7 +74,7 @@ fn a_field_follows_a_helix_at_30_degrees() {
     let curve = drawn(&mesh, &helix(slope.tan(), 0.35));
     for align_boundary in [false, true] {
         let guidance = Guidance {
-            guides: guides_along(&mesh, &[curve.clone()], 4, 10.0).unwrap(),
+            guides: guides_along(&mesh, std::slice::from_ref(&curve), 4, 10.0).unwrap(),
             align_boundary,
             ..Guidance::default()
         };
@@ -348,7 +348,7 @@ fn bad_curves_are_refused_with_their_place() {
     let error = cut_along(&mesh, &[vec![good[0]; 2]]).unwrap_err();
     assert_eq!((error.code(), error.index()), ("invalid_argument", Some(0)));
     for weight in [-1.0, f64::NAN, f64::INFINITY] {
-        assert!(guides_along(&mesh, &[good.clone()], 4, weight).is_err());
+        assert!(guides_along(&mesh, std::slice::from_ref(&good), 4, weight).is_err());
     }
     assert!(guides_along(&mesh, &[good], 3, 1.0).is_err());
 }
