@@ -7,6 +7,7 @@ mod common;
 use std::collections::BTreeMap;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
+use common::Random;
 use common::archive::{MISSING, archive};
 
 use roundel::field::{Guidance, guides_along, smoothest_field};
@@ -301,6 +302,64 @@ fn curves_that_cross_share_a_vertex() {
         let whole: f64 = curve.iter().map(length).sum();
         let exact = norm(sub(line[1], line[0]));
         assert!((whole / exact - 1.0).abs() < 0.01, "{whole} {exact}");
+    }
+}
+
+/// Whether edges follow each other tip to tail.
+fn is_chain(mesh: &TriangleMesh, edges: &[usize]) -> bool {
+    edges.windows(2).all(|pair| {
+        let [one, two] = [pair[0], pair[1]].map(|e| mesh.edge(e).vertices);
+        one.iter().any(|v| two.contains(v))
+    })
+}
+
+#[test]
+fn many_random_curves_are_cut_into_fine_and_coarse_meshes() {
+    let mut random = Random::new(7);
+    let coarse = cylinder(7, 1);
+    let shapes = ["plate-with-holes", "gear", "genus-3", "sphere"];
+    let mut meshes: Vec<_> = shapes.map(|name| shape::by_name(name, 600).unwrap()).into();
+    meshes.push(coarse);
+    for mesh in meshes {
+        let mut curves = Vec::new();
+        for _ in 0..12 {
+            let points: Vec<Vec3> = (0..5)
+                .map(|_| {
+                    let share = 0.5 + 0.5 * random.next().clamp(-1.0, 1.0);
+                    let face = (share * (mesh.face_count() - 1) as f64) as usize;
+                    let [u, v] = [0, 1].map(|_| random.next().abs().fract());
+                    let barycentric = [1.0 - u, u * (1.0 - v), u * v];
+                    SurfacePoint { face, barycentric }.position(&mesh)
+                })
+                .collect();
+            curves.push(drawn(&mesh, &points));
+        }
+        let found = cut_along(&mesh, &curves).unwrap();
+        let cut = &found.cut;
+        let area = cut.mesh.surface_area() / mesh.surface_area();
+        assert!((area - 1.0).abs() < 1e-12, "{area}");
+        let euler = mesh.euler_characteristic();
+        assert_eq!(cut.mesh.euler_characteristic(), euler);
+        let [low, high] = mesh.bounding_box();
+        let near = 2e-3 * norm(sub(high, low));
+        for (curve, edges) in curves.iter().zip(&found.curves) {
+            assert!(is_chain(&cut.mesh, edges));
+            let places: Vec<Vec3> = curve.iter().map(|p| p.position(&mesh)).collect();
+            let pieces = places.windows(2).map(|w| [w[0], w[1], w[1]]);
+            let tree = ClosestPoint::of_triangles(pieces.collect());
+            for &e in edges {
+                for v in cut.mesh.edge(e).vertices {
+                    let p = cut.mesh.position(v);
+                    let off = norm(sub(tree.find(p, None).unwrap().1, p));
+                    assert!(off < near, "{off}");
+                }
+            }
+            let length = |edges: &[Vec3; 2]| norm(sub(edges[1], edges[0]));
+            let drawn: f64 = places.windows(2).map(|w| length(&[w[0], w[1]])).sum();
+            let ends = |&e: &usize| cut.mesh.edge(e).vertices.map(|v| cut.mesh.position(v));
+            let cut: f64 = edges.iter().map(ends).map(|ends| length(&ends)).sum();
+            assert!((cut / drawn - 1.0).abs() < 0.03, "{cut} {drawn}");
+        }
     }
 }
 

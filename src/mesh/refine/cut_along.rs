@@ -53,7 +53,7 @@ fn point_of(mesh: &TriangleMesh, face: usize, weights: [f64; 3]) -> Vec3 {
 pub struct CutAlong {
     /// The mesh, and what its elements are on the one that was given.
     pub cut: Refined,
-    /// The edges of each curve, in its order.
+    /// The edges of each curve, in its order; an edge twice where the curve returns along it.
     pub curves: Vec<Vec<usize>>,
 }
 
@@ -165,8 +165,10 @@ impl<'a> Cut<'a> {
             let to = self.vertex(face, piece.to);
             let from = chain[chain.len() - 1];
             for v in self.connect(number, face, from, to)? {
-                // Forth and back along an edge is nowhere.
-                match chain.len() >= 2 && chain[chain.len() - 2] == v {
+                // Forth and back along a short edge comes from running through vertices.
+                let back = chain.len() >= 2 && chain[chain.len() - 2] == v;
+                let [p, q] = [v, chain[chain.len() - 1]].map(|v| self.work.position(v));
+                match back && norm(sub(p, q)) <= 2.0 * self.near[piece.face] {
                     true => {
                         chain.pop();
                     }
