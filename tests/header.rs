@@ -40,6 +40,8 @@ const SOURCES: &[&str] = &[
     "attributes",
     "geodesic_sources",
     "geodesic",
+    "curves",
+    "cut",
     "guidance",
     "curvature",
     "field",

@@ -10,10 +10,9 @@
 
 mod common;
 
-use std::path::{Path, PathBuf};
-use std::process::Command;
-use std::sync::OnceLock;
+use std::path::Path;
 
+use common::archive::{MISSING, archive};
 use roundel::check::{CheckOptions, check_map};
 use roundel::extract::QuadMesh;
 use roundel::field::{near_features, solve_field};
@@ -28,10 +27,6 @@ use roundel::quad::{
 use roundel::smooth::QuadQuality;
 use roundel::untangle::UntangleOptions;
 use roundel::{Monitor, Options, Strategy};
-
-const DEBIAN: &str = "/usr/share/doc/libcgal-dev/data.tar.gz";
-
-const MISSING: &str = "libcgal-demo is not installed, and ROUNDEL_CGAL_DATA is not set";
 
 /// Closed connected meshes: file, faces, genus.
 const CLOSED: &[(&str, usize, usize)] = &[
@@ -124,37 +119,6 @@ const BROKEN: &[(&str, &str, usize)] = &[
     ("prim", "not_a_triangle", 2),
     ("cube-ouvert", "isolated_vertex", 8),
 ];
-
-/// The folder of the meshes. Tests run in parallel, so the first that asks unpacks the archive.
-fn archive() -> Option<PathBuf> {
-    static FOLDER: OnceLock<Option<PathBuf>> = OnceLock::new();
-    FOLDER.get_or_init(unpacked).clone()
-}
-
-fn unpacked() -> Option<PathBuf> {
-    let given = std::env::var_os("ROUNDEL_CGAL_DATA").map(PathBuf::from);
-    let place = given.clone().unwrap_or_else(|| PathBuf::from(DEBIAN));
-    if place.is_dir() {
-        let inner = place.join("data/meshes");
-        return Some(if inner.is_dir() { inner } else { place });
-    }
-    if !place.is_file() {
-        assert!(
-            given.is_none(),
-            "ROUNDEL_CGAL_DATA names nothing: {}",
-            place.display()
-        );
-        return None;
-    }
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("cgal-data");
-    std::fs::create_dir_all(&folder).expect("a folder");
-    let tar = Command::new("tar")
-        .args([Path::new("-xzf"), &place, Path::new("-C"), &folder])
-        .status()
-        .expect("tar");
-    assert!(tar.success());
-    Some(folder.join("data/meshes"))
-}
 
 fn load(folder: &Path, name: &str) -> Result<TriangleMesh, MeshError> {
     io::read(folder.join(format!("{name}.off")))

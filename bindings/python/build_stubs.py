@@ -16,7 +16,7 @@ HEAD = '''\
 # Written by build_stubs.py from the running package: see there.
 
 from enum import IntEnum
-from typing import Any, Iterator, Literal, Mapping, Optional, Union
+from typing import Any, Iterable, Iterator, Literal, Mapping, Optional, Sequence, Union
 
 import numpy as np
 

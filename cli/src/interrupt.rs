@@ -13,8 +13,11 @@ static TOKEN: OnceLock<CancelToken> = OnceLock::new();
 
 /// A token by which Ctrl-C has the run finished with the best integers so far.
 ///
-/// A second Ctrl-C ends the program at once.
+/// Every call gives the same token. A second Ctrl-C ends the program at once.
 pub fn cancel_token() -> Result<CancelToken> {
+    if let Some(token) = TOKEN.get() {
+        return Ok(token.clone());
+    }
     let token = TOKEN.get_or_init(CancelToken::new).clone();
     let set = token.clone();
     ctrlc::set_handler(move || {

@@ -11,6 +11,7 @@ mod field;
 mod generate;
 mod help;
 mod interrupt;
+mod lines;
 mod mesh;
 mod options;
 mod output;

@@ -602,6 +602,17 @@ typedef int32_t roundel_stage;
 typedef struct roundel_cancel_token roundel_cancel_token;
 
 /**
+ * Curves on the surface of a mesh, numbered from 0 as they are added. Numbers of faces are those of the mesh that the
+ * curves are used with, and are checked when they are used.
+ */
+typedef struct roundel_curves roundel_curves;
+
+/**
+ * A mesh that was cut along curves, so that they are chains of edges: features that a field and quads can follow.
+ */
+typedef struct roundel_cut roundel_cut;
+
+/**
  * An N-symmetric direction field of a mesh: N arms in every face, a cross for N = 4, and their matching
  * across edges. The mesh may be freed before the field.
  */
@@ -2457,6 +2468,106 @@ roundel_status roundel_geodesic_path(const struct roundel_geodesic *geodesic,
                                      int32_t *path_faces,
                                      double *path_barycentric,
                                      size_t *count);
+
+/**
+ * Makes an empty list of curves. To be freed with roundel_curves_free.
+ */
+roundel_status roundel_curves_new(struct roundel_curves **curves);
+
+/**
+ * Frees curves. NULL is allowed.
+ */
+roundel_status roundel_curves_free(struct roundel_curves *curves);
+
+/**
+ * Draws a polyline in space onto a mesh, and adds the curve: through the closest point of each of its `count` points,
+ * which are x, y, z in turn, along a shortest path from one to the next. It is closed if the last point is the first.
+ * The monitor may be NULL; it is asked whether the call ends, and told nothing.
+ *
+ * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for fewer than two points, for a point that lies farther from the surface
+ * than a twentieth of the diagonal of the bounding box, and for one from which no path leads to the next;
+ * ROUNDEL_ERROR_NOT_FINITE for coordinates that are no numbers. roundel_last_error_index is the number of the point.
+ */
+roundel_status roundel_curves_draw(struct roundel_curves *curves,
+                                   const struct roundel_mesh *mesh,
+                                   size_t count,
+                                   const double *points,
+                                   const struct roundel_monitor *monitor);
+
+/**
+ * Adds a curve through `count` points of the surface, given as for roundel_sources_add_points. Points that follow each
+ * other lie on a common face, its boundary included.
+ */
+roundel_status roundel_curves_add(struct roundel_curves *curves,
+                                  size_t count,
+                                  const int32_t *faces,
+                                  const double *barycentric);
+
+/**
+ * Gives the number of curves.
+ */
+roundel_status roundel_curves_count(const struct roundel_curves *curves, size_t *count);
+
+/**
+ * Gives guides along curves, for roundel_guidance_set_guides: for every face that curves pass, the direction of the
+ * curve there, and the weight `weight * length / size`, with the length of the curves inside the face and the square
+ * root of its area. `symmetry` is that of the field. With a weight of 10 a field follows curves to a fraction of a
+ * degree where nothing contradicts. `faces`, `angles` and `weights` have room for `capacity` numbers each; the number
+ * of guides goes to `count`. With a capacity of 0 the arrays may be NULL and only the number is given.
+ *
+ * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for a weight that is negative or not finite, for another symmetry than 1,
+ * 2, 4 and 6, and, with the number of the curve as roundel_last_error_index, for one of fewer than two points or with
+ * points that are not on the surface or lie on no common face; ROUNDEL_ERROR_INDEX_OUT_OF_RANGE for a face that the
+ * mesh does not have; ROUNDEL_ERROR_LENGTH_MISMATCH if the room is too small.
+ */
+roundel_status roundel_curves_guides(const struct roundel_curves *curves,
+                                     const struct roundel_mesh *mesh,
+                                     int32_t symmetry,
+                                     double weight,
+                                     size_t capacity,
+                                     int32_t *faces,
+                                     double *angles,
+                                     double *weights,
+                                     size_t *count);
+
+/**
+ * Cuts the faces of a mesh along curves. Vertices keep their numbers and places, new ones follow, and the surface stays
+ * where it is. A curve is moved by at most a tenth of the shortest edge of the face, and at most 1/1000 of the diagonal
+ * of the bounding box, where it then runs through a vertex or along an edge. To be freed with roundel_cut_free.
+ *
+ * Fails, with the number of the curve as roundel_last_error_index, with ROUNDEL_ERROR_INVALID_ARGUMENT for one of fewer
+ * than two points, with points that are not on the surface or lie on no common face, or so short that nothing is left
+ * of it; ROUNDEL_ERROR_INDEX_OUT_OF_RANGE for a face that the mesh does not have; ROUNDEL_ERROR_NOT_FINITE for
+ * barycentric coordinates that are no numbers.
+ */
+roundel_status roundel_cut_new(const struct roundel_mesh *mesh,
+                               const struct roundel_curves *curves,
+                               struct roundel_cut **cut);
+
+/**
+ * Frees a cut. NULL is allowed.
+ */
+roundel_status roundel_cut_free(struct roundel_cut *cut);
+
+/**
+ * Gives the mesh, to be freed with roundel_mesh_free. It does not need the cut.
+ */
+roundel_status roundel_cut_mesh(const struct roundel_cut *cut, struct roundel_mesh **mesh);
+
+/**
+ * Copies the face of the given mesh of which each face is a part. `length` is the number of faces.
+ */
+roundel_status roundel_cut_face_origins(const struct roundel_cut *cut,
+                                        int32_t *faces,
+                                        size_t length);
+
+/**
+ * Marks the edges of the mesh that lie on curves: 1 for each, 0 for all others. `length` is the number of edges.
+ * roundel_guidance_set_feature_edges makes edges features.
+ */
+roundel_status roundel_cut_mark_curves(const struct roundel_cut *cut,
+                                       int32_t *marks,
+                                       size_t length);
 
 /**
  * Makes a guidance. To be freed with roundel_guidance_free.

@@ -22,7 +22,8 @@
 /// also takes a `Status*` as its last argument. With a Status it throws nothing and reports the
 /// failure there. Built without exceptions, a failure without a Status ends the program.
 ///
-/// Problem, Solution, Solver, Mesh, Soup, Repair, Sources, GeodesicDistance, Field, Map, Quads and
+/// Problem, Solution, Solver, Mesh, Soup, Repair, Sources, GeodesicDistance, Curves,
+/// Field, Map, Quads and
 /// CancelToken own their C objects. They can be moved and not copied. A const object may be used by
 /// several threads at once, any other by one.
 ///
@@ -32,6 +33,7 @@
 #ifndef ROUNDEL_HPP
 #define ROUNDEL_HPP
 
+#include <roundel/detail/curves.hpp>
 #include <roundel/detail/error.hpp>
 #include <roundel/detail/features.hpp>
 #include <roundel/detail/field.hpp>

@@ -6,6 +6,7 @@
 
 mod clearance;
 mod curvature_guidance;
+mod curve_guides;
 mod detail;
 mod directions;
 mod feasible_indices;
@@ -26,6 +27,7 @@ mod traced_index;
 
 pub use clearance::near_features;
 pub use curvature_guidance::{curvature_constraints, curvature_guides};
+pub use curve_guides::guides_along;
 pub use feature_alignment::feature_constraints;
 pub use guidance::{GUIDANCE_OPTIONS, Guidance};
 pub use options::{Constraint, FieldOptions, Guide, PrescribedIndex};

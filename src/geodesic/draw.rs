@@ -12,6 +12,43 @@ use crate::monitor::Monitor;
 /// The first limit of a path, in distances of its ends in space. Where it is longer, the limit is doubled.
 const DETOUR: f64 = 1.5;
 
+/// How far from the surface the points of a curve may lie, as a part of the diagonal of the bounding box.
+pub const FAR_FROM_SURFACE: f64 = 0.05;
+
+/// The curve on a surface that follows a polyline in space, as [`draw_polyline`] draws it: points of the surface, of
+/// which those that follow each other lie on a common face. It is closed if the last point is the first.
+///
+/// # Errors
+/// [`Error::InvalidArgument`] for fewer than two points, and with the number of the point for one that lies farther
+/// from the surface than [`FAR_FROM_SURFACE`] of the diagonal of the bounding box; those of [`draw_polyline`].
+pub fn draw_curve(
+    mesh: &TriangleMesh,
+    points: &[Vec3],
+    monitor: &Monitor<'_>,
+) -> Result<Vec<SurfacePoint>> {
+    let drawn = closest_points(mesh, points)?;
+    if points.len() < 2 {
+        return Err(Error::InvalidArgument {
+            what: "a curve needs two points or more".into(),
+            index: None,
+        });
+    }
+    let [low, high] = mesh.bounding_box();
+    let allowed = FAR_FROM_SURFACE * norm(sub(high, low));
+    for (i, (&p, on)) in points.iter().zip(&drawn).enumerate() {
+        let off = norm(sub(on.position(mesh), p));
+        if off > allowed {
+            return Err(Error::InvalidArgument {
+                what: format!(
+                    "point {i} of the curve lies {off:.3e} off the surface; at most {allowed:.3e} is allowed"
+                ),
+                index: Some(i),
+            });
+        }
+    }
+    connect(mesh, &drawn, false, monitor)
+}
+
 /// The polyline on a surface that follows one in space: through the closest point of each of its points, along a
 /// shortest path where two that follow each other lie on no common face.
 ///
@@ -25,6 +62,15 @@ pub fn draw_polyline(
     closed: bool,
     monitor: &Monitor<'_>,
 ) -> Result<Source> {
+    let drawn = closest_points(mesh, points)?;
+    Ok(Source::Polyline {
+        points: connect(mesh, &drawn, closed, monitor)?,
+        closed: false,
+    })
+}
+
+/// The point of the surface that is closest to each point.
+fn closest_points(mesh: &TriangleMesh, points: &[Vec3]) -> Result<Vec<SurfacePoint>> {
     if let Some(position) = points.iter().position(|p| !p.iter().all(|x| x.is_finite())) {
         return Err(Error::NotFinite {
             what: "points of the polyline",
@@ -46,6 +92,16 @@ pub fn draw_polyline(
             drawn.push(surface_point(mesh, face, closest));
         }
     }
+    Ok(drawn)
+}
+
+/// The points and the shortest paths between those that follow each other.
+fn connect(
+    mesh: &TriangleMesh,
+    drawn: &[SurfacePoint],
+    closed: bool,
+    monitor: &Monitor<'_>,
+) -> Result<Vec<SurfacePoint>> {
     let component = mesh.components().of_face;
     let mut line = vec![drawn[0]];
     let pieces = if closed { drawn.len() } else { drawn.len() - 1 };
@@ -61,10 +117,7 @@ pub fn draw_polyline(
         }
         line.extend(join(mesh, from, to, monitor)?);
     }
-    Ok(Source::Polyline {
-        points: line,
-        closed: false,
-    })
+    Ok(line)
 }
 
 /// The points that follow `from` on the way to `to`, which is the last of them.

@@ -21,6 +21,7 @@
 
 mod bisector;
 mod cross;
+mod cut;
 mod distance;
 mod draw;
 mod envelope;
@@ -28,6 +29,7 @@ mod frame;
 mod leave;
 mod nearest;
 mod path;
+mod pieces;
 mod place;
 mod queue;
 mod roots;
@@ -36,8 +38,10 @@ mod source;
 mod wavefront;
 mod window;
 
+pub use cut::cut_along;
 pub use distance::{GeodesicDistance, GeodesicOptions, geodesic_distance};
-pub use draw::draw_polyline;
+pub use draw::{FAR_FROM_SURFACE, draw_curve, draw_polyline};
+pub(crate) use pieces::pieces;
 pub use source::{BARYCENTRIC_TOLERANCE, Source, SurfacePoint};
 
 #[cfg(test)]

@@ -75,10 +75,10 @@ impl Source {
     pub(super) fn check(&self, mesh: &TriangleMesh, number: usize) -> Result<()> {
         match self {
             Source::Vertex(v) => in_range("source vertices", number, *v, mesh.vertex_count()),
-            Source::Point(point) => check_point(mesh, number, 0, point),
+            Source::Point(point) => check_point(mesh, SOURCE, number, 0, point),
             Source::Polyline { points, .. } => {
                 let mut places = points.iter().enumerate();
-                places.try_for_each(|(i, p)| check_point(mesh, number, i, p))
+                places.try_for_each(|(i, p)| check_point(mesh, SOURCE, number, i, p))
             }
             Source::Edges(edges) => {
                 let mut edges = edges.iter();
@@ -92,17 +92,30 @@ impl Source {
 /// How far a barycentric coordinate may be outside of [0, 1], and the sum of all from 1.
 pub const BARYCENTRIC_TOLERANCE: f64 = 1e-9;
 
-/// Whether a point lies on the surface. Its place is `index` of source `number`.
-fn check_point(mesh: &TriangleMesh, number: usize, index: usize, p: &SurfacePoint) -> Result<()> {
-    in_range("source faces", number, p.face, mesh.face_count())?;
-    is_in_triangle(p.barycentric).map_err(|what| match what {
+/// What errors call a source, its faces and its coordinates.
+const SOURCE: [&str; 3] = [
+    "source",
+    "source faces",
+    "barycentric coordinates of sources",
+];
+
+/// Whether a point lies on the surface. Its place is `index` of what is called this, of this number.
+pub(super) fn check_point(
+    mesh: &TriangleMesh,
+    [what, faces, coordinates]: [&'static str; 3],
+    number: usize,
+    index: usize,
+    p: &SurfacePoint,
+) -> Result<()> {
+    in_range(faces, number, p.face, mesh.face_count())?;
+    is_in_triangle(p.barycentric).map_err(|wrong| match wrong {
         None => Error::NotFinite {
-            what: "barycentric coordinates of sources",
+            what: coordinates,
             position: number,
         },
-        Some(what) => Error::InvalidArgument {
+        Some(wrong) => Error::InvalidArgument {
             what: format!(
-                "source {number}: point {index} is outside of face {}: {what}",
+                "{what} {number}: point {index} is outside of face {}: {wrong}",
                 p.face
             ),
             index: Some(number),

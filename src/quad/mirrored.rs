@@ -2,7 +2,7 @@
 //! with the cut as a feature, and the other parts are its mirror images.
 
 use super::mirror_images::{Seams, with_image};
-use super::refined_input::{divided, weights};
+use super::refined_input::{check_faces, divided, weights};
 use super::size_metric::SizeMetric;
 use super::{Near, QuadOptions, Quadrangulation, quadrangulate};
 use crate::error::{Error, Result};
@@ -55,7 +55,7 @@ fn of_half(mesh: &TriangleMesh, half: &Half, options: &QuadOptions) -> Result<Qu
             index: None,
         });
     }
-    check_faces(mesh, options)?;
+    check_faces(mesh, &options.guidance)?;
     let wanted = options.guidance.features(mesh)?;
     let mut features = half.parts_of(|edge| wanted.contains(edge));
     let mut guidance = divided(mesh, &options.guidance, &half.mesh, &half.face_origin, &[]);
@@ -118,27 +118,6 @@ fn of_vertices(mesh: &TriangleMesh, half: &Half, values: &[f64]) -> Vec<f64> {
         }),
     };
     (0..half.mesh.vertex_count()).map(of).collect()
-}
-
-/// A direction of a face that is not there is an error here: the part has other faces.
-fn check_faces(mesh: &TriangleMesh, options: &QuadOptions) -> Result<()> {
-    let constraints = options.guidance.constraints.iter().map(|c| c.face);
-    let guides = options.guidance.guides.iter().map(|g| g.face);
-    let lists = [
-        ("faces with a direction", constraints.collect::<Vec<_>>()),
-        ("faces with a guide", guides.collect()),
-    ];
-    for (what, faces) in lists {
-        if let Some(position) = faces.iter().position(|&f| f >= mesh.face_count()) {
-            return Err(Error::IndexOutOfRange {
-                what,
-                position,
-                value: faces[position] as i64,
-                len: mesh.face_count(),
-            });
-        }
-    }
-    Ok(())
 }
 
 /// The result for the whole mesh, with elements of the given mesh where it names elements.

@@ -12,6 +12,7 @@
 //! | a field and its current map | `field_map` |
 //! | the choice of the field | `fields`, `aim` |
 //! | a number of quads, met | `count` |
+//! | density painted as a colour | `painted` |
 //! | repeated solves of a map's problem | `map_solver` |
 //! | the quads of one map | `attempt`, `missed` |
 //! | smaller quads where there are none | `smaller` |
@@ -38,6 +39,7 @@ mod mirrored;
 mod missed;
 mod options;
 mod outcome;
+mod painted;
 mod part;
 mod quadrangulate;
 mod quadrangulation;
@@ -54,6 +56,7 @@ pub use count::Count;
 pub use fold_free::{FoldFreeMap, solve_fold_free};
 pub use mirrored::Mirrored;
 pub use options::{Near, QUAD_OPTIONS, QuadOptions};
+pub use painted::density_of_color;
 pub use quadrangulate::quadrangulate;
 pub use quadrangulation::{QuadSeconds, Quadrangulation};
 pub use refined_input::RefinedInput;

@@ -4,7 +4,7 @@
 //! Vertices keep their numbers. Edges of faces with directions of their own are held, so that each such
 //! face is divided into faces that take its direction.
 
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::extract::Origin;
 use crate::field::{Constraint, Guidance, Guide};
 use crate::map::Sizing;
@@ -82,9 +82,26 @@ impl RefinedInput {
         if refined.is_unchanged() || has_more_needles(mesh, &refined) {
             return Ok(None);
         }
+        Self::on(mesh, (guidance, &wanted, sizing), refined).map(Some)
+    }
+
+    /// What is given for a mesh, on the mesh that it was refined to or [cut](crate::geodesic::cut_along) into:
+    /// guidance, features besides those of the guidance, and sizes.
+    ///
+    /// # Errors
+    /// Those of [`Guidance::features`], and [`Error::LengthMismatch`] and
+    /// [`Error::IndexOutOfRange`] for what is not of the mesh.
+    pub fn on(
+        mesh: &TriangleMesh,
+        (guidance, features, sizing): (&Guidance, &FeatureGraph, &Sizing),
+        refined: Refined,
+    ) -> Result<Self> {
+        sizing.check(mesh)?;
+        check_faces(mesh, guidance)?;
+        let wanted = guidance.features(mesh)?.with(mesh, features)?;
         let parts = refined.parts_of(|edge| wanted.contains(edge));
         let guidance = divided(mesh, guidance, &refined.mesh, &refined.face_origin, &parts);
-        Ok(Some(RefinedInput {
+        Ok(RefinedInput {
             features: FeatureGraph::from_edges(&refined.mesh, &parts)?,
             guidance,
             sizing: match sizing {
@@ -102,7 +119,7 @@ impl RefinedInput {
                 other => other.clone(),
             },
             refined,
-        }))
+        })
     }
 
     /// The result for the refined mesh, with elements of the original one where it names elements.
@@ -150,6 +167,27 @@ fn has_more_needles(mesh: &TriangleMesh, refined: &Refined) -> bool {
 fn directed_faces(guidance: &Guidance) -> impl Iterator<Item = usize> + '_ {
     let constraints = guidance.constraints.iter().map(|c| c.face);
     constraints.chain(guidance.guides.iter().map(|g| g.face))
+}
+
+/// A direction of a face that is not there is an error here: the mesh to come has other faces.
+pub(super) fn check_faces(mesh: &TriangleMesh, guidance: &Guidance) -> Result<()> {
+    let constraints = guidance.constraints.iter().map(|c| c.face);
+    let guides = guidance.guides.iter().map(|g| g.face);
+    let lists = [
+        ("faces with a direction", constraints.collect::<Vec<_>>()),
+        ("faces with a guide", guides.collect()),
+    ];
+    for (what, faces) in lists {
+        if let Some(position) = faces.iter().position(|&f| f >= mesh.face_count()) {
+            return Err(Error::IndexOutOfRange {
+                what,
+                position,
+                value: faces[position] as i64,
+                len: mesh.face_count(),
+            });
+        }
+    }
+    Ok(())
 }
 
 /// Whether the faces of the guidance exist: where they do not, the field's problem says so.

@@ -4,6 +4,7 @@
 //! the two is [`repair()`], which says exactly what it did.
 
 mod area;
+mod carry;
 mod clean;
 mod components;
 mod cut;

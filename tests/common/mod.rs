@@ -2,6 +2,7 @@
 
 #![allow(dead_code)]
 
+pub mod archive;
 mod random;
 pub mod skip;
 

@@ -2,7 +2,6 @@
 
 mod arguments;
 mod bands;
-mod lines;
 
 use std::time::Instant;
 
@@ -18,6 +17,7 @@ use serde::Serialize;
 
 use crate::exit::Exit;
 use crate::interrupt;
+use crate::lines;
 use crate::mesh::{Input, RepairCounts};
 use crate::output;
 use crate::outputs::{Content, Outputs, PICTURE};

@@ -9,6 +9,7 @@ use roundel::mesh::features::FeatureGraph;
 use roundel::quad::QuadOptions;
 use roundel::soup::io::Attribute;
 
+use super::curves::Curves;
 use super::feature_sources::FeatureSources;
 use crate::mesh::Input;
 
@@ -36,7 +37,8 @@ pub struct Directions {
 
     /// Constrain this fraction of the faces, those with the most reliable curvature, to the
     /// direction of least curvature; from 0 to 1 [default: for a map or quads without
-    /// --curvature-weight 0.005; otherwise 0.1, and 0 with features, indices or --symmetry 1]
+    /// --curvature-weight 0.005, and 0 with --guide-curves; otherwise 0.1, and 0 with features, curves, indices
+    /// or --symmetry 1]
     #[arg(long, value_name = "FRACTION", value_parser = fraction)]
     #[arg(allow_negative_numbers = true)]
     pub constrain_curvature: Option<f64>,
@@ -69,12 +71,17 @@ pub struct Directions {
     /// VERTEX, index VERTEX STEPS (in quarter turns)
     #[arg(long, value_name = "GUIDE.txt")]
     pub guide: Option<PathBuf>,
+
+    #[command(flatten)]
+    pub curves: Curves,
 }
 
 impl Directions {
-    /// The files that are read: feature lines, and the guide.
-    pub fn files(&self) -> [Option<&Path>; 2] {
-        [self.feature_lines.as_deref(), self.guide.as_deref()]
+    /// The files that are read: feature lines, the guide and curves.
+    pub fn files(&self) -> [Option<&Path>; 4] {
+        let [guides, features] = self.curves.files();
+        let lines = self.feature_lines.as_deref();
+        [lines, self.guide.as_deref(), guides, features]
     }
 
     /// The attributes of the file whose changes are features.
@@ -105,8 +112,10 @@ impl Directions {
             let read = guidance.read(mesh, path);
             read.map_err(|error| named(path, error))?;
         }
-        // Sharp shapes are flat elsewhere: curvature there is noise.
-        let by_features = self.features.is_some() || self.feature_lines.is_some();
+        guidance.guides.extend(self.curves.guides(mesh, &guidance)?);
+        // Sharp shapes are flat elsewhere: curvature there is noise. Curves say what to follow.
+        let by_features =
+            self.features.is_some() || self.feature_lines.is_some() || !self.curves.is_empty();
         let by_all = symmetry != 1 && guidance.indices.is_none() && !by_features;
         let default = if by_all { CURVED } else { 0.0 };
         guidance.constrain_curvature = self.constrain_curvature.unwrap_or(default);
@@ -143,7 +152,10 @@ impl Directions {
         let (mut guidance, features) = self.of(mesh, by_attributes, 4)?;
         if !self.says_curvature() && guidance.indices.is_none() {
             let default = QuadOptions::default().guidance;
-            guidance.constrain_curvature = default.constrain_curvature;
+            guidance.constrain_curvature = match self.curves.guide() {
+                true => 0.0,
+                false => default.constrain_curvature,
+            };
             guidance.curvature_weight = default.curvature_weight;
         }
         Ok((guidance, features))
@@ -166,7 +178,7 @@ pub fn named(path: &Path, error: Error) -> Error {
     }
 }
 
-fn weight(text: &str) -> Result<f64, String> {
+pub(super) fn weight(text: &str) -> Result<f64, String> {
     let value: f64 = text.parse().map_err(|_| "not a number")?;
     match value >= 0.0 && value.is_finite() {
         true => Ok(value),

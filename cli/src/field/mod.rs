@@ -1,6 +1,7 @@
 //! `roundel field`: the smoothest field of a mesh, with its figures, files and picture.
 
 mod arguments;
+mod curves;
 mod directions;
 mod feature_sources;
 mod page;
@@ -12,6 +13,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use roundel::field::{FieldProblem, OrientationField, smoothest_field};
+use roundel::map::Sizing;
 use roundel::mesh::{TriangleMesh, io};
 use roundel::problem::files::{self, NamedProblem};
 use roundel::{Error, Options, Result};
@@ -24,6 +26,7 @@ use crate::outputs::{Content, Outputs, PAGE, PICTURE, PROBLEM, TRACE};
 use crate::progress::Progress;
 use crate::report::Preparation;
 pub use arguments::Arguments;
+pub use curves::{CurveCounts, Followed};
 pub use directions::{Directions, named};
 use report::FieldReport;
 use solved::Solved;
@@ -66,10 +69,21 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
             index: None,
         });
     }
-    let (guidance, features) =
-        arguments
-            .directions
-            .of(&mesh, by_attributes.as_ref(), arguments.symmetry)?;
+    let given = arguments
+        .directions
+        .of(&mesh, by_attributes.as_ref(), arguments.symmetry)?;
+    let curves = &arguments.directions.curves;
+    let Followed {
+        cut,
+        guidance,
+        features,
+        counts: curves,
+        ..
+    } = curves.follow(&mesh, given, Sizing::EdgeLength(1.0))?;
+    let (mesh, changes) = match cut {
+        Some(cut) => (cut.mesh, changes.on_refined(&cut.face_origin)),
+        None => (mesh, changes),
+    };
     let follows = guidance.field_options(&mesh, &features)?;
     let problem = FieldProblem::with_options(&mesh, &follows)?;
     let assemble = started.elapsed().as_secs_f64();
@@ -91,6 +105,7 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
         mesh,
         repair,
         changes,
+        curves,
         features: features.edges().collect(),
         field,
         solution,
@@ -104,8 +119,8 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
 
 /// Checks all that is to be written.
 fn check_outputs(arguments: &Arguments) -> Result<()> {
-    let [lines, guide] = arguments.directions.files();
-    let read = [Some(arguments.mesh.as_path()), lines, guide];
+    let mut read = vec![Some(arguments.mesh.as_path())];
+    read.extend(arguments.directions.files());
     let outputs = Outputs::of(&read, arguments.output.force)
         .write(arguments.out.as_ref(), Content::Field)?
         .write(arguments.picture.file.as_ref(), PICTURE)?

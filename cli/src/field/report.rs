@@ -5,6 +5,7 @@ use std::path::Path;
 
 use serde::Serialize;
 
+use super::CurveCounts;
 use super::solved::Solved;
 use crate::mesh::RepairCounts;
 use crate::report::Report;
@@ -19,6 +20,9 @@ pub struct FieldReport<'a> {
     vertices: usize,
     symmetry: u8,
     feature_edges: usize,
+    /// Where curves are followed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    curves: Option<CurveCounts>,
     irregular_vertices: usize,
     /// How many irregular vertices have an index of so many steps of 1/N of a turn.
     index_counts: BTreeMap<i32, usize>,
@@ -49,6 +53,7 @@ impl<'a> FieldReport<'a> {
             vertices: mesh.vertex_count(),
             symmetry: field.symmetry(),
             feature_edges: solved.features.len(),
+            curves: solved.curves,
             irregular_vertices: index_counts.values().sum(),
             index_counts,
             index_sum: field.index_sum(mesh),

@@ -4,6 +4,7 @@ use roundel::field::OrientationField;
 use roundel::mesh::TriangleMesh;
 use roundel::{Solution, Strategy};
 
+use super::CurveCounts;
 use crate::changes::Changes;
 use crate::mesh::RepairCounts;
 use crate::report::Preparation;
@@ -14,6 +15,7 @@ pub(super) struct Solved {
     pub(super) mesh: TriangleMesh,
     pub(super) repair: RepairCounts,
     pub(super) changes: Changes,
+    pub(super) curves: Option<CurveCounts>,
     /// The edges that it follows.
     pub(super) features: Vec<usize>,
     pub(super) field: OrientationField,

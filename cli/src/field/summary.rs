@@ -18,6 +18,7 @@ impl fmt::Display for FieldSummary<'_> {
             mesh,
             repair: _,
             changes: _,
+            curves,
             features,
             field,
             solution,
@@ -43,6 +44,9 @@ impl fmt::Display for FieldSummary<'_> {
         }
         let found = format!("{}, {}", energy(solution.energy()), verdict(solution));
         line(f, "read", &read, before.read)?;
+        if let Some(curves) = curves {
+            writeln!(f, "{:<10} {curves}", "curves")?;
+        }
         line(f, "assemble", &assemble, before.assemble.unwrap_or(0.0))?;
         line(f, strategy.name(), &found, seconds.total)?;
         let irregular = counted_vertices(field.irregular_vertices(mesh).len(), "irregular ");

@@ -29,7 +29,7 @@ pub struct Arguments {
     /// Take the field from this file, as `roundel field -o FIELD.txt` writes it: one line with a
     /// direction X Y Z for each face, matched over edges by the nearest arms
     #[arg(long, value_name = "FIELD.txt")]
-    #[arg(conflicts_with_all = ["constrain_curvature", "curvature_weight", "fix", "field_strategy"])]
+    #[arg(conflicts_with_all = ["constrain_curvature", "curvature_weight", "fix", "field_strategy", "guide_curves", "feature_curves"])]
     pub field: Option<PathBuf>,
 
     #[command(flatten)]

@@ -18,6 +18,7 @@ use roundel::{Options, Result, Solution};
 
 use crate::changes::Changes;
 use crate::exit::Exit;
+use crate::field::{CurveCounts, Followed};
 use crate::mesh::{Input, RepairCounts, Wanted};
 use crate::output;
 use crate::outputs::{MAP, Outputs, PAGE, PROBLEM, TRACE};
@@ -51,6 +52,7 @@ struct Solved {
     repair: RepairCounts,
     /// On the mesh of the map.
     changes: Changes,
+    curves: Option<CurveCounts>,
     refined: Option<Refinement>,
     field: FieldSource,
     sizing: Sizing,
@@ -93,9 +95,20 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
         ..
     } = input;
     let read = started.elapsed().as_secs_f64();
-    let (guidance, features) = arguments.directions.of_map(&mesh, by_attributes.as_ref())?;
-    let sizing = arguments.sizing.of()?;
+    let given = arguments.directions.of_map(&mesh, by_attributes.as_ref())?;
     let given_faces = mesh.face_count();
+    let curves = &arguments.directions.curves;
+    let Followed {
+        cut,
+        guidance,
+        features,
+        sizing,
+        counts: curves,
+    } = curves.follow(&mesh, given, arguments.sizing.of()?)?;
+    let (mesh, changes) = match cut {
+        Some(cut) => (cut.mesh, changes.on_refined(&cut.face_origin)),
+        None => (mesh, changes),
+    };
     let input = match arguments.field.is_some() || arguments.no_refine {
         true => None,
         false => RefinedInput::new(&mesh, &guidance, &features, &sizing)?,
@@ -155,6 +168,7 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
         mesh,
         repair,
         changes,
+        curves,
         refined,
         field,
         sizing,
@@ -174,10 +188,10 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
 
 /// Checks all that is to be written.
 fn check_outputs(arguments: &Arguments) -> Result<()> {
-    let [lines, guide] = arguments.directions.files();
     let lengths = arguments.sizing.edge_lengths.as_deref();
     let field = arguments.field.as_deref();
-    let read = [Some(arguments.mesh.as_path()), lines, guide, lengths, field];
+    let mut read = vec![Some(arguments.mesh.as_path()), lengths, field];
+    read.extend(arguments.directions.files());
     let outputs = Outputs::of(&read, arguments.output.force)
         .write(arguments.out.as_ref(), MAP)?
         .write(arguments.report.as_ref(), PAGE)?

@@ -4,6 +4,7 @@ use roundel::map::Sizing;
 use serde::Serialize;
 
 use super::{Arguments, Solved};
+use crate::field::CurveCounts;
 use crate::mesh::RepairCounts;
 use crate::refinement::Refinement;
 use crate::report::Report;
@@ -24,6 +25,9 @@ pub struct MapReport<'a> {
     quads: Option<usize>,
     edge_length: Option<f64>,
     feature_edges: usize,
+    /// Where curves are followed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    curves: Option<CurveCounts>,
     irregular_vertices: usize,
     cut_edges: usize,
     gradient_energy: f64,
@@ -81,6 +85,7 @@ impl<'a> MapReport<'a> {
             },
             edge_length: arguments.sizing.edge_length,
             feature_edges: solved.features.len(),
+            curves: solved.curves,
             irregular_vertices: map.cones().len(),
             cut_edges: map.transitions().len(),
             gradient_energy: map.energy(),

@@ -19,6 +19,7 @@ impl fmt::Display for MapSummary<'_> {
             mesh: _,
             repair: _,
             changes: _,
+            curves,
             refined,
             field,
             sizing: _,
@@ -35,6 +36,9 @@ impl fmt::Display for MapSummary<'_> {
         let (counts, seconds) = (solution.counts(), solution.seconds());
         let read = counted(*given_faces, "face");
         line(f, "read", &read, before.read)?;
+        if let Some(curves) = curves {
+            writeln!(f, "{:<10} {curves}", "curves")?;
+        }
         if let Some(refined) = refined {
             writeln!(
                 f,

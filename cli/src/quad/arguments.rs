@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use roundel::Strategy;
 use roundel::mesh::mirror::Mirror;
 
+use super::density::Density;
 use super::keep::Keep;
 use crate::exit;
 use crate::field::Directions;
@@ -41,10 +42,11 @@ pub struct Arguments {
     #[command(flatten)]
     pub sizing: SizingFlags,
 
-    /// Take from this file a number for each vertex: how dense quads are there, as a factor of the number of edges
-    /// along a length
-    #[arg(long, value_name = "DENSITY.txt")]
-    pub density: Option<PathBuf>,
+    /// How dense quads are at every vertex, as a factor of the number of edges along a length: a file with one number
+    /// a vertex; property:NAME, a scalar property of the vertices of the mesh (PLY); or colors, the colours of its
+    /// vertices (OBJ, PLY), where red is 2, white 1 and cyan 1/2
+    #[arg(long, value_name = "DENSITY.txt|property:NAME|colors", value_parser = Density::parse)]
+    pub density: Option<Density>,
 
     /// A vertex that sizes change near with --near vertices; may be repeated
     #[arg(long, value_name = "VERTEX")]

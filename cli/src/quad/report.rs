@@ -11,6 +11,7 @@ use super::faults::Faults;
 use super::keep::KeptReport;
 use super::mirrored::{Plane, planes};
 use super::steps::Solved;
+use crate::field::CurveCounts;
 use crate::mesh::RepairCounts;
 use crate::refinement::Refinement;
 use crate::report::{Preparation, Report};
@@ -23,6 +24,9 @@ pub(super) struct QuadReport<'a> {
     solve: Report<'a>,
     repair: &'a RepairCounts,
     faces: usize,
+    /// Where curves are followed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    curves: Option<CurveCounts>,
     #[serde(skip_serializing_if = "Option::is_none")]
     refined: Option<Refinement>,
     /// Where quads are mirrored: the planes.
@@ -196,6 +200,7 @@ impl<'a> QuadReport<'a> {
             ),
             repair: &solved.repair,
             faces: solved.mesh.face_count(),
+            curves: solved.curves,
             refined: made.refined.as_ref().map(Refinement::new),
             mirror: made.mirrored.as_ref().map(planes).unwrap_or_default(),
             field_irregular_vertices: made.untangled.map.cones().len(),

@@ -8,9 +8,11 @@ use roundel::quad::{QuadOptions, Quadrangulation, quadrangulate};
 use roundel::transfer::transfer_attributes;
 use roundel::{Options, Result};
 
+use super::Arguments;
+use super::density::{self, Density};
 use super::keep::Kept;
-use super::{Arguments, density};
 use crate::changes::Changes;
+use crate::field::{CurveCounts, Followed};
 use crate::mesh::{Input, Reading, RepairCounts, Wanted};
 use crate::output;
 use crate::outputs::{Content, Outputs, PAGE, TRACE, folder_of};
@@ -22,6 +24,7 @@ pub(super) struct Solved {
     pub(super) repair: RepairCounts,
     /// On the mesh of field and map.
     pub(super) changes: Changes,
+    pub(super) curves: Option<CurveCounts>,
     pub(super) options: QuadOptions,
     pub(super) made: Quadrangulation,
     pub(super) kept: Kept,
@@ -36,15 +39,25 @@ pub(super) fn solve(arguments: &Arguments) -> Result<Solved> {
     let mut map = arguments.solver.over(default.map.clone())?;
     progress.limit(&mut map, started);
     let keep = arguments.keep.clone().unwrap_or_default();
+    let density = arguments.density.as_ref();
+    let values = |bytes: &[u8], format| match density {
+        Some(density) => density.of_mesh(bytes, format),
+        None => Ok(Vec::new()),
+    };
     let wanted = Wanted {
         features: arguments.directions.attributes(),
         attributes: keep.reading(arguments.out.as_deref())?,
+        values: match density {
+            Some(density) if density.file().is_none() => Some(&values),
+            _ => None,
+        },
     };
     let input = arguments
         .input
         .read_with(&arguments.mesh, arguments.json, wanted)?;
     arguments.directions.keep_numbers(&input)?;
-    input.keeps_numbers("--density", arguments.density.is_some())?;
+    let density = density.and_then(Density::file);
+    input.keeps_numbers("--density FILE", density.is_some())?;
     input.keeps_numbers("--near-vertex", !arguments.near_vertex.is_empty())?;
     let Input {
         mesh,
@@ -53,19 +66,37 @@ pub(super) fn solve(arguments: &Arguments) -> Result<Solved> {
         features: by_attributes,
         mut attributes,
         refused,
+        values,
     } = input;
     keep.choose(&mut attributes)?;
     let mut not_kept = refused;
-    let density = match &arguments.density {
+    let density = match density {
         Some(path) => density::read(path)?,
-        None => Vec::new(),
+        None => values,
     };
     let read_seconds = started.elapsed().as_secs_f64();
-    let (mut guidance, features) = arguments.directions.of_map(&mesh, by_attributes.as_ref())?;
-    // Those of the command line's file are among them.
-    guidance.feature_edges = features.edges().collect();
+    let given = arguments.directions.of_map(&mesh, by_attributes.as_ref())?;
+    let curves = &arguments.directions.curves;
+    let Followed {
+        cut,
+        guidance,
+        sizing,
+        counts: curves,
+        ..
+    } = curves.follow(&mesh, given, arguments.sizing.of()?)?;
+    let (mesh, uncut, density, changes) = match cut {
+        Some(cut) => {
+            let density = match density.is_empty() {
+                true => density,
+                false => cut.values_at_vertices(&mesh, &density)?,
+            };
+            let changes = changes.on_refined(&cut.face_origin);
+            (cut.mesh, Some(mesh), density, changes)
+        }
+        None => (mesh, None, density, changes),
+    };
     let options = QuadOptions {
-        sizing: arguments.sizing.of()?,
+        sizing,
         density,
         near_vertices: arguments.near_vertex.clone(),
         guidance,
@@ -87,7 +118,8 @@ pub(super) fn solve(arguments: &Arguments) -> Result<Solved> {
         attributes.move_libraries(folder_of(&arguments.mesh), folder_of(path));
         let started = Instant::now();
         let monitor = &mut progress.monitor();
-        match transfer_attributes(&mesh, &made.quads, &attributes, monitor) {
+        let given = uncut.as_ref().unwrap_or(&mesh);
+        match transfer_attributes(given, &made.quads, &attributes, monitor) {
             Ok(attributes) => kept.attributes = attributes,
             // Quads are worth more than what need not be kept.
             Err(error) if wanted.attributes == Reading::IfSound => not_kept = Some(error),
@@ -109,6 +141,7 @@ pub(super) fn solve(arguments: &Arguments) -> Result<Solved> {
         mesh,
         repair,
         changes,
+        curves,
         options,
         made,
         kept,
@@ -118,16 +151,10 @@ pub(super) fn solve(arguments: &Arguments) -> Result<Solved> {
 
 /// Checks all that is to be written.
 fn check_outputs(arguments: &Arguments) -> Result<()> {
-    let [lines, guide] = arguments.directions.files();
     let lengths = arguments.sizing.edge_lengths.as_deref();
-    let density = arguments.density.as_deref();
-    let read = [
-        Some(arguments.mesh.as_path()),
-        lines,
-        guide,
-        lengths,
-        density,
-    ];
+    let density = arguments.density.as_ref().and_then(Density::file);
+    let mut read = vec![Some(arguments.mesh.as_path()), lengths, density];
+    read.extend(arguments.directions.files());
     let outputs = Outputs::of(&read, arguments.output.force)
         .write(arguments.out.as_ref(), Content::Mesh)?
         .write(arguments.report.as_ref(), PAGE)?

@@ -20,6 +20,9 @@ impl fmt::Display for QuadSummary<'_> {
         let (made, seconds) = (&solved.made, solved.made.seconds);
         let read = counted(solved.mesh.face_count(), "face");
         line(f, "read", &read, solved.read_seconds)?;
+        if let Some(curves) = &solved.curves {
+            writeln!(f, "{:<10} {curves}", "curves")?;
+        }
         if let Some(mirrored) = &made.mirrored {
             writeln!(f, "{:<10} {}", "mirror", mirror_words(mirrored))?;
         }

@@ -1,6 +1,7 @@
 //! The program as its users meet it: run from outside, on files.
 
 mod book;
+mod curves;
 mod distance;
 mod evaluate;
 mod field;
@@ -11,6 +12,7 @@ mod outcome;
 mod output;
 mod outputs;
 mod page;
+mod painted;
 mod parametrize;
 mod problem;
 mod proof;

@@ -175,7 +175,10 @@ fn every_command_prints_what_the_schema_says() {
     fs::write(&folded, format!("{square}f 1/1 2/2 3/3\nf 1/1 3/3 4/2\n")).unwrap();
     let shape = "shape:torus:300";
     let proof = path("proof.jsonl");
-    let runs: [(&str, &[&str]); 19] = [
+    // A curve beside the torus.
+    let lines = path("lines.obj");
+    fs::write(&lines, "v 1.4 0.1 0\nv 0.2 1.4 0\nl 1 2\n").unwrap();
+    let runs: [(&str, &[&str]); 22] = [
         ("solve", &["solve", &problem]),
         ("solve", &["solve", &problem, "--strategy", "relax"]),
         ("solve", &["solve", &problem, "--proof", &proof]),
@@ -207,6 +210,12 @@ fn every_command_prints_what_the_schema_says() {
             ],
         ),
         ("quad", &["quad", "shape:gear:200", "--quads", "300"]),
+        ("field", &["field", shape, "--guide-curves", &lines]),
+        (
+            "parametrize",
+            &["parametrize", shape, "--feature-curves", &lines],
+        ),
+        ("quad", &["quad", shape, "--feature-curves", &lines]),
         (
             "quad",
             &["quad", shape, "--mirror", "auto", "--mirror", "-z"],

@@ -68,5 +68,6 @@ void bad_guidance(fixture* f);
 void bad_quads(fixture* f);
 void bad_soups(fixture* f);
 void bad_geodesics(fixture* f);
+void bad_curves(fixture* f);
 
 #endif

@@ -59,6 +59,7 @@ int main(void) {
     bad_quads(&f);
     bad_soups(&f);
     bad_geodesics(&f);
+    bad_curves(&f);
     HOLDS(roundel_solution_free(f.solution) == ROUNDEL_OK);
     HOLDS(roundel_options_free(f.options) == ROUNDEL_OK);
     HOLDS(roundel_cancel_token_free(f.token) == ROUNDEL_OK);

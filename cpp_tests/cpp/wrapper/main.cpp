@@ -41,5 +41,6 @@ int main() {
     edges_between_materials_are_told();
     distances_follow_the_surface();
     the_boundary_points_and_edges_are_sources();
+    curves_guide_a_field_and_become_edges();
     return failures != 0;
 }

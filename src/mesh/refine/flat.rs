@@ -71,6 +71,19 @@ impl Plane {
 }
 
 impl Regions {
+    /// Each face as a region.
+    pub(super) fn of_single_faces(mesh: &TriangleMesh) -> Self {
+        let faces = mesh.face_count() as u32;
+        Regions {
+            of_face: (0..faces).collect(),
+            planes: (0..mesh.face_count())
+                .map(|face| Plane::of(mesh, face))
+                .collect(),
+            members: (0..faces).collect(),
+            start: (0..=faces).collect(),
+        }
+    }
+
     /// The faces of a region.
     pub(super) fn faces(&self, region: u32) -> &[u32] {
         let range = self.start[region as usize]..self.start[region as usize + 1];

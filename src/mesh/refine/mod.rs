@@ -20,14 +20,17 @@
 //! | which edge or triangle is next | `queue` |
 //! | small angles | `angles` |
 //! | the result | `refined` |
+//! | curves that become edges | `cut_along`, `simplify` |
 
 mod angles;
+mod cut_along;
 mod delaunay;
 mod flat;
 mod locate;
 mod need;
 mod queue;
 mod refined;
+mod simplify;
 #[cfg(test)]
 mod tests;
 mod working_mesh;
@@ -36,6 +39,8 @@ use super::TriangleMesh;
 use super::features::FeatureGraph;
 use crate::error::{Error, Result};
 use crate::monitor::{may_continue, may_continue_at};
+pub use cut_along::CutAlong;
+pub(crate) use cut_along::{Piece, cut_along_pieces};
 pub use need::{Need, SMALL_ANGLE, needs_refinement};
 use queue::{Next, Queue};
 pub use refined::Refined;

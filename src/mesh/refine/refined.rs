@@ -4,9 +4,9 @@ use super::SMALL_ANGLE;
 use super::locate::locate;
 use super::queue::smallest_angle;
 use super::working_mesh::WorkingMesh;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::mesh::TriangleMesh;
-use crate::mesh::connectivity::NONE;
+use crate::mesh::vector::{Vec3, cross, dot, sub};
 
 /// A refined mesh. Its first vertices are those of the original mesh, with their numbers and places.
 #[derive(Debug, Clone)]
@@ -42,6 +42,35 @@ impl Refined {
         wanted.map(|(edge, _)| edge).collect()
     }
 
+    /// Values for all vertices, from those of the vertices of the original mesh: a new vertex has the value of the
+    /// point of the original triangle on which it lies.
+    ///
+    /// # Errors
+    /// [`Error::LengthMismatch`] unless there is a value for each vertex of `original`, and it has as many vertices
+    /// as the mesh that was refined.
+    pub fn values_at_vertices(&self, original: &TriangleMesh, values: &[f64]) -> Result<Vec<f64>> {
+        let old = self.vertex_origin.iter().flatten().count();
+        for actual in [original.vertex_count(), values.len()] {
+            if actual != old {
+                return Err(Error::LengthMismatch {
+                    what: "values at vertices",
+                    expected: old,
+                    actual,
+                });
+            }
+        }
+        let value = |v: usize| match self.vertex_origin[v] {
+            Some(v) => values[v as usize],
+            None => {
+                let face = self.vertex_face[v] as usize;
+                let weights = weights(original.corner_positions(face), self.mesh.position(v));
+                let corners = original.corners(face);
+                (0..3).map(|k| weights[k] * values[corners[k]]).sum()
+            }
+        };
+        Ok((0..self.vertex_origin.len()).map(value).collect())
+    }
+
     /// Whether the mesh is the original one.
     pub fn is_unchanged(&self) -> bool {
         self.splits == 0 && self.flips == 0
@@ -68,12 +97,13 @@ impl WorkingMesh<'_> {
             smallest_angle(corners.map(|v| self.vertices[v as usize])).0 < small
         };
         let small_angles = self.triangles.iter().filter(is_small).count();
-        let count = self.vertices.len();
+        let (count, edges) = (self.vertices.len(), self.mesh.edge_count());
         let mesh = TriangleMesh::new(self.vertices, self.triangles)?;
         let edge_origin = mesh.edges().map(|edge| {
             let (face, k) = edge.first;
             let origin = self.held[3 * face + k];
-            (origin != NONE).then_some(origin)
+            // Edges of curves that were cut into the mesh have numbers beyond those of edges.
+            ((origin as usize) < edges).then_some(origin)
         });
         Ok(Refined {
             face_origin,
@@ -87,4 +117,13 @@ impl WorkingMesh<'_> {
             mesh,
         })
     }
+}
+
+/// The weights of the corners at a point of a triangle, none below 0.
+fn weights([a, b, c]: [Vec3; 3], p: Vec3) -> [f64; 3] {
+    let normal = cross(sub(b, a), sub(c, a));
+    let of = |u: Vec3, v: Vec3| dot(cross(sub(u, p), sub(v, p)), normal).max(0.0);
+    let parts = [of(b, c), of(c, a), of(a, b)];
+    let whole: f64 = parts.iter().sum();
+    parts.map(|part| part / whole)
 }

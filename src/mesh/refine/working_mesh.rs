@@ -161,7 +161,7 @@ impl<'a> WorkingMesh<'a> {
     }
 
     /// Splits an edge at a point of an original face.
-    fn split_edge(&mut self, half: u32, p: Vec3, on: u32) -> bool {
+    pub(super) fn split_edge(&mut self, half: u32, p: Vec3, on: u32) -> bool {
         let other = self.twin[half as usize];
         if other != NONE && self.tail(previous(half)) == self.tail(previous(other)) {
             // Two faces with the same corners: a vertex on their edge would have two edges to the third.

@@ -21,6 +21,7 @@ mod ply;
 mod statements;
 mod stl;
 mod strips;
+mod vertex_values;
 
 use std::path::Path;
 
@@ -29,6 +30,7 @@ use crate::monitor::span;
 
 pub use attributes::{Attribute, Attributes};
 pub use format::Format;
+pub use vertex_values::{vertex_colors, vertex_property};
 
 pub(crate) use format::is_compressed;
 pub(crate) use statements::{Statement, Statements, corner_number};

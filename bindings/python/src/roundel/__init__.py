@@ -18,6 +18,7 @@ result so far.
 from . import errors as _errors
 from ._library import lib as _lib, text as _text
 from .errors import *  # noqa: F403: one class for each status
+from .curves import Cut, curve_guides, cut_along
 from .events import Event
 from .field import Field, field
 from .geodesic import GeodesicDistance, geodesic_distance
@@ -43,6 +44,7 @@ __version__: str = _text(_lib.roundel_version_string())
 __all__ = [
     "Candidate",
     "CancelToken",
+    "Cut",
     "EditKind",
     "Event",
     "Field",
@@ -59,6 +61,8 @@ __all__ = [
     "Solver",
     "Soup",
     "check_proof",
+    "curve_guides",
+    "cut_along",
     "extract",
     "field",
     "geodesic_distance",

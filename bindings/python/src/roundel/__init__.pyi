@@ -1,7 +1,7 @@
 # Written by build_stubs.py from the running package: see there.
 
 from enum import IntEnum
-from typing import Any, Iterator, Literal, Mapping, Optional, Union
+from typing import Any, Iterable, Iterator, Literal, Mapping, Optional, Sequence, Union
 
 import numpy as np
 
@@ -21,6 +21,12 @@ class CancelToken:
     def reset(self) -> None: ...
     @property
     def is_cancelled(self) -> bool: ...
+
+class Cut:
+    mesh: Mesh
+    face_origins: np.ndarray
+    edges: np.ndarray
+    def __init__(self, mesh: Mesh, face_origins: np.ndarray, edges: np.ndarray) -> None: ...
 
 class EditKind(IntEnum):
     VERTEX_NOT_FINITE = 0
@@ -425,6 +431,16 @@ class Soup:
 
 def check_proof(file: File, problem: Optional[Problem] = None) -> Proof: ...
 
+def curve_guides(
+    mesh: MeshLike,
+    curves: Iterable[ArrayLike],
+    *,
+    weight: float = 10.0,
+    symmetry: int = 4,
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]: ...
+
+def cut_along(mesh: MeshLike, curves: Iterable[ArrayLike]) -> Cut: ...
+
 def extract(V: MeshLike, F: Optional[ArrayLike] = None, uvs: Optional[ArrayLike] = None) -> Quads: ...
 
 def field(
@@ -647,6 +663,7 @@ __all__ = [
     "CancelledError",
     "Candidate",
     "CountOverflowError",
+    "Cut",
     "EditKind",
     "EmptyError",
     "Error",
@@ -694,6 +711,8 @@ __all__ = [
     "UnusableError",
     "ZeroAreaError",
     "check_proof",
+    "curve_guides",
+    "cut_along",
     "extract",
     "field",
     "geodesic_distance",
