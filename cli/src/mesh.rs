@@ -47,8 +47,6 @@ pub struct Input {
     pub attributes: SurfaceAttributes,
     /// Why there are none, where they cannot be read and need not be.
     pub refused: Option<Error>,
-    /// The values of vertices that were asked for; empty where none were.
-    pub values: Vec<f64>,
 }
 
 /// What is wanted of a file beside its mesh.
@@ -58,8 +56,6 @@ pub struct Wanted<'a> {
     pub features: &'a [Attribute],
     /// Whether attributes are read.
     pub attributes: Reading,
-    /// How values of vertices are read from the contents of the file, if they are.
-    pub values: Option<ReadValues<'a>>,
 }
 
 /// Whether something is read.
@@ -72,9 +68,6 @@ pub enum Reading {
     /// Where it is damaged, the call fails.
     Yes,
 }
-
-/// Reads a value for every vertex from the contents of a file of some format.
-pub type ReadValues<'a> = &'a dyn Fn(&[u8], Format) -> Result<Vec<f64>>;
 
 /// How often each kind of repair was done; those that were not are left out.
 #[derive(Debug, Clone, Default)]
@@ -157,22 +150,15 @@ impl MeshFlags {
         self.read_with(name, json, Wanted::default())
     }
 
-    /// As [`read`](Self::read), with what is wanted beside the mesh. Values of vertices are carried over to those
-    /// of the repaired mesh.
+    /// As [`read`](Self::read), with what is wanted beside the mesh.
     ///
     /// # Errors
-    /// Those of [`read`](Self::read), of [`FeatureGraph::by_attribute`], and of attributes and values that are to be read.
+    /// Those of [`read`](Self::read), of [`FeatureGraph::by_attribute`], and of attributes that are to be read.
     pub fn read_with(&self, name: &Path, json: bool, wanted: Wanted) -> Result<Input> {
         if let Some(drawn) = name.to_str().and_then(shape::from_spec) {
             if let Some(first) = wanted.features.first() {
                 return Err(Error::InvalidArgument {
                     what: format!("a shape has no {first}: it is no file"),
-                    index: None,
-                });
-            }
-            if wanted.values.is_some() {
-                return Err(Error::InvalidArgument {
-                    what: "the vertices of a shape have no values: it is no file".into(),
                     index: None,
                 });
             }
@@ -191,10 +177,6 @@ impl MeshFlags {
             true => Attributes::parse(&bytes, format, &soup).map(Some),
             false => Ok(None),
         };
-        let values = match wanted.values {
-            Some(values) => Some(values(&bytes, format)?),
-            None => None,
-        };
         drop(bytes);
         let (read, refused) = match read {
             Ok(read) => (read, None),
@@ -211,14 +193,6 @@ impl MeshFlags {
         input.refused = refused;
         if let Some(read) = read {
             input.add(wanted, (&soup, repaired.as_ref()), &read)?;
-        }
-        if let Some(values) = values {
-            input.values = match &repaired {
-                Some(repaired) => repaired
-                    .values_at_vertices(&values)
-                    .map_err(MeshError::from)?,
-                None => values,
-            };
         }
         Ok(input)
     }
@@ -282,7 +256,6 @@ fn unchanged(mesh: TriangleMesh) -> Input {
         features: None,
         attributes: SurfaceAttributes::default(),
         refused: None,
-        values: Vec::new(),
     }
 }
 

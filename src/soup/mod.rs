@@ -4,7 +4,6 @@
 //! the two is [`repair()`], which says exactly what it did.
 
 mod area;
-mod carry;
 mod clean;
 mod components;
 mod cut;

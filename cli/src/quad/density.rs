@@ -3,9 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use roundel::Error;
-use roundel::mesh::MeshError;
+use roundel::mesh::attributes::SurfaceAttributes;
 use roundel::quad::density_of_color;
-use roundel::soup::io::{Format, vertex_colors, vertex_property};
 
 /// Where densities are.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -36,23 +35,49 @@ impl Density {
         }
     }
 
-    /// The densities that the contents of the mesh's file say.
+    /// The densities of vertices with these attributes. Those without a colour are neutral. Colours are parts of 255
+    /// where a number is above 1.
     ///
     /// # Errors
-    /// [`Error::InvalidArgument`] where vertices have no colours, and those of reading.
-    pub(super) fn of_mesh(&self, bytes: &[u8], format: Format) -> roundel::Result<Vec<f64>> {
+    /// [`Error::InvalidArgument`] for colours or a property that the vertices lack, and those of [`read`].
+    pub(super) fn of(&self, attributes: &SurfaceAttributes) -> roundel::Result<Vec<f64>> {
+        let refused = |what: String| Err(Error::InvalidArgument { what, index: None });
         match self {
-            Density::Property(name) => {
-                Ok(vertex_property(bytes, format, name).map_err(MeshError::from)?)
-            }
-            Density::Colors => match vertex_colors(bytes, format).map_err(MeshError::from)? {
-                Some(colors) => Ok(colors.into_iter().map(density_of_color).collect()),
-                None => Err(Error::InvalidArgument {
-                    what: "--density colors: the vertices of the mesh have no colours; those of .obj and .ply files are read".into(),
-                    index: None,
-                }),
-            },
             Density::File(path) => read(path),
+            Density::Property(name) => {
+                let mut scalars = attributes.scalars.iter();
+                if let Some(found) = scalars.find(|scalar| scalar.name == *name) {
+                    return Ok(found.values.clone());
+                }
+                let names = attributes.scalars.iter().map(|scalar| &*scalar.name);
+                let names: Vec<_> = names.collect();
+                let known = match names.is_empty() {
+                    true => "none".to_owned(),
+                    false => names.join(", "),
+                };
+                refused(format!(
+                    "--density property:{name}: the vertices have no such property; those of the file are: {known}"
+                ))
+            }
+            Density::Colors => {
+                let Some(colors) = &attributes.vertex_colors else {
+                    return refused(
+                        "--density colors: the vertices of the mesh have no colours; those of .obj and .ply \
+                         files are read"
+                            .into(),
+                    );
+                };
+                let is_above = |[r, g, b, _]: &[f64; 4]| *r > 1.0 || *g > 1.0 || *b > 1.0;
+                let full = match colors.iter().any(is_above) {
+                    true => 255.0,
+                    false => 1.0,
+                };
+                let density = |&[r, g, b, _]: &[f64; 4]| match r.is_nan() {
+                    true => 1.0,
+                    false => density_of_color([r, g, b].map(|x| x / full)),
+                };
+                Ok(colors.iter().map(density).collect())
+            }
         }
     }
 }

@@ -9,7 +9,7 @@ use roundel::transfer::transfer_attributes;
 use roundel::{Options, Result};
 
 use super::Arguments;
-use super::density::{self, Density};
+use super::density::Density;
 use super::keep::Kept;
 use crate::changes::Changes;
 use crate::field::{CurveCounts, Followed};
@@ -40,24 +40,20 @@ pub(super) fn solve(arguments: &Arguments) -> Result<Solved> {
     progress.limit(&mut map, started);
     let keep = arguments.keep.clone().unwrap_or_default();
     let density = arguments.density.as_ref();
-    let values = |bytes: &[u8], format| match density {
-        Some(density) => density.of_mesh(bytes, format),
-        None => Ok(Vec::new()),
-    };
+    let for_quads = keep.reading(arguments.out.as_deref())?;
     let wanted = Wanted {
         features: arguments.directions.attributes(),
-        attributes: keep.reading(arguments.out.as_deref())?,
-        values: match density {
-            Some(density) if density.file().is_none() => Some(&values),
-            _ => None,
+        attributes: match density {
+            Some(density) if density.file().is_none() => Reading::Yes,
+            _ => for_quads,
         },
     };
     let input = arguments
         .input
         .read_with(&arguments.mesh, arguments.json, wanted)?;
     arguments.directions.keep_numbers(&input)?;
-    let density = density.and_then(Density::file);
-    input.keeps_numbers("--density FILE", density.is_some())?;
+    let of_file = density.and_then(Density::file);
+    input.keeps_numbers("--density FILE", of_file.is_some())?;
     input.keeps_numbers("--near-vertex", !arguments.near_vertex.is_empty())?;
     let Input {
         mesh,
@@ -66,14 +62,13 @@ pub(super) fn solve(arguments: &Arguments) -> Result<Solved> {
         features: by_attributes,
         mut attributes,
         refused,
-        values,
     } = input;
+    let density = match density {
+        Some(density) => density.of(&attributes)?,
+        None => Vec::new(),
+    };
     keep.choose(&mut attributes)?;
     let mut not_kept = refused;
-    let density = match density {
-        Some(path) => density::read(path)?,
-        None => values,
-    };
     let read_seconds = started.elapsed().as_secs_f64();
     let given = arguments.directions.of_map(&mesh, by_attributes.as_ref())?;
     let curves = &arguments.directions.curves;
@@ -122,7 +117,7 @@ pub(super) fn solve(arguments: &Arguments) -> Result<Solved> {
         match transfer_attributes(given, &made.quads, &attributes, monitor) {
             Ok(attributes) => kept.attributes = attributes,
             // Quads are worth more than what need not be kept.
-            Err(error) if wanted.attributes == Reading::IfSound => not_kept = Some(error),
+            Err(error) if for_quads == Reading::IfSound => not_kept = Some(error),
             Err(error) => return Err(error),
         }
         kept.seconds = started.elapsed().as_secs_f64();

@@ -106,10 +106,10 @@ fn densities_that_vertices_do_not_have_are_refused() {
     let weights = scratch.write("weights.ply", weighted(&mesh));
     let weights = weights.to_str().unwrap();
     for (file, density, message) in [
-        (weights, "property:size", "they have x, y, z, weight"),
-        (weights, "property:z", "not above 0"),
+        (weights, "property:size", "are: weight"),
+        (weights, "property:z", "no such property"),
         (weights, "colors", "no colours"),
-        ("shape:sphere:200", "colors", "no file"),
+        ("shape:sphere:200", "colors", "no colours"),
     ] {
         let (code, report) = run(&["quad", file, "--density", density]);
         let told = report["error"]["message"].as_str().unwrap_or_default();

@@ -21,7 +21,6 @@ mod ply;
 mod statements;
 mod stl;
 mod strips;
-mod vertex_values;
 
 use std::path::Path;
 
@@ -30,7 +29,6 @@ use crate::monitor::span;
 
 pub use attributes::{Attribute, Attributes};
 pub use format::Format;
-pub use vertex_values::{vertex_colors, vertex_property};
 
 pub(crate) use format::is_compressed;
 pub(crate) use statements::{Statement, Statements, corner_number};

@@ -9,7 +9,6 @@
 mod attributes;
 mod data;
 mod header;
-mod vertex_scalars;
 
 use super::bytes::{Bytes, plausible};
 use super::lines::Words;
@@ -18,7 +17,6 @@ use crate::soup::{PolygonSoup, SoupError};
 pub(super) use attributes::{attributes, has_attributes};
 use data::Data;
 use header::{Element, Encoding, Header};
-pub(super) use vertex_scalars::{vertex_properties, vertex_scalars};
 
 const CORNERS: [&[u8]; 2] = [b"vertex_indices", b"vertex_index"];
 
