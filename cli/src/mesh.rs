@@ -174,7 +174,7 @@ impl MeshFlags {
         let is_read = !wanted.features.is_empty()
             || wanted.attributes != Reading::No && Attributes::are_in(&bytes, format)?;
         let read = match is_read {
-            true => Attributes::parse(&bytes, format, &soup).map(Some),
+            true => Attributes::parse_in(&bytes, format, name.parent(), &soup).map(Some),
             false => Ok(None),
         };
         drop(bytes);

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::path::Path;
 
-use super::{Format, gzip, look, obj_attributes, ply};
+use super::{Format, gltf, gzip, look, obj_attributes, ply};
 use crate::soup::{PolygonSoup, SoupError};
 
 /// Something in which polygons on both sides of an edge may differ.
@@ -95,18 +95,33 @@ pub(super) struct Values {
 impl Attributes {
     /// The attributes in the contents of a file, whose soup is `soup`.
     ///
-    /// OBJ and PLY files have attributes; those of other formats are not read.
+    /// OBJ and PLY files have attributes, and glTF files materials; those of other formats are not read. Buffers beside
+    /// a glTF file are not found: use [`parse_in`](Self::parse_in) or [`read_as`](Self::read_as).
     ///
     /// # Errors
     /// [`SoupError::Parse`] with the line for a corner that names no texture coordinates or no normal, and
     /// for coordinates that are no numbers; [`SoupError::Malformed`] where `soup` is not that of the
     /// file; and those of [`parse`](super::parse).
     pub fn parse(bytes: &[u8], format: Format, soup: &PolygonSoup) -> Result<Self, SoupError> {
+        Self::parse_in(bytes, format, None, soup)
+    }
+
+    /// As [`parse`](Self::parse), for a file in this folder.
+    ///
+    /// # Errors
+    /// Those of [`parse`](Self::parse), and those of buffers beside the file.
+    pub fn parse_in(
+        bytes: &[u8],
+        format: Format,
+        folder: Option<&Path>,
+        soup: &PolygonSoup,
+    ) -> Result<Self, SoupError> {
         let bytes = &gzip::inflated(bytes)?;
         look::check(bytes, format)?;
         let attributes = match format {
             Format::Obj => obj_attributes::parse(bytes)?,
             Format::Ply => ply::attributes(bytes)?,
+            Format::Gltf | Format::Glb => gltf::attributes(bytes, folder)?,
             _ => Attributes::default(),
         };
         attributes.check(soup)?;
@@ -117,11 +132,13 @@ impl Attributes {
     /// little time.
     ///
     /// # Errors
-    /// Those of [`parse`](super::parse) for a compressed file, and for the header of a PLY file.
+    /// Those of [`parse`](super::parse) for a compressed file, for the header of a PLY file, and for the JSON of
+    /// a glTF file.
     pub fn are_in(bytes: &[u8], format: Format) -> Result<bool, SoupError> {
         match format {
             Format::Obj => Ok(obj_attributes::are_in(&gzip::inflated(bytes)?)),
             Format::Ply => ply::has_attributes(&gzip::inflated(bytes)?),
+            Format::Gltf | Format::Glb => gltf::has_attributes(&gzip::inflated(bytes)?),
             _ => Ok(false),
         }
     }
@@ -137,7 +154,7 @@ impl Attributes {
     ) -> Result<Self, SoupError> {
         let path = path.as_ref();
         let bytes = std::fs::read(path).map_err(|reason| SoupError::of_file(path, &reason))?;
-        Self::parse(&bytes, format, soup)
+        Self::parse_in(&bytes, format, path.parent(), soup)
     }
 
     /// The attributes that the file has.

@@ -24,6 +24,7 @@ pub(super) struct Document {
     pub(super) scenes: Vec<Scene>,
     pub(super) nodes: Vec<Node>,
     pub(super) meshes: Vec<Mesh>,
+    pub(super) materials: Vec<Material>,
     pub(super) accessors: Vec<Accessor>,
     pub(super) buffer_views: Vec<BufferView>,
     pub(super) buffers: Vec<Buffer>,
@@ -57,10 +58,16 @@ pub(super) struct Mesh {
 }
 
 #[derive(Deserialize)]
+pub(super) struct Material {
+    pub(super) name: Option<String>,
+}
+
+#[derive(Deserialize)]
 pub(super) struct Primitive {
     #[serde(default)]
     pub(super) attributes: BTreeMap<String, usize>,
     pub(super) indices: Option<usize>,
+    pub(super) material: Option<usize>,
     pub(super) mode: Option<u32>,
     #[serde(default)]
     pub(super) extensions: BTreeMap<String, IgnoredAny>,

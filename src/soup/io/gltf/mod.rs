@@ -1,7 +1,7 @@
 //! glTF 2.0 (Khronos Group, 2021), as JSON and as a binary file.
 //!
 //! Read are all primitives of triangles of the meshes of a scene, at the places that the nodes give
-//! them; images, materials, skins, morph targets and animations are not. A transform that mirrors turns
+//! them, and which material they have; images, skins, morph targets and animations are not. A transform that mirrors turns
 //! the triangles, so that they face the same side as before. Primitives of a mesh that share positions
 //! share vertices. A number that names no vertex of its own primitive becomes negative, so that it names
 //! none of another.
@@ -11,6 +11,7 @@
 //! single precision only, not those of `KHR_mesh_quantization`; and its loader of buffers requires images.
 
 mod accessor;
+mod attributes;
 mod buffers;
 mod container;
 mod document;
@@ -25,6 +26,7 @@ use buffers::Buffers;
 use document::{Document, Mesh, Primitive};
 use scene::Transform;
 
+pub(super) use attributes::{attributes, has_attributes};
 pub(super) use container::MAGIC;
 
 /// How many numbers all instances of the meshes may come to: so many for each byte of the file, and a
@@ -34,21 +36,33 @@ const NUMBERS: usize = 1 << 24;
 
 pub(super) fn parse(bytes: &[u8], folder: Option<&Path>) -> Result<PolygonSoup, SoupError> {
     let (document, own) = container::open(bytes)?;
+    read(&document, own, bytes.len(), folder, |_, _| ())
+}
+
+/// Reads the scene of a document whose file has `size` bytes, `own` of them a buffer, and tells of each primitive, with
+/// the number of polygons up to its end.
+fn read(
+    document: &Document,
+    own: Option<&[u8]>,
+    size: usize,
+    folder: Option<&Path>,
+    mut tell: impl FnMut(&Primitive, usize),
+) -> Result<PolygonSoup, SoupError> {
     let required = document.extensions_required.iter();
     if let Some(name) = required.into_iter().find(|name| !is_harmless(name)) {
         return Err(not_supported(name));
     }
     let mut source = Source {
-        document: &document,
-        buffers: Buffers::new(&document, own, folder),
-        json: bytes.len(),
+        document,
+        buffers: Buffers::new(document, own, folder),
+        json: size,
         spent: 0,
     };
     let mut soup = PolygonSoup::default();
-    for (number, transform) in scene::meshes(&document)? {
+    for (number, transform) in scene::meshes(document)? {
         let mesh = document.meshes.get(number);
         let mesh = mesh.ok_or_else(|| malformed(format!("there is no mesh {number}")))?;
-        source.add_mesh(mesh, &transform, &mut soup)?;
+        source.add_mesh(mesh, &transform, &mut soup, &mut tell)?;
     }
     Ok(soup)
 }
@@ -95,6 +109,7 @@ impl Source<'_> {
         mesh: &Mesh,
         transform: &Transform,
         soup: &mut PolygonSoup,
+        tell: &mut impl FnMut(&Primitive, usize),
     ) -> Result<(), SoupError> {
         // The first vertex and the number of vertices of each array of positions.
         let mut placed: BTreeMap<usize, (i64, usize)> = BTreeMap::new();
@@ -134,6 +149,7 @@ impl Source<'_> {
                 };
             }
             add_triangles(primitive, &corners, transform.mirrors(), soup)?;
+            tell(primitive, soup.polygon_count());
         }
         Ok(())
     }

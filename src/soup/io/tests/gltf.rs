@@ -6,7 +6,7 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use serde_json::{Value, json};
 
-use super::super::{Format, parse_in};
+use super::super::{Attribute, Attributes, Format, parse_in};
 use super::{faces, read, refusal};
 use crate::soup::SoupError;
 
@@ -437,4 +437,44 @@ fn buffers_are_files_next_to_the_mesh() {
         "{error}"
     );
     std::fs::remove_dir_all(folder).expect("removable");
+}
+
+#[test]
+fn triangles_have_the_material_of_their_primitive() {
+    let mut document = square();
+    document["materials"] = json!([{"name": "skin"}, {}, {"name": " "}]);
+    let primitive = document["meshes"][0]["primitives"][0].clone();
+    let with = |material: Value, mode: u32| {
+        let mut primitive = primitive.clone();
+        primitive["mode"] = mode.into();
+        primitive["material"] = material;
+        primitive
+    };
+    // Lines are no triangles, and a strip has three here.
+    document["meshes"][0]["primitives"] = json!([
+        with(2.into(), 4),
+        with(0.into(), 3),
+        with(Value::Null, 5),
+        with(0.into(), 4)
+    ]);
+    let text = document.to_string();
+    let soup = read(text.clone(), Format::Gltf);
+    let found = Attributes::parse(text.as_bytes(), Format::Gltf, &soup).unwrap();
+    let none = u32::MAX;
+    let labels = [2, 2, none, none, none, 0, 0];
+    assert_eq!(found.labels(Attribute::Materials), Some(&labels[..]));
+    let names = ["skin", "material 1", "material 2"];
+    assert_eq!(found.names(Attribute::Materials), names);
+    assert!(Attributes::are_in(text.as_bytes(), Format::Gltf).unwrap());
+
+    document["meshes"][0]["primitives"][3]["material"] = 3.into();
+    let text = document.to_string();
+    let error = Attributes::parse(text.as_bytes(), Format::Gltf, &soup).unwrap_err();
+    assert!(error.to_string().contains("no material 3"), "{error}");
+
+    let plain = self::text();
+    assert!(!Attributes::are_in(plain.as_bytes(), Format::Gltf).unwrap());
+    let soup = read(plain.clone(), Format::Gltf);
+    let found = Attributes::parse(plain.as_bytes(), Format::Gltf, &soup).unwrap();
+    assert_eq!(found.present().count(), 0);
 }
