@@ -102,9 +102,11 @@ fn a_map_that_is_not_seamless_is_refused() {
 
 #[test]
 fn strategies_are_compared_on_the_same_two_problems() {
+    // To meet a number of quads, integers may be others than the best of any problem.
     let words = ["quad", "shape:genus-2:800", "--quads", "200", "--json"];
     let (code, told) = run(&[
         &words[..],
+        &["--count", "about"],
         &["--compare-strategies", "relax,direct,lattice"],
     ]
     .concat());
