@@ -135,6 +135,8 @@ fn others(mesh: &TriangleMesh, options: &QuadOptions) -> Vec<QuadOptions> {
     if !has_features(mesh, &options.guidance) {
         let guidance = Guidance {
             feature_angle: Some(SHARP),
+            // They only help to cover the surface: nobody asked for them.
+            clearance: options.guidance.clearance.or(Some(0.0)),
             ..options.guidance.clone()
         };
         others.push(QuadOptions {
