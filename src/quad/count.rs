@@ -7,7 +7,8 @@
 //! [strip](super::strips) of as many quads is asked for. Where the step between two scales is too large, sizes that
 //! change a little along an axis make other integers change first. Only linear terms change, and the solver keeps
 //! its factors. Quads are extracted from the maps that promise a better number, and the nearest
-//! number whose quads are as whole as those at first is kept.
+//! number whose quads are as whole as those at first is kept. None of these maps is untangled for longer than the
+//! first was.
 
 use super::aim::area;
 use super::attempt::Attempt;
@@ -186,6 +187,7 @@ pub(super) fn meet<'m, M: Fn() -> Monitor<'m>>(
     }
     driver.current = best.field;
     let (mesh, monitor) = (driver.mesh, driver.monitor);
+    driver.most_visits = best.map.visited.max(mesh.face_count());
     let mut meeting = Meeting {
         asked: asked as f64,
         per_square: best.quads.quads.len() as f64 / area(mesh, &best.map.map),

@@ -217,6 +217,7 @@ fn of_mesh<'a>(
         was_off_features: false,
         current: 0,
         visits: most,
+        most_visits: usize::MAX,
         features,
         monitor,
         started: Instant::now(),
@@ -287,6 +288,8 @@ pub(super) struct Driver<'a, M> {
     pub(super) current: usize,
     /// The faces that untangling may still visit.
     visits: usize,
+    /// The faces that one untangling may visit.
+    pub(super) most_visits: usize,
     features: FeatureGraph,
     pub(super) monitor: &'a M,
     started: Instant,
@@ -450,9 +453,9 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Driver<'a, M> {
         may_change.then(|| smaller_quads(self.mesh, &self.sizing, &best.quads))?
     }
 
-    /// The passes over the mesh that untangling may still make.
+    /// The passes over the mesh that the next untangling may make.
     fn passes(&self) -> usize {
-        self.visits / self.mesh.face_count()
+        self.visits.min(self.most_visits) / self.mesh.face_count()
     }
 
     /// The quads of the current map as it is.

@@ -129,25 +129,33 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Tries<'a, M> {
     }
 }
 
-/// What else to try: sharp edges as features, the mesh as it is, more quads, and enough of them for any shape.
+/// What else to try: sharp edges as features, the mesh as it is, more quads, and enough of them for any shape. Quads
+/// that cover the surface count for more here than their number or where irregular vertices lie: numbers are not met,
+/// and features have a clearance only where the caller gave one.
 fn others(mesh: &TriangleMesh, options: &QuadOptions) -> Vec<QuadOptions> {
+    let again = QuadOptions {
+        guidance: Guidance {
+            clearance: options.guidance.clearance.or(Some(0.0)),
+            ..options.guidance.clone()
+        },
+        count: Count::About,
+        ..options.clone()
+    };
     let mut others = Vec::new();
     if !has_features(mesh, &options.guidance) {
         let guidance = Guidance {
             feature_angle: Some(SHARP),
-            // They only help to cover the surface: nobody asked for them.
-            clearance: options.guidance.clearance.or(Some(0.0)),
-            ..options.guidance.clone()
+            ..again.guidance.clone()
         };
         others.push(QuadOptions {
             guidance,
-            ..options.clone()
+            ..again.clone()
         });
     }
     if options.refine {
         others.push(QuadOptions {
             refine: false,
-            ..options.clone()
+            ..again.clone()
         });
     }
     let edge = options.sizing.edge_length(mesh);
@@ -157,8 +165,7 @@ fn others(mesh: &TriangleMesh, options: &QuadOptions) -> Vec<QuadOptions> {
         .filter(|&more| more >= MORE)
         .map(|more| QuadOptions {
             sizing: finer(&options.sizing, more),
-            count: Count::About,
-            ..options.clone()
+            ..again.clone()
         });
     others.extend(finer);
     others
