@@ -281,3 +281,15 @@ impl Error {
         }
     }
 }
+
+/// Refuses an array of another length than expected.
+pub(crate) fn check_length(what: &'static str, actual: usize, expected: usize) -> Result<()> {
+    match actual == expected {
+        true => Ok(()),
+        false => Err(Error::LengthMismatch {
+            what,
+            expected,
+            actual,
+        }),
+    }
+}

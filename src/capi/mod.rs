@@ -21,6 +21,7 @@
 )]
 
 mod abi;
+mod attribute_edges;
 mod attributes;
 mod cancel;
 mod constraints;
@@ -78,6 +79,8 @@ mod unknowns;
 mod version;
 
 pub use abi::*;
+pub use attribute_edges::*;
+pub use attributes::*;
 pub use cancel::*;
 pub use constraints::*;
 pub use curvature::*;

@@ -1,5 +1,7 @@
 //! The quads handle: extracted from a map, or made from a mesh in one call.
 
+use std::ops::Deref;
+
 use super::event::{monitor as watched_by, roundel_monitor, watchers};
 use super::guard::{self, Guarded, object};
 use super::guidance::roundel_guidance;
@@ -19,9 +21,33 @@ use crate::smooth::{SmoothOptions, smooth};
 
 /// A mesh of quads with shared vertices. Where a map gives no quads, other polygons are kept beside them.
 /// The mesh and the map may be freed before the quads.
-pub struct roundel_quads(Guarded<QuadMesh>);
+pub struct roundel_quads(Guarded<Quads>);
 
-object!(roundel_quads, QuadMesh, "quads");
+/// Quads, and what is known of those that were made in one call.
+pub(super) struct Quads {
+    mesh: QuadMesh,
+    /// See [`Quadrangulation`](crate::quad::Quadrangulation).
+    near_features: Option<usize>,
+}
+
+impl Quads {
+    fn extracted(mesh: QuadMesh) -> Self {
+        Quads {
+            mesh,
+            near_features: None,
+        }
+    }
+}
+
+impl Deref for Quads {
+    type Target = QuadMesh;
+
+    fn deref(&self) -> &QuadMesh {
+        &self.mesh
+    }
+}
+
+object!(roundel_quads, Quads, "quads");
 
 /// Makes quads of a mesh: field, map, extraction and smoothing in one call. `options` may be NULL
 /// for new quad options, `monitor` for none. Features, and the boundary where it is followed, become
@@ -46,7 +72,11 @@ pub unsafe extern "C" fn roundel_quads_make(
                 Out::new("quads", quads)?,
             )
         };
-        out.set(guard::handle(quadrangulate(mesh, options, monitor)?.quads));
+        let made = quadrangulate(mesh, options, monitor)?;
+        out.set(guard::handle(Quads {
+            mesh: made.quads,
+            near_features: Some(made.near_features),
+        }));
         Ok(())
     };
     // SAFETY: the caller gives a live handle, or NULL.
@@ -67,7 +97,7 @@ pub unsafe extern "C" fn roundel_quads_extract(
         let out = unsafe { Out::new("quads", quads) }?;
         let exact = IntegerGridMap::from_seamless(map.mesh(), &map.found()?.map)?;
         let found = extract(map.mesh(), &exact, &mut Monitor::default())?;
-        out.set(guard::handle(found));
+        out.set(guard::handle(Quads::extracted(found)));
         Ok(())
     };
     // SAFETY: the caller gives a live handle, or NULL.
@@ -105,11 +135,8 @@ pub unsafe extern "C" fn roundel_quads_extract_from_uvs(
             })?;
         }
         let exact = IntegerGridMap::new(mesh, corners)?;
-        out.set(guard::handle(extract(
-            mesh,
-            &exact,
-            &mut Monitor::default(),
-        )?));
+        let found = extract(mesh, &exact, &mut Monitor::default())?;
+        out.set(guard::handle(Quads::extracted(found)));
         Ok(())
     };
     // SAFETY: the caller gives a live handle, or NULL.
@@ -126,7 +153,7 @@ pub unsafe extern "C" fn roundel_quads_smooth(
     guidance: *const roundel_guidance,
     monitor: *const roundel_monitor,
 ) -> roundel_status {
-    let body = |quads: &mut QuadMesh| {
+    let body = |quads: &mut Quads| {
         let default = Guidance::default();
         // SAFETY: the caller gives live handles and a monitor as its members say, or NULL.
         let (mesh, guidance, mut monitor): (&TriangleMesh, _, _) = unsafe {
@@ -140,13 +167,35 @@ pub unsafe extern "C" fn roundel_quads_smooth(
             features: guidance.features(mesh)?.edges().collect(),
             ..SmoothOptions::default()
         };
-        let mut moved = quads.clone();
+        let mut moved = quads.mesh.clone();
         smooth(&mut moved, mesh, &options, &mut monitor)?;
-        *quads = moved;
+        quads.mesh = moved;
         Ok(())
     };
     // SAFETY: the caller gives a live handle that nobody else uses, or NULL.
     unsafe { guard::write(quads, body) }
+}
+
+/// Gives the number of irregular vertices of the field that lie nearer to features than they should, an edge of the
+/// quads or the clearance of the guidance, but not on them. Smoothing does not change it.
+///
+/// Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for quads that roundel_quads_make did not make.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_quads_near_feature_count(
+    quads: *const roundel_quads,
+    count: *mut usize,
+) -> roundel_status {
+    let body = |quads: &Quads| {
+        // SAFETY: the caller gives a place for the number, or NULL.
+        let out = unsafe { Out::new("near feature count", count) }?;
+        out.set(quads.near_features.ok_or_else(|| Error::InvalidArgument {
+            what: "these quads were extracted from a map: nobody looked for features".into(),
+            index: None,
+        })?);
+        Ok(())
+    };
+    // SAFETY: the caller gives a live handle, or NULL.
+    unsafe { guard::read(quads, body) }
 }
 
 /// Frees quads. NULL is allowed.

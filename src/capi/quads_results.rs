@@ -6,7 +6,7 @@ use std::path::Path;
 use super::guard;
 use super::input::path;
 use super::output::{Out, copy_numbers};
-use super::quads::roundel_quads;
+use super::quads::{Quads, roundel_quads};
 use super::status::roundel_status;
 use crate::error::Result;
 use crate::extract::QuadMesh;
@@ -21,7 +21,7 @@ unsafe fn give<T>(
     out: *mut T,
     read: impl FnOnce(&QuadMesh) -> T,
 ) -> roundel_status {
-    let body = |quads: &QuadMesh| {
+    let body = |quads: &Quads| {
         // SAFETY: handed on.
         unsafe { Out::new(what, out) }?.set(read(quads));
         Ok(())
@@ -41,7 +41,7 @@ unsafe fn copy<T: Copy>(
     to: *mut T,
     length: usize,
 ) -> roundel_status {
-    let body = |quads: &QuadMesh| {
+    let body = |quads: &Quads| {
         // SAFETY: handed on.
         unsafe { copy_numbers(what, values(quads).into_iter(), to, length) }
     };
@@ -107,7 +107,7 @@ pub unsafe extern "C" fn roundel_quads_other_face_counts(
     count: *mut usize,
     corner_count: *mut usize,
 ) -> roundel_status {
-    let body = |quads: &QuadMesh| {
+    let body = |quads: &Quads| {
         // SAFETY: the caller gives places for the numbers, or NULL.
         let (count, corners) = unsafe {
             (
@@ -133,7 +133,7 @@ pub unsafe extern "C" fn roundel_quads_other_faces(
     corner_count: usize,
     corners: *mut i32,
 ) -> roundel_status {
-    let body = |quads: &QuadMesh| {
+    let body = |quads: &Quads| {
         let all = signed(&quads.others.concat());
         let of_face = quads.others.iter().map(|face| face.len() as i32);
         // SAFETY: the caller gives arrays of the lengths given, or NULL.
@@ -191,7 +191,7 @@ pub unsafe extern "C" fn roundel_quads_fault_counts(
     vertex_count: *mut usize,
     triangle_count: *mut usize,
 ) -> roundel_status {
-    let body = |quads: &QuadMesh| {
+    let body = |quads: &Quads| {
         // SAFETY: the caller gives places for the numbers, or NULL.
         let places = unsafe {
             [
@@ -232,7 +232,7 @@ pub unsafe extern "C" fn roundel_quads_faults(
     triangle_count: usize,
     triangles: *mut i32,
 ) -> roundel_status {
-    let body = |quads: &QuadMesh| {
+    let body = |quads: &Quads| {
         let faults = quads.faults();
         // No more than 2^31 of anything.
         let numbers = |list: &[usize]| list.iter().map(|&n| n as i32).collect::<Vec<i32>>();
@@ -272,7 +272,7 @@ pub unsafe extern "C" fn roundel_quads_write(
     quads: *const roundel_quads,
     file: *const c_char,
 ) -> roundel_status {
-    let body = |quads: &QuadMesh| {
+    let body = |quads: &Quads| {
         // SAFETY: the caller gives a text, or NULL.
         let file = unsafe { path("file", file) }?;
         Ok(write(quads, file)?)

@@ -24,7 +24,6 @@ pub(super) struct Made {
 }
 
 impl Made {
-    #[cfg(feature = "mesh-io")]
     pub(super) fn parts(&self) -> (&TriangleMesh, &Repaired) {
         (&self.mesh, &self.repaired)
     }

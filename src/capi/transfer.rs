@@ -6,7 +6,7 @@ use super::guard;
 use super::input::slice;
 use super::mesh::roundel_mesh;
 use super::output::copy_numbers;
-use super::quads::roundel_quads;
+use super::quads::{Quads, roundel_quads};
 use super::status::roundel_status;
 use crate::error::{Error, Result};
 use crate::extract::QuadMesh;
@@ -32,7 +32,7 @@ pub unsafe extern "C" fn roundel_quads_transfer_face_labels(
     result: *mut i32,
     length: usize,
 ) -> roundel_status {
-    let body = |quads: &QuadMesh| {
+    let body = |quads: &Quads| {
         // SAFETY: the caller gives live handles, a monitor as its members say and an array of the length given, or
         // NULL.
         let (mesh, labels, mut monitor): (&TriangleMesh, _, _) = unsafe {
@@ -84,7 +84,7 @@ unsafe fn carry(
     result: (*mut f64, usize),
     by: Carry,
 ) -> roundel_status {
-    let body = |quads: &QuadMesh| -> Outcome {
+    let body = |quads: &Quads| -> Outcome {
         let (what, values, count) = values;
         // SAFETY: handed on.
         let (mesh, values, mut monitor): (&TriangleMesh, _, _) = unsafe {

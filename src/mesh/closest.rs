@@ -214,6 +214,17 @@ fn distance(bounds: &Node, p: Vec3) -> f64 {
     squared([off(0), off(1), off(2)])
 }
 
+/// The point of a segment that is closest to `p`.
+pub(crate) fn closest_on_segment([a, b]: [Vec3; 2], p: Vec3) -> Vec3 {
+    let along = sub(b, a);
+    let whole = dot(along, along);
+    let share = match whole > 0.0 {
+        true => (dot(sub(p, a), along) / whole).clamp(0.0, 1.0),
+        false => 0.0,
+    };
+    add(a, scale(along, share))
+}
+
 /// The point of a triangle that is closest to `p`.
 pub(crate) fn closest([a, b, c]: [Vec3; 3], p: Vec3) -> Vec3 {
     let (ab, ac, ap) = (sub(b, a), sub(c, a), sub(p, a));

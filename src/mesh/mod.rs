@@ -17,6 +17,7 @@
 //! ```
 
 pub mod attributes;
+mod barycentric;
 mod check;
 mod closest;
 mod connectivity;
@@ -50,7 +51,8 @@ pub use subdivide::subdivide;
 pub use topology::Components;
 pub use triangle_mesh::{Edge, TriangleMesh};
 
-pub(crate) use closest::closest;
+pub(crate) use barycentric::barycentric;
+pub(crate) use closest::{closest, closest_on_segment};
 pub(crate) use orientation::orientation;
 pub(crate) use plane::{angle_at, angle_between, turned};
 

@@ -1,7 +1,7 @@
 //! Values that a caller gives for all vertices.
 
 use super::TriangleMesh;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, check_length};
 
 /// Whether there is a finite number above 0 for every vertex.
 ///
@@ -12,13 +12,7 @@ pub(crate) fn check_positive(
     what: &'static str,
     values: &[f64],
 ) -> Result<()> {
-    if values.len() != mesh.vertex_count() {
-        return Err(Error::LengthMismatch {
-            what,
-            expected: mesh.vertex_count(),
-            actual: values.len(),
-        });
-    }
+    check_length(what, values.len(), mesh.vertex_count())?;
     for (position, &value) in values.iter().enumerate() {
         if !value.is_finite() {
             return Err(Error::NotFinite { what, position });

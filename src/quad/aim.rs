@@ -43,9 +43,10 @@ pub(super) fn aim(
 
 /// The area of a map in unit squares.
 pub(super) fn area(mesh: &TriangleMesh, map: &SeamlessMap) -> f64 {
-    let area = |face: usize| {
-        let [a, b, c] = map.uv(face);
-        0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]))
-    };
-    (0..mesh.face_count()).map(area).sum()
+    (0..mesh.face_count()).map(|f| squares(map.uv(f))).sum()
+}
+
+/// The number of unit squares that a triangle of a map covers; negative where it is folded.
+pub(super) fn squares([a, b, c]: [[f64; 2]; 3]) -> f64 {
+    0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]))
 }

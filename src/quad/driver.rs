@@ -29,7 +29,7 @@ use super::final_error::is_final;
 use super::missed::missed;
 use super::options::QuadOptions;
 use super::quadrangulation::timed;
-use super::refined_input::{RefinedInput, weights};
+use super::refined_input::RefinedInput;
 use super::size_metric::SizeMetric;
 use super::smaller::{SIZES, smaller_quads};
 use super::stage_ends::stage_ends;
@@ -39,7 +39,6 @@ use crate::field::FieldProblem;
 use crate::map::Sizing;
 use crate::mesh::TriangleMesh;
 use crate::mesh::features::FeatureGraph;
-use crate::mesh::refine::Refined;
 use crate::monitor::{Monitor, Stage, may_continue, optional};
 use crate::smooth::{SmoothOptions, smooth_to};
 use crate::solve::Solution;
@@ -131,34 +130,21 @@ pub(super) fn by_options<'a>(
         }
         None => None,
     };
+    let density = match options.density.is_empty() {
+        true => Vec::new(),
+        false => input.refined.values_at_vertices(mesh, &options.density)?,
+    };
     let given = QuadOptions {
         guidance: input.guidance.clone(),
         sizing: input.sizing.clone(),
         smooth,
-        density: on_refined(mesh, &input.refined, &options.density),
+        density,
         ..options.clone()
     };
     let features = input.features.clone();
     let mut made = of_mesh(&input.refined.mesh, features, &given, effort, work, monitor)?;
     made.seconds.refine = seconds;
     Ok(input.result_for(mesh, made))
-}
-
-/// Values of vertices on a refined mesh: those of new vertices are interpolated in the faces that they lie in.
-fn on_refined(mesh: &TriangleMesh, refined: &Refined, values: &[f64]) -> Vec<f64> {
-    if values.is_empty() {
-        return Vec::new();
-    }
-    let of = |v: usize| match refined.vertex_origin[v] {
-        Some(origin) => values[origin as usize],
-        None => {
-            let face = refined.vertex_face[v] as usize;
-            let weights = weights(mesh.corner_positions(face), refined.mesh.position(v));
-            let corners = mesh.corners(face);
-            (0..3).map(|k| weights[k] * values[corners[k]]).sum()
-        }
-    };
-    (0..refined.mesh.vertex_count()).map(of).collect()
 }
 
 /// The refined mesh, where the options allow it and the mesh needs it.

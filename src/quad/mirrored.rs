@@ -2,7 +2,7 @@
 //! with the cut as a feature, and the other parts are its mirror images.
 
 use super::mirror_images::{Seams, with_image};
-use super::refined_input::{check_faces, divided, weights};
+use super::refined_input::{check_faces, divided};
 use super::size_metric::SizeMetric;
 use super::{Near, QuadOptions, Quadrangulation, quadrangulate};
 use crate::error::{Error, Result};
@@ -11,7 +11,7 @@ use crate::map::Sizing;
 use crate::mesh::features::FeatureGraph;
 use crate::mesh::mirror::{Half, MirrorPlane, mirror_planes};
 use crate::mesh::vector::{Vec3, add, scale};
-use crate::mesh::{ClosestPoint, TriangleMesh};
+use crate::mesh::{ClosestPoint, TriangleMesh, barycentric};
 use crate::monitor::{Monitor, with_threads};
 use crate::smooth::SmoothOptions;
 
@@ -185,7 +185,7 @@ fn given_place(
         }
     };
     match tree.find(point, hint) {
-        Some((face, foot)) => Origin::Face(face, weights(mesh.corner_positions(face), foot)),
+        Some((face, foot)) => Origin::Face(face, barycentric(mesh.corner_positions(face), foot)),
         None => place,
     }
 }

@@ -10,8 +10,8 @@ use crate::field::{Constraint, Guidance, Guide};
 use crate::map::Sizing;
 use crate::mesh::features::FeatureGraph;
 use crate::mesh::refine::{Need, RefineOptions, Refined, SMALL_ANGLE, needs_refinement, refine};
-use crate::mesh::vector::{Vec3, add, cross, dot, scale, sub};
-use crate::mesh::{ClosestPoint, TriangleMesh};
+use crate::mesh::vector::{add, dot, scale};
+use crate::mesh::{ClosestPoint, TriangleMesh, barycentric};
 use crate::monitor::may_continue;
 
 use super::Quadrangulation;
@@ -260,15 +260,7 @@ fn original_place(
         Origin::Middle => return place,
     };
     match tree.find(point, Some(hint as usize)) {
-        Some((face, foot)) => Origin::Face(face, weights(mesh.corner_positions(face), foot)),
+        Some((face, foot)) => Origin::Face(face, barycentric(mesh.corner_positions(face), foot)),
         None => place,
     }
-}
-
-/// The barycentric coordinates of a point of a triangle.
-pub(super) fn weights([a, b, c]: [Vec3; 3], p: Vec3) -> [f64; 3] {
-    let normal = cross(sub(b, a), sub(c, a));
-    let whole = dot(normal, normal);
-    let of = |u: Vec3, v: Vec3| dot(cross(sub(u, p), sub(v, p)), normal) / whole;
-    [of(b, c), of(c, a), of(a, b)]
 }

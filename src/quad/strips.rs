@@ -8,6 +8,7 @@
 
 use std::collections::BTreeMap;
 
+use super::aim::squares;
 use crate::linalg::DisjointSets;
 use crate::map::SeamlessMap;
 use crate::mesh::TriangleMesh;
@@ -53,7 +54,7 @@ impl Strips {
         let (strip_of, count) = joined(mesh, map, &pieces);
         let mut strips = vec![Strip::default(); count];
         for (piece, &strip) in pieces.iter().zip(&strip_of) {
-            strips[strip].quads += piece.share * squares(map.uv(piece.face));
+            strips[strip].quads += piece.share * squares(map.uv(piece.face)).abs();
             strips[strip].area += piece.share * mesh.area(piece.face);
         }
         count_crossings(map, &pieces, &strip_of, &mut strips);
@@ -88,11 +89,6 @@ impl Strips {
             }
         }
     }
-}
-
-/// The number of unit squares that a face covers.
-fn squares([a, b, c]: [[f64; 2]; 3]) -> f64 {
-    0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])).abs()
 }
 
 /// The part of a triangle in which a coordinate is below a level.

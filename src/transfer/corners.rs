@@ -7,13 +7,13 @@
 use std::collections::BTreeMap;
 
 use super::labels::heaviest;
-use super::nearest::{Nearest, barycentric, center, radius};
+use super::nearest::{Nearest, center, radius};
 use super::samples::Sample;
 use super::vertices::mixed;
 use super::{LEAST, all};
 use crate::error::Result;
 use crate::mesh::vector::{Vec3, add, norm, scale, sub};
-use crate::mesh::{TriangleMesh, closest};
+use crate::mesh::{TriangleMesh, barycentric, closest};
 use crate::monitor::{collect_in_parts, is_wanted, room_for};
 
 /// Triangles are near a quad if their boxes are within so many distances from its center to its farthest corner.

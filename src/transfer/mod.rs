@@ -21,7 +21,7 @@ mod vertices;
 
 pub use attributes::transfer_attributes;
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, check_length};
 use crate::extract::QuadMesh;
 use crate::mesh::TriangleMesh;
 use crate::mesh::attributes::check_not_infinite;
@@ -110,17 +110,6 @@ fn check_values(what: &'static str, values: &[f64], components: usize, count: us
     }
     check_length(what, values.len(), components.saturating_mul(count))?;
     check_not_infinite(what, values, components)
-}
-
-fn check_length(what: &'static str, actual: usize, expected: usize) -> Result<()> {
-    match actual == expected {
-        true => Ok(()),
-        false => Err(Error::LengthMismatch {
-            what,
-            expected,
-            actual,
-        }),
-    }
 }
 
 /// The values of all elements, unless the call is to end.

@@ -5,7 +5,7 @@ use super::{LEAST, all};
 use crate::error::Result;
 use crate::extract::QuadMesh;
 use crate::mesh::vector::{Vec3, add, cross, dot, norm, sub};
-use crate::mesh::{ClosestPoint, TriangleMesh};
+use crate::mesh::{ClosestPoint, TriangleMesh, barycentric};
 use crate::monitor::{collect_in_parts, is_wanted, may_continue, room_for, span};
 
 /// Quads and the mesh on which they lie.
@@ -114,16 +114,4 @@ pub(super) fn radius(corners: &[Vec3]) -> f64 {
     let center = center(corners);
     let distances = corners.iter().map(|&p| norm(sub(p, center)));
     distances.fold(0.0, f64::max)
-}
-
-/// The barycentric coordinates of a point of a triangle: none is negative, and their sum is 1.
-pub(super) fn barycentric([a, b, c]: [Vec3; 3], p: Vec3) -> [f64; 3] {
-    let normal = cross(sub(b, a), sub(c, a));
-    let opposite = [[b, c], [c, a], [a, b]];
-    let parts = opposite.map(|[q, r]| dot(normal, cross(sub(q, p), sub(r, p))).max(0.0));
-    let sum: f64 = parts.iter().sum();
-    match sum > 0.0 {
-        true => parts.map(|part| part / sum),
-        false => [1.0 / 3.0; 3],
-    }
 }

@@ -3,12 +3,10 @@
 use super::exact::{distances, potato, sheet};
 use crate::geodesic::{Source, SurfacePoint};
 use crate::mesh::vector::{Vec3, add, dot, norm, scale, sub};
-use crate::mesh::{TriangleMesh, jitter, shape};
+use crate::mesh::{TriangleMesh, closest_on_segment, jitter, shape};
 
-fn to_segment(p: Vec3, [a, b]: [Vec3; 2]) -> f64 {
-    let along = sub(b, a);
-    let share = dot(sub(p, a), along) / dot(along, along);
-    norm(sub(p, add(a, scale(along, share.clamp(0.0, 1.0)))))
+fn to_segment(p: Vec3, ends: [Vec3; 2]) -> f64 {
+    norm(sub(p, closest_on_segment(ends, p)))
 }
 
 /// A flat square of side `n`: a sheet whose boundary is straight.

@@ -6,7 +6,7 @@ mod libraries;
 #[cfg(feature = "mesh-io")]
 mod of_file;
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, check_length};
 pub use kind::AttributeKind;
 
 /// Of a face without a material, or in no group.
@@ -73,7 +73,7 @@ impl SurfaceAttributes {
         ];
         for (what, names) in names {
             if let Some(names) = names {
-                fits(what, names.of_face.len(), faces)?;
+                check_length(what, names.of_face.len(), faces)?;
                 let unknown = |&n: &u32| n != NO_NAME && n as usize >= names.names.len();
                 if let Some(position) = names.of_face.iter().position(unknown) {
                     return Err(Error::IndexOutOfRange {
@@ -86,7 +86,7 @@ impl SurfaceAttributes {
             }
         }
         let values = |what, values: Option<&[f64]>, size: usize, expected: usize| match values {
-            Some(values) => fits(what, values.len() / size, expected)
+            Some(values) => check_length(what, values.len() / size, expected)
                 .and_then(|()| check_not_infinite(what, values, size)),
             None => Ok(()),
         };
@@ -100,17 +100,6 @@ impl SurfaceAttributes {
             values("numbers of vertices", Some(&scalar.values), 1, vertices)?;
         }
         Ok(())
-    }
-}
-
-fn fits(what: &'static str, actual: usize, expected: usize) -> Result<()> {
-    match actual == expected {
-        true => Ok(()),
-        false => Err(Error::LengthMismatch {
-            what,
-            expected,
-            actual,
-        }),
     }
 }
 

@@ -14,7 +14,7 @@ use crate::error::{Error, Result};
 use crate::mesh::connectivity::NONE;
 use crate::mesh::features::{FeatureGraph, edge_between};
 use crate::mesh::vector::{Vec3, add, dot, norm, scale, sub};
-use crate::mesh::{TriangleMesh, orientation};
+use crate::mesh::{TriangleMesh, closest_on_segment, orientation};
 use crate::monitor::may_continue_at;
 
 /// A curve runs through a vertex that is nearer than this part of the shortest edge of the face, and than
@@ -368,10 +368,7 @@ impl<'a> Cut<'a> {
     }
 
     fn foot(&self, p: Vec3, ends: [u32; 2]) -> Vec3 {
-        let [a, b] = ends.map(|v| self.work.position(v));
-        let along = sub(b, a);
-        let share = dot(sub(p, a), along) / dot(along, along);
-        add(a, scale(along, share.clamp(0.0, 1.0)))
+        closest_on_segment(ends.map(|v| self.work.position(v)), p)
     }
 
     fn distance(&self, p: Vec3, ends: [u32; 2]) -> f64 {

@@ -5,8 +5,7 @@ use super::locate::locate;
 use super::queue::smallest_angle;
 use super::working_mesh::WorkingMesh;
 use crate::error::{Error, Result};
-use crate::mesh::TriangleMesh;
-use crate::mesh::vector::{Vec3, cross, dot, sub};
+use crate::mesh::{TriangleMesh, barycentric};
 
 /// A refined mesh. Its first vertices are those of the original mesh, with their numbers and places.
 #[derive(Debug, Clone)]
@@ -63,7 +62,7 @@ impl Refined {
             Some(v) => values[v as usize],
             None => {
                 let face = self.vertex_face[v] as usize;
-                let weights = weights(original.corner_positions(face), self.mesh.position(v));
+                let weights = barycentric(original.corner_positions(face), self.mesh.position(v));
                 let corners = original.corners(face);
                 (0..3).map(|k| weights[k] * values[corners[k]]).sum()
             }
@@ -117,13 +116,4 @@ impl WorkingMesh<'_> {
             mesh,
         })
     }
-}
-
-/// The weights of the corners at a point of a triangle, none below 0.
-fn weights([a, b, c]: [Vec3; 3], p: Vec3) -> [f64; 3] {
-    let normal = cross(sub(b, a), sub(c, a));
-    let of = |u: Vec3, v: Vec3| dot(cross(sub(u, p), sub(v, p)), normal).max(0.0);
-    let parts = [of(b, c), of(c, a), of(a, b)];
-    let whole: f64 = parts.iter().sum();
-    parts.map(|part| part / whole)
 }

@@ -1,8 +1,8 @@
 //! Points of a curve inside a face, left out where the curve is almost straight: the rule of Douglas and Peucker.
 
 use super::cut_along::Piece;
-use crate::mesh::TriangleMesh;
-use crate::mesh::vector::{Vec3, add, dot, norm, scale, sub};
+use crate::mesh::vector::{norm, sub};
+use crate::mesh::{TriangleMesh, closest_on_segment};
 
 /// The pieces of a curve without the points inside a face that are not needed to keep it within a distance. Points on
 /// edges of the mesh stay.
@@ -19,7 +19,7 @@ pub(super) fn simplified(
         let mut open = vec![[0, run.len()]];
         while let Some([first, last]) = open.pop() {
             let chord = [points[first], points[last]];
-            let off = |i: usize| distance(points[i], chord);
+            let off = |i: usize| norm(sub(points[i], closest_on_segment(chord, points[i])));
             let farthest = (first + 1..last).max_by(|&a, &b| off(a).total_cmp(&off(b)));
             match farthest.filter(|&i| off(i) > within(run[first].face)) {
                 Some(i) => open.extend([[i, last], [first, i]]),
@@ -31,15 +31,4 @@ pub(super) fn simplified(
         }
     }
     kept
-}
-
-/// The distance of a point from a segment.
-fn distance(p: Vec3, [a, b]: [Vec3; 2]) -> f64 {
-    let along = sub(b, a);
-    let whole = dot(along, along);
-    let share = match whole > 0.0 {
-        true => (dot(sub(p, a), along) / whole).clamp(0.0, 1.0),
-        false => 0.0,
-    };
-    norm(sub(p, add(a, scale(along, share))))
 }
