@@ -43,6 +43,27 @@ fn a_shape_becomes_quads_of_its_topology() {
 }
 
 #[test]
+fn where_few_quads_are_missing_a_strip_has_as_many() {
+    let scratch = Scratch::new("quad-strip");
+    let file = scratch.path("quads.obj");
+    // A torus of 35 by 15 quads, of which 540 are asked for: one more strip has 15.
+    let words = ["quad", "shape:torus:1000", "--quads", "540", "--json"];
+    let report = |count| {
+        let more = ["--count", count, "-o", text(&file)];
+        let (code, report) = run(&[&words[..], &more].concat());
+        assert_eq!(code, 0, "{report}");
+        assert_eq!(report["conforming"], json!(true), "{report}");
+        assert_eq!(report["irregular_vertices"], json!(0), "{report}");
+        report["count"].clone()
+    };
+    let about = json!({"asked": 540, "found": 525, "maps": 0});
+    assert_eq!(report("about"), about);
+    let exact = json!({"asked": 540, "found": 540, "maps": 1});
+    assert_eq!(report("exact"), exact);
+    assert_eq!(sides(&file), vec![4; 540]);
+}
+
+#[test]
 fn mirrored_quads_tell_their_planes_and_have_as_many_vertices_on_both_sides() {
     let scratch = Scratch::new("quad-mirror");
     let file = scratch.path("quads.obj");
