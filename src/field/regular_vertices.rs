@@ -5,11 +5,6 @@
 //!
 //! What the field turns from one constrained face to the next around a vertex is a sum of jumps as well. If it is kept
 //! on features, as many quads as before lie between feature edges at each of their vertices.
-//!
-//! Constraints make factors dense, and nearly all vertices are regular without any. So only those around irregular
-//! vertices are constrained at first, and more of them where irregular vertices have moved to others.
-
-use std::collections::BTreeSet;
 
 use super::problem::Jump;
 use super::{FieldOptions, FieldProblem, OrientationField};
@@ -17,55 +12,9 @@ use crate::error::Result;
 use crate::mesh::TriangleMesh;
 use crate::monitor::may_continue_at;
 
-/// How many times more vertices are constrained before all are.
-pub(super) const ROUNDS: usize = 3;
-
-/// The number of rings around irregular vertices that are constrained first, twice as many each time.
-const RINGS: usize = 8;
-
-/// The vertices that should be regular and are irregular in a field.
-pub(super) fn too_near(
-    mesh: &TriangleMesh,
-    options: &FieldOptions,
-    field: &OrientationField,
-) -> Vec<usize> {
-    let steps = field.vertex_index_steps(mesh);
-    let is_irregular = |v: &usize| steps.get(*v).is_some_and(|&n| n != 0);
-    let regular = options.regular.iter().copied();
-    regular.filter(is_irregular).collect()
-}
-
-/// Adds to the vertices that are constrained those that should be regular around irregular ones: as many rings through
-/// such vertices as in this round, or all of them.
-pub(super) fn constrain_around(
-    mesh: &TriangleMesh,
-    options: &FieldOptions,
-    irregular: &[usize],
-    round: usize,
-    constrained: &mut BTreeSet<usize>,
-) {
-    if round == ROUNDS {
-        constrained.extend(&options.regular);
-        return;
-    }
-    let mut may_reach: BTreeSet<usize> = options.regular.iter().copied().collect();
-    let mut front = irregular.to_vec();
-    for v in &front {
-        may_reach.remove(v);
-    }
-    for _ in 0..RINGS << round {
-        constrained.extend(&front);
-        let next = front
-            .iter()
-            .flat_map(|&v| mesh.ring(v))
-            .flat_map(|(face, _)| mesh.corners(face));
-        front = next.filter(|v| may_reach.remove(v)).collect();
-    }
-}
-
 impl FieldProblem {
-    /// Adds the constraints for these regular vertices, and for those that [keep](FieldOptions::kept_turns) their
-    /// turns, which are those of the first field.
+    /// Adds the constraints for the [regular](FieldOptions::regular) vertices of the options, and for those that
+    /// [keep](FieldOptions::kept_turns) their turns, which are those of the first field.
     ///
     /// # Errors
     /// The end of the call.
@@ -73,9 +22,9 @@ impl FieldProblem {
         &mut self,
         mesh: &TriangleMesh,
         options: &FieldOptions,
-        (first, regular): (&OrientationField, &BTreeSet<usize>),
+        first: &OrientationField,
     ) -> Result<()> {
-        for (position, &v) in regular.iter().enumerate() {
+        for (position, &v) in options.regular.iter().enumerate() {
             may_continue_at(position)?;
             let sides: Vec<_> = mesh.ring(v).map(|(face, k)| (face, (k + 2) % 3)).collect();
             let sum = self.ring_sum(mesh, v, 0);

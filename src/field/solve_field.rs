@@ -4,12 +4,9 @@
 //! ([`super::feasible_indices`]). A second solve also follows when the indices are decided without the
 //! details of the surface ([`super::detail`]).
 
-use std::collections::BTreeSet;
-
 use super::detail::detail;
 use super::feasible_indices::feasible_indices;
 use super::graded_flow::graded_flow;
-use super::regular_vertices::{ROUNDS, constrain_around, too_near};
 use super::{Constraint, FieldOptions, FieldProblem, OrientationField, PrescribedIndex};
 use crate::error::{Error, Result};
 use crate::mesh::TriangleMesh;
@@ -66,12 +63,12 @@ struct Decided {
 }
 
 impl Decided {
-    /// The field of these options; with a first one, of the problem in which these vertices are
+    /// The field of these options; with a first one, of the problem in which vertices are
     /// [regular](FieldOptions::regular).
     fn new(
         mesh: &TriangleMesh,
         options: &FieldOptions,
-        first: Option<(&OrientationField, &BTreeSet<usize>)>,
+        first: Option<&OrientationField>,
         solver: &Options,
         monitor: [Monitor; 3],
     ) -> Result<Self> {
@@ -107,29 +104,18 @@ fn decided<'a>(
     if options.regular.is_empty() || options.indices.is_some() {
         return Ok(first);
     }
-    let mut irregular = too_near(mesh, options, &first.field);
-    let (mut constrained, mut last) = (BTreeSet::new(), None::<Decided>);
-    for round in 0..=ROUNDS {
-        if irregular.is_empty() {
-            break;
-        }
-        constrain_around(mesh, options, &irregular, round, &mut constrained);
-        let regular = Some((&first.field, &constrained));
-        let again = || Decided::new(mesh, options, regular, solver, monitors());
-        match optional(monitor, again) {
-            Ok(Some(found)) => {
-                irregular = too_near(mesh, options, &found.field);
-                last = Some(found);
-            }
-            // The caller wants what there is; features alone may decide indices.
-            Ok(None) | Err(Error::Infeasible { .. } | Error::NoIntegerSolution { .. }) => break,
-            Err(error) => return Err(error),
-        }
-        if constrained.len() == options.regular.len() {
-            break;
-        }
+    let steps = first.field.vertex_index_steps(mesh);
+    let is_irregular = |v: &usize| steps.get(*v).is_some_and(|&n| n != 0);
+    if !options.regular.iter().any(is_irregular) {
+        return Ok(first);
     }
-    Ok(last.unwrap_or(first))
+    let again = || Decided::new(mesh, options, Some(&first.field), solver, monitors());
+    match optional(monitor, again) {
+        Ok(found) => Ok(found.unwrap_or(first)),
+        // Features alone may decide indices.
+        Err(Error::Infeasible { .. } | Error::NoIntegerSolution { .. }) => Ok(first),
+        Err(error) => Err(error),
+    }
 }
 
 /// The problem of a field and its solver, up to the elimination. Details change only right sides, and so they are
@@ -137,7 +123,7 @@ fn decided<'a>(
 fn prepared(
     mesh: &TriangleMesh,
     options: &FieldOptions,
-    first: Option<(&OrientationField, &BTreeSet<usize>)>,
+    first: Option<&OrientationField>,
     solver: &Options,
     monitor: Monitor,
 ) -> Result<(FieldProblem, Solver)> {
