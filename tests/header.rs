@@ -37,6 +37,7 @@ const SOURCES: &[&str] = &[
     "edit_kind",
     "repair_options",
     "repair",
+    "attribute_edges",
     "attributes",
     "geodesic_sources",
     "geodesic",

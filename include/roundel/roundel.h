@@ -596,6 +596,13 @@ typedef int32_t roundel_stage;
 #endif // __cplusplus
 
 /**
+ * The attributes of a mesh: materials and groups of faces, colours of faces and vertices, texture coordinates of
+ * corners, and scalars of vertices. They are arrays by the numbers of the mesh, which
+ * roundel_quads_transfer_face_labels and its kin carry to quads. The mesh may be freed before them.
+ */
+typedef struct roundel_attributes roundel_attributes;
+
+/**
  * A flag by which any thread may cancel or finish a call. Unlike other objects it may be set while other
  * threads use it; only free it when nobody does.
  */
@@ -2333,6 +2340,98 @@ roundel_status roundel_repair_mark_attribute(const struct roundel_repair *repair
                                              size_t length);
 
 /**
+ * Reads the attributes of a mesh from the file that roundel_mesh_read read it from. A file without attributes gives
+ * none.
+ *
+ * Fails as roundel_mesh_read does, and with ROUNDEL_ERROR_LENGTH_MISMATCH for a file of another mesh.
+ */
+roundel_status roundel_mesh_read_attributes(const struct roundel_mesh *mesh,
+                                            const char *file,
+                                            struct roundel_attributes **attributes);
+
+/**
+ * Reads the attributes of a repaired mesh from the file that its soup was read from. Faces that repair made to fill
+ * holes have none; vertices that it made have the mean of those around.
+ *
+ * Fails as roundel_soup_read does, and with ROUNDEL_ERROR_LENGTH_MISMATCH for a file of another soup.
+ */
+roundel_status roundel_repair_read_attributes(const struct roundel_repair *repair,
+                                              const char *file,
+                                              struct roundel_attributes **attributes);
+
+/**
+ * Frees attributes. NULL is allowed.
+ */
+roundel_status roundel_attributes_free(struct roundel_attributes *attributes);
+
+/**
+ * Gives 1 if there are attributes of a kind: "materials", "groups", "face_colors", "uv", "vertex_colors" or
+ * "scalars"; 0 if not.
+ *
+ * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for another kind.
+ */
+roundel_status roundel_attributes_has(const struct roundel_attributes *attributes,
+                                      const char *kind,
+                                      int32_t *has);
+
+/**
+ * Gives the number of names of a kind: of "materials", "groups" or "scalars"; 0 if there are none.
+ *
+ * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for another kind.
+ */
+roundel_status roundel_attributes_name_count(const struct roundel_attributes *attributes,
+                                             const char *kind,
+                                             size_t *count);
+
+/**
+ * Copies a name of a kind, of "materials", "groups" or "scalars", to `buffer`, which has `capacity` bytes, with the
+ * terminating NUL. Its length without the NUL is written to `length`, which may be NULL. If `buffer` is NULL and
+ * `capacity` 0, only the length is written.
+ *
+ * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for another kind, with ROUNDEL_ERROR_INDEX_OUT_OF_RANGE, and with
+ * ROUNDEL_ERROR_LENGTH_MISMATCH if the buffer is too small.
+ */
+roundel_status roundel_attributes_name(const struct roundel_attributes *attributes,
+                                       const char *kind,
+                                       size_t index,
+                                       char *buffer,
+                                       size_t capacity,
+                                       size_t *length);
+
+/**
+ * Copies the number of each face's name of a kind, "materials" or "groups", or -1 for none. `length` is the number of
+ * faces.
+ *
+ * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for another kind and for one that there is not.
+ */
+roundel_status roundel_attributes_labels(const struct roundel_attributes *attributes,
+                                         const char *kind,
+                                         int32_t *labels,
+                                         size_t length);
+
+/**
+ * Copies the numbers of a kind: "face_colors", red, green, blue and alpha from 0 to 1 of each face; "uv", two numbers
+ * of each of the three corners of each face; or "vertex_colors", four numbers of each vertex. NaN stands for none.
+ *
+ * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for another kind and for one that there is not, and with
+ * ROUNDEL_ERROR_LENGTH_MISMATCH.
+ */
+roundel_status roundel_attributes_values(const struct roundel_attributes *attributes,
+                                         const char *kind,
+                                         double *values,
+                                         size_t length);
+
+/**
+ * Copies the scalar of this index at every vertex; roundel_attributes_name tells its name. NaN stands for none.
+ *
+ * Fails with ROUNDEL_ERROR_INDEX_OUT_OF_RANGE and ROUNDEL_ERROR_LENGTH_MISMATCH.
+ */
+roundel_status roundel_attributes_scalar(const struct roundel_attributes *attributes,
+                                         size_t index,
+                                         double *values,
+                                         size_t length);
+
+/**
  * Makes an empty list of sources. To be freed with roundel_sources_free.
  */
 roundel_status roundel_sources_new(struct roundel_sources **sources);
@@ -3197,6 +3296,15 @@ roundel_status roundel_quads_smooth(struct roundel_quads *quads,
                                     const struct roundel_mesh *mesh,
                                     const struct roundel_guidance *guidance,
                                     const struct roundel_monitor *monitor);
+
+/**
+ * Gives the number of irregular vertices of the field that lie nearer to features than they should, an edge of the
+ * quads or the clearance of the guidance, but not on them. Smoothing does not change it.
+ *
+ * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT for quads that roundel_quads_make did not make.
+ */
+roundel_status roundel_quads_near_feature_count(const struct roundel_quads *quads,
+                                                size_t *count);
 
 /**
  * Frees quads. NULL is allowed.

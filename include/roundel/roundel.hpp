@@ -33,6 +33,7 @@
 #ifndef ROUNDEL_HPP
 #define ROUNDEL_HPP
 
+#include <roundel/detail/attributes.hpp>
 #include <roundel/detail/curves.hpp>
 #include <roundel/detail/error.hpp>
 #include <roundel/detail/features.hpp>
@@ -44,6 +45,7 @@
 #include <roundel/detail/options.hpp>
 #include <roundel/detail/problem.hpp>
 #include <roundel/detail/proof.hpp>
+#include <roundel/detail/quad_meshes.hpp>
 #include <roundel/detail/quads.hpp>
 #include <roundel/detail/repair.hpp>
 #include <roundel/detail/solution.hpp>

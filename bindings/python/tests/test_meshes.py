@@ -228,3 +228,81 @@ def test_labels_and_numbers_that_do_not_fit_are_refused():
     with pytest.raises(roundel.NotFiniteError) as refused:
         quads.transfer_vertex_values(plane, infinite)
     assert refused.value.index == 3
+
+
+TWO_SQUARES = """v 0 0 0 1 0 0
+v 1 0 0 0 1 0
+v 2 0 0 0 0 1
+v 0 1 0 1 0 0
+v 1 1 0 0 1 0
+v 2 1 0 0 0 1
+vt 0 0
+vt 1 0
+vt 1 1
+vt 0 1
+usemtl wood
+f 1/1 2/2 5/3 4/4
+usemtl steel
+f 2/1 3/2 6/3 5/4
+"""
+
+HOT_TRIANGLE = """ply
+format ascii 1.0
+element vertex 3
+property float x
+property float y
+property float z
+property float heat
+element face 1
+property list uchar int vertex_indices
+property uchar red
+property uchar green
+property uchar blue
+end_header
+0 0 0 1.5
+1 0 0 2
+0 1 0 3
+3 0 1 2 255 0 51
+"""
+
+
+def test_attributes_come_from_the_file_of_a_mesh(tmp_path):
+    file = tmp_path / "two.obj"
+    file.write_text(TWO_SQUARES)
+    repaired = roundel.repair(file)
+    found = repaired.attributes(file)
+    assert found.materials.names == ["wood", "steel"]
+    assert found.materials.labels.tolist() == [0, 0, 1, 1]
+    assert found.groups is None and found.face_colors is None and found.scalars == {}
+    x = repaired.mesh.vertices[repaired.mesh.faces][:, :, 0] - [[0], [0], [1], [1]]
+    assert np.array_equal(found.uv[:, :, 0], x)
+    assert np.array_equal(found.vertex_colors[0], [1, 0, 0, 1])
+    quads = roundel.quad(repaired.mesh, quads=100)
+    labels = quads.transfer_face_labels(repaired.mesh, found.materials.labels)
+    assert set(labels.tolist()) == {0, 1}
+
+    ply = tmp_path / "hot.ply"
+    ply.write_text(HOT_TRIANGLE)
+    mesh = roundel.Mesh.read(ply)
+    found = mesh.attributes(ply)
+    assert found.scalars["heat"].tolist() == [1.5, 2, 3]
+    assert np.array_equal(found.face_colors, [[1, 0, 0.2, 1]])
+    assert found.materials is None and found.uv is None and found.vertex_colors is None
+
+
+def test_attributes_of_other_meshes_and_of_no_file_are_refused(tmp_path):
+    file = tmp_path / "hot.ply"
+    file.write_text(HOT_TRIANGLE)
+    torus = roundel.Mesh.shape("torus", 200)
+    with pytest.raises(roundel.LengthMismatchError):
+        torus.attributes(file)
+    with pytest.raises(roundel.Error, match="none.ply"):
+        torus.attributes(tmp_path / "none.ply")
+
+
+def test_irregular_vertices_near_features_are_counted():
+    gear = roundel.Mesh.shape("gear", 4000)
+    assert roundel.quad(gear, quads=500, features=40).near_feature_count == 0
+    assert roundel.quad(gear, quads=500, features=40, clearance=0).near_feature_count == 0
+    with pytest.raises(roundel.InvalidArgumentError, match="features"):
+        roundel.map(gear, quads=500).quads().near_feature_count

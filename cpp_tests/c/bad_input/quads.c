@@ -147,7 +147,7 @@ static void transfers(fixture* f, const roundel_mesh* torus) {
     const roundel_status invalid = ROUNDEL_ERROR_INVALID_ARGUMENT;
     static int32_t labels[256], found[4096];
     static double values[1024], carried[16384];
-    size_t faces = 0, vertices = 0, count = 0, points = 0;
+    size_t faces = 0, vertices = 0, count = 0, points = 0, near = 7;
     roundel_quads* quads = NULL;
     GOOD(roundel_mesh_face_count(torus, &faces));
     GOOD(roundel_mesh_vertex_count(torus, &vertices));
@@ -210,6 +210,11 @@ static void transfers(fixture* f, const roundel_mesh* torus) {
     GOOD(roundel_quads_transfer_vertex_values(quads, torus, 1, values, vertices, NULL, carried,
                                               points));
     HOLDS(found[0] == 0 && carried[0] == 0.0);
+    BAD(f, roundel_quads_near_feature_count(NULL, &near), null, "quads", NONE);
+    BAD(f, roundel_quads_near_feature_count(quads, NULL), null, "near feature count", NONE);
+    HOLDS(near == 7);
+    GOOD(roundel_quads_near_feature_count(quads, &near));
+    HOLDS(near == 0);
     GOOD(roundel_quads_free(quads));
 }
 

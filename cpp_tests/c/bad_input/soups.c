@@ -5,6 +5,7 @@
 
 #include "bad_input.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -178,6 +179,86 @@ static void no_surface(fixture* f) {
     HOLDS(repair == NULL);
 }
 
+/* The attributes of a triangle with a scalar and a colour, read from a file. */
+static void attributes(fixture* f) {
+    const roundel_status null = ROUNDEL_ERROR_NULL_POINTER;
+    const roundel_status argument = ROUNDEL_ERROR_INVALID_ARGUMENT;
+    const roundel_status length = ROUNDEL_ERROR_LENGTH_MISMATCH;
+    const roundel_status range = ROUNDEL_ERROR_INDEX_OUT_OF_RANGE;
+    const char name[] = "bad_input_attributes.ply";
+    roundel_mesh *mesh = NULL, *other = NULL;
+    roundel_attributes* found = NULL;
+    size_t count = 7;
+    int32_t has = 7, labels[1] = {7};
+    double values[4] = {7};
+    char text[16] = "7";
+    FILE* file = fopen(name, "w");
+    HOLDS(file != NULL);
+    if (file == NULL) {
+        return;
+    }
+    fputs("ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+          "property float z\nproperty float heat\nelement face 1\n"
+          "property list uchar int vertex_indices\nproperty uchar red\nproperty uchar green\n"
+          "property uchar blue\nend_header\n0 0 0 1.5\n1 0 0 2\n0 1 0 3\n3 0 1 2 255 0 51\n",
+          file);
+    fclose(file);
+    GOOD(roundel_mesh_read(name, &mesh));
+    GOOD(roundel_mesh_make_shape("torus", 200, &other));
+    BAD(f, roundel_mesh_read_attributes(NULL, name, &found), null, "mesh", NONE);
+    BAD(f, roundel_mesh_read_attributes(mesh, NULL, &found), null, "file", NONE);
+    BAD(f, roundel_mesh_read_attributes(mesh, name, NULL), null, "attributes", NONE);
+    BAD(f, roundel_mesh_read_attributes(other, name, &found), length, "expected", NONE);
+    BAD(f, roundel_mesh_read_attributes(mesh, "none.ply", &found), ROUNDEL_ERROR_IO, "none.ply",
+        NONE);
+    HOLDS(found == NULL);
+    GOOD(roundel_mesh_read_attributes(mesh, name, &found));
+    remove(name);
+    BAD(f, roundel_attributes_has(NULL, "uv", &has), null, "attributes", NONE);
+    BAD(f, roundel_attributes_has(found, NULL, &has), null, "kind", NONE);
+    BAD(f, roundel_attributes_has(found, "uv", NULL), null, "has", NONE);
+    BAD(f, roundel_attributes_has(found, "weight", &has), argument, "weight", NONE);
+    BAD(f, roundel_attributes_name_count(NULL, "scalars", &count), null, "attributes", NONE);
+    BAD(f, roundel_attributes_name_count(found, NULL, &count), null, "kind", NONE);
+    BAD(f, roundel_attributes_name_count(found, "scalars", NULL), null, "count", NONE);
+    BAD(f, roundel_attributes_name_count(found, "uv", &count), argument, "uv", NONE);
+    BAD(f, roundel_attributes_name(NULL, "scalars", 0, text, sizeof text, NULL), null, "attributes",
+        NONE);
+    BAD(f, roundel_attributes_name(found, NULL, 0, text, sizeof text, NULL), null, "kind", NONE);
+    BAD(f, roundel_attributes_name(found, "scalars", 1, text, sizeof text, NULL), range, "names",
+        NONE);
+    BAD(f, roundel_attributes_name(found, "scalars", 0, text, 4, NULL), length, "got 4", NONE);
+    BAD(f, roundel_attributes_name(found, "scalars", 0, NULL, 4, NULL), null, "buffer", NONE);
+    BAD(f, roundel_attributes_labels(NULL, "groups", labels, 1), null, "attributes", NONE);
+    BAD(f, roundel_attributes_labels(found, NULL, labels, 1), null, "kind", NONE);
+    BAD(f, roundel_attributes_labels(found, "groups", labels, 1), argument, "groups", NONE);
+    BAD(f, roundel_attributes_labels(found, "uv", labels, 1), argument, "uv", NONE);
+    BAD(f, roundel_attributes_values(NULL, "face_colors", values, 4), null, "attributes", NONE);
+    BAD(f, roundel_attributes_values(found, NULL, values, 4), null, "kind", NONE);
+    BAD(f, roundel_attributes_values(found, "face_colors", NULL, 4), null, "values", NONE);
+    BAD(f, roundel_attributes_values(found, "face_colors", values, 3), length, "expected 4", NONE);
+    BAD(f, roundel_attributes_values(found, "uv", values, 4), argument, "uv", NONE);
+    BAD(f, roundel_attributes_scalar(NULL, 0, values, 3), null, "attributes", NONE);
+    BAD(f, roundel_attributes_scalar(found, 1, values, 3), range, "scalars", NONE);
+    BAD(f, roundel_attributes_scalar(found, 0, NULL, 3), null, "values", NONE);
+    BAD(f, roundel_attributes_scalar(found, 0, values, 4), length, "expected 3", NONE);
+    HOLDS(count == 7 && has == 7 && labels[0] == 7 && values[0] == 7.0 && text[0] == '7');
+
+    GOOD(roundel_attributes_has(found, "scalars", &has));
+    GOOD(roundel_attributes_name_count(found, "scalars", &count));
+    HOLDS(has == 1 && count == 1);
+    GOOD(roundel_attributes_name(found, "scalars", 0, text, sizeof text, NULL));
+    HOLDS(strcmp(text, "heat") == 0);
+    GOOD(roundel_attributes_scalar(found, 0, values, 3));
+    HOLDS(values[0] == 1.5 && values[1] == 2.0 && values[2] == 3.0);
+    GOOD(roundel_attributes_values(found, "face_colors", values, 4));
+    HOLDS(values[0] == 1.0 && values[1] == 0.0 && values[2] == 0.2 && values[3] == 1.0);
+    GOOD(roundel_attributes_free(NULL));
+    GOOD(roundel_attributes_free(found));
+    GOOD(roundel_mesh_free(mesh));
+    GOOD(roundel_mesh_free(other));
+}
+
 static void results(fixture* f, const roundel_soup* soup) {
     const roundel_status null = ROUNDEL_ERROR_NULL_POINTER;
     const roundel_status length = ROUNDEL_ERROR_LENGTH_MISMATCH;
@@ -185,6 +266,7 @@ static void results(fixture* f, const roundel_soup* soup) {
                            "dropped 1 unused vertex";
     roundel_repair* repair = NULL;
     roundel_mesh* mesh = NULL;
+    roundel_attributes* found = NULL;
     size_t count = 7;
     int32_t a[5] = {7}, b[5] = {7}, c[5] = {7};
     char text[128] = "7";
@@ -227,6 +309,12 @@ static void results(fixture* f, const roundel_soup* soup) {
     BAD(f, roundel_repair_mark_attribute(repair, "x.obj", NULL, a, 5), null, "attribute", NONE);
     BAD(f, roundel_repair_mark_attribute(repair, "none.obj", "seams", a, 5), ROUNDEL_ERROR_IO,
         "none.obj", NONE);
+    BAD(f, roundel_repair_read_attributes(NULL, "x.obj", &found), null, "repair", NONE);
+    BAD(f, roundel_repair_read_attributes(repair, NULL, &found), null, "file", NONE);
+    BAD(f, roundel_repair_read_attributes(repair, "x.obj", NULL), null, "attributes", NONE);
+    BAD(f, roundel_repair_read_attributes(repair, "none.obj", &found), ROUNDEL_ERROR_IO, "none.obj",
+        NONE);
+    HOLDS(found == NULL);
     HOLDS(mesh == NULL && count == 7 && a[0] == 7 && b[0] == 7 && c[0] == 7 && text[0] == '7');
 
     /* After all these calls the repair is intact: what was done, and the mesh. */
@@ -261,5 +349,6 @@ void bad_soups(fixture* f) {
     settings(f, soup);
     no_surface(f);
     results(f, soup);
+    attributes(f);
     GOOD(roundel_soup_free(soup));
 }

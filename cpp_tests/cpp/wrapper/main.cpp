@@ -37,6 +37,7 @@ int main() {
     quads_are_mirrored();
     soups_become_meshes_and_say_how();
     repair_follows_its_options();
+    attributes_come_from_the_file_of_a_mesh();
     files_of_polygons_become_meshes();
     edges_between_materials_are_told();
     distances_follow_the_surface();

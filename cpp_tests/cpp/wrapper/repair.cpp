@@ -135,3 +135,48 @@ void edges_between_materials_are_told() {
     CHECK(status.code == ROUNDEL_ERROR_NULL_POINTER);
     CHECK(std::remove(file.c_str()) == 0);
 }
+
+void attributes_come_from_the_file_of_a_mesh() {
+    const std::string obj = "wrapper_attributes.obj";
+    if (std::FILE* file = std::fopen(obj.c_str(), "w")) {
+        // Two squares side by side, of two materials.
+        std::fputs("v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 2 0 0 0 0 1\nv 0 1 0 1 0 0\nv 1 1 0 0 1 0\n"
+                   "v 2 1 0 0 0 1\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
+                   "usemtl wood\nf 1/1 2/2 5/3 4/4\nusemtl steel\nf 2/1 3/2 6/3 5/4\n",
+                   file);
+        std::fclose(file);
+    }
+    const auto repair = roundel::repair(roundel::Soup::read(obj));
+    const auto mesh = repair.mesh();
+    const auto found = roundel::attributes(repair, obj);
+    CHECK((found.materials.names == std::vector<std::string>{"wood", "steel"}));
+    CHECK((found.materials.labels == std::vector<std::int32_t>{0, 0, 1, 1}));
+    CHECK(found.groups.names.empty() && found.groups.labels.empty() && found.scalars.empty());
+    CHECK(found.face_colors.empty() && found.uv.size() == 24);
+    CHECK(found.vertex_colors.size() == 24 && found.vertex_colors[0] == 1.0);
+    CHECK(found.vertex_colors[11] == 1.0 && found.vertex_colors[10] == 1.0);
+
+    // The mesh of the same file with triangles alone.
+    const std::string ply = "wrapper_attributes.ply";
+    if (std::FILE* file = std::fopen(ply.c_str(), "w")) {
+        std::fputs("ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+                   "property float z\nproperty float heat\nelement face 1\n"
+                   "property list uchar int vertex_indices\nproperty uchar red\n"
+                   "property uchar green\nproperty uchar blue\nend_header\n"
+                   "0 0 0 1.5\n1 0 0 2\n0 1 0 3\n3 0 1 2 255 0 51\n",
+                   file);
+        std::fclose(file);
+    }
+    const auto triangle = roundel::Mesh::read(ply);
+    const auto of_triangle = roundel::attributes(triangle, ply);
+    CHECK(of_triangle.scalars.size() == 1 && of_triangle.scalars[0].name == "heat");
+    CHECK((of_triangle.scalars[0].values == std::vector<double>{1.5, 2.0, 3.0}));
+    CHECK((of_triangle.face_colors == std::vector<double>{1.0, 0.0, 0.2, 1.0}));
+    roundel::Status status;
+    CHECK(roundel::attributes(triangle, obj, &status).materials.names.empty());
+    CHECK(status.code == ROUNDEL_ERROR_LENGTH_MISMATCH);
+    CHECK(roundel::attributes(mesh, "none.obj", &status).uv.empty());
+    CHECK(status.code == ROUNDEL_ERROR_IO);
+    std::remove(obj.c_str());
+    std::remove(ply.c_str());
+}

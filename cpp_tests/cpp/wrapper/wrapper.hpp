@@ -29,6 +29,7 @@ void quads_are_mirrored();
 void unset_quad_options_have_the_librarys_defaults();
 void soups_become_meshes_and_say_how();
 void repair_follows_its_options();
+void attributes_come_from_the_file_of_a_mesh();
 void files_of_polygons_become_meshes();
 void edges_between_materials_are_told();
 void distances_follow_the_surface();

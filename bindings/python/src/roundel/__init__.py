@@ -18,6 +18,7 @@ result so far.
 from . import errors as _errors
 from ._library import lib as _lib, text as _text
 from .errors import *  # noqa: F403: one class for each status
+from .attributes import Attributes, FaceNames
 from .curves import Cut, curve_guides, cut_along
 from .events import Event
 from .field import Field, field
@@ -42,11 +43,13 @@ from .watch import CancelToken, Interrupted
 __version__: str = _text(_lib.roundel_version_string())
 
 __all__ = [
+    "Attributes",
     "Candidate",
     "CancelToken",
     "Cut",
     "EditKind",
     "Event",
+    "FaceNames",
     "Field",
     "GeodesicDistance",
     "Interrupted",

@@ -15,6 +15,23 @@ from .options import Option as Option
 
 __version__: str
 
+class Attributes:
+    materials: Optional[FaceNames]
+    groups: Optional[FaceNames]
+    face_colors: Optional[np.ndarray]
+    uv: Optional[np.ndarray]
+    vertex_colors: Optional[np.ndarray]
+    scalars: dict[str, np.ndarray]
+    def __init__(
+        self,
+        materials: Optional[FaceNames],
+        groups: Optional[FaceNames],
+        face_colors: Optional[np.ndarray],
+        uv: Optional[np.ndarray],
+        vertex_colors: Optional[np.ndarray],
+        scalars: dict[str, np.ndarray],
+    ) -> None: ...
+
 class CancelToken:
     def __init__(self) -> None: ...
     def cancel(self) -> None: ...
@@ -49,6 +66,11 @@ class EditKind(IntEnum):
     VERTEX_UNUSED = 17
     COMPONENT_DROPPED = 18
     HOLE_FILLED = 19
+
+class FaceNames:
+    names: list[str]
+    labels: np.ndarray
+    def __init__(self, names: list[str], labels: np.ndarray) -> None: ...
 
 class Field:
     mesh: Mesh
@@ -185,6 +207,7 @@ class Mesh:
     def from_trimesh(cls, mesh: Any, weld: float = 0.0) -> Mesh: ...
     @classmethod
     def shape(cls, name: str, faces: int) -> Mesh: ...
+    def attributes(self, file: File) -> Attributes: ...
     def write(self, file: File) -> None: ...
     def to_trimesh(self) -> Any: ...
     def to_pyvista(self) -> Any: ...
@@ -300,6 +323,8 @@ class Quads:
     @property
     def irregular_count(self) -> int: ...
     @property
+    def near_feature_count(self) -> int: ...
+    @property
     def euler_characteristic(self) -> int: ...
     @property
     def conforming(self) -> bool: ...
@@ -342,6 +367,7 @@ class Repair:
     def face_origins(self) -> np.ndarray: ...
     @property
     def welded_to(self) -> np.ndarray: ...
+    def attributes(self, file: File) -> Attributes: ...
     def attribute_edges(self, file: File, attribute: str) -> np.ndarray: ...
 
 class Solution:
@@ -659,6 +685,7 @@ def solve(
 
 __all__ = [
     "ArgumentTypeError",
+    "Attributes",
     "CancelToken",
     "CancelledError",
     "Candidate",
@@ -668,6 +695,7 @@ __all__ = [
     "EmptyError",
     "Error",
     "Event",
+    "FaceNames",
     "Field",
     "GeodesicDistance",
     "InconsistentOrientationError",

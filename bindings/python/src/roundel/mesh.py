@@ -13,6 +13,7 @@ from ._groups import REPAIR
 from ._handle import Handle, number
 from ._library import ffi, lib, path
 from ._types import ArrayLike, File, MeshLike
+from .attributes import Attributes, of_handle
 from .arrays import count, indices, pointer, reals
 from .errors import (
     InconsistentOrientationError,
@@ -134,6 +135,16 @@ class Mesh:
         """
         wanted = count(faces, "faces")
         return cls._of(Handle.made("roundel_mesh", lib.roundel_mesh_make_shape, str(name).encode(), wanted))
+
+    def attributes(self, file: File) -> Attributes:
+        """Materials, groups, colours, texture coordinates and scalars, from the file that the mesh was read from.
+
+        A mesh that `repair` made has `Repair.attributes` instead.
+        """
+        call = lib.roundel_mesh_read_attributes
+        handle = Handle.made("roundel_attributes", call, self._handle.pointer, path(file))
+        vertices = number(lib.roundel_mesh_vertex_count, self._handle.pointer)
+        return of_handle(handle, vertices, number(lib.roundel_mesh_face_count, self._handle.pointer))
 
     def write(self, file: File) -> None:
         """Writes an OBJ, OFF, binary PLY, binary STL, glTF, GLB or USD text file, by the extension."""

@@ -90,6 +90,15 @@ class Quads:
         return number(lib.roundel_quads_irregular_count, self._handle.pointer)
 
     @property
+    def near_feature_count(self) -> int:
+        """The number of irregular vertices of the field that lie nearer to features than they should.
+
+        That is nearer than an edge of the quads, or than `clearance`, but not on them. Quads that were extracted from a
+        map raise an `InvalidArgumentError`: nobody looked for features.
+        """
+        return number(lib.roundel_quads_near_feature_count, self._handle.pointer)
+
+    @property
     def euler_characteristic(self) -> int:
         """Vertices minus edges plus faces."""
         call = lib.roundel_quads_euler_characteristic

@@ -12,6 +12,7 @@ from ._handle import Handle, number
 from ._library import ffi, lib, path
 from ._types import File, MeshLike
 from .arrays import indices, indices32, pointer, reals
+from .attributes import Attributes, of_handle
 from .errors import check
 from .keywords import checked, takes
 from .mesh import Mesh
@@ -254,6 +255,16 @@ class Repair:
     def welded_to(self) -> np.ndarray:
         """The vertex to which each vertex of the soup was welded: itself if to none, -1 if it is not finite."""
         return self._int32(lib.roundel_repair_welded_to, lib.roundel_repair_soup_vertex_count)
+
+    def attributes(self, file: File) -> Attributes:
+        """Materials, groups, colours, texture coordinates and scalars of the mesh.
+
+        They come from the file that the soup was read from. Faces that fill holes have none.
+        """
+        call = lib.roundel_repair_read_attributes
+        handle = Handle.made("roundel_attributes", call, self._handle.pointer, path(file))
+        vertices = number(lib.roundel_repair_vertex_count, self._handle.pointer)
+        return of_handle(handle, vertices, number(lib.roundel_repair_face_count, self._handle.pointer))
 
     def attribute_edges(self, file: File, attribute: str) -> np.ndarray:
         """The edges whose two faces differ in an attribute of the file that the soup was read from.
