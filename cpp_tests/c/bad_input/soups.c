@@ -226,7 +226,7 @@ static void attributes(fixture* f) {
         NONE);
     BAD(f, roundel_attributes_name(found, NULL, 0, text, sizeof text, NULL), null, "kind", NONE);
     BAD(f, roundel_attributes_name(found, "scalars", 1, text, sizeof text, NULL), range, "names",
-        NONE);
+        0);
     BAD(f, roundel_attributes_name(found, "scalars", 0, text, 4, NULL), length, "got 4", NONE);
     BAD(f, roundel_attributes_name(found, "scalars", 0, NULL, 4, NULL), null, "buffer", NONE);
     BAD(f, roundel_attributes_labels(NULL, "groups", labels, 1), null, "attributes", NONE);
@@ -239,7 +239,7 @@ static void attributes(fixture* f) {
     BAD(f, roundel_attributes_values(found, "face_colors", values, 3), length, "expected 4", NONE);
     BAD(f, roundel_attributes_values(found, "uv", values, 4), argument, "uv", NONE);
     BAD(f, roundel_attributes_scalar(NULL, 0, values, 3), null, "attributes", NONE);
-    BAD(f, roundel_attributes_scalar(found, 1, values, 3), range, "scalars", NONE);
+    BAD(f, roundel_attributes_scalar(found, 1, values, 3), range, "scalars", 0);
     BAD(f, roundel_attributes_scalar(found, 0, NULL, 3), null, "values", NONE);
     BAD(f, roundel_attributes_scalar(found, 0, values, 4), length, "expected 3", NONE);
     HOLDS(count == 7 && has == 7 && labels[0] == 7 && values[0] == 7.0 && text[0] == '7');
