@@ -38,9 +38,9 @@ pub struct Flags {
     deviation: Option<f64>,
 
     /// The angle between quads, in degrees, from which on an edge stays a line of the quads of a simplified
-    /// layout; 180 for none
-    #[arg(long, value_name = "DEGREES", default_value_t = 40.0, value_parser = above_zero)]
-    features: f64,
+    /// layout
+    #[arg(long, value_name = "DEGREES", value_parser = above_zero)]
+    features: Option<f64>,
 
     /// Write the quads with a group for every patch; those of a simplified layout are new ones that follow it
     #[arg(long, value_name = "GROUPS.obj")]
@@ -166,7 +166,7 @@ fn find(arguments: &Arguments) -> Result<Report> {
         Kind::Simplified => {
             let options = SimplifyOptions {
                 deviation: flags.deviation.unwrap_or(f64::INFINITY),
-                features: flags.features.to_radians(),
+                features: flags.features.map_or(f64::INFINITY, f64::to_radians),
                 ..SimplifyOptions::default()
             };
             let token = interrupt::cancel_token()?;
@@ -225,12 +225,11 @@ fn write_surfaces(
         .tolerance
         .unwrap_or_else(|| TOLERANCE * diagonal(surface));
     let fitted = SplinePatches::fit(surface, layout, tolerance)?;
-    match path
-        .extension()
-        .is_some_and(|e| e.eq_ignore_ascii_case("json"))
-    {
-        true => fitted.write_json(path)?,
-        false => fitted.write_obj(path)?,
+    let extension = path.extension().map(|e| e.to_ascii_lowercase());
+    match extension.as_ref().and_then(|e| e.to_str()) {
+        Some("json") => fitted.write_json(path)?,
+        Some("obj") => fitted.write_obj(path)?,
+        _ => fitted.write_step(path)?,
     }
     Ok(Some(Surfaces {
         control_points: fitted.points.len(),

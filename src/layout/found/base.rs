@@ -1,6 +1,6 @@
 //! The base complex: every separatrix runs straight on until it ends at an irregular vertex or the boundary.
 //!
-//! `bommes2011`, section 2. Where a separatrix crosses another, both go on, so that patches meet along whole sides.
+//! `bommes2011`. Where a separatrix crosses another, both go on, so that patches meet along whole sides.
 
 use super::QuadSurface;
 use super::walls::Walls;

@@ -6,7 +6,7 @@
 //! | walls that leave rectangles | `walls`, `rectangle` |
 //! | the base complex, and the motorcycle graph | `base`, `motorcycle` |
 //! | nodes, arcs and patches | `layout` |
-//! | files | `layout_obj`, `spline_files` |
+//! | files | `layout_obj`, `spline_files`, `spline_step` |
 //! | patches as surfaces | `splines`, `spline` |
 //! | fewer patches | `simplified`, `coarse`, `triangulated`, `drift` |
 
@@ -21,6 +21,7 @@ mod rectangle;
 mod simplified;
 mod spline;
 mod spline_files;
+mod spline_step;
 mod splines;
 mod surface;
 #[cfg(test)]

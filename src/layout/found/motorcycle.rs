@@ -1,6 +1,6 @@
 //! The motorcycle graph: separatrices that stop where they meet the trail of another.
 //!
-//! `eppstein2008`, section 3. All start at once from the irregular vertices and advance by an edge at a time. Where
+//! `eppstein2008`. All start at once from the irregular vertices and advance by an edge at a time. Where
 //! two arrive together at a vertex that no trail has reached, at a right angle, the one that has the other on its
 //! right goes on; two that come from opposite sides stop, and so do three or four.
 
@@ -36,7 +36,7 @@ fn winner(surface: &QuadSurface, together: &[usize]) -> Option<usize> {
         [only] => Some(only),
         [a, b] => {
             // The half-edge that arrives from the right of `h`.
-            let from_right = |h: usize| surface.twin(surface.next(surface.twin(h)));
+            let from_right = |h: usize| surface.before(surface.twin(h));
             match (from_right(a) == b, from_right(b) == a) {
                 (true, _) => Some(a),
                 (_, true) => Some(b),

@@ -28,7 +28,7 @@ impl Default for SimplifyOptions {
     fn default() -> Self {
         SimplifyOptions {
             deviation: f64::INFINITY,
-            features: 40.0_f64.to_radians(),
+            features: f64::INFINITY,
             smoothing: 10,
         }
     }

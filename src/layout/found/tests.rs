@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::*;
+use crate::linalg::DisjointSets;
 use crate::mesh::vector::Vec3;
 use crate::mesh::{MeshError, shape};
 use crate::test_random::Random;
@@ -34,25 +35,43 @@ fn grid(columns: usize, rows: usize, closed: [bool; 2], shift: usize) -> Quads {
 }
 
 /// Every quad divided into `k` times `k`, and vertices welded.
-fn divided((positions, quads): &Quads, k: usize) -> Quads {
-    let mut number: BTreeMap<[u64; 3], u32> = BTreeMap::new();
+fn divided(quads: &Quads, k: usize) -> Quads {
+    divided_by(quads, |_| k)
+}
+
+/// Every strip of quads divided into as many as `parts` gives for its number, and vertices welded.
+fn divided_by((positions, quads): &Quads, parts: impl Fn(usize) -> usize) -> Quads {
+    let mut edges: BTreeMap<[u32; 2], usize> = BTreeMap::new();
+    let mut edge = |a: u32, b: u32| {
+        let next = edges.len();
+        *edges.entry([a.min(b), a.max(b)]).or_insert(next)
+    };
+    let sides: Vec<[usize; 4]> = quads
+        .iter()
+        .map(|q| [0, 1, 2, 3].map(|k| edge(q[k], q[(k + 1) % 4])))
+        .collect();
+    let mut strips = DisjointSets::new(edges.len());
+    for side in &sides {
+        strips.join(side[0], side[2]);
+        strips.join(side[1], side[3]);
+    }
+    let mut number: BTreeMap<[i64; 3], u32> = BTreeMap::new();
     let (mut points, mut faces) = (Vec::new(), Vec::new());
-    for quad in quads {
+    for (quad, side) in quads.iter().zip(&sides) {
         let p = quad.map(|v| positions[v as usize]);
+        let [m, n] = [0, 1].map(|k| parts(strips.root(side[k])));
         let mut at = |i: usize, j: usize| {
-            let (s, t) = (i as f64 / k as f64, j as f64 / k as f64);
+            let (s, t) = (i as f64 / m as f64, j as f64 / n as f64);
             let weights = [(1.0 - s) * (1.0 - t), s * (1.0 - t), s * t, (1.0 - s) * t];
             let point = [0, 1, 2].map(|c| (0..4).map(|a| weights[a] * p[a][c]).sum::<f64>());
-            let key = point.map(|x| (x * 1e6).round() as i64 as u64);
+            let key = point.map(|x| (x * 1e6).round() as i64);
             *number.entry(key).or_insert_with(|| {
                 points.push(point);
                 points.len() as u32 - 1
             })
         };
-        for j in 0..k {
-            for i in 0..k {
-                faces.push([at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)]);
-            }
+        for (i, j) in (0..m * n).map(|q| (q % m, q / m)) {
+            faces.push([at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)]);
         }
     }
     (points, faces)
@@ -265,6 +284,39 @@ fn a_base_complex_is_what_flood_fill_finds() {
             assert_eq!(base, regions(&surface(&quads)), "{name}");
         }
     }
+}
+
+#[test]
+fn strips_of_any_width_have_layouts() {
+    let mut random = Random::new(3);
+    for round in 0..40 {
+        let name = ["sphere", "torus", "genus-2", "disk"][round % 4];
+        let coarse = of_triangles(name, 60, 1);
+        let widths: Vec<usize> = coarse
+            .1
+            .iter()
+            .flat_map(|_| [1 + random.below(4), 1 + random.below(4)])
+            .collect();
+        both(&divided_by(&coarse, |strip| widths[strip % widths.len()]));
+    }
+}
+
+#[test]
+fn of_two_that_meet_at_a_right_angle_one_goes_on() {
+    // A square without two opposite corners. The lines of the two reflex corners meet at the other two corners of
+    // the square between them.
+    let (positions, quads) = grid(6, 6, [false, false], 0);
+    let is_out = |q: usize| q % 6 < 2 && q / 6 < 2 || q % 6 >= 4 && q / 6 >= 4;
+    let kept = (0..36).filter(|&q| !is_out(q)).map(|q| quads[q]);
+    assert_eq!(both(&compacted(&positions, kept.collect())), [7, 5]);
+}
+
+/// Quads with the vertices that they use.
+fn compacted(positions: &[Vec3], quads: Vec<[u32; 4]>) -> Quads {
+    let used: BTreeSet<u32> = quads.iter().flatten().copied().collect();
+    let number: BTreeMap<u32, u32> = used.iter().copied().zip(0..).collect();
+    let kept = used.iter().map(|&v| positions[v as usize]).collect();
+    (kept, quads.iter().map(|q| q.map(|v| number[&v])).collect())
 }
 
 #[test]
