@@ -21,7 +21,7 @@ use crate::outputs::{Content, Outputs};
 use crate::summary::{counted, line};
 
 const OBJ: Content = Content::Only(&["obj"]);
-const SPLINES: Content = Content::Only(&["json", "obj"]);
+const SPLINES: Content = Content::Only(&["json", "obj", "step", "stp"]);
 
 /// The tolerance of patches if none is given, as a part of the diagonal of the bounding box.
 const TOLERANCE: f64 = 1e-3;
@@ -46,7 +46,7 @@ pub struct Flags {
     #[arg(long, value_name = "GROUPS.obj")]
     groups: Option<PathBuf>,
 
-    /// Write every patch as a bicubic B-spline surface: .json, or free-form surfaces in .obj
+    /// Write every patch as a bicubic B-spline surface: .json, .step, or free-form surfaces in .obj
     #[arg(long, value_name = "PATCHES")]
     patches: Option<PathBuf>,
 

@@ -8,7 +8,7 @@
 //! | nodes, arcs and patches | `layout` |
 //! | files | `layout_obj`, `spline_files`, `spline_step` |
 //! | patches as surfaces | `splines`, `spline` |
-//! | fewer patches | `simplified`, `coarse`, `triangulated`, `drift` |
+//! | fewer patches | `simplified`, `coarse`, `triangulated`, `relax`, `drift` |
 
 mod base;
 mod coarse;
@@ -18,6 +18,7 @@ mod layout;
 mod layout_obj;
 mod motorcycle;
 mod rectangle;
+mod relax;
 mod simplified;
 mod spline;
 mod spline_files;

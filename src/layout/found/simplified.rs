@@ -2,10 +2,11 @@
 
 use super::coarse::CoarseMaps;
 use super::drift::{Drift, drift};
+use super::relax::relax;
 use super::triangulated::Triangulated;
 use super::{FoundLayout, QuadSurface};
 use crate::error::{Error, Result};
-use crate::extract::{IntegerGridMap, QuadMesh, extract};
+use crate::extract::{IntegerGridMap, extract};
 use crate::map::SeamlessMap;
 use crate::monitor::Monitor;
 
@@ -20,7 +21,7 @@ pub struct SimplifyOptions {
     /// The angle between faces, in radians, from which on an edge of the quads stays a line; above zero. None is as
     /// sharp as an angle above pi.
     pub features: f64,
-    /// The number of times that vertices of the new quads are smoothed on the surface.
+    /// The number of times that regular vertices of the new quads move to the middle of their neighbours.
     pub smoothing: usize,
 }
 
@@ -29,7 +30,7 @@ impl Default for SimplifyOptions {
         SimplifyOptions {
             deviation: f64::INFINITY,
             features: f64::INFINITY,
-            smoothing: 10,
+            smoothing: 30,
         }
     }
 }
@@ -135,7 +136,7 @@ fn follow<'m>(
     if !quads.is_conforming() || quads.partial_cells > 0 {
         return Ok(None);
     }
-    smooth(&mut quads, triangles, features, options, monitor)?;
+    relax(&mut quads, mesh, features, options.smoothing);
     let Ok(followed) = QuadSurface::new(quads.vertices, quads.quads) else {
         return Ok(None);
     };
@@ -148,22 +149,6 @@ fn follow<'m>(
         surface: followed,
         layout,
     }))
-}
-
-fn smooth<'m>(
-    quads: &mut QuadMesh,
-    triangles: &Triangulated,
-    features: &[usize],
-    options: &SimplifyOptions,
-    monitor: &impl Fn() -> Monitor<'m>,
-) -> Result<()> {
-    let options = crate::smooth::SmoothOptions {
-        rounds: options.smoothing,
-        uniformity: 0.0,
-        features: features.to_vec(),
-        ..crate::smooth::SmoothOptions::default()
-    };
-    crate::smooth::smooth(quads, &triangles.mesh, &options, &mut monitor())
 }
 
 /// Of every irregular vertex, whether it is on the boundary and its number of quads; in increasing order.
