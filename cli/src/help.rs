@@ -15,7 +15,7 @@ const COMMON: [&str; 3] = ["strategy", "time_limit", "threads"];
 const EXPERT: [&str; 3] = ["preset", "stiffen", "stiffenings"];
 
 /// Examples of each command.
-const EXAMPLES: [(&str, &str); 12] = [
+const EXAMPLES: [(&str, &str); 13] = [
     (
         "solve",
         "\
@@ -51,6 +51,12 @@ const EXAMPLES: [(&str, &str); 12] = [
         "\
   roundel distance bunny.obj --from vertex:12 -o distance.ply
   roundel distance fandisk.obj --from features --picture distance.png --json",
+    ),
+    (
+        "layout",
+        "\
+  roundel layout --of quads.obj -o layout.obj
+  roundel layout --of quads.obj --kind simplified -o layout.obj --patches patches.json",
     ),
     (
         "repair",

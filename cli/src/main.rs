@@ -11,6 +11,7 @@ mod field;
 mod generate;
 mod help;
 mod interrupt;
+mod layout;
 mod lines;
 mod mesh;
 mod options;
@@ -52,6 +53,7 @@ enum Command {
     Repair(repair::Arguments),
     Quad(quad::Arguments),
     Extract(extract::Arguments),
+    Layout(layout::Arguments),
     Shape(shape::Arguments),
     Evaluate(evaluate::Arguments),
     Generate(generate::Arguments),
@@ -72,6 +74,7 @@ fn main() -> ExitCode {
         Command::Repair(arguments) => repair::run(&arguments),
         Command::Quad(arguments) => quad::run(&arguments),
         Command::Extract(arguments) => extract::run(&arguments),
+        Command::Layout(arguments) => layout::run(&arguments),
         Command::Shape(arguments) => shape::run(&arguments),
         Command::Evaluate(arguments) => evaluate::run(&arguments),
         Command::Generate(arguments) => {

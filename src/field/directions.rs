@@ -51,6 +51,23 @@ impl OrientationField {
         Ok(field)
     }
 
+    /// As [`from_directions`](Self::from_directions), where these quarter turns lead from the arm of the first face of
+    /// every interior edge to that of the second. Of the period jumps that do so, the nearest is taken.
+    pub(crate) fn with_quarters(
+        mesh: &TriangleMesh,
+        directions: &[Vec3],
+        quarters: impl Fn(usize) -> i32,
+    ) -> Result<Self> {
+        let mut field = Self::from_directions(mesh, directions)?;
+        for e in 0..mesh.edge_count() {
+            if mesh.edge(e).second.is_some() {
+                let off = (quarters(e) - field.period_jumps[e] + 2).rem_euclid(4) - 2;
+                field.period_jumps[e] += off;
+            }
+        }
+        Ok(field)
+    }
+
     /// The arm of a face at its angle: a unit vector in space, in the plane of the face.
     pub fn direction(&self, mesh: &TriangleMesh, face: usize) -> Vec3 {
         let [x, y] = mesh.frame(face);

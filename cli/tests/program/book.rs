@@ -14,7 +14,7 @@ use page::{Block, blocks, pages, root};
 const NAMES: [&str; 2] = ["cargo run --release -p roundel-cli -- ", "roundel "];
 
 /// The commands of the program.
-const COMMANDS: [&str; 12] = [
+const COMMANDS: [&str; 13] = [
     "quad",
     "field",
     "parametrize",
@@ -22,6 +22,7 @@ const COMMANDS: [&str; 12] = [
     "check-proof",
     "distance",
     "extract",
+    "layout",
     "repair",
     "solve",
     "shape",

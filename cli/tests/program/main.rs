@@ -7,6 +7,7 @@ mod evaluate;
 mod field;
 mod interrupt;
 mod kept;
+mod layout;
 mod named_features;
 mod outcome;
 mod output;

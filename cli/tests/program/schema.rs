@@ -6,6 +6,7 @@ use std::path::Path;
 
 use serde_json::{Map, Value};
 
+use crate::layout::CUBE;
 use crate::problem::mps;
 use crate::run::{Scratch, finish, only_object, program};
 
@@ -173,12 +174,14 @@ fn every_command_prints_what_the_schema_says() {
     let folded = path("folded.obj");
     let square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\n";
     fs::write(&folded, format!("{square}f 1/1 2/2 3/3\nf 1/1 3/3 4/2\n")).unwrap();
+    let (cube, patches) = (path("cube.obj"), path("patches.json"));
+    fs::write(&cube, CUBE).unwrap();
     let shape = "shape:torus:300";
     let proof = path("proof.jsonl");
     // A curve beside the torus.
     let lines = path("lines.obj");
     fs::write(&lines, "v 1.4 0.1 0\nv 0.2 1.4 0\nl 1 2\n").unwrap();
-    let runs: [(&str, &[&str]); 22] = [
+    let runs: [(&str, &[&str]); 24] = [
         ("solve", &["solve", &problem]),
         ("solve", &["solve", &problem, "--strategy", "relax"]),
         ("solve", &["solve", &problem, "--proof", &proof]),
@@ -221,6 +224,19 @@ fn every_command_prints_what_the_schema_says() {
             &["quad", shape, "--mirror", "auto", "--mirror", "-z"],
         ),
         ("repaired", &["repair", &soup]),
+        ("layout", &["layout", "--of", &cube]),
+        (
+            "layout",
+            &[
+                "layout",
+                "--of",
+                &cube,
+                "--kind",
+                "simplified",
+                "--patches",
+                &patches,
+            ],
+        ),
         ("failure", &["quad", "nothing.obj"]),
         ("failure", &["solve", &problem, "--time-limit", "0"]),
     ];

@@ -1,0 +1,160 @@
+//! Layouts of quads that the library makes, from shapes and from the meshes of CGAL's demos.
+
+#![cfg(feature = "mesh-io")]
+
+mod common;
+
+use std::collections::BTreeSet;
+
+use common::archive::{MISSING, archive};
+use roundel::layout::found::{FoundLayout, QuadSurface, SimplifyOptions, SplinePatches, simplify};
+use roundel::map::Sizing;
+use roundel::mesh::{TriangleMesh, io, shape};
+use roundel::quad::{QuadOptions, quadrangulate};
+use roundel::{Error, Monitor};
+
+fn quads_of(mesh: &TriangleMesh, quads: usize) -> QuadSurface {
+    let options = QuadOptions {
+        sizing: Sizing::Quads(quads),
+        ..QuadOptions::default()
+    };
+    let made = quadrangulate(mesh, &options, Monitor::default).unwrap();
+    assert!(made.quads.is_conforming());
+    QuadSurface::new(made.quads.vertices, made.quads.quads).unwrap()
+}
+
+/// Every quad is in one patch, patches are rectangles, and Euler's formula holds.
+fn check(surface: &QuadSurface, layout: &FoundLayout) {
+    let mut count = vec![0; layout.patches.len()];
+    layout
+        .patch_of
+        .iter()
+        .for_each(|&patch| count[patch as usize] += 1);
+    for (patch, count) in layout.patches.iter().zip(count) {
+        assert_eq!(patch.size[0] * patch.size[1], count);
+        for (k, side) in patch.sides.iter().enumerate() {
+            let arcs = side
+                .iter()
+                .map(|&arc| layout.arcs[arc as usize].vertices.len() - 1);
+            assert_eq!(arcs.sum::<usize>(), patch.size[k % 2]);
+        }
+    }
+    let euler = layout.nodes.len() as i64 - layout.arcs.len() as i64 + layout.patches.len() as i64;
+    assert_eq!(euler, surface.euler_characteristic());
+}
+
+/// Of every irregular vertex, its number of quads and whether it is on the boundary; and inside, its place.
+fn irregular(surface: &QuadSurface) -> Vec<(bool, usize, [i64; 3])> {
+    let vertices = 0..surface.positions().len();
+    let irregular = vertices.filter(|&v| surface.is_irregular(v));
+    let mut found: Vec<_> = irregular
+        .map(|v| match surface.is_boundary(v) {
+            true => (true, surface.valence(v), [0; 3]),
+            false => {
+                let place = surface.positions()[v].map(|x| (1e9 * x).round() as i64);
+                (false, surface.valence(v), place)
+            }
+        })
+        .collect();
+    found.sort_unstable();
+    found
+}
+
+/// The numbers of patches of the base complex and of the simplified layout.
+fn patches(surface: &QuadSurface) -> [usize; 2] {
+    let base = FoundLayout::base_complex(surface);
+    let motorcycle = FoundLayout::motorcycle_graph(surface);
+    check(surface, &base);
+    check(surface, &motorcycle);
+    assert!(motorcycle.patches.len() <= base.patches.len());
+    let found = simplify(surface, &SimplifyOptions::default(), Monitor::default).unwrap();
+    check(&found.surface, &found.layout);
+    assert_eq!(irregular(&found.surface), irregular(surface));
+    assert_eq!(
+        found.surface.euler_characteristic(),
+        surface.euler_characteristic()
+    );
+    [base.patches.len(), found.layout.patches.len()]
+}
+
+#[test]
+fn a_simplified_layout_has_the_same_irregular_vertices_and_a_third_of_the_patches() {
+    for (name, quads) in [
+        ("genus-2", 1000),
+        ("sphere", 600),
+        ("plate-with-holes", 600),
+    ] {
+        let mesh = shape::by_name(name, 4 * quads).unwrap();
+        let [base, simplified] = patches(&quads_of(&mesh, quads));
+        assert!(3 * simplified <= base, "{name}: {simplified} of {base}");
+    }
+}
+
+#[test]
+fn arcs_of_a_simplified_layout_stay_within_the_deviation() {
+    let mesh = shape::by_name("genus-2", 4000).unwrap();
+    let surface = quads_of(&mesh, 1000);
+    for deviation in [0.5, 2.0] {
+        let options = SimplifyOptions {
+            deviation,
+            ..SimplifyOptions::default()
+        };
+        let found = simplify(&surface, &options, Monitor::default).unwrap();
+        assert!(found.drift.largest <= deviation);
+    }
+    for deviation in [0.0, -1.0, f64::NAN] {
+        let options = SimplifyOptions {
+            deviation,
+            ..SimplifyOptions::default()
+        };
+        let refused = simplify(&surface, &options, Monitor::default);
+        assert!(
+            matches!(refused, Err(Error::InvalidArgument { .. })),
+            "{deviation}"
+        );
+    }
+}
+
+#[test]
+fn surfaces_come_within_the_tolerance_and_share_the_points_of_their_sides() {
+    let mesh = shape::by_name("rounded-cube", 4000).unwrap();
+    let surface = quads_of(&mesh, 1000);
+    let found = simplify(&surface, &SimplifyOptions::default(), Monitor::default).unwrap();
+    let mut last = usize::MAX;
+    for tolerance in [1e-3, 1e-2, 1e-1] {
+        let fitted = SplinePatches::fit(&found.surface, &found.layout, tolerance).unwrap();
+        assert!(fitted.is_within && fitted.deviation <= tolerance);
+        assert!(fitted.points.len() <= last);
+        last = fitted.points.len();
+        // Each point inside an arc is on two patches, a node on as many as it has quads.
+        let on: Vec<BTreeSet<u32>> = fitted
+            .surfaces
+            .iter()
+            .map(|s| s.control.iter().copied().collect())
+            .collect();
+        let shared = (0..last as u32).filter(|p| on.iter().filter(|s| s.contains(p)).count() > 1);
+        let inner: usize = fitted
+            .surfaces
+            .iter()
+            .map(|s| (s.spans[0] + 1) * (s.spans[1] + 1))
+            .sum();
+        assert_eq!(shared.count(), last - inner);
+    }
+}
+
+#[test]
+fn quads_of_meshes_of_the_demos_have_layouts() {
+    let Some(archive) = archive() else {
+        return common::skip::skip_unless_ci(MISSING);
+    };
+    for (name, quads) in [
+        ("fandisk", 1000),
+        ("elephant", 800),
+        ("eight", 300),
+        ("knot1", 600),
+    ] {
+        let mesh = io::read(archive.join(format!("{name}.off"))).unwrap();
+        let [base, simplified] = patches(&quads_of(&mesh, quads));
+        assert!(3 * simplified <= base, "{name}: {simplified} of {base}");
+    }
+}
