@@ -43,6 +43,7 @@
 //! | [`mesh`], [`field`], [`map`], [`untangle`], [`check`] | meshes, orientation fields, seamless maps, their repair and their check |
 //! | [`geodesic`] | exact distances along the surface, and shortest paths |
 //! | [`extract`], [`smooth`], [`quad`] | quads from a map; all the way from a mesh to quads |
+//! | [`layout`] | quads that follow a base layout |
 //! | [`transfer`] | materials, colours and other values, from triangles to quads |
 //! | [`Error`], [`InputError`] | what can go wrong |
 //! | [`capi`] | the C interface |
@@ -63,6 +64,7 @@ pub mod geodesic;
 #[doc(hidden)]
 pub mod internals;
 mod lattice;
+pub mod layout;
 mod linalg;
 pub mod map;
 pub mod mesh;

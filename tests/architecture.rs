@@ -7,7 +7,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The layers from the lowest to the highest. A file names its own layer and lower ones, nothing else.
-const LAYERS: [&str; 26] = [
+const LAYERS: [&str; 27] = [
     "error",
     "monitor",
     "linalg",
@@ -32,6 +32,7 @@ const LAYERS: [&str; 26] = [
     "extract",
     "smooth",
     "transfer",
+    "layout",
     "quad",
     "capi",
 ];
