@@ -105,6 +105,8 @@ mod book {
     struct Errors;
     #[doc = include_str!("../docs/geodesic.md")]
     struct Geodesic;
+    #[doc = include_str!("../docs/layouts.md")]
+    struct Layouts;
     #[doc = include_str!("../docs/options.md")]
     struct Options;
     #[doc = include_str!("../docs/problems.md")]

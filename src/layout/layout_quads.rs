@@ -20,7 +20,7 @@ use crate::error::{Error, Result};
 use crate::extract::{IntegerGridMap, Origin, QuadMesh, extract};
 use crate::mesh::vector::Vec3;
 use crate::mesh::{ClosestPoint, TriangleMesh};
-use crate::monitor::{Monitor, Phase, may_continue, with_threads};
+use crate::monitor::{Monitor, Phase, may_continue, span, with_threads};
 use crate::smooth::{SmoothOptions, smooth};
 
 /// What is asked for besides the layout.
@@ -115,7 +115,10 @@ fn on_threads<'a>(
     let cut = curves.mesh(mesh);
     let mut surface = Surface::new(cut);
     let nodes = place_nodes(cut, &layout, &curves.nodes, &mut surface)?;
-    let embedding = run.with_share([0.0, 0.3], || embed(&layout, surface, nodes, &curves.chains))?;
+    let embedding = run.with_share([0.0, 0.3], || {
+        let _span = span("embed");
+        embed(&layout, surface, nodes, &curves.chains)
+    })?;
     let lengths: Vec<f64> = embedding.chains.iter().map(|chain| embedding.surface.chain_length(chain)).collect();
     let arcs = embedding.chains.iter().map(|chain| {
         let places = chain.iter().map(|&v| embedding.surface.position(v));
@@ -125,6 +128,7 @@ fn on_threads<'a>(
     let area = mesh.surface_area();
     let subdividing = Subdividing::new(&layout, &lengths, &options.fixed)?;
     let subdivisions = run.with_share([0.3, 0.5], || {
+        let _span = span("subdivide");
         subdividing.solve(options.sizing, area, &monitor)
     })?;
     let nodes = embedding.nodes.clone();
@@ -133,6 +137,7 @@ fn on_threads<'a>(
     let motion = motion(&layout, &all, &nodes, options);
     let edge = (area / subdivisions.quads as f64).sqrt();
     run.with_share([0.5, 0.8], || {
+        let _span = span("relax");
         grid.relax(&all, &motion, edge, &mut monitor())
     })?;
     let uvs: Vec<[[f64; 2]; 3]> = (0..all.surface.triangles.len()).map(|f| grid.uv(f)).collect();

@@ -3,7 +3,7 @@
 //! With l the length of arc e, h that of an edge of quads and n the number of edges, all integer and at least 1:
 //!
 //! ```text
-//! minimise   sum l_e (n_e - l_e / h)^2
+//! minimise   sum l_e (n_e - l_e / h)^2        (l_e over their mean)
 //! subject to n of opposite sides of a patch with four sides are equal
 //!            n of side i of any other patch is the sum of its spokes i - 1 and i + 1
 //! ```
@@ -19,8 +19,12 @@ use crate::problem::Problem;
 use crate::search::{Options, SolveStatus, Strategy};
 use crate::solve::{Solution, solve_with};
 
-/// The weight of a spoke over that of a side as long.
-const SPOKE: f64 = 1e-3;
+/// The weight of a spoke over that of a side as long: a power of two.
+const SPOKE: f64 = 1.0 / 1024.0;
+
+/// Lengths are rounded to this part of their mean, and of an edge: costs are then exact in few bits, and the
+/// polynomial method for networks can sum them.
+const QUANTUM: f64 = 1.0 / 4096.0;
 
 /// The most scales that are tried to meet a number of quads.
 const SCALES: usize = 24;
@@ -197,6 +201,12 @@ impl<'a> Subdividing<'a> {
         solve_with(&self.problem(edge, holds)?, &options, monitor())
     }
 
+    /// The weight of an arc of this length: the mean has 1.
+    fn weight(&self, length: f64) -> f64 {
+        let mean = self.lengths.iter().sum::<f64>() / self.lengths.len() as f64;
+        rounded(length / mean).max(QUANTUM)
+    }
+
     /// The demands that may contradict each other: of patches first, then of fixed arcs.
     fn demands(&self) -> usize {
         self.layout.polygons().len() + self.fixed.len()
@@ -207,10 +217,9 @@ impl<'a> Subdividing<'a> {
         let mut problem = Problem::new(self.unknowns)?;
         let all: Vec<usize> = (0..self.unknowns).collect();
         problem.set_integers(&all)?;
-        let mean = self.lengths.iter().sum::<f64>() / self.lengths.len() as f64;
-        let wanted = |length: f64| if edge > 0.0 { length / edge } else { 0.0 };
         for (arc, &length) in self.lengths.iter().enumerate() {
-            problem.add_least_squares(&[arc], &[1.0], wanted(length), length / mean)?;
+            let weight = self.weight(length);
+            problem.add_least_squares(&[arc], &[1.0], wanted(length, edge), weight)?;
         }
         let mut lower = vec![1.0; self.unknowns];
         let mut upper = vec![f64::INFINITY; self.unknowns];
@@ -227,8 +236,8 @@ impl<'a> Subdividing<'a> {
             for (i, &arc) in arcs.iter().enumerate() {
                 let [before, after] = [(i + n - 1) % n, (i + 1) % n];
                 let beside = 0.25 * (self.lengths[arcs[before]] + self.lengths[arcs[after]]);
-                let weight = SPOKE * beside / mean;
-                problem.add_least_squares(&[first + i], &[1.0], wanted(beside), weight)?;
+                let weight = SPOKE * self.weight(beside);
+                problem.add_least_squares(&[first + i], &[1.0], wanted(beside, edge), weight)?;
                 if holds[p] {
                     let of = [arc, first + before, first + after];
                     problem.add_constraint(&of, &[1.0, -1.0, -1.0], 0.0)?;
@@ -319,6 +328,19 @@ impl<'a> Subdividing<'a> {
             elements: fixed.iter().map(|&(arc, _)| Conflicting::Bounds(arc)).collect(),
         }
     }
+}
+
+/// How many edges an arc of this length is to have. None for edges of length 0: the fewest are asked for.
+fn wanted(length: f64, edge: f64) -> f64 {
+    if edge > 0.0 {
+        rounded(length / edge)
+    } else {
+        0.0
+    }
+}
+
+fn rounded(x: f64) -> f64 {
+    (x / QUANTUM).round() * QUANTUM
 }
 
 fn is_contradiction(error: &Error) -> bool {

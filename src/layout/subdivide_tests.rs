@@ -15,7 +15,6 @@ fn least(subdividing: &Subdividing, edge: f64, most: u32) -> Option<f64> {
     let layout = subdividing.layout;
     let mut x = vec![1u32; subdividing.unknowns];
     let mut least: Option<f64> = None;
-    let mean = subdividing.lengths.iter().sum::<f64>() / subdividing.lengths.len() as f64;
     loop {
         let fits = layout.sides().iter().zip(&subdividing.spokes).all(|(sides, &spokes)| {
             let n = sides.len();
@@ -26,10 +25,9 @@ fn least(subdividing: &Subdividing, edge: f64, most: u32) -> Option<f64> {
             }
         });
         if fits && subdividing.fixed.iter().all(|&(arc, n)| x[arc] == n) {
-            let wanted = |length: f64| if edge > 0.0 { length / edge } else { 0.0 };
             let mut energy = 0.0;
             for (arc, &l) in subdividing.lengths.iter().enumerate() {
-                energy += l / mean * (f64::from(x[arc]) - wanted(l)).powi(2);
+                energy += subdividing.weight(l) * (f64::from(x[arc]) - wanted(l, edge)).powi(2);
             }
             for (sides, &spokes) in layout.sides().iter().zip(&subdividing.spokes) {
                 let Some(s) = spokes else { continue };
@@ -37,7 +35,8 @@ fn least(subdividing: &Subdividing, edge: f64, most: u32) -> Option<f64> {
                 for i in 0..n {
                     let l = |k: usize| subdividing.lengths[sides[k % n] as usize / 2];
                     let beside = 0.25 * (l(i + n - 1) + l(i + 1));
-                    energy += SPOKE * beside / mean * (f64::from(x[s + i]) - wanted(beside)).powi(2);
+                    let off = f64::from(x[s + i]) - wanted(beside, edge);
+                    energy += SPOKE * subdividing.weight(beside) * off * off;
                 }
             }
             least = Some(least.map_or(energy, |least| least.min(energy)));
