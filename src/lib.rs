@@ -43,7 +43,7 @@
 //! | [`mesh`], [`field`], [`map`], [`untangle`], [`check`] | meshes, orientation fields, seamless maps, their repair and their check |
 //! | [`geodesic`] | exact distances along the surface, and shortest paths |
 //! | [`extract`], [`smooth`], [`quad`] | quads from a map; all the way from a mesh to quads |
-//! | [`layout`] | layouts of quads: patches, and the arcs between them |
+//! | [`layout`] | quads that follow a base layout, and the layout that quads have |
 //! | [`transfer`] | materials, colours and other values, from triangles to quads |
 //! | [`Error`], [`InputError`] | what can go wrong |
 //! | [`capi`] | the C interface |
@@ -105,6 +105,8 @@ mod book {
     struct Errors;
     #[doc = include_str!("../docs/geodesic.md")]
     struct Geodesic;
+    #[doc = include_str!("../docs/layouts.md")]
+    struct Layouts;
     #[doc = include_str!("../docs/options.md")]
     struct Options;
     #[doc = include_str!("../docs/problems.md")]

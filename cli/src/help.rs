@@ -55,6 +55,7 @@ const EXAMPLES: [(&str, &str); 13] = [
     (
         "layout",
         "\
+  roundel layout bunny.obj --layout layout.obj --quads 2000 -o quads.obj
   roundel layout --of quads.obj -o layout.obj
   roundel layout --of quads.obj --kind simplified -o layout.obj --patches patches.json",
     ),

@@ -23,7 +23,7 @@
 /// failure there. Built without exceptions, a failure without a Status ends the program.
 ///
 /// Problem, Solution, Solver, Mesh, Soup, Repair, Sources, GeodesicDistance, Curves,
-/// Field, Map, Quads and
+/// Field, Map, Quads, Layout and
 /// CancelToken own their C objects. They can be moved and not copied. A const object may be used by
 /// several threads at once, any other by one.
 ///
@@ -39,6 +39,7 @@
 #include <roundel/detail/features.hpp>
 #include <roundel/detail/field.hpp>
 #include <roundel/detail/geodesic.hpp>
+#include <roundel/detail/layouts.hpp>
 #include <roundel/detail/lazy_rows.hpp>
 #include <roundel/detail/map.hpp>
 #include <roundel/detail/mesh.hpp>

@@ -23,7 +23,7 @@ object!(roundel_soup, PolygonSoup, "soup");
 ///
 /// # Safety
 /// The arrays are as the caller of the entry says.
-unsafe fn of_arrays<I: Index>(
+pub(super) unsafe fn of_arrays<I: Index>(
     (vertex_count, coordinates): (usize, *const f64),
     (polygon_count, sizes): (usize, *const i32),
     (corner_count, corners): (usize, *const I),

@@ -52,14 +52,19 @@ impl Freedom {
         let count = copies.iter().flatten().max().map_or(0, |&c| c as usize + 1);
         let coordinates = all.entries().filter(|&(i, _, _)| (i as usize) < 2 * count);
         let moves = Sparse::from_triplets(2 * count, all.cols(), coordinates)?;
-        let (start, faces) = faces_around(copies, count);
-        Ok(Freedom {
+        Ok(Self::of_moves(moves, copies.to_vec()))
+    }
+
+    /// The freedom of copies whose coordinates these unknowns move.
+    pub fn of_moves(moves: Sparse, copies: Vec<[u32; 3]>) -> Self {
+        let (start, faces) = faces_around(&copies, moves.rows() / 2);
+        Freedom {
             moved: moves.transpose(),
             moves,
             start,
             faces,
-            copies: copies.to_vec(),
-        })
+            copies,
+        }
     }
 
     /// Number of free unknowns.

@@ -20,6 +20,7 @@
 //! | rows between cones near each other | `near_cones` |
 //! | all elements whose shape integers alone decide | `held_elements`, `isoline_triangles` |
 //! | smaller quads around the remaining faults | `grading` |
+//! | maps of patches, whose seams slide | `patchwork` |
 //!
 //! [`solve_fold_free`](crate::quad::solve_fold_free) decides which of these is tried when.
 
@@ -31,6 +32,7 @@ mod held_elements;
 mod hessian;
 mod isoline_triangles;
 mod near_cones;
+mod patchwork;
 mod polar;
 mod region;
 mod schedule;
@@ -42,6 +44,7 @@ mod unwind;
 pub(crate) use grading::{FINER, faulty, grow_around};
 pub(crate) use held_elements::HeldElements;
 pub(crate) use near_cones::{FAR, NEAR};
+pub(crate) use patchwork::Patchwork;
 
 use crate::error::Result;
 use crate::map::{SeamlessMap, SeamlessProblem};

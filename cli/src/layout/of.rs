@@ -1,7 +1,7 @@
 //! `roundel layout --of`: from quads back to their layout.
 
 use std::fmt;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use clap::ValueEnum;
@@ -76,12 +76,12 @@ fn above_zero(text: &str) -> std::result::Result<f64, String> {
 }
 
 /// Runs the command and tells its outcome, once.
-pub fn run(arguments: &Arguments) -> Exit {
-    let told = find(arguments).and_then(|report| match arguments.json {
+pub fn run(arguments: &Arguments, quads: &Path) -> Exit {
+    let told = find(arguments, quads).and_then(|report| match arguments.json {
         true => output::print_json(&report),
         false => output::print(&report.to_string()),
     });
-    output::conclude(&arguments.of, arguments.json, told)
+    output::conclude(quads, arguments.json, told)
 }
 
 /// What `--json` prints.
@@ -136,15 +136,15 @@ impl Counts {
     }
 }
 
-fn find(arguments: &Arguments) -> Result<Report> {
+fn find(arguments: &Arguments, quads: &Path) -> Result<Report> {
     let flags = &arguments.found;
-    let outputs = Outputs::of(&[Some(arguments.of.as_path())], arguments.output.force)
+    let outputs = Outputs::of(&[Some(quads)], arguments.output.force)
         .write(arguments.out.as_ref(), OBJ)?
         .write(flags.groups.as_ref(), OBJ)?
         .write(flags.patches.as_ref(), SPLINES)?;
     outputs.tell(arguments.json || arguments.output.quiet);
     let started = Instant::now();
-    let soup = soup::read(&arguments.of).map_err(MeshError::from)?;
+    let soup = soup::read(quads).map_err(MeshError::from)?;
     let given = QuadSurface::from_soup(&soup)?;
     let read = started.elapsed().as_secs_f64();
     let started = Instant::now();
@@ -187,7 +187,7 @@ fn find(arguments: &Arguments) -> Result<Report> {
     let surfaces = write_surfaces(flags, &surface, &layout)?;
     let [base, motorcycle] = counts;
     Ok(Report {
-        file: arguments.of.to_string_lossy().into_owned(),
+        file: quads.to_string_lossy().into_owned(),
         quads: sizes.0,
         vertices: sizes.1,
         irregular,

@@ -1,0 +1,77 @@
+"""Base layouts, and quads that follow them."""
+
+from __future__ import annotations
+
+from typing import Sequence
+
+import numpy as np
+
+from ._handle import Handle, number
+from ._library import ffi, lib
+from ._types import ArrayLike, File, MeshLike
+from .arrays import indices32, path, pointer, reals
+from .errors import check
+from .mesh import as_mesh
+from .quads import Quads
+
+
+class Layout:
+    """A base layout: a coarse mesh of polygons anywhere near a surface.
+
+    Its vertices mark points of the surface, its edges are the arcs, its polygons the patches. Vertices are an array of
+    shape (vertices, 3), polygons a list of lists of three corners or more.
+
+    >>> import roundel
+    >>> corners = [[x, y, z] for z in (-1, 1) for y in (-1, 1) for x in (-1, 1)]
+    >>> sides = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]]
+    >>> cube = roundel.Layout(corners, sides)
+    >>> quads, subdivisions = cube.quads(roundel.Mesh.shape("sphere", 1000), 600)
+    >>> len(quads), set(subdivisions.tolist())
+    (600, {10})
+    """
+
+    def __init__(self, vertices: ArrayLike, polygons: Sequence[Sequence[int]]) -> None:
+        points = reals(vertices, "vertices of the layout", (-1, 3))
+        sizes = np.array([len(polygon) for polygon in polygons], dtype=np.int32)
+        named = [corner for polygon in polygons for corner in polygon]
+        corners = indices32(np.array(named, dtype=np.int64), "polygons of the layout")
+        arrays = (len(points), pointer(points), len(sizes), pointer(sizes), len(corners), pointer(corners))
+        self._handle = Handle.made("roundel_layout", lib.roundel_layout_new, *arrays)
+
+    @classmethod
+    def read(cls, file: File) -> Layout:
+        """Reads an OBJ file of vertices and polygons, with lines for arcs whose course is given."""
+        layout = cls.__new__(cls)
+        layout._handle = Handle.made("roundel_layout", lib.roundel_layout_read, path(file))
+        return layout
+
+    @property
+    def arcs(self) -> np.ndarray:
+        """The two vertices that each arc joins, of shape (arcs, 2), in the order in which polygons name the arcs."""
+        found = np.empty((number(lib.roundel_layout_arc_count, self._handle.pointer), 2), dtype=np.int32)
+        check(lib.roundel_layout_arcs(self._handle.pointer, pointer(found), found.size))
+        return found
+
+    def fix_arc(self, arc: int, edges: int) -> None:
+        """Fixes the number of edges of quads along an arc; 0 leaves it free."""
+        check(lib.roundel_layout_fix_arc(self._handle.pointer, arc, edges))
+
+    def draw_arc(self, arc: int, points: ArrayLike) -> None:
+        """Gives the course of an arc by points near the surface, of shape (points, 3); no points leave it free.
+
+        It runs from the first end of the arc to the second, at the vertices of the layout.
+        """
+        given = reals(points, "points of the arc", (-1, 3))
+        check(lib.roundel_layout_draw_arc(self._handle.pointer, arc, len(given), pointer(given)))
+
+    def quads(self, mesh: MeshLike, quads: int = 1000) -> tuple[Quads, np.ndarray]:
+        """Makes about `quads` quads on a mesh that follow the layout, or as few as it allows for 0.
+
+        The result has the quads and the number of their edges along each arc. An `Error` names the vertex, the arc or
+        the patch of the layout at fault as its `index`.
+        """
+        surface = as_mesh(mesh)
+        found = np.empty(len(self.arcs), dtype=np.int32)
+        given = (surface._handle.pointer, self._handle.pointer, quads, ffi.NULL, pointer(found), found.size)
+        made = Handle.made("roundel_quads", lib.roundel_quads_make_layout, *given)
+        return Quads(made), found

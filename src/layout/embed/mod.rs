@@ -1,0 +1,333 @@
+//! Embedding: the arcs of a layout are laid on the surface as shortest paths that do not cross.
+//!
+//! Arcs leave each node in the order in which the layout has them. The shortest arc that can be laid comes first, and
+//! one that would divide the surface otherwise than the layout waits until others are there. Where that ends with an
+//! arc that is blocked, a spanning tree is laid first (`praun2001`): it divides nothing, and on a sphere all other arcs
+//! have their place after it. Arcs are then laid again, each in the two patches beside it, as long as that makes them
+//! shorter.
+//!
+//! | step | file |
+//! | --- | --- |
+//! | a mesh that is cut along arcs | `surface` |
+//! | vertices of the layout on the surface | `nodes` |
+//! | a shortest path between two arcs that are laid | `path` |
+//! | whether the surface is divided as the layout | `regions` |
+
+mod nodes;
+pub(in crate::layout) mod path;
+mod regions;
+pub(in crate::layout) mod surface;
+
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+use super::base_layout::{BaseLayout, Dart, reversed};
+use crate::error::{Error, Result};
+use crate::linalg::DisjointSets;
+use crate::mesh::vector::{norm, sub};
+use crate::monitor::may_continue_at;
+pub(in crate::layout) use nodes::{is_turned_over, place_nodes, weights};
+pub(in crate::layout) use path::reached;
+use path::{Path, Search, Sector, lay};
+use regions::are_those_of;
+use surface::{NONE, Surface};
+
+/// How often all arcs are laid again.
+const ROUNDS: usize = 3;
+
+/// The part by which an arc must become shorter.
+const GAIN: f64 = 1e-3;
+
+/// A layout on a surface.
+#[derive(Debug, Clone)]
+pub(in crate::layout) struct Embedding {
+    pub surface: Surface,
+    /// The vertex of each vertex of the layout.
+    pub nodes: Vec<u32>,
+    /// The vertices of each arc, from its first end to its second.
+    pub chains: Vec<Vec<u32>>,
+}
+
+/// Arcs that are given as chains of edges of the mesh: the arc, and the vertices from its first end to its second.
+pub(in crate::layout) type Given = Vec<(usize, Vec<u32>)>;
+
+/// Lays a layout on a mesh. `nodes` are vertices of `surface`.
+///
+/// # Errors
+/// [`Error::InvalidArgument`] with an arc that cannot be laid.
+pub(in crate::layout) fn embed(
+    layout: &BaseLayout,
+    surface: Surface,
+    nodes: Vec<u32>,
+    given: &Given,
+) -> Result<Embedding> {
+    let mut start = Laying {
+        layout,
+        is_given: vec![false; layout.arc_count()],
+        embedding: Embedding {
+            chains: vec![Vec::new(); layout.arc_count()],
+            surface,
+            nodes,
+        },
+        search: Search::default(),
+    };
+    start.take_given(given)?;
+    start.take_boundary()?;
+    if !start.is_consistent() {
+        return Err(Error::InvalidArgument {
+            what: format!(
+                "the layout does not fit the surface: components, boundaries or handles differ, or arcs that are given \
+                 divide it otherwise (the Euler characteristic of the layout is {})",
+                layout.euler_characteristic()
+            ),
+            index: None,
+        });
+    }
+    let mut greedy = start.clone();
+    let mut laid = match greedy.lay_all(false) {
+        Ok(()) => greedy,
+        Err(_) => {
+            start.lay_all(true)?;
+            start
+        }
+    };
+    laid.shorten()?;
+    Ok(laid.embedding)
+}
+
+struct Laying<'a> {
+    layout: &'a BaseLayout,
+    is_given: Vec<bool>,
+    embedding: Embedding,
+    search: Search,
+}
+
+impl Clone for Laying<'_> {
+    fn clone(&self) -> Self {
+        Laying {
+            layout: self.layout,
+            is_given: self.is_given.clone(),
+            embedding: self.embedding.clone(),
+            search: Search::default(),
+        }
+    }
+}
+
+/// An arc that waits to be laid: whether it closes a cycle of arcs, the length when it was last looked at, in the
+/// order of positive floating-point numbers, and its number.
+type Waiting = Reverse<(bool, u64, usize)>;
+
+impl Laying<'_> {
+    fn is_consistent(&self) -> bool {
+        let Embedding { surface, nodes, chains } = &self.embedding;
+        are_those_of(self.layout, surface, nodes, chains)
+    }
+
+    fn take(&mut self, arc: usize, chain: Vec<u32>) {
+        for pair in chain.windows(2) {
+            self.embedding.surface.take_edge(pair[0], pair[1], 2 * arc as Dart);
+        }
+        self.is_given[arc] = true;
+        self.embedding.chains[arc] = chain;
+    }
+
+    fn take_given(&mut self, given: &Given) -> Result<()> {
+        let mut owner = vec![None; self.embedding.surface.positions.len()];
+        for (arc, chain) in given {
+            for &v in &chain[1..chain.len() - 1] {
+                let other = owner[v as usize].replace(*arc);
+                let is_node = self.embedding.nodes.contains(&v);
+                if other.is_some() || is_node {
+                    let [a, b] = self.layout.arcs()[*arc];
+                    return Err(Error::InvalidArgument {
+                        what: match other {
+                            Some(other) => format!(
+                                "the curve given for arc {arc}, between vertices {a} and {b}, meets itself or that of arc {other}"
+                            ),
+                            None => format!(
+                                "the curve given for arc {arc}, between vertices {a} and {b}, runs through another vertex"
+                            ),
+                        },
+                        index: Some(*arc),
+                    });
+                }
+            }
+            self.take(*arc, chain.clone());
+        }
+        Ok(())
+    }
+
+    /// Arcs of the boundary run along the boundary of the surface.
+    fn take_boundary(&mut self) -> Result<()> {
+        for arc in 0..self.layout.arc_count() {
+            if !self.layout.is_boundary_arc(arc) || self.is_given[arc] {
+                continue;
+            }
+            // With the patch on the left, as the surface has its faces.
+            let back = self.layout.polygon_left_of(2 * arc as Dart).is_none();
+            let dart = 2 * arc as Dart + Dart::from(back);
+            let [from, to] = [dart, reversed(dart)]
+                .map(|d| self.embedding.nodes[self.layout.tail(d) as usize]);
+            let surface = &self.embedding.surface;
+            let mut chain = vec![from];
+            let mut at = from;
+            while at != to && chain.len() <= surface.positions.len() {
+                let half = surface.around(at).next().unwrap_or(0);
+                at = surface.tip(half);
+                chain.push(at);
+                let is_other = at != to && self.embedding.nodes.contains(&at);
+                if is_other || surface.twin[half as usize] != NONE || at == from {
+                    return Err(self.blocked(arc, "the boundary between them runs through others"));
+                }
+            }
+            if back {
+                chain.reverse();
+            }
+            self.take(arc, chain);
+        }
+        let surface = &mut self.embedding.surface;
+        for half in 0..surface.twin.len() as u32 {
+            if surface.twin[half as usize] == NONE {
+                let ends = [surface.tail(half), surface.tip(half)];
+                ends.iter().for_each(|&v| surface.is_taken[v as usize] = true);
+            }
+        }
+        Ok(())
+    }
+
+    fn sectors(&self, arc: usize) -> [Sector; 2] {
+        [2 * arc, 2 * arc + 1].map(|dart| {
+            let dart = dart as Dart;
+            let v = self.layout.tail(dart) as usize;
+            let around: Vec<Dart> = self.layout.around(v).collect();
+            let is_closed = !self.layout.is_boundary_vertex(v);
+            let node = self.embedding.nodes[v];
+            Sector::new(&self.embedding.surface, node, &around, dart, is_closed)
+        })
+    }
+
+    fn find(&mut self, arc: usize) -> Option<Path> {
+        let [from, to] = self.sectors(arc);
+        self.search.shortest(&self.embedding.surface, &from, &to)
+    }
+
+    /// Lays all arcs, the shortest first; if asked for, those that join nodes that are not joined yet before others.
+    fn lay_all(&mut self, tree_first: bool) -> Result<()> {
+        let mut joined = DisjointSets::new(self.layout.vertex_count());
+        let ends = |layout: &BaseLayout, arc: usize| layout.arcs()[arc].map(|v| v as usize);
+        let mut queue: BinaryHeap<Waiting> = BinaryHeap::new();
+        for arc in 0..self.layout.arc_count() {
+            let [a, b] = ends(self.layout, arc);
+            if self.embedding.chains[arc].is_empty() {
+                let nodes = [a, b].map(|v| self.embedding.nodes[v]);
+                let [p, q] = nodes.map(|v| self.embedding.surface.position(v));
+                queue.push(Reverse((false, norm(sub(p, q)).to_bits(), arc)));
+            } else {
+                joined.join(a, b);
+            }
+        }
+        let mut deferred: Vec<Waiting> = Vec::new();
+        let mut steps = 0;
+        while let Some(Reverse((was_cycle, known, arc))) = queue.pop() {
+            may_continue_at(steps)?;
+            steps += 1;
+            let [a, b] = ends(self.layout, arc);
+            let is_cycle = tree_first && joined.root(a) == joined.root(b);
+            let Some(path) = self.find(arc) else {
+                return Err(self.enclosed(arc));
+            };
+            let now: Waiting = Reverse((is_cycle, path.length.to_bits(), arc));
+            if (is_cycle, path.length) > (was_cycle, f64::from_bits(known) * (1.0 + 1e-12)) {
+                queue.push(now);
+                continue;
+            }
+            let saved = self.embedding.surface.clone();
+            let chain = lay(&mut self.embedding.surface, &path, 2 * arc as Dart);
+            self.embedding.chains[arc] = chain;
+            if self.is_consistent() {
+                joined.join(a, b);
+                queue.extend(deferred.drain(..));
+            } else {
+                self.embedding.surface = saved;
+                self.embedding.chains[arc].clear();
+                deferred.push(now);
+            }
+        }
+        match deferred.first() {
+            None => Ok(()),
+            Some(&Reverse((_, _, arc))) => Err(self.blocked(
+                arc,
+                "every way that is left divides the surface otherwise than the layout; give its course as a curve",
+            )),
+        }
+    }
+
+    fn blocked(&self, arc: usize, why: &str) -> Error {
+        let [a, b] = self.layout.arcs()[arc];
+        Error::InvalidArgument {
+            what: format!("arc {arc} of the layout, between vertices {a} and {b}, cannot be laid: {why}"),
+            index: Some(arc),
+        }
+    }
+
+    /// The error for an arc whose ends other arcs separate.
+    fn enclosed(&self, arc: usize) -> Error {
+        let [from, _] = self.sectors(arc);
+        let surface = &self.embedding.surface;
+        let faces = from.corners.first().map(|&corner| reached(surface, corner));
+        let halves = faces.into_iter().flatten().flat_map(|f| 3 * f..3 * f + 3);
+        let mut walls: Vec<u32> = halves
+            .map(|half| surface.dart[half as usize])
+            .filter(|&dart| dart != NONE)
+            .map(|dart| dart / 2)
+            .collect();
+        walls.sort_unstable();
+        walls.dedup();
+        let names: Vec<String> = walls
+            .iter()
+            .take(8)
+            .map(|&wall| {
+                let [a, b] = self.layout.arcs()[wall as usize];
+                format!("{a}-{b}")
+            })
+            .collect();
+        self.blocked(
+            arc,
+            &format!("arcs between vertices {} separate them", names.join(", ")),
+        )
+    }
+
+    /// Lays each arc again in the two patches beside it, where that makes it shorter.
+    fn shorten(&mut self) -> Result<()> {
+        for _ in 0..ROUNDS {
+            let mut is_better = false;
+            for arc in 0..self.layout.arc_count() {
+                may_continue_at(arc)?;
+                if self.is_given[arc] {
+                    continue;
+                }
+                let old = std::mem::take(&mut self.embedding.chains[arc]);
+                let length = self.embedding.surface.chain_length(&old);
+                self.embedding.surface.free_chain(&old);
+                let dart = 2 * arc as Dart;
+                let found = self.find(arc);
+                let shorter = found.filter(|path| path.length < length * (1.0 - GAIN));
+                self.embedding.chains[arc] = match shorter {
+                    Some(path) => {
+                        is_better = true;
+                        lay(&mut self.embedding.surface, &path, dart)
+                    }
+                    None => {
+                        let surface = &mut self.embedding.surface;
+                        old.windows(2).for_each(|p| surface.take_edge(p[0], p[1], dart));
+                        old
+                    }
+                };
+            }
+            if !is_better {
+                break;
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,289 @@
+//! From a layout to quads, step by step: [`layout_quads`].
+//!
+//! ```text
+//! nodes         vertices of the layout on the surface; curves that are given are cut into it
+//! embedding     arcs are laid as shortest paths
+//! subdivisions  numbers of edges along arcs are decided, with a proof
+//! rectangles    patches of other than four sides are divided by spokes
+//! grid          a map of all patches, whose arcs slide until it is smooth
+//! quads         extraction and smoothing
+//! ```
+
+use super::base_layout::BaseLayout;
+use super::embed::surface::Surface;
+use super::embed::{embed, is_turned_over, place_nodes, weights};
+use super::given::GivenCurves;
+use super::grid::{Grid, Motion};
+use super::rectangles::Rectangles;
+use super::subdivide::{LayoutSizing, Subdividing, Subdivisions};
+use crate::error::{Error, Result};
+use crate::extract::{IntegerGridMap, Origin, QuadMesh, extract};
+use crate::mesh::vector::Vec3;
+use crate::mesh::{ClosestPoint, TriangleMesh};
+use crate::monitor::{Monitor, Phase, may_continue, span, with_threads};
+use crate::smooth::{SmoothOptions, smooth};
+
+/// What is asked for besides the layout.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LayoutOptions {
+    /// The number or the size of quads.
+    pub sizing: LayoutSizing,
+    /// Arcs whose number of edges is fixed, each with that number, at least 1.
+    pub fixed: Vec<(usize, u32)>,
+    /// Arcs whose course is given: the arc, and points in space near the surface from its first end to its second. It
+    /// starts and ends at the vertices of the layout, whatever the first and the last point are.
+    pub curves: Vec<(usize, Vec<Vec3>)>,
+    /// Whether arcs with a given course stay on it; else that only decides which way they go.
+    pub hold_curves: bool,
+    /// Whether vertices of the layout with four patches may slide on the surface, as arcs do.
+    pub slide_regular: bool,
+    /// How quads are smoothed; not at all for none.
+    pub smooth: Option<SmoothOptions>,
+    /// The largest number of threads; 0 for one for each core. The result does not depend on it.
+    pub threads: usize,
+}
+
+impl Default for LayoutOptions {
+    fn default() -> Self {
+        LayoutOptions {
+            sizing: LayoutSizing::Quads(1000),
+            fixed: Vec::new(),
+            curves: Vec::new(),
+            hold_curves: true,
+            slide_regular: false,
+            smooth: Some(SmoothOptions::default()),
+            threads: 0,
+        }
+    }
+}
+
+/// Quads that follow a layout.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LayoutQuads {
+    /// The quads.
+    pub quads: QuadMesh,
+    /// The layout, with its orientation turned to that of the mesh.
+    pub layout: BaseLayout,
+    /// The numbers of edges along arcs and spokes.
+    pub subdivisions: Subdivisions,
+    /// The length of each arc when it was laid.
+    pub lengths: Vec<f64>,
+    /// The vertices of each arc when it was laid, from its first end to its second.
+    pub arcs: Vec<Vec<Vec3>>,
+    /// The polygon of the layout that every face of the mesh belongs to, or the first one where arcs divide it.
+    pub patches: Vec<u32>,
+    /// Faces that the map folds: none in a valid one.
+    pub folded: usize,
+    /// Whether the quads conform, are as many as the subdivisions say, and have the irregular vertices of the layout
+    /// and no others.
+    pub is_as_prescribed: bool,
+}
+
+/// Makes quads on a mesh that follow a layout: its patches are filled with grids of quads, its vertices with other than
+/// four patches and the middles of polygons of other than four sides are the irregular vertices.
+///
+/// # Errors
+/// Those of the steps, with the vertex, arc or patch of the layout at fault: a vertex off the surface, an arc that
+/// cannot be laid without crossing others, fixed numbers that contradict each other
+/// ([`Error::Contradiction`]), a layout of other topology than the mesh; and [`Error::Cancelled`].
+pub fn layout_quads<'a>(
+    mesh: &TriangleMesh,
+    layout: &BaseLayout,
+    options: &LayoutOptions,
+    monitor: impl Fn() -> Monitor<'a>,
+) -> Result<LayoutQuads> {
+    with_threads(options.threads, || on_threads(mesh, layout, options, &monitor))
+}
+
+fn on_threads<'a>(
+    mesh: &TriangleMesh,
+    given_layout: &BaseLayout,
+    options: &LayoutOptions,
+    monitor: &impl Fn() -> Monitor<'a>,
+) -> Result<LayoutQuads> {
+    let run = monitor().run();
+    let monitor = || monitor().of_run(&run);
+    let (_watch, _memory) = (monitor().watch(), mesh.watch_memory());
+    may_continue()?;
+    check(options)?;
+    check_topology(mesh, given_layout)?;
+    let layout = match is_turned_over(mesh, given_layout) {
+        true => given_layout.turned_over(),
+        false => given_layout.clone(),
+    };
+    let curves = GivenCurves::new(mesh, &layout, &options.curves, &monitor())?;
+    let cut = curves.mesh(mesh);
+    let mut surface = Surface::new(cut);
+    let nodes = place_nodes(cut, &layout, &curves.nodes, &mut surface)?;
+    let embedding = run.with_share([0.0, 0.3], || {
+        let _span = span("embed");
+        embed(&layout, surface, nodes, &curves.chains)
+    })?;
+    let lengths: Vec<f64> = embedding.chains.iter().map(|chain| embedding.surface.chain_length(chain)).collect();
+    let arcs = embedding.chains.iter().map(|chain| {
+        let places = chain.iter().map(|&v| embedding.surface.position(v));
+        places.collect()
+    });
+    let arcs: Vec<Vec<Vec3>> = arcs.collect();
+    let area = mesh.surface_area();
+    let subdividing = Subdividing::new(&layout, &lengths, &options.fixed)?;
+    let subdivisions = run.with_share([0.3, 0.5], || {
+        let _span = span("subdivide");
+        subdividing.solve(options.sizing, area, &monitor)
+    })?;
+    let nodes = embedding.nodes.clone();
+    let all = Rectangles::new(&layout, embedding, &subdivisions)?;
+    let mut grid = Grid::new(&all)?;
+    let motion = motion(&layout, &all, &nodes, options);
+    let edge = (area / subdivisions.quads as f64).sqrt();
+    run.with_share([0.5, 0.8], || {
+        let _span = span("relax");
+        grid.relax(&all, &motion, edge, &mut monitor())
+    })?;
+    let uvs: Vec<[[f64; 2]; 3]> = (0..all.surface.triangles.len()).map(|f| grid.uv(f)).collect();
+    let refined = TriangleMesh::new(all.surface.positions.clone(), all.surface.triangles.clone())?;
+    let map = IntegerGridMap::new(&refined, &uvs)?;
+    let mut quads = run.with_share([0.8, 0.9], || extract(&refined, &map, &mut monitor()))?;
+    let origins = |face: u32| curves.original(all.surface.origin[face as usize]);
+    bring_back(&mut quads, mesh, &refined, origins);
+    if let Some(smoothing) = &options.smooth {
+        let features = match options.hold_curves {
+            true => curves.features(mesh),
+            false => Vec::new(),
+        };
+        let smoothing = SmoothOptions {
+            features: [features, smoothing.features.clone()].concat(),
+            ..smoothing.clone()
+        };
+        run.with_share([0.9, 1.0], || {
+            smooth(&mut quads, mesh, &smoothing, &mut monitor())
+        })?;
+    }
+    let mut patches = vec![u32::MAX; mesh.face_count()];
+    for (face, &rectangle) in grid.rectangle.iter().enumerate() {
+        let patch = &mut patches[origins(face as u32)];
+        *patch = (*patch).min(all.rectangles[rectangle as usize].polygon);
+    }
+    run.end_call();
+    let _ = monitor().progress(Phase::Quads, 1.0);
+    Ok(LayoutQuads {
+        is_as_prescribed: is_as_prescribed(&quads, &layout, &subdivisions),
+        folded: grid.folded(),
+        quads,
+        layout,
+        subdivisions,
+        lengths,
+        arcs,
+        patches,
+    })
+}
+
+fn check(options: &LayoutOptions) -> Result<()> {
+    let what = match options.sizing {
+        LayoutSizing::Quads(0) => "the number of quads is 0; it must be at least 1".into(),
+        LayoutSizing::EdgeLength(length) if !(length.is_finite() && length > 0.0) => {
+            format!("the edge length is {length}; it must be finite and above 0")
+        }
+        _ => return Ok(()),
+    };
+    Err(Error::InvalidArgument { what, index: None })
+}
+
+/// What can be told without laying any arc.
+fn check_topology(mesh: &TriangleMesh, layout: &BaseLayout) -> Result<()> {
+    let [of_mesh, of_layout] = [mesh.euler_characteristic(), layout.euler_characteristic()];
+    if of_mesh != of_layout {
+        return Err(Error::InvalidArgument {
+            what: format!(
+                "the layout has Euler characteristic {of_layout}, and the mesh {of_mesh}: they must have as many \
+                 components, boundaries and handles"
+            ),
+            index: None,
+        });
+    }
+    Ok(())
+}
+
+/// How each vertex of the surface may move in the map.
+fn motion(
+    layout: &BaseLayout,
+    all: &Rectangles,
+    nodes: &[u32],
+    options: &LayoutOptions,
+) -> Vec<Motion> {
+    let mut motion = vec![Motion::Free; all.surface.positions.len()];
+    let is_held = |arc: usize| {
+        layout.is_boundary_arc(arc)
+            || (options.hold_curves && options.curves.iter().any(|curve| curve.0 == arc))
+    };
+    for arc in (0..layout.arc_count()).filter(|&arc| is_held(arc)) {
+        let chain = &all.curves[arc].chain;
+        chain.iter().for_each(|&v| motion[v as usize] = Motion::Along);
+    }
+    for (number, &v) in nodes.iter().enumerate() {
+        let slides = options.slide_regular
+            && layout.valence(number) == 4
+            && motion[v as usize] == Motion::Free;
+        if !slides {
+            motion[v as usize] = Motion::Held;
+        }
+    }
+    for &center in all.centers.iter().flatten() {
+        motion[center as usize] = Motion::Held;
+    }
+    motion
+}
+
+/// Lets the origins of quads name elements of the mesh that was given instead of those of the one that was cut.
+fn bring_back(
+    quads: &mut QuadMesh,
+    mesh: &TriangleMesh,
+    refined: &TriangleMesh,
+    original: impl Fn(u32) -> usize,
+) {
+    for (origin, &p) in quads.origins.iter_mut().zip(&quads.vertices) {
+        let face = match *origin {
+            Origin::Face(face, _) => face,
+            Origin::Vertex(v) if v < mesh.vertex_count() => continue,
+            Origin::Vertex(v) => match refined.ring(v).next() {
+                Some((face, _)) => face,
+                None => continue,
+            },
+            Origin::Middle => continue,
+        };
+        let face = original(face as u32);
+        let at = weights(mesh.corner_positions(face), p).map(|w| w.clamp(0.0, 1.0));
+        let sum: f64 = at.iter().sum();
+        *origin = Origin::Face(face, at.map(|w| w / sum));
+    }
+    let mut folded: Vec<usize> = quads.folded.iter().map(|&f| original(f as u32)).collect();
+    folded.sort_unstable();
+    folded.dedup();
+    quads.folded = folded;
+}
+
+fn is_as_prescribed(quads: &QuadMesh, layout: &BaseLayout, found: &Subdivisions) -> bool {
+    let is_irregular = |v: &usize| !layout.is_boundary_vertex(*v) && layout.valence(*v) != 4;
+    let vertices = (0..layout.vertex_count()).filter(is_irregular);
+    let centers = layout.polygons().iter().map(Vec::len).filter(|&sides| sides != 4);
+    let mut wanted: Vec<usize> = vertices.map(|v| layout.valence(v)).chain(centers).collect();
+    let mut on_boundary = vec![false; quads.vertices.len()];
+    for side in quads.sides().chunk_by(|a, b| a.0 == b.0) {
+        if let [(ends, _)] = side {
+            ends.iter().for_each(|&v| on_boundary[v as usize] = true);
+        }
+    }
+    let around = quads.around();
+    let inner = (0..around.len()).filter(|&v| !on_boundary[v]);
+    let mut irregular: Vec<usize> = inner.map(|v| around[v].len()).filter(|&n| n != 4).collect();
+    wanted.sort_unstable();
+    irregular.sort_unstable();
+    quads.is_conforming() && quads.quads.len() == found.quads && wanted == irregular
+}
+
+/// The closest point of a mesh to each vertex of a layout.
+pub(super) fn feet(mesh: &TriangleMesh, layout: &BaseLayout) -> Vec<Vec3> {
+    let closest = ClosestPoint::new(mesh);
+    let foot = |&p: &Vec3| closest.find(p, None).map_or(p, |(_, foot)| foot);
+    layout.positions().iter().map(foot).collect()
+}

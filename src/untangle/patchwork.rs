@@ -1,0 +1,183 @@
+//! Maps of patches: charts with fixed transitions, whose seams slide over the surface.
+//!
+//! Every patch has a chart of its own, and the transitions between charts are known. A vertex on a seam has a copy in
+//! each chart around it, which move together. The map is first the harmonic one (`tong2006`): the minimum of the
+//! Dirichlet energy, by one linear system. Where it folds, it is untangled region by region. If folds are left, the map
+//! that was given takes its place, which has none. Steps on the distortion energy of the whole map follow.
+
+use super::energy::{Quadratic, Rest};
+use super::freedom::Freedom;
+use super::region::{Region, regions};
+use super::schedule;
+use super::system::System;
+use super::{NONE, RINGS};
+use crate::error::Result;
+use crate::linalg::Sparse;
+use crate::mesh::orientation;
+use crate::mesh::vector::{Vec3, cross, dot, norm, sub};
+use crate::monitor::{Monitor, Phase};
+
+/// The most Newton steps on the energy of the whole map.
+const STEPS: usize = 12;
+
+/// They end when one gains less than this part of the energy.
+const CONVERGED: f64 = 2e-3;
+
+/// The most Newton steps on a region with folds.
+const STEPS_OF_REGION: usize = 60;
+
+/// The barrier of maps without folds.
+const CLOSED: f64 = 1e-9;
+
+/// A map of patches.
+pub(crate) struct Patchwork {
+    freedom: Freedom,
+    rests: Vec<Rest>,
+}
+
+/// The result of [`Patchwork::relax`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) struct Relaxed {
+    /// Faces that the harmonic map folds.
+    pub folded_at_first: usize,
+    /// Newton steps.
+    pub steps: usize,
+}
+
+impl Patchwork {
+    /// A map with these copies at the corners of each face. `moves` has a row for each coordinate (u of copy c is
+    /// 2 c) and a column for each unknown that may move. `corners` are the faces in space, in units in which an edge of
+    /// quads is 1 long.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+    pub fn new(copies: Vec<[u32; 3]>, moves: Sparse, corners: &[[Vec3; 3]]) -> Self {
+        Patchwork {
+            freedom: Freedom::of_moves(moves, copies),
+            rests: corners.iter().map(|&corners| flat(corners)).collect(),
+        }
+    }
+
+    /// Improves a map without folds. `values` has the coordinates of all copies.
+    ///
+    /// # Errors
+    /// Those of factorizations, and [`Error::Cancelled`](crate::Error::Cancelled).
+    pub fn relax(&self, values: &mut [f64], monitor: &mut Monitor) -> Result<Relaxed> {
+        let mut done = Relaxed::default();
+        if self.freedom.dim() == 0 {
+            return Ok(done);
+        }
+        let whole = Region {
+            unknowns: (0..self.freedom.dim() as u32).collect(),
+            faces: (0..self.rests.len() as u32).collect(),
+        };
+        let mut place = vec![NONE; self.freedom.dim()];
+        let mut system = self.system(&whole, &mut place)?;
+        let valid = values.to_vec();
+        let forms: Vec<Quadratic> = self.dirichlet(values);
+        system.minimise(values, &forms)?;
+        let folded = self.folded(values);
+        done.folded_at_first = folded.len();
+        if !folded.is_empty() {
+            done.steps += self.unfold(values, monitor)?;
+        }
+        if !self.folded(values).is_empty() {
+            values.copy_from_slice(&valid);
+        }
+        let mut energy = system.energy(values, CLOSED);
+        for step in 0..STEPS {
+            monitor.progress(Phase::Untangle, step as f64 / STEPS as f64)?;
+            let saved = system.save(values);
+            let after = monitor.watching(|| system.step(values, CLOSED))?;
+            done.steps += 1;
+            if system.folded(values) > 0 {
+                system.restore(values, &saved);
+                break;
+            }
+            if after >= energy * (1.0 - CONVERGED) {
+                break;
+            }
+            energy = after;
+        }
+        Ok(done)
+    }
+
+    /// Faces with a negative or no area, decided exactly.
+    pub fn folded(&self, values: &[f64]) -> Vec<usize> {
+        let faces = 0..self.rests.len();
+        faces.filter(|&f| orientation(self.uv(values, f)) <= 0.0).collect()
+    }
+
+    fn unfold(&self, values: &mut [f64], monitor: &mut Monitor) -> Result<usize> {
+        let mut steps = 0;
+        let mut place = vec![NONE; self.freedom.dim()];
+        for rings in RINGS {
+            let folded = self.folded(values);
+            if folded.is_empty() {
+                break;
+            }
+            for region in regions(&self.freedom, &folded, rings) {
+                let mut system = self.system(&region, &mut place)?;
+                let (before, saved) = (system.folded(values), system.save(values));
+                let outcome = schedule::close_barrier(
+                    &mut system,
+                    values,
+                    STEPS_OF_REGION,
+                    schedule::FIRST_EPS,
+                    monitor,
+                )?;
+                steps += outcome.steps;
+                if outcome.folded >= before {
+                    system.restore(values, &saved);
+                }
+            }
+        }
+        Ok(steps)
+    }
+
+    fn system<'r>(&'r self, region: &'r Region, place: &mut [u32]) -> Result<System<'r>> {
+        for (k, &y) in region.unknowns.iter().enumerate() {
+            place[y as usize] = k as u32;
+        }
+        let system = System::new(&self.freedom, region, |face| self.rests[face], place);
+        region.unknowns.iter().for_each(|&y| place[y as usize] = NONE);
+        system
+    }
+
+    fn uv(&self, values: &[f64], face: usize) -> [[f64; 2]; 3] {
+        self.freedom.copies[face].map(|c| [values[2 * c as usize], values[2 * c as usize + 1]])
+    }
+
+    /// The Dirichlet energy of every face, to second order.
+    fn dirichlet(&self, values: &[f64]) -> Vec<Quadratic> {
+        let of_face = |(face, rest): (usize, &Rest)| {
+            let uv = self.uv(values, face);
+            let area = rest.weight * rest.weight;
+            let mut form = Quadratic::ZERO;
+            for (i, g) in rest.gradients.iter().enumerate() {
+                for (j, h) in rest.gradients.iter().enumerate() {
+                    let product = area * (g[0] * h[0] + g[1] * h[1]);
+                    for axis in 0..2 {
+                        form.hessian[2 * i + axis][2 * j + axis] = product;
+                        form.slope[2 * i + axis] += product * uv[j][axis];
+                    }
+                }
+            }
+            form
+        };
+        self.rests.iter().enumerate().map(of_face).collect()
+    }
+}
+
+/// The least height of a face at rest, over its longest side: what is thinner is made as thick.
+const THIN: f64 = 1e-4;
+
+/// A face laid into the plane.
+fn flat([a, b, c]: [Vec3; 3]) -> Rest {
+    let [ab, ac] = [sub(b, a), sub(c, a)];
+    let longest = norm(ab).max(norm(ac)).max(norm(sub(c, b))).max(f64::MIN_POSITIVE);
+    let width = norm(ab).max(THIN * longest);
+    let along = dot(ac, ab) / width;
+    let height = (norm(cross(ab, ac)) / width).max(THIN * longest);
+    Rest::new([[0.0; 2], [width, 0.0], [along, height]])
+}

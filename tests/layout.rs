@@ -1,0 +1,186 @@
+//! Quads that follow a base layout, on shapes and on meshes of the archive.
+
+use roundel::layout::{BaseLayout, LayoutOptions, LayoutQuads, LayoutSizing, layout_quads};
+use roundel::mesh::vector::Vec3;
+use roundel::mesh::{TriangleMesh, shape};
+use roundel::{Error, Monitor, Result};
+
+/// The corners of a box by bits, and its sides, seen from outside.
+const SIDES: [[u32; 4]; 6] = [
+    [0, 2, 3, 1],
+    [4, 5, 7, 6],
+    [0, 1, 5, 4],
+    [2, 6, 7, 3],
+    [0, 4, 6, 2],
+    [1, 3, 7, 5],
+];
+
+/// The box around a mesh.
+fn box_around(mesh: &TriangleMesh) -> BaseLayout {
+    let ends = mesh.bounding_box();
+    let corner = |v: usize| [0, 1, 2].map(|axis| ends[v >> axis & 1][axis]);
+    let polygons = SIDES.iter().map(|side| side.to_vec()).collect();
+    BaseLayout::new((0..8).map(corner).collect(), polygons).unwrap()
+}
+
+/// Triangles around the middle of a box: each side in four.
+fn pyramids(mesh: &TriangleMesh) -> BaseLayout {
+    let whole = box_around(mesh);
+    let mut positions = whole.positions().to_vec();
+    let mut polygons = Vec::new();
+    for side in SIDES {
+        let middle = positions.len() as u32;
+        let corners = side.map(|v| positions[v as usize]);
+        positions.push([0, 1, 2].map(|axis| corners.iter().map(|p| p[axis]).sum::<f64>() / 4.0));
+        polygons.extend((0..4).map(|k| vec![side[k], side[(k + 1) % 4], middle]));
+    }
+    BaseLayout::new(positions, polygons).unwrap()
+}
+
+fn solve(mesh: &TriangleMesh, layout: &BaseLayout, options: &LayoutOptions) -> Result<LayoutQuads> {
+    layout_quads(mesh, layout, options, Monitor::default)
+}
+
+fn sized(sizing: LayoutSizing) -> LayoutOptions {
+    LayoutOptions {
+        sizing,
+        ..LayoutOptions::default()
+    }
+}
+
+fn hold(found: &LayoutQuads, name: &str) {
+    assert!(found.is_as_prescribed, "{name}");
+    assert_eq!(found.folded, 0, "{name}");
+    assert!(found.subdivisions.is_optimal, "{name}");
+}
+
+#[test]
+fn a_box_around_a_shape_gives_quads_of_any_number() {
+    for (name, triangles) in [("sphere", 1_000), ("rounded-cube", 2_000), ("bumpy", 3_000)] {
+        let mesh = shape::by_name(name, triangles).unwrap();
+        let layout = box_around(&mesh);
+        let fewest = solve(&mesh, &layout, &sized(LayoutSizing::Fewest)).unwrap();
+        hold(&fewest, name);
+        assert_eq!(fewest.quads.quads.len(), 6, "{name}");
+        for asked in [100, 1_500] {
+            let found = solve(&mesh, &layout, &sized(LayoutSizing::Quads(asked))).unwrap();
+            hold(&found, name);
+            let off = (found.quads.quads.len() as f64 / asked as f64 - 1.0).abs();
+            assert!(off < 0.15, "{name}: {} of {asked}", found.quads.quads.len());
+        }
+    }
+}
+
+#[test]
+fn patches_of_three_sides_get_an_irregular_vertex_in_their_middle() {
+    let mesh = shape::by_name("sphere", 2_000).unwrap();
+    let layout = pyramids(&mesh);
+    let fewest = solve(&mesh, &layout, &sized(LayoutSizing::Fewest)).unwrap();
+    hold(&fewest, "fewest");
+    assert_eq!(fewest.quads.quads.len(), 3 * 24);
+    let found = solve(&mesh, &layout, &sized(LayoutSizing::Quads(1_500))).unwrap();
+    hold(&found, "1500");
+}
+
+#[test]
+fn the_bytes_do_not_depend_on_threads_or_orientation() {
+    let mesh = shape::by_name("rounded-cube", 2_000).unwrap();
+    let layout = box_around(&mesh);
+    let with = |threads| LayoutOptions {
+        threads,
+        ..LayoutOptions::default()
+    };
+    let one = solve(&mesh, &layout, &with(1)).unwrap();
+    for threads in [2, 4] {
+        assert_eq!(solve(&mesh, &layout, &with(threads)).unwrap(), one);
+    }
+    let turned = SIDES.iter().map(|side| side.iter().rev().copied().collect());
+    let turned = BaseLayout::new(layout.positions().to_vec(), turned.collect()).unwrap();
+    let other = solve(&mesh, &turned, &with(1)).unwrap();
+    hold(&other, "turned over");
+    assert_eq!(other.quads.quads.len(), one.quads.quads.len());
+}
+
+#[test]
+fn a_fixed_number_of_edges_is_kept_and_spreads() {
+    let mesh = shape::by_name("sphere", 1_000).unwrap();
+    let layout = box_around(&mesh);
+    let arc = layout.arc_between(0, 1).unwrap();
+    let options = LayoutOptions {
+        fixed: vec![(arc, 7)],
+        ..sized(LayoutSizing::Quads(300))
+    };
+    let found = solve(&mesh, &layout, &options).unwrap();
+    hold(&found, "sphere");
+    for ends in [[0, 1], [2, 3], [4, 5], [6, 7]] {
+        let arc = layout.arc_between(ends[0], ends[1]).unwrap();
+        assert_eq!(found.subdivisions.arcs[arc], 7);
+    }
+}
+
+#[test]
+fn an_arc_follows_the_course_that_is_given() {
+    let mesh = shape::by_name("sphere", 4_000).unwrap();
+    let layout = box_around(&mesh);
+    let arc = layout.arc_between(0, 1).unwrap();
+    let [a, b] = layout.arcs()[arc].map(|v| layout.positions()[v as usize]);
+    // A detour towards the middle of a side.
+    let middle = [0, 1, 2].map(|axis| 0.5 * (a[axis] + b[axis]) * [1.0, 0.6, 1.3][axis]);
+    let on = |p: Vec3| {
+        let length = p.iter().map(|x| x * x).sum::<f64>().sqrt();
+        p.map(|x| x / length)
+    };
+    let radius = mesh.bounding_box()[1][0];
+    let course = [a, middle, b].map(|p| on(p).map(|x| radius * x));
+    let options = LayoutOptions {
+        curves: vec![(arc, course.to_vec())],
+        ..sized(LayoutSizing::Quads(600))
+    };
+    let found = solve(&mesh, &layout, &options).unwrap();
+    hold(&found, "sphere");
+    let nearest = |points: &[Vec3]| {
+        let off = points.iter().map(|p| (0..3).map(|k| (p[k] - course[1][k]).powi(2)).sum::<f64>());
+        off.fold(f64::INFINITY, f64::min).sqrt()
+    };
+    assert!(nearest(&found.arcs[arc]) < 0.02 * radius);
+}
+
+#[test]
+fn layouts_that_do_not_fit_name_what_is_wrong() {
+    let sphere = shape::by_name("sphere", 1_000).unwrap();
+    let layout = box_around(&sphere);
+    let default = LayoutOptions::default();
+    let torus = shape::by_name("torus", 1_000).unwrap();
+    let error = solve(&torus, &layout, &default).unwrap_err();
+    assert!(error.to_string().contains("Euler characteristic 2"), "{error}");
+    let mut far = layout.positions().to_vec();
+    far[3] = [40.0; 3];
+    let far = BaseLayout::new(far, layout.polygons().to_vec()).unwrap();
+    let error = solve(&sphere, &far, &default).unwrap_err();
+    assert_eq!(error.index(), Some(3), "{error}");
+    for sizing in [
+        LayoutSizing::Quads(0),
+        LayoutSizing::EdgeLength(0.0),
+        LayoutSizing::EdgeLength(f64::NAN),
+    ] {
+        let error = solve(&sphere, &layout, &sized(sizing)).unwrap_err();
+        assert_eq!(error.code(), "invalid_argument", "{error}");
+    }
+    let arc = |a, b| layout.arc_between(a, b).unwrap();
+    let options = LayoutOptions {
+        fixed: vec![(arc(0, 1), 3), (arc(6, 7), 4)],
+        ..LayoutOptions::default()
+    };
+    let error = solve(&sphere, &layout, &options).unwrap_err();
+    assert!(matches!(error, Error::Contradiction { .. }), "{error}");
+    let crossing = |a: usize, b: usize| {
+        let [p, q] = [a, b].map(|v| layout.positions()[v]);
+        (arc(0, 1), vec![p, q])
+    };
+    let options = LayoutOptions {
+        curves: vec![crossing(0, 1), crossing(0, 1)],
+        ..LayoutOptions::default()
+    };
+    let error = solve(&sphere, &layout, &options).unwrap_err();
+    assert_eq!(error.index(), Some(arc(0, 1)), "{error}");
+}
