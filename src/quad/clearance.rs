@@ -1,17 +1,11 @@
 //! The distance that irregular vertices keep from features: an edge of the quads, unless the guidance says otherwise.
-//!
-//! Where the quads of the first field do not conform, the tries after it do without, and the best of them is followed
-//! by one with it: the constraints of such fields take long where features are many.
 
 use super::QuadOptions;
-use super::attempt::Attempt;
-use super::driver::Driver;
-use super::final_error::is_final;
 use crate::error::Result;
-use crate::field::OrientationField;
+use crate::field::{FieldOptions, OrientationField};
 use crate::mesh::TriangleMesh;
 use crate::mesh::features::FeatureGraph;
-use crate::monitor::{Monitor, optional};
+use crate::monitor::Monitor;
 
 /// What the fields of one size of quads keep to.
 #[derive(Debug, Clone, Default)]
@@ -55,45 +49,12 @@ impl Clearance {
     }
 }
 
-/// Quads of a field that keeps irregular vertices away from features, where the best quads have another one, and these
-/// are as whole.
-pub(super) fn keep_clear<'m, M: Fn() -> Monitor<'m>>(
-    driver: &mut Driver<'_, M>,
-    best: Attempt,
-) -> Result<Attempt> {
-    if driver.keeps_clear || !best.outcome.conforms() || driver.work.get() == 0 {
-        return Ok(best);
-    }
-    let regular = driver.regular(&best)?;
-    let field = &driver.at(&best).field;
-    if near_features(driver.mesh, field, &regular) == 0 {
-        return Ok(best);
-    }
-    let most_visits = best.map.visited.max(driver.mesh.face_count());
-    let (before, monitor) = (driver.most_visits, driver.monitor);
-    (driver.keeps_clear, driver.most_visits) = (true, most_visits);
-    let found = optional(monitor, || {
-        let found = driver.follow(false)?;
-        driver.untangled_if_needed(found)
-    });
-    driver.most_visits = before;
-    match found {
-        Err(error) if is_final(&error) => Err(error),
-        Ok(Some(found)) if found.outcome.is_as_whole_as(&best.outcome) => Ok(found),
-        // The quads that there are remain.
-        _ => {
-            driver.keeps_clear = false;
-            Ok(best)
-        }
-    }
-}
-
 /// The number of irregular vertices of a field among those that should be regular.
 pub(super) fn near_features(
     mesh: &TriangleMesh,
     field: &OrientationField,
-    regular: &[usize],
+    options: &FieldOptions,
 ) -> usize {
     let steps = field.vertex_index_steps(mesh);
-    regular.iter().filter(|&&v| steps[v] != 0).count()
+    options.regular.iter().filter(|&&v| steps[v] != 0).count()
 }

@@ -12,7 +12,7 @@
 
 use super::aim::area;
 use super::attempt::Attempt;
-use super::driver::Driver;
+use super::driver::{Driver, Try};
 use super::fields::field_count;
 use super::final_error::is_final;
 use super::map_solver::Solved;
@@ -342,8 +342,14 @@ impl<'m, M: Fn() -> Monitor<'m>> Meeting<'_, '_, M> {
         }
         self.extractions += 1;
         self.driver.at_hand().put(solved);
-        let found = self.driver.as_solved()?;
-        let found = self.driver.untangled_if_needed(found)?;
+        let mut found = self.driver.as_solved()?;
+        if !found.outcome.is_whole()
+            && self.driver.may_untangle()
+            && let Some(untangled) = self.driver.attempt(Try::Untangled, &found)?
+            && untangled.outcome < found.outcome
+        {
+            found = untangled;
+        }
         let is_nearer = self.off(found.quads.quads.len() as f64) < self.off_at_best();
         if is_nearer && found.outcome.is_as_whole_as(&self.best.outcome) {
             self.best = found;

@@ -9,8 +9,6 @@
 //! next try    while quads have holes or miss features: smaller quads on small parts that have lost
 //!             theirs; untangle the map; separate collapsed cones; do not separate feature curves;
 //!             use a field that moves no cones onto features, or sees fewer details; smaller quads around folds
-//! clearance   if fields after the first did without it: a field that keeps it
-//! number      maps of other sizes, until there are as many quads as were asked for
 //! smoothing
 //! ```
 //!
@@ -23,7 +21,7 @@ use std::cell::Cell;
 use std::time::Instant;
 
 use super::attempt::{Attempt, is_hopeless};
-use super::clearance::{Clearance, keep_clear, near_features};
+use super::clearance::near_features;
 use super::compare::compare;
 use super::count::meet;
 use super::field_map::FieldMap;
@@ -118,9 +116,7 @@ pub(super) fn by_options<'a>(
     let features = options.guidance.features(mesh)?;
     may_continue()?;
     let mut seconds = 0.0;
-    let input = timed(&mut seconds, || {
-        RefinedInput::if_needed(mesh, &features, options)
-    })?;
+    let input = timed(&mut seconds, || refined(mesh, &features, options))?;
     let Some(input) = input else {
         return of_mesh(mesh, features, options, effort, work, monitor);
     };
@@ -149,6 +145,24 @@ pub(super) fn by_options<'a>(
     let mut made = of_mesh(&input.refined.mesh, features, &given, effort, work, monitor)?;
     made.seconds.refine = seconds;
     Ok(input.result_for(mesh, made))
+}
+
+/// The refined mesh, where the options allow it and the mesh needs it.
+fn refined(
+    mesh: &TriangleMesh,
+    features: &FeatureGraph,
+    options: &QuadOptions,
+) -> Result<Option<RefinedInput>> {
+    if !options.refine {
+        return Ok(None);
+    }
+    let held = match &options.smooth {
+        Some(given) => FeatureGraph::from_edges(mesh, &given.features)?,
+        None => FeatureGraph::none(mesh),
+    };
+    let held = held.with(mesh, features)?;
+    may_continue()?;
+    RefinedInput::new(mesh, &options.guidance, &held, &options.sizing)
 }
 
 /// The quads of a mesh that is as fine as it has to be.
@@ -187,7 +201,6 @@ fn of_mesh<'a>(
         details: 0,
         gradings: 0,
         was_off_features: false,
-        keeps_clear: true,
         current: 0,
         visits: most,
         most_visits: usize::MAX,
@@ -198,8 +211,6 @@ fn of_mesh<'a>(
         seconds: QuadSeconds::default(),
     };
     let mut best = driver.follow(false)?;
-    // The constraints of clear fields take most of the time where several fields are tried.
-    driver.keeps_clear = best.outcome.conforms();
     let mut last = Try::SmallerQuads;
     while let Some(next) = driver.next(last, &best) {
         let found = match optional(monitor, || driver.attempt(next, &best)) {
@@ -216,7 +227,6 @@ fn of_mesh<'a>(
         }
         last = next;
     }
-    let best = keep_clear(&mut driver, best)?;
     let (best, maps) = meet(&mut driver, best)?;
     driver.finish(best, maps)
 }
@@ -260,15 +270,13 @@ pub(super) struct Driver<'a, M> {
     gradings: usize,
     /// Whether a field was tried whose irregular vertices do not move onto features.
     was_off_features: bool,
-    /// Whether the next fields keep irregular vertices away from features.
-    pub(super) keeps_clear: bool,
     /// The field whose map is at hand.
     pub(super) current: usize,
     /// The faces that untangling may still visit.
     visits: usize,
     /// The faces that one untangling may visit.
     pub(super) most_visits: usize,
-    pub(super) features: FeatureGraph,
+    features: FeatureGraph,
     pub(super) monitor: &'a M,
     started: Instant,
     /// One for each size of quads or details that was tried.
@@ -409,58 +417,26 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Driver<'a, M> {
     }
 
     /// The quads of the next field and its map.
-    pub(super) fn follow(&mut self, off_features: bool) -> Result<Attempt> {
+    fn follow(&mut self, off_features: bool) -> Result<Attempt> {
         let (mesh, of_map) = (self.mesh, &self.options.map);
-        let given = self.options_of_size();
-        let clearance = match self.keeps_clear {
-            true => Clearance::new(
-                mesh,
-                &given,
-                &self.features,
-                off_features,
-                &(self.monitor)(),
-            )?,
-            false => Clearance::default(),
+        let given = QuadOptions {
+            sizing: self.sizing.clone(),
+            ..self.options.clone()
         };
         let detail = DETAILS[self.details] * given.sizing.edge_length(mesh);
+        let seen = (detail, off_features);
         let of_both = [&mut self.seconds.field, &mut self.seconds.map];
         let (features, monitor) = (&self.features, self.monitor);
-        let next = FieldMap::new(
-            mesh,
-            &given,
-            of_map,
-            (features, &clearance),
-            detail,
-            monitor,
-            of_both,
-        )?;
+        let next = FieldMap::new(mesh, &given, of_map, features, seen, monitor, of_both)?;
         self.current = self.fields.len();
         self.fields.push(next);
         self.as_solved()
-    }
-
-    /// The options with the current size of the quads.
-    pub(super) fn options_of_size(&self) -> QuadOptions {
-        QuadOptions {
-            sizing: self.sizing.clone(),
-            ..self.options.clone()
-        }
     }
 
     /// Smaller quads for the parts that have lost theirs, if that may help.
     fn smaller(&self, best: &Attempt) -> Option<Sizing> {
         let may_change = self.sizes < SIZES && !best.outcome.conforms();
         may_change.then(|| smaller_quads(self.mesh, &self.sizing, &best.quads))?
-    }
-
-    /// The vertices that should be regular in the field of an attempt, whether or not it was asked for that.
-    pub(super) fn regular(&self, of: &Attempt) -> Result<Vec<usize>> {
-        let known = &self.fields[of.field].options.regular;
-        if !known.is_empty() || self.keeps_clear {
-            return Ok(known.clone());
-        }
-        let (mesh, given, monitor) = (self.mesh, self.options_of_size(), (self.monitor)());
-        Ok(Clearance::new(mesh, &given, &self.features, false, &monitor)?.regular)
     }
 
     /// The passes over the mesh that the next untangling may make.
@@ -473,18 +449,6 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Driver<'a, M> {
         let map = self.at_hand().as_solved()?;
         let found = self.quads(map)?;
         self.at_hand().limit_effort(found.outcome.conforms());
-        Ok(found)
-    }
-
-    /// The quads of the current map, untangled if they are not whole and that helps.
-    pub(super) fn untangled_if_needed(&mut self, mut found: Attempt) -> Result<Attempt> {
-        if !found.outcome.is_whole()
-            && self.may_untangle()
-            && let Some(untangled) = self.attempt(Try::Untangled, &found)?
-            && untangled.outcome < found.outcome
-        {
-            found = untangled;
-        }
         Ok(found)
     }
 
@@ -518,11 +482,6 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Driver<'a, M> {
         (self.monitor)().run().enter(stage, 0, 1);
     }
 
-    /// The field of an attempt.
-    pub(super) fn at(&self, attempt: &Attempt) -> &FieldMap<'a, M> {
-        &self.fields[attempt.field]
-    }
-
     /// The field whose map is at hand.
     pub(super) fn at_hand(&mut self) -> &mut FieldMap<'a, M> {
         &mut self.fields[self.current]
@@ -533,7 +492,6 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Driver<'a, M> {
         let (mesh, options, monitor) = (self.mesh, self.options, self.monitor);
         let mut seconds = self.seconds;
         seconds.extract = self.started.elapsed().as_secs_f64() - seconds.field - seconds.map;
-        let clear = self.regular(&best)?;
         let followed = self.fields.swap_remove(best.field);
         let features: Vec<usize> = self.features.edges().collect();
         let (mut quads, mut missed_features) = (best.quads, best.missed);
@@ -577,7 +535,7 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Driver<'a, M> {
             let compared = optional(monitor, || compare(both, &options.compare, monitor));
             Ok(compared?.unwrap_or_default())
         })?;
-        let near_features = near_features(mesh, &followed.field, &clear);
+        let near_features = near_features(mesh, &followed.field, &followed.options);
         Ok(Quadrangulation {
             quads,
             field: followed.field,

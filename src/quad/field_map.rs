@@ -4,7 +4,6 @@ use std::borrow::Cow;
 
 use super::QuadOptions;
 use super::attempt::is_hopeless;
-use super::clearance::Clearance;
 use super::fields::choose_field;
 use super::map_solver::{MapSolver, Solved};
 use super::quadrangulation::timed;
@@ -43,14 +42,15 @@ pub(super) struct FieldMap<'a, M> {
 
 impl<'a, 'm, M: Fn() -> Monitor<'m>> FieldMap<'a, M> {
     /// The field that sees no details smaller than `detail`, unless the guidance says otherwise, and its map with
-    /// feature curves separated. The integers of the map are decided by `of_map_solve`. The times of fields and maps are added to `of_field` and
+    /// feature curves separated. With `off_features`, no irregular vertices of the field move onto features. The
+    /// integers of the map are decided by `of_map_solve`. The times of fields and maps are added to `of_field` and
     /// `of_map`.
     pub(super) fn new(
         mesh: &'a TriangleMesh,
         given: &QuadOptions,
         of_map_solve: &'a Options,
-        kept: (&FeatureGraph, &Clearance),
-        detail: f64,
+        features: &FeatureGraph,
+        (detail, off_features): (f64, bool),
         monitor: &'a M,
         [of_field, of_map]: [&mut f64; 2],
     ) -> Result<Self> {
@@ -61,7 +61,14 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> FieldMap<'a, M> {
             },
             ..given.clone()
         };
-        let chosen = choose_field(mesh, &options, kept, monitor, [of_field, of_map])?;
+        let chosen = choose_field(
+            mesh,
+            &options,
+            features,
+            monitor,
+            off_features,
+            [of_field, of_map],
+        )?;
         let problem = Cow::Owned(chosen.problem);
         let mut maps = MapSolver::new(mesh, problem, chosen.solver, of_map_solve, monitor);
         monitor().run().enter(Stage::Map, 0, 1);

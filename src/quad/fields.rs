@@ -70,11 +70,13 @@ pub(super) struct ChosenField {
 pub(super) fn choose_field<'a>(
     mesh: &TriangleMesh,
     options: &QuadOptions,
-    kept: (&FeatureGraph, &Clearance),
+    features: &FeatureGraph,
     monitor: &impl Fn() -> Monitor<'a>,
+    off_features: bool,
     [of_field, of_map]: [&mut f64; 2],
 ) -> Result<ChosenField> {
     let (run, count) = (monitor().run(), field_count(mesh, options));
+    let clearance = Clearance::new(mesh, options, features, off_features, &monitor())?;
     let all: Vec<QuadOptions> = std::iter::once(options.clone())
         .chain(others(mesh, options))
         .collect();
@@ -84,7 +86,7 @@ pub(super) fn choose_field<'a>(
         monitor,
         |done| run.enter(Stage::Field, done, count),
         |k, monitor| {
-            let follow = || follow(mesh, &all[k], kept, count == 1, &monitor);
+            let follow = || follow(mesh, &all[k], (features, &clearance), count == 1, &monitor);
             if k == 0 {
                 return follow().map(Some);
             }

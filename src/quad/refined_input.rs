@@ -14,7 +14,7 @@ use crate::mesh::vector::{add, dot, scale};
 use crate::mesh::{ClosestPoint, TriangleMesh, barycentric};
 use crate::monitor::may_continue;
 
-use super::{QuadOptions, Quadrangulation};
+use super::Quadrangulation;
 
 /// The longest edge of a refined mesh, in edges of the quads, where edges were too long.
 const LONGEST_EDGE: f64 = 0.6;
@@ -42,27 +42,6 @@ pub struct RefinedInput {
 }
 
 impl RefinedInput {
-    /// The refined mesh, where the options allow it and the mesh needs it.
-    ///
-    /// # Errors
-    /// Those of [`new`](Self::new).
-    pub(super) fn if_needed(
-        mesh: &TriangleMesh,
-        features: &FeatureGraph,
-        options: &QuadOptions,
-    ) -> Result<Option<Self>> {
-        if !options.refine {
-            return Ok(None);
-        }
-        let held = match &options.smooth {
-            Some(given) => FeatureGraph::from_edges(mesh, &given.features)?,
-            None => FeatureGraph::none(mesh),
-        };
-        let held = held.with(mesh, features)?;
-        may_continue()?;
-        Self::new(mesh, &options.guidance, &held, &options.sizing)
-    }
-
     /// Refines a mesh if [`needs_refinement`] says so and the refinement changes anything. A refinement is not used
     /// if it ends at the bound on its triangles and leaves more needles than the mesh has.
     ///
