@@ -8,7 +8,7 @@ use super::guard::{self, Guarded, boundary, object};
 use super::input::{path, slice};
 use super::mesh::{roundel_mesh, times_three};
 use super::output::{Out, copy_numbers};
-use super::quads::roundel_quads;
+use super::quads::{Quads, roundel_quads};
 use super::soup::of_arrays;
 use super::status::roundel_status;
 use crate::error::{Error, Result};
@@ -249,7 +249,7 @@ pub unsafe extern "C" fn roundel_quads_make_layout(
             // SAFETY: the caller gives an array of `length` numbers, or NULL.
             unsafe { copy_numbers("subdivisions", numbers, subdivisions, length) }?;
         }
-        out.set(guard::handle(found.quads));
+        out.set(guard::handle(Quads::extracted(found.quads)));
         Ok(())
     };
     // SAFETY: the caller gives a live handle, or NULL.

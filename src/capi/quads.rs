@@ -31,7 +31,7 @@ pub(super) struct Quads {
 }
 
 impl Quads {
-    fn extracted(mesh: QuadMesh) -> Self {
+    pub(super) fn extracted(mesh: QuadMesh) -> Self {
         Quads {
             mesh,
             near_features: None,

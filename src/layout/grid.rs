@@ -173,7 +173,7 @@ impl Grid {
         let corners: Vec<_> = faces
             .map(|f| surface.corners(f).map(|p| scale(p, 1.0 / edge)))
             .collect();
-        let patchwork = Patchwork::new(self.copies.clone(), moves, &corners);
+        let patchwork = Patchwork::new(surface.triangles.clone(), self.copies.clone(), moves, &corners);
         patchwork.relax(&mut self.values, monitor)?;
         Ok(())
     }

@@ -14,6 +14,7 @@
 
 use super::base_layout::BaseLayout;
 use crate::error::{Conflicting, Error, Result};
+use crate::linalg::DisjointSets;
 use crate::monitor::Monitor;
 use crate::problem::Problem;
 use crate::search::{Options, SolveStatus, Strategy};
@@ -198,7 +199,8 @@ impl<'a> Subdividing<'a> {
             strategy: Strategy::Exact,
             ..Options::default()
         };
-        solve_with(&self.problem(edge, holds)?, &options, monitor())
+        let problem = self.problem(edge, &self.strips(holds), holds)?;
+        solve_with(&problem, &options, monitor())
     }
 
     /// The weight of an arc of this length: the mean has 1.
@@ -212,26 +214,38 @@ impl<'a> Subdividing<'a> {
         self.layout.polygons().len() + self.fixed.len()
     }
 
-    /// The problem with those demands that are to hold.
-    fn problem(&self, edge: f64, holds: &[bool]) -> Result<Problem> {
+    /// The strip of each arc: arcs on opposite sides of patches with four sides have one number. Only patches that are
+    /// to hold count.
+    fn strips(&self, holds: &[bool]) -> Vec<usize> {
+        let arcs = self.layout.arc_count();
+        let mut sets = DisjointSets::new(arcs);
+        for (p, sides) in self.layout.sides().iter().enumerate() {
+            if let (None, true, [a, b, c, d]) = (self.spokes[p], holds[p], sides.as_slice()) {
+                sets.join(*a as usize / 2, *c as usize / 2);
+                sets.join(*b as usize / 2, *d as usize / 2);
+            }
+        }
+        (0..arcs).map(|arc| sets.root(arc)).collect()
+    }
+
+    /// The problem with those demands that are to hold. The number of an arc is the unknown of its strip; other arcs of
+    /// the strip have none. A strip ends at patches of other than four sides, so that each unknown is in two rows at
+    /// most, and the polynomial method for networks solves this.
+    fn problem(&self, edge: f64, strips: &[usize], holds: &[bool]) -> Result<Problem> {
         let mut problem = Problem::new(self.unknowns)?;
         let all: Vec<usize> = (0..self.unknowns).collect();
         problem.set_integers(&all)?;
         for (arc, &length) in self.lengths.iter().enumerate() {
             let weight = self.weight(length);
-            problem.add_least_squares(&[arc], &[1.0], wanted(length, edge), weight)?;
+            problem.add_least_squares(&[strips[arc]], &[1.0], wanted(length, edge), weight)?;
         }
         let mut lower = vec![1.0; self.unknowns];
         let mut upper = vec![f64::INFINITY; self.unknowns];
         for (p, sides) in self.layout.sides().iter().enumerate() {
-            let arcs: Vec<usize> = sides.iter().map(|&dart| dart as usize / 2).collect();
             let Some(first) = self.spokes[p] else {
-                if holds[p] {
-                    problem.add_constraint(&[arcs[0], arcs[2]], &[1.0, -1.0], 0.0)?;
-                    problem.add_constraint(&[arcs[1], arcs[3]], &[1.0, -1.0], 0.0)?;
-                }
                 continue;
             };
+            let arcs: Vec<usize> = sides.iter().map(|&dart| dart as usize / 2).collect();
             let n = arcs.len();
             for (i, &arc) in arcs.iter().enumerate() {
                 let [before, after] = [(i + n - 1) % n, (i + 1) % n];
@@ -239,14 +253,23 @@ impl<'a> Subdividing<'a> {
                 let weight = SPOKE * self.weight(beside);
                 problem.add_least_squares(&[first + i], &[1.0], wanted(beside, edge), weight)?;
                 if holds[p] {
-                    let of = [arc, first + before, first + after];
+                    let of = [strips[arc], first + before, first + after];
                     problem.add_constraint(&of, &[1.0, -1.0, -1.0], 0.0)?;
                 }
             }
         }
         for (k, &(arc, number)) in self.fixed.iter().enumerate() {
             if holds[self.layout.polygons().len() + k] {
-                (lower[arc], upper[arc]) = (number.into(), number.into());
+                let (strip, number) = (strips[arc], f64::from(number));
+                lower[strip] = number.max(lower[strip]);
+                upper[strip] = number.min(upper[strip]);
+                if lower[strip] > upper[strip] {
+                    return Err(Error::Contradiction {
+                        what: format!("arc {arc} is in a strip with another fixed number"),
+                        index: Some(arc),
+                        elements: Vec::new(),
+                    });
+                }
             }
         }
         problem.set_bounds(&all, &lower, &upper)?;
@@ -255,7 +278,8 @@ impl<'a> Subdividing<'a> {
 
     fn read(&self, edge: f64, solution: &Solution) -> Subdivisions {
         let values = solution.values();
-        let arcs: Vec<u32> = (0..self.layout.arc_count()).map(|arc| values[arc] as u32).collect();
+        let strips = self.strips(&vec![true; self.demands()]);
+        let arcs: Vec<u32> = strips.into_iter().map(|strip| values[strip] as u32).collect();
         let sides = self.layout.sides();
         let spokes: Vec<Vec<u32>> = sides
             .iter()

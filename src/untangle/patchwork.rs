@@ -5,6 +5,8 @@
 //! Dirichlet energy, by one linear system. Where it folds, it is untangled region by region. If folds are left, the map
 //! that was given takes its place, which has none. Steps on the distortion energy of the whole map follow.
 
+use std::f64::consts::FRAC_PI_2;
+
 use super::energy::{Quadratic, Rest};
 use super::freedom::Freedom;
 use super::region::{Region, regions};
@@ -13,7 +15,7 @@ use super::system::System;
 use super::{NONE, RINGS};
 use crate::error::Result;
 use crate::linalg::Sparse;
-use crate::mesh::orientation;
+use crate::mesh::{angle_at, orientation};
 use crate::mesh::vector::{Vec3, cross, dot, norm, sub};
 use crate::monitor::{Monitor, Phase};
 
@@ -33,6 +35,8 @@ const CLOSED: f64 = 1e-9;
 pub(crate) struct Patchwork {
     freedom: Freedom,
     rests: Vec<Rest>,
+    /// The vertices at the corners of each face.
+    vertices: Vec<[u32; 3]>,
 }
 
 /// The result of [`Patchwork::relax`].
@@ -45,14 +49,17 @@ pub(crate) struct Relaxed {
 }
 
 impl Patchwork {
-    /// A map with these copies at the corners of each face. `moves` has a row for each coordinate (u of copy c is
+    /// A map with these vertices, and their copies, at the corners of each face. `moves` has a row for each coordinate (u of copy c is
     /// 2 c) and a column for each unknown that may move. `corners` are the faces in space, in units in which an edge of
     /// quads is 1 long.
-    ///
-    /// # Errors
-    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
-    pub fn new(copies: Vec<[u32; 3]>, moves: Sparse, corners: &[[Vec3; 3]]) -> Self {
+    pub fn new(
+        vertices: Vec<[u32; 3]>,
+        copies: Vec<[u32; 3]>,
+        moves: Sparse,
+        corners: &[[Vec3; 3]],
+    ) -> Self {
         Patchwork {
+            vertices,
             freedom: Freedom::of_moves(moves, copies),
             rests: corners.iter().map(|&corners| flat(corners)).collect(),
         }
@@ -81,7 +88,8 @@ impl Patchwork {
         if !folded.is_empty() {
             done.steps += self.unfold(values, monitor)?;
         }
-        if !self.folded(values).is_empty() {
+        // A map without folds may still wind around a vertex more than once.
+        if !self.folded(values).is_empty() || self.quarters(values) != self.quarters(&valid) {
             values.copy_from_slice(&valid);
         }
         let mut energy = system.energy(values, CLOSED);
@@ -106,6 +114,20 @@ impl Patchwork {
     pub fn folded(&self, values: &[f64]) -> Vec<usize> {
         let faces = 0..self.rests.len();
         faces.filter(|&f| orientation(self.uv(values, f)) <= 0.0).collect()
+    }
+
+    /// The quarter turns around each vertex.
+    fn quarters(&self, values: &[f64]) -> Vec<i32> {
+        let count = self.vertices.iter().flatten().max().map_or(0, |&v| v as usize + 1);
+        let mut angles = vec![0.0; count];
+        for (face, vertices) in self.vertices.iter().enumerate() {
+            let uv = self.uv(values, face);
+            for k in 0..3 {
+                angles[vertices[k] as usize] += angle_at(uv, k);
+            }
+        }
+        let quarters = angles.iter().map(|a: &f64| (a / FRAC_PI_2).round() as i32);
+        quarters.collect()
     }
 
     fn unfold(&self, values: &mut [f64], monitor: &mut Monitor) -> Result<usize> {
