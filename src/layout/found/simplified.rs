@@ -65,6 +65,10 @@ pub fn simplify<'m>(
     let features = triangles.sharp_edges(options.features);
     let given = surface.quads().len();
     let mut quads = least_patches(surface);
+    let is_closed = !(0..surface.positions().len()).any(|v| surface.is_boundary(v));
+    if is_closed && own.patches.len() <= quads {
+        return Ok(Simplified::unchanged(surface, own));
+    }
     let mut maps = CoarseMaps::new(&triangles, &features, quads)?;
     while quads < given {
         if let Some(map) = maps.map(quads, &monitor)? {
@@ -79,11 +83,18 @@ pub fn simplify<'m>(
         }
         quads *= FINER;
     }
-    Ok(Simplified {
-        surface: surface.clone(),
-        layout: own,
-        drift: Drift::default(),
-    })
+    Ok(Simplified::unchanged(surface, own))
+}
+
+impl Simplified {
+    /// The layout that the quads have themselves.
+    fn unchanged(surface: &QuadSurface, layout: FoundLayout) -> Self {
+        Simplified {
+            surface: surface.clone(),
+            layout,
+            drift: Drift::default(),
+        }
+    }
 }
 
 fn check(options: &SimplifyOptions) -> Result<()> {
@@ -101,8 +112,8 @@ fn check(options: &SimplifyOptions) -> Result<()> {
     Ok(())
 }
 
-/// The number of patches of a layout in which no two arcs cross: that of irregular vertices less the Euler
-/// characteristic.
+/// The number of patches of a layout of a closed surface in which no two arcs cross: that of irregular vertices less
+/// the Euler characteristic. On one with boundary it is where the search begins.
 fn least_patches(surface: &QuadSurface) -> usize {
     let irregular = (0..surface.positions().len()).filter(|&v| surface.is_irregular(v));
     let least = irregular.count() as i64 - surface.euler_characteristic();
@@ -131,7 +142,10 @@ fn follow<'m>(
         .iter()
         .map(|corners| corners.map(|uv| uv.map(|x| times * x)))
         .collect();
-    let exact = IntegerGridMap::new(mesh, &finer)?;
+    // A map whose coordinates are out of range, say, is as good as none.
+    let Ok(exact) = IntegerGridMap::new(mesh, &finer) else {
+        return Ok(None);
+    };
     let mut quads = extract(mesh, &exact, &mut monitor())?;
     if !quads.is_conforming() || quads.partial_cells > 0 {
         return Ok(None);
