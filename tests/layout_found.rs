@@ -43,18 +43,12 @@ fn check(surface: &QuadSurface, layout: &FoundLayout) {
     assert_eq!(euler, surface.euler_characteristic());
 }
 
-/// Of every irregular vertex, its number of quads and whether it is on the boundary; and inside, its place.
-fn irregular(surface: &QuadSurface) -> Vec<(bool, usize, [i64; 3])> {
+/// Of every irregular vertex, whether it is on the boundary and its number of quads.
+fn irregular(surface: &QuadSurface) -> Vec<(bool, usize)> {
     let vertices = 0..surface.positions().len();
     let irregular = vertices.filter(|&v| surface.is_irregular(v));
     let mut found: Vec<_> = irregular
-        .map(|v| match surface.is_boundary(v) {
-            true => (true, surface.valence(v), [0; 3]),
-            false => {
-                let place = surface.positions()[v].map(|x| (1e9 * x).round() as i64);
-                (false, surface.valence(v), place)
-            }
-        })
+        .map(|v| (surface.is_boundary(v), surface.valence(v)))
         .collect();
     found.sort_unstable();
     found

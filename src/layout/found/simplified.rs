@@ -6,9 +6,10 @@ use super::relax::relax;
 use super::triangulated::Triangulated;
 use super::{FoundLayout, QuadSurface};
 use crate::error::{Error, Result};
-use crate::extract::{IntegerGridMap, extract};
+use crate::extract::{IntegerGridMap, QuadMesh, extract};
 use crate::map::SeamlessMap;
 use crate::monitor::Monitor;
+use crate::smooth::{QuadQuality, SmoothOptions};
 
 /// The factor from one number of quads that is tried to the next.
 const FINER: usize = 2;
@@ -21,7 +22,8 @@ pub struct SimplifyOptions {
     /// The angle between faces, in radians, from which on an edge of the quads stays a line; above zero. None is as
     /// sharp as an angle above pi.
     pub features: f64,
-    /// The number of times that regular vertices of the new quads move to the middle of their neighbours.
+    /// The number of times that the new quads are smoothed. Irregular vertices stay in place where no quad is inverted
+    /// then.
     pub smoothing: usize,
 }
 
@@ -30,7 +32,7 @@ impl Default for SimplifyOptions {
         SimplifyOptions {
             deviation: f64::INFINITY,
             features: f64::INFINITY,
-            smoothing: 30,
+            smoothing: 10,
         }
     }
 }
@@ -38,7 +40,7 @@ impl Default for SimplifyOptions {
 /// A layout with fewer patches, on quads of its own that follow it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Simplified {
-    /// Quads on the given ones, in about the same number, with the same irregular vertices.
+    /// Quads on the given ones, in about the same number, with irregular vertices of the same valences.
     pub surface: QuadSurface,
     /// Their base complex.
     pub layout: FoundLayout,
@@ -150,7 +152,7 @@ fn follow<'m>(
     if !quads.is_conforming() || quads.partial_cells > 0 {
         return Ok(None);
     }
-    relax(&mut quads, mesh, features, options.smoothing);
+    smooth(&mut quads, triangles, features, options, monitor)?;
     let Ok(followed) = QuadSurface::new(quads.vertices, quads.quads) else {
         return Ok(None);
     };
@@ -163,6 +165,30 @@ fn follow<'m>(
         surface: followed,
         layout,
     }))
+}
+
+/// Smooths quads with irregular vertices in place or, if that leaves inverted quads, with all vertices free.
+fn smooth<'m>(
+    quads: &mut QuadMesh,
+    triangles: &Triangulated,
+    features: &[usize],
+    options: &SimplifyOptions,
+    monitor: &impl Fn() -> Monitor<'m>,
+) -> Result<()> {
+    let mesh = &triangles.mesh;
+    let mut in_place = quads.clone();
+    relax(&mut in_place, mesh, features, options.smoothing);
+    if QuadQuality::new(&in_place).inverted == 0 {
+        *quads = in_place;
+        return Ok(());
+    }
+    let free = SmoothOptions {
+        rounds: options.smoothing,
+        uniformity: 0.0,
+        features: features.to_vec(),
+        ..SmoothOptions::default()
+    };
+    crate::smooth::smooth(quads, mesh, &free, &mut monitor())
 }
 
 /// Of every irregular vertex, whether it is on the boundary and its number of quads; in increasing order.
