@@ -35,8 +35,8 @@ pub struct LayoutPatch {
     pub size: [usize; 2],
     /// Its `size[0] + 1` times `size[1] + 1` vertices, in rows along the first side.
     pub vertices: Vec<u32>,
-    /// The arcs of each side, counter-clockwise around the patch. A side has several where there are T-junctions on
-    /// it or, in the base complex, never.
+    /// The arcs of each side, counter-clockwise around the patch. In a base complex each side is one arc; where there
+    /// are T-junctions on it, it has several.
     pub sides: [Vec<u32>; 4],
 }
 

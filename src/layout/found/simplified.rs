@@ -6,9 +6,10 @@ use super::relax::relax;
 use super::triangulated::Triangulated;
 use super::{FoundLayout, QuadSurface};
 use crate::error::{Error, Result};
-use crate::extract::{IntegerGridMap, extract};
+use crate::extract::{IntegerGridMap, QuadMesh, extract};
 use crate::map::SeamlessMap;
 use crate::monitor::Monitor;
+use crate::smooth::{QuadQuality, SmoothOptions};
 
 /// The factor from one number of quads that is tried to the next.
 const FINER: usize = 2;
@@ -21,7 +22,8 @@ pub struct SimplifyOptions {
     /// The angle between faces, in radians, from which on an edge of the quads stays a line; above zero. None is as
     /// sharp as an angle above pi.
     pub features: f64,
-    /// The number of times that regular vertices of the new quads move to the middle of their neighbours.
+    /// The number of times that the new quads are smoothed. Irregular vertices stay in place where no quad is inverted
+    /// then.
     pub smoothing: usize,
 }
 
@@ -30,7 +32,7 @@ impl Default for SimplifyOptions {
         SimplifyOptions {
             deviation: f64::INFINITY,
             features: f64::INFINITY,
-            smoothing: 30,
+            smoothing: 10,
         }
     }
 }
@@ -38,7 +40,7 @@ impl Default for SimplifyOptions {
 /// A layout with fewer patches, on quads of its own that follow it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Simplified {
-    /// Quads on the given ones, in about the same number, with the same irregular vertices.
+    /// Quads on the given ones, in about the same number, with irregular vertices of the same valences.
     pub surface: QuadSurface,
     /// Their base complex.
     pub layout: FoundLayout,
@@ -65,6 +67,10 @@ pub fn simplify<'m>(
     let features = triangles.sharp_edges(options.features);
     let given = surface.quads().len();
     let mut quads = least_patches(surface);
+    let is_closed = !(0..surface.positions().len()).any(|v| surface.is_boundary(v));
+    if is_closed && own.patches.len() <= quads {
+        return Ok(Simplified::unchanged(surface, own));
+    }
     let mut maps = CoarseMaps::new(&triangles, &features, quads)?;
     while quads < given {
         if let Some(map) = maps.map(quads, &monitor)? {
@@ -79,11 +85,18 @@ pub fn simplify<'m>(
         }
         quads *= FINER;
     }
-    Ok(Simplified {
-        surface: surface.clone(),
-        layout: own,
-        drift: Drift::default(),
-    })
+    Ok(Simplified::unchanged(surface, own))
+}
+
+impl Simplified {
+    /// The layout that the quads have themselves.
+    fn unchanged(surface: &QuadSurface, layout: FoundLayout) -> Self {
+        Simplified {
+            surface: surface.clone(),
+            layout,
+            drift: Drift::default(),
+        }
+    }
 }
 
 fn check(options: &SimplifyOptions) -> Result<()> {
@@ -101,8 +114,8 @@ fn check(options: &SimplifyOptions) -> Result<()> {
     Ok(())
 }
 
-/// The number of patches of a layout in which no two arcs cross: that of irregular vertices less the Euler
-/// characteristic.
+/// The number of patches of a layout of a closed surface in which no two arcs cross: that of irregular vertices less
+/// the Euler characteristic. On one with boundary it is where the search begins.
 fn least_patches(surface: &QuadSurface) -> usize {
     let irregular = (0..surface.positions().len()).filter(|&v| surface.is_irregular(v));
     let least = irregular.count() as i64 - surface.euler_characteristic();
@@ -131,12 +144,15 @@ fn follow<'m>(
         .iter()
         .map(|corners| corners.map(|uv| uv.map(|x| times * x)))
         .collect();
-    let exact = IntegerGridMap::new(mesh, &finer)?;
+    // A map whose coordinates are out of range, say, is as good as none.
+    let Ok(exact) = IntegerGridMap::new(mesh, &finer) else {
+        return Ok(None);
+    };
     let mut quads = extract(mesh, &exact, &mut monitor())?;
     if !quads.is_conforming() || quads.partial_cells > 0 {
         return Ok(None);
     }
-    relax(&mut quads, mesh, features, options.smoothing);
+    smooth(&mut quads, triangles, features, options, monitor)?;
     let Ok(followed) = QuadSurface::new(quads.vertices, quads.quads) else {
         return Ok(None);
     };
@@ -149,6 +165,30 @@ fn follow<'m>(
         surface: followed,
         layout,
     }))
+}
+
+/// Smooths quads with irregular vertices in place or, if that leaves inverted quads, with all vertices free.
+fn smooth<'m>(
+    quads: &mut QuadMesh,
+    triangles: &Triangulated,
+    features: &[usize],
+    options: &SimplifyOptions,
+    monitor: &impl Fn() -> Monitor<'m>,
+) -> Result<()> {
+    let mesh = &triangles.mesh;
+    let mut in_place = quads.clone();
+    relax(&mut in_place, mesh, features, options.smoothing);
+    if QuadQuality::new(&in_place).inverted == 0 {
+        *quads = in_place;
+        return Ok(());
+    }
+    let free = SmoothOptions {
+        rounds: options.smoothing,
+        uniformity: 0.0,
+        features: features.to_vec(),
+        ..SmoothOptions::default()
+    };
+    crate::smooth::smooth(quads, mesh, &free, &mut monitor())
 }
 
 /// Of every irregular vertex, whether it is on the boundary and its number of quads; in increasing order.
