@@ -193,7 +193,9 @@ pub unsafe extern "C" fn roundel_layout_draw_arc(
         let points = unsafe { slice("coordinates", coordinates, length) }?;
         options.curves.retain(|curve| curve.0 != arc);
         if !points.is_empty() {
-            options.curves.push((arc, points.as_chunks::<3>().0.to_vec()));
+            options
+                .curves
+                .push((arc, points.as_chunks::<3>().0.to_vec()));
         }
         Ok(())
     };

@@ -178,7 +178,9 @@ impl BaseLayout {
 
     /// The arc that joins two vertices, if there is one.
     pub fn arc_between(&self, a: usize, b: usize) -> Option<usize> {
-        let dart = (a < self.vertex_count()).then(|| self.around(a))?.find(|&dart| self.tail(reversed(dart)) as usize == b)?;
+        let dart = (a < self.vertex_count())
+            .then(|| self.around(a))?
+            .find(|&dart| self.tail(reversed(dart)) as usize == b)?;
         Some(dart as usize / 2)
     }
 
@@ -272,7 +274,9 @@ impl BaseLayout {
         // Side i now runs along the old side n - 2 - i, backwards.
         for (p, sides) in self.sides.iter().enumerate() {
             let n = sides.len();
-            let new: Vec<Dart> = (0..n).map(|i| reversed(sides[(2 * n - 2 - i) % n])).collect();
+            let new: Vec<Dart> = (0..n)
+                .map(|i| reversed(sides[(2 * n - 2 - i) % n]))
+                .collect();
             for (i, &dart) in new.iter().enumerate() {
                 turned.left[dart as usize] = Some([p as u32, i as u32]);
             }

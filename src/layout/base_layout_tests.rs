@@ -32,7 +32,8 @@ fn darts_around_a_vertex_turn_counter_clockwise() {
             .iter()
             .map(|&dart| {
                 assert_eq!(cube.tail(dart), v as u32);
-                let [a, b] = [dart, reversed(dart)].map(|d| cube.positions()[cube.tail(d) as usize]);
+                let [a, b] =
+                    [dart, reversed(dart)].map(|d| cube.positions()[cube.tail(d) as usize]);
                 sub(b, a)
             })
             .collect();
@@ -58,7 +59,10 @@ fn at_the_boundary_the_first_dart_has_no_polygon_on_its_right() {
 
 #[test]
 fn turned_over_twice_is_as_before() {
-    for layout in [cube(), flat(&[&[0, 1, 4, 3], &[1, 2, 5, 4], &[3, 4, 6]]).unwrap()] {
+    for layout in [
+        cube(),
+        flat(&[&[0, 1, 4, 3], &[1, 2, 5, 4], &[3, 4, 6]]).unwrap(),
+    ] {
         let turned = layout.turned_over();
         let polygons = layout.polygons().len();
         for p in 0..polygons {
@@ -83,9 +87,21 @@ fn bad_layouts_name_what_is_wrong() {
         (&[][..], None, "no polygons"),
         (&[&[0, 1, 2][..], &[0, 1]][..], Some(1), "2 sides"),
         (&[&[0, 1, 2, 1]], Some(0), "vertex 1 twice"),
-        (&[&[0, 1, 2], &[0, 1, 3]], Some(1), "from vertex 0 to vertex 1"),
-        (&[&[0, 1, 2], &[1, 0, 3], &[0, 1, 4]], Some(2), "from vertex 0"),
-        (&[&[0, 1, 3]], Some(2), "vertex 2 of the layout belongs to no"),
+        (
+            &[&[0, 1, 2], &[0, 1, 3]],
+            Some(1),
+            "from vertex 0 to vertex 1",
+        ),
+        (
+            &[&[0, 1, 2], &[1, 0, 3], &[0, 1, 4]],
+            Some(2),
+            "from vertex 0",
+        ),
+        (
+            &[&[0, 1, 3]],
+            Some(2),
+            "vertex 2 of the layout belongs to no",
+        ),
         (&[&[0, 1, 2], &[0, 3, 4]], Some(0), "more than one fan"),
     ] {
         let error = flat(polygons).unwrap_err();
@@ -93,7 +109,10 @@ fn bad_layouts_name_what_is_wrong() {
         assert_eq!(error.index(), index, "{error}");
     }
     let error = BaseLayout::new(vec![[0.0; 3]; 3], vec![vec![0, 1, 3]]).unwrap_err();
-    assert_eq!((error.code(), error.index()), ("index_out_of_range", Some(0)));
+    assert_eq!(
+        (error.code(), error.index()),
+        ("index_out_of_range", Some(0))
+    );
     let error = BaseLayout::new(vec![[f64::NAN; 3]; 3], vec![vec![0, 1, 2]]).unwrap_err();
     assert_eq!((error.code(), error.index()), ("not_finite", Some(0)));
 }

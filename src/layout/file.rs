@@ -51,7 +51,11 @@ pub fn parse_layout(text: &str) -> Result<LayoutFile> {
             message,
         })?;
     }
-    let used = polygons.iter().flatten().max().map_or(0, |&v: &u32| v as usize + 1);
+    let used = polygons
+        .iter()
+        .flatten()
+        .max()
+        .map_or(0, |&v: &u32| v as usize + 1);
     let layout = BaseLayout::new(positions[..used].to_vec(), polygons)?;
     let mut curves = Vec::with_capacity(lines.len());
     for (line, corners) in lines {
@@ -98,7 +102,9 @@ fn corners<'a>(
         ((index as usize) < count && number != 0).then_some(index)
     };
     words
-        .map(|word| corner(word).ok_or_else(|| format!("'{word}' is not a vertex that comes before")))
+        .map(|word| {
+            corner(word).ok_or_else(|| format!("'{word}' is not a vertex that comes before"))
+        })
         .collect()
 }
 
@@ -115,7 +121,10 @@ mod tests {
         assert_eq!(file.layout.polygons(), [vec![0, 1, 2, 3]]);
         assert_eq!(file.layout.vertex_count(), 4);
         assert_eq!(file.curves.len(), 2);
-        assert_eq!(file.curves[0], (0, vec![[0.0; 3], [0.5, -0.1, 0.0], [1.0, 0.0, 0.0]]));
+        assert_eq!(
+            file.curves[0],
+            (0, vec![[0.0; 3], [0.5, -0.1, 0.0], [1.0, 0.0, 0.0]])
+        );
     }
 
     #[test]
@@ -129,7 +138,10 @@ mod tests {
             (&format!("{SQUARE}l 1\n"), 7),
         ] {
             let error = parse_layout(text).unwrap_err();
-            assert!(matches!(error, Error::Parse { line: l, .. } if l == line), "{error}");
+            assert!(
+                matches!(error, Error::Parse { line: l, .. } if l == line),
+                "{error}"
+            );
         }
         assert!(read_layout("there/is/no/such.obj").is_err());
     }

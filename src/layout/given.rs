@@ -65,7 +65,10 @@ impl GivenCurves {
         })?;
         for ((arc, _), edges) in curves.iter().zip(&cut.curves) {
             let chain = chain_of(&cut.cut.mesh, edges, feet[layout.arcs()[*arc][0] as usize]);
-            for (v, end) in layout.arcs()[*arc].into_iter().zip([chain.first(), chain.last()]) {
+            for (v, end) in layout.arcs()[*arc]
+                .into_iter()
+                .zip([chain.first(), chain.last()])
+            {
                 let node = &mut given.nodes[v as usize];
                 if node.is_some() && *node != end.copied() {
                     return Err(Error::InvalidArgument {
@@ -88,7 +91,10 @@ impl GivenCurves {
 
     /// The face of the original mesh that a face is part of.
     pub fn original(&self, face: u32) -> usize {
-        let origin = self.cut.as_ref().map(|cut| cut.cut.face_origin[face as usize]);
+        let origin = self
+            .cut
+            .as_ref()
+            .map(|cut| cut.cut.face_origin[face as usize]);
         origin.unwrap_or(face) as usize
     }
 
@@ -122,7 +128,11 @@ fn chain_of(mesh: &TriangleMesh, edges: &[usize], from: Vec3) -> Vec<u32> {
         [only] => ends(*only).to_vec(),
         [first, second, ..] => {
             let [a, b] = ends(*first);
-            let mut chain = if ends(*second).contains(&b) { vec![a, b] } else { vec![b, a] };
+            let mut chain = if ends(*second).contains(&b) {
+                vec![a, b]
+            } else {
+                vec![b, a]
+            };
             for &edge in &edges[1..] {
                 let [p, q] = ends(edge);
                 let last = chain[chain.len() - 1];

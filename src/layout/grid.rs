@@ -12,8 +12,8 @@ use super::embed::surface::{NONE, previous};
 use super::rectangles::Rectangles;
 use crate::error::Result;
 use crate::linalg::{Cholesky, Sparse};
-use crate::mesh::{orientation, turned};
 use crate::mesh::vector::{cotangent, scale, sub};
+use crate::mesh::{orientation, turned};
 use crate::monitor::{Monitor, may_continue_at};
 use crate::untangle::Patchwork;
 
@@ -72,7 +72,8 @@ impl Grid {
             for &(v, place) in &vertices[..vertices.len() - 1] {
                 copy_of.insert(v, first);
                 first += 1;
-                self.values.extend([0, 1].map(|axis| corner[axis] + place * way[axis]));
+                self.values
+                    .extend([0, 1].map(|axis| corner[axis] + place * way[axis]));
             }
             corner = [0, 1].map(|axis| corner[axis] + f64::from(side.edges) * way[axis]);
         }
@@ -103,7 +104,8 @@ impl Grid {
         for &face in faces {
             let corners = all.surface.corners(face);
             for k in 0..3 {
-                let [a, b, c] = [k, (k + 1) % 3, (k + 2) % 3].map(|k| self.copies[face as usize][k]);
+                let [a, b, c] =
+                    [k, (k + 1) % 3, (k + 2) % 3].map(|k| self.copies[face as usize][k]);
                 let [to_a, to_b] = [k, (k + 1) % 3].map(|i| sub(corners[i], corners[(k + 2) % 3]));
                 let half = 0.5 * cotangent(to_a, to_b);
                 debug_assert!(c != a);
@@ -151,7 +153,9 @@ impl Grid {
 
     /// Faces that the map turns over or collapses.
     pub fn folded(&self) -> usize {
-        (0..self.copies.len()).filter(|&f| orientation(self.uv(f)) <= 0.0).count()
+        (0..self.copies.len())
+            .filter(|&f| orientation(self.uv(f)) <= 0.0)
+            .count()
     }
 
     /// Lets curves slide until the map is smooth. Edges of quads are about `edge` long.
@@ -168,12 +172,21 @@ impl Grid {
         for v in 0..surface.positions.len() as u32 {
             unknowns += self.link(all, v, motion[v as usize], unknowns, &mut entries);
         }
-        let moves = Sparse::from_triplets(self.values.len(), unknowns as usize, entries.iter().copied())?;
+        let moves = Sparse::from_triplets(
+            self.values.len(),
+            unknowns as usize,
+            entries.iter().copied(),
+        )?;
         let faces = 0..surface.triangles.len() as u32;
         let corners: Vec<_> = faces
             .map(|f| surface.corners(f).map(|p| scale(p, 1.0 / edge)))
             .collect();
-        let patchwork = Patchwork::new(surface.triangles.clone(), self.copies.clone(), moves, &corners);
+        let patchwork = Patchwork::new(
+            surface.triangles.clone(),
+            self.copies.clone(),
+            moves,
+            &corners,
+        );
         patchwork.relax(&mut self.values, monitor)?;
         Ok(())
     }
@@ -194,7 +207,9 @@ impl Grid {
         let fan: Vec<u32> = surface.around(v).collect();
         let mut turn = 0;
         let mut seen: Vec<u32> = Vec::new();
-        let along = (motion == Motion::Along).then(|| self.way_of_curve(all, &fan)).flatten();
+        let along = (motion == Motion::Along)
+            .then(|| self.way_of_curve(all, &fan))
+            .flatten();
         for (k, &half) in fan.iter().enumerate() {
             let copy = self.copies[half as usize / 3][half as usize % 3];
             if !seen.contains(&copy) {
@@ -246,6 +261,8 @@ impl Grid {
         let [ax, ay] = self.step(back);
         let [bx, by] = self.step(opposite).map(|x| -x);
         let angle = (ax * by - ay * bx).atan2(ax * bx + ay * by);
-        (angle / std::f64::consts::FRAC_PI_2).round().rem_euclid(4.0) as u8
+        (angle / std::f64::consts::FRAC_PI_2)
+            .round()
+            .rem_euclid(4.0) as u8
     }
 }

@@ -35,8 +35,9 @@ pub struct LayoutOptions {
     pub curves: Vec<(usize, Vec<Vec3>)>,
     /// Whether arcs with a given course stay on it; else that only decides which way they go.
     pub hold_curves: bool,
-    /// Whether vertices of the layout with four patches may slide on the surface, as arcs do.
-    pub slide_regular: bool,
+    /// Whether vertices of the layout with four patches stay where they are, too; else they slide on the surface, as
+    /// arcs do. Irregular vertices and those of the boundary stay always.
+    pub hold_regular: bool,
     /// How quads are smoothed; not at all for none.
     pub smooth: Option<SmoothOptions>,
     /// The largest number of threads; 0 for one for each core. The result does not depend on it.
@@ -50,7 +51,7 @@ impl Default for LayoutOptions {
             fixed: Vec::new(),
             curves: Vec::new(),
             hold_curves: true,
-            slide_regular: false,
+            hold_regular: false,
             smooth: Some(SmoothOptions::default()),
             threads: 0,
         }
@@ -92,7 +93,9 @@ pub fn layout_quads<'a>(
     options: &LayoutOptions,
     monitor: impl Fn() -> Monitor<'a>,
 ) -> Result<LayoutQuads> {
-    with_threads(options.threads, || on_threads(mesh, layout, options, &monitor))
+    with_threads(options.threads, || {
+        on_threads(mesh, layout, options, &monitor)
+    })
 }
 
 fn on_threads<'a>(
@@ -119,7 +122,11 @@ fn on_threads<'a>(
         let _span = span("embed");
         embed(&layout, surface, nodes, &curves.chains)
     })?;
-    let lengths: Vec<f64> = embedding.chains.iter().map(|chain| embedding.surface.chain_length(chain)).collect();
+    let lengths: Vec<f64> = embedding
+        .chains
+        .iter()
+        .map(|chain| embedding.surface.chain_length(chain))
+        .collect();
     let arcs = embedding.chains.iter().map(|chain| {
         let places = chain.iter().map(|&v| embedding.surface.position(v));
         places.collect()
@@ -140,7 +147,9 @@ fn on_threads<'a>(
         let _span = span("relax");
         grid.relax(&all, &motion, edge, &mut monitor())
     })?;
-    let uvs: Vec<[[f64; 2]; 3]> = (0..all.surface.triangles.len()).map(|f| grid.uv(f)).collect();
+    let uvs: Vec<[[f64; 2]; 3]> = (0..all.surface.triangles.len())
+        .map(|f| grid.uv(f))
+        .collect();
     let refined = TriangleMesh::new(all.surface.positions.clone(), all.surface.triangles.clone())?;
     let map = IntegerGridMap::new(&refined, &uvs)?;
     let mut quads = run.with_share([0.8, 0.9], || extract(&refined, &map, &mut monitor()))?;
@@ -218,10 +227,12 @@ fn motion(
     };
     for arc in (0..layout.arc_count()).filter(|&arc| is_held(arc)) {
         let chain = &all.curves[arc].chain;
-        chain.iter().for_each(|&v| motion[v as usize] = Motion::Along);
+        chain
+            .iter()
+            .for_each(|&v| motion[v as usize] = Motion::Along);
     }
     for (number, &v) in nodes.iter().enumerate() {
-        let slides = options.slide_regular
+        let slides = !options.hold_regular
             && layout.valence(number) == 4
             && motion[v as usize] == Motion::Free;
         if !slides {
@@ -265,7 +276,11 @@ fn bring_back(
 fn is_as_prescribed(quads: &QuadMesh, layout: &BaseLayout, found: &Subdivisions) -> bool {
     let is_irregular = |v: &usize| !layout.is_boundary_vertex(*v) && layout.valence(*v) != 4;
     let vertices = (0..layout.vertex_count()).filter(is_irregular);
-    let centers = layout.polygons().iter().map(Vec::len).filter(|&sides| sides != 4);
+    let centers = layout
+        .polygons()
+        .iter()
+        .map(Vec::len)
+        .filter(|&sides| sides != 4);
     let mut wanted: Vec<usize> = vertices.map(|v| layout.valence(v)).chain(centers).collect();
     let mut on_boundary = vec![false; quads.vertices.len()];
     for side in quads.sides().chunk_by(|a, b| a.0 == b.0) {

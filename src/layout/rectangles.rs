@@ -58,7 +58,9 @@ impl Rectangles {
     /// # Errors
     /// [`Error::InvalidArgument`] with a patch in which a spoke cannot be laid.
     pub fn new(layout: &BaseLayout, embedding: Embedding, found: &Subdivisions) -> Result<Self> {
-        let Embedding { surface, chains, .. } = embedding;
+        let Embedding {
+            surface, chains, ..
+        } = embedding;
         let curves = chains.into_iter().zip(&found.arcs).map(|(chain, &edges)| {
             let length = surface.chain_length(&chain);
             let mut places = vec![0.0; chain.len()];
@@ -113,7 +115,8 @@ impl Rectangles {
     pub fn vertices(&self, side: &Side) -> Vec<(u32, f64)> {
         let curve = &self.curves[side.dart as usize / 2];
         let all = curve.chain.iter().zip(&curve.places);
-        let placed = all.map(|(&v, &place)| (v, self.along(side.dart, place) - f64::from(side.start)));
+        let placed =
+            all.map(|(&v, &place)| (v, self.along(side.dart, place) - f64::from(side.start)));
         let is_inside = |&(_, place): &(u32, f64)| place >= 0.0 && place <= side.edges.into();
         let mut inside: Vec<(u32, f64)> = placed.filter(is_inside).collect();
         if side.dart % 2 == 1 {
@@ -133,9 +136,12 @@ impl Rectangles {
         }
         let [a, b] = [after - 1, after].map(|k| (curve.chain[k], curve.places[k]));
         let share = (place - a.1) / (b.1 - a.1);
-        let is_free = |at: usize| at > 0 && at + 1 < curve.chain.len() && curve.places[at].fract() != 0.0;
+        let is_free =
+            |at: usize| at > 0 && at + 1 < curve.chain.len() && curve.places[at].fract() != 0.0;
         let near = [(after - 1, share), (after, 1.0 - share)];
-        let near = near.into_iter().find(|&(at, off)| off < SNAP && is_free(at));
+        let near = near
+            .into_iter()
+            .find(|&(at, off)| off < SNAP && is_free(at));
         let [p, q] = [a.0, b.0].map(|v| self.surface.position(v));
         let half = self.surface.half_between(a.0, b.0);
         let at = match (near, half) {
@@ -171,19 +177,23 @@ impl Rectangles {
         for i in 0..n {
             let from = Sector::new(&self.surface, center, &own, own[i], true);
             let fan: Vec<u32> = self.surface.around(ends[i]).collect();
-            let start = fan.iter().position(|&half| self.surface.dart[half as usize] == sides[i]);
+            let start = fan
+                .iter()
+                .position(|&half| self.surface.dart[half as usize] == sides[i]);
             let turned = (0..fan.len()).map(|k| fan[(start.unwrap_or(0) + k) % fan.len()]);
             let surface = &self.surface;
-            let inside = turned.enumerate().take_while(|&(k, half)| {
-                k == 0 || surface.dart[half as usize] == NONE
-            });
+            let inside = turned
+                .enumerate()
+                .take_while(|&(k, half)| k == 0 || surface.dart[half as usize] == NONE);
             let to = Sector {
                 node: ends[i],
                 corners: inside.map(|(_, half)| half).collect(),
             };
             let path = search.shortest(&self.surface, &from, &to);
             let path = path.ok_or_else(|| Error::InvalidArgument {
-                what: format!("patch {polygon} of the layout has no room for the spoke to its side {i}"),
+                what: format!(
+                    "patch {polygon} of the layout has no room for the spoke to its side {i}"
+                ),
                 index: Some(polygon),
             })?;
             let chain = lay(&mut self.surface, &path, own[i]);
@@ -231,11 +241,16 @@ impl Rectangles {
     /// none.
     fn center(&mut self, sides: &[Dart], ends: &[u32]) -> u32 {
         self.surface.split_chords();
-        let middle: Vec3 = ends.iter().map(|&v| self.surface.position(v)).fold([0.0; 3], add);
+        let middle: Vec3 = ends
+            .iter()
+            .map(|&v| self.surface.position(v))
+            .fold([0.0; 3], add);
         let middle = scale(middle, 1.0 / ends.len() as f64);
         let surface = &self.surface;
         let leaving = surface.around(ends[0]);
-        let corner = leaving.into_iter().find(|&half| surface.dart[half as usize] == sides[0]);
+        let corner = leaving
+            .into_iter()
+            .find(|&half| surface.dart[half as usize] == sides[0]);
         let faces = reached(surface, corner.unwrap_or(0));
         let off = |p: Vec3| norm(sub(p, middle));
         let inner = faces.iter().flat_map(|&f| surface.triangles[f as usize]);
@@ -247,7 +262,8 @@ impl Rectangles {
         nearest.unwrap_or_else(|| {
             let face = faces[0];
             let corners = self.surface.corners(face).map(|p| scale(p, 1.0 / 3.0));
-            self.surface.split_face(face, corners.into_iter().fold([0.0; 3], add))
+            self.surface
+                .split_face(face, corners.into_iter().fold([0.0; 3], add))
         })
     }
 }

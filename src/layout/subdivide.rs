@@ -28,10 +28,13 @@ const SPOKE: f64 = 1.0 / 1024.0;
 const QUANTUM: f64 = 1.0 / 4096.0;
 
 /// The most scales that are tried to meet a number of quads.
-const SCALES: usize = 24;
+const SCALES: usize = 8;
 
 /// The part of a number of quads by which it may be missed.
-const TOLERANCE: f64 = 0.005;
+const TOLERANCE: f64 = 0.01;
+
+/// The nodes of a search after which the best numbers so far are taken.
+const NODES: usize = 20_000;
 
 /// The largest number of edges that may be asked for.
 const MOST: u32 = 1 << 20;
@@ -138,7 +141,7 @@ impl<'a> Subdividing<'a> {
         }
     }
 
-    /// Those that come nearest to a number of quads, among scales between too few and too many.
+    /// Those that come nearest to a number of quads, among a few scales.
     fn for_quads<'m>(
         &self,
         quads: usize,
@@ -146,46 +149,47 @@ impl<'a> Subdividing<'a> {
         monitor: &impl Fn() -> Monitor<'m>,
     ) -> Result<Subdivisions> {
         let asked = quads as f64;
-        let off = |found: &Subdivisions| (found.quads as f64 / asked).ln().abs();
+        // Of the logarithm of the number over the one asked for.
+        let excess = |found: &Subdivisions| (found.quads as f64 / asked).ln();
         // Logarithms of edge lengths: with the first there are too many quads, with the second too few.
         let (mut fine, mut coarse) = (None, None);
         let mut place = 0.5 * (area / asked).ln();
-        let mut best: Option<Subdivisions> = None;
-        for _ in 0..SCALES {
-            let found = self.at(place.exp(), monitor)?;
-            let many = found.quads as f64 >= asked;
-            *(if many { &mut fine } else { &mut coarse }) = Some(place);
-            let step = 0.5 * (found.quads as f64 / asked).ln();
-            if best.as_ref().is_none_or(|best| off(&found) < off(best)) {
-                best = Some(found);
-            }
-            if best.as_ref().is_some_and(|best| off(best) <= TOLERANCE) {
+        let mut best = self.at(place.exp(), monitor)?;
+        let mut last = excess(&best);
+        for _ in 1..SCALES {
+            *(if last >= 0.0 { &mut fine } else { &mut coarse }) = Some(place);
+            // No scale gives fewer quads than a coarse one.
+            let is_least = last >= 0.0 && best.arcs.iter().all(|&n| n == 1);
+            if excess(&best).abs() <= TOLERANCE || is_least {
                 break;
             }
+            // The number goes with the square of the scale.
+            let next = place + 0.5 * last;
             place = match (fine, coarse) {
-                (Some(fine), Some(coarse)) => 0.5 * (fine + coarse),
-                _ => place + step + if many { 0.05 } else { -0.05 },
+                (Some(fine), Some(coarse)) if next <= fine || next >= coarse => {
+                    0.5 * (fine + coarse)
+                }
+                _ => next,
             };
-            // No scale gives fewer quads than an infinite one.
-            if best.as_ref().is_some_and(|b| b.arcs.iter().all(|&n| n == 1)) && many {
-                break;
+            let found = self.at(place.exp(), monitor)?;
+            last = excess(&found);
+            if last.abs() < excess(&best).abs() {
+                best = found;
             }
         }
-        match best {
-            Some(best) => Ok(best),
-            None => self.at((area / asked).sqrt(), monitor),
-        }
+        Ok(best)
     }
 
     /// The subdivisions for edges of this length; for 0, the fewest.
     fn at<'m>(&self, edge: f64, monitor: &impl Fn() -> Monitor<'m>) -> Result<Subdivisions> {
         let every = vec![true; self.demands()];
-        let solution = self.attempt(edge, &every, monitor).map_err(|error| {
-            match is_contradiction(&error) {
-                true => self.smallest_conflict(error, monitor),
-                false => error,
-            }
-        })?;
+        let solution =
+            self.attempt(edge, &every, monitor).map_err(|error| {
+                match is_contradiction(&error) {
+                    true => self.smallest_conflict(error, monitor),
+                    false => error,
+                }
+            })?;
         Ok(self.read(edge, &solution))
     }
 
@@ -197,6 +201,7 @@ impl<'a> Subdividing<'a> {
     ) -> Result<Solution> {
         let options = Options {
             strategy: Strategy::Exact,
+            nodes: NODES,
             ..Options::default()
         };
         let problem = self.problem(edge, &self.strips(holds), holds)?;
@@ -279,7 +284,10 @@ impl<'a> Subdividing<'a> {
     fn read(&self, edge: f64, solution: &Solution) -> Subdivisions {
         let values = solution.values();
         let strips = self.strips(&vec![true; self.demands()]);
-        let arcs: Vec<u32> = strips.into_iter().map(|strip| values[strip] as u32).collect();
+        let arcs: Vec<u32> = strips
+            .into_iter()
+            .map(|strip| values[strip] as u32)
+            .collect();
         let sides = self.layout.sides();
         let spokes: Vec<Vec<u32>> = sides
             .iter()
@@ -293,7 +301,9 @@ impl<'a> Subdividing<'a> {
             let along = |i: usize| arcs[sides[i] as usize / 2] as usize;
             match spokes.len() {
                 0 => along(0) * along(1),
-                n => (0..n).map(|i| spokes[i] as usize * spokes[(i + 1) % n] as usize).sum(),
+                n => (0..n)
+                    .map(|i| spokes[i] as usize * spokes[(i + 1) % n] as usize)
+                    .sum(),
             }
         });
         Subdivisions {
@@ -332,7 +342,10 @@ impl<'a> Subdividing<'a> {
             size = size.div_ceil(2);
         }
         let patches = self.layout.polygons().len();
-        let of_patches: Vec<String> = (0..patches).filter(|&p| holds[p]).map(|p| p.to_string()).collect();
+        let of_patches: Vec<String> = (0..patches)
+            .filter(|&p| holds[p])
+            .map(|p| p.to_string())
+            .collect();
         let of_arcs = (0..self.fixed.len()).filter(|&k| holds[patches + k]);
         let fixed: Vec<(usize, u32)> = of_arcs.map(|k| self.fixed[k]).collect();
         let names: Vec<String> = fixed
@@ -349,7 +362,10 @@ impl<'a> Subdividing<'a> {
                 of_patches.join(", ")
             ),
             index: fixed.first().map(|&(arc, _)| arc),
-            elements: fixed.iter().map(|&(arc, _)| Conflicting::Bounds(arc)).collect(),
+            elements: fixed
+                .iter()
+                .map(|&(arc, _)| Conflicting::Bounds(arc))
+                .collect(),
         }
     }
 }

@@ -3,7 +3,11 @@ use crate::linalg::Random;
 
 /// Polygons in a row or a ring that share edges at random, as a layout without positions that matter.
 fn layout(polygons: &[&[u32]]) -> BaseLayout {
-    let count = polygons.iter().flat_map(|p| p.iter()).max().map_or(0, |&v| v as usize + 1);
+    let count = polygons
+        .iter()
+        .flat_map(|p| p.iter())
+        .max()
+        .map_or(0, |&v| v as usize + 1);
     let positions = (0..count).map(|v| [v as f64, (v * v % 7) as f64, 0.0]);
     let polygons = polygons.iter().map(|p| p.to_vec());
     BaseLayout::new(positions.collect(), polygons.collect()).unwrap()
@@ -15,14 +19,18 @@ fn least(subdividing: &Subdividing, edge: f64, most: u32) -> Option<f64> {
     let mut x = vec![1u32; subdividing.unknowns];
     let mut least: Option<f64> = None;
     loop {
-        let fits = layout.sides().iter().zip(&subdividing.spokes).all(|(sides, &spokes)| {
-            let n = sides.len();
-            let of = |i: usize| x[sides[i] as usize / 2];
-            match spokes {
-                None => of(0) == of(2) && of(1) == of(3),
-                Some(s) => (0..n).all(|i| of(i) == x[s + (i + n - 1) % n] + x[s + (i + 1) % n]),
-            }
-        });
+        let fits = layout
+            .sides()
+            .iter()
+            .zip(&subdividing.spokes)
+            .all(|(sides, &spokes)| {
+                let n = sides.len();
+                let of = |i: usize| x[sides[i] as usize / 2];
+                match spokes {
+                    None => of(0) == of(2) && of(1) == of(3),
+                    Some(s) => (0..n).all(|i| of(i) == x[s + (i + n - 1) % n] + x[s + (i + 1) % n]),
+                }
+            });
         if fits && subdividing.fixed.iter().all(|&(arc, n)| x[arc] == n) {
             let mut energy = 0.0;
             for (arc, &l) in subdividing.lengths.iter().enumerate() {
@@ -59,13 +67,18 @@ fn subdivisions_have_the_least_energy_of_all() {
     let mut random = Random::new(3);
     for layout in &layouts {
         for _ in 0..6 {
-            let lengths: Vec<f64> = (0..layout.arc_count()).map(|_| 0.3 + 3.0 * (0.5 + 0.5 * random.symmetric())).collect();
+            let lengths: Vec<f64> = (0..layout.arc_count())
+                .map(|_| 0.3 + 3.0 * (0.5 + 0.5 * random.symmetric()))
+                .collect();
             let subdividing = Subdividing::new(layout, &lengths, &[]).unwrap();
             for edge in [0.0, 0.9] {
                 let found = subdividing.at(edge, &Monitor::default).unwrap();
                 let least = least(&subdividing, edge, 4).unwrap();
                 assert!(found.is_optimal, "{found:?}");
-                assert!((found.energy - least).abs() < 1e-9 * (1.0 + least), "{found:?} {least}");
+                assert!(
+                    (found.energy - least).abs() < 1e-9 * (1.0 + least),
+                    "{found:?} {least}"
+                );
                 assert!(found.lower_bound <= found.energy + 1e-9);
             }
         }

@@ -7,16 +7,16 @@
 
 use std::f64::consts::FRAC_PI_2;
 
+use super::NONE;
 use super::energy::{Quadratic, Rest};
 use super::freedom::Freedom;
 use super::region::{Region, regions};
 use super::schedule;
 use super::system::System;
-use super::{NONE, RINGS};
 use crate::error::Result;
 use crate::linalg::Sparse;
-use crate::mesh::{angle_at, orientation};
 use crate::mesh::vector::{Vec3, cross, dot, norm, sub};
+use crate::mesh::{angle_at, orientation};
 use crate::monitor::{Monitor, Phase};
 
 /// The most Newton steps on the energy of the whole map.
@@ -26,7 +26,13 @@ const STEPS: usize = 12;
 const CONVERGED: f64 = 2e-3;
 
 /// The most Newton steps on a region with folds.
-const STEPS_OF_REGION: usize = 60;
+const STEPS_OF_REGION: usize = 40;
+
+/// The rings around folds that may move. Where that does not suffice, the map that was given is the better start.
+const RINGS: [usize; 3] = [3, 8, 20];
+
+/// One in so many faces may be folded for that.
+const FEW: usize = 20;
 
 /// The barrier of maps without folds.
 const CLOSED: f64 = 1e-9;
@@ -85,7 +91,7 @@ impl Patchwork {
         system.minimise(values, &forms)?;
         let folded = self.folded(values);
         done.folded_at_first = folded.len();
-        if !folded.is_empty() {
+        if !folded.is_empty() && folded.len() <= self.rests.len() / FEW {
             done.steps += self.unfold(values, monitor)?;
         }
         // A map without folds may still wind around a vertex more than once.
@@ -113,12 +119,19 @@ impl Patchwork {
     /// Faces with a negative or no area, decided exactly.
     pub fn folded(&self, values: &[f64]) -> Vec<usize> {
         let faces = 0..self.rests.len();
-        faces.filter(|&f| orientation(self.uv(values, f)) <= 0.0).collect()
+        faces
+            .filter(|&f| orientation(self.uv(values, f)) <= 0.0)
+            .collect()
     }
 
     /// The quarter turns around each vertex.
     fn quarters(&self, values: &[f64]) -> Vec<i32> {
-        let count = self.vertices.iter().flatten().max().map_or(0, |&v| v as usize + 1);
+        let count = self
+            .vertices
+            .iter()
+            .flatten()
+            .max()
+            .map_or(0, |&v| v as usize + 1);
         let mut angles = vec![0.0; count];
         for (face, vertices) in self.vertices.iter().enumerate() {
             let uv = self.uv(values, face);
@@ -162,7 +175,10 @@ impl Patchwork {
             place[y as usize] = k as u32;
         }
         let system = System::new(&self.freedom, region, |face| self.rests[face], place);
-        region.unknowns.iter().for_each(|&y| place[y as usize] = NONE);
+        region
+            .unknowns
+            .iter()
+            .for_each(|&y| place[y as usize] = NONE);
         system
     }
 
@@ -197,7 +213,10 @@ const THIN: f64 = 1e-4;
 /// A face laid into the plane.
 fn flat([a, b, c]: [Vec3; 3]) -> Rest {
     let [ab, ac] = [sub(b, a), sub(c, a)];
-    let longest = norm(ab).max(norm(ac)).max(norm(sub(c, b))).max(f64::MIN_POSITIVE);
+    let longest = norm(ab)
+        .max(norm(ac))
+        .max(norm(sub(c, b)))
+        .max(f64::MIN_POSITIVE);
     let width = norm(ab).max(THIN * longest);
     let along = dot(ac, ab) / width;
     let height = (norm(cross(ab, ac)) / width).max(THIN * longest);

@@ -47,9 +47,9 @@ pub struct Flags {
     #[arg(long, value_name = "A-B=N", value_parser = fix)]
     fix: Vec<[usize; 3]>,
 
-    /// Let vertices of the layout with four patches slide over the surface
+    /// Keep vertices of the layout with four patches where they are, too; else they slide as arcs do
     #[arg(long)]
-    slide: bool,
+    hold_vertices: bool,
 
     /// Do not smooth the quads
     #[arg(long)]
@@ -121,7 +121,7 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
         },
         fixed: fixed(&layout, &flags.fix)?,
         curves,
-        slide_regular: flags.slide,
+        hold_regular: flags.hold_vertices,
         smooth: (!flags.no_smooth).then(SmoothOptions::default),
         threads: flags.threads,
         ..LayoutOptions::default()
@@ -212,7 +212,9 @@ struct Seconds {
 impl<'a> Report<'a> {
     fn new(arguments: &Arguments, solved: &'a Solved) -> Self {
         let name = |file: &Option<PathBuf>| {
-            let file = file.as_ref().map(|file| file.to_string_lossy().into_owned());
+            let file = file
+                .as_ref()
+                .map(|file| file.to_string_lossy().into_owned());
             file.unwrap_or_default()
         };
         let found = &solved.found;
@@ -252,12 +254,24 @@ impl fmt::Display for Solved {
         line(f, "read", &faces, self.read)?;
         let numbers = &found.subdivisions.arcs;
         let [least, most] = [numbers.iter().min(), numbers.iter().max()].map(|n| n.unwrap_or(&0));
-        let proof = if found.subdivisions.is_optimal { "optimal" } else { "not proved" };
+        let proof = if found.subdivisions.is_optimal {
+            "optimal"
+        } else {
+            "not proved"
+        };
         let arcs = counted(numbers.len(), "arc");
-        writeln!(f, "{:<10} {arcs} of {least} to {most} edges, {proof}", "layout")?;
+        writeln!(
+            f,
+            "{:<10} {arcs} of {least} to {most} edges, {proof}",
+            "layout"
+        )?;
         line(f, "quads", &words(&found.quads), self.seconds)?;
         if !found.is_as_prescribed {
-            writeln!(f, "{:<10} irregular vertices differ from those of the layout", "")?;
+            writeln!(
+                f,
+                "{:<10} irregular vertices differ from those of the layout",
+                ""
+            )?;
         }
         Ok(())
     }

@@ -21,7 +21,11 @@ use crate::outputs::OutputFlags;
 pub struct Arguments {
     /// The mesh that quads are made on: a file (.obj, .off, .ply, .stl, .gltf, .glb, also .gz), - for standard input, or
     /// shape:NAME or shape:NAME:TRIANGLES for one of the shapes that `roundel shape --help` lists
-    #[arg(value_name = "MESH", requires = "layout", required_unless_present = "of")]
+    #[arg(
+        value_name = "MESH",
+        requires = "layout",
+        required_unless_present = "of"
+    )]
     mesh: Option<PathBuf>,
 
     /// The quad mesh whose layout is found: a file (.obj, .off, .ply, also .gz), an oriented manifold with or

@@ -2,7 +2,7 @@
 
 use super::exact::{distances, potato, sheet};
 use crate::geodesic::{Source, SurfacePoint};
-use crate::mesh::vector::{Vec3, add, dot, norm, scale, sub};
+use crate::mesh::vector::{Vec3, norm, sub};
 use crate::mesh::{TriangleMesh, closest_on_segment, jitter, shape};
 
 fn to_segment(p: Vec3, ends: [Vec3; 2]) -> f64 {

@@ -119,13 +119,19 @@ type Waiting = Reverse<(bool, u64, usize)>;
 
 impl Laying<'_> {
     fn is_consistent(&self) -> bool {
-        let Embedding { surface, nodes, chains } = &self.embedding;
+        let Embedding {
+            surface,
+            nodes,
+            chains,
+        } = &self.embedding;
         are_those_of(self.layout, surface, nodes, chains)
     }
 
     fn take(&mut self, arc: usize, chain: Vec<u32>) {
         for pair in chain.windows(2) {
-            self.embedding.surface.take_edge(pair[0], pair[1], 2 * arc as Dart);
+            self.embedding
+                .surface
+                .take_edge(pair[0], pair[1], 2 * arc as Dart);
         }
         self.is_given[arc] = true;
         self.embedding.chains[arc] = chain;
@@ -166,8 +172,8 @@ impl Laying<'_> {
             // With the patch on the left, as the surface has its faces.
             let back = self.layout.polygon_left_of(2 * arc as Dart).is_none();
             let dart = 2 * arc as Dart + Dart::from(back);
-            let [from, to] = [dart, reversed(dart)]
-                .map(|d| self.embedding.nodes[self.layout.tail(d) as usize]);
+            let [from, to] =
+                [dart, reversed(dart)].map(|d| self.embedding.nodes[self.layout.tail(d) as usize]);
             let surface = &self.embedding.surface;
             let mut chain = vec![from];
             let mut at = from;
@@ -189,7 +195,8 @@ impl Laying<'_> {
         for half in 0..surface.twin.len() as u32 {
             if surface.twin[half as usize] == NONE {
                 let ends = [surface.tail(half), surface.tip(half)];
-                ends.iter().for_each(|&v| surface.is_taken[v as usize] = true);
+                ends.iter()
+                    .for_each(|&v| surface.is_taken[v as usize] = true);
             }
         }
         Ok(())
@@ -265,7 +272,9 @@ impl Laying<'_> {
     fn blocked(&self, arc: usize, why: &str) -> Error {
         let [a, b] = self.layout.arcs()[arc];
         Error::InvalidArgument {
-            what: format!("arc {arc} of the layout, between vertices {a} and {b}, cannot be laid: {why}"),
+            what: format!(
+                "arc {arc} of the layout, between vertices {a} and {b}, cannot be laid: {why}"
+            ),
             index: Some(arc),
         }
     }
@@ -319,7 +328,8 @@ impl Laying<'_> {
                     }
                     None => {
                         let surface = &mut self.embedding.surface;
-                        old.windows(2).for_each(|p| surface.take_edge(p[0], p[1], dart));
+                        old.windows(2)
+                            .for_each(|p| surface.take_edge(p[0], p[1], dart));
                         old
                     }
                 };

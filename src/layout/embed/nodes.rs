@@ -5,8 +5,8 @@ use std::collections::HashMap;
 use super::surface::{NONE, Surface};
 use crate::error::{Error, Result};
 use crate::layout::base_layout::BaseLayout;
-use crate::mesh::vector::{Vec3, add, cross, dot, norm, scale, sub};
 use crate::mesh::refine::diagonal;
+use crate::mesh::vector::{Vec3, add, cross, dot, norm, scale, sub};
 use crate::mesh::{ClosestPoint, TriangleMesh};
 
 /// A node is put at a corner or on an edge of its face that is nearer than this share of the face.
@@ -38,7 +38,10 @@ pub(in crate::layout) fn place_nodes(
     let reach = REACH * diagonal(mesh);
     let mut parts = Parts::default();
     let mut nodes = Vec::with_capacity(layout.vertex_count());
-    known.iter().flatten().for_each(|&v| surface.is_taken[v as usize] = true);
+    known
+        .iter()
+        .flatten()
+        .for_each(|&v| surface.is_taken[v as usize] = true);
     for (number, &p) in layout.positions().iter().enumerate() {
         if let Some(node) = known[number] {
             nodes.push(node);
@@ -68,7 +71,11 @@ pub(in crate::layout) fn place_nodes(
             ));
         }
         parts.update(surface);
-        let face = if is_border { border[place] / 3 } else { place as u32 };
+        let face = if is_border {
+            border[place] / 3
+        } else {
+            place as u32
+        };
         let node = match is_border {
             true => parts.on_boundary(surface, face, q),
             false => parts.inside(surface, face, q),
@@ -91,7 +98,10 @@ impl Parts {
         for face in self.noted..surface.triangles.len() {
             let origin = surface.origin[face];
             if origin != face as u32 {
-                self.of.entry(origin).or_insert_with(|| vec![origin]).push(face as u32);
+                self.of
+                    .entry(origin)
+                    .or_insert_with(|| vec![origin])
+                    .push(face as u32);
             }
         }
         self.noted = surface.triangles.len();
@@ -112,7 +122,10 @@ impl Parts {
             let weights = weights(surface.corners(part), q);
             weights.into_iter().fold(f64::INFINITY, f64::min)
         };
-        let part = parts.iter().copied().max_by(|&a, &b| least(a).total_cmp(&least(b)));
+        let part = parts
+            .iter()
+            .copied()
+            .max_by(|&a, &b| least(a).total_cmp(&least(b)));
         let part = part.unwrap_or(face);
         let corners = surface.triangles[part as usize];
         let mut at = weights(surface.corners(part), q).map(|w| w.clamp(0.0, 1.0));

@@ -24,7 +24,10 @@ impl Sector {
     /// has all darts of the node, counter-clockwise.
     pub fn new(surface: &Surface, node: u32, around: &[Dart], dart: Dart, is_closed: bool) -> Self {
         let fan: Vec<u32> = surface.around(node).collect();
-        let laid = |d: Dart| fan.iter().position(|&half| surface.dart[half as usize] == d);
+        let laid = |d: Dart| {
+            fan.iter()
+                .position(|&half| surface.dart[half as usize] == d)
+        };
         let count = around.len();
         let own = around.iter().position(|&d| d == dart).unwrap_or(0);
         let before = (1..count).find_map(|back| {
@@ -39,8 +42,13 @@ impl Sector {
             None => fan,
             Some(first) => {
                 let turned = (0..fan.len()).map(|k| fan[(first + k) % fan.len()]);
-                let is_inside = |&(k, half): &(usize, u32)| k == 0 || surface.dart[half as usize] == NONE;
-                turned.enumerate().take_while(is_inside).map(|(_, half)| half).collect()
+                let is_inside =
+                    |&(k, half): &(usize, u32)| k == 0 || surface.dart[half as usize] == NONE;
+                turned
+                    .enumerate()
+                    .take_while(is_inside)
+                    .map(|(_, half)| half)
+                    .collect()
             }
         };
         Sector { node, corners }
@@ -110,8 +118,11 @@ impl Search {
     /// The shortest path between two sectors, if there is one.
     pub fn shortest(&mut self, surface: &Surface, from: &Sector, to: &Sector) -> Option<Path> {
         let count = surface.positions.len() + surface.twin.len();
-        self.touched.drain(..).for_each(|p| self.length[p as usize] = f64::INFINITY);
-        self.length.resize(count.max(self.length.len()), f64::INFINITY);
+        self.touched
+            .drain(..)
+            .for_each(|p| self.length[p as usize] = f64::INFINITY);
+        self.length
+            .resize(count.max(self.length.len()), f64::INFINITY);
         self.from.resize(count.max(self.from.len()), NONE);
         let mut run = Run {
             surface,
@@ -146,7 +157,9 @@ impl Run<'_> {
     fn settle(&mut self, point: u32) {
         let surface = self.surface;
         match (point as usize).checked_sub(surface.positions.len()) {
-            None => surface.around(point).for_each(|half| self.leave(point, half / 3)),
+            None => surface
+                .around(point)
+                .for_each(|half| self.leave(point, half / 3)),
             Some(half) => {
                 self.leave(point, half as u32 / 3);
                 self.leave(point, surface.twin[half] / 3);

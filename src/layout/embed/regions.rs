@@ -78,7 +78,9 @@ pub(super) fn are_those_of(
     }
     for (number, &node) in nodes.iter().enumerate() {
         if is_free[node as usize] {
-            let cell = layout.around(number).find_map(|dart| layout.polygon_left_of(dart));
+            let cell = layout
+                .around(number)
+                .find_map(|dart| layout.polygon_left_of(dart));
             if let Some((cell, half)) = cell.zip(surface.around(node).next()) {
                 wanted.add_vertex(cell as u32);
                 pairs.push((cell as u32, half / 3));

@@ -96,10 +96,6 @@ impl Surface {
         self.triangles[face as usize].map(|v| self.position(v))
     }
 
-    pub fn length(&self, half: u32) -> f64 {
-        norm(sub(self.position(self.tail(half)), self.position(self.tip(half))))
-    }
-
     /// The length of a chain of edges.
     pub fn chain_length(&self, chain: &[u32]) -> f64 {
         let steps = chain.windows(2).map(|pair| {
@@ -158,7 +154,11 @@ impl Surface {
             debug_assert!(false, "no edge from {a} to {b}");
             return;
         };
-        let forth = if self.tail(half) == a { dart } else { reversed(dart) };
+        let forth = if self.tail(half) == a {
+            dart
+        } else {
+            reversed(dart)
+        };
         self.dart[half as usize] = forth;
         let other = self.twin[half as usize];
         if other != NONE {
@@ -199,7 +199,10 @@ impl Surface {
 
     /// Splits an edge in its middle.
     pub fn split_in_the_middle(&mut self, half: u32) -> u32 {
-        let sum = add(self.position(self.tail(half)), self.position(self.tip(half)));
+        let sum = add(
+            self.position(self.tail(half)),
+            self.position(self.tip(half)),
+        );
         self.split_edge(half, scale(sum, 0.5))
     }
 
