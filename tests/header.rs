@@ -26,6 +26,7 @@ const SOURCES: &[&str] = &[
     "event",
     "solution",
     "solve",
+    "layout",
     "lazy_rows",
     "proof",
     "solver",

@@ -644,6 +644,14 @@ typedef struct roundel_geodesic roundel_geodesic;
 typedef struct roundel_guidance roundel_guidance;
 
 /**
+ * A base layout: a coarse mesh of polygons anywhere near a surface. Its vertices mark points of the surface, its
+ * edges are the arcs, its polygons the patches. It is a manifold, with or without boundary, whose polygons have
+ * three sides or more and agree in orientation; two vertices have one arc at most. Arcs are numbered in the order in
+ * which polygons name them. What is asked of arcs is kept with it.
+ */
+typedef struct roundel_layout roundel_layout;
+
+/**
  * A seamless map of a mesh: coordinates (u, v) on the cut surface, whose gradients follow a field of
  * crosses. Across the cut they turn by quarter turns and shift by integers. Cones are integer points,
  * and features are isolines of integer value. The mesh and the field may be freed before the map.
@@ -1775,6 +1783,85 @@ roundel_status roundel_problem_solve(const struct roundel_problem *problem,
                                      const struct roundel_options *options,
                                      const struct roundel_monitor *monitor,
                                      struct roundel_solution **solution);
+
+/**
+ * Makes a layout of `vertex_count` vertices, whose `coordinates` are x, y, z in turn, and `polygon_count` polygons.
+ * `sizes` are their numbers of corners, and `corners` the vertices of all polygons, one polygon after the other. To be
+ * freed with roundel_layout_free.
+ *
+ * Fails as roundel_soup_new does, with ROUNDEL_ERROR_INDEX_OUT_OF_RANGE and the polygon for a corner that is no vertex,
+ * with ROUNDEL_ERROR_NOT_FINITE and the vertex, and with ROUNDEL_ERROR_INVALID_ARGUMENT and the polygon or the vertex
+ * for what is no manifold of polygons of one orientation.
+ */
+roundel_status roundel_layout_new(size_t vertex_count,
+                                  const double *coordinates,
+                                  size_t polygon_count,
+                                  const int32_t *sizes,
+                                  size_t corner_count,
+                                  const int32_t *corners,
+                                  struct roundel_layout **layout);
+
+/**
+ * Reads a layout from an OBJ file: its vertices and polygons, and lines for the arcs whose course is given. A line
+ * starts and ends at vertices of polygons that an edge joins, and runs over further vertices.
+ *
+ * Fails with ROUNDEL_ERROR_IO, with ROUNDEL_ERROR_PARSE and the line, and as roundel_layout_new does.
+ */
+roundel_status roundel_layout_read(const char *file,
+                                   struct roundel_layout **layout);
+
+/**
+ * Frees a layout. NULL is allowed.
+ */
+roundel_status roundel_layout_free(struct roundel_layout *layout);
+
+/**
+ * Gives the number of arcs.
+ */
+roundel_status roundel_layout_arc_count(const struct roundel_layout *layout, size_t *count);
+
+/**
+ * Copies the two vertices that each arc joins. `length` is twice the number of arcs.
+ */
+roundel_status roundel_layout_arcs(const struct roundel_layout *layout,
+                                   int32_t *ends,
+                                   size_t length);
+
+/**
+ * Fixes the number of edges of quads along an arc, at least 1; 0 leaves it free again. What contradicts what else is
+ * fixed is told by roundel_quads_make_layout.
+ */
+roundel_status roundel_layout_fix_arc(struct roundel_layout *layout,
+                                      size_t arc,
+                                      int32_t edges);
+
+/**
+ * Gives the course of an arc: `point_count` points near the surface, x, y, z in turn, from the first end of the arc to
+ * the second. It starts and ends at the vertices of the layout, whatever the first and the last point are. No points
+ * leave the course free again.
+ */
+roundel_status roundel_layout_draw_arc(struct roundel_layout *layout,
+                                       size_t arc,
+                                       size_t point_count,
+                                       const double *coordinates);
+
+/**
+ * Makes quads on a mesh that follow a layout: about `quad_count` of them, or as few as the layout allows for 0.
+ * Patches are filled with grids of quads; vertices of the layout with other than four patches and the middles of
+ * polygons of other than four sides are the irregular vertices. `subdivisions`, of a `length` that is the number of
+ * arcs, gets the number of edges along each arc; both may be NULL and 0. `monitor` may be NULL.
+ *
+ * Fails with ROUNDEL_ERROR_INVALID_ARGUMENT and the vertex, arc or patch at fault for a layout of other topology than
+ * the mesh, a vertex off the surface, or an arc that cannot be laid without crossing others, and with
+ * ROUNDEL_ERROR_INFEASIBLE for fixed arcs that contradict each other.
+ */
+roundel_status roundel_quads_make_layout(const struct roundel_mesh *mesh,
+                                         const struct roundel_layout *layout,
+                                         size_t quad_count,
+                                         const struct roundel_monitor *monitor,
+                                         int32_t *subdivisions,
+                                         size_t length,
+                                         struct roundel_quads **quads);
 
 /**
  * Solves a problem together with rows that `callback` adds during the search, because there are too many to give

@@ -1,3 +1,5 @@
+//! Layouts that are good, and what is wrong with others.
+
 use super::*;
 
 /// The corners of the unit cube by bits, and its sides, seen from outside.

@@ -10,7 +10,8 @@
 //!
 //! A patch of other than four sides has an irregular vertex in its middle, from where a spoke leads to each side. Spoke
 //! i ends on side i, and divides it: the part next to side i - 1 is as long as spoke i - 1, the other as spoke i + 1.
-//! Where the sides leave spokes open, their deviation from half of the neighbouring sides decides with little weight.
+//! A spoke counts as an arc with a quarter of the weight, half as long as the two sides beside the one where it ends are
+//! on average.
 
 use super::base_layout::BaseLayout;
 use crate::error::{Conflicting, Error, Result};
@@ -20,8 +21,9 @@ use crate::problem::Problem;
 use crate::search::{Options, SolveStatus, Strategy};
 use crate::solve::{Solution, solve_with};
 
-/// The weight of a spoke over that of a side as long: a power of two.
-const SPOKE: f64 = 1.0 / 1024.0;
+/// The weight of a spoke over that of an arc as long: a power of two. With a much smaller one the method for networks
+/// looks at steps of spokes that are far too long.
+const SPOKE: f64 = 0.25;
 
 /// Lengths are rounded to this part of their mean, and of an edge: costs are then exact in few bits, and the
 /// polynomial method for networks can sum them.

@@ -1,3 +1,5 @@
+//! Subdivisions against brute force.
+
 use super::*;
 use crate::linalg::Random;
 
