@@ -23,7 +23,7 @@
 /// failure there. Built without exceptions, a failure without a Status ends the program.
 ///
 /// Problem, Solution, Solver, Mesh, Soup, Repair, Sources, GeodesicDistance, Curves,
-/// Field, Map, Quads, Layout and
+/// Field, Map, Quads, BaseLayout and
 /// CancelToken own their C objects. They can be moved and not copied. A const object may be used by
 /// several threads at once, any other by one.
 ///

@@ -69,5 +69,6 @@ void bad_quads(fixture* f);
 void bad_soups(fixture* f);
 void bad_geodesics(fixture* f);
 void bad_curves(fixture* f);
+void bad_layouts(fixture* f);
 
 #endif

@@ -60,6 +60,7 @@ int main(void) {
     bad_soups(&f);
     bad_geodesics(&f);
     bad_curves(&f);
+    bad_layouts(&f);
     HOLDS(roundel_solution_free(f.solution) == ROUNDEL_OK);
     HOLDS(roundel_options_free(f.options) == ROUNDEL_OK);
     HOLDS(roundel_cancel_token_free(f.token) == ROUNDEL_OK);

@@ -43,5 +43,6 @@ int main() {
     distances_follow_the_surface();
     the_boundary_points_and_edges_are_sources();
     curves_guide_a_field_and_become_edges();
+    quads_follow_a_layout();
     return failures != 0;
 }

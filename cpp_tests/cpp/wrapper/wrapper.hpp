@@ -35,6 +35,7 @@ void edges_between_materials_are_told();
 void distances_follow_the_surface();
 void the_boundary_points_and_edges_are_sources();
 void curves_guide_a_field_and_become_edges();
+void quads_follow_a_layout();
 
 /// A chain of `n` variables with target differences of 0.3, in which every second one is an
 /// integer.

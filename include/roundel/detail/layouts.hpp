@@ -17,15 +17,15 @@ ROUNDEL_NAMESPACE_BEGIN
 /// A base layout: a coarse mesh of polygons anywhere near a surface. Its vertices mark points of
 /// the surface, its edges are the arcs, its polygons the patches. Arcs are numbered in the order in
 /// which polygons name them.
-class Layout {
+class BaseLayout {
   public:
     /// No layout: a call returns this when it reports a failure in a Status.
-    Layout() noexcept = default;
+    BaseLayout() noexcept = default;
 
     /// The layout of vertices (x, y, z in turn) and polygons, given by their numbers of corners and
     /// the corners of all, one after the other. A failure names the polygon or the vertex.
-    Layout(span<const double> vertices, span<const std::int32_t> sizes,
-           span<const std::int32_t> corners, Status* status = nullptr) {
+    BaseLayout(span<const double> vertices, span<const std::int32_t> sizes,
+               span<const std::int32_t> corners, Status* status = nullptr) {
         roundel_layout* made = nullptr;
         detail::check(roundel_layout_new(vertices.size() / 3, vertices.data(), sizes.size(),
                                          sizes.data(), corners.size(), corners.data(), &made),
@@ -34,8 +34,8 @@ class Layout {
     }
 
     /// Reads an OBJ file of vertices and polygons, with lines for arcs whose course is given.
-    static Layout read(const std::string& file, Status* status = nullptr) {
-        Layout layout;
+    static BaseLayout read(const std::string& file, Status* status = nullptr) {
+        BaseLayout layout;
         roundel_layout* made = nullptr;
         detail::check(roundel_layout_read(file.c_str(), &made), status);
         layout.handle_.reset(made);
@@ -58,16 +58,16 @@ class Layout {
     }
 
     /// Fixes the number of edges of quads along an arc; 0 leaves it free.
-    Layout& fix_arc(std::size_t arc, std::int32_t edges, Status* status = nullptr) {
+    BaseLayout& fix_arc(std::size_t arc, std::int32_t edges, Status* status = nullptr) {
         detail::check(roundel_layout_fix_arc(handle_.get(), arc, edges), status);
         return *this;
     }
 
     /// Gives the course of an arc by points near the surface, x, y, z in turn, from its first end
     /// to its second; no points leave it free.
-    Layout& draw_arc(std::size_t arc, span<const double> points, Status* status = nullptr) {
-        detail::check(
-            roundel_layout_draw_arc(handle_.get(), arc, points.size() / 3, points.data()), status);
+    BaseLayout& draw_arc(std::size_t arc, span<const double> points, Status* status = nullptr) {
+        detail::check(roundel_layout_draw_arc(handle_.get(), arc, points.size() / 3, points.data()),
+                      status);
         return *this;
     }
 
@@ -86,10 +86,10 @@ struct LayoutQuads {
     std::vector<std::int32_t> subdivisions{};
 };
 
-/// Makes about `count` quads that follow a layout, or as few as it allows for 0. A failure names the
-/// vertex, the arc or the patch of the layout at fault.
-inline LayoutQuads quads_of_layout(const Mesh& mesh, const Layout& layout, std::size_t count = 1000,
-                                   Status* status = nullptr) {
+/// Makes about `count` quads that follow a layout, or as few as it allows for 0. A failure names
+/// the vertex, the arc or the patch of the layout at fault.
+inline LayoutQuads quads_of_layout(const Mesh& mesh, const BaseLayout& layout,
+                                   std::size_t count = 1000, Status* status = nullptr) {
     LayoutQuads found;
     std::size_t arcs = 0;
     if (!detail::check(roundel_layout_arc_count(layout.get(), &arcs), status)) {

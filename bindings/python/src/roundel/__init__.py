@@ -5,7 +5,7 @@
 
 `solve` solves a problem in matrices, `Problem` builds one part by part, and `Solver` solves one many
 times. `quad` makes quads of a triangle mesh, `field` and `map` the steps to them, and `repair` a mesh of
-a polygon soup; `Layout` makes quads that follow a base layout. `geodesic_distance` measures along a mesh. Elements are counted from 0. Angles are in radians and counter-clockwise, except for the
+a polygon soup; `BaseLayout` makes quads that follow a base layout. `geodesic_distance` measures along a mesh. Elements are counted from 0. Angles are in radians and counter-clockwise, except for the
 angle of features, which is in degrees.
 
     vertices, quads = roundel.quad("part.stl", quads=2000, features=40)
@@ -23,7 +23,7 @@ from .curves import Cut, curve_guides, cut_along
 from .events import Event
 from .field import Field, field
 from .geodesic import GeodesicDistance, geodesic_distance
-from .layout import Layout
+from .layout import BaseLayout
 from .lazy_rows import Candidate
 from .map import Map
 
@@ -45,8 +45,9 @@ __version__: str = _text(_lib.roundel_version_string())
 
 __all__ = [
     "Attributes",
-    "Candidate",
+    "BaseLayout",
     "CancelToken",
+    "Candidate",
     "Cut",
     "EditKind",
     "Event",
@@ -54,7 +55,6 @@ __all__ = [
     "Field",
     "GeodesicDistance",
     "Interrupted",
-    "Layout",
     "Map",
     "Mesh",
     "Option",

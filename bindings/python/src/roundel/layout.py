@@ -15,7 +15,7 @@ from .mesh import as_mesh
 from .quads import Quads
 
 
-class Layout:
+class BaseLayout:
     """A base layout: a coarse mesh of polygons anywhere near a surface.
 
     Its vertices mark points of the surface, its edges are the arcs, its polygons the patches. Vertices are an array of
@@ -24,7 +24,7 @@ class Layout:
     >>> import roundel
     >>> corners = [[x, y, z] for z in (-1, 1) for y in (-1, 1) for x in (-1, 1)]
     >>> sides = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]]
-    >>> cube = roundel.Layout(corners, sides)
+    >>> cube = roundel.BaseLayout(corners, sides)
     >>> quads, subdivisions = cube.quads(roundel.Mesh.shape("sphere", 1000), 600)
     >>> len(quads), set(subdivisions.tolist())
     (600, {10})
@@ -39,7 +39,7 @@ class Layout:
         self._handle = Handle.made("roundel_layout", lib.roundel_layout_new, *arrays)
 
     @classmethod
-    def read(cls, file: File) -> Layout:
+    def read(cls, file: File) -> BaseLayout:
         """Reads an OBJ file of vertices and polygons, with lines for arcs whose course is given."""
         layout = cls.__new__(cls)
         layout._handle = Handle.made("roundel_layout", lib.roundel_layout_read, path(file))
