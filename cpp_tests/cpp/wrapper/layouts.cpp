@@ -16,7 +16,7 @@ void quads_follow_a_layout() {
     const auto arcs = cube.arcs();
     CHECK(arcs.size() == 12 && arcs[0][0] == 0 && arcs[0][1] == 2);
     const auto sphere = roundel::Mesh::shape("sphere", 600);
-    cube.fix_arc(0, 4).draw_arc(0, std::vector<double>{-1, -1, -1, -1, 0, -1, -1, 1, -1});
+    cube.fix_arc(0, 4).draw_arc(0, std::vector<double>{-1, -1, -1, -0.7, 0, -0.7, -1, 1, -1});
     const auto found = roundel::quads_of_layout(sphere, cube, 150);
     CHECK(found.quads.conforming() && found.quads.irregular_count() == 8);
     CHECK(found.subdivisions.size() == 12 && found.subdivisions[0] == 4);
