@@ -83,6 +83,32 @@ fn patches_of_three_sides_get_an_irregular_vertex_in_their_middle() {
 }
 
 #[test]
+fn arcs_at_the_boundary_run_along_it() {
+    let mesh = shape::by_name("plane", 800).unwrap();
+    let positions: Vec<Vec3> = [-1.0, 1.0]
+        .into_iter()
+        .flat_map(|y| [-1.0, 0.2, 1.0].map(|x| [x, y, 0.1]))
+        .collect();
+    let layout = BaseLayout::new(positions, vec![vec![0, 1, 4, 3], vec![1, 2, 5, 4]]).unwrap();
+    let fewest = solve(&mesh, &layout, &sized(LayoutSizing::Fewest)).unwrap();
+    hold(&fewest, "fewest");
+    assert_eq!(fewest.quads.quads.len(), 2);
+    let found = solve(&mesh, &layout, &sized(LayoutSizing::Quads(400))).unwrap();
+    hold(&found, "400");
+    let [low, high] = mesh.bounding_box();
+    let area: f64 = found
+        .quads
+        .quads
+        .iter()
+        .map(|quad| {
+            let [a, b, c, d] = quad.map(|v| found.quads.vertices[v as usize]);
+            0.5 * ((c[0] - a[0]) * (d[1] - b[1]) - (c[1] - a[1]) * (d[0] - b[0]))
+        })
+        .sum();
+    assert!((area - (high[0] - low[0]) * (high[1] - low[1])).abs() < 1e-9);
+}
+
+#[test]
 fn the_bytes_do_not_depend_on_threads_or_orientation() {
     let mesh = shape::by_name("rounded-cube", 2_000).unwrap();
     let layout = box_around(&mesh);
