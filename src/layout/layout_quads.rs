@@ -11,7 +11,7 @@
 
 use super::base_layout::BaseLayout;
 use super::embed::surface::Surface;
-use super::embed::{embed, is_turned_over, place_nodes, weights};
+use super::embed::{embed, is_turned_over, place_nodes};
 use super::given::GivenCurves;
 use super::grid::{Grid, Motion};
 use super::rectangles::Rectangles;
@@ -19,7 +19,7 @@ use super::subdivide::{LayoutSizing, Subdividing, Subdivisions};
 use crate::error::{Error, Result};
 use crate::extract::{IntegerGridMap, Origin, QuadMesh, extract};
 use crate::mesh::vector::Vec3;
-use crate::mesh::{ClosestPoint, TriangleMesh};
+use crate::mesh::{ClosestPoint, TriangleMesh, barycentric};
 use crate::monitor::{Monitor, Phase, may_continue, span, with_threads};
 use crate::smooth::{SmoothOptions, smooth};
 
@@ -263,9 +263,7 @@ fn bring_back(
             Origin::Middle => continue,
         };
         let face = original(face as u32);
-        let at = weights(mesh.corner_positions(face), p).map(|w| w.clamp(0.0, 1.0));
-        let sum: f64 = at.iter().sum();
-        *origin = Origin::Face(face, at.map(|w| w / sum));
+        *origin = Origin::Face(face, barycentric(mesh.corner_positions(face), p));
     }
     let mut folded: Vec<usize> = quads.folded.iter().map(|&f| original(f as u32)).collect();
     folded.sort_unstable();

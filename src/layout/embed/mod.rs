@@ -26,7 +26,7 @@ use crate::error::{Error, Result};
 use crate::linalg::DisjointSets;
 use crate::mesh::vector::{norm, sub};
 use crate::monitor::may_continue_at;
-pub(in crate::layout) use nodes::{is_turned_over, place_nodes, weights};
+pub(in crate::layout) use nodes::{is_turned_over, place_nodes};
 pub(in crate::layout) use path::reached;
 use path::{Path, Search, Sector, lay};
 use regions::are_those_of;

@@ -184,8 +184,9 @@ impl Parts {
     }
 }
 
-/// The weights of the corners of a triangle at the foot of a point in its plane. Equal for a triangle without area.
-pub(in crate::layout) fn weights([a, b, c]: [Vec3; 3], p: Vec3) -> [f64; 3] {
+/// The weights of the corners of a triangle at the foot of a point in its plane, some below 0 outside of it. Equal for a
+/// triangle without area.
+fn weights([a, b, c]: [Vec3; 3], p: Vec3) -> [f64; 3] {
     let normal = cross(sub(b, a), sub(c, a));
     let of = |u: Vec3, v: Vec3| dot(cross(sub(u, p), sub(v, p)), normal);
     let parts = [of(b, c), of(c, a), of(a, b)];
