@@ -33,10 +33,10 @@ use regions::are_those_of;
 use surface::{NONE, Surface};
 
 /// How often all arcs are laid again.
-const ROUNDS: usize = 3;
+const ROUNDS: usize = 2;
 
 /// The part by which an arc must become shorter.
-const GAIN: f64 = 1e-3;
+const GAIN: f64 = 1e-2;
 
 /// A layout on a surface.
 #[derive(Debug, Clone)]

@@ -181,7 +181,7 @@ impl Run<'_> {
                 self.offer(vertex, point, so_far + length);
             }
             let other = surface.twin[half as usize];
-            if other != NONE && surface.dart[half as usize] == NONE {
+            if other != NONE && surface.may_be_split(half) {
                 let middle = surface.positions.len() as u32 + half.min(other);
                 if middle != point {
                     let length = norm(sub(self.place(middle), at));

@@ -24,7 +24,13 @@ pub(in crate::layout) struct Surface {
     pub dart: Vec<u32>,
     /// Whether a vertex is a node or lies on an arc.
     pub is_taken: Vec<bool>,
+    /// Edges that are not longer are split only where both ends are taken: else arcs that are laid again and again
+    /// would refine the mesh without end.
+    resolution: f64,
 }
+
+/// The resolution, as a part of the mean length of the edges of the mesh.
+const RESOLUTION: f64 = 0.25;
 
 pub(in crate::layout) fn next(half: u32) -> u32 {
     if half % 3 == 2 { half - 2 } else { half + 1 }
@@ -53,7 +59,11 @@ impl Surface {
             out: vec![NONE; mesh.vertex_count()],
             dart: vec![NONE; 3 * mesh.face_count()],
             is_taken: vec![false; mesh.vertex_count()],
+            resolution: 0.0,
         };
+        let halves = 0..surface.twin.len() as u32;
+        let lengths: f64 = halves.map(|half| surface.length(half)).sum();
+        surface.resolution = RESOLUTION * lengths / surface.twin.len().max(1) as f64;
         for face in 0..mesh.face_count() as u32 {
             surface.note_corners(face);
         }
@@ -94,6 +104,22 @@ impl Surface {
 
     pub fn corners(&self, face: u32) -> [Vec3; 3] {
         self.triangles[face as usize].map(|v| self.position(v))
+    }
+
+    fn length(&self, half: u32) -> f64 {
+        norm(sub(
+            self.position(self.tip(half)),
+            self.position(self.tail(half)),
+        ))
+    }
+
+    /// Whether a path may cross an edge in its middle: no arc runs along it, and it is long enough, or no other path
+    /// leads across.
+    pub fn may_be_split(&self, half: u32) -> bool {
+        let is_taken = |v: u32| self.is_taken[v as usize];
+        self.dart[half as usize] == NONE
+            && (self.length(half) > self.resolution
+                || (is_taken(self.tail(half)) && is_taken(self.tip(half))))
     }
 
     /// The length of a chain of edges.
