@@ -25,7 +25,7 @@ use crate::summary::{counted, line};
 
 /// Flags of quads that follow a layout.
 #[derive(clap::Args)]
-pub struct Flags {
+pub struct AlongFlags {
     /// The layout that quads follow: an OBJ file of polygons, its lines the courses of arcs
     #[arg(long, value_name = "LAYOUT.obj", conflicts_with = "of")]
     pub layout: Option<PathBuf>,

@@ -34,10 +34,10 @@ pub struct Arguments {
     of: Option<PathBuf>,
 
     #[command(flatten)]
-    along: along::Flags,
+    along: along::AlongFlags,
 
     #[command(flatten)]
-    found: of::Flags,
+    found: of::OfFlags,
 
     /// Write the quads, or with --of the layout: nodes as vertices, patches as faces, arcs as lines over further vertices
     #[arg(short, long, value_name = "OUT.obj")]

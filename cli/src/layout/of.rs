@@ -28,7 +28,7 @@ const TOLERANCE: f64 = 1e-3;
 
 /// Flags of a layout that is found.
 #[derive(clap::Args)]
-pub struct Flags {
+pub struct OfFlags {
     /// The layout that is written
     #[arg(long, value_name = "WORD", value_enum, default_value_t = Kind::Base)]
     kind: Kind,
@@ -214,7 +214,7 @@ fn find(arguments: &Arguments, quads: &Path) -> Result<Report> {
 }
 
 fn write_surfaces(
-    flags: &Flags,
+    flags: &OfFlags,
     surface: &QuadSurface,
     layout: &FoundLayout,
 ) -> Result<Option<Surfaces>> {
