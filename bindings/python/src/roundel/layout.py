@@ -7,9 +7,9 @@ from typing import Sequence
 import numpy as np
 
 from ._handle import Handle, number
-from ._library import ffi, lib
+from ._library import ffi, lib, path
 from ._types import ArrayLike, File, MeshLike
-from .arrays import indices32, path, pointer, reals
+from .arrays import indices32, pointer, reals
 from .errors import check
 from .mesh import as_mesh
 from .quads import Quads
