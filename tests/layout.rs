@@ -216,4 +216,45 @@ fn layouts_that_do_not_fit_name_what_is_wrong() {
     };
     let error = solve(&sphere, &layout, &options).unwrap_err();
     assert_eq!(error.index(), Some(arc(0, 1)), "{error}");
+    // Both through the middle of a side.
+    let middle = [0.0, 0.0, sphere.bounding_box()[0][2]];
+    let through = |a: usize, b: usize| {
+        let [p, q] = layout.arcs()[arc(a, b)].map(|v| layout.positions()[v as usize]);
+        (arc(a, b), vec![p, middle, q])
+    };
+    let options = LayoutOptions {
+        curves: vec![through(0, 1), through(2, 3)],
+        ..LayoutOptions::default()
+    };
+    let error = solve(&sphere, &layout, &options).unwrap_err();
+    assert_eq!(error.index(), Some(arc(2, 3)), "{error}");
+    assert!(error.to_string().contains("meets"), "{error}");
+    let far = (arc(0, 1), vec![[0.0; 3], [9.0; 3], [0.0; 3]]);
+    let options = LayoutOptions {
+        curves: vec![far],
+        ..LayoutOptions::default()
+    };
+    let error = solve(&sphere, &layout, &options).unwrap_err();
+    assert!(error.to_string().contains("off the surface"), "{error}");
+    let options = LayoutOptions {
+        curves: vec![(12, Vec::new())],
+        ..LayoutOptions::default()
+    };
+    let error = solve(&sphere, &layout, &options).unwrap_err();
+    assert_eq!(error.code(), "index_out_of_range", "{error}");
+    let plane = shape::by_name("plane", 200).unwrap();
+    let open = BaseLayout::new(
+        [[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [0.0, 1.0, 0.0]].to_vec(),
+        vec![vec![0, 1, 2]],
+    );
+    let error = solve(&sphere, &open.clone().unwrap(), &default).unwrap_err();
+    assert!(
+        error.to_string().contains("Euler characteristic 1"),
+        "{error}"
+    );
+    assert!(
+        solve(&plane, &open.unwrap(), &default)
+            .unwrap()
+            .is_as_prescribed
+    );
 }

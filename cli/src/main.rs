@@ -12,7 +12,6 @@ mod generate;
 mod help;
 mod interrupt;
 mod layout;
-mod lines;
 mod mesh;
 mod options;
 mod output;

@@ -1,18 +1,20 @@
 //! The layout handle, and quads that follow a layout.
 
 use std::ffi::c_char;
+use std::path::Path;
 
 use super::event::{roundel_monitor, watchers};
 use super::failure::Outcome;
 use super::guard::{self, Guarded, boundary, object};
 use super::input::{path, slice};
 use super::mesh::{roundel_mesh, times_three};
+use super::mesh_files::room_to_read;
 use super::output::{Out, copy_numbers};
 use super::quads::{Quads, roundel_quads};
 use super::soup::of_arrays;
 use super::status::roundel_status;
 use crate::error::{Error, Result};
-use crate::layout::{BaseLayout, LayoutOptions, LayoutSizing, layout_quads, read_layout};
+use crate::layout::{BaseLayout, LayoutOptions, LayoutSizing, layout_quads};
 use crate::mesh::TriangleMesh;
 
 /// A base layout: a coarse mesh of polygons anywhere near a surface. Its vertices mark points of the surface, its
@@ -27,6 +29,23 @@ object!(roundel_layout, Asked, "layout");
 pub(super) struct Asked {
     layout: BaseLayout,
     options: LayoutOptions,
+}
+
+#[cfg(feature = "mesh-io")]
+fn read(file: &Path) -> Result<Asked> {
+    let read = crate::layout::read_layout(file)?;
+    Ok(Asked {
+        layout: read.layout,
+        options: LayoutOptions {
+            curves: read.curves,
+            ..LayoutOptions::default()
+        },
+    })
+}
+
+#[cfg(not(feature = "mesh-io"))]
+fn read(file: &Path) -> Result<Asked> {
+    super::mesh_files::without_files(file)
 }
 
 /// Makes a layout of `vertex_count` vertices, whose `coordinates` are x, y, z in turn, and `polygon_count` polygons.
@@ -76,14 +95,8 @@ pub unsafe extern "C" fn roundel_layout_read(
     boundary(None, || {
         // SAFETY: the caller gives a text and a place, or NULL.
         let (out, file) = unsafe { (Out::new("layout", layout)?, path("file", file)?) };
-        let read = read_layout(file)?;
-        out.set(guard::handle(Asked {
-            layout: read.layout,
-            options: LayoutOptions {
-                curves: read.curves,
-                ..LayoutOptions::default()
-            },
-        }));
+        room_to_read(file)?;
+        out.set(guard::handle(read(file)?));
         Ok(())
     })
 }

@@ -300,3 +300,28 @@ pub(super) fn feet(mesh: &TriangleMesh, layout: &BaseLayout) -> Vec<Vec3> {
     let foot = |&p: &Vec3| closest.find(p, None).map_or(p, |(_, foot)| foot);
     layout.positions().iter().map(foot).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::layout::base_layout::tests::cube;
+    use crate::mesh::shape::by_name;
+    use crate::monitor::spawned;
+
+    #[test]
+    fn as_many_threads_work_as_are_allowed() {
+        let mesh = by_name("rounded-cube", 2_000).unwrap();
+        for threads in [1, 2] {
+            let options = LayoutOptions {
+                sizing: LayoutSizing::Quads(6_000),
+                threads,
+                ..LayoutOptions::default()
+            };
+            let found = spawned(|| {
+                let made = layout_quads(&mesh, &cube(), &options, Monitor::default).unwrap();
+                assert!(made.is_as_prescribed);
+            });
+            assert_eq!(found > 0, threads > 1, "{threads}: {found}");
+        }
+    }
+}

@@ -17,6 +17,7 @@
 
 mod base_layout;
 mod embed;
+#[cfg(feature = "mesh-io")]
 mod file;
 pub mod found;
 mod given;
@@ -26,6 +27,7 @@ mod rectangles;
 mod subdivide;
 
 pub use base_layout::BaseLayout;
+#[cfg(feature = "mesh-io")]
 pub use file::{LayoutFile, parse_layout, read_layout};
 pub use layout_quads::{LayoutOptions, LayoutQuads, layout_quads};
 pub use subdivide::{LayoutSizing, Subdivisions};

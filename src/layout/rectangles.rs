@@ -25,6 +25,25 @@ pub(super) struct Curve {
     pub edges: u32,
 }
 
+impl Curve {
+    /// A chain of edges, with coordinates in proportion to length.
+    fn new(surface: &Surface, chain: Vec<u32>, edges: u32) -> Self {
+        let per_length = f64::from(edges) / surface.chain_length(&chain);
+        let mut places = vec![0.0; chain.len()];
+        for k in 1..chain.len() {
+            places[k] = places[k - 1] + per_length * surface.chain_length(&chain[k - 1..=k]);
+        }
+        if let Some(last) = places.last_mut() {
+            *last = edges.into();
+        }
+        Curve {
+            chain,
+            places,
+            edges,
+        }
+    }
+}
+
 /// A part of a curve, in the direction of a dart: `edges` of them, after the first `start`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Side {
@@ -61,22 +80,8 @@ impl Rectangles {
         let Embedding {
             surface, chains, ..
         } = embedding;
-        let curves = chains.into_iter().zip(&found.arcs).map(|(chain, &edges)| {
-            let length = surface.chain_length(&chain);
-            let mut places = vec![0.0; chain.len()];
-            for k in 1..chain.len() {
-                let step = surface.chain_length(&chain[k - 1..=k]);
-                places[k] = places[k - 1] + step * f64::from(edges) / length;
-            }
-            if let Some(last) = places.last_mut() {
-                *last = edges.into();
-            }
-            Curve {
-                chain,
-                places,
-                edges,
-            }
-        });
+        let curves = chains.into_iter().zip(&found.arcs);
+        let curves = curves.map(|(chain, &edges)| Curve::new(&surface, chain, edges));
         let mut all = Rectangles {
             curves: curves.collect(),
             surface,
@@ -197,18 +202,8 @@ impl Rectangles {
                 index: Some(polygon),
             })?;
             let chain = lay(&mut self.surface, &path, own[i]);
-            let length = self.surface.chain_length(&chain);
-            let mut places = vec![0.0];
-            for k in 1..chain.len() {
-                let step = self.surface.chain_length(&chain[k - 1..=k]);
-                places.push(places[k - 1] + step * f64::from(spokes[i]) / length);
-            }
-            places[chain.len() - 1] = spokes[i].into();
-            self.curves.push(Curve {
-                chain,
-                places,
-                edges: spokes[i],
-            });
+            self.curves
+                .push(Curve::new(&self.surface, chain, spokes[i]));
         }
         for i in 0..n {
             let before = (i + n - 1) % n;

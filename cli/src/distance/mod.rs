@@ -8,16 +8,16 @@ use std::time::Instant;
 use roundel::geodesic::{
     GeodesicDistance, GeodesicOptions, Source, draw_polyline, geodesic_distance,
 };
-use roundel::mesh::TriangleMesh;
 use roundel::mesh::features::FeatureGraph;
 use roundel::mesh::io::{self, Drawing};
+use roundel::mesh::{MeshError, TriangleMesh};
+use roundel::soup::io::read_polylines;
 use roundel::{Error, Monitor, Result};
 use roundel_pictures::draw_bands;
 use serde::Serialize;
 
 use crate::exit::Exit;
 use crate::interrupt;
-use crate::lines;
 use crate::mesh::{Input, RepairCounts};
 use crate::output;
 use crate::outputs::{Content, Outputs, PICTURE};
@@ -112,7 +112,7 @@ fn sources(
                 ("features", Source::features(&graph))
             }
             From::File(path) => {
-                let drawn = lines::read(path)?.into_iter();
+                let drawn = read_polylines(path).map_err(MeshError::from)?.into_iter();
                 let drawn = drawn.map(|line| draw_polyline(mesh, &line, false, monitor));
                 ("FILE", drawn.collect::<Result<_>>()?)
             }

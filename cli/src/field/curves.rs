@@ -7,17 +7,17 @@ use std::path::{Path, PathBuf};
 use roundel::field::{Guidance, Guide, guides_along};
 use roundel::geodesic::{SurfacePoint, cut_along, draw_curve};
 use roundel::map::Sizing;
-use roundel::mesh::TriangleMesh;
 use roundel::mesh::features::FeatureGraph;
 use roundel::mesh::refine::Refined;
 use roundel::mesh::vector::Vec3;
+use roundel::mesh::{MeshError, TriangleMesh};
 use roundel::quad::RefinedInput;
+use roundel::soup::io::read_polylines;
 use roundel::{Error, Monitor, Result};
 use serde::Serialize;
 
 use super::directions::{named, weight};
 use crate::interrupt;
-use crate::lines;
 use crate::summary::{counted, counted_vertices};
 
 /// The files of curves.
@@ -158,7 +158,7 @@ impl Curves {
 
 /// The lines of a file as curves on the surface.
 fn drawn(mesh: &TriangleMesh, path: &Path) -> Result<Vec<Vec<SurfacePoint>>> {
-    let lines = lines::read(path).map_err(|error| named(path, error))?;
+    let lines = read_polylines(path).map_err(|error| named(path, MeshError::from(error).into()))?;
     let refused = |what: String, index| Error::InvalidArgument { what, index };
     if lines.is_empty() {
         let what = format!("{} has no lines", path.display());

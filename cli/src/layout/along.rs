@@ -27,40 +27,46 @@ use crate::summary::{counted, line};
 #[derive(clap::Args)]
 pub struct AlongFlags {
     /// The layout that quads follow: an OBJ file of polygons, its lines the courses of arcs
-    #[arg(long, value_name = "LAYOUT.obj", conflicts_with = "of")]
+    #[arg(
+        long,
+        value_name = "LAYOUT.obj",
+        requires = "mesh",
+        conflicts_with = "of"
+    )]
     pub layout: Option<PathBuf>,
 
     /// About this many quads
-    #[arg(long, value_name = "N", default_value_t = 1000, value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", default_value_t = 1000, requires = "layout")]
+    #[arg(value_parser = clap::value_parser!(u32).range(1..))]
     quads: u32,
 
     /// Edges of about this length, in units of the mesh, instead of a number of quads
-    #[arg(long, value_name = "LENGTH", conflicts_with_all = ["quads", "fewest"])]
+    #[arg(long, value_name = "LENGTH", requires = "layout", conflicts_with_all = ["quads", "fewest"])]
     edge_length: Option<f64>,
 
     /// As few quads as the layout allows
-    #[arg(long, conflicts_with = "quads")]
+    #[arg(long, requires = "layout", conflicts_with = "quads")]
     fewest: bool,
 
     /// Fix the number of edges of quads between two vertices of the layout, counted from 1 as in its file; may be
     /// repeated
-    #[arg(long, value_name = "A-B=N", value_parser = fix)]
+    #[arg(long, value_name = "A-B=N", requires = "layout", value_parser = fix)]
     fix: Vec<[usize; 3]>,
 
     /// Keep vertices of the layout with four patches where they are, too; else they slide as arcs do
-    #[arg(long)]
+    #[arg(long, requires = "layout")]
     hold_vertices: bool,
 
     /// Do not smooth the quads
-    #[arg(long)]
+    #[arg(long, requires = "layout")]
     no_smooth: bool,
 
     /// Write the mesh with the faces of each patch in a colour of their own: .ply or .off
-    #[arg(long, value_name = "PATCHES.ply")]
+    #[arg(long, value_name = "PATCHES.ply", requires = "layout")]
     colors: Option<PathBuf>,
 
     /// The largest number of threads; 0: one for each core
-    #[arg(long, value_name = "N", default_value_t = 0)]
+    #[arg(long, value_name = "N", requires = "layout", default_value_t = 0)]
     threads: usize,
 }
 

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use serde_json::{Map, Value};
 
-use crate::layout::CUBE;
+use crate::layout::{CUBE, cube_around_the_origin};
 use crate::problem::mps;
 use crate::run::{Scratch, finish, only_object, program};
 
@@ -176,12 +176,14 @@ fn every_command_prints_what_the_schema_says() {
     fs::write(&folded, format!("{square}f 1/1 2/2 3/3\nf 1/1 3/3 4/2\n")).unwrap();
     let (cube, patches) = (path("cube.obj"), path("patches.json"));
     fs::write(&cube, CUBE).unwrap();
+    let around = path("around.obj");
+    fs::write(&around, cube_around_the_origin()).unwrap();
     let shape = "shape:torus:300";
     let proof = path("proof.jsonl");
     // A curve beside the torus.
     let lines = path("lines.obj");
     fs::write(&lines, "v 1.4 0.1 0\nv 0.2 1.4 0\nl 1 2\n").unwrap();
-    let runs: [(&str, &[&str]); 24] = [
+    let runs: [(&str, &[&str]); 25] = [
         ("solve", &["solve", &problem]),
         ("solve", &["solve", &problem, "--strategy", "relax"]),
         ("solve", &["solve", &problem, "--proof", &proof]),
@@ -225,6 +227,16 @@ fn every_command_prints_what_the_schema_says() {
         ),
         ("repaired", &["repair", &soup]),
         ("layout", &["layout", "--of", &cube]),
+        (
+            "layout_quads",
+            &[
+                "layout",
+                "shape:sphere:300",
+                "--layout",
+                &around,
+                "--fewest",
+            ],
+        ),
         (
             "layout",
             &[

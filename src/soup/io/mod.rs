@@ -18,6 +18,7 @@ mod off;
 mod off_binary;
 mod plain_obj;
 mod ply;
+mod polylines;
 mod statements;
 mod stl;
 mod strips;
@@ -29,6 +30,7 @@ use crate::monitor::span;
 
 pub use attributes::{Attribute, Attributes};
 pub use format::Format;
+pub use polylines::{Polyline, polylines, read_polylines};
 
 pub(crate) use format::is_compressed;
 pub(crate) use statements::{Statement, Statements, corner_number};

@@ -60,6 +60,8 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Attributes, SoupError> {
                 object = name.trim_ascii();
                 groups.set(vec![object, group]);
             }
+            // Not asked for.
+            Statement::Line(_) => {}
             Statement::Face(said) => {
                 materials.add_face();
                 groups.add_face();

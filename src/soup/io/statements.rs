@@ -15,6 +15,8 @@ pub(crate) enum Statement<'a> {
     Normal(Cow<'a, [u8]>),
     /// `f`, or `fo` as old files have it: the corners of a face.
     Face(Cow<'a, [u8]>),
+    /// `l`: the vertices of a polyline.
+    Line(Cow<'a, [u8]>),
     /// What the faces that follow have.
     Label(LabelKind, &'a [u8]),
 }
@@ -39,6 +41,8 @@ pub(crate) struct Statements<'a> {
     lines: Lines<'a>,
     /// Whether normals and labels are among them.
     with_attributes: bool,
+    /// Whether polylines are among them.
+    with_lines: bool,
 }
 
 impl<'a> Statements<'a> {
@@ -46,6 +50,7 @@ impl<'a> Statements<'a> {
         Statements {
             lines: Lines::new(bytes),
             with_attributes: false,
+            with_lines: false,
         }
     }
 
@@ -53,6 +58,14 @@ impl<'a> Statements<'a> {
     pub(super) fn with_attributes(bytes: &'a [u8]) -> Self {
         Statements {
             with_attributes: true,
+            ..Statements::new(bytes)
+        }
+    }
+
+    /// The same with polylines, which [`new`](Self::new) passes over.
+    pub(super) fn with_lines(bytes: &'a [u8]) -> Self {
+        Statements {
+            with_lines: true,
             ..Statements::new(bytes)
         }
     }
@@ -90,6 +103,7 @@ impl<'a> Iterator for Statements<'a> {
                 b"v" => Statement::Vertex(self.continued(rest)),
                 b"vt" => Statement::Texture(self.continued(rest)),
                 b"f" | b"fo" => Statement::Face(self.continued(rest)),
+                b"l" if self.with_lines => Statement::Line(self.continued(rest)),
                 _ if !self.with_attributes => continue,
                 b"vn" => Statement::Normal(self.continued(rest)),
                 b"usemtl" => Statement::Label(LabelKind::Material, said(rest)),
