@@ -97,7 +97,7 @@ mod tests {
     #[test]
     fn faults_are_told() {
         for (text, code) in [
-            ("v 0 0\n", "parse"),
+            ("v 0 0 zero\nf 1 1 1\n", "parse"),
             ("v 0 0 0\nf 1 2 3\n", "index_out_of_range"),
             ("v 0 0 0\n", "invalid_argument"),
             (&format!("{SQUARE}l 1 3\n"), "parse"),
