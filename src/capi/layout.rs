@@ -11,11 +11,13 @@ use super::mesh::{roundel_mesh, times_three};
 use super::mesh_files::room_to_read;
 use super::output::{Out, copy_numbers};
 use super::quads::{Quads, roundel_quads};
-use super::soup::of_arrays;
+use super::soup::{of_arrays, roundel_soup};
 use super::status::roundel_status;
 use crate::error::{Error, Result};
-use crate::layout::{BaseLayout, LayoutOptions, LayoutSizing, layout_quads};
+use crate::layout::found::{FoundLayout, QuadSurface, SimplifyOptions, simplify};
+use crate::layout::{BaseLayout, DrawnLayout, LayoutOptions, LayoutSizing, layout_quads};
 use crate::mesh::TriangleMesh;
+use crate::soup::PolygonSoup;
 
 /// A base layout: a coarse mesh of polygons anywhere near a surface. Its vertices mark points of the surface, its
 /// edges are the arcs, its polygons the patches. It is a manifold, with or without boundary, whose polygons have
@@ -31,16 +33,21 @@ pub(super) struct Asked {
     options: LayoutOptions,
 }
 
+impl From<DrawnLayout> for Asked {
+    fn from(drawn: DrawnLayout) -> Self {
+        Asked {
+            layout: drawn.layout,
+            options: LayoutOptions {
+                curves: drawn.curves,
+                ..LayoutOptions::default()
+            },
+        }
+    }
+}
+
 #[cfg(feature = "mesh-io")]
 fn read(file: &Path) -> Result<Asked> {
-    let read = crate::layout::read_layout(file)?;
-    Ok(Asked {
-        layout: read.layout,
-        options: LayoutOptions {
-            curves: read.curves,
-            ..LayoutOptions::default()
-        },
-    })
+    Ok(crate::layout::read_layout(file)?.into())
 }
 
 #[cfg(not(feature = "mesh-io"))]
@@ -99,6 +106,82 @@ pub unsafe extern "C" fn roundel_layout_read(
         out.set(guard::handle(read(file)?));
         Ok(())
     })
+}
+
+/// Finds the layout of a soup of quads: irregular vertices and the lines that leave them, with every arc drawn. For a
+/// `deviation` of 0 it is the base complex; else a layout with the same irregular vertices and fewer patches, whose arcs
+/// drift at most so many edges across the lines of the quads, infinity for any drift. Further lines divide arcs that
+/// join the same vertices. `monitor` may be NULL. To be freed with roundel_layout_free.
+///
+/// Fails with ROUNDEL_ERROR_MESH and the quad, edge or vertex for what is no manifold of quads of one orientation, and
+/// with ROUNDEL_ERROR_INVALID_ARGUMENT for a deviation that is negative or no number, and for quads whose edges
+/// themselves join the same vertices.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_layout_of_quads(
+    quads: *const roundel_soup,
+    deviation: f64,
+    monitor: *const roundel_monitor,
+    layout: *mut *mut roundel_layout,
+) -> roundel_status {
+    let body = |soup: &PolygonSoup| {
+        // SAFETY: the caller gives a monitor as its members say and a place, or NULL.
+        let (monitor, out) = unsafe { (watchers(monitor)?, Out::new("layout", layout)?) };
+        let mut surface = QuadSurface::from_soup(soup).map_err(Error::from)?;
+        if deviation != 0.0 {
+            let options = SimplifyOptions {
+                deviation,
+                ..SimplifyOptions::default()
+            };
+            surface = simplify(&surface, &options, monitor)?.surface;
+        }
+        let drawn = FoundLayout::simple_complex(&surface).drawn(&surface)?;
+        out.set(guard::handle(Asked::from(drawn)));
+        Ok(())
+    };
+    // SAFETY: the caller gives a live handle, or NULL.
+    unsafe { guard::read(quads, body) }
+}
+
+/// Writes a layout as an OBJ file, which roundel_layout_read reads: its vertices and polygons, and a line for every arc
+/// whose course is given.
+///
+/// Fails with ROUNDEL_ERROR_IO.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_layout_write(
+    layout: *const roundel_layout,
+    file: *const c_char,
+) -> roundel_status {
+    let body = |asked: &Asked| {
+        // SAFETY: the caller gives a text, or NULL.
+        let file = unsafe { path("file", file) }?;
+        let drawn = DrawnLayout {
+            layout: asked.layout.clone(),
+            curves: asked.options.curves.clone(),
+        };
+        Ok(drawn.write_obj(file)?)
+    };
+    // SAFETY: the caller gives a live handle, or NULL.
+    unsafe { guard::read(layout, body) }
+}
+
+/// Gives the vertices and polygons of a layout as a soup, to be freed with roundel_soup_free.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_layout_soup(
+    layout: *const roundel_layout,
+    soup: *mut *mut roundel_soup,
+) -> roundel_status {
+    let body = |asked: &Asked| {
+        // SAFETY: the caller gives a place, or NULL.
+        let out = unsafe { Out::new("soup", soup) }?;
+        let mut soup = PolygonSoup::new(asked.layout.positions().to_vec());
+        for polygon in asked.layout.polygons() {
+            soup.add_polygon(polygon.iter().map(|&v| i64::from(v)));
+        }
+        out.set(guard::handle(soup));
+        Ok(())
+    };
+    // SAFETY: the caller gives a live handle, or NULL.
+    unsafe { guard::read(layout, body) }
 }
 
 /// Frees a layout. NULL is allowed.

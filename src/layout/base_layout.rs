@@ -249,6 +249,36 @@ impl BaseLayout {
         fans.fold([0.0; 3], add)
     }
 
+    /// The sum of the area vectors of the polygons at a vertex.
+    pub(crate) fn normal(&self, vertex: usize) -> Vec3 {
+        let polygons = self
+            .around(vertex)
+            .filter_map(|dart| self.polygon_left_of(dart));
+        polygons.map(|p| self.area_vector(p)).fold([0.0; 3], add)
+    }
+
+    /// Where a vertex is after a step of subdivision (`catmull1978`): near the smooth surface of which the layout is a
+    /// control mesh.
+    pub(crate) fn subdivided(&self, vertex: usize) -> Vec3 {
+        let own = self.positions[vertex];
+        let darts: Vec<Dart> = self.around(vertex).collect();
+        let tips = darts.iter().map(|&dart| self.tail(reversed(dart)) as usize);
+        let tips: Vec<Vec3> = tips.map(|v| self.positions[v]).collect();
+        let mean = |points: &[Vec3]| {
+            let sum = points.iter().copied().fold([0.0; 3], add);
+            scale(sum, 1.0 / points.len() as f64)
+        };
+        if self.is_boundary_vertex(vertex) {
+            let ends = mean(&[tips[0], tips[tips.len() - 1]]);
+            return add(scale(own, 0.75), scale(ends, 0.25));
+        }
+        let polygons = darts.iter().filter_map(|&dart| self.polygon_left_of(dart));
+        let middles: Vec<Vec3> = polygons.map(|p| self.centroid(p)).collect();
+        let n = darts.len() as f64;
+        let sum = add(add(mean(&middles), mean(&tips)), scale(own, n - 2.0));
+        scale(sum, 1.0 / n)
+    }
+
     /// The middle of a polygon's corners.
     pub(crate) fn centroid(&self, polygon: usize) -> Vec3 {
         let corners = &self.polygons[polygon];

@@ -6,27 +6,19 @@
 use std::path::Path;
 
 use super::base_layout::BaseLayout;
+use super::drawn_layout::DrawnLayout;
 use crate::error::{Error, Result};
 use crate::mesh::MeshError;
 use crate::mesh::vector::Vec3;
 use crate::soup::io::{Format, parse, polylines};
 use crate::soup::{PolygonSoup, SoupError};
 
-/// A layout, and the arcs whose course is given: the arc, and points from its first end to its second.
-#[derive(Debug, Clone, PartialEq)]
-pub struct LayoutFile {
-    /// The layout.
-    pub layout: BaseLayout,
-    /// The courses, as [`LayoutOptions::curves`](super::LayoutOptions::curves) takes them.
-    pub curves: Vec<(usize, Vec<Vec3>)>,
-}
-
 /// Reads a layout.
 ///
 /// # Errors
 /// Those of [`parse`] and [`polylines`] and of [`BaseLayout::new`], and [`Error::Io`]; [`Error::Parse`] for a line that
 /// does not start and end at vertices which an edge of the layout joins.
-pub fn read_layout(path: impl AsRef<Path>) -> Result<LayoutFile> {
+pub fn read_layout(path: impl AsRef<Path>) -> Result<DrawnLayout> {
     let path = path.as_ref();
     let bytes = std::fs::read(path).map_err(|reason| Error::Io {
         message: format!("{}: {reason}", path.display()),
@@ -38,7 +30,7 @@ pub fn read_layout(path: impl AsRef<Path>) -> Result<LayoutFile> {
 ///
 /// # Errors
 /// As [`read_layout`], without [`Error::Io`].
-pub fn parse_layout(bytes: &[u8]) -> Result<LayoutFile> {
+pub fn parse_layout(bytes: &[u8]) -> Result<DrawnLayout> {
     let refused = |error: SoupError| Error::from(MeshError::from(error));
     let soup = parse(bytes, Format::Obj).map_err(refused)?;
     let lines = polylines(bytes).map_err(refused)?;
@@ -56,7 +48,7 @@ pub fn parse_layout(bytes: &[u8]) -> Result<LayoutFile> {
         }
         curves.push((arc, points));
     }
-    Ok(LayoutFile { layout, curves })
+    Ok(DrawnLayout { layout, curves })
 }
 
 /// The soup without the vertices after the last that a polygon uses: points of lines.
@@ -92,6 +84,21 @@ mod tests {
         assert_eq!(file.curves.len(), 2);
         let points = vec![[0.0; 3], [0.5, -0.1, 0.0], [1.0, 0.0, 0.0]];
         assert_eq!(file.curves[0], (0, points));
+    }
+
+    #[test]
+    fn what_is_written_is_read() {
+        let text = format!("{SQUARE}l 2 5 1\nl 3 4\n");
+        let file = parse_layout(text.as_bytes()).unwrap();
+        let path = std::env::temp_dir().join(format!("roundel-layout-{}.obj", std::process::id()));
+        file.write_obj(&path).unwrap();
+        let read = read_layout(&path);
+        std::fs::remove_file(&path).unwrap();
+        assert_eq!(read.unwrap(), file);
+        assert_eq!(
+            file.write_obj("no/such.obj".as_ref()).unwrap_err().code(),
+            "io"
+        );
     }
 
     #[test]

@@ -1,8 +1,7 @@
 //! Arcs whose course is given, cut into the mesh as chains of edges.
 
 use super::base_layout::BaseLayout;
-use super::embed::Given;
-use super::layout_quads::feet;
+use super::embed::{Given, feet};
 use crate::error::{Error, Result};
 use crate::geodesic::{cut_along, draw_curve};
 use crate::mesh::TriangleMesh;

@@ -19,7 +19,7 @@ use super::subdivide::{LayoutSizing, Subdividing, Subdivisions};
 use crate::error::{Error, Result};
 use crate::extract::{IntegerGridMap, Origin, QuadMesh, extract};
 use crate::mesh::vector::Vec3;
-use crate::mesh::{ClosestPoint, TriangleMesh, barycentric};
+use crate::mesh::{TriangleMesh, barycentric};
 use crate::monitor::{Monitor, Phase, may_continue, span, with_threads};
 use crate::smooth::{SmoothOptions, smooth};
 
@@ -292,13 +292,6 @@ fn is_as_prescribed(quads: &QuadMesh, layout: &BaseLayout, found: &Subdivisions)
     wanted.sort_unstable();
     irregular.sort_unstable();
     quads.is_conforming() && quads.quads.len() == found.quads && wanted == irregular
-}
-
-/// The closest point of a mesh to each vertex of a layout.
-pub(super) fn feet(mesh: &TriangleMesh, layout: &BaseLayout) -> Vec<Vec3> {
-    let closest = ClosestPoint::new(mesh);
-    let foot = |&p: &Vec3| closest.find(p, None).map_or(p, |(_, foot)| foot);
-    layout.positions().iter().map(foot).collect()
 }
 
 #[cfg(test)]

@@ -6,7 +6,7 @@
 //!
 //! | step | file |
 //! | --- | --- |
-//! | the layout | `base_layout`, `file` |
+//! | the layout | `base_layout`, `drawn_layout`, `file` |
 //! | arcs that are given | `given` |
 //! | arcs on the surface | `embed` |
 //! | edges of quads along each arc | `subdivide` |
@@ -16,6 +16,7 @@
 //! | the way back, from quads to their layout | [`found`] |
 
 mod base_layout;
+mod drawn_layout;
 mod embed;
 #[cfg(feature = "mesh-io")]
 mod file;
@@ -27,7 +28,8 @@ mod rectangles;
 mod subdivide;
 
 pub use base_layout::BaseLayout;
+pub use drawn_layout::DrawnLayout;
 #[cfg(feature = "mesh-io")]
-pub use file::{LayoutFile, parse_layout, read_layout};
+pub use file::{parse_layout, read_layout};
 pub use layout_quads::{LayoutOptions, LayoutQuads, layout_quads};
 pub use subdivide::{LayoutSizing, Subdivisions};

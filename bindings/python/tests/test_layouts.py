@@ -25,6 +25,21 @@ def test_quads_follow_a_layout(tmp_path):
         assert len(fewest) == 6 and np.all(numbers == 1)
 
 
+def test_quads_have_a_layout_that_leads_back_to_quads(tmp_path):
+    sphere = roundel.Mesh.shape("sphere", 1000)
+    made = roundel.quad(sphere, quads=300)
+    whole = roundel.BaseLayout.of_quads(*made)
+    fewer = roundel.BaseLayout.of_quads(roundel.Soup(*made), deviation=float("inf"))
+    assert 6 <= len(fewer.soup) <= len(whole.soup)
+    fewer.write(tmp_path / "layout.obj")
+    for layout in (fewer, roundel.BaseLayout.read(tmp_path / "layout.obj")):
+        quads, numbers = layout.quads(sphere, 600)
+        assert quads.conforming and quads.irregular_count == 8 and numbers.min() > 0
+    with pytest.raises(roundel.Error) as caught:
+        roundel.BaseLayout.of_quads(CORNERS, [[0, 2, 3, 1], [0, 1, 5]])
+    assert caught.value.index == 1
+
+
 def test_what_is_wrong_names_the_element():
     cube = roundel.BaseLayout(CORNERS, SIDES)
     for call, index in [

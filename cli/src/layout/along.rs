@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use roundel::layout::{
-    BaseLayout, LayoutFile, LayoutOptions, LayoutQuads, LayoutSizing, layout_quads, read_layout,
+    BaseLayout, DrawnLayout, LayoutOptions, LayoutQuads, LayoutSizing, layout_quads, read_layout,
 };
 use roundel::mesh::TriangleMesh;
 use roundel::mesh::attributes::SurfaceAttributes;
@@ -117,7 +117,7 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
     let progress = Progress::start(arguments.output.quiet)?;
     let started = Instant::now();
     let Input { mesh, repair, .. } = arguments.input.read(mesh_file, arguments.json)?;
-    let LayoutFile { layout, curves } = read_layout(layout_file)?;
+    let DrawnLayout { layout, curves } = read_layout(layout_file)?;
     let read = started.elapsed().as_secs_f64();
     let options = LayoutOptions {
         sizing: match flags.edge_length {

@@ -96,6 +96,7 @@ struct Report {
     base: Counts,
     motorcycle: Counts,
     simplified: Option<Counts>,
+    written: Option<Counts>,
     subdivisions: Vec<usize>,
     deviation: f64,
     mean_angle: f64,
@@ -178,8 +179,14 @@ fn find(arguments: &Arguments, quads: &Path) -> Result<Report> {
     };
     let simplify = started.elapsed().as_secs_f64();
     let started = Instant::now();
+    let mut written = None;
     if let Some(path) = &arguments.out {
-        layout.write_obj(&surface, path)?;
+        let simple = match flags.kind {
+            Kind::Motorcycle => layout.clone(),
+            Kind::Base | Kind::Simplified => FoundLayout::simple_complex(&surface),
+        };
+        simple.write_obj(&surface, path)?;
+        written = Some(Counts::new(&simple));
     }
     if let Some(path) = &flags.groups {
         layout.write_groups(&surface, path)?;
@@ -196,6 +203,7 @@ fn find(arguments: &Arguments, quads: &Path) -> Result<Report> {
         base,
         motorcycle,
         simplified: (flags.kind == Kind::Simplified).then(|| Counts::new(&layout)),
+        written,
         subdivisions: layout
             .arcs
             .iter()
@@ -271,6 +279,9 @@ impl fmt::Display for Report {
                 "{:<10} {drift:.2} quads at most, {angle:.1} degrees on average",
                 "drift"
             )?;
+        }
+        if let Some(written) = &self.written {
+            writeln!(f, "{:<10} {written}", "written")?;
         }
         if let Some(surfaces) = &self.surfaces {
             let points = counted(surfaces.control_points, "control point");

@@ -89,8 +89,51 @@ static void quads_are_checked(fixture* f) {
     GOOD(roundel_mesh_free(torus));
 }
 
+static void layouts_of_quads_are_checked(fixture* f) {
+    const roundel_status null = ROUNDEL_ERROR_NULL_POINTER;
+    const roundel_status invalid = ROUNDEL_ERROR_INVALID_ARGUMENT;
+    const int32_t sides[5] = {0, 2, 3, 1, 4}, four = 4, five = 5;
+    size_t count = 7, corners = 7;
+    roundel_soup *cube = NULL, *pentagon = NULL, *quad = NULL, *back = NULL;
+    roundel_layout *layout = NULL, *read = NULL;
+    GOOD(roundel_soup_new(8, CORNERS, 6, SIZES, 24, SIDES, &cube));
+    GOOD(roundel_soup_new(8, CORNERS, 1, &five, 5, sides, &pentagon));
+    GOOD(roundel_soup_new(8, CORNERS, 1, &four, 4, sides, &quad));
+    BAD(f, roundel_layout_of_quads(NULL, 0.0, NULL, &layout), null, "soup", NONE);
+    BAD(f, roundel_layout_of_quads(cube, 0.0, NULL, NULL), null, "layout", NONE);
+    BAD(f, roundel_layout_of_quads(cube, -1.0, NULL, &layout), invalid, "deviation", NONE);
+    BAD(f, roundel_layout_of_quads(cube, NAN, NULL, &layout), invalid, "deviation", NONE);
+    BAD(f, roundel_layout_of_quads(pentagon, 0.0, NULL, &layout), ROUNDEL_ERROR_MESH, "5", 0);
+    BAD(f, roundel_layout_of_quads(quad, 0.0, NULL, &layout), ROUNDEL_ERROR_MESH, "vertex", 4);
+    HOLDS(layout == NULL);
+    GOOD(roundel_layout_of_quads(cube, 0.0, NULL, &layout));
+    GOOD(roundel_layout_arc_count(layout, &count));
+    HOLDS(count == 12);
+    BAD(f, roundel_layout_soup(NULL, &back), null, "layout", NONE);
+    BAD(f, roundel_layout_soup(layout, NULL), null, "soup", NONE);
+    GOOD(roundel_layout_soup(layout, &back));
+    GOOD(roundel_soup_polygon_counts(back, &count, &corners));
+    HOLDS(count == 6 && corners == 24);
+    BAD(f, roundel_layout_write(NULL, "layout.obj"), null, "layout", NONE);
+    BAD(f, roundel_layout_write(layout, NULL), null, "file", NONE);
+    BAD(f, roundel_layout_write(layout, "there/is/no/such.obj"), ROUNDEL_ERROR_IO, "such.obj",
+        NONE);
+    GOOD(roundel_layout_write(layout, "layout_written.obj"));
+    GOOD(roundel_layout_read("layout_written.obj", &read));
+    HOLDS(remove("layout_written.obj") == 0);
+    GOOD(roundel_layout_arc_count(read, &count));
+    HOLDS(count == 12);
+    GOOD(roundel_layout_free(read));
+    GOOD(roundel_layout_free(layout));
+    GOOD(roundel_soup_free(back));
+    GOOD(roundel_soup_free(quad));
+    GOOD(roundel_soup_free(pentagon));
+    GOOD(roundel_soup_free(cube));
+}
+
 void bad_layouts(fixture* f) {
     layouts_are_checked(f);
     arcs_are_checked(f);
     quads_are_checked(f);
+    layouts_of_quads_are_checked(f);
 }

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
 #include <vector>
 
 void quads_follow_a_layout() {
@@ -20,7 +21,13 @@ void quads_follow_a_layout() {
     const auto found = roundel::quads_of_layout(sphere, cube, 150);
     CHECK(found.quads.conforming() && found.quads.irregular_count() == 8);
     CHECK(found.subdivisions.size() == 12 && found.subdivisions[0] == 4);
+    const auto layout = roundel::BaseLayout::of_quads(cube.soup());
+    layout.write("wrapper_layout.obj");
+    CHECK(roundel::BaseLayout::read("wrapper_layout.obj").arcs().size() == 12);
+    CHECK(std::remove("wrapper_layout.obj") == 0);
     roundel::Status status;
+    CHECK(!roundel::BaseLayout::of_quads(cube.soup(), -1.0, &status).get());
+    CHECK(status.code == ROUNDEL_ERROR_INVALID_ARGUMENT);
     cube.fix_arc(12, 4, &status);
     CHECK(status.code == ROUNDEL_ERROR_INDEX_OUT_OF_RANGE);
     const std::vector<std::int32_t> one(1, 2);

@@ -5,6 +5,7 @@
 
 #include <roundel/detail/mesh.hpp>
 #include <roundel/detail/quads.hpp>
+#include <roundel/detail/repair.hpp>
 
 #include <array>
 #include <cstddef>
@@ -40,6 +41,30 @@ class BaseLayout {
         detail::check(roundel_layout_read(file.c_str(), &made), status);
         layout.handle_.reset(made);
         return layout;
+    }
+
+    /// Finds the layout of quads, with every arc drawn: the base complex for a deviation of 0, else
+    /// one with the same irregular vertices and fewer patches, whose arcs drift at most so many
+    /// edges across the lines of the quads. A failure names the quad, the edge or the vertex.
+    static BaseLayout of_quads(const Soup& quads, double deviation = 0.0,
+                               Status* status = nullptr) {
+        BaseLayout layout;
+        roundel_layout* made = nullptr;
+        detail::check(roundel_layout_of_quads(quads.get(), deviation, nullptr, &made), status);
+        layout.handle_.reset(made);
+        return layout;
+    }
+
+    /// Writes an OBJ file, which `read` reads.
+    void write(const std::string& file, Status* status = nullptr) const {
+        detail::check(roundel_layout_write(get(), file.c_str()), status);
+    }
+
+    /// The vertices and the polygons.
+    Soup soup(Status* status = nullptr) const {
+        roundel_soup* made = nullptr;
+        detail::check(roundel_layout_soup(get(), &made), status);
+        return Soup(made);
     }
 
     /// The two vertices of each arc.

@@ -12,7 +12,9 @@
 //! | vertices of the layout on the surface | `nodes` |
 //! | a shortest path between two arcs that are laid | `path` |
 //! | whether the surface is divided as the layout | `regions` |
+//! | splits that no arc needs, taken back | `coarsen` |
 
+mod coarsen;
 mod nodes;
 pub(in crate::layout) mod path;
 mod regions;
@@ -26,7 +28,7 @@ use crate::error::{Error, Result};
 use crate::linalg::DisjointSets;
 use crate::mesh::vector::{norm, sub};
 use crate::monitor::may_continue_at;
-pub(in crate::layout) use nodes::{is_turned_over, place_nodes};
+pub(in crate::layout) use nodes::{feet, is_turned_over, place_nodes};
 pub(in crate::layout) use path::reached;
 use path::{Path, Search, Sector, lay};
 use regions::are_those_of;
@@ -38,6 +40,9 @@ const ROUNDS: usize = 2;
 /// The part by which an arc must become shorter.
 const GAIN: f64 = 1e-2;
 
+/// Splits are taken back where there are so many times more faces than when that was last done.
+const GROWTH: usize = 2;
+
 /// A layout on a surface.
 #[derive(Debug, Clone)]
 pub(in crate::layout) struct Embedding {
@@ -46,6 +51,18 @@ pub(in crate::layout) struct Embedding {
     pub nodes: Vec<u32>,
     /// The vertices of each arc, from its first end to its second.
     pub chains: Vec<Vec<u32>>,
+}
+
+impl Embedding {
+    /// Takes splits back that no arc needs.
+    fn coarsen(&mut self) {
+        let number = self.surface.coarsen(&self.nodes);
+        self.nodes.iter_mut().for_each(|v| *v = number[*v as usize]);
+        for chain in &mut self.chains {
+            chain.iter_mut().for_each(|v| *v = number[*v as usize]);
+            chain.retain(|&v| v != NONE);
+        }
+    }
 }
 
 /// Arcs that are given as chains of edges of the mesh: the arc, and the vertices from its first end to its second.
@@ -64,6 +81,7 @@ pub(in crate::layout) fn embed(
     let mut start = Laying {
         layout,
         is_given: vec![false; layout.arc_count()],
+        faces: surface.triangles.len(),
         embedding: Embedding {
             chains: vec![Vec::new(); layout.arc_count()],
             surface,
@@ -92,12 +110,15 @@ pub(in crate::layout) fn embed(
         }
     };
     laid.shorten()?;
+    laid.embedding.coarsen();
     Ok(laid.embedding)
 }
 
 struct Laying<'a> {
     layout: &'a BaseLayout,
     is_given: Vec<bool>,
+    /// The number of faces when splits were last taken back.
+    faces: usize,
     embedding: Embedding,
     search: Search,
 }
@@ -107,6 +128,7 @@ impl Clone for Laying<'_> {
         Laying {
             layout: self.layout,
             is_given: self.is_given.clone(),
+            faces: self.faces,
             embedding: self.embedding.clone(),
             search: Search::default(),
         }
@@ -125,6 +147,14 @@ impl Laying<'_> {
             chains,
         } = &self.embedding;
         are_those_of(self.layout, surface, nodes, chains)
+    }
+
+    /// Takes splits back where there are many.
+    fn coarsen(&mut self) {
+        if self.embedding.surface.triangles.len() > GROWTH * self.faces {
+            self.embedding.coarsen();
+            self.faces = self.embedding.surface.triangles.len();
+        }
     }
 
     fn take(&mut self, arc: usize, chain: Vec<u32>) {
@@ -238,8 +268,10 @@ impl Laying<'_> {
         while let Some(Reverse((was_cycle, known, arc))) = queue.pop() {
             may_continue_at(steps)?;
             steps += 1;
+            self.coarsen();
             let [a, b] = ends(self.layout, arc);
-            let is_cycle = tree_first && joined.root(a) == joined.root(b);
+            let closes = joined.root(a) == joined.root(b);
+            let is_cycle = tree_first && closes;
             let Some(path) = self.find(arc) else {
                 return Err(self.enclosed(arc));
             };
@@ -248,16 +280,19 @@ impl Laying<'_> {
                 queue.push(now);
                 continue;
             }
-            let saved = self.embedding.surface.clone();
-            let chain = lay(&mut self.embedding.surface, &path, 2 * arc as Dart);
-            self.embedding.chains[arc] = chain;
-            if self.is_consistent() {
-                joined.join(a, b);
-                queue.extend(deferred.drain(..));
-            } else {
-                self.embedding.surface = saved;
-                self.embedding.chains[arc].clear();
-                deferred.push(now);
+            // What joins two parts divides nothing.
+            let saved = closes.then(|| self.embedding.surface.clone());
+            self.embedding.chains[arc] = lay(&mut self.embedding.surface, &path, 2 * arc as Dart);
+            match saved {
+                Some(saved) if !self.is_consistent() => {
+                    self.embedding.surface = saved;
+                    self.embedding.chains[arc].clear();
+                    deferred.push(now);
+                }
+                _ => {
+                    joined.join(a, b);
+                    queue.extend(deferred.drain(..));
+                }
             }
         }
         match deferred.first() {
@@ -315,6 +350,7 @@ impl Laying<'_> {
                 if self.is_given[arc] {
                     continue;
                 }
+                self.coarsen();
                 let old = std::mem::take(&mut self.embedding.chains[arc]);
                 let length = self.embedding.surface.chain_length(&old);
                 self.embedding.surface.free_chain(&old);

@@ -50,7 +50,7 @@ pub(in crate::layout) fn place_nodes(
         let is_border = layout.is_boundary_vertex(number);
         let found = match is_border {
             true => boundary.find(p, None),
-            false => inside.find(p, None),
+            false => foot(&inside, mesh, layout, number),
         };
         let refuse = |what: String| {
             Err(Error::InvalidArgument {
@@ -84,6 +84,42 @@ pub(in crate::layout) fn place_nodes(
         nodes.push(node);
     }
     Ok(nodes)
+}
+
+/// The face and the point on it for a vertex of a layout. That is the closest point to the vertex, or to where
+/// subdivision moves it where that is nearer to the surface: the layout is then a control mesh. On thin parts the
+/// surface faces as the layout does.
+fn foot(
+    inside: &ClosestPoint,
+    mesh: &TriangleMesh,
+    layout: &BaseLayout,
+    vertex: usize,
+) -> Option<(usize, Vec3)> {
+    let normal = layout.normal(vertex);
+    let reach = REACH * diagonal(mesh);
+    let faces_alike = |face: usize| dot(mesh.normal(face), normal) > 0.0;
+    let found = [layout.positions()[vertex], layout.subdivided(vertex)].map(|p| {
+        let alike = inside.find_wanted(p, reach, faces_alike);
+        let (face, q) = alike.or_else(|| inside.find(p, None))?;
+        Some((norm(sub(q, p)), face, q))
+    });
+    let nearest = found
+        .into_iter()
+        .flatten()
+        .min_by(|a, b| a.0.total_cmp(&b.0));
+    nearest.map(|(_, face, q)| (face, q))
+}
+
+/// The point of a mesh for each vertex of a layout.
+pub(in crate::layout) fn feet(mesh: &TriangleMesh, layout: &BaseLayout) -> Vec<Vec3> {
+    let inside = ClosestPoint::new(mesh);
+    let vertices = 0..layout.vertex_count();
+    let found = vertices.map(|v| foot(&inside, mesh, layout, v));
+    let positions = layout.positions().iter();
+    found
+        .zip(positions)
+        .map(|(found, &p)| found.map_or(p, |(_, q)| q))
+        .collect()
 }
 
 /// The parts that faces have been split into.

@@ -4,16 +4,16 @@
 //! correspond. What is left to check is that the same curves bound the same regions, with the same nodes inside,
 //! and that these have the same Euler characteristic.
 
-use std::collections::HashMap;
-
 use super::surface::{NONE, Surface};
 use crate::layout::base_layout::{BaseLayout, Dart};
 use crate::linalg::DisjointSets;
 
-/// Regions by number, and the Euler characteristic of the inside of each.
+/// Regions, each named by one of its cells.
 struct Regions {
+    /// The region of each cell.
     of: Vec<u32>,
-    euler: HashMap<u32, i64>,
+    /// The Euler characteristic of the inside of each region, at the cell that names it.
+    euler: Vec<i64>,
 }
 
 impl Regions {
@@ -24,18 +24,22 @@ impl Regions {
             sets.join(a as usize, b as usize);
         }
         let of: Vec<u32> = (0..cells).map(|cell| sets.root(cell) as u32).collect();
-        let mut euler = HashMap::new();
+        let mut euler = vec![0; cells];
         for &region in &of {
-            *euler.entry(region).or_default() += 1;
+            euler[region as usize] += 1;
         }
         for &[a, _] in edges {
-            *euler.entry(of[a as usize]).or_default() -= 1;
+            euler[of[a as usize] as usize] -= 1;
         }
         Regions { of, euler }
     }
 
     fn add_vertex(&mut self, cell: u32) {
-        *self.euler.entry(self.of[cell as usize]).or_default() += 1;
+        self.euler[self.of[cell as usize] as usize] += 1;
+    }
+
+    fn names(&self) -> impl Iterator<Item = usize> + '_ {
+        (0..self.of.len()).filter(|&cell| self.of[cell] as usize == cell)
     }
 }
 
@@ -97,14 +101,21 @@ pub(super) fn are_those_of(
 
 /// Whether these pairs of cells match regions one to one, with equal characteristics.
 fn correspond(wanted: &Regions, found: &Regions, pairs: &[(u32, u32)]) -> bool {
-    let (mut forth, mut back) = (HashMap::new(), HashMap::new());
+    let mut forth = vec![NONE; wanted.of.len()];
+    let mut back = vec![NONE; found.of.len()];
     for &(polygon, face) in pairs {
         let (a, b) = (wanted.of[polygon as usize], found.of[face as usize]);
-        if *forth.entry(a).or_insert(b) != b || *back.entry(b).or_insert(a) != a {
-            return false;
+        for (partner, one, other) in [(&mut forth, a, b), (&mut back, b, a)] {
+            let known = &mut partner[one as usize];
+            if *known != NONE && *known != other {
+                return false;
+            }
+            *known = other;
         }
     }
-    forth.len() == wanted.euler.len()
-        && back.len() == found.euler.len()
-        && forth.iter().all(|(a, b)| wanted.euler[a] == found.euler[b])
+    let is_like = |region: usize| {
+        let partner = forth[region] as usize;
+        forth[region] != NONE && wanted.euler[region] == found.euler[partner]
+    };
+    wanted.names().all(is_like) && found.names().all(|region| back[region] != NONE)
 }

@@ -19,7 +19,7 @@ pub(in crate::layout) struct Surface {
     /// The face of the mesh that each face is part of.
     pub origin: Vec<u32>,
     /// A half-edge that leaves each vertex.
-    out: Vec<u32>,
+    pub(super) out: Vec<u32>,
     /// The dart that runs along each half-edge, or [`NONE`].
     pub dart: Vec<u32>,
     /// Whether a vertex is a node or lies on an arc.
@@ -27,6 +27,8 @@ pub(in crate::layout) struct Surface {
     /// Edges that are not longer are split only where both ends are taken: else arcs that are laid again and again
     /// would refine the mesh without end.
     resolution: f64,
+    /// The first so many vertices are those of the mesh, and what it needs in between.
+    pub(super) kept: u32,
 }
 
 /// The resolution, as a part of the mean length of the edges of the mesh.
@@ -60,6 +62,7 @@ impl Surface {
             dart: vec![NONE; 3 * mesh.face_count()],
             is_taken: vec![false; mesh.vertex_count()],
             resolution: 0.0,
+            kept: 0,
         };
         let halves = 0..surface.twin.len() as u32;
         let lengths: f64 = halves.map(|half| surface.length(half)).sum();
@@ -68,6 +71,7 @@ impl Surface {
             surface.note_corners(face);
         }
         surface.open_pockets();
+        surface.kept = surface.positions.len() as u32;
         surface
     }
 
@@ -83,7 +87,7 @@ impl Surface {
         }
     }
 
-    fn note_corners(&mut self, face: u32) {
+    pub(super) fn note_corners(&mut self, face: u32) {
         for k in 0..3 {
             let v = self.triangles[face as usize][k as usize];
             self.out[v as usize] = 3 * face + k;

@@ -3,6 +3,9 @@
 use super::rectangle::Rectangle;
 use super::walls::{LineEnd, Walls};
 use super::{QuadSurface, base, motorcycle};
+use crate::error::{Error, Result};
+use crate::layout::{BaseLayout, DrawnLayout};
+use crate::mesh::vector::Vec3;
 
 const NONE: u32 = u32::MAX;
 
@@ -41,6 +44,10 @@ pub struct LayoutPatch {
 }
 
 impl LayoutPatch {
+    fn has_t_junction(&self) -> bool {
+        self.sides.iter().any(|side| side.len() > 1)
+    }
+
     /// The vertex in a column and a row.
     pub fn vertex(&self, column: usize, row: usize) -> u32 {
         self.vertices[row * (self.size[0] + 1) + column]
@@ -83,14 +90,21 @@ impl FoundLayout {
         Self::between(motorcycle::walls(surface), LineEnd::Wall)
     }
 
+    /// The base complex, divided by further lines until two nodes have one arc between them at most, and no arc returns
+    /// to its node: the form that a [`BaseLayout`](crate::layout::BaseLayout) has.
+    ///
+    /// An arc of a single edge is not divided. Where such arcs join the same nodes, both stay.
+    pub fn simple_complex(surface: &QuadSurface) -> Self {
+        let mut walls = base::walls(surface);
+        walls.rectangles(LineEnd::Closed);
+        while walls.divide_parallel_arcs() {}
+        Self::between(walls, LineEnd::Closed)
+    }
+
     fn between(mut walls: Walls, end: LineEnd) -> Self {
         let rectangles = walls.rectangles(end);
         let surface = walls.surface;
-        let vertices = 0..surface.positions().len();
-        let nodes: Vec<u32> = vertices
-            .filter(|&v| walls.is_node(v))
-            .map(|v| v as u32)
-            .collect();
+        let nodes = walls.nodes();
         let (arcs, arc_of) = arcs(&walls, &nodes);
         let mut patch_of = vec![NONE; surface.quads().len()];
         for (patch, rectangle) in rectangles.iter().enumerate() {
@@ -109,6 +123,40 @@ impl FoundLayout {
         }
     }
 
+    /// The layout whose vertices are the nodes and whose polygons are the patches, with all arcs drawn. That of
+    /// a [`simple_complex`](Self::simple_complex) leads back to quads.
+    ///
+    /// # Errors
+    /// Those of [`BaseLayout::new`], with the patch or the node: where arcs join the same nodes, where patches have a
+    /// node twice, and where there are T-junctions.
+    pub fn drawn(&self, surface: &QuadSurface) -> Result<DrawnLayout> {
+        let place = |&v: &u32| surface.positions()[v as usize];
+        let number = |v: u32| self.nodes.partition_point(|&node| node < v) as u32;
+        if let Some(patch) = self.patches.iter().position(LayoutPatch::has_t_junction) {
+            return Err(Error::InvalidArgument {
+                what: format!("patch {patch} has a T-junction on a side; a layout has none"),
+                index: Some(patch),
+            });
+        }
+        let corners = |patch: &LayoutPatch| patch.corners().map(number).to_vec();
+        let layout = BaseLayout::new(
+            self.nodes.iter().map(place).collect(),
+            self.patches.iter().map(corners).collect(),
+        )?;
+        let mut curves = Vec::with_capacity(self.arcs.len());
+        for arc in &self.arcs {
+            let [from, to] = arc.nodes.map(|node| node as usize);
+            if let Some(number) = layout.arc_between(from, to) {
+                let mut points: Vec<Vec3> = arc.vertices.iter().map(place).collect();
+                if layout.arcs()[number][0] as usize != from {
+                    points.reverse();
+                }
+                curves.push((number, points));
+            }
+        }
+        Ok(DrawnLayout { layout, curves })
+    }
+
     /// The number of nodes on sides of patches.
     pub fn t_junctions(&self) -> usize {
         let arcs = self.patches.iter().flat_map(|patch| &patch.sides);
@@ -117,7 +165,7 @@ impl FoundLayout {
 }
 
 /// The lines of walls between nodes, and the line of every half-edge that is a wall.
-fn arcs(walls: &Walls, nodes: &[u32]) -> (Vec<LayoutArc>, Vec<u32>) {
+pub(super) fn arcs(walls: &Walls, nodes: &[u32]) -> (Vec<LayoutArc>, Vec<u32>) {
     let surface = walls.surface;
     let mut node_of = vec![NONE; surface.positions().len()];
     for (node, &v) in nodes.iter().enumerate() {

@@ -109,7 +109,7 @@ fn inner(vertices: &[u32]) -> &[u32] {
 }
 
 /// Writes a file.
-pub(super) fn save(
+pub(in crate::layout) fn save(
     path: &Path,
     encode: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
 ) -> Result<()> {

@@ -33,6 +33,7 @@ mod walls;
 pub use drift::Drift;
 pub use error::FoundError;
 pub use layout::{FoundLayout, LayoutArc, LayoutPatch};
+pub(super) use layout_obj::save;
 pub use simplified::{Simplified, SimplifyOptions, simplify};
 pub use splines::{SplinePatches, SplineSurface};
 pub use surface::QuadSurface;

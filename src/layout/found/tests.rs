@@ -286,6 +286,49 @@ fn a_base_complex_is_what_flood_fill_finds() {
     }
 }
 
+/// The patches of the base complex, and of the simple one, which becomes a layout with every arc drawn.
+fn simple(quads: &Quads) -> [usize; 2] {
+    let surface = surface(quads);
+    let base = FoundLayout::base_complex(&surface);
+    let simple = FoundLayout::simple_complex(&surface);
+    let drawn = simple.drawn(&surface).unwrap();
+    assert_eq!(drawn.layout.polygons().len(), simple.patches.len());
+    assert_eq!(drawn.curves.len(), simple.arcs.len());
+    for (arc, points) in &drawn.curves {
+        let ends = drawn.layout.arcs()[*arc].map(|v| drawn.layout.positions()[v as usize]);
+        assert_eq!([points[0], points[points.len() - 1]], ends);
+    }
+    assert!(base.nodes.iter().all(|node| simple.nodes.contains(node)));
+    [base.patches.len(), simple.patches.len()]
+}
+
+#[test]
+fn arcs_that_join_the_same_nodes_are_divided() {
+    assert_eq!(simple(&cube(3)), [6, 6]);
+    assert_eq!(simple(&grid(5, 4, [false, false], 0)), [1, 1]);
+    assert_eq!(simple(&grid(5, 4, [true, false], 0)), [1, 3]);
+    assert_eq!(simple(&grid(5, 4, [true, true], 0)), [1, 9]);
+    for name in ["genus-2", "torus", "disk"] {
+        let [base, simple] = simple(&of_triangles(name, 60, 3));
+        assert!(base <= simple, "{name}");
+    }
+}
+
+#[test]
+fn what_is_no_layout_is_refused() {
+    let narrow = surface(&grid(5, 2, [false, true], 0));
+    let simple = FoundLayout::simple_complex(&narrow);
+    assert_eq!(
+        simple.drawn(&narrow).unwrap_err().code(),
+        "invalid_argument"
+    );
+    let torus = surface(&grid(6, 4, [true, true], 2));
+    let graph = FoundLayout::motorcycle_graph(&torus);
+    assert!(graph.t_junctions() > 0);
+    let error = graph.drawn(&torus).unwrap_err();
+    assert!(error.to_string().contains("T-junction"), "{error}");
+}
+
 #[test]
 fn strips_of_any_width_have_layouts() {
     let mut random = Random::new(3);

@@ -4,7 +4,10 @@
 //! a region. A region is then flat, and by the theorem of Gauss and Bonnet it is a rectangle with four corners, a ring
 //! without corners, or a whole torus. One more line opens a ring, and two open a torus.
 
+use std::collections::HashMap;
+
 use super::QuadSurface;
+use super::layout::{LayoutArc, arcs};
 use super::rectangle::Rectangle;
 
 const NONE: u32 = u32::MAX;
@@ -60,6 +63,52 @@ impl<'a> Walls<'a> {
                 pairs == [true, true]
             }
         }
+    }
+
+    /// The vertices that are nodes, in increasing order.
+    pub(super) fn nodes(&self) -> Vec<u32> {
+        let vertices = 0..self.surface.positions().len();
+        let nodes = vertices.filter(|&v| self.is_node(v));
+        nodes.map(|v| v as u32).collect()
+    }
+
+    /// Adds lines across the middles of arcs, so that those which join the same nodes, or return to their node, are
+    /// divided, except for one without an inner vertex. Gives whether there was one to divide.
+    pub(super) fn divide_parallel_arcs(&mut self) -> bool {
+        let (arcs, _) = arcs(self, &self.nodes());
+        let mut shortest: HashMap<[u32; 2], usize> = HashMap::new();
+        let ends = |arc: &LayoutArc| {
+            [
+                arc.nodes[0].min(arc.nodes[1]),
+                arc.nodes[0].max(arc.nodes[1]),
+            ]
+        };
+        for (number, arc) in arcs.iter().enumerate() {
+            let best = shortest.entry(ends(arc)).or_insert(number);
+            if arc.vertices.len() < arcs[*best].vertices.len() {
+                *best = number;
+            }
+        }
+        let mut is_divided = false;
+        for (number, arc) in arcs.iter().enumerate() {
+            let [from, to] = arc.nodes;
+            let inner = &arc.vertices[1..arc.vertices.len() - 1];
+            let is_simple = from != to && shortest[&ends(arc)] == number;
+            // A line across another arc may have divided this one.
+            if is_simple || inner.is_empty() || inner.iter().any(|&v| self.is_node(v as usize)) {
+                continue;
+            }
+            let middle = inner[inner.len() / 2] as usize;
+            let across = self.surface.around(middle).find(|&h| !self.is_wall[h]);
+            for h in across
+                .map(|h| self.line(h, LineEnd::Closed))
+                .unwrap_or_default()
+            {
+                self.add(h);
+            }
+            is_divided = true;
+        }
+        is_divided
     }
 
     /// The rectangles between the walls, after lines were added that open rings and tori.

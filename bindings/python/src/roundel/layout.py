@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Sequence
+from typing import Any, Sequence
 
 import numpy as np
 
@@ -13,6 +13,7 @@ from .arrays import indices32, pointer, reals
 from .errors import check
 from .mesh import as_mesh
 from .quads import Quads
+from .repair import Soup
 
 
 class BaseLayout:
@@ -44,6 +45,37 @@ class BaseLayout:
         layout = cls.__new__(cls)
         layout._handle = Handle.made("roundel_layout", lib.roundel_layout_read, path(file))
         return layout
+
+    @classmethod
+    def of_quads(cls, vertices: MeshLike, quads: Any = None, deviation: float = 0.0) -> BaseLayout:
+        """Finds the layout of quads, given as for `Soup`, with every arc drawn.
+
+        For a `deviation` of 0 it is the base complex; else a layout with the same irregular vertices and fewer
+        patches, whose arcs drift at most so many edges across the lines of the quads. An `Error` names the quad, the
+        edge or the vertex that is no part of a manifold of quads.
+
+        >>> import roundel
+        >>> made = roundel.quad(roundel.Mesh.shape("sphere", 1000), quads=300)
+        >>> layout = roundel.BaseLayout.of_quads(*made)
+        >>> len(layout.arcs) >= 12
+        True
+        """
+        soup = vertices if isinstance(vertices, Soup) and quads is None else Soup(vertices, quads)
+        given = (soup._handle.pointer, deviation, ffi.NULL)
+        layout = cls.__new__(cls)
+        layout._handle = Handle.made("roundel_layout", lib.roundel_layout_of_quads, *given)
+        return layout
+
+    def write(self, file: File) -> None:
+        """Writes an OBJ file, which `read` reads."""
+        check(lib.roundel_layout_write(self._handle.pointer, path(file)))
+
+    @property
+    def soup(self) -> Soup:
+        """The vertices and the polygons."""
+        made = Soup.__new__(Soup)
+        made._handle = Handle.made("roundel_soup", lib.roundel_layout_soup, self._handle.pointer)
+        return made
 
     @property
     def arcs(self) -> np.ndarray:
