@@ -163,6 +163,7 @@ fn every_source_that_is_named_is_there() {
                 "cli/",
                 "examples/",
                 "fuzz/",
+                "packaging/",
             ];
             if folders.iter().any(|folder| word.starts_with(folder)) {
                 let path = word.split(' ').next().unwrap();
