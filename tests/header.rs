@@ -1,5 +1,6 @@
 //! The committed C header agrees with the Rust code of the C interface, and every C and C++ compiler
-//! accepts it.
+//! accepts it. The flags of the compilers are those of Unix.
+#![cfg(unix)]
 
 use std::ffi::OsString;
 use std::fs;

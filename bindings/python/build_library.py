@@ -39,6 +39,11 @@ class LibraryHook(BuildHookInterface):
             build_data["force_include"][str(made / file)] = f"roundel/{file}"
         for licence in ("LICENSE-MIT", "LICENSE-APACHE", "THIRD-PARTY.md"):
             build_data["force_include"][str(ROOT / licence)] = f"roundel/{licence}"
+        if shutil.which("cargo"):
+            # The texts that go with the crates in the library, which cargo has.
+            texts = made / "THIRD-PARTY-LICENCES.txt"
+            subprocess.run([sys.executable, str(ROOT / "scripts/third-party"), "--texts", str(texts)], check=True)
+            build_data["force_include"][str(texts)] = f"roundel/{texts.name}"
         platform = sysconfig.get_platform().replace("-", "_").replace(".", "_")
         build_data["tag"] = f"py3-none-{platform}"
         build_data["pure_python"] = False

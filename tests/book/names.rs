@@ -93,6 +93,21 @@ fn the_contents_name_every_page() {
 }
 
 #[test]
+fn the_map_of_the_house_names_every_folder() {
+    let map = page("CONTRIBUTING.md");
+    let mut count = 0;
+    for entry in fs::read_dir(root().join("src")).unwrap() {
+        let entry = entry.unwrap();
+        if entry.path().is_dir() {
+            let row = format!("| `src/{}` |", entry.file_name().to_str().unwrap());
+            assert!(map.contains(&row), "{row}");
+            count += 1;
+        }
+    }
+    assert!(count > 20);
+}
+
+#[test]
 fn pictures_are_small() {
     let mut count = 0;
     for entry in fs::read_dir(root().join("docs/pictures")).unwrap() {
@@ -148,6 +163,7 @@ fn every_source_that_is_named_is_there() {
                 "cli/",
                 "examples/",
                 "fuzz/",
+                "packaging/",
             ];
             if folders.iter().any(|folder| word.starts_with(folder)) {
                 let path = word.split(' ').next().unwrap();

@@ -44,6 +44,8 @@ pub fn pages() -> Vec<(String, String)> {
     names.sort();
     for name in [
         "README.md",
+        "CONTRIBUTING.md",
+        "SECURITY.md",
         "bindings/python/README.md",
         "plugins/meshlab/README.md",
     ] {

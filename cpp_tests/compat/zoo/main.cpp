@@ -14,5 +14,11 @@ int main() {
     a_strategy_is_chosen_by_a_call_or_the_environment();
     functions_give_the_same_as_matrices();
     elements_sum_up();
+    a_matrix_is_solved_without_constraints();
+    products_are_those_of_dense_matrices();
+    copies_and_multiples_are_those_of_dense_matrices();
+    columns_visit_their_entries();
+    small_entries_are_removed();
+    streams_and_mathematics_come_along();
     return failures != 0;
 }

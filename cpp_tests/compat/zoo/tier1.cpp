@@ -187,14 +187,19 @@ void least_squares_and_a_second_solve() {
     const double energy =
         std::pow(x[0] - 0.4, 2) + std::pow(x[1] - 2.7, 2) + std::pow(x[0] - x[1] + x[2], 2);
     CHECK(near(solver.roundel_energy(), energy));
+    // `reg` times 5/3, the mean of the diagonal of A = B'B, is added to that diagonal.
     const double reg = 0.3;
     solver.solve(C, B, x, integers, reg);
     solver.solve(C, B, x, integers, reg, false);
     std::vector<double> same;
     Small full;
+    for (std::size_t i = 0; i < 3; ++i) {
+        full.A(i, i) += 0.5;
+    }
     COMISO::ConstrainedSolver other;
-    other.solve(full.C, full.A, same, full.b, full.integers, reg);
+    other.solve(full.C, full.A, same, full.b, full.integers);
     CHECK(near(x, same));
+    CHECK(!near(x, small.best(2.0)));
     solver.solve_const(C, B, x, integers, 0.0, false, false);
     CHECK(near(x, small.best(2.0)));
 
@@ -214,6 +219,18 @@ void least_squares_and_a_second_solve() {
     CHECK(near(same, small.best(2.0)));
     other.resolve(same);
     CHECK(near(same, small.best(2.0)));
+
+    // The fourth argument decides whether timings go to the log.
+    int lines = 0;
+    COMISO::set_roundel_log(
+        [&](const std::string& line) { lines += line.find("ms") < line.size(); });
+    other.resolve(same, constraint, small.b, false);
+    CHECK(near(same, small.best(2.0, 0.5)) && lines == 0);
+    other.resolve(same, constraint, small.b, true);
+    CHECK(near(same, small.best(2.0, 0.5)) && lines == 1);
+    other.resolve(same, constraint, small.b);
+    CHECK(lines == 2);
+    COMISO::set_roundel_log(nullptr);
 }
 
 namespace {

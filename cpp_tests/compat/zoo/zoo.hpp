@@ -24,6 +24,12 @@ void eigen_matrices_give_the_same();
 void a_strategy_is_chosen_by_a_call_or_the_environment();
 void functions_give_the_same_as_matrices();
 void elements_sum_up();
+void a_matrix_is_solved_without_constraints();
+void products_are_those_of_dense_matrices();
+void copies_and_multiples_are_those_of_dense_matrices();
+void columns_visit_their_entries();
+void small_entries_are_removed();
+void streams_and_mathematics_come_along();
 
 using RowMatrix = gmm::row_matrix<gmm::wsvector<double>>;
 using ColMatrix = gmm::col_matrix<gmm::wsvector<double>>;

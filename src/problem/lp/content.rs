@@ -49,9 +49,8 @@ pub(super) fn parse_text(reader: &mut dyn BufRead) -> Result<NamedProblem> {
             }
         }
     }
-    if let (token, line) = tokens.next()?
-        && token != Token::EndOfFile
-    {
+    let (token, line) = tokens.next()?;
+    if token != Token::EndOfFile {
         return Err(fault(
             line,
             format!("{} stands behind `end`", text_of(&token)),

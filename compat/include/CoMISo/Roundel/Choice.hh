@@ -3,8 +3,8 @@
 #ifndef COMISO_ROUNDEL_CHOICE_HH
 #define COMISO_ROUNDEL_CHOICE_HH
 
+#include <CoMISo/Roundel/Rounding.hh>
 #include <CoMISo/Roundel/Settings.hh>
-#include <CoMISo/Solver/MISolver.hh>
 
 #include <roundel/roundel.hpp>
 
@@ -23,8 +23,8 @@ inline std::int64_t count_of(unsigned int value) {
 }
 
 /// The options that correspond to `settings`.
-inline ::roundel::Options options_for(const MISolver& settings) {
-    using Type = MISolver::RoundingType;
+inline ::roundel::Options options_for(const Rounding& settings) {
+    using Type = Rounding::RoundingType;
     ::roundel::Options options;
     const Type type = settings.get_rounding_type();
     if (type == Type::NONE) {
@@ -58,6 +58,14 @@ inline ::roundel::Options options_for(const MISolver& settings) {
         .set_cg_iterations(count_of(settings.get_cg_iters()))
         .set_cg_tolerance(settings.get_cg_error())
         .set_exact_steps(settings.get_iter_full() ? 1 : 0);
+}
+
+/// Writes to the log how long a solve took.
+inline void log_timings(const ::roundel::Options& options, const ::roundel::Solution& solution) {
+    const roundel_seconds seconds = solution.seconds();
+    log(*options.strategy + ": " + std::to_string(solution.counts().integers) + " integers, " +
+        std::to_string(seconds.eliminate * 1e3) + " ms for constraints, " +
+        std::to_string(seconds.total * 1e3) + " ms in all");
 }
 
 } // namespace roundel_detail

@@ -6,6 +6,8 @@
 
 #include <gmm/gmm.h>
 
+#include <roundel/roundel.hpp>
+
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
@@ -51,20 +53,9 @@ template <class Matrix> Entries eigen_entries(const Matrix& matrix) {
 
 #if defined(ROUNDEL_GMM_SHIM)
 
-template <class Vector> void add_entries(const gmm::row_matrix<Vector>& matrix, Entries& entries) {
-    for (std::size_t i = 0; i < matrix.nrows(); ++i) {
-        for (const auto& [j, value] : matrix.row(i)) {
-            entries.add(i, j, value);
-        }
-    }
-}
-
-template <class Vector> void add_entries(const gmm::col_matrix<Vector>& matrix, Entries& entries) {
-    for (std::size_t j = 0; j < matrix.ncols(); ++j) {
-        for (const auto& [i, value] : matrix.col(j)) {
-            entries.add(i, j, value);
-        }
-    }
+template <class Matrix> void add_entries(const Matrix& matrix, Entries& entries) {
+    matrix.for_each_entry(
+        [&](std::size_t i, std::size_t j, double value) { entries.add(i, j, value); });
 }
 
 #else
@@ -123,12 +114,13 @@ template <class Vector> std::vector<double> numbers_of(const Vector& vector) {
     return numbers;
 }
 
-/// Resizes `vector` and fills it.
-template <class Vector> void store(const std::vector<double>& numbers, Vector& vector) {
+/// Resizes `vector` and fills it with the values of a solution.
+template <class Vector> void store(const ::roundel::Solution& solution, Vector& vector) {
     using Size = decltype(vector.size());
-    vector.resize(static_cast<Size>(numbers.size()));
-    for (std::size_t i = 0; i < numbers.size(); ++i) {
-        vector[static_cast<Size>(i)] = numbers[i];
+    const auto values = solution.values();
+    vector.resize(static_cast<Size>(values.size()));
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        vector[static_cast<Size>(i)] = values[i];
     }
 }
 

@@ -86,28 +86,19 @@ inline void constrain(::roundel::Problem& problem, const Entries& constraints,
     problem.constrain(matrix, rows.right);
 }
 
-/// Adds the mean of A's two triangles, which should agree. `reg` times the mean of the diagonal is
-/// added to the diagonal.
-inline void add_quadratic(::roundel::Problem& problem, Entries&& matrix, std::size_t unknowns,
-                          double reg) {
+/// Adds the mean of A's two triangles, which should agree.
+inline void add_quadratic(::roundel::Problem& problem, Entries&& matrix, std::size_t unknowns) {
     if (matrix.rows != unknowns || matrix.cols != unknowns) {
         refuse(ROUNDEL_ERROR_LENGTH_MISMATCH, "the matrix has " + std::to_string(matrix.rows) +
                                                   " rows and " + std::to_string(matrix.cols) +
                                                   " columns for " + std::to_string(unknowns) +
                                                   " unknowns");
     }
-    double trace = 0.0;
     for (std::size_t k = 0; k < matrix.value.size(); ++k) {
         if (matrix.row[k] == matrix.col[k]) {
-            trace += matrix.value[k];
             matrix.value[k] *= 2.0;
         } else if (matrix.row[k] < matrix.col[k]) {
             std::swap(matrix.row[k], matrix.col[k]);
-        }
-    }
-    if (reg != 0.0) {
-        for (std::size_t i = 0; i < unknowns; ++i) {
-            matrix.add(i, i, 2.0 * reg * trace / static_cast<double>(unknowns));
         }
     }
     problem.quadratic(::roundel::Triangle::lower, ::roundel::span<const std::int64_t>(matrix.row),
@@ -115,10 +106,9 @@ inline void add_quadratic(::roundel::Problem& problem, Entries&& matrix, std::si
 }
 
 /// The problem of a matrix A and a right side b.
-inline ::roundel::Problem quadratic_problem(Entries&& matrix, const std::vector<double>& b,
-                                            double reg) {
+inline ::roundel::Problem quadratic_problem(Entries&& matrix, const std::vector<double>& b) {
     ::roundel::Problem problem(b.size());
-    add_quadratic(problem, std::move(matrix), b.size(), reg);
+    add_quadratic(problem, std::move(matrix), b.size());
     std::vector<double> linear(b.size());
     std::transform(b.begin(), b.end(), linear.begin(), [](double v) { return -2.0 * v; });
     problem.linear(linear);
@@ -126,7 +116,7 @@ inline ::roundel::Problem quadratic_problem(Entries&& matrix, const std::vector<
 }
 
 /// The problem that minimises the sum of squared rows, and the right side b of its normal equations
-/// A x = b.
+/// A x = b. `reg` times the mean of A's diagonal is added to that diagonal.
 inline ::roundel::Problem least_squares_problem(const Entries& matrix, double reg,
                                                 std::vector<double>& b) {
     if (matrix.cols < 2) {

@@ -31,6 +31,10 @@ namespace COMISO {
 /// roundel::Error that names the row, and leaves x unchanged.
 class COMISODLLEXPORT ConstrainedSolver {
   public:
+    /// The types of constraints and of A.
+    using RowMatrix = gmm::row_matrix<gmm::wsvector<double>>;
+    using CSCMatrix = gmm::csc_matrix<double>;
+
     /// Coefficients of integers are always divided by their common divisors, whatever the argument.
     explicit ConstrainedSolver(bool /*do_gcd*/ = true) {}
     ConstrainedSolver(const ConstrainedSolver&) = delete;
@@ -40,8 +44,8 @@ class COMISODLLEXPORT ConstrainedSolver {
     MISolver& misolver() { return settings_; }
     const MISolver& misolver() const { return settings_; }
 
-    /// Solves for x, which is resized. `reg` times the mean of the diagonal of A is added to the
-    /// diagonal. Timings go to the log (set_roundel_log). No dialog is shown.
+    /// Solves for x, which is resized. `reg` has no effect, as in CoMISo. Timings go to the log
+    /// (set_roundel_log). No dialog is shown.
     template <class Constraints, class Matrix, class Vector, class Right, class Indices,
               class = std::enable_if_t<!std::is_arithmetic_v<Indices>>>
     void solve(Constraints& constraints, Matrix& A, Vector& x, Right& b, Indices& idx_to_round,
@@ -53,17 +57,17 @@ class COMISODLLEXPORT ConstrainedSolver {
     template <class Constraints, class Matrix, class Vector, class Right, class Indices,
               class = std::enable_if_t<!std::is_arithmetic_v<Indices>>>
     void solve_const(const Constraints& constraints, const Matrix& A, Vector& x, const Right& b,
-                     const Indices& idx_to_round, double reg = 0.0,
+                     const Indices& idx_to_round, double /*reg*/ = 0.0,
                      bool /*show_miso_settings*/ = true, bool show_timings = true) {
         std::vector<double> right = roundel_detail::numbers_of(b);
-        auto problem = roundel_detail::quadratic_problem(roundel_detail::entries_of(A), right, reg);
+        auto problem = roundel_detail::quadratic_problem(roundel_detail::entries_of(A), right);
         shift_.assign(right.size(), 0.0);
         run(std::move(problem), roundel_detail::entries_of(constraints), idx_to_round, x,
             show_timings);
     }
 
     /// Solves least squares: minimises |B (x, 1)|^2, where the last column of B is the negated
-    /// right side.
+    /// right side. `reg` times the mean of the diagonal of A = B'B is added to the diagonal of A.
     template <class Constraints, class Matrix, class Vector, class Indices>
     void solve(Constraints& constraints, Matrix& B, Vector& x, Indices& idx_to_round,
                double reg = 0.0, bool show_miso_settings = true, bool show_timings = true) {
@@ -86,8 +90,8 @@ class COMISODLLEXPORT ConstrainedSolver {
     /// side that is left out or a null pointer stays unchanged. Integers are decided anew, while
     /// eliminations and factorizations are reused.
     template <class Vector, class Constraints = std::nullptr_t, class Right = std::nullptr_t>
-    void resolve(Vector& x, const Constraints& constraint_rhs = nullptr,
-                 const Right& rhs = nullptr) {
+    void resolve(Vector& x, const Constraints& constraint_rhs = nullptr, const Right& rhs = nullptr,
+                 bool show_timings = true) {
         if (!solver_) {
             roundel_detail::refuse(ROUNDEL_ERROR_INVALID_ARGUMENT,
                                    "resolve needs a solve before it");
@@ -103,7 +107,7 @@ class COMISODLLEXPORT ConstrainedSolver {
             }
             check(roundel_solver_set_linear(solver_.get(), numbers.data(), numbers.size()));
         }
-        answer(x, false);
+        answer(x, show_timings || settings_.get_stats());
     }
 
     /// Stores the smallest coefficient that counts. It has no effect: Roundel uses its own
@@ -162,15 +166,10 @@ class COMISODLLEXPORT ConstrainedSolver {
         const ::roundel::Options options = roundel_detail::options_for(settings_);
         const ::roundel::Solution solution =
             ::roundel::detail::solution_of(options, call, shift_.size(), nullptr);
-        const auto values = solution.values();
-        roundel_detail::store(std::vector<double>(values.begin(), values.end()), x);
+        roundel_detail::store(solution, x);
         energy_ = solution.energy();
         if (tell) {
-            const roundel_seconds seconds = solution.seconds();
-            roundel_detail::log(*options.strategy + ": " +
-                                std::to_string(solution.counts().integers) + " integers, " +
-                                std::to_string(seconds.eliminate * 1e3) + " ms for constraints, " +
-                                std::to_string(seconds.total * 1e3) + " ms in all");
+            roundel_detail::log_timings(options, solution);
         }
     }
 

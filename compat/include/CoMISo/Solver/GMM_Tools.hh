@@ -7,4 +7,8 @@
 
 #include <gmm/gmm.h>
 
+// Programs use these two without including them.
+#include <cmath>
+#include <iostream>
+
 #endif // COMISO_SOLVER_GMM_TOOLS_HH
