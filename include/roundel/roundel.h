@@ -1811,6 +1811,35 @@ roundel_status roundel_layout_read(const char *file,
                                    struct roundel_layout **layout);
 
 /**
+ * Finds the layout of a soup of quads: irregular vertices and the lines that leave them, with every arc drawn. For a
+ * `deviation` of 0 it is the base complex; else a layout with the same irregular vertices and fewer patches, whose arcs
+ * drift at most so many edges across the lines of the quads, infinity for any drift. Further lines divide arcs that
+ * join the same vertices. `monitor` may be NULL. To be freed with roundel_layout_free.
+ *
+ * Fails with ROUNDEL_ERROR_MESH and the quad, edge or vertex for what is no manifold of quads of one orientation, and
+ * with ROUNDEL_ERROR_INVALID_ARGUMENT for a deviation that is negative or no number, and for quads whose edges
+ * themselves join the same vertices.
+ */
+roundel_status roundel_layout_of_quads(const struct roundel_soup *quads,
+                                       double deviation,
+                                       const struct roundel_monitor *monitor,
+                                       struct roundel_layout **layout);
+
+/**
+ * Writes a layout as an OBJ file, which roundel_layout_read reads: its vertices and polygons, and a line for every arc
+ * whose course is given.
+ *
+ * Fails with ROUNDEL_ERROR_IO.
+ */
+roundel_status roundel_layout_write(const struct roundel_layout *layout,
+                                    const char *file);
+
+/**
+ * Gives the vertices and polygons of a layout as a soup, to be freed with roundel_soup_free.
+ */
+roundel_status roundel_layout_soup(const struct roundel_layout *layout, struct roundel_soup **soup);
+
+/**
  * Frees a layout. NULL is allowed.
  */
 roundel_status roundel_layout_free(struct roundel_layout *layout);

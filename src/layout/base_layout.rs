@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use crate::error::{Error, Result};
-use crate::mesh::vector::{Vec3, add, cross, scale, sub};
+use crate::mesh::vector::{Vec3, add, cross, norm, scale, sub};
 use crate::soup::PolygonSoup;
 
 /// An arc together with a direction: `2 a` runs along arc a from its first end to its second, `2 a + 1` back.
@@ -255,6 +255,15 @@ impl BaseLayout {
             .around(vertex)
             .filter_map(|dart| self.polygon_left_of(dart));
         polygons.map(|p| self.area_vector(p)).fold([0.0; 3], add)
+    }
+
+    /// The distance of a vertex from its nearest neighbour.
+    pub(crate) fn shortest_arc_at(&self, vertex: usize) -> f64 {
+        let tips = self
+            .around(vertex)
+            .map(|dart| self.tail(reversed(dart)) as usize);
+        let lengths = tips.map(|tip| norm(sub(self.positions[tip], self.positions[vertex])));
+        lengths.fold(f64::INFINITY, f64::min)
     }
 
     /// Where a vertex is after a step of subdivision (`catmull1978`): near the smooth surface of which the layout is a

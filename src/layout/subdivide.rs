@@ -3,14 +3,14 @@
 //! With l the length of arc e, h that of an edge of quads and n the number of edges, all integer and at least 1:
 //!
 //! ```text
-//! minimise   sum l_e (n_e - l_e / h)^2        (l_e over their mean)
+//! minimise   sum w_e (n_e - l_e / h)^2        (w_e: l_e over their mean, at least 1/2)
 //! subject to n of opposite sides of a patch with four sides are equal
 //!            n of side i of any other patch is the sum of its spokes i - 1 and i + 1
 //! ```
 //!
 //! A patch of other than four sides has an irregular vertex in its middle, from where a spoke leads to each side. Spoke
 //! i ends on side i, and divides it: the part next to side i - 1 is as long as spoke i - 1, the other as spoke i + 1.
-//! A spoke counts as an arc with a quarter of the weight, half as long as the two sides beside the one where it ends are
+//! A spoke counts as an arc with half of the weight, half as long as the two sides beside the one where it ends are
 //! on average.
 
 use super::base_layout::BaseLayout;
@@ -21,9 +21,12 @@ use crate::problem::Problem;
 use crate::search::{Options, SolveStatus, Strategy};
 use crate::solve::{Solution, solve_with};
 
-/// The weight of a spoke over that of an arc as long: a power of two. With a much smaller one the method for networks
-/// looks at steps of spokes that are far too long.
-const SPOKE: f64 = 0.25;
+/// The least weight. Where weights differ more, the method for networks looks at steps that are far too long, and
+/// a search takes its place.
+const LEAST_WEIGHT: f64 = 0.5;
+
+/// The weight of a spoke over that of an arc as long: a power of two.
+const SPOKE: f64 = 0.5;
 
 /// Lengths are rounded to this part of their mean, and of an edge: costs are then exact in few bits, and the
 /// polynomial method for networks can sum them.
@@ -210,10 +213,10 @@ impl<'a> Subdividing<'a> {
         solve_with(&problem, &options, monitor())
     }
 
-    /// The weight of an arc of this length: the mean has 1.
+    /// The weight of an arc of this length: that of the mean is 1.
     fn weight(&self, length: f64) -> f64 {
         let mean = self.lengths.iter().sum::<f64>() / self.lengths.len() as f64;
-        rounded(length / mean).max(QUANTUM)
+        rounded(length / mean).max(LEAST_WEIGHT)
     }
 
     /// The demands that may contradict each other: of patches first, then of fixed arcs.

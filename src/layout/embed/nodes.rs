@@ -88,18 +88,21 @@ pub(in crate::layout) fn place_nodes(
 
 /// The face and the point on it for a vertex of a layout. That is the closest point to the vertex, or to where
 /// subdivision moves it where that is nearer to the surface: the layout is then a control mesh. On thin parts the
-/// surface faces as the layout does.
+/// surface faces as the layout does, if it does so within half of the shortest arc.
 fn foot(
     inside: &ClosestPoint,
     mesh: &TriangleMesh,
     layout: &BaseLayout,
     vertex: usize,
 ) -> Option<(usize, Vec3)> {
-    let normal = layout.normal(vertex);
-    let reach = REACH * diagonal(mesh);
+    let (own, moved) = (layout.positions()[vertex], layout.subdivided(vertex));
+    let (normal, shortest) = (layout.normal(vertex), layout.shortest_arc_at(vertex));
     let faces_alike = |face: usize| dot(mesh.normal(face), normal) > 0.0;
-    let found = [layout.positions()[vertex], layout.subdivided(vertex)].map(|p| {
-        let alike = inside.find_wanted(p, reach, faces_alike);
+    // A neighbour far off the surface moves it anywhere.
+    let is_near = norm(sub(moved, own)) < shortest;
+    let found = [Some(own), is_near.then_some(moved)].map(|p| {
+        let p = p?;
+        let alike = inside.find_wanted(p, 0.5 * shortest, faces_alike);
         let (face, q) = alike.or_else(|| inside.find(p, None))?;
         Some((norm(sub(q, p)), face, q))
     });

@@ -92,12 +92,10 @@ impl FoundLayout {
 
     /// The base complex, divided by further lines until two nodes have one arc between them at most, and no arc returns
     /// to its node: the form that a [`BaseLayout`](crate::layout::BaseLayout) has.
-    ///
-    /// An arc of a single edge is not divided. Where such arcs join the same nodes, both stay.
     pub fn simple_complex(surface: &QuadSurface) -> Self {
         let mut walls = base::walls(surface);
         walls.rectangles(LineEnd::Closed);
-        while walls.divide_parallel_arcs() {}
+        while walls.divide_a_parallel_arc() {}
         Self::between(walls, LineEnd::Closed)
     }
 
@@ -127,8 +125,8 @@ impl FoundLayout {
     /// a [`simple_complex`](Self::simple_complex) leads back to quads.
     ///
     /// # Errors
-    /// Those of [`BaseLayout::new`], with the patch or the node: where arcs join the same nodes, where patches have a
-    /// node twice, and where there are T-junctions.
+    /// Those of [`BaseLayout::new`], with the patch or the node, where arcs join the same nodes or a patch has a node
+    /// twice; [`Error::InvalidArgument`] with the patch for a T-junction.
     pub fn drawn(&self, surface: &QuadSurface) -> Result<DrawnLayout> {
         let place = |&v: &u32| surface.positions()[v as usize];
         let number = |v: u32| self.nodes.partition_point(|&node| node < v) as u32;

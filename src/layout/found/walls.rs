@@ -4,10 +4,10 @@
 //! a region. A region is then flat, and by the theorem of Gauss and Bonnet it is a rectangle with four corners, a ring
 //! without corners, or a whole torus. One more line opens a ring, and two open a torus.
 
-use std::collections::HashMap;
+use std::collections::HashSet;
 
 use super::QuadSurface;
-use super::layout::{LayoutArc, arcs};
+use super::layout::arcs;
 use super::rectangle::Rectangle;
 
 const NONE: u32 = u32::MAX;
@@ -72,43 +72,24 @@ impl<'a> Walls<'a> {
         nodes.map(|v| v as u32).collect()
     }
 
-    /// Adds lines across the middles of arcs, so that those which join the same nodes, or return to their node, are
-    /// divided, except for one without an inner vertex. Gives whether there was one to divide.
-    pub(super) fn divide_parallel_arcs(&mut self) -> bool {
-        let (arcs, _) = arcs(self, &self.nodes());
-        let mut shortest: HashMap<[u32; 2], usize> = HashMap::new();
-        let ends = |arc: &LayoutArc| {
-            [
-                arc.nodes[0].min(arc.nodes[1]),
-                arc.nodes[0].max(arc.nodes[1]),
-            ]
-        };
-        for (number, arc) in arcs.iter().enumerate() {
-            let best = shortest.entry(ends(arc)).or_insert(number);
-            if arc.vertices.len() < arcs[*best].vertices.len() {
-                *best = number;
-            }
-        }
-        let mut is_divided = false;
-        for (number, arc) in arcs.iter().enumerate() {
+    /// Adds a line across the middle of an arc that joins the same nodes as a shorter one, or returns to its node.
+    /// Gives whether there was one.
+    pub(super) fn divide_a_parallel_arc(&mut self) -> bool {
+        let (mut arcs, _) = arcs(self, &self.nodes());
+        arcs.sort_by_key(|arc| arc.vertices.len());
+        let mut joined = HashSet::new();
+        let parallel = arcs.iter().find(|arc| {
             let [from, to] = arc.nodes;
-            let inner = &arc.vertices[1..arc.vertices.len() - 1];
-            let is_simple = from != to && shortest[&ends(arc)] == number;
-            // A line across another arc may have divided this one.
-            if is_simple || inner.is_empty() || inner.iter().any(|&v| self.is_node(v as usize)) {
-                continue;
-            }
-            let middle = inner[inner.len() / 2] as usize;
-            let across = self.surface.around(middle).find(|&h| !self.is_wall[h]);
-            for h in across
-                .map(|h| self.line(h, LineEnd::Closed))
-                .unwrap_or_default()
-            {
-                self.add(h);
-            }
-            is_divided = true;
-        }
-        is_divided
+            !joined.insert([from.min(to), from.max(to)]) || from == to
+        });
+        let Some(arc) = parallel.filter(|arc| arc.vertices.len() > 2) else {
+            return false;
+        };
+        let middle = arc.vertices[arc.vertices.len() / 2] as usize;
+        let across = self.surface.around(middle).find(|&h| !self.is_wall[h]);
+        let line = across.map(|h| self.line(h, LineEnd::Closed));
+        line.into_iter().flatten().for_each(|h| self.add(h));
+        true
     }
 
     /// The rectangles between the walls, after lines were added that open rings and tori.
