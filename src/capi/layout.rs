@@ -113,9 +113,9 @@ pub unsafe extern "C" fn roundel_layout_read(
 /// drift at most so many edges across the lines of the quads, infinity for any drift. Further lines divide arcs that
 /// join the same vertices. `monitor` may be NULL. To be freed with roundel_layout_free.
 ///
-/// Fails with ROUNDEL_ERROR_MESH and the quad, edge or vertex for what is no manifold of quads of one orientation, and
-/// with ROUNDEL_ERROR_INVALID_ARGUMENT for a deviation that is negative or no number, and for quads whose edges
-/// themselves join the same vertices.
+/// Fails as roundel_mesh_new does, with the quad, edge or vertex, for what is no manifold of one orientation; with
+/// ROUNDEL_ERROR_INVALID_ARGUMENT and the polygon for one that is no quad, and for a deviation that is negative or no
+/// number.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_layout_of_quads(
     quads: *const roundel_soup,

@@ -103,8 +103,9 @@ static void layouts_of_quads_are_checked(fixture* f) {
     BAD(f, roundel_layout_of_quads(cube, 0.0, NULL, NULL), null, "layout", NONE);
     BAD(f, roundel_layout_of_quads(cube, -1.0, NULL, &layout), invalid, "deviation", NONE);
     BAD(f, roundel_layout_of_quads(cube, NAN, NULL, &layout), invalid, "deviation", NONE);
-    BAD(f, roundel_layout_of_quads(pentagon, 0.0, NULL, &layout), ROUNDEL_ERROR_MESH, "5", 0);
-    BAD(f, roundel_layout_of_quads(quad, 0.0, NULL, &layout), ROUNDEL_ERROR_MESH, "vertex", 4);
+    BAD(f, roundel_layout_of_quads(pentagon, 0.0, NULL, &layout), invalid, "5", 0);
+    BAD(f, roundel_layout_of_quads(quad, 0.0, NULL, &layout), ROUNDEL_ERROR_ISOLATED_VERTEX,
+        "vertex", 4);
     HOLDS(layout == NULL);
     GOOD(roundel_layout_of_quads(cube, 0.0, NULL, &layout));
     GOOD(roundel_layout_arc_count(layout, &count));
