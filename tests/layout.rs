@@ -160,19 +160,58 @@ fn an_arc_follows_the_course_that_is_given() {
     };
     let radius = mesh.bounding_box()[1][0];
     let course = [a, middle, b].map(|p| on(p).map(|x| radius * x));
-    let options = LayoutOptions {
-        curves: vec![(arc, course.to_vec())],
-        ..sized(LayoutSizing::Quads(600))
-    };
-    let found = solve(&mesh, &layout, &options).unwrap();
-    hold(&found, "sphere");
     let nearest = |points: &[Vec3]| {
         let off = points
             .iter()
             .map(|p| (0..3).map(|k| (p[k] - course[1][k]).powi(2)).sum::<f64>());
         off.fold(f64::INFINITY, f64::min).sqrt()
     };
-    assert!(nearest(&found.arcs[arc]) < 0.02 * radius);
+    for (hold_curves, most) in [(true, 0.02), (false, 0.1)] {
+        let options = LayoutOptions {
+            curves: vec![(arc, course.to_vec())],
+            hold_curves,
+            ..sized(LayoutSizing::Quads(600))
+        };
+        let found = solve(&mesh, &layout, &options).unwrap();
+        hold(&found, "sphere");
+        assert!(nearest(&found.arcs[arc]) < most * radius, "{hold_curves}");
+    }
+}
+
+/// A torus of `columns` times `rows` patches about the z axis.
+fn torus_layout(columns: usize, rows: usize, [great, small]: [f64; 2]) -> BaseLayout {
+    let angle = |i: usize, n: usize| std::f64::consts::TAU * i as f64 / n as f64;
+    let at = |i: usize, j: usize| (j % rows * columns + i % columns) as u32;
+    let positions = (0..columns * rows).map(|v| {
+        let (s, c) = angle(v % columns, columns).sin_cos();
+        let (z, r) = angle(v / columns, rows).sin_cos();
+        [(great + small * r) * c, (great + small * r) * s, small * z]
+    });
+    let polygons = (0..columns * rows).map(|p| {
+        let (i, j) = (p % columns, p / columns);
+        vec![at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)]
+    });
+    BaseLayout::new(positions.collect(), polygons.collect()).unwrap()
+}
+
+#[test]
+fn a_torus_is_covered_by_patches_around_it() {
+    let mesh = shape::by_name("torus", 2_000).unwrap();
+    let [low, high] = mesh.bounding_box();
+    let small = 0.5 * (high[2] - low[2]);
+    let layout = torus_layout(5, 3, [high[0] - small, small]);
+    for (asked, quads) in [
+        (LayoutSizing::Fewest, 15..16),
+        (LayoutSizing::Quads(900), 700..1100),
+    ] {
+        let found = solve(&mesh, &layout, &sized(asked)).unwrap();
+        hold(&found, "torus");
+        assert!(
+            quads.contains(&found.quads.quads.len()),
+            "{}",
+            found.quads.quads.len()
+        );
+    }
 }
 
 #[test]
@@ -212,6 +251,7 @@ fn layouts_that_do_not_fit_name_what_is_wrong() {
     };
     let options = LayoutOptions {
         curves: vec![crossing(0, 1), crossing(0, 1)],
+        hold_curves: true,
         ..LayoutOptions::default()
     };
     let error = solve(&sphere, &layout, &options).unwrap_err();
@@ -224,6 +264,7 @@ fn layouts_that_do_not_fit_name_what_is_wrong() {
     };
     let options = LayoutOptions {
         curves: vec![through(0, 1), through(2, 3)],
+        hold_curves: true,
         ..LayoutOptions::default()
     };
     let error = solve(&sphere, &layout, &options).unwrap_err();
@@ -232,10 +273,18 @@ fn layouts_that_do_not_fit_name_what_is_wrong() {
     let far = (arc(0, 1), vec![[0.0; 3], [9.0; 3], [0.0; 3]]);
     let options = LayoutOptions {
         curves: vec![far],
+        hold_curves: true,
         ..LayoutOptions::default()
     };
     let error = solve(&sphere, &layout, &options).unwrap_err();
     assert!(error.to_string().contains("off the surface"), "{error}");
+    let not_finite = (arc(0, 1), vec![[0.0; 3], [f64::NAN; 3], [0.0; 3]]);
+    let options = LayoutOptions {
+        curves: vec![not_finite],
+        ..LayoutOptions::default()
+    };
+    let error = solve(&sphere, &layout, &options).unwrap_err();
+    assert_eq!(error.index(), Some(arc(0, 1)), "{error}");
     let options = LayoutOptions {
         curves: vec![(12, Vec::new())],
         ..LayoutOptions::default()

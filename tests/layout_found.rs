@@ -8,9 +8,11 @@ use std::collections::BTreeSet;
 
 use common::archive::{MISSING, archive};
 use roundel::layout::found::{FoundLayout, QuadSurface, SimplifyOptions, SplinePatches, simplify};
+use roundel::layout::{LayoutOptions, LayoutSizing, layout_quads};
 use roundel::map::Sizing;
 use roundel::mesh::{TriangleMesh, io, shape};
 use roundel::quad::{QuadOptions, quadrangulate};
+use roundel::smooth::QuadQuality;
 use roundel::{Error, Monitor};
 
 fn quads_of(mesh: &TriangleMesh, quads: usize) -> QuadSurface {
@@ -77,6 +79,52 @@ fn a_simplified_layout_has_the_same_irregular_vertices_and_a_third_of_the_patche
         let mesh = shape::by_name(name, 4 * quads).unwrap();
         let [base, simplified] = patches(&quads_of(&mesh, quads));
         assert!(3 * simplified <= base, "{name}: {simplified} of {base}");
+    }
+}
+
+/// The layout of these quads leads back to quads on the mesh, four times as many, with the same base complex.
+fn check_round_trip(mesh: &TriangleMesh, surface: &QuadSurface, name: &str) {
+    let base = FoundLayout::base_complex(surface);
+    let drawn = FoundLayout::simple_complex(surface).drawn(surface).unwrap();
+    let options = LayoutOptions {
+        sizing: LayoutSizing::Quads(4 * surface.quads().len()),
+        curves: drawn.curves,
+        ..LayoutOptions::default()
+    };
+    let made = layout_quads(mesh, &drawn.layout, &options, Monitor::default).unwrap();
+    assert!(made.is_as_prescribed && made.folded == 0, "{name}");
+    assert!(made.subdivisions.is_optimal, "{name}");
+    assert_eq!(QuadQuality::new(&made.quads).inverted, 0, "{name}");
+    let finer = QuadSurface::new(made.quads.vertices, made.quads.quads).unwrap();
+    let again = FoundLayout::base_complex(&finer);
+    assert_eq!(again.nodes.len(), base.nodes.len(), "{name}");
+    assert_eq!(again.arcs.len(), base.arcs.len(), "{name}");
+    assert_eq!(again.patches.len(), base.patches.len(), "{name}");
+}
+
+#[test]
+fn layouts_of_quads_lead_back_to_quads() {
+    for (name, quads) in [("torus", 300), ("genus-3", 800)] {
+        let mesh = shape::by_name(name, 4 * quads).unwrap();
+        let surface = quads_of(&mesh, quads);
+        check_round_trip(&mesh, &surface, name);
+        let fewer = simplify(&surface, &SimplifyOptions::default(), Monitor::default).unwrap();
+        check_round_trip(&mesh, &fewer.surface, name);
+    }
+}
+
+#[test]
+#[ignore = "minutes in builds without optimisation"]
+fn layouts_of_quads_of_meshes_of_the_demos_lead_back_to_quads() {
+    let Some(archive) = archive() else {
+        return common::skip::skip_unless_ci(MISSING);
+    };
+    for name in ["fandisk", "rockerarm", "3holes", "bunny00"] {
+        let mesh = io::read(archive.join(format!("{name}.off"))).unwrap();
+        let surface = quads_of(&mesh, 2000);
+        check_round_trip(&mesh, &surface, name);
+        let fewer = simplify(&surface, &SimplifyOptions::default(), Monitor::default).unwrap();
+        check_round_trip(&mesh, &fewer.surface, name);
     }
 }
 

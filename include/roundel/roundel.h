@@ -1816,9 +1816,9 @@ roundel_status roundel_layout_read(const char *file,
  * drift at most so many edges across the lines of the quads, infinity for any drift. Further lines divide arcs that
  * join the same vertices. `monitor` may be NULL. To be freed with roundel_layout_free.
  *
- * Fails with ROUNDEL_ERROR_MESH and the quad, edge or vertex for what is no manifold of quads of one orientation, and
- * with ROUNDEL_ERROR_INVALID_ARGUMENT for a deviation that is negative or no number, and for quads whose edges
- * themselves join the same vertices.
+ * Fails as roundel_mesh_new does, with the quad, edge or vertex, for what is no manifold of one orientation; with
+ * ROUNDEL_ERROR_INVALID_ARGUMENT and the polygon for one that is no quad, and for a deviation that is negative or no
+ * number.
  */
 roundel_status roundel_layout_of_quads(const struct roundel_soup *quads,
                                        double deviation,
@@ -1866,13 +1866,20 @@ roundel_status roundel_layout_fix_arc(struct roundel_layout *layout,
 
 /**
  * Gives the course of an arc: `point_count` points near the surface, x, y, z in turn, from the first end of the arc to
- * the second. It starts and ends at the vertices of the layout, whatever the first and the last point are. No points
- * leave the course free again.
+ * the second. It starts and ends at the vertices of the layout, whatever the first and the last point are, and goes
+ * about that way, unless roundel_layout_hold_arcs keeps it there. No points leave the course free again.
  */
 roundel_status roundel_layout_draw_arc(struct roundel_layout *layout,
                                        size_t arc,
                                        size_t point_count,
                                        const double *coordinates);
+
+/**
+ * Keeps all arcs whose course is given on it, for `held` other than 0: the courses are cut into the mesh. They must not
+ * touch each other between their ends. By default arcs slide.
+ */
+roundel_status roundel_layout_hold_arcs(struct roundel_layout *layout,
+                                        int32_t held);
 
 /**
  * Makes quads on a mesh that follow a layout: about `quad_count` of them, or as few as the layout allows for 0.

@@ -274,8 +274,8 @@ pub unsafe extern "C" fn roundel_layout_fix_arc(
 }
 
 /// Gives the course of an arc: `point_count` points near the surface, x, y, z in turn, from the first end of the arc to
-/// the second. It starts and ends at the vertices of the layout, whatever the first and the last point are. No points
-/// leave the course free again.
+/// the second. It starts and ends at the vertices of the layout, whatever the first and the last point are, and goes
+/// about that way, unless roundel_layout_hold_arcs keeps it there. No points leave the course free again.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn roundel_layout_draw_arc(
     layout: *mut roundel_layout,
@@ -297,6 +297,21 @@ pub unsafe extern "C" fn roundel_layout_draw_arc(
     };
     // SAFETY: the caller gives a live handle that nobody else uses, or NULL.
     unsafe { ask(layout, arc, change) }
+}
+
+/// Keeps all arcs whose course is given on it, for `held` other than 0: the courses are cut into the mesh. They must not
+/// touch each other between their ends. By default arcs slide.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_layout_hold_arcs(
+    layout: *mut roundel_layout,
+    held: i32,
+) -> roundel_status {
+    let body = |asked: &mut Asked| {
+        asked.options.hold_curves = held != 0;
+        Ok(())
+    };
+    // SAFETY: the caller gives a live handle that nobody else uses, or NULL.
+    unsafe { guard::write(layout, body) }
 }
 
 /// Makes quads on a mesh that follow a layout: about `quad_count` of them, or as few as the layout allows for 0.

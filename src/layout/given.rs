@@ -20,8 +20,8 @@ pub(super) struct GivenCurves {
 
 impl GivenCurves {
     /// # Errors
-    /// With the arc, those of drawing and cutting; [`Error::IndexOutOfRange`] for an arc that is not there,
-    /// [`Error::InvalidArgument`] for one that is given twice, and for curves that end at a vertex in different places.
+    /// With the arc, those of drawing and cutting, and [`Error::InvalidArgument`] for curves that end at a vertex in
+    /// different places.
     pub fn new(
         mesh: &TriangleMesh,
         layout: &BaseLayout,
@@ -38,21 +38,7 @@ impl GivenCurves {
         }
         let feet = feet(mesh, layout);
         let mut drawn = Vec::with_capacity(curves.len());
-        for (position, (arc, points)) in curves.iter().enumerate() {
-            if *arc >= layout.arc_count() {
-                return Err(Error::IndexOutOfRange {
-                    what: "arcs with given curves",
-                    position,
-                    value: i64::try_from(*arc).unwrap_or(i64::MAX),
-                    len: layout.arc_count(),
-                });
-            }
-            if curves[..position].iter().any(|other| other.0 == *arc) {
-                return Err(Error::InvalidArgument {
-                    what: format!("two curves are given for arc {arc}"),
-                    index: Some(*arc),
-                });
-            }
+        for (arc, points) in curves {
             let [from, to] = layout.arcs()[*arc].map(|v| feet[v as usize]);
             let inner = points.get(1..points.len().saturating_sub(1)).unwrap_or(&[]);
             let all = [&[from], inner, &[to]].concat();

@@ -33,7 +33,8 @@ pub struct LayoutOptions {
     /// Arcs whose course is given: the arc, and points in space near the surface from its first end to its second. It
     /// starts and ends at the vertices of the layout, whatever the first and the last point are.
     pub curves: Vec<(usize, Vec<Vec3>)>,
-    /// Whether arcs with a given course stay on it; else that only decides which way they go.
+    /// Whether arcs with a given course are cut into the mesh and stay there; else they only go about that way, and
+    /// slide.
     pub hold_curves: bool,
     /// Whether vertices of the layout with four patches stay where they are, too; else they slide on the surface, as
     /// arcs do. Irregular vertices and those of the boundary stay always.
@@ -50,7 +51,7 @@ impl Default for LayoutOptions {
             sizing: LayoutSizing::Quads(1000),
             fixed: Vec::new(),
             curves: Vec::new(),
-            hold_curves: true,
+            hold_curves: false,
             hold_regular: false,
             smooth: Some(SmoothOptions::default()),
             threads: 0,
@@ -108,19 +109,23 @@ fn on_threads<'a>(
     let monitor = || monitor().of_run(&run);
     let (_watch, _memory) = (monitor().watch(), mesh.watch_memory());
     may_continue()?;
-    check(options)?;
+    check(given_layout, options)?;
     check_topology(mesh, given_layout)?;
     let layout = match is_turned_over(mesh, given_layout) {
         true => given_layout.turned_over(),
         false => given_layout.clone(),
     };
-    let curves = GivenCurves::new(mesh, &layout, &options.curves, &monitor())?;
+    let (held, guides): (&[_], &[_]) = match options.hold_curves {
+        true => (&options.curves, &[]),
+        false => (&[], &options.curves),
+    };
+    let curves = GivenCurves::new(mesh, &layout, held, &monitor())?;
     let cut = curves.mesh(mesh);
     let mut surface = Surface::new(cut);
     let nodes = place_nodes(cut, &layout, &curves.nodes, &mut surface)?;
     let embedding = run.with_share([0.0, 0.3], || {
         let _span = span("embed");
-        embed(&layout, surface, nodes, &curves.chains)
+        embed(&layout, surface, nodes, &curves.chains, guides)
     })?;
     let lengths: Vec<f64> = embedding
         .chains
@@ -156,10 +161,7 @@ fn on_threads<'a>(
     let origins = |face: u32| curves.original(all.surface.origin[face as usize]);
     bring_back(&mut quads, mesh, &refined, origins);
     if let Some(smoothing) = &options.smooth {
-        let features = match options.hold_curves {
-            true => curves.features(mesh),
-            false => Vec::new(),
-        };
+        let features = curves.features(mesh);
         let smoothing = SmoothOptions {
             features: [features, smoothing.features.clone()].concat(),
             ..smoothing.clone()
@@ -187,7 +189,31 @@ fn on_threads<'a>(
     })
 }
 
-fn check(options: &LayoutOptions) -> Result<()> {
+fn check(layout: &BaseLayout, options: &LayoutOptions) -> Result<()> {
+    for (position, (arc, points)) in options.curves.iter().enumerate() {
+        if *arc >= layout.arc_count() {
+            return Err(Error::IndexOutOfRange {
+                what: "arcs with given courses",
+                position,
+                value: i64::try_from(*arc).unwrap_or(i64::MAX),
+                len: layout.arc_count(),
+            });
+        }
+        let is_twice = options.curves[..position]
+            .iter()
+            .any(|other| other.0 == *arc);
+        let is_finite = points.as_flattened().iter().all(|x| x.is_finite());
+        if is_twice || !is_finite {
+            let what = match is_finite {
+                true => format!("two courses are given for arc {arc}"),
+                false => format!("the course of arc {arc} has a coordinate that is not finite"),
+            };
+            return Err(Error::InvalidArgument {
+                what,
+                index: Some(*arc),
+            });
+        }
+    }
     let what = match options.sizing {
         LayoutSizing::Quads(0) => "the number of quads is 0; it must be at least 1".into(),
         LayoutSizing::EdgeLength(length) if !(length.is_finite() && length > 0.0) => {

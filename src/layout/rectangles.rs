@@ -194,7 +194,7 @@ impl Rectangles {
                 node: ends[i],
                 corners: inside.map(|(_, half)| half).collect(),
             };
-            let path = search.shortest(&self.surface, &from, &to);
+            let path = search.shortest(&self.surface, &from, &to, None);
             let path = path.ok_or_else(|| Error::InvalidArgument {
                 what: format!(
                     "patch {polygon} of the layout has no room for the spoke to its side {i}"

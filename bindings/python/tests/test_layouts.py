@@ -21,8 +21,10 @@ def test_quads_follow_a_layout(tmp_path):
         assert numbers[0] == 4 and numbers.min() > 0
         cube.fix_arc(0, 0)
         cube.draw_arc(0, [[-1, -1, -1], [-0.7, 0, -0.7], [-1, 1, -1]])
-        fewest, numbers = cube.quads(sphere, 0)
-        assert len(fewest) == 6 and np.all(numbers == 1)
+        for held in (False, True):
+            cube.hold_arcs(held)
+            fewest, numbers = cube.quads(sphere, 0)
+            assert len(fewest) == 6 and np.all(numbers == 1)
 
 
 def test_quads_have_a_layout_that_leads_back_to_quads(tmp_path):

@@ -53,6 +53,10 @@ pub struct AlongFlags {
     #[arg(long, value_name = "A-B=N", requires = "layout", value_parser = fix)]
     fix: Vec<[usize; 3]>,
 
+    /// Cut arcs whose course the file gives into the mesh, and keep them there; else they only go about that way
+    #[arg(long, requires = "layout")]
+    hold_arcs: bool,
+
     /// Keep vertices of the layout with four patches where they are, too; else they slide as arcs do
     #[arg(long, requires = "layout")]
     hold_vertices: bool,
@@ -127,6 +131,7 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
         },
         fixed: fixed(&layout, &flags.fix)?,
         curves,
+        hold_curves: flags.hold_arcs,
         hold_regular: flags.hold_vertices,
         smooth: (!flags.no_smooth).then(SmoothOptions::default),
         threads: flags.threads,

@@ -53,6 +53,8 @@ static void arcs_are_checked(fixture* f) {
     BAD(f, roundel_layout_fix_arc(NULL, 0, 3), null, "layout", NONE);
     BAD(f, roundel_layout_fix_arc(layout, 12, 3), range, "arcs", 0);
     BAD(f, roundel_layout_fix_arc(layout, 1, -1), ROUNDEL_ERROR_INVALID_ARGUMENT, "negative", 1);
+    BAD(f, roundel_layout_hold_arcs(NULL, 1), null, "layout", NONE);
+    GOOD(roundel_layout_hold_arcs(layout, 1));
     BAD(f, roundel_layout_draw_arc(NULL, 0, 2, course), null, "layout", NONE);
     BAD(f, roundel_layout_draw_arc(layout, 0, 2, NULL), null, "coordinates", NONE);
     BAD(f, roundel_layout_draw_arc(layout, 12, 2, course), range, "arcs", 0);

@@ -21,6 +21,7 @@ void quads_follow_a_layout() {
     const auto found = roundel::quads_of_layout(sphere, cube, 150);
     CHECK(found.quads.conforming() && found.quads.irregular_count() == 8);
     CHECK(found.subdivisions.size() == 12 && found.subdivisions[0] == 4);
+    CHECK(roundel::quads_of_layout(sphere, cube.hold_arcs(), 150).quads.conforming());
     const auto layout = roundel::BaseLayout::of_quads(cube.soup());
     layout.write("wrapper_layout.obj");
     CHECK(roundel::BaseLayout::read("wrapper_layout.obj").arcs().size() == 12);

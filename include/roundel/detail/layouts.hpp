@@ -88,11 +88,17 @@ class BaseLayout {
         return *this;
     }
 
-    /// Gives the course of an arc by points near the surface, x, y, z in turn, from its first end
-    /// to its second; no points leave it free.
+    /// Gives the way of an arc by points near the surface, x, y, z in turn, from its first end to
+    /// its second; no points leave it free.
     BaseLayout& draw_arc(std::size_t arc, span<const double> points, Status* status = nullptr) {
         detail::check(roundel_layout_draw_arc(handle_.get(), arc, points.size() / 3, points.data()),
                       status);
+        return *this;
+    }
+
+    /// Keeps arcs whose course is given on it; else they slide.
+    BaseLayout& hold_arcs(bool held = true, Status* status = nullptr) {
+        detail::check(roundel_layout_hold_arcs(handle_.get(), held ? 1 : 0), status);
         return *this;
     }
 

@@ -26,11 +26,11 @@ use std::collections::BinaryHeap;
 use super::base_layout::{BaseLayout, Dart, reversed};
 use crate::error::{Error, Result};
 use crate::linalg::DisjointSets;
-use crate::mesh::vector::{norm, sub};
+use crate::mesh::vector::{Vec3, norm, sub};
 use crate::monitor::may_continue_at;
 pub(in crate::layout) use nodes::{feet, is_turned_over, place_nodes};
 pub(in crate::layout) use path::reached;
-use path::{Path, Search, Sector, lay};
+use path::{Guide, Path, Search, Sector, lay};
 use regions::are_those_of;
 use surface::{NONE, Surface};
 
@@ -68,7 +68,7 @@ impl Embedding {
 /// Arcs that are given as chains of edges of the mesh: the arc, and the vertices from its first end to its second.
 pub(in crate::layout) type Given = Vec<(usize, Vec<u32>)>;
 
-/// Lays a layout on a mesh. `nodes` are vertices of `surface`.
+/// Lays a layout on a mesh. `nodes` are vertices of `surface`; arcs with a course in `guides` go about that way.
 ///
 /// # Errors
 /// [`Error::InvalidArgument`] with an arc that cannot be laid.
@@ -77,10 +77,12 @@ pub(in crate::layout) fn embed(
     surface: Surface,
     nodes: Vec<u32>,
     given: &Given,
+    guides: &[(usize, Vec<Vec3>)],
 ) -> Result<Embedding> {
     let mut start = Laying {
         layout,
         is_given: vec![false; layout.arc_count()],
+        guides: vec![None; layout.arc_count()],
         faces: surface.triangles.len(),
         embedding: Embedding {
             chains: vec![Vec::new(); layout.arc_count()],
@@ -89,6 +91,7 @@ pub(in crate::layout) fn embed(
         },
         search: Search::default(),
     };
+    start.guide(guides);
     start.take_given(given)?;
     start.take_boundary()?;
     if !start.is_consistent() {
@@ -117,6 +120,7 @@ pub(in crate::layout) fn embed(
 struct Laying<'a> {
     layout: &'a BaseLayout,
     is_given: Vec<bool>,
+    guides: Vec<Option<Guide>>,
     /// The number of faces when splits were last taken back.
     faces: usize,
     embedding: Embedding,
@@ -128,6 +132,7 @@ impl Clone for Laying<'_> {
         Laying {
             layout: self.layout,
             is_given: self.is_given.clone(),
+            guides: self.guides.clone(),
             faces: self.faces,
             embedding: self.embedding.clone(),
             search: Search::default(),
@@ -154,6 +159,15 @@ impl Laying<'_> {
         if self.embedding.surface.triangles.len() > GROWTH * self.faces {
             self.embedding.coarsen();
             self.faces = self.embedding.surface.triangles.len();
+        }
+    }
+
+    fn guide(&mut self, guides: &[(usize, Vec<Vec3>)]) {
+        for (arc, points) in guides {
+            let ends = self.layout.arcs()[*arc].map(|v| self.embedding.nodes[v as usize]);
+            let [from, to] = ends.map(|v| self.embedding.surface.position(v));
+            let inner = points.get(1..points.len().saturating_sub(1)).unwrap_or(&[]);
+            self.guides[*arc] = Guide::new([&[from], inner, &[to]].concat());
         }
     }
 
@@ -245,7 +259,9 @@ impl Laying<'_> {
 
     fn find(&mut self, arc: usize) -> Option<Path> {
         let [from, to] = self.sectors(arc);
-        self.search.shortest(&self.embedding.surface, &from, &to)
+        let guide = self.guides[arc].as_ref();
+        self.search
+            .shortest(&self.embedding.surface, &from, &to, guide)
     }
 
     /// Lays all arcs, the shortest first; if asked for, those that join nodes that are not joined yet before others.

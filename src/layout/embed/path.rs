@@ -10,6 +10,7 @@ use std::collections::BinaryHeap;
 
 use super::surface::{NONE, Surface, next, previous};
 use crate::layout::base_layout::Dart;
+use crate::mesh::closest_on_segment;
 use crate::mesh::vector::{Vec3, add, norm, scale, sub};
 
 /// The corners at a node between two arcs that follow each other, each by the half-edge where it begins.
@@ -55,6 +56,32 @@ impl Sector {
     }
 }
 
+/// The course that a path is to take, about: off it, every step counts more.
+#[derive(Debug, Clone)]
+pub(in crate::layout) struct Guide {
+    points: Vec<Vec3>,
+    reach: f64,
+}
+
+/// The distance from a course, as a part of its length, at which a step counts twice.
+const REACH: f64 = 0.1;
+
+impl Guide {
+    /// From points of the course, if they are not all one.
+    pub fn new(points: Vec<Vec3>) -> Option<Self> {
+        let steps = points.windows(2).map(|pair| norm(sub(pair[1], pair[0])));
+        let reach = REACH * steps.sum::<f64>();
+        (reach > 0.0).then_some(Guide { points, reach })
+    }
+
+    /// What a step to a point counts over its length.
+    fn factor(&self, p: Vec3) -> f64 {
+        let pieces = self.points.windows(2);
+        let off = pieces.map(|pair| norm(sub(p, closest_on_segment([pair[0], pair[1]], p))));
+        1.0 + off.fold(f64::INFINITY, f64::min) / self.reach
+    }
+}
+
 /// A point of a path.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::layout) enum Point {
@@ -63,7 +90,7 @@ pub(in crate::layout) enum Point {
     Middle(u32, u32),
 }
 
-/// A path and its length.
+/// A path and its length, in which steps count as its guide says.
 #[derive(Debug, Clone)]
 pub(in crate::layout) struct Path {
     pub points: Vec<Point>,
@@ -112,11 +139,18 @@ struct Run<'a> {
     queue: BinaryHeap<Entry>,
     to: &'a Sector,
     goal: Vec3,
+    guide: Option<&'a Guide>,
 }
 
 impl Search {
     /// The shortest path between two sectors, if there is one.
-    pub fn shortest(&mut self, surface: &Surface, from: &Sector, to: &Sector) -> Option<Path> {
+    pub fn shortest(
+        &mut self,
+        surface: &Surface,
+        from: &Sector,
+        to: &Sector,
+        guide: Option<&Guide>,
+    ) -> Option<Path> {
         let count = surface.positions.len() + surface.twin.len();
         self.touched
             .drain(..)
@@ -130,6 +164,7 @@ impl Search {
             queue: BinaryHeap::new(),
             to,
             goal: surface.position(to.node),
+            guide,
         };
         run.offer(from.node, from.node, 0.0);
         let start = run.queue.pop()?;
@@ -177,18 +212,25 @@ impl Run<'_> {
             let vertex = surface.tail(half);
             let is_end = vertex == self.to.node && self.to.corners.contains(&half);
             if vertex != point && (is_end || !surface.is_taken[vertex as usize]) {
-                let length = norm(sub(surface.position(vertex), at));
-                self.offer(vertex, point, so_far + length);
+                self.offer(
+                    vertex,
+                    point,
+                    so_far + self.step(at, surface.position(vertex)),
+                );
             }
             let other = surface.twin[half as usize];
             if other != NONE && surface.may_be_split(half) {
                 let middle = surface.positions.len() as u32 + half.min(other);
                 if middle != point {
-                    let length = norm(sub(self.place(middle), at));
-                    self.offer(middle, point, so_far + length);
+                    self.offer(middle, point, so_far + self.step(at, self.place(middle)));
                 }
             }
         }
+    }
+
+    /// What a step counts.
+    fn step(&self, from: Vec3, to: Vec3) -> f64 {
+        norm(sub(to, from)) * self.guide.map_or(1.0, |guide| guide.factor(to))
     }
 
     fn offer(&mut self, point: u32, from: u32, length: f64) {

@@ -89,12 +89,16 @@ class BaseLayout:
         check(lib.roundel_layout_fix_arc(self._handle.pointer, arc, edges))
 
     def draw_arc(self, arc: int, points: ArrayLike) -> None:
-        """Gives the course of an arc by points near the surface, of shape (points, 3); no points leave it free.
+        """Gives the way of an arc by points near the surface, of shape (points, 3); no points leave it free.
 
         It runs from the first end of the arc to the second, at the vertices of the layout.
         """
         given = reals(points, "points of the arc", (-1, 3))
         check(lib.roundel_layout_draw_arc(self._handle.pointer, arc, len(given), pointer(given)))
+
+    def hold_arcs(self, held: bool = True) -> None:
+        """Keeps arcs whose course is given on it; else they slide."""
+        check(lib.roundel_layout_hold_arcs(self._handle.pointer, int(held)))
 
     def quads(self, mesh: MeshLike, quads: int = 1000) -> tuple[Quads, np.ndarray]:
         """Makes about `quads` quads on a mesh that follow the layout, or as few as it allows for 0.
