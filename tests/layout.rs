@@ -215,6 +215,32 @@ fn a_torus_is_covered_by_patches_around_it() {
 }
 
 #[test]
+fn vertices_may_be_well_off_their_best_places() {
+    let mesh = shape::by_name("torus", 4_000).unwrap();
+    let [low, high] = mesh.bounding_box();
+    let small = 0.5 * (high[2] - low[2]);
+    let even = torus_layout(12, 5, [high[0] - small, small]);
+    let wave = |v: usize, k: usize| (7.0 * v as f64 + 3.0 * k as f64).sin();
+    let moved = even
+        .positions()
+        .iter()
+        .enumerate()
+        .map(|(v, p)| [0, 1, 2].map(|k| p[k] + 0.25 * small * wave(v, k)));
+    let layout = BaseLayout::new(moved.collect(), even.polygons().to_vec()).unwrap();
+    let found = solve(&mesh, &layout, &sized(LayoutSizing::Fewest)).unwrap();
+    hold(&found, "moved");
+    assert_eq!(found.quads.quads.len(), 60);
+    let total = |found: &LayoutQuads| found.lengths.iter().sum::<f64>();
+    let best = solve(&mesh, &even, &sized(LayoutSizing::Fewest)).unwrap();
+    assert!(
+        total(&found) < 1.5 * total(&best),
+        "{} {}",
+        total(&found),
+        total(&best)
+    );
+}
+
+#[test]
 fn layouts_that_do_not_fit_name_what_is_wrong() {
     let sphere = shape::by_name("sphere", 1_000).unwrap();
     let layout = box_around(&sphere);

@@ -6,6 +6,9 @@
 //! have their place after it. Arcs are then laid again, each in the two patches beside it, as long as that makes them
 //! shorter.
 //!
+//! No arc is shorter than it would be alone. Where some are much longer, all start again with those earlier
+//! (`joslin1999`), and the layout with the least sum of lengths is kept.
+//!
 //! | step | file |
 //! | --- | --- |
 //! | a mesh that is cut along arcs | `surface` |
@@ -27,7 +30,7 @@ use super::base_layout::{BaseLayout, Dart, reversed};
 use crate::error::{Error, Result};
 use crate::linalg::DisjointSets;
 use crate::mesh::vector::{Vec3, norm, sub};
-use crate::monitor::may_continue_at;
+use crate::monitor::{may_continue, may_continue_at};
 pub(in crate::layout) use nodes::{feet, is_turned_over, place_nodes};
 pub(in crate::layout) use path::reached;
 use path::{Guide, Path, Search, Sector, lay};
@@ -39,6 +42,15 @@ const ROUNDS: usize = 2;
 
 /// The part by which an arc must become shorter.
 const GAIN: f64 = 1e-2;
+
+/// How often all arcs are laid from the start.
+const STARTS: usize = 4;
+
+/// An arc is in trouble when it is so many times as long as it would be alone.
+const TROUBLED: f64 = 1.5;
+
+/// What the length of an arc counts in the order of arcs, each time that it was in trouble.
+const EARLIER: f64 = 0.25;
 
 /// Splits are taken back where there are so many times more faces than when that was last done.
 const GROWTH: usize = 2;
@@ -83,6 +95,7 @@ pub(in crate::layout) fn embed(
         layout,
         is_given: vec![false; layout.arc_count()],
         guides: vec![None; layout.arc_count()],
+        urgency: vec![1.0; layout.arc_count()],
         faces: surface.triangles.len(),
         embedding: Embedding {
             chains: vec![Vec::new(); layout.arc_count()],
@@ -104,23 +117,41 @@ pub(in crate::layout) fn embed(
             index: None,
         });
     }
-    let mut greedy = start.clone();
-    let mut laid = match greedy.lay_all(false) {
-        Ok(()) => greedy,
-        Err(_) => {
-            start.lay_all(true)?;
-            start
+    let alone = start.lengths_alone();
+    let mut best = start.laid()?;
+    let mut last = best.lengths();
+    for _ in 1..STARTS {
+        let is_troubled = |arc: usize| last[arc] > TROUBLED * alone[arc];
+        let troubled: Vec<usize> = (0..last.len()).filter(|&arc| is_troubled(arc)).collect();
+        if troubled.is_empty() {
+            break;
         }
-    };
-    laid.shorten()?;
-    laid.embedding.coarsen();
-    Ok(laid.embedding)
+        troubled
+            .into_iter()
+            .for_each(|arc| start.urgency[arc] *= EARLIER);
+        let Ok(next) = start.laid() else {
+            may_continue()?;
+            break;
+        };
+        last = next.lengths();
+        if sum(&last) < sum(&best.lengths()) {
+            best = next;
+        }
+    }
+    best.embedding.coarsen();
+    Ok(best.embedding)
+}
+
+fn sum(lengths: &[f64]) -> f64 {
+    lengths.iter().sum()
 }
 
 struct Laying<'a> {
     layout: &'a BaseLayout,
     is_given: Vec<bool>,
     guides: Vec<Option<Guide>>,
+    /// What the length of each arc counts in the order of arcs.
+    urgency: Vec<f64>,
     /// The number of faces when splits were last taken back.
     faces: usize,
     embedding: Embedding,
@@ -133,6 +164,7 @@ impl Clone for Laying<'_> {
             layout: self.layout,
             is_given: self.is_given.clone(),
             guides: self.guides.clone(),
+            urgency: self.urgency.clone(),
             faces: self.faces,
             embedding: self.embedding.clone(),
             search: Search::default(),
@@ -140,8 +172,8 @@ impl Clone for Laying<'_> {
     }
 }
 
-/// An arc that waits to be laid: whether it closes a cycle of arcs, the length when it was last looked at, in the
-/// order of positive floating-point numbers, and its number.
+/// An arc that waits to be laid: whether it closes a cycle of arcs, what its length counted when it was last looked at,
+/// in the order of positive floating-point numbers, and its number.
 type Waiting = Reverse<(bool, u64, usize)>;
 
 impl Laying<'_> {
@@ -152,6 +184,37 @@ impl Laying<'_> {
             chains,
         } = &self.embedding;
         are_those_of(self.layout, surface, nodes, chains)
+    }
+
+    /// The length of every arc that is laid.
+    fn lengths(&self) -> Vec<f64> {
+        let chains = self.embedding.chains.iter();
+        chains
+            .map(|chain| self.embedding.surface.chain_length(chain))
+            .collect()
+    }
+
+    /// The length of every arc if it is the first to be laid.
+    fn lengths_alone(&mut self) -> Vec<f64> {
+        let mut lengths = self.lengths();
+        for arc in 0..lengths.len() {
+            if self.embedding.chains[arc].is_empty() {
+                lengths[arc] = self.find(arc).map_or(f64::INFINITY, |path| path.length);
+            }
+        }
+        lengths
+    }
+
+    /// All arcs laid from here.
+    fn laid(&self) -> Result<Self> {
+        let mut laid = self.clone();
+        if laid.lay_all(false).is_err() {
+            may_continue()?;
+            laid = self.clone();
+            laid.lay_all(true)?;
+        }
+        laid.shorten()?;
+        Ok(laid)
     }
 
     /// Takes splits back where there are many.
@@ -274,7 +337,8 @@ impl Laying<'_> {
             if self.embedding.chains[arc].is_empty() {
                 let nodes = [a, b].map(|v| self.embedding.nodes[v]);
                 let [p, q] = nodes.map(|v| self.embedding.surface.position(v));
-                queue.push(Reverse((false, norm(sub(p, q)).to_bits(), arc)));
+                let least = self.urgency[arc] * norm(sub(p, q));
+                queue.push(Reverse((false, least.to_bits(), arc)));
             } else {
                 joined.join(a, b);
             }
@@ -291,8 +355,9 @@ impl Laying<'_> {
             let Some(path) = self.find(arc) else {
                 return Err(self.enclosed(arc));
             };
-            let now: Waiting = Reverse((is_cycle, path.length.to_bits(), arc));
-            if (is_cycle, path.length) > (was_cycle, f64::from_bits(known) * (1.0 + 1e-12)) {
+            let counted = self.urgency[arc] * path.length;
+            let now: Waiting = Reverse((is_cycle, counted.to_bits(), arc));
+            if (is_cycle, counted) > (was_cycle, f64::from_bits(known) * (1.0 + 1e-12)) {
                 queue.push(now);
                 continue;
             }
