@@ -6,8 +6,8 @@
 //! have their place after it. Arcs are then laid again, each in the two patches beside it, as long as that makes them
 //! shorter.
 //!
-//! No arc is shorter than it would be alone. Where some are much longer, all start again with those earlier
-//! (`joslin1999`), and the layout with the least sum of lengths is kept.
+//! No arc is shorter than it would be alone. Where some are much longer, or one is blocked even so, all start again with
+//! those earlier (`joslin1999`), and the layout with the least sum of lengths is kept.
 //!
 //! | step | file |
 //! | --- | --- |
@@ -45,6 +45,10 @@ const GAIN: f64 = 1e-2;
 
 /// How often all arcs are laid from the start.
 const STARTS: usize = 4;
+
+/// So many arcs are laid at most in starts that only make arcs shorter: those of fine layouts have little room to go
+/// wrong.
+const ARCS: usize = 4000;
 
 /// An arc is in trouble when it is so many times as long as it would be alone.
 const TROUBLED: f64 = 1.5;
@@ -118,32 +122,40 @@ pub(in crate::layout) fn embed(
         });
     }
     let alone = start.lengths_alone();
-    let mut best = start.laid()?;
-    let mut last = best.lengths();
-    for _ in 1..STARTS {
-        let is_troubled = |arc: usize| last[arc] > TROUBLED * alone[arc];
-        let troubled: Vec<usize> = (0..last.len()).filter(|&arc| is_troubled(arc)).collect();
-        if troubled.is_empty() {
+    let mut best = start.laid();
+    let mut blamed = to_blame(&best, &alone);
+    for starts in 2..=STARTS {
+        if blamed.is_empty() || (best.is_ok() && starts * layout.arc_count() > ARCS) {
             break;
         }
-        troubled
-            .into_iter()
-            .for_each(|arc| start.urgency[arc] *= EARLIER);
-        let Ok(next) = start.laid() else {
-            may_continue()?;
-            break;
+        blamed.iter().for_each(|&arc| start.urgency[arc] *= EARLIER);
+        let next = start.laid();
+        may_continue()?;
+        blamed = to_blame(&next, &alone);
+        let is_better = match (&next, &best) {
+            (Ok(next), Ok(best)) => next.length() < best.length(),
+            (Ok(_), Err(_)) => true,
+            (Err(_), _) => false,
         };
-        last = next.lengths();
-        if sum(&last) < sum(&best.lengths()) {
+        if is_better {
             best = next;
         }
     }
+    let mut best = best?;
     best.embedding.coarsen();
     Ok(best.embedding)
 }
 
-fn sum(lengths: &[f64]) -> f64 {
-    lengths.iter().sum()
+/// The arcs to be laid earlier: those that are much longer than `alone`, or the one that could not be laid.
+fn to_blame(found: &Result<Laying>, alone: &[f64]) -> Vec<usize> {
+    match found {
+        Ok(laid) => {
+            let lengths = laid.lengths();
+            let is_troubled = |&arc: &usize| lengths[arc] > TROUBLED * alone[arc];
+            (0..lengths.len()).filter(is_troubled).collect()
+        }
+        Err(error) => error.index().into_iter().collect(),
+    }
 }
 
 struct Laying<'a> {
@@ -194,6 +206,10 @@ impl Laying<'_> {
             .collect()
     }
 
+    fn length(&self) -> f64 {
+        self.lengths().iter().sum()
+    }
+
     /// The length of every arc if it is the first to be laid.
     fn lengths_alone(&mut self) -> Vec<f64> {
         let mut lengths = self.lengths();
@@ -229,8 +245,10 @@ impl Laying<'_> {
         for (arc, points) in guides {
             let ends = self.layout.arcs()[*arc].map(|v| self.embedding.nodes[v as usize]);
             let [from, to] = ends.map(|v| self.embedding.surface.position(v));
-            let inner = points.get(1..points.len().saturating_sub(1)).unwrap_or(&[]);
-            self.guides[*arc] = Guide::new([&[from], inner, &[to]].concat());
+            // Two ends alone say nothing of the way.
+            if let Some(inner @ [_, ..]) = points.get(1..points.len().saturating_sub(1)) {
+                self.guides[*arc] = Guide::new([&[from], inner, &[to]].concat());
+            }
         }
     }
 
