@@ -135,7 +135,6 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
         hold_regular: flags.hold_vertices,
         smooth: (!flags.no_smooth).then(SmoothOptions::default),
         threads: flags.threads,
-        ..LayoutOptions::default()
     };
     let started = Instant::now();
     progress.next_call(0.0, 1.0);
