@@ -36,41 +36,41 @@ pub struct AlongFlags {
     pub layout: Option<PathBuf>,
 
     /// About this many quads
-    #[arg(long, value_name = "N", default_value_t = 1000, requires = "layout")]
+    #[arg(long, value_name = "N", default_value_t = 1000, conflicts_with = "of")]
     #[arg(value_parser = clap::value_parser!(u32).range(1..))]
     quads: u32,
 
     /// Edges of about this length, in units of the mesh, instead of a number of quads
-    #[arg(long, value_name = "LENGTH", requires = "layout", conflicts_with_all = ["quads", "fewest"])]
+    #[arg(long, value_name = "LENGTH", conflicts_with_all = ["quads", "fewest", "of"])]
     edge_length: Option<f64>,
 
     /// As few quads as the layout allows
-    #[arg(long, requires = "layout", conflicts_with = "quads")]
+    #[arg(long, conflicts_with_all = ["quads", "of"])]
     fewest: bool,
 
     /// Fix the number of edges of quads between two vertices of the layout, counted from 1 as in its file; may be
     /// repeated
-    #[arg(long, value_name = "A-B=N", requires = "layout", value_parser = fix)]
+    #[arg(long, value_name = "A-B=N", conflicts_with = "of", value_parser = fix)]
     fix: Vec<[usize; 3]>,
 
     /// Cut arcs whose course the file gives into the mesh, and keep them there; else they only go about that way
-    #[arg(long, requires = "layout")]
+    #[arg(long, conflicts_with = "of")]
     hold_arcs: bool,
 
     /// Keep vertices of the layout with four patches where they are, too; else they slide as arcs do
-    #[arg(long, requires = "layout")]
+    #[arg(long, conflicts_with = "of")]
     hold_vertices: bool,
 
     /// Do not smooth the quads
-    #[arg(long, requires = "layout")]
+    #[arg(long, conflicts_with = "of")]
     no_smooth: bool,
 
     /// Write the mesh with the faces of each patch in a colour of their own: .ply or .off
-    #[arg(long, value_name = "PATCHES.ply", requires = "layout")]
+    #[arg(long, value_name = "PATCHES.ply", conflicts_with = "of")]
     colors: Option<PathBuf>,
 
     /// The largest number of threads; 0: one for each core
-    #[arg(long, value_name = "N", requires = "layout", default_value_t = 0)]
+    #[arg(long, value_name = "N", conflicts_with = "of", default_value_t = 0)]
     threads: usize,
 }
 

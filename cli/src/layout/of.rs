@@ -30,24 +30,24 @@ const TOLERANCE: f64 = 1e-3;
 #[derive(clap::Args)]
 pub struct OfFlags {
     /// The layout that is written
-    #[arg(long, value_name = "WORD", requires = "of", value_enum, default_value_t = Kind::Base)]
+    #[arg(long, value_name = "WORD", conflicts_with = "layout", value_enum, default_value_t = Kind::Base)]
     kind: Kind,
 
     /// The largest drift of the arcs of a simplified layout across the lines of the quads, in edges of quads
-    #[arg(long, value_name = "EDGES", requires = "of", value_parser = above_zero)]
+    #[arg(long, value_name = "EDGES", conflicts_with = "layout", value_parser = above_zero)]
     deviation: Option<f64>,
 
     /// The angle between quads, in degrees, from which on an edge stays a line of the quads of a simplified
     /// layout
-    #[arg(long, value_name = "DEGREES", requires = "of", value_parser = above_zero)]
+    #[arg(long, value_name = "DEGREES", conflicts_with = "layout", value_parser = above_zero)]
     features: Option<f64>,
 
     /// Write the quads with a group for every patch; those of a simplified layout are new ones that follow it
-    #[arg(long, value_name = "GROUPS.obj", requires = "of")]
+    #[arg(long, value_name = "GROUPS.obj", conflicts_with = "layout")]
     groups: Option<PathBuf>,
 
     /// Write every patch as a bicubic B-spline surface: .json, .step, or free-form surfaces in .obj
-    #[arg(long, value_name = "PATCHES", requires = "of")]
+    #[arg(long, value_name = "PATCHES", conflicts_with = "layout")]
     patches: Option<PathBuf>,
 
     /// The largest distance of these surfaces from the vertices of the quads [default: a thousandth of the
