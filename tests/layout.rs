@@ -1,5 +1,8 @@
 //! Quads that follow a base layout, on shapes and on meshes of the archive.
 
+#[cfg(feature = "mesh-io")]
+mod common;
+
 use roundel::layout::{BaseLayout, LayoutOptions, LayoutQuads, LayoutSizing, layout_quads};
 use roundel::mesh::vector::Vec3;
 use roundel::mesh::{TriangleMesh, shape};
@@ -238,6 +241,18 @@ fn vertices_may_be_well_off_their_best_places() {
         total(&found),
         total(&best)
     );
+}
+
+#[cfg(feature = "mesh-io")]
+#[test]
+fn patches_of_whole_legs_are_filled() {
+    let Some(archive) = common::archive::archive() else {
+        return common::skip::skip_unless_ci(common::archive::MISSING);
+    };
+    let cow = roundel::mesh::io::read(archive.join("cow.off")).unwrap();
+    let found = solve(&cow, &box_around(&cow), &sized(LayoutSizing::Fewest)).unwrap();
+    hold(&found, "cow");
+    assert_eq!(found.quads.quads.len(), 6);
 }
 
 #[test]

@@ -113,7 +113,7 @@ impl<'a> System<'a> {
             Err(error) => return Err(error),
         }
         let promised: f64 = slope.iter().zip(&step).map(|(g, s)| g * s).sum();
-        let start: Vec<f64> = self.coordinates.iter().map(|&i| x[i as usize]).collect();
+        let start = self.save(x);
         let change = self.moves.mul(&step);
         let mut length = 1.0;
         for _ in 0..HALVINGS {
@@ -124,7 +124,8 @@ impl<'a> System<'a> {
             }
             length *= 0.5;
         }
-        self.place(x, &start, &change, 0.0);
+        // The step may have no numbers.
+        self.restore(x, &start);
         Ok(before)
     }
 
