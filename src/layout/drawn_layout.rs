@@ -28,16 +28,17 @@ impl DrawnLayout {
     }
 
     fn encode(&self, mut out: impl Write) -> io::Result<()> {
-        let inner = |points: &[Vec3]| -> Vec<Vec3> {
-            let end = points.len().saturating_sub(1);
-            points.get(1..end).unwrap_or(&[]).to_vec()
-        };
-        let inner: Vec<Vec<Vec3>> = self
+        let inner: Vec<&[Vec3]> = self
             .curves
             .iter()
             .map(|(_, points)| inner(points))
             .collect();
-        for [x, y, z] in self.layout.positions().iter().chain(inner.iter().flatten()) {
+        for [x, y, z] in self
+            .layout
+            .positions()
+            .iter()
+            .chain(inner.iter().copied().flatten())
+        {
             writeln!(out, "v {x} {y} {z}")?;
         }
         for polygon in self.layout.polygons() {
@@ -51,7 +52,7 @@ impl DrawnLayout {
         for ((arc, _), inner) in self.curves.iter().zip(&inner) {
             let [from, to] = self.layout.arcs()[*arc];
             write!(out, "l {}", from + 1)?;
-            for _ in inner {
+            for _ in *inner {
                 write!(out, " {next}")?;
                 next += 1;
             }
@@ -59,4 +60,9 @@ impl DrawnLayout {
         }
         Ok(())
     }
+}
+
+/// What is between the ends.
+pub(super) fn inner<T>(course: &[T]) -> &[T] {
+    course.get(1..course.len().saturating_sub(1)).unwrap_or(&[])
 }

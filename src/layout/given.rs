@@ -1,6 +1,7 @@
 //! Arcs whose course is given, cut into the mesh as chains of edges.
 
 use super::base_layout::BaseLayout;
+use super::drawn_layout::inner;
 use super::embed::{Given, feet};
 use crate::error::{Error, Result};
 use crate::geodesic::{cut_along, draw_curve};
@@ -40,8 +41,7 @@ impl GivenCurves {
         let mut drawn = Vec::with_capacity(curves.len());
         for (arc, points) in curves {
             let [from, to] = layout.arcs()[*arc].map(|v| feet[v as usize]);
-            let inner = points.get(1..points.len().saturating_sub(1)).unwrap_or(&[]);
-            let all = [&[from], inner, &[to]].concat();
+            let all = [&[from], inner(points), &[to]].concat();
             drawn.push(draw_curve(mesh, &all, monitor).map_err(|error| of_arc(error, *arc))?);
         }
         let cut = cut_along(mesh, &drawn).map_err(|error| match error {

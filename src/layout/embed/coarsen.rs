@@ -200,3 +200,77 @@ fn shape([a, b, c]: [Vec3; 3]) -> f64 {
         false => 0.0,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::shape::by_name;
+    use crate::test_random::Random;
+
+    fn area(surface: &Surface) -> f64 {
+        let corners = surface
+            .triangles
+            .iter()
+            .map(|t| t.map(|v| surface.position(v)));
+        let areas = corners.map(|[a, b, c]| 0.5 * norm(cross(sub(b, a), sub(c, a))));
+        areas.sum()
+    }
+
+    fn check(surface: &Surface) {
+        for half in 0..surface.twin.len() as u32 {
+            let twin = surface.twin[half as usize];
+            assert_eq!(surface.twin[twin as usize], half);
+            assert_eq!(surface.tail(half), surface.tip(twin));
+        }
+        for v in 0..surface.positions.len() as u32 {
+            assert!(surface.around(v).all(|half| surface.tail(half) == v));
+        }
+    }
+
+    #[test]
+    fn splits_are_taken_back_and_the_surface_stays() {
+        let mesh = by_name("sphere", 300).unwrap();
+        let mut surface = Surface::new(&mesh);
+        let mut random = Random::new(5);
+        for _ in 0..1000 {
+            let half = random.below(surface.twin.len()) as u32;
+            if random.below(2) == 0 {
+                surface.split_in_the_middle(half);
+            } else {
+                let [a, b, c] = surface.corners(half / 3);
+                let middle = [0, 1, 2].map(|k| (a[k] + b[k] + c[k]) / 3.0);
+                surface.split_face(half / 3, middle);
+            }
+        }
+        let split = surface.positions.len();
+        let number = surface.coarsen(&[]);
+        check(&surface);
+        let kept = mesh.vertex_count();
+        assert!((0..kept).all(|v| number[v] == v as u32));
+        assert_eq!(&surface.positions[..kept], mesh.vertices());
+        let left = surface.positions.len() - kept;
+        assert!(20 * left < split - kept, "{left} of {}", split - kept);
+        assert!((area(&surface) - mesh.surface_area()).abs() < 1e-12);
+    }
+
+    #[test]
+    fn arcs_keep_their_ends_and_lose_vertices_between() {
+        let mesh = by_name("sphere", 300).unwrap();
+        let mut surface = Surface::new(&mesh);
+        let [from, to] = [surface.tail(0), surface.tip(0)];
+        let middle = surface.split_in_the_middle(0);
+        let half = surface.half_between(middle, to).unwrap();
+        let quarter = surface.split_in_the_middle(half);
+        for pair in [from, middle, quarter, to].windows(2) {
+            surface.take_edge(pair[0], pair[1], 6);
+        }
+        let number = surface.clone().coarsen(&[from, quarter, to]);
+        assert!(number[middle as usize] == NONE && number[quarter as usize] != NONE);
+        let number = surface.coarsen(&[from, to]);
+        check(&surface);
+        assert!(number[middle as usize] == NONE && number[quarter as usize] == NONE);
+        let half = surface.half_between(from, to).unwrap();
+        assert_eq!(surface.dart[half as usize], 6);
+        assert_eq!(surface.triangles.len(), mesh.face_count());
+    }
+}

@@ -6,6 +6,7 @@ use std::path::Path;
 
 use super::{FoundLayout, LayoutPatch, QuadSurface};
 use crate::error::Result;
+use crate::layout::drawn_layout::inner;
 use crate::mesh::MeshError;
 
 impl FoundLayout {
@@ -101,11 +102,6 @@ impl FoundLayout {
         }
         Ok(())
     }
-}
-
-/// The vertices of an arc between its ends.
-fn inner(vertices: &[u32]) -> &[u32] {
-    &vertices[1..vertices.len() - 1]
 }
 
 /// Writes a file.
