@@ -72,7 +72,7 @@ fn curves_that_cannot_be_drawn_are_refused() {
         (circle(3.0), "off the surface"),
         ("v 0 0 1\nl 1\n".into(), "two points"),
         ("v 0 0 1\n".into(), "no lines"),
-        ("v 0 0 1\nl 1 2\n".into(), "no vertex 2"),
+        ("v 0 0 1\nl 1 2\n".into(), "'2' is no vertex"),
         ("v 0 0 1\nv nan 0 1\nl 1 2\n".into(), "point"),
     ] {
         let file = scratch.write("lines.obj", &text);

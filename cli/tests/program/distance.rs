@@ -107,7 +107,7 @@ fn lines_of_a_file_are_drawn_onto_the_surface() {
     let (code, told) = run("v -1 -1 0.1\nv -1 1 0.1\nl 1 2\nl -1\n");
     assert_eq!((code, &told["sources"]), (0, &2.into()));
     assert!((told["largest_distance"].as_f64().unwrap() - 2.0).abs() < 1e-14);
-    for (text, line) in [("v 0 0\n", 1), ("v 0 0 0\nl 1 2\n", 2), ("v 0 0 x\n", 1)] {
+    for (text, line) in [("v 0\n", 1), ("v 0 0 0\nl 1 2\n", 2), ("v 0 0 x\n", 1)] {
         let (code, told) = run(text);
         assert_eq!((code, &told["error"]["line"]), (1, &line.into()), "{text}");
     }

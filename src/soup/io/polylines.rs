@@ -12,14 +12,14 @@ use crate::soup::SoupError;
 pub struct Polyline {
     /// Its line in the file, counted from 1.
     pub line: usize,
-    /// Its vertices, counted from 0: two or more.
+    /// Its vertices, counted from 0: one, which is a point, or more.
     pub vertices: Vec<usize>,
 }
 
 /// The line elements of an OBJ file with these contents, in its order.
 ///
 /// # Errors
-/// [`SoupError::Parse`] for one of fewer than two vertices, or that names a vertex which does not come before it.
+/// [`SoupError::Parse`] for one without vertices, or that names a vertex which does not come before it.
 pub fn polylines(bytes: &[u8]) -> Result<Vec<Polyline>, SoupError> {
     let bytes = &gzip::inflated(bytes)?;
     let mut vertices = 0_i64;
@@ -46,8 +46,8 @@ pub fn polylines(bytes: &[u8]) -> Result<Vec<Polyline>, SoupError> {
             })
         });
         let named: Vec<usize> = named.collect::<Result<_, _>>()?;
-        if named.len() < 2 {
-            return Err(refused("a line needs two vertices or more".into()));
+        if named.is_empty() {
+            return Err(refused("a line needs vertices".into()));
         }
         found.push(Polyline {
             line,
@@ -78,15 +78,16 @@ mod tests {
 
     #[test]
     fn lines_name_vertices_from_both_ends() {
-        let text = b"v 0 0 0\nv 1 0 0 # right\nf 1 2 1\nl 1/1 2 -2\nv 0 1 0\nl -1 \\\n1\n";
+        let text = b"v 0 0 0\nv 1 0 0 # right\nf 1 2 1\nl 1/1 2 -2\nv 0 1 0\nl -1 \\\n1\nl 2\n";
         let found = polylines(text).unwrap();
         assert_eq!(found[0].vertices, [0, 1, 0]);
         assert_eq!((found[1].line, &found[1].vertices[..]), (6, &[2, 0][..]));
+        assert_eq!(found[2].vertices, [1]);
     }
 
     #[test]
     fn vertices_that_are_not_there_are_refused_with_the_line() {
-        for said in ["l 1", "l 1 0", "l 1 -2", "l", "l 1 x", "l 1 2"] {
+        for said in ["l 1 0", "l 1 -2", "l", "l 1 x", "l 1 2"] {
             let text = format!("v 0 0 0\n{said}\nv 1 0 0\n");
             let error = polylines(text.as_bytes()).unwrap_err();
             assert!(matches!(error, SoupError::Parse { line: 2, .. }), "{said}");
