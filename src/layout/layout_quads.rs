@@ -6,10 +6,11 @@
 //! subdivisions  numbers of edges along arcs are decided, with a proof
 //! rectangles    patches of other than four sides are divided by spokes
 //! grid          a map of all patches, whose arcs slide until it is smooth
-//! quads         extraction and smoothing
+//! quads         extraction, comparison with what is prescribed, and smoothing
 //! ```
 
 use super::base_layout::BaseLayout;
+use super::correspondence::{Correspondence, correspondence};
 use super::embed::surface::Surface;
 use super::embed::{embed, is_turned_over, place_nodes};
 use super::given::GivenCurves;
@@ -76,9 +77,14 @@ pub struct LayoutQuads {
     pub patches: Vec<u32>,
     /// Faces that the map folds: none in a valid one.
     pub folded: usize,
-    /// Whether the quads conform, are as many as the subdivisions say, and have the irregular vertices of the layout
-    /// and no others.
+    /// Whether the quads conform and are connected as layout and subdivisions prescribe: each patch is a grid, with as
+    /// many edges along each arc as that has, and irregular vertices are those of the layout.
     pub is_as_prescribed: bool,
+    /// The vertices of the quads along each arc, from its first end to its second: one more than the arc has edges.
+    /// Empty unless the quads are as prescribed.
+    pub arc_vertices: Vec<Vec<u32>>,
+    /// The polygon of the layout that each quad is in. Empty unless the quads are as prescribed.
+    pub quad_patches: Vec<u32>,
 }
 
 /// Makes quads on a mesh that follow a layout: its patches are filled with grids of quads, its vertices with other than
@@ -158,6 +164,10 @@ fn on_threads<'a>(
     let refined = TriangleMesh::new(all.surface.positions.clone(), all.surface.triangles.clone())?;
     let map = IntegerGridMap::new(&refined, &uvs)?;
     let mut quads = run.with_share([0.8, 0.9], || extract(&refined, &map, &mut monitor()))?;
+    let filled = match quads.is_conforming() {
+        true => correspondence(&all, &quads),
+        false => None,
+    };
     let origins = |face: u32| curves.original(all.surface.origin[face as usize]);
     bring_back(&mut quads, mesh, &refined, origins);
     if let Some(smoothing) = &options.smooth {
@@ -177,8 +187,16 @@ fn on_threads<'a>(
     }
     run.end_call();
     let _ = monitor().progress(Phase::Quads, 1.0);
+    let is_as_prescribed = filled.is_some();
+    let Correspondence {
+        curves: mut arc_vertices,
+        patches: quad_patches,
+    } = filled.unwrap_or_default();
+    arc_vertices.truncate(layout.arc_count());
     Ok(LayoutQuads {
-        is_as_prescribed: is_as_prescribed(&quads, &layout, &subdivisions),
+        is_as_prescribed,
+        arc_vertices,
+        quad_patches,
         folded: grid.folded(),
         quads,
         layout,
@@ -295,29 +313,6 @@ fn bring_back(
     folded.sort_unstable();
     folded.dedup();
     quads.folded = folded;
-}
-
-fn is_as_prescribed(quads: &QuadMesh, layout: &BaseLayout, found: &Subdivisions) -> bool {
-    let is_irregular = |v: &usize| !layout.is_boundary_vertex(*v) && layout.valence(*v) != 4;
-    let vertices = (0..layout.vertex_count()).filter(is_irregular);
-    let centers = layout
-        .polygons()
-        .iter()
-        .map(Vec::len)
-        .filter(|&sides| sides != 4);
-    let mut wanted: Vec<usize> = vertices.map(|v| layout.valence(v)).chain(centers).collect();
-    let mut on_boundary = vec![false; quads.vertices.len()];
-    for side in quads.sides().chunk_by(|a, b| a.0 == b.0) {
-        if let [(ends, _)] = side {
-            ends.iter().for_each(|&v| on_boundary[v as usize] = true);
-        }
-    }
-    let around = quads.around();
-    let inner = (0..around.len()).filter(|&v| !on_boundary[v]);
-    let mut irregular: Vec<usize> = inner.map(|v| around[v].len()).filter(|&n| n != 4).collect();
-    wanted.sort_unstable();
-    irregular.sort_unstable();
-    quads.is_conforming() && quads.quads.len() == found.quads && wanted == irregular
 }
 
 #[cfg(test)]

@@ -12,10 +12,12 @@
 //! | edges of quads along each arc | `subdivide` |
 //! | patches of other than four sides | `rectangles` |
 //! | the map of all patches | `grid` |
+//! | which quads fill which patch | `correspondence` |
 //! | all steps | `layout_quads` |
 //! | the way back, from quads to their layout | [`found`] |
 
 mod base_layout;
+mod correspondence;
 mod drawn_layout;
 mod embed;
 #[cfg(feature = "mesh-io")]

@@ -15,10 +15,11 @@ use roundel::{Error, Result};
 use serde::Serialize;
 
 use super::Arguments;
+use super::page::Followed;
 use crate::exit::Exit;
 use crate::mesh::{Input, RepairCounts};
 use crate::output;
-use crate::outputs::{Content, Outputs};
+use crate::outputs::{Content, Outputs, PAGE};
 use crate::progress::Progress;
 use crate::quad::{QuadCounts, tell_faults, words};
 use crate::summary::{counted, line};
@@ -116,11 +117,17 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
     let read_only = [Some(mesh_file.as_path()), Some(layout_file.as_path())];
     let outputs = Outputs::of(&read_only, arguments.output.force)
         .write(arguments.out.as_ref(), Content::Mesh)?
-        .write(flags.colors.as_ref(), Content::Only(&["ply", "off"]))?;
+        .write(flags.colors.as_ref(), Content::Only(&["ply", "off"]))?
+        .write(arguments.report.as_ref(), PAGE)?;
     outputs.tell(arguments.json || arguments.output.quiet);
     let progress = Progress::start(arguments.output.quiet)?;
     let started = Instant::now();
-    let Input { mesh, repair, .. } = arguments.input.read(mesh_file, arguments.json)?;
+    let Input {
+        mesh,
+        repair,
+        changes,
+        ..
+    } = arguments.input.read(mesh_file, arguments.json)?;
     let DrawnLayout { layout, curves } = read_layout(layout_file)?;
     let read = started.elapsed().as_secs_f64();
     let options = LayoutOptions {
@@ -150,6 +157,16 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
             ..Drawing::from(&mesh)
         };
         io::write(path, drawing)?;
+    }
+    if let Some(path) = &arguments.report {
+        let page = Followed {
+            name: mesh_file,
+            mesh: &mesh,
+            changes: &changes,
+            found: &found,
+            seconds: &[("read", read), ("quads", seconds)],
+        };
+        page.write(path)?;
     }
     Ok(Solved {
         mesh,

@@ -2,6 +2,7 @@
 
 mod along;
 mod of;
+mod page;
 
 use std::path::PathBuf;
 
@@ -42,6 +43,11 @@ pub struct Arguments {
     /// Write the quads, or with --of the layout: nodes as vertices, patches as faces, arcs as lines over further vertices
     #[arg(short, long, value_name = "OUT.obj")]
     out: Option<PathBuf>,
+
+    /// Write a page for a browser with the quads to be turned and zoomed, patches in colours, the number of edges along
+    /// each arc, and all figures
+    #[arg(long, value_name = "REPORT.html")]
+    report: Option<PathBuf>,
 
     /// Print one JSON object instead of the summary
     #[arg(long)]

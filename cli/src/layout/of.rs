@@ -14,10 +14,12 @@ use roundel::{Monitor, Result};
 use serde::Serialize;
 
 use super::Arguments;
+use super::page::Found;
 use crate::exit::Exit;
 use crate::interrupt;
 use crate::output;
-use crate::outputs::{Content, Outputs};
+use crate::outputs::{Content, Outputs, PAGE};
+use crate::page::Rows;
 use crate::summary::{counted, line};
 
 const OBJ: Content = Content::Only(&["obj"]);
@@ -142,7 +144,8 @@ fn find(arguments: &Arguments, quads: &Path) -> Result<Report> {
     let outputs = Outputs::of(&[Some(quads)], arguments.output.force)
         .write(arguments.out.as_ref(), OBJ)?
         .write(flags.groups.as_ref(), OBJ)?
-        .write(flags.patches.as_ref(), SPLINES)?;
+        .write(flags.patches.as_ref(), SPLINES)?
+        .write(arguments.report.as_ref(), PAGE)?;
     outputs.tell(arguments.json || arguments.output.quiet);
     let started = Instant::now();
     let soup = soup::read(quads).map_err(MeshError::from)?;
@@ -161,9 +164,9 @@ fn find(arguments: &Arguments, quads: &Path) -> Result<Report> {
         given.positions().len(),
         given.euler_characteristic(),
     );
-    let (surface, layout, drift) = match flags.kind {
-        Kind::Base => (given, base, Drift::default()),
-        Kind::Motorcycle => (given, motorcycle, Drift::default()),
+    let (new, layout, drift) = match flags.kind {
+        Kind::Base => (None, base, Drift::default()),
+        Kind::Motorcycle => (None, motorcycle, Drift::default()),
         Kind::Simplified => {
             let options = SimplifyOptions {
                 deviation: flags.deviation.unwrap_or(f64::INFINITY),
@@ -174,26 +177,27 @@ fn find(arguments: &Arguments, quads: &Path) -> Result<Report> {
             let found = simplify(&given, &options, || {
                 Monitor::default().cancel_token(token.clone())
             })?;
-            (found.surface, found.layout, found.drift)
+            (Some(found.surface), found.layout, found.drift)
         }
     };
+    let surface = new.as_ref().unwrap_or(&given);
     let simplify = started.elapsed().as_secs_f64();
     let started = Instant::now();
     let mut written = None;
     if let Some(path) = &arguments.out {
         let simple = match flags.kind {
             Kind::Motorcycle => layout.clone(),
-            Kind::Base | Kind::Simplified => FoundLayout::simple_complex(&surface),
+            Kind::Base | Kind::Simplified => FoundLayout::simple_complex(surface),
         };
-        simple.write_obj(&surface, path)?;
+        simple.write_obj(surface, path)?;
         written = Some(Counts::new(&simple));
     }
     if let Some(path) = &flags.groups {
-        layout.write_groups(&surface, path)?;
+        layout.write_groups(surface, path)?;
     }
-    let surfaces = write_surfaces(flags, &surface, &layout)?;
+    let surfaces = write_surfaces(flags, surface, &layout)?;
     let [base, motorcycle] = counts;
-    Ok(Report {
+    let report = Report {
         file: quads.to_string_lossy().into_owned(),
         quads: sizes.0,
         vertices: sizes.1,
@@ -218,7 +222,19 @@ fn find(arguments: &Arguments, quads: &Path) -> Result<Report> {
             simplify,
             surfaces: started.elapsed().as_secs_f64(),
         },
-    })
+    };
+    if let Some(path) = &arguments.report {
+        let page = Found {
+            name: quads,
+            given: &given,
+            surface,
+            layout: &layout,
+            rows: report.rows(),
+            seconds: &report.seconds.steps(),
+        };
+        page.write(path)?;
+    }
+    Ok(report)
 }
 
 fn write_surfaces(
@@ -256,6 +272,47 @@ fn diagonal(surface: &QuadSurface) -> f64 {
     (0..3).map(|axis| extent(axis).powi(2)).sum::<f64>().sqrt()
 }
 
+impl Seconds {
+    fn steps(&self) -> [(&'static str, f64); 4] {
+        [
+            ("read", self.read),
+            ("layouts", self.layouts),
+            ("simplify", self.simplify),
+            ("surfaces", self.surfaces),
+        ]
+    }
+}
+
+impl Report {
+    /// What a page tells of the layouts.
+    fn rows(&self) -> Rows {
+        let mut rows = vec![
+            ("base complex", self.base.to_string()),
+            ("motorcycle graph", self.motorcycle.to_string()),
+        ];
+        if let Some(simplified) = &self.simplified {
+            rows.push(("simplified", simplified.to_string()));
+            rows.push(("drift of arcs", self.drift_words()));
+        }
+        if let Some(surfaces) = &self.surfaces {
+            rows.push(("surfaces", surfaces.to_string()));
+        }
+        rows
+    }
+
+    fn drift_words(&self) -> String {
+        let [drift, angle] = [self.deviation, self.mean_angle];
+        format!("{drift:.2} quads at most, {angle:.1} degrees on average")
+    }
+}
+
+impl fmt::Display for Surfaces {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let points = counted(self.control_points, "control point");
+        write!(f, "{points}, at most {:.3e} off", self.deviation)
+    }
+}
+
 impl fmt::Display for Report {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         let quads = format!(
@@ -273,20 +330,13 @@ impl fmt::Display for Report {
                 &simplified.to_string(),
                 self.seconds.simplify,
             )?;
-            let [drift, angle] = [self.deviation, self.mean_angle];
-            writeln!(
-                f,
-                "{:<10} {drift:.2} quads at most, {angle:.1} degrees on average",
-                "drift"
-            )?;
+            writeln!(f, "{:<10} {}", "drift", self.drift_words())?;
         }
         if let Some(written) = &self.written {
             writeln!(f, "{:<10} {written}", "written")?;
         }
         if let Some(surfaces) = &self.surfaces {
-            let points = counted(surfaces.control_points, "control point");
-            let words = format!("{points}, at most {:.3e} off", surfaces.deviation);
-            line(f, "surfaces", &words, self.seconds.surfaces)?;
+            line(f, "surfaces", &surfaces.to_string(), self.seconds.surfaces)?;
         }
         Ok(())
     }

@@ -13,7 +13,9 @@ use std::path::Path;
 
 use roundel::{Error, Result};
 
-pub use rows::{Rows, bound, gap, mesh_rows, seconds_rows, solve_rows};
+pub use rows::{
+    Rows, bound, gap, histogram, mesh_rows, quad_rows, seconds_rows, solve_rows, valences,
+};
 pub use scene::Scene;
 pub use tables::Tables;
 
@@ -21,7 +23,7 @@ const PAGE: &str = include_str!("page.html");
 const STYLE: &str = include_str!("page.css");
 
 /// In the order of the page, where they share one scope.
-const SCRIPTS: [&str; 14] = [
+const SCRIPTS: [&str; 15] = [
     include_str!("scripts/vectors.js"),
     include_str!("scripts/model.js"),
     include_str!("scripts/measures.js"),
@@ -31,6 +33,7 @@ const SCRIPTS: [&str; 14] = [
     include_str!("scripts/gpu.js"),
     include_str!("scripts/surface.js"),
     include_str!("scripts/crosses.js"),
+    include_str!("scripts/numbers.js"),
     include_str!("scripts/view.js"),
     include_str!("scripts/pick.js"),
     include_str!("scripts/histogram.js"),

@@ -1,6 +1,10 @@
 //! Rows that pages of different commands share.
 
+use std::collections::BTreeMap;
+
+use roundel::extract::QuadMesh;
 use roundel::mesh::TriangleMesh;
+use roundel::smooth::QuadQuality;
 use roundel::{Solution, Strategy};
 
 use crate::changes::Changes;
@@ -25,6 +29,37 @@ pub fn mesh_rows(mesh: &TriangleMesh, changes: &Changes) -> Rows {
         rows.push(("repaired", repaired.join(", ")));
     }
     rows
+}
+
+/// The counts and the quality of quads.
+pub fn quad_rows(quads: &QuadMesh) -> Rows {
+    let (figures, quality) = (quads.figures(), QuadQuality::new(quads));
+    let conforming = if quads.is_conforming() { "yes" } else { "no" };
+    vec![
+        ("quads", thousands(quads.quads.len())),
+        ("other faces", thousands(quads.others.len())),
+        ("vertices", thousands(quads.vertices.len())),
+        ("irregular vertices", thousands(figures.irregular)),
+        ("conforming", conforming.into()),
+        ("Euler characteristic", figures.euler.to_string()),
+        (
+            "mean deviation from right angles",
+            format!("{:.2}°", quality.angle_deviation),
+        ),
+        (
+            "scaled Jacobian, 1st percentile",
+            format!("{:.3}", quality.scaled_jacobian_p1),
+        ),
+        (
+            "scaled Jacobian, least",
+            format!("{:.3}", quality.scaled_jacobian_min),
+        ),
+        ("quads turned over", thousands(quality.inverted)),
+        (
+            "spread of edge lengths",
+            format!("{:.1} %", 100.0 * quality.edge_spread),
+        ),
+    ]
 }
 
 /// How a solve ended. A bound that says nothing is left out.
@@ -56,6 +91,32 @@ pub fn seconds_rows(steps: &[(&str, f64)]) -> Vec<(String, f64, String)> {
     taken
         .map(|&(name, seconds)| (name.into(), seconds, format!("{seconds:.3}")))
         .collect()
+}
+
+/// How many vertices have how many edges.
+pub fn valences(quads: &QuadMesh) -> Vec<(String, f64, String)> {
+    let mut edges: Vec<[u32; 2]> = Vec::new();
+    for face in quads.faces() {
+        let ends = face.iter().zip(face.iter().cycle().skip(1));
+        edges.extend(ends.map(|(&a, &b)| [a.min(b), a.max(b)]));
+    }
+    edges.sort_unstable();
+    edges.dedup();
+    let mut valence = vec![0; quads.vertices.len()];
+    for &v in edges.as_flattened() {
+        valence[v as usize] += 1;
+    }
+    histogram(&valence)
+}
+
+/// How often each number occurs, without 0.
+pub fn histogram(numbers: &[usize]) -> Vec<(String, f64, String)> {
+    let mut counts = BTreeMap::new();
+    for &number in numbers.iter().filter(|&&number| number > 0) {
+        *counts.entry(number).or_insert(0) += 1;
+    }
+    let row = |(number, count): (usize, usize)| (thousands(number), count as f64, thousands(count));
+    counts.into_iter().map(row).collect()
 }
 
 /// The lower bound, if it says something.

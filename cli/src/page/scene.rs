@@ -35,6 +35,8 @@ pub struct Scene {
     map: Option<Map>,
     #[serde(skip_serializing_if = "Option::is_none")]
     quads: Option<Quads>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    layout: Option<Layout>,
     /// What repair changed on the mesh, refined if it was.
     changes: Vec<Marks>,
 }
@@ -66,6 +68,17 @@ struct Quads {
     distances: Array,
 }
 
+/// A layout that quads follow.
+#[derive(Serialize)]
+struct Layout {
+    /// Of every quad.
+    patches: Array,
+    /// The edges of quads along every arc.
+    edges: Array,
+    /// The vertices of quads along all arcs, one arc after the other: one more than its edges.
+    vertices: Array,
+}
+
 #[derive(Serialize)]
 struct Marks {
     name: String,
@@ -89,6 +102,7 @@ impl Scene {
             field: None,
             map: None,
             quads: None,
+            layout: None,
             changes: changes.iter().map(Marks::new).collect(),
         }
     }
@@ -145,6 +159,21 @@ impl Scene {
             corners: Array::indices(quads.quads.as_flattened()),
             others: quads.others.clone(),
             distances: Array::floats(&distances(quads, given)),
+        });
+        self
+    }
+
+    /// Adds the layout of these quads: the vertices along every arc, and the patch of every quad.
+    pub fn layout<'a>(mut self, arcs: impl Iterator<Item = &'a [u32]>, patches: &[u32]) -> Self {
+        let (mut edges, mut vertices) = (Vec::new(), Vec::new());
+        for arc in arcs {
+            edges.push(arc.len() as u32 - 1);
+            vertices.extend(arc);
+        }
+        self.layout = Some(Layout {
+            patches: Array::indices(patches),
+            edges: Array::indices(&edges),
+            vertices: Array::indices(&vertices),
         });
         self
     }

@@ -2,16 +2,16 @@
 
 use std::path::Path;
 
-use roundel::extract::QuadMesh;
 use roundel::quad::Compared;
-use roundel::smooth::QuadQuality;
 use roundel::{Result, Solution};
 
 use super::Arguments;
 use super::mirrored::mirror_words;
 use super::steps::Solved;
 use super::words;
-use crate::page::{Page, Rows, Scene, Tables, bound, gap, mesh_rows, seconds_rows, solve_rows};
+use crate::page::{
+    Page, Scene, Tables, bound, gap, mesh_rows, quad_rows, seconds_rows, solve_rows, valences,
+};
 use crate::refinement::Refinement;
 use crate::summary::{outcome, thousands};
 
@@ -66,36 +66,6 @@ fn tables(solved: &Solved) -> Tables {
     tables
 }
 
-fn quad_rows(quads: &QuadMesh) -> Rows {
-    let (figures, quality) = (quads.figures(), QuadQuality::new(quads));
-    let conforming = if quads.is_conforming() { "yes" } else { "no" };
-    vec![
-        ("quads", thousands(quads.quads.len())),
-        ("other faces", thousands(quads.others.len())),
-        ("vertices", thousands(quads.vertices.len())),
-        ("irregular vertices", thousands(figures.irregular)),
-        ("conforming", conforming.into()),
-        ("Euler characteristic", figures.euler.to_string()),
-        (
-            "mean deviation from right angles",
-            format!("{:.2}°", quality.angle_deviation),
-        ),
-        (
-            "scaled Jacobian, 1st percentile",
-            format!("{:.3}", quality.scaled_jacobian_p1),
-        ),
-        (
-            "scaled Jacobian, least",
-            format!("{:.3}", quality.scaled_jacobian_min),
-        ),
-        ("quads turned over", thousands(quality.inverted)),
-        (
-            "spread of edge lengths",
-            format!("{:.1} %", 100.0 * quality.edge_spread),
-        ),
-    ]
-}
-
 /// The seconds of every step.
 fn times(solved: &Solved) -> Vec<(String, f64, String)> {
     let seconds = solved.made.seconds;
@@ -109,27 +79,6 @@ fn times(solved: &Solved) -> Vec<(String, f64, String)> {
         ("other strategies", seconds.compare),
     ];
     seconds_rows(&steps)
-}
-
-/// How many vertices have how many edges.
-fn valences(quads: &QuadMesh) -> Vec<(String, f64, String)> {
-    let mut edges: Vec<[u32; 2]> = Vec::new();
-    for face in quads.faces() {
-        let ends = face.iter().zip(face.iter().cycle().skip(1));
-        edges.extend(ends.map(|(&a, &b)| [a.min(b), a.max(b)]));
-    }
-    edges.sort_unstable();
-    edges.dedup();
-    let mut valence = vec![0; quads.vertices.len()];
-    for &v in edges.as_flattened() {
-        valence[v as usize] += 1;
-    }
-    let most = valence.iter().copied().max().unwrap_or(0);
-    let count = |k: usize| valence.iter().filter(|&&v| v == k).count();
-    let counts = (1..=most).map(|k| (k, count(k))).filter(|&(_, n)| n > 0);
-    counts
-        .map(|(k, n)| (k.to_string(), n as f64, thousands(n)))
-        .collect()
 }
 
 /// A problem's name, and a strategy's solution of it.

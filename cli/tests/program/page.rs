@@ -396,6 +396,48 @@ fn fields_and_maps_have_pages_of_what_they_have() {
     }
 }
 
+/// A cube as a layout of six patches.
+const CUBE: &str = "v -1 -1 -1\nv 1 -1 -1\nv -1 1 -1\nv 1 1 -1\nv -1 -1 1\nv 1 -1 1\nv -1 1 1\nv 1 1 1\n\
+    f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
+
+#[test]
+fn layouts_have_pages_with_patches_in_colours_and_numbers_along_arcs() {
+    let scratch = Scratch::new("page-layout");
+    let cube = scratch.write("cube.obj", CUBE);
+    let quads = scratch.path("quads.obj");
+    let page = scratch.path("report.html");
+    let [cube, quads, report] = [&cube, &quads, &page].map(|path| path.to_str().unwrap());
+    let along = ["shape:sphere:600", "--layout", cube, "--quads", "600"];
+    let along = [&along[..], &["-o", quads]].concat();
+    let back = ["--of", quads, "--force"];
+    for words in [&along[..], &back[..]] {
+        let words = [&["layout", "--json", "--report", report], words].concat();
+        let (code, output) = finish(program(&words));
+        assert_eq!(code, 0, "{words:?}: {output:?}");
+        let content = fs::read_to_string(&page).unwrap();
+        assert!(content.contains("<p>600 quads, 8 irregular, watertight</p>"));
+        assert!(content.contains("<td>10</td><td>12</td>"), "{words:?}");
+        let layout = data(&content)["layout"].clone();
+        // Twelve arcs of ten edges, as u16 in base64.
+        let ten = "CgAKAAoA".repeat(4);
+        assert_eq!(layout["edges"]["data"], ten, "{words:?}");
+        let window = Window {
+            width: 1400,
+            is_dark: false,
+        };
+        let Some(found) = found(&scratch, &page, &window) else {
+            return;
+        };
+        let drawn = &found["layers"]["drawn"];
+        assert!(drawn["layer-arcs"].as_u64() > Some(2_000), "{drawn}");
+        assert!(drawn["layer-numbers"].as_u64() > Some(200), "{drawn}");
+        let patches: Vec<&Value> = found["quads"].as_array().unwrap().iter().collect();
+        let patch = |pick: &&Value| pick["rows"][2][1].as_str().unwrap().to_owned();
+        let patches: std::collections::BTreeSet<String> = patches.iter().map(patch).collect();
+        assert!(patches.len() > 4, "{patches:?}");
+    }
+}
+
 #[test]
 fn a_browser_without_webgl_is_told_so_and_shows_the_figures() {
     let scratch = Scratch::new("page-without-webgl");

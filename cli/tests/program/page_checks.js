@@ -94,8 +94,8 @@ function measures() {
     };
   };
   panel.show(["quads"]);
-  const all = Array.from({ length: 5 }, of);
-  return all.map(({ picture, ...rest }, i) => ({ ...rest, changed: differing(picture, all[(i + 1) % 5].picture) }));
+  const all = Array.from(get("measure").options, of);
+  return all.map(({ picture, ...rest }, i) => ({ ...rest, changed: differing(picture, all[(i + 1) % all.length].picture) }));
 }
 
 /** What the buttons save: nothing is left to be waited for. */
@@ -138,19 +138,20 @@ function reset() {
 }
 
 const spread = (count) => Array.from({ length: 12 }, (_, i) => Math.floor((i * count) / 12));
+const ofField = model.field?.irregular ?? [];
 const found = {
   fits: fits(Number(location.hash.slice(1))),
   dark: window.matchMedia("(prefers-color-scheme: dark)").matches,
   background: getComputedStyle(document.body).backgroundColor,
   reset: reset(),
   layers: layers(),
-  legends: ["irregular", "poles"].map((layer) => get(`indices-${layer}`).textContent),
-  irregular: model.field.irregular,
-  hues: hues("vertex", "irregular", model.field.irregular),
+  legends: ["irregular", "poles"].map((layer) => get(`indices-${layer}`)?.textContent),
+  irregular: ofField,
+  hues: hues("vertex", "irregular", ofField),
   poleHues: hues("corner", "poles", model.quads.irregular),
   quads: picks("quad", spread(model.quads.quads.length), ["quads"]),
   triangles: picks("triangle", spread(model.triangles.length / 3), ["input"]),
-  vertices: picks("vertex", model.field.irregular.map(([v]) => v), ["input", "irregular"]),
+  vertices: picks("vertex", ofField.map(([v]) => v), ["input", "irregular"]),
   measures: measures(),
   downloads: downloads(),
 };

@@ -109,22 +109,22 @@ impl QuadSurface {
     }
 
     /// The number of half-edges.
-    pub(super) fn half_edges(&self) -> usize {
+    pub(in crate::layout) fn half_edges(&self) -> usize {
         self.twin.len()
     }
 
     /// Whether a half-edge has no quad on its left.
-    pub(super) fn is_outside(&self, h: usize) -> bool {
+    pub(in crate::layout) fn is_outside(&self, h: usize) -> bool {
         h >= 4 * self.quads.len()
     }
 
     /// The other half-edge of the same edge.
-    pub(super) fn twin(&self, h: usize) -> usize {
+    pub(in crate::layout) fn twin(&self, h: usize) -> usize {
         self.twin[h] as usize
     }
 
     /// The next half-edge around the same quad, or along the boundary.
-    pub(super) fn next(&self, h: usize) -> usize {
+    pub(in crate::layout) fn next(&self, h: usize) -> usize {
         match self.is_outside(h) {
             true => self.next_outside[h - 4 * self.quads.len()] as usize,
             false => h - h % 4 + (h + 1) % 4,
@@ -138,7 +138,7 @@ impl QuadSurface {
     }
 
     /// The vertex where a half-edge begins.
-    pub(super) fn from(&self, h: usize) -> u32 {
+    pub(in crate::layout) fn from(&self, h: usize) -> u32 {
         match self.is_outside(h) {
             true => self.from(self.next(self.twin(h))),
             false => self.quads[h / 4][h % 4],
@@ -151,7 +151,7 @@ impl QuadSurface {
     }
 
     /// The half-edges that leave a vertex, clockwise; at the boundary from the one outside on.
-    pub(super) fn around(&self, vertex: usize) -> impl Iterator<Item = usize> + '_ {
+    pub(in crate::layout) fn around(&self, vertex: usize) -> impl Iterator<Item = usize> + '_ {
         let first = self.first[vertex] as usize;
         let mut next = Some(first);
         std::iter::from_fn(move || {

@@ -21,6 +21,7 @@ const COLOURS = {
   integer: rgb("#12385c"),
   feature: rgb("#0b0e12"),
   missed: rgb("#e6007e"),
+  arc: rgb("#101820"),
   selected: rgb("#ff9d00"),
   positive: rgb("#d5342c"),
   negative: rgb("#2a5bd7"),
@@ -31,6 +32,12 @@ function colourAt(stops, t) {
   const at = Math.min(Math.max(t, 0), 1) * (stops.length - 1);
   const i = Math.min(Math.floor(at), stops.length - 2);
   return stops[i].map((x, k) => x + (at - i) * (stops[i + 1][k] - x));
+}
+
+/** Colours of things that only have numbers: hues a golden section of the circle apart, in turns light and dark. */
+function colourOfKind(number) {
+  const hue = ((number * 0.618034) % 1) * 6, light = [0.92, 0.78, 0.85][number % 3];
+  return [5, 3, 1].map((offset) => light * (1 - 0.42 * Math.min(1, Math.max(0, 2 - Math.abs(((hue + offset) % 6) - 3)))));
 }
 
 const stopsOf = (measure) => (measure.isTwoSided ? BALANCE : HEAT);

@@ -28,7 +28,8 @@ function short(x) {
 
 /**
  * The measures: a value a quad, and the range of their colours, from good to bad, or with the mean in the
- * middle where `isTwoSided`. Values beyond the range have the colour of its end.
+ * middle where `isTwoSided`. Values beyond the range have the colour of its end. Where `isKind`, values are numbers
+ * of things, each with a colour of its own.
  */
 function measuresOf(model) {
   const { quads, vertices, distances } = model.quads;
@@ -37,8 +38,12 @@ function measuresOf(model) {
   const mean = lengths.reduce((a, b) => a + b, 0) / (lengths.length || 1);
   const percent = Array.from(distances, (distance) => (100 * distance) / model.diagonal);
   const farthest = percent.reduce((a, b) => Math.max(a, b), 0);
+  const ofLayout = model.layout
+    ? [{ name: "Patch of the layout", brief: "Patch", values: [...model.layout.patches], isKind: true, text: String }]
+    : [];
   const degrees = (x) => `${x.toFixed(1)}°`;
   return [
+    ...ofLayout,
     { name: "Scaled Jacobian", brief: "Scaled Jacobian", values: corners.map(scaledJacobian), range: [1, 0.5], text: (x) => x.toFixed(3) },
     {
       name: "Angle: largest deviation from 90°", brief: "Deviation from 90°",

@@ -34,6 +34,7 @@ function readModel(text) {
     field: data.field && { ...data.field, angles: decode(data.field.angles) },
     map: data.map && readMap(data.map, corners),
     quads: data.quads && readQuads(data.quads),
+    layout: data.layout && readLayout(data.layout),
     changes: data.changes.map((change) => ({
       ...change,
       vertices: decode(change.vertices),
@@ -59,6 +60,13 @@ function readQuads({ positions, corners, others, distances }) {
   const quads = Array.from({ length: flat.length / 4 }, (_, q) => [...flat.subarray(4 * q, 4 * q + 4)]);
   const faces = [...quads, ...others];
   return { vertices, quads, others, faces, irregular: irregularOf(vertices.length, faces), distances: decode(distances) };
+}
+
+function readLayout({ patches, edges, vertices }) {
+  const all = decode(vertices);
+  let start = 0;
+  const arcs = Array.from(decode(edges), (count) => [...all.subarray(start, (start += count + 1))]);
+  return { patches: decode(patches), arcs };
 }
 
 /** The vertices with other than four edges, three on the boundary, and the steps of their index. */

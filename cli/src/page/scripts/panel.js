@@ -10,7 +10,7 @@ function make(tag, properties = {}, ...children) {
 }
 
 /** The layers that a page has: name, title, count, and whether there is anything to see. */
-function layersOf({ triangles, given, isRefined, features, field, map, quads, changes }) {
+function layersOf({ triangles, given, isRefined, features, field, map, quads, layout, changes }) {
   const count = (n, noun) => `${thousands(n)} ${noun}${n === 1 ? "" : "s"}`;
   const edges = features.edges.length / 2, missed = features.missed.length / 2;
   const layers = [
@@ -27,6 +27,10 @@ function layersOf({ triangles, given, isRefined, features, field, map, quads, ch
     layers.push(["quads", "Quads", thousands(quads.quads.length)]);
     layers.push(["poles", "Irregular vertices of the quads", thousands(quads.irregular.length)]);
   }
+  if (layout) {
+    layers.push(["arcs", "Arcs of the layout", thousands(layout.arcs.length)]);
+    layers.push(["numbers", "Edges of quads along arcs", ""]);
+  }
   if (changes.length) layers.push(["changes", "Repair", count(changes.length, "kind") + " of change"]);
   return layers;
 }
@@ -34,11 +38,12 @@ function layersOf({ triangles, given, isRefined, features, field, map, quads, ch
 const KINDS = { quad: "quad", corner: "quad vertex", triangle: "triangle", vertex: "vertex" };
 
 /** What each button shows. */
-function presetsOf({ field, map, quads }) {
+function presetsOf({ field, map, quads, layout }) {
   const presets = [["Input", ["input", "triangles", "features", "changes"]]];
   if (field) presets.unshift(["Field", ["input", "features", "field", "irregular"]]);
   if (map) presets.unshift(["Map", ["input", "features", "integers", "irregular"]]);
   if (quads) presets.unshift(["Quads", ["quads", "features", "poles"]]);
+  if (layout) presets.unshift(["Layout", ["quads", "features", "poles", "arcs", "numbers"]]);
   return presets;
 }
 
@@ -164,10 +169,12 @@ class Panel {
 
   colour() {
     this.measure = this.measures[element("measure").selectedIndex];
-    document.querySelector(".chart").hidden = !this.measure;
-    for (const id of ["statistics", "worst"]) element(id).hidden = !this.measure;
-    element("fit").parentElement.hidden = !this.measure;
+    const hasRange = Boolean(this.measure?.range);
+    document.querySelector(".chart").hidden = !hasRange;
+    for (const id of ["statistics", "worst"]) element(id).hidden = !hasRange;
+    element("fit").parentElement.hidden = !hasRange;
     if (!this.measure) return this.view.colour(() => COLOURS.plain);
+    if (this.measure.isKind) return this.view.colour((q) => colourOfKind(this.measure.values[q]));
     const { values, isTwoSided } = this.measure;
     this.range = element("fit").checked ? fitted(this.measure) : this.measure.range;
     const stops = stopsOf(this.measure);
@@ -212,7 +219,7 @@ class Panel {
   }
 
   markSelection() {
-    if (!this.measure) return;
+    if (!this.measure?.range) return;
     const value = this.chosen?.kind === "quad" ? this.measure.values[this.chosen.number] : undefined;
     markChart(this.measure, this.range, value);
   }

@@ -1,4 +1,4 @@
-// The shaders, and what the four kinds of drawing share. Sizes are in pixels of the canvas.
+// The shaders, and what the five kinds of drawing share. Sizes are in pixels of the canvas.
 
 const PROJECT = `#version 300 es
 precision highp float;
@@ -124,5 +124,30 @@ void main() {
   /* A thin dark rim parts the ball from faces of its colour. */
   lit = mix(lit, c * 0.35, smoothstep(1.0 - 4.0 / size, 1.0 - 1.0 / size, r));
   colour = vec4(lit * alpha, alpha);
+}`,
+};
+
+/**
+ * Digits on the screen at points of the surface, one an instance. What faces away is left out, and what has less room
+ * on the screen than it needs.
+ */
+const DIGITS = {
+  vertex: `${PROJECT}
+in vec3 position; in vec3 normal; in vec3 digit; in float room;
+uniform vec2 viewport, size; uniform float unit;
+out vec2 at;
+void main() {
+  vec2 corner = vec2(gl_VertexID % 2, gl_VertexID / 2);
+  gl_Position = project(position);
+  gl_Position.xy += 2.0 * size * (corner + vec2(digit.y - 0.5 * digit.z, -0.5)) / viewport;
+  if ((turn * normal).z < 0.2 || room * unit < size.x * (digit.z + 0.5)) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+  at = vec2((digit.x + corner.x) / 10.0, 1.0 - corner.y);
+}`,
+  fragment: `${FRAGMENT}
+in vec2 at;
+uniform sampler2D glyphs;
+void main() {
+  colour = texture(glyphs, at);
+  if (colour.a < 0.1) discard;
 }`,
 };

@@ -15,6 +15,7 @@ class View {
     this.gl = gl;
     this.shaders = {
       surface: build(gl, SURFACE), lines: build(gl, LINES), crosses: build(gl, CROSSES), balls: build(gl, BALLS),
+      digits: build(gl, DIGITS),
     };
     this.makeBatches();
     gl.enable(gl.DEPTH_TEST);
@@ -51,7 +52,23 @@ class View {
       const rims = model.quads.others.flatMap((face) => face.map((v, k) => [place(v), place(face[(k + 1) % face.length])]));
       this.others = segments(gl, shaders.lines, rims);
     }
+    if (model.layout) this.makeLayout();
     this.showChanges();
+  }
+
+  makeLayout() {
+    const { gl, model, shaders } = this;
+    const { vertices, faces } = model.quads;
+    const at = vertices.map(model.place);
+    const normals = vertices.map(() => [0, 0, 0]);
+    for (const face of faces) {
+      const area = areaOf(face.map((v) => at[v]));
+      for (const v of face) normals[v] = add(normals[v], area);
+    }
+    const { arcs } = model.layout;
+    this.arcs = segments(gl, shaders.lines, arcs.flatMap((arc) => arc.slice(1).map((v, k) => [at[arc[k]], at[v]])));
+    this.glyphs = digitTexture(gl);
+    this.numbers = numbersBatch(gl, shaders.digits, arcLabels(arcs, at, normals));
   }
 
   /** Marks what the changes that are shown have changed. */
@@ -135,6 +152,7 @@ class View {
     this.drawFaces();
     this.drawLines();
     this.drawBalls();
+    if (this.layers.numbers) this.drawNumbers();
     if (this.layers.quads && this.layers.input && !this.isWireframe) this.drawSurface(0.35);
   }
 
@@ -184,8 +202,17 @@ class View {
       line(this.features[0], this.ink() === COLOURS.chalk ? COLOURS.chalk : COLOURS.feature, 2.4, 0.003);
       line(this.features[1], COLOURS.missed, 4, 0.005);
     }
+    if (layers.arcs) line(this.arcs, this.ink() === COLOURS.chalk ? COLOURS.chalk : COLOURS.arc, 3.2, 0.003);
     if (layers.field) this.drawCrosses();
     line(this.selected, COLOURS.selected, 4, 0.0035);
+  }
+
+  drawNumbers() {
+    this.gl.bindTexture(this.gl.TEXTURE_2D, this.glyphs);
+    this.numbers.draw({
+      ...this.shared, lift: Math.min(0.03, 9 / this.unitPixels) + 0.006, size: DIGIT.map((x) => x * this.ratio),
+      unit: this.unitPixels * this.ratio,
+    });
   }
 
   drawCrosses() {

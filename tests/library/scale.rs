@@ -1,9 +1,7 @@
 //! An objective in other units is the same problem: multiplied by a power of two, which is exact, it has the
 //! same integers, status and gap.
 
-mod common;
-
-use common::{weighted_orientation_field, weighted_parametrization};
+use crate::common::{weighted_orientation_field, weighted_parametrization};
 use roundel::{Options, Problem, Solution, SolveStatus, Strategy, solve};
 
 const STRATEGIES: [Strategy; 6] = [

@@ -1,8 +1,6 @@
 //! Quads that follow a base layout, on shapes and on meshes of the archive.
 
 #[cfg(feature = "mesh-io")]
-mod common;
-
 use roundel::layout::{BaseLayout, LayoutOptions, LayoutQuads, LayoutSizing, layout_quads};
 use roundel::mesh::vector::Vec3;
 use roundel::mesh::{TriangleMesh, shape};
@@ -246,8 +244,8 @@ fn vertices_may_be_well_off_their_best_places() {
 #[cfg(feature = "mesh-io")]
 #[test]
 fn patches_of_whole_legs_are_filled() {
-    let Some(archive) = common::archive::archive() else {
-        return common::skip::skip_unless_ci(common::archive::MISSING);
+    let Some(archive) = crate::common::archive::archive() else {
+        return crate::common::skip::skip_unless_ci(crate::common::archive::MISSING);
     };
     let cow = roundel::mesh::io::read(archive.join("cow.off")).unwrap();
     let found = solve(&cow, &box_around(&cow), &sized(LayoutSizing::Fewest)).unwrap();

@@ -1,14 +1,10 @@
 //! Curves in space as guides of a field and as edge loops of quads, against closed forms.
 
-#![cfg(feature = "mesh-io")]
-
-mod common;
-
 use std::collections::BTreeMap;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use common::Random;
-use common::archive::{MISSING, archive};
+use crate::common::Random;
+use crate::common::archive::{MISSING, archive};
 
 use roundel::field::{Guidance, guides_along, smoothest_field};
 use roundel::geodesic::{SurfacePoint, cut_along, draw_curve};
@@ -205,7 +201,7 @@ fn a_tilted_great_circle_is_an_edge_loop_of_a_sphere() {
 #[test]
 fn a_curve_around_an_elephant_is_an_edge_loop() {
     let Some(folder) = archive() else {
-        return common::skip::skip_unless_ci(MISSING);
+        return crate::common::skip::skip_unless_ci(MISSING);
     };
     let mesh = io::read(folder.join("elephant.off")).unwrap();
     let section = section(&mesh, -0.036);

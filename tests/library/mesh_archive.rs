@@ -6,13 +6,9 @@
 //! Debian. Without it, the tests look where Debian's `libcgal-demo` puts the archive. Where there is none,
 //! they say that they are skipped, and fail if `CI` is set.
 
-#![cfg(feature = "mesh-io")]
-
-mod common;
-
 use std::path::Path;
 
-use common::archive::{MISSING, archive};
+use crate::common::archive::{MISSING, archive};
 use roundel::check::{CheckOptions, check_map};
 use roundel::extract::QuadMesh;
 use roundel::field::{near_features, solve_field};
@@ -127,7 +123,7 @@ fn load(folder: &Path, name: &str) -> Result<TriangleMesh, MeshError> {
 #[test]
 fn sound_meshes_load_and_broken_ones_are_refused_for_the_right_reason() {
     let Some(folder) = archive() else {
-        return common::skip::skip_unless_ci(MISSING);
+        return crate::common::skip::skip_unless_ci(MISSING);
     };
     for &(name, faces, genus) in CLOSED {
         let mesh = load(&folder, name).unwrap_or_else(|e| panic!("{name}: {e}"));
@@ -185,7 +181,7 @@ fn fold_free_map(mesh: &TriangleMesh) -> (FoldFreeMap, bool) {
 #[test]
 fn small_meshes_get_valid_maps() {
     let Some(folder) = archive() else {
-        return common::skip::skip_unless_ci(MISSING);
+        return crate::common::skip::skip_unless_ci(MISSING);
     };
     for name in [
         "part", "eight", "spool", "cactus", "knot", "plane", "cylinder",
@@ -201,7 +197,7 @@ fn small_meshes_get_valid_maps() {
 #[test]
 fn faults_that_neighbours_cannot_mend_are_mended() {
     let Some(folder) = archive() else {
-        return common::skip::skip_unless_ci(MISSING);
+        return crate::common::skip::skip_unless_ci(MISSING);
     };
     let (found, is_valid) = fold_free_map(&load(&folder, "diplodocus").unwrap());
     assert!(is_valid && found.refinements <= 1 && found.gradings == 0);
@@ -212,7 +208,7 @@ fn faults_that_neighbours_cannot_mend_are_mended() {
 #[test]
 fn a_refinement_that_leaves_more_needles_is_not_used() {
     let Some(folder) = archive() else {
-        return common::skip::skip_unless_ci(MISSING);
+        return crate::common::skip::skip_unless_ci(MISSING);
     };
     let mut guidance = QuadOptions::default().guidance;
     guidance.feature_angle = Some(40f64.to_radians());
@@ -258,7 +254,7 @@ fn near_features_of(mesh: &TriangleMesh, clearance: Option<f64>) -> (Quadrangula
 #[test]
 fn irregular_vertices_keep_an_edge_away_from_features() {
     let Some(folder) = archive() else {
-        return common::skip::skip_unless_ci(MISSING);
+        return crate::common::skip::skip_unless_ci(MISSING);
     };
     for (name, before) in [("fandisk", 4), ("anchor_dense", 28), ("rotor", 16)] {
         let mesh = load(&folder, name).unwrap();
@@ -277,7 +273,7 @@ fn irregular_vertices_keep_an_edge_away_from_features() {
 #[ignore = "minutes of work"]
 fn all_sound_meshes_get_valid_maps() {
     let Some(folder) = archive() else {
-        return common::skip::skip_unless_ci(MISSING);
+        return crate::common::skip::skip_unless_ci(MISSING);
     };
     let slivers = ["pinion", "cheese"];
     let closed: Vec<_> = CLOSED.iter().filter(|m| !slivers.contains(&m.0)).collect();
@@ -336,7 +332,7 @@ fn farthest(mesh: &TriangleMesh, quads: &QuadMesh) -> f64 {
 #[ignore = "half a minute of work"]
 fn sizes_that_follow_curvature_bring_quads_nearer_to_the_surface() {
     let Some(folder) = archive() else {
-        return common::skip::skip_unless_ci(MISSING);
+        return crate::common::skip::skip_unless_ci(MISSING);
     };
     for (name, count) in [("bunny00", 2_000), ("homer", 2_000), ("retinal", 500)] {
         let mesh = load(&folder, name).unwrap();
@@ -354,7 +350,7 @@ fn sizes_that_follow_curvature_bring_quads_nearer_to_the_surface() {
 #[ignore = "minutes of work"]
 fn quads_whose_sizes_follow_curvature_conform() {
     let Some(folder) = archive() else {
-        return common::skip::skip_unless_ci(MISSING);
+        return crate::common::skip::skip_unless_ci(MISSING);
     };
     for &(name, _, _) in CLOSED {
         let mesh = load(&folder, name).unwrap();

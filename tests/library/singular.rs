@@ -1,9 +1,7 @@
 //! Lattices that are singular up to rounding errors, or whose rank double precision cannot decide. A solve
 //! takes little work, is no worse than rounding, and never calls optimal a solution that is not.
 
-mod common;
-
-use common::{Random, solve_briefly};
+use crate::common::{Random, solve_briefly};
 use roundel::{Problem, Solution, SolveStatus, Strategy, Triangle};
 
 /// A number of multiplications that no problem of eight unknowns needs: forty times the most that any of
@@ -89,7 +87,7 @@ fn an_integer_without_influence_on_the_energy_stays_small() {
 impl Random {
     /// A random multiple of 1/2 from -8 to 8. If `wild`, now and then a number is added that makes relations
     /// between integers impossible or almost so.
-    fn number(&mut self, wild: bool) -> f64 {
+    fn half_or_wild(&mut self, wild: bool) -> f64 {
         let half = self.below(33) as f64 / 2.0 - 8.0;
         match self.below(9) {
             0 if wild => half + 2f64.sqrt(),
@@ -100,17 +98,17 @@ impl Random {
     }
 
     /// A random problem of few least-squares rows with few unknowns each, often fewer rows than integers.
-    fn problem(&mut self) -> Problem {
+    fn dependent_problem(&mut self) -> Problem {
         let n = 1 + self.below(8);
         let wild = self.below(2) == 0;
         let mut problem = Problem::new(n).unwrap();
         for _ in 0..1 + self.below(n + 2) {
             let terms = 1 + self.below(4);
             let indices: Vec<usize> = (0..terms).map(|_| self.below(n)).collect();
-            let values: Vec<f64> = (0..terms).map(|_| self.number(wild)).collect();
+            let values: Vec<f64> = (0..terms).map(|_| self.half_or_wild(wild)).collect();
             let weight = (1 + self.below(16)) as f64 / 2.0;
             problem
-                .add_least_squares(&indices, &values, self.number(wild), weight)
+                .add_least_squares(&indices, &values, self.half_or_wild(wild), weight)
                 .unwrap();
         }
         let integers: Vec<usize> = (0..n).filter(|_| self.below(3) > 0).collect();
@@ -124,7 +122,7 @@ fn small_lattices_take_little_work_and_are_no_worse_than_rounding() {
     let mut random = Random::new(1);
     let mut bounded = 0;
     for round in 0..3000 {
-        let problem = random.problem();
+        let problem = random.dependent_problem();
         // A tiny coefficient in the wrong place can make it undecidable whether there is a minimum.
         let Ok(rounded) = solve_briefly(&problem, Strategy::Adaptive) else {
             continue;

@@ -1,7 +1,5 @@
 //! The same input gives the same bits in every run and with any number of threads.
 
-mod common;
-
 use roundel::field::{FieldProblem, curvature_constraints};
 use roundel::map::{SeamlessOptions, SeamlessProblem};
 use roundel::mesh::{TriangleMesh, io, jitter, shape};
@@ -12,8 +10,8 @@ fn problems() -> Vec<Problem> {
     let mut problems: Vec<Problem> = (1..4)
         .flat_map(|seed| {
             [
-                common::orientation_field(7, seed),
-                common::parametrization(6, seed),
+                crate::common::orientation_field(7, seed),
+                crate::common::parametrization(6, seed),
             ]
         })
         .map(Result::unwrap)
@@ -99,7 +97,7 @@ fn fields_maps_and_quads_have_the_same_bits_at_any_number_of_threads() {
 
 /// The same over every shape, rough and smooth, small and large, by other strategies and ten times each, and over
 /// the files of meshes in the folder `ROUNDEL_MESHES` if it is given:
-/// `cargo test --release --test determinism -- --ignored --nocapture at_length`.
+/// `cargo test --release --test library -- determinism:: --ignored --nocapture at_length`.
 #[test]
 #[ignore = "takes an hour"]
 fn fields_maps_and_quads_have_the_same_bits_at_length() {

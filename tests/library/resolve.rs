@@ -1,8 +1,6 @@
 //! A re-solve gives the same result as a first solve, whatever was changed in between.
 
-mod common;
-
-use common::{Random, orientation_field, parametrization};
+use crate::common::{Random, orientation_field, parametrization};
 use proptest::prelude::*;
 use proptest::strategy::Strategy as Generated;
 use roundel::Ordering;

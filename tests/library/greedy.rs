@@ -1,8 +1,6 @@
 //! Direct and exact greedy rounding, compared with dense textbook versions on the same reduced model.
 
-mod common;
-
-use common::dense_solve;
+use crate::common::dense_solve;
 use roundel::internals::eliminate::{ReducedModel, eliminate};
 use roundel::{Model, Monitor, Options, Problem, Strategy, solve};
 
@@ -87,7 +85,7 @@ fn same_decisions(problem: &Problem, strategy: Strategy) {
 #[test]
 fn greedy_decides_orientation_fields_like_the_textbook() {
     for seed in 1..20 {
-        let problem = common::orientation_field(3 + seed as usize % 4, seed).unwrap();
+        let problem = crate::common::orientation_field(3 + seed as usize % 4, seed).unwrap();
         same_decisions(&problem, Strategy::Greedy);
     }
 }
@@ -95,7 +93,7 @@ fn greedy_decides_orientation_fields_like_the_textbook() {
 #[test]
 fn greedy_decides_parametrizations_like_the_textbook() {
     for seed in 1..20 {
-        let problem = common::parametrization(4 + seed as usize % 3, seed).unwrap();
+        let problem = crate::common::parametrization(4 + seed as usize % 3, seed).unwrap();
         same_decisions(&problem, Strategy::Greedy);
     }
 }
@@ -104,10 +102,13 @@ fn greedy_decides_parametrizations_like_the_textbook() {
 fn direct_rounds_the_relaxation_once() {
     for seed in 1..20 {
         same_decisions(
-            &common::orientation_field(5, seed).unwrap(),
+            &crate::common::orientation_field(5, seed).unwrap(),
             Strategy::Direct,
         );
-        same_decisions(&common::parametrization(5, seed).unwrap(), Strategy::Direct);
+        same_decisions(
+            &crate::common::parametrization(5, seed).unwrap(),
+            Strategy::Direct,
+        );
     }
 }
 
@@ -115,7 +116,7 @@ fn direct_rounds_the_relaxation_once() {
 fn a_field_without_a_fixed_angle_is_decided_like_one_with_a_fixed_angle() {
     // The energy does not change when all angles turn together, so the free angle decides nothing.
     for seed in 1..10 {
-        let fixed = common::orientation_field(4, seed).unwrap();
+        let fixed = crate::common::orientation_field(4, seed).unwrap();
         let mut free = fixed.clone();
         free.unpin(0).unwrap();
         for strategy in [Strategy::Direct, Strategy::Greedy] {
@@ -135,7 +136,7 @@ fn a_field_without_a_fixed_angle_is_decided_like_one_with_a_fixed_angle() {
 
 #[test]
 fn a_larger_problem_gives_the_same_bits_every_run() {
-    let problem = common::parametrization(24, 7).unwrap();
+    let problem = crate::common::parametrization(24, 7).unwrap();
     let first = solve(&problem, &Options::default()).unwrap();
     for threads in [1, 2, 4] {
         let options = Options {

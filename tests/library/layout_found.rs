@@ -1,12 +1,8 @@
 //! Layouts of quads that the library makes, from shapes and from the meshes of CGAL's demos.
 
-#![cfg(feature = "mesh-io")]
-
-mod common;
-
 use std::collections::BTreeSet;
 
-use common::archive::{MISSING, archive};
+use crate::common::archive::{MISSING, archive};
 use roundel::layout::found::{FoundLayout, QuadSurface, SimplifyOptions, SplinePatches, simplify};
 use roundel::layout::{LayoutOptions, LayoutSizing, layout_quads};
 use roundel::map::Sizing;
@@ -117,7 +113,7 @@ fn layouts_of_quads_lead_back_to_quads() {
 #[ignore = "minutes in builds without optimisation"]
 fn layouts_of_quads_of_meshes_of_the_demos_lead_back_to_quads() {
     let Some(archive) = archive() else {
-        return common::skip::skip_unless_ci(MISSING);
+        return crate::common::skip::skip_unless_ci(MISSING);
     };
     for name in ["fandisk", "rockerarm", "3holes", "bunny00"] {
         let mesh = io::read(archive.join(format!("{name}.off"))).unwrap();
@@ -192,7 +188,7 @@ fn surfaces_come_within_the_tolerance_and_share_the_points_of_their_sides() {
 #[test]
 fn quads_of_meshes_of_the_demos_have_layouts() {
     let Some(archive) = archive() else {
-        return common::skip::skip_unless_ci(MISSING);
+        return crate::common::skip::skip_unless_ci(MISSING);
     };
     for (name, quads) in [("fandisk", 1000), ("eight", 600), ("knot1", 600)] {
         let mesh = io::read(archive.join(format!("{name}.off"))).unwrap();

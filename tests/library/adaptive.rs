@@ -1,8 +1,6 @@
 //! Adaptive greedy rounding: properties that hold for all its parameters, and tests that each part of
 //! it is used.
 
-mod common;
-
 use roundel::field::{FieldProblem, curvature_constraints};
 use roundel::mesh::{TriangleMesh, shape};
 use roundel::{Options, Problem, Solution, SolveStatus, Strategy, solve};
@@ -47,8 +45,8 @@ fn one_integer_at_a_time_to_a_tight_tolerance_is_exact_greedy() {
             ..adaptive()
         };
         for problem in [
-            common::orientation_field(6, seed).unwrap(),
-            common::parametrization(5, seed).unwrap(),
+            crate::common::orientation_field(6, seed).unwrap(),
+            crate::common::parametrization(5, seed).unwrap(),
         ] {
             let exact = greedy(&problem).energy();
             let energy = solve(&problem, &options).unwrap().energy();
@@ -71,7 +69,7 @@ fn conjugate_gradients_and_factorizations_alone_are_exact_greedy_too() {
         ..adaptive()
     };
     for seed in 1..8 {
-        let problem = common::parametrization(5, seed).unwrap();
+        let problem = crate::common::parametrization(5, seed).unwrap();
         let exact = greedy(&problem).energy();
         for options in [without(200, false), without(0, true)] {
             let energy = solve(&problem, &options).unwrap().energy();
@@ -128,7 +126,7 @@ fn the_parameter_sets_of_the_thesis_solve_their_problems() {
     let field = field("rounded-cube", 2000);
     let solution = solve(&field, &Options::orientation_field()).unwrap();
     assert!(solution.energy() <= direct(&field).energy());
-    let map = common::parametrization(12, 5).unwrap();
+    let map = crate::common::parametrization(12, 5).unwrap();
     let solution = solve(&map, &Options::parametrization()).unwrap();
     assert!(solution.max_constraint_violation() < 1e-9);
     assert!(solution.energy() >= solution.lower_bound().unwrap());

@@ -62,7 +62,7 @@ fn every_feature_edge_lies_exactly_on_an_integer_isoline() {
             quads: triangles / 4,
         };
         let plain = SeamlessProblem::new(&mesh, &field, &plain).unwrap();
-        let plain = crate::map(&mesh, &plain);
+        let plain = self::map(&mesh, &plain);
         let off = off_isolines(&mesh, &plain, &features).len();
         assert!(2 * off > features.edges().count(), "{name}: {off}");
     }
@@ -133,7 +133,7 @@ fn an_edge_length_is_the_reciprocal_of_the_gradients() {
         if sizes[0] == sizes[1] {
             let sizing = Sizing::EdgeLength(sizes[0]);
             let same = SeamlessProblem::with_features(&mesh, &field, &sizing, &none).unwrap();
-            assert_eq!(crate::map(&mesh, &same).corner_uvs(), map.corner_uvs());
+            assert_eq!(self::map(&mesh, &same).corner_uvs(), map.corner_uvs());
         }
     }
 }

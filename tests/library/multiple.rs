@@ -1,7 +1,5 @@
 //! Multiple rounding as published: the limits of its parameters, and the elimination that it uses.
 
-mod common;
-
 use roundel::Ordering;
 use roundel::{Options, Problem, SolveStatus, Strategy, solve};
 
@@ -53,7 +51,7 @@ fn one_integer_at_a_time_with_exact_steps_is_exact_greedy() {
         ..iterative.clone()
     };
     for seed in 1..6 {
-        let problem = common::parametrization(5, seed).unwrap();
+        let problem = crate::common::parametrization(5, seed).unwrap();
         let exact = energy(&problem, &with(Strategy::Greedy));
         for options in [&local, &iterative, &factored] {
             assert_same(energy(&problem, options), exact);
@@ -70,7 +68,7 @@ fn without_steps_in_between_it_is_direct_rounding() {
         ..multiple()
     };
     for seed in 1..6 {
-        let problem = common::parametrization(6, seed).unwrap();
+        let problem = crate::common::parametrization(6, seed).unwrap();
         assert_same(
             energy(&problem, &deaf),
             energy(&problem, &with(Strategy::Direct)),
@@ -81,7 +79,7 @@ fn without_steps_in_between_it_is_direct_rounding() {
 #[test]
 fn every_parameter_set_gives_an_energy_above_the_relaxation() {
     for seed in 1..6 {
-        let problem = common::orientation_field(8, seed).unwrap();
+        let problem = crate::common::orientation_field(8, seed).unwrap();
         let optimum = solve(&problem, &with(Strategy::Relax)).unwrap().energy();
         for updates in [0, 5, 100_000] {
             let options = Options {

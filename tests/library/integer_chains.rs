@@ -1,9 +1,7 @@
 //! Small problems with chains of integer constraints. Their numbers are halves up to 8, but elimination
 //! may lead to numbers of ten digits. The guarantees of a solution hold all the same.
 
-mod common;
-
-use common::{Random, solve_briefly};
+use crate::common::{Random, solve_briefly};
 use roundel::internals::eliminate::eliminate;
 use roundel::solve::verify;
 use roundel::{Error, Options, Problem, SolveStatus, Solver, Strategy, Triangle};
@@ -412,7 +410,7 @@ fn the_guarantees_hold_for_twenty_thousand_problems() {
     check_random_problems(20_000, 8);
 }
 
-/// Takes minutes: `CHAINS_SEED=1 cargo test --release --test integer_chains -- --ignored` tries other
+/// Takes minutes: `CHAINS_SEED=1 cargo test --release --test library -- integer_chains:: --ignored` tries other
 /// problems for every seed.
 #[test]
 #[ignore = "takes minutes"]
