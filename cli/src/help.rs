@@ -15,7 +15,7 @@ const COMMON: [&str; 3] = ["strategy", "time_limit", "threads"];
 const EXPERT: [&str; 3] = ["preset", "stiffen", "stiffenings"];
 
 /// Examples of each command.
-const EXAMPLES: [(&str, &str); 13] = [
+const EXAMPLES: [(&str, &str); 14] = [
     (
         "solve",
         "\
@@ -70,6 +70,12 @@ const EXAMPLES: [(&str, &str); 13] = [
         "\
   roundel quad shape:gear:4000 -o quads.obj
   roundel quad fandisk.obj --features 40 --quads 2000 -o quads.obj --report report.html",
+    ),
+    (
+        "census",
+        "\
+  roundel census meshes -o census.html --jobs 4
+  roundel census meshes -o census.html --part 3/100 --kill-after 600 -- --quads 5000 --adapt 1",
     ),
     (
         "extract",

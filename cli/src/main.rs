@@ -1,5 +1,6 @@
 //! The `roundel` program: one command for each task, in a module of its name.
 
+mod census;
 mod changes;
 mod check;
 mod check_proof;
@@ -53,6 +54,7 @@ enum Command {
     Quad(quad::Arguments),
     Extract(extract::Arguments),
     Layout(layout::Arguments),
+    Census(census::Arguments),
     Shape(shape::Arguments),
     Evaluate(evaluate::Arguments),
     Generate(generate::Arguments),
@@ -74,6 +76,7 @@ fn main() -> ExitCode {
         Command::Quad(arguments) => quad::run(&arguments),
         Command::Extract(arguments) => extract::run(&arguments),
         Command::Layout(arguments) => layout::run(&arguments),
+        Command::Census(arguments) => census::run(&arguments),
         Command::Shape(arguments) => shape::run(&arguments),
         Command::Evaluate(arguments) => evaluate::run(&arguments),
         Command::Generate(arguments) => {

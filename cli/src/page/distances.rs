@@ -9,7 +9,7 @@ const SAMPLES: usize = 5;
 
 /// For every quad the largest distance of its samples from the mesh. A quad is the bilinear patch of its
 /// corners.
-pub(super) fn distances(quads: &QuadMesh, mesh: &TriangleMesh) -> Vec<f32> {
+pub fn distances(quads: &QuadMesh, mesh: &TriangleMesh) -> Vec<f32> {
     let surface = ClosestPoint::new(mesh);
     let mut hint = None;
     let mut distance = |p: Vec3| {

@@ -13,6 +13,7 @@ use std::path::Path;
 
 use roundel::{Error, Result};
 
+pub use distances::distances;
 pub use rows::{
     Rows, bound, gap, histogram, mesh_rows, quad_rows, seconds_rows, solve_rows, valences,
 };
@@ -20,7 +21,8 @@ pub use scene::Scene;
 pub use tables::Tables;
 
 const PAGE: &str = include_str!("page.html");
-const STYLE: &str = include_str!("page.css");
+/// The style of all pages.
+pub const STYLE: &str = include_str!("page.css");
 
 /// In the order of the page, where they share one scope.
 const SCRIPTS: [&str; 15] = [
@@ -88,7 +90,7 @@ impl Page<'_> {
 }
 
 /// The page with its marks `@NAME@` replaced; what replaces one is not looked through again.
-fn filled(page: &str, parts: &[(&str, &str)]) -> String {
+pub fn filled(page: &str, parts: &[(&str, &str)]) -> String {
     let mut out = String::new();
     for (i, piece) in page.split('@').enumerate() {
         match parts.iter().find(|(name, _)| i % 2 == 1 && *name == piece) {
@@ -118,7 +120,7 @@ fn stem(mesh: &Path) -> String {
 }
 
 /// The words of the command line, as a shell reads them.
-fn command_line(words: impl Iterator<Item = String>) -> String {
+pub fn command_line(words: impl Iterator<Item = String>) -> String {
     let is_plain = |c: char| c.is_alphanumeric() || "_-./:,=+%@".contains(c);
     let quoted = words.map(
         |word| match !word.is_empty() && word.chars().all(is_plain) {
@@ -131,7 +133,7 @@ fn command_line(words: impl Iterator<Item = String>) -> String {
 }
 
 /// A text as HTML.
-fn escaped(text: &str) -> String {
+pub fn escaped(text: &str) -> String {
     let text = text.replace('&', "&amp;").replace('<', "&lt;");
     text.replace('>', "&gt;").replace('"', "&quot;")
 }

@@ -13,6 +13,7 @@ use crate::mesh::MeshFlags;
 use crate::options::{QuadFlags, SolverOptions};
 use crate::outputs::OutputFlags;
 use crate::parametrize::SizingFlags;
+use crate::picture::PictureFlags;
 use crate::threads::TraceFlags;
 
 /// Turn a triangle mesh into quads: field, map and extraction in one.
@@ -72,6 +73,13 @@ pub struct Arguments {
     /// Write a page for a browser with all figures and an interactive view of field, map and quads
     #[arg(long, value_name = "REPORT.html")]
     pub report: Option<PathBuf>,
+
+    #[command(flatten)]
+    pub picture: PictureFlags,
+
+    /// Measure the largest distance of the quads from the mesh, at 25 points of each, for the summary and JSON
+    #[arg(long)]
+    pub measure_distance: bool,
 
     /// Also solve field and map with these strategies, separated by commas, and show their results in
     /// the summary, the page and JSON

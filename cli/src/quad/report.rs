@@ -1,8 +1,11 @@
 //! The JSON object of quads.
 
+use std::fmt;
+
 use roundel::Solution;
 use roundel::extract::QuadMesh;
 use roundel::map::Sizing;
+use roundel::mesh::vector::{norm, sub};
 use roundel::smooth::QuadQuality;
 use serde::Serialize;
 
@@ -40,6 +43,10 @@ pub(super) struct QuadReport<'a> {
     /// Where a number of quads was asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     count: Option<CountReport>,
+    /// Where it was asked for: the largest distance of the quads from the mesh, in its units and over the diagonal of
+    /// its bounding box.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    distance: Option<Distance>,
     /// Where quads are written with attributes.
     #[serde(skip_serializing_if = "Option::is_none")]
     kept: Option<KeptReport<'a>>,
@@ -52,6 +59,35 @@ pub(super) struct QuadReport<'a> {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     compared: Vec<Compared>,
     phases: Phases,
+}
+
+/// How far quads are from the mesh.
+#[derive(Serialize)]
+pub(super) struct Distance {
+    largest: f64,
+    of_diagonal: f64,
+}
+
+impl Distance {
+    pub(super) fn new(solved: &Solved) -> Option<Self> {
+        let largest = solved.distance?;
+        let [low, high] = solved.mesh.bounding_box();
+        Some(Distance {
+            largest,
+            of_diagonal: largest / norm(sub(high, low)),
+        })
+    }
+}
+
+impl fmt::Display for Distance {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let percent = 100.0 * self.of_diagonal;
+        write!(
+            f,
+            "{:.3e} at most, {percent:.3} % of the diagonal",
+            self.largest
+        )
+    }
 }
 
 /// How a number of quads was met.
@@ -209,6 +245,7 @@ impl<'a> QuadReport<'a> {
             flipped: made.untangled.flipped_after,
             missed_features: missed.map(|&e| solved.mesh.edge(e).vertices).collect(),
             count: CountReport::new(solved),
+            distance: Distance::new(solved),
             kept: KeptReport::new(&solved.kept),
             not_kept: solved.kept.refused.as_deref(),
             quads: QuadCounts::new(&made.quads),

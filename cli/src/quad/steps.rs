@@ -7,6 +7,7 @@ use roundel::mesh::io::format_of;
 use roundel::quad::{QuadOptions, Quadrangulation, quadrangulate};
 use roundel::transfer::transfer_attributes;
 use roundel::{Options, Result};
+use roundel_pictures::draw_quads;
 
 use super::Arguments;
 use super::density::Density;
@@ -15,7 +16,8 @@ use crate::changes::Changes;
 use crate::field::{CurveCounts, Followed};
 use crate::mesh::{Input, Reading, RepairCounts, Wanted};
 use crate::output;
-use crate::outputs::{Content, Outputs, PAGE, TRACE, folder_of};
+use crate::outputs::{Content, Outputs, PAGE, PICTURE, TRACE, folder_of};
+use crate::page::distances;
 use crate::progress::Progress;
 
 /// Quads, and what they were made from.
@@ -28,6 +30,8 @@ pub(super) struct Solved {
     pub(super) options: QuadOptions,
     pub(super) made: Quadrangulation,
     pub(super) kept: Kept,
+    /// The largest distance of the quads from the mesh, if that was asked for.
+    pub(super) distance: Option<f64>,
     pub(super) read_seconds: f64,
 }
 
@@ -124,6 +128,13 @@ pub(super) fn solve(arguments: &Arguments) -> Result<Solved> {
         output::write_quads(&made.quads, &kept.attributes, path)?;
     }
     kept.tell_refused(not_kept, arguments);
+    if let Some(path) = &arguments.picture.file {
+        draw_quads(&made.quads, &arguments.picture.view())?.write_png(path)?;
+    }
+    let distance = arguments.measure_distance.then(|| {
+        let all = distances(&made.quads, &mesh);
+        f64::from(all.into_iter().fold(0.0, f32::max))
+    });
     let changes = match made.refined.is_some() || made.mirrored.is_some() {
         true => {
             let faces = 0..made.mesh(&mesh).face_count();
@@ -140,6 +151,7 @@ pub(super) fn solve(arguments: &Arguments) -> Result<Solved> {
         options,
         made,
         kept,
+        distance,
         read_seconds,
     })
 }
@@ -153,6 +165,7 @@ fn check_outputs(arguments: &Arguments) -> Result<()> {
     let outputs = Outputs::of(&read, arguments.output.force)
         .write(arguments.out.as_ref(), Content::Mesh)?
         .write(arguments.report.as_ref(), PAGE)?
+        .write(arguments.picture.file.as_ref(), PICTURE)?
         .write(arguments.tracing.trace.as_ref(), TRACE)?;
     outputs.tell(arguments.json || arguments.output.quiet);
     Ok(())

@@ -3,6 +3,7 @@
 use std::fmt;
 
 use super::mirrored::mirror_words;
+use super::report::Distance;
 use super::steps::Solved;
 use super::{Arguments, words};
 use crate::refinement::Refinement;
@@ -50,6 +51,9 @@ impl fmt::Display for QuadSummary<'_> {
         )?;
         if let Some(kept) = solved.kept.words() {
             line(f, "kept", &kept, solved.kept.seconds)?;
+        }
+        if let Some(distance) = Distance::new(solved) {
+            writeln!(f, "{:<10} {distance}", "distance")?;
         }
         for one in &made.compared {
             for (problem, solution) in [("field", &one.field), ("map", &one.map)] {

@@ -14,7 +14,8 @@ use page::{Block, blocks, pages, root};
 const NAMES: [&str; 2] = ["cargo run --release -p roundel-cli -- ", "roundel "];
 
 /// The commands of the program.
-const COMMANDS: [&str; 13] = [
+const COMMANDS: [&str; 14] = [
+    "census",
     "quad",
     "field",
     "parametrize",
@@ -65,7 +66,9 @@ fn every_command_that_it_shows_succeeds() {
     for (name, _) in pages() {
         let commands = commands_of(&all, &name);
         let scratch = Scratch::new(&format!("book-{}", name.replace('/', "-")));
-        fs::create_dir(scratch.path("examples")).unwrap();
+        for folder in ["examples", "meshes"] {
+            fs::create_dir(scratch.path(folder)).unwrap();
+        }
         let example = "examples/torus_field.mps";
         fs::copy(root().join(example), scratch.path(example)).unwrap();
         // The tests of `evaluate` run it on smaller meshes.

@@ -1,6 +1,7 @@
 //! The program as its users meet it: run from outside, on files.
 
 mod book;
+mod census;
 mod curves;
 mod distance;
 mod evaluate;

@@ -7,6 +7,7 @@ use std::process::Command;
 
 use serde_json::{Value, json};
 
+use crate::layout::cube_around_the_origin;
 use crate::run::{Scratch, finish, only_object, program};
 use crate::skip::skip_unless_ci;
 
@@ -396,14 +397,10 @@ fn fields_and_maps_have_pages_of_what_they_have() {
     }
 }
 
-/// A cube as a layout of six patches.
-const CUBE: &str = "v -1 -1 -1\nv 1 -1 -1\nv -1 1 -1\nv 1 1 -1\nv -1 -1 1\nv 1 -1 1\nv -1 1 1\nv 1 1 1\n\
-    f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
-
 #[test]
 fn layouts_have_pages_with_patches_in_colours_and_numbers_along_arcs() {
     let scratch = Scratch::new("page-layout");
-    let cube = scratch.write("cube.obj", CUBE);
+    let cube = scratch.write("cube.obj", cube_around_the_origin());
     let quads = scratch.path("quads.obj");
     let page = scratch.path("report.html");
     let [cube, quads, report] = [&cube, &quads, &page].map(|path| path.to_str().unwrap());

@@ -43,6 +43,34 @@ fn a_shape_becomes_quads_of_its_topology() {
 }
 
 #[test]
+fn quads_are_drawn_and_their_distance_is_measured() {
+    let scratch = Scratch::new("quad-picture");
+    let picture = scratch.path("quads.png");
+    let words = ["--picture-size", "64x48", "--picture", text(&picture)];
+    let flags = ["--quads", "100", "--measure-distance", "--json"];
+    let run = |shape| run(&[&["quad", shape][..], &words, &flags].concat());
+    let (code, report) = run("shape:sphere:500");
+    assert_eq!(code, 0, "{report}");
+    let png = fs::read(&picture).unwrap();
+    assert_eq!(&png[..8], b"\x89PNG\r\n\x1a\n");
+    assert_eq!(
+        (&png[16..20], &png[20..24]),
+        (&[0, 0, 0, 64][..], &[0, 0, 0, 48][..])
+    );
+    // A quad with sides of 0.35 on a sphere of radius 1 is about 0.35^2 / 4 below it in its middle.
+    let distance = &report["distance"];
+    let largest = distance["largest"].as_f64().unwrap();
+    assert!(largest > 0.01 && largest < 0.08, "{distance}");
+    let diagonal = largest / distance["of_diagonal"].as_f64().unwrap();
+    assert!((diagonal - 12f64.sqrt()).abs() < 0.1, "{diagonal}");
+    let (_, flat) = run("shape:plane:500");
+    assert!(
+        flat["distance"]["largest"].as_f64().unwrap() < 1e-9,
+        "{flat}"
+    );
+}
+
+#[test]
 fn where_few_quads_are_missing_a_strip_has_as_many() {
     let scratch = Scratch::new("quad-strip");
     let file = scratch.path("quads.obj");

@@ -214,7 +214,16 @@ fn every_command_prints_what_the_schema_says() {
                 "direct,relax",
             ],
         ),
-        ("quad", &["quad", "shape:gear:200", "--quads", "300"]),
+        (
+            "quad",
+            &[
+                "quad",
+                "shape:gear:200",
+                "--quads",
+                "300",
+                "--measure-distance",
+            ],
+        ),
         ("field", &["field", shape, "--guide-curves", &lines]),
         (
             "parametrize",
