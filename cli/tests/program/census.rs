@@ -159,7 +159,7 @@ fn parts_are_collected_by_a_census_of_the_whole() {
     let flags = ["--", "--quads", "60"];
     for part in ["1/3", "3/3"] {
         let (_, progress) = census(&folder, &page, &[&["--part", part][..], &flags].concat());
-        assert!(progress.len() > 0, "{part}");
+        assert!(!progress.is_empty(), "{part}");
         assert!(!page.exists());
     }
     // The second part is lost.
