@@ -73,13 +73,18 @@ pub(super) fn correspondence(all: &Rectangles, made: &QuadMesh) -> Option<Corres
         let ways = near.iter().flat_map(|&v| surface.around(v as usize));
         let matched = ways.filter_map(|half| Match::new(&grid, &surface, start, half));
         let rated = matched.map(|one| (one.deviation(&grid, &surface, places), one));
-        let (_, best) = rated.min_by(|a, b| a.0.total_cmp(&b.0))?;
+        let Some((_, best)) = rated.min_by(|a, b| a.0.total_cmp(&b.0)) else {
+            continue;
+        };
         for (h, g) in best.pairs {
             if std::mem::replace(&mut is_used[g as usize], true) {
                 return None;
             }
             half_of[h as usize] = g;
         }
+    }
+    if half_of.contains(&NONE) {
+        return None;
     }
     let mut vertex = vec![NONE; points];
     for (h, &g) in half_of.iter().enumerate() {

@@ -43,12 +43,12 @@ fn census(arguments: &Arguments) -> Result<()> {
     let all = meshes::find(&arguments.folder)?;
     let journal = Journal::of(&arguments.page, arguments.part);
     let runner = Runner::new(arguments)?;
-    let is_current = |mesh: &MeshFile, row: &Row| row.is_of(mesh, runner.flags());
+    let is_current = |row: &Row| {
+        let place = all.binary_search_by(|mesh| mesh.name.cmp(&row.name));
+        place.is_ok_and(|at| runner.is_current(&all[at], row))
+    };
     let mut rows = journal.read()?;
-    rows.retain(|name, row| {
-        all.iter()
-            .any(|mesh| mesh.name == *name && is_current(mesh, row))
-    });
+    rows.retain(|_, row| is_current(row));
     let is_own = |number: usize| match arguments.part {
         Some(part) => number % part.count == part.number - 1,
         None => true,

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use roundel::{Error, Result};
 
-use super::row::{Figures, Outcome, Row};
+use super::row::{Outcome, Row};
 use crate::page::{STYLE, command_line, escaped, filled};
 use crate::summary::thousands;
 
@@ -12,7 +12,7 @@ const PAGE: &str = include_str!("page.html");
 const OWN_STYLE: &str = include_str!("page.css");
 const SCRIPT: &str = include_str!("page.js");
 
-/// The columns after the picture, and whether their values are numbers.
+/// The columns after the picture.
 const COLUMNS: [&str; 11] = [
     "mesh",
     "outcome",
@@ -93,18 +93,15 @@ fn outcomes(rows: &[Row]) -> String {
 }
 
 fn html(row: &Row) -> String {
-    let Figures {
-        message, thumbnail, ..
-    } = &row.figures;
     let figures = &row.figures;
-    let picture = match thumbnail {
+    let picture = match &figures.thumbnail {
         Some(png) => format!(
             "<img loading=\"lazy\" width=\"200\" height=\"150\" alt=\"quads of {}\" src=\"data:image/png;base64,{png}\"/>",
             escaped(&row.name)
         ),
         None => String::new(),
     };
-    let outcome = match message {
+    let outcome = match &figures.message {
         Some(message) => format!("{}: {message}", row.outcome.words()),
         None => row.outcome.words().into(),
     };

@@ -74,6 +74,18 @@ impl Runner {
         self.jobs
     }
 
+    /// The file that quads of a mesh are written to.
+    fn quads_file(&self, name: &str) -> Option<PathBuf> {
+        let folder = self.quads_to.as_ref()?;
+        Some(folder.join(format!("{}.obj", file_name(name))))
+    }
+
+    /// Whether a row was made of this file, by this version with these flags, and its quads are where they are to be.
+    pub fn is_current(&self, mesh: &MeshFile, row: &Row) -> bool {
+        let is_written = |file: PathBuf| row.figures.quads.is_none() || file.exists();
+        row.is_of(mesh, &self.flags) && self.quads_file(&mesh.name).is_none_or(is_written)
+    }
+
     /// Runs a mesh.
     pub fn row(&self, mesh: &MeshFile) -> Row {
         let picture = self.scratch.join(format!("{}.png", file_name(&mesh.name)));
@@ -101,8 +113,7 @@ impl Runner {
         command.arg("quad").arg(&mesh.path);
         command.args(["--json", "--measure-distance", "--picture-size", PICTURE]);
         command.arg("--picture").arg(picture);
-        if let Some(folder) = &self.quads_to {
-            let file = folder.join(format!("{}.obj", file_name(&mesh.name)));
+        if let Some(file) = self.quads_file(&mesh.name) {
             command.arg("-o").arg(file);
         }
         let is_threads = |flag: &String| flag == "--threads" || flag.starts_with("--threads=");

@@ -149,6 +149,16 @@ fn what_was_cut_off_has_changed_or_has_other_flags_runs_again() {
     assert_eq!(run(&small), 1);
     fs::write(Path::new(&folder).join("broken.off"), "OFF\n").unwrap();
     assert_eq!(run(&["--", "--quads", "80"]), 4);
+    // Quads that are asked for later are made, but for the mesh that has none.
+    let folder = scratch.path("quads");
+    let words = [
+        "--quads-to",
+        folder.to_str().unwrap(),
+        "--",
+        "--quads",
+        "80",
+    ];
+    assert_eq!((run(&words), run(&words)), (3, 0));
 }
 
 #[test]
