@@ -67,7 +67,7 @@ fn summary(rows: &[Row]) -> String {
         .count();
     let seconds: f64 = rows.iter().map(|row| row.seconds).sum();
     format!(
-        "{} of {} meshes became quads, in {seconds:.0} seconds of all",
+        "{} of {} meshes became quads; {seconds:.0} seconds in all",
         thousands(quads),
         thousands(rows.len())
     )
@@ -168,7 +168,7 @@ mod tests {
         );
         for part in [
             "<title>folder – census</title>",
-            "<p>1 of 2 meshes became quads, in 3 seconds of all</p>",
+            "<p>1 of 2 meshes became quads; 3 seconds in all</p>",
             "<td>a&lt;b&gt;.obj</td>",
             "<td data-value=\"1234\">1,234</td>",
             "<td>refused: 1 &lt; 2</td>",
