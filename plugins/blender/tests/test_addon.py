@@ -227,14 +227,20 @@ def test_a_job_tells_its_progress_and_ends_with_the_best_so_far():
     given = surface.of_object(bpy.context.object, bpy.context.evaluated_depsgraph_get())
     request = making.Request(3000, 0.0, [])
     job = operator.Job(given, request)
-    job.start()
-    seen = set()
-    while not job.is_done:
-        seen.add(job.stage)
-        if job.stage == "map":
+    hear, stages = job._hear, []
+
+    def listen(stage, share):
+        stages.append(stage)
+        if stage == "map":
             job.end()
-        time.sleep(0.001)
-    assert {"field", "map"} <= seen
+        hear(stage, share)
+
+    job._hear = listen
+    job.start()
+    while not job.is_done:
+        time.sleep(0.01)
+    assert {"field", "map"} <= set(stages)
+    assert (job.stage, job.share) != ("", 0.0)
     if job.error is not None:
         assert isinstance(job.error, KeyboardInterrupt)
     else:
