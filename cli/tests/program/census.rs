@@ -5,8 +5,9 @@ use std::fs;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use serde_json::Value;
+use serde_json::{Value, json};
 
+use crate::page::{Window, found_by};
 use crate::run::{Scratch, finish, program};
 
 /// A folder with meshes that become quads, one that is refused, and a file that is no mesh.
@@ -104,7 +105,7 @@ fn every_mesh_has_a_row_with_its_figures_and_its_picture() {
                 .unwrap()
                 .starts_with("iVBORw0KGgo")
         );
-        assert_eq!(row["flags"], serde_json::json!(["--quads", "100"]));
+        assert_eq!(row["flags"], json!(["--quads", "100"]));
     }
     let html = fs::read_to_string(&page).unwrap();
     assert_eq!(html.matches("<img ").count(), 3);
@@ -121,6 +122,42 @@ fn every_mesh_has_a_row_with_its_figures_and_its_picture() {
     // Once more: nothing runs, and the page is the same.
     assert_eq!(census(&folder, &page, &words), (told, Vec::new()));
     assert_eq!(fs::read_to_string(&page).unwrap(), html);
+}
+
+#[test]
+fn a_browser_sorts_and_filters_the_rows() {
+    let scratch = Scratch::new("census-browser");
+    let folder = meshes(&scratch);
+    let page = scratch.path("page.html");
+    census(&folder, &page, &["--", "--quads", "60"]);
+    let journal = rows(&scratch.path("page.jsonl"));
+    let mut sized: Vec<(u64, &str)> = journal
+        .iter()
+        .filter_map(|row| Some((row["triangles"].as_u64()?, row["name"].as_str()?)))
+        .collect();
+    sized.sort_unstable();
+    assert_eq!(sized.len(), 3);
+    let window = Window {
+        width: 1400,
+        is_dark: false,
+    };
+    let checks = include_str!("census_checks.js");
+    let Some(found) = found_by(checks, &scratch, &page, &window) else {
+        return;
+    };
+    // What has no triangles is last either way.
+    let mut expected: Vec<&str> = sized.iter().map(|&(_, name)| name).collect();
+    expected.push("broken.off");
+    assert_eq!(found["ascending"], json!(expected));
+    expected[..3].reverse();
+    assert_eq!(found["descending"], json!(expected));
+    for names in ["first", "byName", "all"] {
+        assert_eq!(found[names], json!(NAMES), "{names}");
+    }
+    assert_eq!(found["refused"], json!(["broken.off"]));
+    assert_eq!(found["named"], json!(["torus.ply"]));
+    assert_eq!(found["told"], "1 of 4");
+    assert_eq!(found["pictures"], json!([200, 200, 200]));
 }
 
 #[test]

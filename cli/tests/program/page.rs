@@ -126,9 +126,9 @@ fn a_page_shows_what_repair_changed() {
 }
 
 /// A window of a browser.
-struct Window {
-    width: u32,
-    is_dark: bool,
+pub struct Window {
+    pub width: u32,
+    pub is_dark: bool,
 }
 
 /// The document that a browser makes of a page, and what it complains of; none where there is no browser.
@@ -154,9 +154,13 @@ fn drawn(scratch: &Scratch, page: &Path, window: &Window) -> Option<(String, Str
     Some((String::from_utf8(output.stdout).unwrap(), errors))
 }
 
-/// What the checks find in a window of a browser.
+/// What the checks of the page of a run find in a window of a browser.
 fn found(scratch: &Scratch, page: &Path, window: &Window) -> Option<Value> {
-    let checks = include_str!("page_checks.js");
+    found_by(include_str!("page_checks.js"), scratch, page, window)
+}
+
+/// What a script finds in a page, and leaves in an element with the id `found`; none where there is no browser.
+pub fn found_by(checks: &str, scratch: &Scratch, page: &Path, window: &Window) -> Option<Value> {
     let script = format!("<script type=\"module\">{checks}</script></body>");
     let content = fs::read_to_string(page).unwrap();
     let checked = scratch.path("checked.html");
