@@ -239,6 +239,40 @@ fn a_census_that_was_killed_goes_on_where_it_was() {
     assert!(fs::read_to_string(&page).unwrap().contains("torus.ply"));
 }
 
+/// The most processes that a census has at a time.
+#[cfg(target_os = "linux")]
+fn most_processes(folder: &str, page: &Path, jobs: &str) -> usize {
+    let page = page.to_str().unwrap();
+    let words = ["census", folder, "-o", page, "--quiet", "--jobs", jobs];
+    let mut child = program(&words).spawn().unwrap();
+    let tasks = format!("/proc/{}/task", child.id());
+    let mut most = 0;
+    while child.try_wait().unwrap().is_none() {
+        let threads = fs::read_dir(&tasks).into_iter().flatten().flatten();
+        let children =
+            threads.filter_map(|thread| fs::read_to_string(thread.path().join("children")).ok());
+        let now = children.map(|list| list.split_whitespace().count()).sum();
+        most = most.max(now);
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    most
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn as_many_meshes_run_at_a_time_as_were_asked_for() {
+    if !Path::new("/proc/thread-self/children").exists() {
+        eprintln!("skipped: this kernel does not list the children of processes");
+        return;
+    }
+    for jobs in [1, 2] {
+        let scratch = Scratch::new(&format!("census-jobs-{jobs}"));
+        let folder = meshes(&scratch);
+        let most = most_processes(&folder, &scratch.path("page.html"), &jobs.to_string());
+        assert_eq!(most, jobs);
+    }
+}
+
 #[test]
 fn a_mesh_that_takes_too_long_is_given_up() {
     let scratch = Scratch::new("census-slow");

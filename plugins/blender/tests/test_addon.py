@@ -75,6 +75,23 @@ def test_a_bevelled_cube_with_its_modifier_becomes_quads_beside_it():
     assert 380 <= len(mesh.polygons) <= 420
     # The corners are cut off: nothing is as far as a corner of the cube.
     assert np.linalg.norm(positions(mesh), axis=1).max() < 3**0.5 - 0.1
+    plain = quads_of(subject, count=400, features={"ANGLE"}, use_modifiers=False)
+    assert np.linalg.norm(positions(plain.data), axis=1).max() == pytest.approx(3**0.5)
+
+
+def test_quads_adapt_to_curvature():
+    def share_of_tips(adapt):
+        """The area of a quad at the tips of a long ellipsoid over that in its middle."""
+        bpy.ops.mesh.primitive_uv_sphere_add(segments=48, ring_count=32)
+        subject = bpy.context.object
+        for vertex in subject.data.vertices:
+            vertex.co[2] *= 4
+        mesh = quads_of(subject, count=800, adapt=adapt).data
+        areas = np.array([polygon.area for polygon in mesh.polygons])
+        height = np.abs([polygon.center[2] for polygon in mesh.polygons])
+        return np.median(areas[height > 3.7]) / np.median(areas[height < 1])
+
+    assert share_of_tips(1.0) < 0.6 * share_of_tips(0.0)
 
 
 def test_suzanne_becomes_quads_and_eyes_stay():
@@ -160,6 +177,8 @@ def test_attributes_are_carried_over():
     height = bpy.context.object.vertex_groups["height"]
     top = int(points[:, 2].argmax())
     assert height.weight(top) == pytest.approx(1.0, abs=0.02)
+    bare = quads_of(subject, keep_attributes=False)
+    assert not bare.vertex_groups and not bare.data.uv_layers and not bare.data.color_attributes
 
 
 def test_marked_edges_become_edges_of_quads():
@@ -175,14 +194,20 @@ def test_marked_edges_become_edges_of_quads():
     assert length == pytest.approx(2 * np.pi, rel=0.02)
 
 
-def test_a_vertex_group_makes_quads_denser():
+@pytest.mark.parametrize("by", ["GROUP", "COLOR"])
+def test_weights_and_colors_make_quads_denser(by):
     bpy.ops.mesh.primitive_grid_add(x_subdivisions=30, y_subdivisions=30)
     subject = bpy.context.object
-    group = subject.vertex_groups.new(name="dense")
-    group.add([v.index for v in subject.data.vertices if v.co[0] > 0], 1.0, "REPLACE")
-    group.add([v.index for v in subject.data.vertices if v.co[0] <= 0], 0.0, "REPLACE")
-    mesh = quads_of(subject, count=800, density="GROUP", density_name="dense").data
-    centers = np.array([polygon.center for polygon in mesh.polygons])
+    mesh = subject.data
+    right = [vertex.index for vertex in mesh.vertices if vertex.co[0] > 0]
+    if by == "GROUP":
+        subject.vertex_groups.new(name="dense").add(right, 1.0, "REPLACE")
+    else:
+        color = mesh.color_attributes.new(name="dense", type="FLOAT_COLOR", domain="POINT")
+        for vertex in mesh.vertices:
+            color.data[vertex.index].color = (1, 0, 0, 1) if vertex.index in right else (0, 1, 1, 1)
+    made = quads_of(subject, count=800, density=by, density_name="dense").data
+    centers = np.array([polygon.center for polygon in made.polygons])
     assert (centers[:, 0] > 0).sum() > 3 * (centers[:, 0] < 0).sum()
 
 
@@ -245,6 +270,7 @@ def test_a_job_tells_its_progress_and_ends_with_the_best_so_far():
         assert isinstance(job.error, KeyboardInterrupt)
     else:
         assert len(job.made.faces) > 100
+        assert "the best so far" in job.made.words
 
 
 def test_settings_are_saved_with_the_mesh():
