@@ -141,19 +141,20 @@ impl Runner {
         Ok(status.zip(told.ok()))
     }
 
-    /// Waits until a process has ended; after the limit it is killed.
+    /// Waits until a process has ended. One that is seen after the limit took too long, ended or not.
     fn wait(&self, child: &mut Child) -> std::io::Result<Option<ExitStatus>> {
         let started = Instant::now();
         loop {
-            if let Some(status) = child.try_wait()? {
-                return Ok(Some(status));
-            }
-            if started.elapsed() > self.limit || interrupt::was_asked() {
+            let left = self.limit.saturating_sub(started.elapsed());
+            if left.is_zero() || interrupt::was_asked() {
                 child.kill()?;
                 child.wait()?;
                 return Ok(None);
             }
-            thread::sleep(PAUSE);
+            if let Some(status) = child.try_wait()? {
+                return Ok(Some(status));
+            }
+            thread::sleep(PAUSE.min(left));
         }
     }
 }
