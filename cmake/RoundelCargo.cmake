@@ -20,9 +20,31 @@ if(NOT ROUNDEL_ABI_VERSION)
     message(FATAL_ERROR "src/capi/abi.rs does not say the ABI number")
 endif()
 
-set(ROUNDEL_LIB_DIR "${PROJECT_BINARY_DIR}/lib")
+set(ROUNDEL_CARGO_TARGET "" CACHE STRING
+    "The target that cargo builds for, such as x86_64-pc-windows-gnu; empty for cargo's own choice")
+set(cargo_target "")
+set(cargo_output "${cargo_dir}/release")
+if(ROUNDEL_CARGO_TARGET)
+    set(cargo_target --target "${ROUNDEL_CARGO_TARGET}")
+    set(cargo_output "${cargo_dir}/${ROUNDEL_CARGO_TARGET}/release")
+endif()
+
+# cargo's names of the libraries, and ours: elsewhere than on Windows the name of the shared library has the version.
+set(ROUNDEL_SONAME "")
+set(ROUNDEL_SHARED_LINKS "")
+set(ROUNDEL_IMPORT_NAME "")
+set(ROUNDEL_STATIC_NAME libroundel.a)
+set(program roundel)
 if(WIN32)
-    message(FATAL_ERROR "Roundel's CMake package does not know Windows yet; cargo build does")
+    set(ROUNDEL_SHARED_NAME roundel.dll)
+    set(cargo_shared roundel.dll)
+    set(program roundel.exe)
+    if(MSVC)
+        set(ROUNDEL_IMPORT_NAME roundel.dll.lib)
+        set(ROUNDEL_STATIC_NAME roundel.lib)
+    else()
+        set(ROUNDEL_IMPORT_NAME libroundel.dll.a)
+    endif()
 elseif(APPLE)
     set(ROUNDEL_SHARED_NAME libroundel.${PROJECT_VERSION}.dylib)
     set(ROUNDEL_SONAME @rpath/libroundel.${ROUNDEL_ABI_VERSION}.dylib)
@@ -34,9 +56,18 @@ else()
     set(ROUNDEL_SHARED_LINKS ${ROUNDEL_SONAME} libroundel.so)
     set(cargo_shared libroundel.so)
 endif()
-set(ROUNDEL_STATIC_NAME libroundel.a)
+set(ROUNDEL_LIB_DIR "${PROJECT_BINARY_DIR}/lib")
 set(ROUNDEL_SHARED "${ROUNDEL_LIB_DIR}/${ROUNDEL_SHARED_NAME}")
 set(ROUNDEL_STATIC "${ROUNDEL_LIB_DIR}/${ROUNDEL_STATIC_NAME}")
+
+# A DLL is linked through a library of its own.
+set(import_command "")
+set(ROUNDEL_IMPORT "")
+if(ROUNDEL_IMPORT_NAME)
+    set(ROUNDEL_IMPORT "${ROUNDEL_LIB_DIR}/${ROUNDEL_IMPORT_NAME}")
+    set(import_command COMMAND "${CMAKE_COMMAND}" -E copy_if_different
+        "${cargo_output}/${ROUNDEL_IMPORT_NAME}" "${ROUNDEL_IMPORT}")
+endif()
 
 set(link_commands "")
 set(ROUNDEL_SHARED_LINK_FILES "")
@@ -50,26 +81,40 @@ endforeach()
 # other calls would compile the library again.
 set(cargo_packages --package roundel --package roundel-cli)
 set(generate_command "")
-set(ROUNDEL_PROGRAM "${cargo_dir}/release/roundel")
-set(ROUNDEL_GENERATED "${PROJECT_BINARY_DIR}/generated")
-if(ROUNDEL_BUILD_PROGRAM OR ROUNDEL_BUILD_TESTS)
-    set(generate_command COMMAND "${ROUNDEL_PROGRAM}" generate "${ROUNDEL_GENERATED}")
-else()
+set(ROUNDEL_PROGRAM "${cargo_output}/${program}")
+# Manual pages and completions, which the program writes, where it runs and there are readers of them.
+set(ROUNDEL_GENERATED "")
+if(NOT ROUNDEL_BUILD_PROGRAM AND NOT ROUNDEL_BUILD_TESTS)
     list(APPEND cargo_packages --lib)
+elseif(NOT WIN32 AND NOT CMAKE_CROSSCOMPILING)
+    set(ROUNDEL_GENERATED "${PROJECT_BINARY_DIR}/generated")
+    set(generate_command COMMAND "${ROUNDEL_PROGRAM}" generate "${ROUNDEL_GENERATED}")
+endif()
+
+# The licences of all that is linked in, which go with what is installed. Without Python they are left out.
+find_package(Python3 COMPONENTS Interpreter QUIET)
+set(ROUNDEL_LICENCES "${PROJECT_BINARY_DIR}/THIRD-PARTY-LICENCES.txt")
+set(licences_command "")
+if(Python3_Interpreter_FOUND)
+    set(licences_command COMMAND "${CMAKE_COMMAND}" "-DPYTHON=${Python3_EXECUTABLE}"
+        "-DSCRIPT=${PROJECT_SOURCE_DIR}/scripts/third-party" "-DFILE=${ROUNDEL_LICENCES}"
+        -P "${PROJECT_SOURCE_DIR}/cmake/WriteLicences.cmake")
 endif()
 
 add_custom_target(
     roundel_cargo ALL
     COMMAND "${CMAKE_COMMAND}" -E env "CARGO_TARGET_DIR=${cargo_dir}"
-            "${CARGO}" build --locked --release ${cargo_packages}
+            "${CARGO}" build --locked --release ${cargo_target} ${cargo_packages}
     COMMAND "${CMAKE_COMMAND}" -E make_directory "${ROUNDEL_LIB_DIR}"
     COMMAND "${CMAKE_COMMAND}" -E copy_if_different
-            "${cargo_dir}/release/${cargo_shared}" "${ROUNDEL_SHARED}"
+            "${cargo_output}/${cargo_shared}" "${ROUNDEL_SHARED}"
     COMMAND "${CMAKE_COMMAND}" -E copy_if_different
-            "${cargo_dir}/release/${ROUNDEL_STATIC_NAME}" "${ROUNDEL_STATIC}"
+            "${cargo_output}/${ROUNDEL_STATIC_NAME}" "${ROUNDEL_STATIC}"
+    ${import_command}
     ${link_commands}
     ${generate_command}
-    BYPRODUCTS "${ROUNDEL_SHARED}" "${ROUNDEL_STATIC}"
+    ${licences_command}
+    BYPRODUCTS "${ROUNDEL_SHARED}" "${ROUNDEL_STATIC}" ${ROUNDEL_IMPORT}
     WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}"
     COMMENT "Building roundel with cargo, which takes some minutes the first time"
     USES_TERMINAL VERBATIM)

@@ -5,9 +5,10 @@ preprocessor nor a compiler is needed.
 """
 
 import re
-from pathlib import Path
 
-HEADER = Path(__file__).resolve().parents[2] / "include" / "roundel" / "roundel.h"
+from build_root import ROOT
+
+HEADER = ROOT / "include" / "roundel" / "roundel.h"
 
 #: Every condition in the header, with its value for a C99 compiler.
 CONDITIONS = {

@@ -14,11 +14,10 @@ from pathlib import Path
 
 from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 
-HERE = Path(__file__).resolve().parent
-ROOT = HERE.parents[1]
-sys.path.insert(0, str(HERE))
+sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 from build_header import declarations  # noqa: E402
+from build_root import ROOT  # noqa: E402
 
 NAMES = {"darwin": "libroundel.dylib", "win32": "roundel.dll"}
 
@@ -33,7 +32,6 @@ class LibraryHook(BuildHookInterface):
         made = ROOT / "target" / "python"
         made.mkdir(parents=True, exist_ok=True)
         shutil.copyfile(self._library(name), made / name)
-        self._strip(made / name)
         self._declare(made / "_declarations.py")
         for file in (name, "_declarations.py"):
             build_data["force_include"][str(made / file)] = f"roundel/{file}"
@@ -59,13 +57,6 @@ class LibraryHook(BuildHookInterface):
         subprocess.run(command, cwd=ROOT, check=True)
         target = Path(os.environ.get("CARGO_TARGET_DIR", "target"))
         return ROOT / target / "release" / name
-
-    @staticmethod
-    def _strip(library):
-        # Line tables are five times as large as the library, and useless without its sources.
-        strip = shutil.which("strip")
-        if strip and sys.platform.startswith("linux"):
-            subprocess.run([strip, "--strip-debug", str(library)], check=True)
 
     @staticmethod
     def _declare(module):

@@ -1,17 +1,17 @@
-// The filter as a plugin of MeshLab 2020.09 with one action.
+// The filter as a plugin of MeshLab since 2021 with one action.
 
 #ifndef ROUNDEL_MESHLAB_FILTER_HPP
 #define ROUNDEL_MESHLAB_FILTER_HPP
 
-#include <common/interfaces.h>
+#include <common/plugins/interfaces/filter_plugin.h>
 
 #include <QString>
 
 /// Quadrangulates the current layer into a new layer.
-class RoundelFilter : public QObject, public MeshFilterInterface {
+class RoundelFilter : public QObject, public FilterPlugin {
     Q_OBJECT
-    MESHLAB_PLUGIN_IID_EXPORTER(MESH_FILTER_INTERFACE_IID)
-    Q_INTERFACES(MeshFilterInterface)
+    MESHLAB_PLUGIN_IID_EXPORTER(FILTER_PLUGIN_IID)
+    Q_INTERFACES(FilterPlugin)
 
   public:
     enum { quadrangulate };
@@ -19,20 +19,19 @@ class RoundelFilter : public QObject, public MeshFilterInterface {
     RoundelFilter();
 
     QString pluginName() const override;
-    QString filterName(FilterIDType filter) const override;
-    QString filterInfo(FilterIDType filter) const override;
-    FilterClass getClass(QAction* action) override;
-    FILTER_ARITY filterArity(QAction* action) const override;
-    int getPreConditions(QAction* action) const override;
-    int postCondition(QAction* action) const override;
-    void initParameterSet(QAction* action, MeshModel& mesh, RichParameterList& list) override;
-    bool applyFilter(QAction* action, MeshDocument& document, const RichParameterList& list,
-                     vcg::CallBackPos* callback) override;
-
-  private:
-    /// Tells the user why there are no quads, in the dialog and in the log. meshlabserver prints
-    /// only the log.
-    bool failed(const QString& why);
+    QString vendor() const override;
+    QString filterName(ActionIDType filter) const override;
+    QString filterInfo(ActionIDType filter) const override;
+    FilterClass getClass(const QAction* action) const override;
+    FilterArity filterArity(const QAction* action) const override;
+    int getPreConditions(const QAction* action) const override;
+    int postCondition(const QAction* action) const override;
+    RichParameterList initParameterList(const QAction* action, const MeshModel& mesh) override;
+    /// Throws MLException with what to tell the user.
+    std::map<std::string, QVariant> applyFilter(const QAction* action,
+                                                const RichParameterList& list,
+                                                MeshDocument& document, unsigned int& changed,
+                                                vcg::CallBackPos* callback) override;
 };
 
 #endif // ROUNDEL_MESHLAB_FILTER_HPP

@@ -3,7 +3,7 @@
 #ifndef ROUNDEL_MESHLAB_LAYER_HPP
 #define ROUNDEL_MESHLAB_LAYER_HPP
 
-#include <common/interfaces.h>
+#include "meshlab.hpp"
 
 #include <roundel/roundel.hpp>
 

@@ -3,7 +3,7 @@
 #ifndef ROUNDEL_MESHLAB_PARAMETERS_HPP
 #define ROUNDEL_MESHLAB_PARAMETERS_HPP
 
-#include <common/interfaces.h>
+#include "meshlab.hpp"
 
 #include <roundel/roundel.hpp>
 

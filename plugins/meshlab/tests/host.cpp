@@ -1,7 +1,11 @@
 // A host for the plugin: it calls the plugin as MeshLab does, and tests cancelling, which
 // meshlabserver cannot do.
 
-#include <common/interfaces.h>
+#include "../meshlab.hpp"
+
+#ifndef ROUNDEL_MESHLAB_2020
+#include <common/mlexception.h>
+#endif
 
 #include <vcg/complex/algorithms/create/platonic.h>
 
@@ -43,9 +47,18 @@ struct Torus {
     }
 };
 
+#ifdef ROUNDEL_MESHLAB_2020
+
+using Filter = MeshFilterInterface;
+
+std::size_t layers(const MeshDocument& document) {
+    return static_cast<std::size_t>(document.size());
+}
+
 struct Host {
-    MeshFilterInterface* filter;
+    Filter* filter;
     QAction* action;
+    mutable QString message;
 
     RichParameterList defaults(Torus& torus) const {
         RichParameterList list;
@@ -55,9 +68,43 @@ struct Host {
 
     bool apply(Torus& torus, const RichParameterList& list) const {
         percents.clear();
-        return filter->applyFilter(action, torus.document, list, callback);
+        const bool good = filter->applyFilter(action, torus.document, list, callback);
+        message = filter->errorMsg();
+        return good;
     }
 };
+
+#else
+
+using Filter = FilterPlugin;
+
+std::size_t layers(const MeshDocument& document) {
+    return document.meshNumber();
+}
+
+struct Host {
+    Filter* filter;
+    QAction* action;
+    mutable QString message;
+
+    RichParameterList defaults(Torus& torus) const {
+        return filter->initParameterList(action, torus.document);
+    }
+
+    bool apply(Torus& torus, const RichParameterList& list) const {
+        percents.clear();
+        unsigned int changed = 0;
+        try {
+            filter->applyFilter(action, list, torus.document, changed, callback);
+            return true;
+        } catch (const MLException& error) {
+            message = QString::fromLocal8Bit(error.what());
+            return false;
+        }
+    }
+};
+
+#endif
 
 void makes_a_layer_of_pairs_of_triangles(const Host& host) {
     Torus torus;
@@ -66,7 +113,7 @@ void makes_a_layer_of_pairs_of_triangles(const Host& host) {
     torus.document.mm()->cm.Tr.SetTranslate(1.0F, 2.0F, 3.0F);
     const auto placement = torus.document.mm()->cm.Tr;
     CHECK(host.apply(torus, list));
-    CHECK(torus.document.size() == 2);
+    CHECK(layers(torus.document) == 2);
     MeshModel& layer = *torus.document.mm();
     CHECK(layer.label() == "torus quads" && layer.cm.Tr == placement);
     CHECK(layer.hasDataMask(MeshModel::MM_POLYGONAL));
@@ -105,8 +152,8 @@ void a_cancel_leaves_no_layer(const Host& host) {
         calls_until_cancel = calls;
         CHECK(!host.apply(torus, host.defaults(torus)));
         calls_until_cancel = -1;
-        CHECK(host.filter->errorMsg() == "cancelled");
-        CHECK(torus.document.size() == 1);
+        CHECK(host.message == "cancelled");
+        CHECK(layers(torus.document) == 1);
     }
 }
 
@@ -116,8 +163,8 @@ void errors_are_messages(const Host& host) {
         auto list = host.defaults(torus);
         list.setValue(name, value);
         CHECK(!host.apply(torus, list));
-        CHECK(torus.document.size() == 1);
-        return host.filter->errorMsg();
+        CHECK(layers(torus.document) == 1);
+        return host.message;
     };
     CHECK(refused("Quads", IntValue(0)).contains("option 'quads': 0 is outside"));
     CHECK(refused("Quads", IntValue(-5)).contains("option 'quads': 0 is outside"));
@@ -132,7 +179,7 @@ void errors_are_messages(const Host& host) {
     Torus torus;
     auto& mesh = torus.document.mm()->cm;
     mesh.face[0].V(2) = mesh.face[200].V(2);
-    CHECK(!host.apply(torus, host.defaults(torus)) && !host.filter->errorMsg().isEmpty());
+    CHECK(!host.apply(torus, host.defaults(torus)) && !host.message.isEmpty());
 }
 
 } // namespace
@@ -146,9 +193,9 @@ int main(int count, char** words) {
         std::fprintf(stderr, "%s\n", qUtf8Printable(loader.errorString()));
         return 1;
     }
-    auto* filter = qobject_cast<MeshFilterInterface*>(plugin);
+    auto* filter = qobject_cast<Filter*>(plugin);
     CHECK(filter && filter->actions().size() == 1);
-    const Host host{filter, filter->actions().front()};
+    const Host host{filter, filter->actions().front(), QString()};
     makes_a_layer_of_pairs_of_triangles(host);
     sizes_agree_however_they_are_said(host);
     a_cancel_leaves_no_layer(host);

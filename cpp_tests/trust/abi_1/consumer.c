@@ -1,6 +1,6 @@
 /*
- * A program of the days of the header beside it: compiled against that one, run with the library of
- * today. The ABI number is the same, so it must work.
+ * A program of the days of the header beside it, that of 0.1.0, with which ABI 1 began: compiled
+ * against that one, run with the library of today. The ABI number is the same, so it must work.
  */
 
 #include "roundel/roundel.h"
@@ -63,9 +63,27 @@ static int finds_a_field(void) {
     return good;
 }
 
+static int makes_quads(void) {
+    size_t count = 0;
+    int32_t conforming = 0;
+    roundel_mesh* mesh = NULL;
+    roundel_quad_options* options = NULL;
+    roundel_quads* quads = NULL;
+    const int good = roundel_mesh_make_shape("torus", 500, &mesh) == ROUNDEL_OK &&
+                     roundel_quad_options_new(&options) == ROUNDEL_OK &&
+                     roundel_quad_options_set_int(options, "quads", 100) == ROUNDEL_OK &&
+                     roundel_quads_make(mesh, options, NULL, &quads) == ROUNDEL_OK &&
+                     roundel_quads_count(quads, &count) == ROUNDEL_OK && count > 50 &&
+                     roundel_quads_is_conforming(quads, &conforming) == ROUNDEL_OK && conforming;
+    roundel_quads_free(quads);
+    roundel_quad_options_free(options);
+    roundel_mesh_free(mesh);
+    return good;
+}
+
 int main(void) {
-    const int good =
-        roundel_abi_version() == ROUNDEL_ABI_VERSION && solves() && fails() && finds_a_field();
+    const int good = roundel_abi_version() == ROUNDEL_ABI_VERSION && solves() && fails() &&
+                     finds_a_field() && makes_quads();
     puts(good ? "as it did" : "FAILED");
     return good ? 0 : 1;
 }
