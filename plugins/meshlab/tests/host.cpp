@@ -8,6 +8,7 @@
 #endif
 
 #include <vcg/complex/algorithms/create/platonic.h>
+#include <vcg/complex/algorithms/update/bounding.h>
 
 #include <QApplication>
 #include <QFileInfo>
@@ -43,7 +44,7 @@ struct Torus {
     Torus() {
         MeshModel& model = *document.addNewMesh("", "torus", true);
         vcg::tri::Torus(model.cm, 2.0F, 0.7F, 40, 20);
-        model.UpdateBoxAndNormals();
+        vcg::tri::UpdateBounding<CMeshO>::Box(model.cm);
     }
 };
 
@@ -77,6 +78,8 @@ struct Host {
 #else
 
 using Filter = FilterPlugin;
+using EnumValue = IntValue;
+using AbsPercValue = FloatValue;
 
 std::size_t layers(const MeshDocument& document) {
     return document.meshNumber();
