@@ -92,12 +92,14 @@ elseif(NOT WIN32 AND NOT CMAKE_CROSSCOMPILING)
 endif()
 
 # The licences of all that is linked in, which go with what is installed. Without Python they are left out.
-find_package(Python3 COMPONENTS Interpreter QUIET)
 set(ROUNDEL_LICENCES "${PROJECT_BINARY_DIR}/THIRD-PARTY-LICENCES.txt")
 set(licences_command "")
-if(Python3_Interpreter_FOUND)
+if(is_top_level)
+    find_package(Python3 COMPONENTS Interpreter QUIET)
+endif()
+if(is_top_level AND Python3_Interpreter_FOUND)
     set(licences_command COMMAND "${CMAKE_COMMAND}" "-DPYTHON=${Python3_EXECUTABLE}"
-        "-DSCRIPT=${PROJECT_SOURCE_DIR}/scripts/third-party" "-DFILE=${ROUNDEL_LICENCES}"
+        "-DSOURCE=${PROJECT_SOURCE_DIR}" "-DFILE=${ROUNDEL_LICENCES}"
         -P "${PROJECT_SOURCE_DIR}/cmake/WriteLicences.cmake")
 endif()
 
