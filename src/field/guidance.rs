@@ -35,6 +35,9 @@ options! {
         /// For crosses at most two edges of a face become features.
         feature_angle: Option<f64> = None, "unset" in "[0, 3.141592653589793]",
             "an edge is a feature if the normals of its faces differ by this many radians or more; 0: none is";
+        /// See [`FeatureGraph::without_short`].
+        feature_length: Option<f64> = None, "unset" in "[0, inf)",
+            "curves of sharp edges that end somewhere are features if they are at least this long, and patches between sharp edges if their area is at least a sixteenth of its square; unset: 0 for a field or a map, two edges of the quads for quads";
         /// A field of single directions, N = 1, does not follow them: the side of an edge on which it should
         /// lie is undefined.
         align_boundary: bool = true, "1" in "[0, 1]",
@@ -64,6 +67,9 @@ options! {
     by {}
 }
 
+/// The least length of a curve of sharp edges that quads follow, in edges of theirs, if the caller does not say it.
+const FEATURE_EDGES: f64 = 2.0;
+
 impl Guidance {
     /// The edges to follow.
     ///
@@ -77,10 +83,24 @@ impl Guidance {
         if self.align_boundary && self.symmetry != 1 {
             features = features.with(mesh, &FeatureGraph::boundary(mesh))?;
         }
-        match self.feature_angle.filter(|&angle| angle != 0.0) {
-            Some(angle) if self.symmetry == 4 => features.with_sharp(mesh, angle),
-            Some(angle) => features.with(mesh, &FeatureGraph::by_angle(mesh, angle)?),
-            None => Ok(features),
+        let Some(angle) = self.feature_angle.filter(|&angle| angle != 0.0) else {
+            return Ok(features);
+        };
+        let with_sharp = match self.symmetry {
+            4 => features.clone().with_sharp(mesh, angle)?,
+            _ => (features.clone()).with(mesh, &FeatureGraph::by_angle(mesh, angle)?)?,
+        };
+        match self.feature_length.filter(|&length| length != 0.0) {
+            Some(length) => with_sharp.without_short(mesh, &features, length),
+            None => Ok(with_sharp),
+        }
+    }
+
+    /// The same guidance for quads of this edge length: it says which sharp edges are too short for them.
+    pub fn for_quads(&self, edge_length: f64) -> Self {
+        Guidance {
+            feature_length: self.feature_length.or(Some(FEATURE_EDGES * edge_length)),
+            ..self.clone()
         }
     }
 

@@ -10,6 +10,9 @@ use crate::monitor::{for_each_part, may_continue, parts_of};
 /// The least number of rows that are worth a thread.
 const LEAST: usize = 1 << 14;
 
+/// The least number of entries for each place of a matrix for which they are summed in a table of all places.
+const DUPLICATES: usize = 2;
+
 /// Rows with at most this many entries are sorted by insertion.
 const SHORT: usize = 24;
 
@@ -91,6 +94,9 @@ impl Sparse {
             offsets[i + 1] += offsets[i];
         }
         let count = offsets[rows];
+        if count / DUPLICATES > rows.saturating_mul(cols) {
+            return Self::from_many(rows, cols, entries);
+        }
         let mut next = offsets.clone();
         let mut indices: Vec<u32> = reserve(count)?;
         indices.resize(count, 0);
@@ -114,6 +120,44 @@ impl Sparse {
         may_continue()?;
         result.sum_duplicates();
         Ok(result)
+    }
+
+    /// The same from so many entries that a table of all places takes less memory than they do.
+    fn from_many(
+        rows: usize,
+        cols: usize,
+        entries: impl Iterator<Item = (u32, u32, f64)>,
+    ) -> Result<Self> {
+        let places = rows * cols;
+        let mut sums: Vec<f64> = reserve(places)?;
+        sums.resize(places, 0.0);
+        let mut is_stored: Vec<bool> = reserve(places)?;
+        is_stored.resize(places, false);
+        entries.for_each(|(i, j, v)| {
+            let at = i as usize * cols + j as usize;
+            // The first is not added to zero: it may be -0.
+            sums[at] = if is_stored[at] { sums[at] + v } else { v };
+            is_stored[at] = true;
+        });
+        may_continue()?;
+        let count = is_stored.iter().filter(|&&stored| stored).count();
+        let mut offsets: Vec<usize> = reserve(rows + 1)?;
+        let (mut indices, mut values): (Vec<u32>, Vec<f64>) = (reserve(count)?, reserve(count)?);
+        offsets.push(0);
+        for row in 0..rows {
+            let stored = (0..cols).filter(|j| is_stored[row * cols + j]);
+            stored.for_each(|j| {
+                indices.push(j as u32);
+                values.push(sums[row * cols + j]);
+            });
+            offsets.push(indices.len());
+        }
+        Ok(Sparse {
+            cols,
+            offsets,
+            indices,
+            values,
+        })
     }
 
     /// Sorts each row by column. Entries of the same column keep their order.
@@ -334,6 +378,31 @@ mod tests {
             let expected: Vec<_> = (0..7 + 40 * i).map(|j| (j, 0.0)).collect();
             assert_eq!(a.row(i).collect::<Vec<_>>(), expected);
         }
+    }
+
+    #[test]
+    fn many_entries_are_summed_as_few_are() {
+        let entry = |k: u32| {
+            (
+                k * 7 % 5,
+                k * 3 % 4,
+                f64::from(k).sin() * 10f64.powi(k as i32 % 17),
+            )
+        };
+        // The place (1, 2) has no entry.
+        let some = |&(i, j, _): &(u32, u32, f64)| (i, j) != (1, 2);
+        let many: Vec<_> = (0..400).map(entry).filter(some).collect();
+        let few = Sparse::from_triplets(500, 400, many.iter().copied()).unwrap();
+        let found = Sparse::from_triplets(5, 4, many.iter().copied()).unwrap();
+        assert_eq!(found.len(), 19);
+        for i in 0..5 {
+            assert_eq!(
+                found.row(i).collect::<Vec<_>>(),
+                few.row(i).collect::<Vec<_>>()
+            );
+        }
+        let zero = Sparse::from_triplets(1, 1, (0..9).map(|_| (0, 0, -0.0))).unwrap();
+        assert_eq!(zero.values()[0].to_bits(), (-0.0f64).to_bits());
     }
 
     #[test]

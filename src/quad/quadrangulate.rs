@@ -68,6 +68,11 @@ pub fn quadrangulate<'a>(
     options: &QuadOptions,
     monitor: impl Fn() -> Monitor<'a>,
 ) -> Result<Quadrangulation> {
+    options.sizing.check(mesh)?;
+    let options = &QuadOptions {
+        guidance: (options.guidance).for_quads(options.sizing.edge_length(mesh)),
+        ..options.clone()
+    };
     if !options.mirror.is_empty() {
         return mirrored(mesh, options, monitor);
     }

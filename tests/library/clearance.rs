@@ -162,3 +162,30 @@ fn lengths_and_vertices_that_cannot_be_are_refused() {
     let error = solved(vec![on_boundary], Vec::new());
     assert_eq!((error.code(), error.index()), ("invalid_argument", Some(0)));
 }
+
+#[test]
+fn sharp_edges_that_are_shorter_than_quads_are_no_features_of_theirs() {
+    // A needle on a sphere: all edges at its tip are sharp, and none is as long as a quad.
+    let sphere = by_name("sphere", 2_000).unwrap();
+    let faces = 0..sphere.face_count();
+    let moved = |v: usize| match v {
+        0 => sphere.position(v).map(|x| 1.05 * x),
+        _ => sphere.position(v),
+    };
+    let vertices = (0..sphere.vertex_count()).map(moved).collect();
+    let corners = faces.map(|f| sphere.corners(f).map(|v| v as u32)).collect();
+    let mesh = TriangleMesh::new(vertices, corners).unwrap();
+    let quads = |length: Option<f64>| {
+        let mut options = QuadOptions {
+            sizing: Sizing::Quads(200),
+            ..QuadOptions::default()
+        };
+        options.guidance.feature_angle = Some(0.5);
+        options.guidance.feature_length = length;
+        quadrangulate(&mesh, &options, Monitor::default).unwrap()
+    };
+    let [made, all] = [None, Some(0.0)].map(quads);
+    assert!(made.features.is_empty() && made.quads.is_conforming());
+    assert_eq!(made.quads.figures().irregular, 8);
+    assert!(!all.features.is_empty());
+}

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use roundel::Error;
 use roundel::field::{Constraint, Guidance};
+use roundel::map::Sizing;
 use roundel::mesh::TriangleMesh;
 use roundel::mesh::features::FeatureGraph;
 use roundel::quad::QuadOptions;
@@ -30,6 +31,13 @@ pub struct Directions {
     /// vertices of the mesh, and may be the file of the mesh
     #[arg(long, value_name = "LINES.obj")]
     pub feature_lines: Option<PathBuf>,
+
+    /// Leave sharp edges out (--features DEGREES) in curves that end somewhere and are shorter than this, in units
+    /// of the mesh, and between patches whose area is below a sixteenth of its square [default: 0; for a map or
+    /// quads, two edges of the quads]
+    #[arg(long, value_name = "LENGTH", value_parser = weight)]
+    #[arg(allow_negative_numbers = true)]
+    pub feature_length: Option<f64>,
 
     /// Do not follow the boundary, which is a feature by default
     #[arg(long)]
@@ -90,12 +98,13 @@ impl Directions {
     }
 
     /// The guidance of the command line, for a field of this symmetry, and the edges to follow, among them
-    /// those by attributes.
+    /// those by attributes. `edge_length` is that of the quads that it is for, if it is for quads.
     pub fn of(
         &self,
         mesh: &TriangleMesh,
         by_attributes: Option<&FeatureGraph>,
         symmetry: u8,
+        edge_length: Option<f64>,
     ) -> roundel::Result<(Guidance, FeatureGraph)> {
         let angle = self.features.as_ref().and_then(|f| f.angle);
         let mut guidance = Guidance {
@@ -103,6 +112,7 @@ impl Directions {
             constraints: self.fix.clone(),
             curvature_weight: self.curvature_weight.unwrap_or(0.0),
             feature_angle: angle.map(f64::to_radians),
+            feature_length: self.feature_length,
             align_boundary: !self.free_boundary,
             detail: self.detail,
             clearance: self.clearance,
@@ -119,6 +129,10 @@ impl Directions {
         let by_all = symmetry != 1 && guidance.indices.is_none() && !by_features;
         let default = if by_all { CURVED } else { 0.0 };
         guidance.constrain_curvature = self.constrain_curvature.unwrap_or(default);
+        let guidance = match edge_length {
+            Some(length) => guidance.for_quads(length),
+            None => guidance,
+        };
         let mut features = guidance.features(mesh)?;
         if let Some(given) = by_attributes {
             features = features.with(mesh, given)?;
@@ -129,6 +143,19 @@ impl Directions {
         }
         Ok((guidance, features))
     }
+}
+
+/// How many sharp edges are not among the features because they are [too short](FeatureGraph::without_short).
+pub fn too_short(mesh: &TriangleMesh, guidance: &Guidance) -> roundel::Result<usize> {
+    if guidance.feature_angle.is_none() {
+        return Ok(0);
+    }
+    let all = Guidance {
+        feature_length: Some(0.0),
+        ..guidance.clone()
+    };
+    let [all, long] = [&all, guidance].map(|of| of.features(mesh));
+    Ok(all?.edges().count() - long?.edges().count())
 }
 
 impl Directions {
@@ -148,8 +175,10 @@ impl Directions {
         &self,
         mesh: &TriangleMesh,
         by_attributes: Option<&FeatureGraph>,
+        sizing: &Sizing,
     ) -> roundel::Result<(Guidance, FeatureGraph)> {
-        let (mut guidance, features) = self.of(mesh, by_attributes, 4)?;
+        let edge_length = sizing.edge_length(mesh);
+        let (mut guidance, features) = self.of(mesh, by_attributes, 4, Some(edge_length))?;
         if !self.says_curvature() && guidance.indices.is_none() {
             let default = QuadOptions::default().guidance;
             guidance.constrain_curvature = match self.curves.guide() {

@@ -27,7 +27,7 @@ use crate::progress::Progress;
 use crate::report::Preparation;
 pub use arguments::Arguments;
 pub use curves::{CurveCounts, Followed};
-pub use directions::{Directions, named};
+pub use directions::{Directions, named, too_short};
 use report::FieldReport;
 use solved::Solved;
 use summary::FieldSummary;
@@ -71,7 +71,7 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
     }
     let given = arguments
         .directions
-        .of(&mesh, by_attributes.as_ref(), arguments.symmetry)?;
+        .of(&mesh, by_attributes.as_ref(), arguments.symmetry, None)?;
     let curves = &arguments.directions.curves;
     let Followed {
         cut,

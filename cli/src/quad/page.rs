@@ -43,6 +43,12 @@ fn tables(solved: &Solved) -> Tables {
     let mut rows = mesh_rows(&solved.mesh, &solved.changes);
     rows.push(("feature edges", thousands(made.features.len())));
     rows.push(("of these missed", thousands(made.missed_features.len())));
+    if solved.too_short > 0 {
+        rows.push((
+            "sharp edges too short for them",
+            thousands(solved.too_short),
+        ));
+    }
     if let Some(mirrored) = &made.mirrored {
         rows.push(("mirrored", mirror_words(mirrored)));
     }

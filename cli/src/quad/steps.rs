@@ -13,7 +13,7 @@ use super::Arguments;
 use super::density::Density;
 use super::keep::Kept;
 use crate::changes::Changes;
-use crate::field::{CurveCounts, Followed};
+use crate::field::{CurveCounts, Followed, too_short};
 use crate::mesh::{Input, Reading, RepairCounts, Wanted};
 use crate::output;
 use crate::outputs::{Content, Outputs, PAGE, PICTURE, TRACE, folder_of};
@@ -30,6 +30,8 @@ pub(super) struct Solved {
     pub(super) options: QuadOptions,
     pub(super) made: Quadrangulation,
     pub(super) kept: Kept,
+    /// How many sharp edges are too short to be features.
+    pub(super) too_short: usize,
     /// The largest distance of the quads from the mesh, if that was asked for.
     pub(super) distance: Option<f64>,
     pub(super) read_seconds: f64,
@@ -74,7 +76,9 @@ pub(super) fn solve(arguments: &Arguments) -> Result<Solved> {
     keep.choose(&mut attributes)?;
     let mut not_kept = refused;
     let read_seconds = started.elapsed().as_secs_f64();
-    let given = arguments.directions.of_map(&mesh, by_attributes.as_ref())?;
+    let sizing = arguments.sizing.of()?;
+    let given = (arguments.directions).of_map(&mesh, by_attributes.as_ref(), &sizing)?;
+    let too_short = too_short(&mesh, &given.0)?;
     let curves = &arguments.directions.curves;
     let Followed {
         cut,
@@ -82,7 +86,7 @@ pub(super) fn solve(arguments: &Arguments) -> Result<Solved> {
         sizing,
         counts: curves,
         ..
-    } = curves.follow(&mesh, given, arguments.sizing.of()?)?;
+    } = curves.follow(&mesh, given, sizing)?;
     let (mesh, uncut, density, changes) = match cut {
         Some(cut) => {
             let density = match density.is_empty() {
@@ -151,6 +155,7 @@ pub(super) fn solve(arguments: &Arguments) -> Result<Solved> {
         options,
         made,
         kept,
+        too_short,
         distance,
         read_seconds,
     })

@@ -24,6 +24,14 @@ impl fmt::Display for QuadSummary<'_> {
         if let Some(curves) = &solved.curves {
             writeln!(f, "{:<10} {curves}", "curves")?;
         }
+        if solved.too_short > 0 {
+            let short = counted(solved.too_short, "sharp edge");
+            writeln!(
+                f,
+                "{:<10} {short} left out: too short for quads",
+                "features"
+            )?;
+        }
         if let Some(mirrored) = &made.mirrored {
             writeln!(f, "{:<10} {}", "mirror", mirror_words(mirrored))?;
         }

@@ -88,6 +88,10 @@ struct QuadOptions {
     /// The weight with which all other faces follow the direction of least absolute curvature, for
     /// an area of 1 and absolute curvatures that differ by 1. In [0, inf); 0.07 by default.
     std::optional<double> curvature_weight = std::nullopt;
+    /// Curves of sharp edges that end somewhere are features if they are at least this long, and
+    /// patches between sharp edges if their area is at least a sixteenth of its square; unset: 0
+    /// for a field or a map, two edges of the quads for quads. In [0, inf).
+    std::optional<double> feature_length = std::nullopt;
     /// Details smaller than this length attract no irregular vertices; unset: 0 for a field, an
     /// edge of the quads for a map, a quarter of an edge for quads. In [0, inf).
     std::optional<double> detail = std::nullopt;
@@ -174,6 +178,10 @@ struct QuadOptions {
     }
     QuadOptions& set_curvature_weight(double value) {
         curvature_weight = value;
+        return *this;
+    }
+    QuadOptions& set_feature_length(double value) {
+        feature_length = value;
         return *this;
     }
     QuadOptions& set_detail(double value) {
@@ -275,6 +283,9 @@ template <class Tell> bool each_guidance_option(const QuadOptions& options, cons
         return false;
     }
     if (options.curvature_weight && !tell("curvature_weight", *options.curvature_weight)) {
+        return false;
+    }
+    if (options.feature_length && !tell("feature_length", *options.feature_length)) {
         return false;
     }
     if (options.detail && !tell("detail", *options.detail)) {

@@ -85,7 +85,7 @@ fn check(angle: f64) -> Result<()> {
 }
 
 /// By how much the normals of the two faces of an edge differ.
-fn turn(mesh: &TriangleMesh, edge: usize) -> Option<f64> {
+pub(super) fn turn(mesh: &TriangleMesh, edge: usize) -> Option<f64> {
     let edge = mesh.edge(edge);
     let [m, n] = [edge.first.0, edge.second?.0].map(|face| mesh.normal(face));
     Some(norm(cross(m, n)).atan2(dot(m, n)))

@@ -10,6 +10,7 @@ mod curves;
 mod detect;
 #[cfg(feature = "mesh-io")]
 mod file;
+mod short;
 
 use super::TriangleMesh;
 use crate::error::{Error, Result};

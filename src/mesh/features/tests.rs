@@ -213,3 +213,71 @@ fn sharp_edges_enclose_no_face_unless_it_is_asked_for() {
     let kept = named.clone().with_sharp(&mesh, 1.0).unwrap();
     assert_eq!(kept, named);
 }
+
+/// The top of a box of 8 x 8 squares a side, and the graph of chains between points of it, in squares.
+fn chains(of: &[&[[usize; 2]]]) -> (TriangleMesh, FeatureGraph) {
+    let mesh = cube(8);
+    let vertex = |[i, j]: [usize; 2]| {
+        let p = [i as f64 / 8.0, j as f64 / 8.0, 1.0];
+        (0..mesh.vertex_count())
+            .find(|&v| mesh.position(v) == p)
+            .unwrap()
+    };
+    let step = |a: usize, b: usize, k: usize| if b > a { a + k } else { a - k };
+    let mut lines = Vec::new();
+    for pair in of.iter().flat_map(|chain| chain.windows(2)) {
+        let [[a, b], [c, d]] = [pair[0], pair[1]];
+        let count = a.abs_diff(c) + b.abs_diff(d);
+        let at = |k: usize| match a == c {
+            true => vertex([a, step(b, d, k)]),
+            false => vertex([step(a, c, k), b]),
+        };
+        lines.extend((0..count).map(|k| [at(k), at(k + 1)]));
+    }
+    let graph = FeatureGraph::from_lines(&mesh, &lines).unwrap();
+    (mesh, graph)
+}
+
+#[test]
+fn loose_ends_are_left_out_and_the_shortest_first() {
+    let (mesh, graph) = chains(&[&[[1, 4], [7, 4]], &[[4, 4], [4, 6]], &[[1, 1], [3, 1]]]);
+    let none = FeatureGraph::none(&mesh);
+    let long = |length| graph.clone().without_short(&mesh, &none, length).unwrap();
+    assert_eq!(long(0.25), graph);
+    // Without the branch, the halves of the stem are one curve.
+    let (_, stem) = chains(&[&[[1, 4], [7, 4]]]);
+    assert_eq!(long(0.5), stem);
+    assert_eq!(long(0.75), stem);
+    assert_eq!(long(0.76), none);
+    let (_, held) = chains(&[&[[1, 1], [3, 1]]]);
+    let kept = graph.clone().without_short(&mesh, &held, 0.76).unwrap();
+    assert_eq!(kept, held);
+    assert_eq!(long(0.5).without_short(&mesh, &none, 0.5).unwrap(), stem);
+    // A loop without an end is no loose curve.
+    let square = [[1, 1], [5, 1], [5, 5], [1, 5], [1, 1]];
+    let (mesh, square) = chains(&[&square, &[[5, 5], [7, 5]]]);
+    let found = square.without_short(&mesh, &none, 0.3).unwrap();
+    let (_, expected) = chains(&[&[[1, 1], [5, 1], [5, 5], [1, 5], [1, 1]]]);
+    assert_eq!(found, expected);
+}
+
+#[test]
+fn small_patches_are_joined_to_the_side_to_which_the_surface_turns_least() {
+    // A patch of one square, beside a line from edge to edge of the side.
+    let corner = [[0, 7], [1, 7], [1, 8]];
+    let (mesh, graph) = chains(&[&corner]);
+    let sharp = FeatureGraph::by_angle(&mesh, 1.0).unwrap();
+    let both = graph.with(&mesh, &sharp).unwrap();
+    let none = FeatureGraph::none(&mesh);
+    let found = |length| both.clone().without_short(&mesh, &none, length).unwrap();
+    // The area of the patch is that of a square of side 1/8.
+    assert_eq!(found(0.49), both);
+    assert_eq!(found(0.51), sharp);
+    let held = both.clone().without_short(&mesh, &both, 9.0).unwrap();
+    assert_eq!(held, both);
+    // All sides of the box are too small, and then two together, and then four.
+    let patches = |graph: FeatureGraph| graph.edges().count() / 8;
+    assert_eq!([patches(found(4.1)), patches(found(9.0))], [8, 0]);
+    let other = shape::by_name("sphere", 500).unwrap();
+    assert!(both.without_short(&other, &none, 1.0).is_err());
+}
