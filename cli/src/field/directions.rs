@@ -4,7 +4,6 @@ use std::path::{Path, PathBuf};
 
 use roundel::Error;
 use roundel::field::{Constraint, Guidance};
-use roundel::map::Sizing;
 use roundel::mesh::TriangleMesh;
 use roundel::mesh::features::FeatureGraph;
 use roundel::quad::QuadOptions;
@@ -33,8 +32,8 @@ pub struct Directions {
     pub feature_lines: Option<PathBuf>,
 
     /// Leave sharp edges out (--features DEGREES) in curves that end somewhere and are shorter than this, in units
-    /// of the mesh, and between patches whose area is below a sixteenth of its square [default: 0; for a map or
-    /// quads, two edges of the quads]
+    /// of the mesh, and around patches whose area is below a sixteenth of its square [default: 0; for quads, two
+    /// edges of theirs]
     #[arg(long, value_name = "LENGTH", value_parser = weight)]
     #[arg(allow_negative_numbers = true)]
     pub feature_length: Option<f64>,
@@ -175,10 +174,9 @@ impl Directions {
         &self,
         mesh: &TriangleMesh,
         by_attributes: Option<&FeatureGraph>,
-        sizing: &Sizing,
+        edge_length: Option<f64>,
     ) -> roundel::Result<(Guidance, FeatureGraph)> {
-        let edge_length = sizing.edge_length(mesh);
-        let (mut guidance, features) = self.of(mesh, by_attributes, 4, Some(edge_length))?;
+        let (mut guidance, features) = self.of(mesh, by_attributes, 4, edge_length)?;
         if !self.says_curvature() && guidance.indices.is_none() {
             let default = QuadOptions::default().guidance;
             guidance.constrain_curvature = match self.curves.guide() {

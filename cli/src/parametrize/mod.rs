@@ -95,8 +95,7 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
         ..
     } = input;
     let read = started.elapsed().as_secs_f64();
-    let sizing = arguments.sizing.of()?;
-    let given = (arguments.directions).of_map(&mesh, by_attributes.as_ref(), &sizing)?;
+    let given = (arguments.directions).of_map(&mesh, by_attributes.as_ref(), None)?;
     let given_faces = mesh.face_count();
     let curves = &arguments.directions.curves;
     let Followed {
@@ -105,7 +104,7 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
         features,
         sizing,
         counts: curves,
-    } = curves.follow(&mesh, given, sizing)?;
+    } = curves.follow(&mesh, given, arguments.sizing.of()?)?;
     let (mesh, changes) = match cut {
         Some(cut) => (cut.mesh, changes.on_refined(&cut.face_origin)),
         None => (mesh, changes),

@@ -77,7 +77,8 @@ pub(super) fn solve(arguments: &Arguments) -> Result<Solved> {
     let mut not_kept = refused;
     let read_seconds = started.elapsed().as_secs_f64();
     let sizing = arguments.sizing.of()?;
-    let given = (arguments.directions).of_map(&mesh, by_attributes.as_ref(), &sizing)?;
+    let edge_length = Some(sizing.edge_length(&mesh));
+    let given = (arguments.directions).of_map(&mesh, by_attributes.as_ref(), edge_length)?;
     let too_short = too_short(&mesh, &given.0)?;
     let curves = &arguments.directions.curves;
     let Followed {

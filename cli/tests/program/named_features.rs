@@ -1,4 +1,4 @@
-//! `--features` by names of what the faces on both sides of an edge differ in.
+//! `--features` by names of what the faces on both sides of an edge differ in, and sharp edges that are too short.
 
 use std::fmt::Write;
 use std::fs;
@@ -35,6 +35,53 @@ fn halves(path: &Path) {
 fn run(words: &[&str]) -> (i32, Value) {
     let (code, output) = finish(program(&[words, &["--json"]].concat()));
     (code, only_object(&output))
+}
+
+/// A square of 20 by 20 squares with a spike of one square's height in its middle, in OBJ.
+fn spike(path: &Path) {
+    let mut text = String::new();
+    for y in 0..=20 {
+        for x in 0..=20 {
+            let height = i32::from((x, y) == (10, 10));
+            writeln!(text, "v {x} {y} {height}").unwrap();
+        }
+    }
+    for y in 0..20 {
+        for x in 0..20 {
+            let a = 21 * y + x + 1;
+            writeln!(text, "f {a} {} {}", a + 1, a + 22).unwrap();
+            writeln!(text, "f {a} {} {}", a + 22, a + 21).unwrap();
+        }
+    }
+    fs::write(path, text).unwrap();
+}
+
+#[test]
+fn sharp_edges_too_short_for_quads_are_left_out_and_counted() {
+    let scratch = Scratch::new("short-features");
+    let file = scratch.path("spike.obj");
+    spike(&file);
+    let quad = ["quad", file.to_str().unwrap(), "--quads", "25"];
+    let sharp = [&quad[..], &["--features", "40"]].concat();
+    let all = [&sharp[..], &["--feature-length", "0"]].concat();
+    let short = |words: &[&str]| {
+        let (code, report) = run(words);
+        assert_eq!(code, 0, "{report}");
+        report["short_features"].as_u64().unwrap()
+    };
+    // What is sharp: some of the edges at the tip, and around it.
+    let (code, field) = run(&["field", quad[1], "--features", "40"]);
+    assert_eq!(code, 0);
+    let edges = field["feature_edges"].as_u64().unwrap();
+    assert!(edges > 80, "those of the boundary, and more: {edges}");
+    assert_eq!([&quad[..], &all, &sharp].map(short), [0, 0, edges - 80]);
+    let (code, output) = finish(program(&sharp));
+    let summary = String::from_utf8(output.stdout).unwrap();
+    assert_eq!(code, 0);
+    assert!(
+        summary.contains("left out: too short for quads"),
+        "{summary}"
+    );
 }
 
 #[test]

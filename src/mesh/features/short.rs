@@ -96,13 +96,16 @@ impl Pruned<'_> {
         let mut any = false;
         for beside in of_patch {
             let small = beside[0].0;
+            if is_joined[small] {
+                continue;
+            }
             let others = beside.chunk_by(|x, y| x.1 == y.1);
             let turns = others.map(|shared| (self.mean_turn(shared), shared));
             let Some((_, least)) = turns.min_by(|x, y| x.0.total_cmp(&y.0)) else {
                 continue;
             };
             let other = least[0].1;
-            if is_joined[small] || is_joined[other] {
+            if is_joined[other] {
                 continue;
             }
             (is_joined[small], is_joined[other]) = (true, true);
