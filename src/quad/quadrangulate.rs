@@ -40,9 +40,11 @@ const FIRST: f64 = 0.97;
 ///
 /// If a mesh that had to be refined, or whose quads do not conform, is still not covered by quads that conform,
 /// or if it had to be refined and its quads miss features that were asked for, it is tried once more with its
-/// sharp edges as features, if the options give no angle, once more without refinement, once more with half as
-/// many quads again as were asked for, and with 500. The first of the best results is kept. Of a mesh of several components, only those are tried again whose quads do not conform, and
-/// then, if the surface is not covered, those that do not cover theirs: each alone, as it is and in these ways,
+/// sharp edges as features, if the options give no angle; if its quads conform, up to three times with smaller quads
+/// where they lose the surface; once more without refinement; once more with half as many quads again as were asked
+/// for, and with 500. Quads that cover the surface end these tries, unless sharp edges give them more than twice as
+/// many irregular vertices. The best result is kept, and of equal ones the one with the fewest irregular vertices. Of
+/// a mesh of several components, only those are tried again whose quads do not conform, and then, if the surface is not covered, those that do not cover theirs: each alone, as it is and in these ways,
 /// and their quads replace those of the first try if they are better. These tries end when they have made
 /// fields, maps and quads of 1,200,000 triangles in all, or what takes as long.
 /// [`Quadrangulation::apart`] names the triangles of components that have quads of their own.

@@ -11,6 +11,9 @@ use crate::mesh::TriangleMesh;
 /// The largest factor between the number of quads and what was asked for.
 const FACTOR: f64 = 2.0;
 
+/// The factor of irregular vertices for which quads that are good are not taken unless nothing else is.
+const ROUGHER: usize = 2;
+
 /// The members are compared from first to last, and less is better.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Rank {
@@ -22,6 +25,8 @@ pub(super) struct Rank {
     missed: usize,
     /// There are more than twice as many quads as were asked for, or less than half as many.
     is_off: bool,
+    /// Vertices with other than four quads.
+    irregular: usize,
 }
 
 impl Rank {
@@ -32,6 +37,7 @@ impl Rank {
         lost: 1000,
         missed: usize::MAX,
         is_off: true,
+        irregular: usize::MAX,
     };
 
     /// The rank of quads of a mesh. A point is lost if it is farther than `far` from them; quads that conform
@@ -62,6 +68,7 @@ impl Rank {
                 false => (1000.0 * lost).round() as u32,
             },
             missed: 0,
+            irregular: quads.figures().irregular,
             is_off: !(1.0 / FACTOR..=FACTOR).contains(&more),
         }
     }
@@ -95,6 +102,11 @@ impl Rank {
     ) -> Self {
         let may_lose = made.as_ref().is_ok_and(|made| made.refined.is_some());
         Self::of(mesh, options, far, made, may_lose)
+    }
+
+    /// Whether there are many more irregular vertices than in the quads that were to be improved.
+    pub(super) fn is_rougher_than(self, first: Rank) -> bool {
+        self.irregular / ROUGHER > first.irregular
     }
 
     /// Whether quads conform, cover the surface and follow its features, so that nothing else is tried.

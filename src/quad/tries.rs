@@ -2,10 +2,12 @@
 
 use std::cell::Cell;
 
+use super::coverage::denser;
 use super::driver::{Effort, by_options};
 use super::rank::{Rank, has_features};
 use super::{Count, QuadOptions, Quadrangulation};
 use crate::error::{Error, Result};
+use crate::extract::QuadMesh;
 use crate::field::Guidance;
 use crate::map::Sizing;
 use crate::mesh::TriangleMesh;
@@ -19,6 +21,9 @@ const MORE: f64 = 1.5;
 
 /// The number of quads that is tried in any case, which a small part of a thin solid may need.
 const ENOUGH: f64 = 500.0;
+
+/// How often quads are made smaller where they lose the surface.
+const DENSER: usize = 3;
 
 /// Larger meshes are tried once.
 const MOST_FACES: usize = 50_000;
@@ -99,72 +104,133 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Tries<'a, M> {
         }
     }
 
-    /// The first of the best results: the first try and, while none is good, those with sharp edges as
-    /// features, with the mesh as it is, and with more quads.
+    /// The best of these results: the first try and, while none is good, those with sharp edges as features, with
+    /// smaller quads where the first ones lose the surface, with the mesh as it is, and with more quads. Of those that
+    /// are equally good the first is kept, or that with the fewest irregular vertices.
     pub(super) fn others(
         &mut self,
         mesh: &TriangleMesh,
         options: &QuadOptions,
         first: Result<Quadrangulation>,
     ) -> Result<Quadrangulation> {
-        let mut rank = Rank::of_first(mesh, options, self.far, &first);
-        let may_lose = first.as_ref().map_or(true, |made| made.refined.is_some());
-        let mut best = first;
         if mesh.face_count() > MOST_FACES {
-            return best;
+            return first;
         }
-        for other in others(mesh, options) {
-            if rank.is_good() || self.has_ended || self.work.get() == 0 {
-                break;
-            }
-            let Some(found) = self.one(mesh, &other) else {
-                break;
+        let rank = Rank::of_first(mesh, options, self.far, &first);
+        let may_lose = first.as_ref().map_or(true, |made| made.refined.is_some());
+        let incomplete = match &first {
+            Ok(made) if may_lose && made.quads.is_conforming() => Some(made.quads.clone()),
+            _ => None,
+        };
+        let mut best = Best {
+            asked: options,
+            made: first,
+            rank,
+            may_lose,
+        };
+        let again = as_tried_again(options);
+        if !has_features(mesh, &options.guidance) {
+            let guidance = Guidance {
+                feature_angle: Some(SHARP),
+                ..again.guidance.clone()
             };
-            let found_rank = Rank::of(mesh, options, self.far, &found, may_lose);
-            if found_rank < rank {
-                (best, rank) = (found, found_rank);
+            let sharp = QuadOptions {
+                guidance,
+                ..again.clone()
+            };
+            self.improve(mesh, &sharp, &mut best);
+        }
+        if let Some(quads) = incomplete
+            && (!best.rank.is_good() || best.rank.is_rougher_than(rank))
+        {
+            self.with_denser(mesh, &again, quads, &mut best);
+        }
+        for other in others(mesh, again) {
+            if best.rank.is_good() {
+                break;
+            }
+            self.improve(mesh, &other, &mut best);
+        }
+        best.made
+    }
+
+    /// Tries smaller and smaller quads where these ones lose the surface.
+    fn with_denser(
+        &mut self,
+        mesh: &TriangleMesh,
+        options: &QuadOptions,
+        mut quads: QuadMesh,
+        best: &mut Best<'_>,
+    ) {
+        let mut options = options.clone();
+        for _ in 0..DENSER {
+            options.density = denser(&quads, mesh, self.far, &options.density);
+            match self.improve(mesh, &options, best) {
+                Some((found, rank)) if !rank.is_good() => quads = found,
+                _ => break,
             }
         }
-        best
+    }
+
+    /// Makes one more try, if there is work left, and returns its quads.
+    fn improve(
+        &mut self,
+        mesh: &TriangleMesh,
+        options: &QuadOptions,
+        best: &mut Best<'_>,
+    ) -> Option<(QuadMesh, Rank)> {
+        if self.has_ended || self.work.get() == 0 {
+            return None;
+        }
+        let found = self.one(mesh, options)?;
+        let rank = Rank::of(mesh, best.asked, self.far, &found, best.may_lose);
+        let quads = found.as_ref().ok().map(|made| made.quads.clone());
+        if rank < best.rank {
+            (best.made, best.rank) = (found, rank);
+        }
+        quads.map(|quads| (quads, rank))
     }
 }
 
-/// What else to try: sharp edges as features, the mesh as it is, more quads, and enough of them for any shape. Quads
-/// that cover the surface count for more here than their number or where irregular vertices lie: numbers are not met,
-/// and features have a clearance only where the caller gave one.
-fn others(mesh: &TriangleMesh, options: &QuadOptions) -> Vec<QuadOptions> {
-    let again = QuadOptions {
+/// The best result so far.
+struct Best<'a> {
+    /// What the caller asked for.
+    asked: &'a QuadOptions,
+    made: Result<Quadrangulation>,
+    rank: Rank,
+    /// Whether quads that conform are asked whether they lose some of the surface.
+    may_lose: bool,
+}
+
+/// The options of all tries after the first. Quads that cover the surface count for more here than their number or
+/// where irregular vertices lie: numbers are not met, and features have a clearance only where the caller gave one.
+fn as_tried_again(options: &QuadOptions) -> QuadOptions {
+    QuadOptions {
         guidance: Guidance {
             clearance: options.guidance.clearance.or(Some(0.0)),
             ..options.guidance.clone()
         },
         count: Count::About,
         ..options.clone()
-    };
-    let mut others = Vec::new();
-    if !has_features(mesh, &options.guidance) {
-        let guidance = Guidance {
-            feature_angle: Some(SHARP),
-            ..again.guidance.clone()
-        };
-        others.push(QuadOptions {
-            guidance,
-            ..again.clone()
-        });
     }
-    if options.refine {
+}
+
+/// What is tried last: the mesh as it is, more quads, and enough of them for any shape.
+fn others(mesh: &TriangleMesh, again: QuadOptions) -> Vec<QuadOptions> {
+    let mut others = Vec::new();
+    if again.refine {
         others.push(QuadOptions {
             refine: false,
             ..again.clone()
         });
     }
-    let edge = options.sizing.edge_length(mesh);
+    let edge = again.sizing.edge_length(mesh);
     let asked = mesh.surface_area() / (edge * edge);
     let factors = [MORE, ENOUGH / asked].into_iter();
     let finer = factors
         .filter(|&more| more >= MORE)
         .map(|more| QuadOptions {
-            sizing: finer(&options.sizing, more),
+            sizing: finer(&again.sizing, more),
             ..again.clone()
         });
     others.extend(finer);
