@@ -77,6 +77,15 @@ impl Guidance {
     /// Those of [`FeatureGraph::with_sharp`], [`FeatureGraph::from_lines`] and
     /// [`FeatureGraph::from_edges`].
     pub fn features(&self, mesh: &TriangleMesh) -> Result<FeatureGraph> {
+        self.features_of(mesh, self.symmetry == 4)
+    }
+
+    /// The same, with all three edges of a face where they are sharp: faces that will be divided can follow them.
+    pub(crate) fn features_to_divide(&self, mesh: &TriangleMesh) -> Result<FeatureGraph> {
+        self.features_of(mesh, false)
+    }
+
+    fn features_of(&self, mesh: &TriangleMesh, two_of_each_face: bool) -> Result<FeatureGraph> {
         let lines = FeatureGraph::from_lines(mesh, &self.feature_lines)?;
         let edges = FeatureGraph::from_edges(mesh, &self.feature_edges)?;
         let mut features = lines.with(mesh, &edges)?;
@@ -86,9 +95,9 @@ impl Guidance {
         let Some(angle) = self.feature_angle.filter(|&angle| angle != 0.0) else {
             return Ok(features);
         };
-        let with_sharp = match self.symmetry {
-            4 => features.clone().with_sharp(mesh, angle)?,
-            _ => (features.clone()).with(mesh, &FeatureGraph::by_angle(mesh, angle)?)?,
+        let with_sharp = match two_of_each_face {
+            true => features.clone().with_sharp(mesh, angle)?,
+            false => (features.clone()).with(mesh, &FeatureGraph::by_angle(mesh, angle)?)?,
         };
         match self.feature_length.filter(|&length| length != 0.0) {
             Some(length) => with_sharp.without_short(mesh, &features, length),

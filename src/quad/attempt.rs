@@ -26,10 +26,10 @@ pub(super) struct Attempt {
 }
 
 impl Attempt {
-    /// The quads of a map.
+    /// The quads of a map that is to follow these features with so many quads.
     pub(super) fn new(
         mesh: &TriangleMesh,
-        features: &[usize],
+        (features, asked): (&[usize], f64),
         field: usize,
         solution: Solution,
         map: Untangled,
@@ -41,7 +41,7 @@ impl Attempt {
         may_continue()?;
         let missed = missed(mesh, &quads, features);
         Ok(Attempt {
-            outcome: Outcome::of_quads(&quads, missed.len()),
+            outcome: Outcome::of_quads(&quads, asked, missed.len()),
             field,
             solution,
             map,

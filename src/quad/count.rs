@@ -44,8 +44,15 @@ const MAPS: usize = 3;
 /// The most maps of other sizes, one more for each further field.
 const MOST_MAPS: usize = 6;
 
+/// Fewer maps are solved for in proportion where they have more integers than this: each takes longer than their
+/// number grows.
+const MANY_INTEGERS: usize = 200;
+
 /// The most of them whose quads are extracted.
 const EXTRACTIONS: usize = 3;
+
+/// How many quads there are for each further repair that their number is worth.
+const QUADS_PER_REPAIR: usize = 100;
 
 /// The part of a number of quads that one strip may add.
 const MOST_OF_STRIP: f64 = 0.03;
@@ -223,7 +230,11 @@ impl<'m, M: Fn() -> Monitor<'m>> Meeting<'_, '_, M> {
             is_used: false,
         });
         let fields = field_count(mesh, self.driver.options);
-        let most = (MAPS + fields - 1).min(MOST_MAPS);
+        let integers = self.best.solution.counts().reduced_integers;
+        let most = match integers <= MANY_INTEGERS {
+            true => (MAPS + fields - 1).min(MOST_MAPS),
+            false => (MAPS * MANY_INTEGERS / integers).max(1),
+        };
         let mut axes = 0..3;
         while !self.is_met() && self.maps < most && self.driver.work.get() > 0 {
             if self.add_strip()? {
@@ -343,7 +354,11 @@ impl<'m, M: Fn() -> Monitor<'m>> Meeting<'_, '_, M> {
         self.extractions += 1;
         self.driver.at_hand().put(solved);
         let mut found = self.driver.as_solved()?;
-        if !found.outcome.is_whole()
+        let is_whole = |found: &Attempt, best: &Attempt| {
+            let more = best.quads.quads.len() / QUADS_PER_REPAIR;
+            found.outcome.is_as_whole_as(&best.outcome, more)
+        };
+        if !is_whole(&found, &self.best)
             && self.driver.may_untangle()
             && let Some(untangled) = self.driver.attempt(Try::Untangled, &found)?
             && untangled.outcome < found.outcome
@@ -351,7 +366,7 @@ impl<'m, M: Fn() -> Monitor<'m>> Meeting<'_, '_, M> {
             found = untangled;
         }
         let is_nearer = self.off(found.quads.quads.len() as f64) < self.off_at_best();
-        if is_nearer && found.outcome.is_as_whole_as(&self.best.outcome) {
+        if is_nearer && is_whole(&found, &self.best) {
             self.best = found;
             self.of_best = size;
         }

@@ -44,6 +44,13 @@ use crate::smooth::{SmoothOptions, smooth_to};
 use crate::solve::Solution;
 use crate::untangle::{FINER, Untangled};
 
+/// The most integers of a map that are decided anew for its cones: for more it takes minutes and does not help.
+const INTEGERS_TO_DECIDE_ANEW: usize = 600;
+
+/// The same where quads conform and miss features alone, or were repaired next to them. Maps with more
+/// have more features than quads of their size can follow.
+const INTEGERS_FOR_FEATURES: usize = 200;
+
 /// The default size of details, as a part of a quad's edge, try after try: smaller details attract no
 /// irregular vertices. Extraction copes with folds, and quads are more even where details have irregular
 /// vertices of their own; fewer irregular vertices cause fewer folds.
@@ -231,6 +238,12 @@ fn of_mesh<'a>(
     driver.finish(best, maps)
 }
 
+/// The number of quads that was asked for, by the size of their edges where no number is given.
+fn asked(mesh: &TriangleMesh, options: &QuadOptions) -> f64 {
+    let edge = options.sizing.edge_length(mesh);
+    mesh.surface_area() / (edge * edge)
+}
+
 /// The tries, in this order; untangling and the separation of cones follow again after each of the last
 /// four.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -293,6 +306,7 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Driver<'a, M> {
             _ if best.outcome.is_whole() && !self.may_mend(best) => None,
             Try::SmallerQuads if self.smaller(best).is_some() => Some(Try::SmallerQuads),
             _ if self.effort == Effort::OfSeveral && !best.outcome.conforms() => None,
+            _ if self.has_too_many_features(best) => None,
             Try::SmallerQuads | Try::Graded if self.is_tangled(best) && self.may_grade(best) => {
                 Some(Try::Graded)
             }
@@ -305,20 +319,17 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Driver<'a, M> {
             {
                 Some(Try::Untangled)
             }
-            Try::Untangled
-                if self.passes() > 0
-                    && at_hand.may_decide_anew()
-                    && !(self.effort == Effort::Again && best.outcome.conforms()) =>
-            {
+            Try::Untangled if self.passes() > 0 && self.may_decide_anew(best) => {
                 Some(Try::ConesApart)
             }
-            _ if at_hand.holds_features_apart() && !best.outcome.is_whole() => {
+            _ if at_hand.holds_features_apart() && !best.outcome.conforms() => {
                 Some(Try::FeaturesAsRounded)
             }
             _ if best.outcome.conforms()
                 && self.may_mend(best)
                 && !self.was_off_features
-                && at_hand.moves_away() =>
+                && at_hand.moves_away()
+                && at_hand.may_decide_anew(INTEGERS_FOR_FEATURES) =>
             {
                 Some(Try::OffFeatures)
             }
@@ -342,6 +353,16 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Driver<'a, M> {
         best.quads.repaired > 0 && !self.fields[best.field].options.regular.is_empty()
     }
 
+    /// Whether the integers of the map at hand may be decided anew for its cones.
+    fn may_decide_anew(&self, best: &Attempt) -> bool {
+        let most = match best.outcome.conforms() {
+            true if self.effort == Effort::Again => return false,
+            true => INTEGERS_FOR_FEATURES,
+            false => INTEGERS_TO_DECIDE_ANEW,
+        };
+        self.fields[self.current].may_decide_anew(most)
+    }
+
     /// Whether the map at hand may be untangled.
     pub(super) fn may_untangle(&self) -> bool {
         let at_hand = &self.fields[self.current];
@@ -353,14 +374,26 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Driver<'a, M> {
         TANGLED_PART * best.map.flipped_after > self.mesh.face_count()
     }
 
+    /// Whether integers that keep features apart tangle the map, and are so many that deciding them takes long.
+    fn has_too_many_features(&self, best: &Attempt) -> bool {
+        let of_best = &self.fields[best.field];
+        !best.outcome.conforms()
+            && self.is_tangled(best)
+            && of_best.holds_features_apart()
+            && !of_best.may_decide_anew(INTEGERS_TO_DECIDE_ANEW)
+    }
+
     /// Whether smaller quads around folds may help.
     fn may_grade(&self, best: &Attempt) -> bool {
-        let edge = self.options.sizing.edge_length(self.mesh);
-        let asked = self.mesh.surface_area() / (edge * edge);
         self.gradings < GRADINGS
             && !best.outcome.conforms()
-            && best.quads.quads.len() as f64 <= MOST_QUADS * asked
+            && self.times_asked(best) <= MOST_QUADS
             && self.options.compare.is_empty()
+    }
+
+    /// How many quads there are for each that was asked for.
+    fn times_asked(&self, best: &Attempt) -> f64 {
+        best.quads.quads.len() as f64 / asked(self.mesh, self.options)
     }
 
     /// The quads of a try, if it can be made.
@@ -458,8 +491,9 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Driver<'a, M> {
         self.enter(Stage::Quads);
         let field = self.current;
         let features: Vec<usize> = self.features.edges().collect();
+        let asked = asked(self.mesh, self.options);
         let monitor = (self.monitor)();
-        Attempt::new(self.mesh, &features, field, solution, map, monitor)
+        Attempt::new(self.mesh, (&features, asked), field, solution, map, monitor)
     }
 
     /// Counts the work of a map.
@@ -493,6 +527,8 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Driver<'a, M> {
         let mut seconds = self.seconds;
         seconds.extract = self.started.elapsed().as_secs_f64() - seconds.field - seconds.map;
         let followed = self.fields.swap_remove(best.field);
+        // No smoothing mends a map that is folded nearly everywhere, and smoothing a million quads takes minutes.
+        let is_worth_it = best.outcome.conforms() || self.times_asked(&best) <= MOST_QUADS;
         let features: Vec<usize> = self.features.edges().collect();
         let (mut quads, mut missed_features) = (best.quads, best.missed);
         if quads.faces().next().is_none() {
@@ -506,7 +542,7 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Driver<'a, M> {
             });
         }
         monitor().run().enter(Stage::Smooth, 0, 1);
-        if let Some(given) = &options.smooth {
+        if let Some(given) = options.smooth.as_ref().filter(|_| is_worth_it) {
             timed(&mut seconds.smooth, || {
                 let given = SmoothOptions {
                     features: [&given.features[..], &features].concat(),
@@ -543,6 +579,7 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Driver<'a, M> {
             untangled: best.map,
             solution: best.solution,
             features,
+            feature_length: options.guidance.feature_length,
             missed_features,
             near_features,
             compared,

@@ -20,9 +20,8 @@ use crate::untangle::{NEAR, UntangleOptions, Untangled, faulty, grow_around};
 /// The most passes of untangling over the mesh if the quads conform and only miss features.
 const PASSES_FOR_FEATURES: usize = 10;
 
-/// The most integers of a map that are decided anew for its cones: for more it takes minutes and does not
-/// help.
-const INTEGERS_TO_DECIDE_ANEW: usize = 600;
+/// The most times that integers are decided anew because they collapse strips between features.
+const ROUNDS_FOR_FEATURES: usize = 3;
 
 /// A field and its map.
 pub(super) struct FieldMap<'a, M> {
@@ -123,9 +122,15 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> FieldMap<'a, M> {
             .resize(|solver| first.stretched(mesh, factors, solver))
     }
 
-    /// A map of the problem as it is now, with feature curves separated.
+    /// A map of the problem as it is now, with the separation rows of the last, and with more if it still puts feature
+    /// curves on one line.
     pub(super) fn solve(&mut self, mesh: &TriangleMesh) -> Result<Solved> {
-        Ok(solved(mesh, &mut self.maps)?.0)
+        let first = self.maps.solve_again()?;
+        if is_hopeless(mesh, &first.map) {
+            return Ok(first);
+        }
+        let apart = self.maps.separate_features(&first, 1)?;
+        Ok(apart.better.unwrap_or(first))
     }
 
     /// A map of the problem as it is now, with the integers of the last.
@@ -148,10 +153,9 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> FieldMap<'a, M> {
         is_hopeless(mesh, &self.at_hand.map)
     }
 
-    /// Whether the map has integers that may be decided anew.
-    pub(super) fn may_decide_anew(&self) -> bool {
-        let integers = self.at_hand.solution.counts().reduced_integers;
-        !self.is_relaxed && integers <= INTEGERS_TO_DECIDE_ANEW
+    /// Whether the map has integers, and no more than so many, that may be decided anew.
+    pub(super) fn may_decide_anew(&self, most: usize) -> bool {
+        !self.is_relaxed && self.at_hand.solution.counts().reduced_integers <= most
     }
 
     /// Whether feature curves are separated.
@@ -219,13 +223,15 @@ fn solved<'m, M: Fn() -> Monitor<'m>>(
     if is_hopeless(mesh, &first.map) {
         return Ok((first, None));
     }
-    Ok(match maps.separate_features(&first)?.better {
-        Some(apart) => (apart, Some(first)),
-        None => {
-            maps.forget_separation();
-            (first, None)
-        }
-    })
+    Ok(
+        match maps.separate_features(&first, ROUNDS_FOR_FEATURES)?.better {
+            Some(apart) => (apart, Some(first)),
+            None => {
+                maps.forget_separation();
+                (first, None)
+            }
+        },
+    )
 }
 
 /// The vertices of boundary loops that are not longer than this.

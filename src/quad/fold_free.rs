@@ -91,9 +91,9 @@ impl FoldFreeMap {
 ///
 /// A caller who [finishes](crate::Flow::Finish) the run gets the best map so far, whose folds may remain.
 ///
-/// # Errors Those of [`solve`](crate::solve()) for the first solve and of
-/// [`untangle`](crate::untangle::untangle); a later solve that fails because constraints contradict each
-/// other ends the rounds.
+/// # Errors
+/// Those of [`solve`](crate::solve()) for the first solve and of [`untangle`](crate::untangle::untangle); a later
+/// solve that fails because constraints contradict each other ends the rounds.
 pub fn solve_fold_free<'a>(
     mesh: &TriangleMesh,
     problem: &SeamlessProblem,

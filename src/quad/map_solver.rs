@@ -13,9 +13,6 @@ use crate::search::{Options, Strategy, WarmStart};
 use crate::solve::{SoftRow, Solution, Solver};
 use crate::untangle::{Structure, UntangleOptions, Untangled};
 
-/// The most times that integers are decided anew because they collapse strips between features.
-const ROUNDS_FOR_FEATURES: usize = 3;
-
 /// The most unknowns for which a proof is tried with [`Strategy::Auto`].
 const PROVED: usize = 50_000;
 
@@ -126,6 +123,17 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> MapSolver<'a, M> {
         self.solved(solution)
     }
 
+    /// Solves with the separation rows that there are.
+    pub(super) fn solve_again(&mut self) -> Result<Solved> {
+        if self.separation.is_empty() {
+            return self.solve();
+        }
+        let options = without_long_proof(self.options, self.problem.problem().variables());
+        let monitor = (self.monitor)();
+        let solution = (self.solver).solve_softly(&self.separation, &options, monitor)?;
+        self.solved(named_limit(solution, &options))
+    }
+
     /// Solves with the integers of the last solution.
     pub(super) fn keep_integers(&mut self) -> Result<Solved> {
         let options = Options {
@@ -141,10 +149,10 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> MapSolver<'a, M> {
         Ok(Solved { solution, map })
     }
 
-    /// Separates feature curves that the integers put on one line.
-    pub(super) fn separate_features(&mut self, first: &Solved) -> Result<Separated> {
+    /// Separates feature curves that the integers put on one line, in at most this many rounds.
+    pub(super) fn separate_features(&mut self, first: &Solved, rounds: usize) -> Result<Separated> {
         let strips = self.problem.feature_strips(self.mesh)?;
-        self.separate(first, ROUNDS_FOR_FEATURES, |_, map| {
+        self.separate(first, rounds, |_, map| {
             let missed = strips.iter().filter(|strip| strip.is_missed(map.values()));
             missed.cloned().collect()
         })

@@ -5,7 +5,8 @@
 //! folds and winding defects, quads their remaining faults. Only outcomes of one step are compared.
 //!
 //! Missed features count more than faults, because extraction repairs nearly all folds of a map, but
-//! cannot restore a missed feature.
+//! cannot restore a missed feature. Many more quads than were asked for
+//! have to follow all of them.
 
 use crate::extract::QuadMesh;
 use crate::untangle::Untangled;
@@ -14,11 +15,16 @@ use crate::untangle::Untangled;
 /// it if they make all quads more even; many are not.
 const CONE_COST: f64 = 2.0;
 
+/// The most quads for each that was asked for, unless they miss no feature.
+const MOST: f64 = 1.5;
+
 /// How far a result is from a good one.
 #[derive(Debug, Clone, Copy, PartialEq, PartialOrd, Default)]
 pub(super) struct Outcome {
     /// Whether quads have holes, or some faces are not quads.
     does_not_conform: bool,
+    /// Whether quads that conform miss features although they are far more than were asked for.
+    is_off: bool,
     /// Features that no edge of a quad follows.
     missed_features: usize,
     /// Elements that integers collapse, folds and winding defects of a map, or the repairs that
@@ -56,10 +62,12 @@ impl Outcome {
         }
     }
 
-    /// The outcome of quads that miss this many features.
-    pub(super) fn of_quads(quads: &QuadMesh, missed_features: usize) -> Self {
+    /// The outcome of quads of which so many were `asked` for, and that miss this many features.
+    pub(super) fn of_quads(quads: &QuadMesh, asked: f64, missed_features: usize) -> Self {
+        let conforms = quads.is_conforming();
         Outcome {
-            does_not_conform: !quads.is_conforming(),
+            does_not_conform: !conforms,
+            is_off: conforms && missed_features > 0 && quads.quads.len() as f64 > MOST * asked,
             missed_features,
             faults: quads.repaired,
             irregular_vertices: quads.figures().irregular,
@@ -72,10 +80,11 @@ impl Outcome {
         !self.does_not_conform
     }
 
-    /// Whether quads conform and miss no more features, if the others do.
-    pub(super) fn is_as_whole_as(&self, other: &Self) -> bool {
+    /// Whether quads conform and miss no more features, if the others do, and need at most this many more repairs.
+    pub(super) fn is_as_whole_as(&self, other: &Self, more: usize) -> bool {
         self.does_not_conform <= other.does_not_conform
             && self.missed_features <= other.missed_features
+            && self.faults <= other.faults + more
     }
 
     /// Whether quads conform and miss no features: other faults of the map do not matter then.
@@ -89,21 +98,22 @@ mod tests {
     use super::*;
 
     /// The members in the order of their comparison.
-    fn of(members: [usize; 5]) -> Outcome {
+    fn of(members: [usize; 6]) -> Outcome {
         Outcome {
             does_not_conform: members[0] > 0,
-            missed_features: members[1],
-            faults: members[2],
-            irregular_vertices: members[3],
-            distortion: members[4] as f64,
+            is_off: members[1] > 0,
+            missed_features: members[2],
+            faults: members[3],
+            irregular_vertices: members[4],
+            distortion: members[5] as f64,
         }
     }
 
     /// All combinations of zero and nonzero members; the nonzero values are larger for members that count
     /// less.
-    fn all() -> impl Iterator<Item = [usize; 5]> {
+    fn all() -> impl Iterator<Item = [usize; 6]> {
         let member = |n: usize, k: usize| if n >> k & 1 == 1 { 1 + k } else { 0 };
-        (0..32).map(move |n| [0, 1, 2, 3, 4].map(|k| member(n, k)))
+        (0..64).map(move |n| [0, 1, 2, 3, 4, 5].map(|k| member(n, k)))
     }
 
     #[test]
@@ -113,6 +123,32 @@ mod tests {
                 assert_eq!(of(a).partial_cmp(&of(b)), Some(a.cmp(&b)), "{a:?} {b:?}");
             }
         }
+    }
+
+    #[test]
+    fn many_more_quads_than_were_asked_for_have_to_follow_all_features() {
+        let cube = QuadMesh {
+            vertices: vec![[0.0; 3]; 8],
+            origins: Vec::new(),
+            quads: vec![
+                [0, 3, 2, 1],
+                [4, 5, 6, 7],
+                [0, 1, 5, 4],
+                [1, 2, 6, 5],
+                [2, 3, 7, 6],
+                [3, 0, 4, 7],
+            ],
+            others: Vec::new(),
+            partial_cells: 0,
+            folds_removed: 0,
+            repaired: 0,
+            folded: Vec::new(),
+            expected_euler: 2,
+        };
+        assert!(cube.is_conforming());
+        let of = |asked: f64, missed: usize| Outcome::of_quads(&cube, asked, missed);
+        assert!(of(6.0, 5) < of(3.0, 1) && of(6.0, 1) < of(6.0, 5));
+        assert!(of(3.0, 0) < of(6.0, 1) && of(3.0, 0) == of(6.0, 0));
     }
 
     #[test]

@@ -24,8 +24,8 @@ const FIRST: f64 = 0.97;
 ///
 /// [`is_conforming`](crate::extract::QuadMesh::is_conforming) tells whether the result consists of quads
 /// only. Sharp edges that are too short for the quads are no features
-/// ([`Guidance::for_quads`](crate::field::Guidance::for_quads)). Features that rounding puts on one line are separated if the quads then conform. Extraction
-/// copes with nearly all folds. Untangling is tried only if its quads do not conform, and the result is
+/// ([`Guidance::for_quads`](crate::field::Guidance::for_quads)). Features that rounding puts on one line are
+/// separated if the quads then conform. Extraction copes with nearly all folds. Untangling is tried only if its quads do not conform, and the result is
 /// kept if its quads conform or need fewer repairs. If the quads still do not conform, and the options
 /// give no size of details, the field is solved for again with larger details excluded. Small parts of the
 /// mesh that are lost get smaller quads, and so does a mesh without any quads
@@ -41,11 +41,13 @@ const FIRST: f64 = 0.97;
 /// If a mesh that had to be refined, or whose quads do not conform, is still not covered by quads that conform,
 /// or if it had to be refined and its quads miss features that were asked for, it is tried once more with its
 /// sharp edges as features, if the options give no angle; if its quads conform, up to three times with smaller quads
-/// where they lose the surface; once more without refinement; once more with half as many quads again as were asked
-/// for, and with 500. Quads that cover the surface end these tries, unless sharp edges give them more than twice as
-/// many irregular vertices. The best result is kept, and of equal ones the one with the fewest irregular vertices. Of
-/// a mesh of several components, only those are tried again whose quads do not conform, and then, if the surface is not covered, those that do not cover theirs: each alone, as it is and in these ways,
-/// and their quads replace those of the first try if they are better. These tries end when they have made
+/// where they lose the surface; if they do not conform, once more with only those sharp edges as features whose curves
+/// are four times as long; once more without refinement; once more with half as many quads again as were asked for, and
+/// with 500, if that is needed to conform or to cover the surface. Quads that cover the surface end these tries, unless
+/// sharp edges give them more than a quarter more irregular vertices. The best result is kept, and of equal ones the
+/// one with the fewest irregular vertices. Of a mesh of several components, only those are tried again whose quads do
+/// not conform, and then, if the surface is not covered, those that do not cover theirs: each alone, as it is and in
+/// these ways, and their quads replace those of the first try if they are better. These tries end when they have made
 /// fields, maps and quads of 1,200,000 triangles in all, or what takes as long.
 /// [`Quadrangulation::apart`] names the triangles of components that have quads of their own.
 ///

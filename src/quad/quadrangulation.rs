@@ -26,6 +26,9 @@ pub struct Quadrangulation {
     pub solution: Solution,
     /// Edges of the mesh that edges of quads follow, in increasing order.
     pub features: Vec<usize>,
+    /// The [least length](crate::field::Guidance::feature_length) of a curve of sharp edges among them. It is longer
+    /// than that of the guidance if quads along shorter curves did not conform.
+    pub feature_length: Option<f64>,
     /// Those of these edges that no edge of a quad follows, because the map collapses or folds them.
     pub missed_features: Vec<usize>,
     /// The number of irregular vertices of the field that lie nearer to features than the

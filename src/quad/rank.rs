@@ -11,8 +11,8 @@ use crate::mesh::TriangleMesh;
 /// The largest factor between the number of quads and what was asked for.
 const FACTOR: f64 = 2.0;
 
-/// The factor of irregular vertices for which quads that are good are not taken unless nothing else is.
-const ROUGHER: usize = 2;
+/// Of good quads with more irregular vertices than so many times those of the first, others are tried.
+const ROUGHER: f64 = 1.25;
 
 /// The members are compared from first to last, and less is better.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -104,14 +104,29 @@ impl Rank {
         Self::of(mesh, options, far, made, may_lose)
     }
 
-    /// Whether there are many more irregular vertices than in the quads that were to be improved.
+    /// Whether there are more irregular vertices than in the quads that were to be improved.
     pub(super) fn is_rougher_than(self, first: Rank) -> bool {
-        self.irregular / ROUGHER > first.irregular
+        self.irregular as f64 > ROUGHER * first.irregular as f64
+    }
+
+    /// Whether there are no quads, or they do not conform.
+    pub(super) fn does_not_conform(self) -> bool {
+        self.has_none || self.does_not_conform
+    }
+
+    /// Whether quads conform but lose some of the surface.
+    pub(super) fn loses(self) -> bool {
+        !self.does_not_conform() && self.lost > 0
+    }
+
+    /// Whether quads do not conform or lose some of the surface, so that more of them may help.
+    pub(super) fn covers_too_little(self) -> bool {
+        self.does_not_conform() || self.lost > 0
     }
 
     /// Whether quads conform, cover the surface and follow its features, so that nothing else is tried.
     pub(super) fn is_good(self) -> bool {
-        !self.has_none && !self.does_not_conform && self.lost == 0 && self.missed == 0
+        !self.covers_too_little() && self.missed == 0
     }
 }
 

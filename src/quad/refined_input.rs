@@ -68,11 +68,12 @@ impl RefinedInput {
         if !is_in_range(mesh, guidance) {
             return Ok(None);
         }
-        let mut wanted = guidance.features(mesh)?.with(mesh, features)?;
-        if let Some(angle) = guidance.feature_angle.filter(|&angle| angle != 0.0) {
-            // With every edge that is sharp: faces between three of them are divided.
-            wanted = wanted.with(mesh, &FeatureGraph::by_angle(mesh, angle)?)?;
-        }
+        // Faces between three sharp edges are divided.
+        let every = guidance.features_to_divide(mesh)?;
+        let wanted = guidance
+            .features(mesh)?
+            .with(mesh, &every)?
+            .with(mesh, features)?;
         let sides = directed_faces(guidance).flat_map(|f| [0, 1, 2].map(|k| mesh.edge_of(f, k)));
         let sides = FeatureGraph::from_edges(mesh, &sides.collect::<Vec<_>>())?;
         let held = wanted.clone().with(mesh, &sides)?;

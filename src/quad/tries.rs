@@ -22,6 +22,9 @@ const MORE: f64 = 1.5;
 /// The number of quads that is tried in any case, which a small part of a thin solid may need.
 const ENOUGH: f64 = 500.0;
 
+/// How many times as long curves of sharp edges have to be where quads along shorter ones do not conform.
+const LONGER: f64 = 4.0;
+
 /// How often quads are made smaller where they lose the surface.
 const DENSER: usize = 3;
 
@@ -118,17 +121,15 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Tries<'a, M> {
         }
         let rank = Rank::of_first(mesh, options, self.far, &first);
         let may_lose = first.as_ref().map_or(true, |made| made.refined.is_some());
-        let incomplete = match &first {
-            Ok(made) if may_lose && made.quads.is_conforming() => Some(made.quads.clone()),
-            _ => None,
-        };
+        let mut again = as_tried_again(options);
         let mut best = Best {
             asked: options,
             made: first,
             rank,
             may_lose,
+            refine: again.refine,
         };
-        let again = as_tried_again(options);
+        let incomplete = best.incomplete();
         if !has_features(mesh, &options.guidance) {
             let guidance = Guidance {
                 feature_angle: Some(SHARP),
@@ -145,11 +146,34 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Tries<'a, M> {
         {
             self.with_denser(mesh, &again, quads, &mut best);
         }
-        for other in others(mesh, again) {
-            if best.rank.is_good() {
+        if best.rank.does_not_conform()
+            && let Some(longer) = with_longer_features(&again)
+            && self.improve(mesh, &longer, &mut best).is_some()
+        {
+            again = longer;
+        }
+        if again.refine && !best.rank.is_good() {
+            let unrefined = QuadOptions {
+                refine: false,
+                ..again.clone()
+            };
+            let before = best.rank;
+            self.improve(mesh, &unrefined, &mut best);
+            if best.rank < before
+                && let Some(quads) = best.incomplete()
+            {
+                self.with_denser(mesh, &unrefined, quads, &mut best);
+            }
+        }
+        let again = QuadOptions {
+            refine: best.refine,
+            ..again
+        };
+        for finer in finer(mesh, &again) {
+            if !best.rank.covers_too_little() {
                 break;
             }
-            self.improve(mesh, &other, &mut best);
+            self.improve(mesh, &finer, &mut best);
         }
         best.made
     }
@@ -166,7 +190,7 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Tries<'a, M> {
         for _ in 0..DENSER {
             options.density = denser(&quads, mesh, self.far, &options.density);
             match self.improve(mesh, &options, best) {
-                Some((found, rank)) if !rank.is_good() => quads = found,
+                Some((found, rank)) if rank.loses() => quads = found,
                 _ => break,
             }
         }
@@ -186,7 +210,7 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Tries<'a, M> {
         let rank = Rank::of(mesh, best.asked, self.far, &found, best.may_lose);
         let quads = found.as_ref().ok().map(|made| made.quads.clone());
         if rank < best.rank {
-            (best.made, best.rank) = (found, rank);
+            (best.made, best.rank, best.refine) = (found, rank, options.refine);
         }
         quads.map(|quads| (quads, rank))
     }
@@ -200,6 +224,17 @@ struct Best<'a> {
     rank: Rank,
     /// Whether quads that conform are asked whether they lose some of the surface.
     may_lose: bool,
+    /// Whether the try may refine the mesh.
+    refine: bool,
+}
+
+impl Best<'_> {
+    /// The quads, if they conform but lose some of the surface.
+    fn incomplete(&self) -> Option<QuadMesh> {
+        let made = self.made.as_ref().ok();
+        made.filter(|_| self.rank.loses())
+            .map(|made| made.quads.clone())
+    }
 }
 
 /// The options of all tries after the first. Quads that cover the surface count for more here than their number or
@@ -215,30 +250,34 @@ fn as_tried_again(options: &QuadOptions) -> QuadOptions {
     }
 }
 
-/// What is tried last: the mesh as it is, more quads, and enough of them for any shape.
-fn others(mesh: &TriangleMesh, again: QuadOptions) -> Vec<QuadOptions> {
-    let mut others = Vec::new();
-    if again.refine {
-        others.push(QuadOptions {
-            refine: false,
-            ..again.clone()
-        });
-    }
+/// The same where only sharp edges of longer curves are features.
+fn with_longer_features(again: &QuadOptions) -> Option<QuadOptions> {
+    let guidance = &again.guidance;
+    let (_, length) = (guidance.feature_angle?, guidance.feature_length?);
+    (length > 0.0).then(|| QuadOptions {
+        guidance: Guidance {
+            feature_length: Some(LONGER * length),
+            ..guidance.clone()
+        },
+        ..again.clone()
+    })
+}
+
+/// What is tried last: more quads, and enough of them for any shape.
+fn finer(mesh: &TriangleMesh, again: &QuadOptions) -> Vec<QuadOptions> {
     let edge = again.sizing.edge_length(mesh);
     let asked = mesh.surface_area() / (edge * edge);
     let factors = [MORE, ENOUGH / asked].into_iter();
-    let finer = factors
-        .filter(|&more| more >= MORE)
-        .map(|more| QuadOptions {
-            sizing: finer(&again.sizing, more),
-            ..again.clone()
-        });
-    others.extend(finer);
-    others
+    let finer = factors.filter(|&more| more >= MORE);
+    let finer = finer.map(|more| QuadOptions {
+        sizing: smaller(&again.sizing, more),
+        ..again.clone()
+    });
+    finer.collect()
 }
 
 /// The sizes with so many times as many quads.
-fn finer(sizing: &Sizing, more: f64) -> Sizing {
+fn smaller(sizing: &Sizing, more: f64) -> Sizing {
     let shorter = |length: f64| length / more.sqrt();
     match sizing {
         Sizing::Quads(quads) => Sizing::Quads((more * *quads as f64).ceil() as usize),
@@ -250,5 +289,24 @@ fn finer(sizing: &Sizing, more: f64) -> Sizing {
         Sizing::Lengths(lengths) => {
             Sizing::Lengths(lengths.iter().map(|pair| pair.map(shorter)).collect())
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn curves_of_sharp_edges_have_to_be_longer_where_there_is_an_angle_and_a_length() {
+        let mut options = QuadOptions::default();
+        options.guidance.feature_angle = Some(SHARP);
+        assert!(with_longer_features(&options).is_none());
+        options.guidance.feature_length = Some(0.0);
+        assert!(with_longer_features(&options).is_none());
+        options.guidance.feature_length = Some(0.5);
+        let longer = with_longer_features(&options).unwrap();
+        assert_eq!(longer.guidance.feature_length, Some(2.0));
+        options.guidance.feature_angle = None;
+        assert!(with_longer_features(&options).is_none());
     }
 }

@@ -231,7 +231,7 @@ impl Structure {
                 work.undo_folds(&region, schedule::FIRST_EPS, monitor)?;
             }
         }
-        work.unwind(monitor)?;
+        work.unwind(options.passes, monitor)?;
         monitor.progress(Phase::Untangle, 1.0)?;
         let left = work.folded();
         let stuck = Stuck::find(mesh, work.freedom, &work.values, &left);

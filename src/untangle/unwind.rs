@@ -25,7 +25,7 @@ const MOST_FACES: usize = 4000;
 /// Passes over all winding defects: removing one defect may cause another.
 const ROUNDS: usize = 8;
 
-/// The work limit: how many faces all steps together may visit, as a multiple of the mesh's faces.
+/// The work limit: how many faces all layouts and steps together may visit, as a multiple of the mesh's faces.
 const PASSES: usize = 20;
 
 /// The first eps of the barrier, attempt after attempt. A large eps removes more folds. A small one keeps
@@ -79,10 +79,10 @@ impl Untangling<'_> {
         }
     }
 
-    /// Removes as many folds and winding defects at cones as it can.
-    pub(super) fn unwind(&mut self, monitor: &mut Monitor) -> Result<()> {
+    /// Removes as many folds and winding defects at cones as it can in at most so many passes over the mesh.
+    pub(super) fn unwind(&mut self, passes: usize, monitor: &mut Monitor) -> Result<()> {
         let whole = self.budget;
-        self.budget = PASSES.saturating_mul(self.mesh.face_count());
+        self.budget = PASSES.min(passes).saturating_mul(self.mesh.face_count());
         let mut faults = self.faults();
         let mut left_behind = BTreeSet::new();
         let is_cone = |v: &usize| self.quarters[*v] != Some(4);
@@ -137,20 +137,25 @@ impl Untangling<'_> {
             for first_eps in FIRST_EPS {
                 let before = self.values.clone();
                 self.lay(&layout);
-                self.untangle_disk(&disk, first_eps, monitor)?;
+                self.budget = self.budget.saturating_sub(faces);
+                let was_folded = self.untangle_disk(&disk, first_eps, monitor)?;
                 let left = self.faults_after_move(&before, faults);
                 let now = std::mem::replace(&mut self.values, before);
-                if left.folded.len() > faults.folded.len() {
-                    continue;
-                }
-                if left.count() < faults.count() {
+                let folds_no_more = left.folded.len() <= faults.folded.len();
+                if folds_no_more && left.count() < faults.count() {
                     (self.values, *faults) = (now, left);
                     return Ok(());
                 }
                 let is_other = |v: &usize| !left_behind.contains(v);
-                let moves = left.count() == faults.count() && !left.defects.contains(&cone);
+                let moves = folds_no_more
+                    && left.count() == faults.count()
+                    && !left.defects.contains(&cone);
                 if instead.is_none() && moves && left.defects.iter().all(is_other) {
                     instead = Some((now, left));
+                }
+                if !was_folded {
+                    // Another eps changes nothing.
+                    break;
                 }
             }
         }
@@ -213,7 +218,14 @@ impl Untangling<'_> {
         }
     }
 
-    fn untangle_disk(&mut self, disk: &Disk, first_eps: f64, monitor: &mut Monitor) -> Result<()> {
+    /// Untangles a disk that was laid out anew, and returns whether it was folded.
+    fn untangle_disk(
+        &mut self,
+        disk: &Disk,
+        first_eps: f64,
+        monitor: &mut Monitor,
+    ) -> Result<bool> {
+        let mut was_folded = false;
         for rings in RINGS {
             let is_folded = |&face: &usize| orientation(self.uv(face)) <= 0.0;
             let mut folded: Vec<usize> = disk.faces.iter().copied().filter(is_folded).collect();
@@ -221,11 +233,12 @@ impl Untangling<'_> {
             if folded.is_empty() {
                 break;
             }
+            was_folded = true;
             for region in regions(self.freedom, &folded, rings) {
                 self.undo_folds(&region, first_eps, monitor)?;
             }
         }
-        Ok(())
+        Ok(was_folded)
     }
 }
 
@@ -280,7 +293,7 @@ mod tests {
             // The update from the moved faces alone agrees with a full computation.
             assert_eq!(work.faults_after_move(&before, &none), work.faults());
             let folds = work.values.clone();
-            work.unwind(watch).unwrap();
+            work.unwind(PASSES, watch).unwrap();
             let left = work.folded().len();
             assert!(4 * left < crushed, "{cone}: {left} of {crushed}");
             work.values = folds;

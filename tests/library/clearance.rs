@@ -175,17 +175,21 @@ fn sharp_edges_that_are_shorter_than_quads_are_no_features_of_theirs() {
     let vertices = (0..sphere.vertex_count()).map(moved).collect();
     let corners = faces.map(|f| sphere.corners(f).map(|v| v as u32)).collect();
     let mesh = TriangleMesh::new(vertices, corners).unwrap();
-    let quads = |length: Option<f64>| {
+    let quads = |count: usize, length: Option<f64>| {
         let mut options = QuadOptions {
-            sizing: Sizing::Quads(200),
+            sizing: Sizing::Quads(count),
             ..QuadOptions::default()
         };
         options.guidance.feature_angle = Some(0.5);
         options.guidance.feature_length = length;
         quadrangulate(&mesh, &options, Monitor::default).unwrap()
     };
-    let [made, all] = [None, Some(0.0)].map(quads);
+    let [made, all] = [None, Some(0.0)].map(|length| quads(200, length));
     assert!(made.features.is_empty() && made.quads.is_conforming());
     assert_eq!(made.quads.figures().irregular, 8);
     assert!(!all.features.is_empty());
+    // Where the mesh is refined for its quads as well.
+    let fine = quads(2_000, Some(0.5));
+    assert!(fine.refined.is_some() && fine.quads.is_conforming());
+    assert_eq!((fine.features.len(), fine.feature_length), (0, Some(0.5)));
 }

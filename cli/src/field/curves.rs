@@ -112,11 +112,9 @@ impl Curves {
     pub fn follow(
         &self,
         mesh: &TriangleMesh,
-        (mut guidance, features): (Guidance, FeatureGraph),
+        (guidance, features): (Guidance, FeatureGraph),
         sizing: Sizing,
     ) -> Result<Followed> {
-        // Those of the command line's file are among them.
-        guidance.feature_edges = features.edges().collect();
         let mut counts = CurveCounts {
             guided_faces: guidance.guides.len(),
             ..CurveCounts::default()

@@ -122,6 +122,15 @@ impl Directions {
             read.map_err(|error| named(path, error))?;
         }
         guidance.guides.extend(self.curves.guides(mesh, &guidance)?);
+        let mut by_name = FeatureGraph::none(mesh);
+        if let Some(given) = by_attributes {
+            by_name = by_name.with(mesh, given)?;
+        }
+        if let Some(path) = &self.feature_lines {
+            let lines = FeatureGraph::read(mesh, path).map_err(|error| named(path, error))?;
+            by_name = by_name.with(mesh, &lines)?;
+        }
+        guidance.feature_edges = by_name.edges().collect();
         // Sharp shapes are flat elsewhere: curvature there is noise. Curves say what to follow.
         let by_features =
             self.features.is_some() || self.feature_lines.is_some() || !self.curves.is_empty();
@@ -132,14 +141,7 @@ impl Directions {
             Some(length) => guidance.for_quads(length),
             None => guidance,
         };
-        let mut features = guidance.features(mesh)?;
-        if let Some(given) = by_attributes {
-            features = features.with(mesh, given)?;
-        }
-        if let Some(path) = &self.feature_lines {
-            let lines = FeatureGraph::read(mesh, path).map_err(|error| named(path, error))?;
-            features = features.with(mesh, &lines)?;
-        }
+        let features = guidance.features(mesh)?;
         Ok((guidance, features))
     }
 }

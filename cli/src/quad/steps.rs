@@ -79,7 +79,7 @@ pub(super) fn solve(arguments: &Arguments) -> Result<Solved> {
     let sizing = arguments.sizing.of()?;
     let edge_length = Some(sizing.edge_length(&mesh));
     let given = (arguments.directions).of_map(&mesh, by_attributes.as_ref(), edge_length)?;
-    let too_short = too_short(&mesh, &given.0)?;
+    let mut of_sharp = given.0.clone();
     let curves = &arguments.directions.curves;
     let Followed {
         cut,
@@ -116,6 +116,8 @@ pub(super) fn solve(arguments: &Arguments) -> Result<Solved> {
     };
     let options = arguments.flags.over(options)?;
     let made = quadrangulate(&mesh, &options, || progress.monitor())?;
+    of_sharp.feature_length = made.feature_length;
+    let too_short = too_short(uncut.as_ref().unwrap_or(&mesh), &of_sharp)?;
     let mut kept = Kept::default();
     if let Some(path) = &arguments.out {
         attributes.keep_what_fits(format_of(path)?);
