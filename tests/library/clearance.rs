@@ -163,33 +163,37 @@ fn lengths_and_vertices_that_cannot_be_are_refused() {
     assert_eq!((error.code(), error.index()), ("invalid_argument", Some(0)));
 }
 
-#[test]
-fn sharp_edges_that_are_shorter_than_quads_are_no_features_of_theirs() {
-    // A needle on a sphere: all edges at its tip are sharp, and none is as long as a quad.
-    let sphere = by_name("sphere", 2_000).unwrap();
-    let faces = 0..sphere.face_count();
+/// A sphere with a needle: all edges at its tip are sharp.
+fn needle(faces: usize, height: f64) -> TriangleMesh {
+    let sphere = by_name("sphere", faces).unwrap();
     let moved = |v: usize| match v {
-        0 => sphere.position(v).map(|x| 1.05 * x),
+        0 => sphere.position(v).map(|x| (1.0 + height) * x),
         _ => sphere.position(v),
     };
     let vertices = (0..sphere.vertex_count()).map(moved).collect();
-    let corners = faces.map(|f| sphere.corners(f).map(|v| v as u32)).collect();
-    let mesh = TriangleMesh::new(vertices, corners).unwrap();
-    let quads = |count: usize, length: Option<f64>| {
+    let corners = (0..sphere.face_count()).map(|f| sphere.corners(f).map(|v| v as u32));
+    TriangleMesh::new(vertices, corners.collect()).unwrap()
+}
+
+#[test]
+fn sharp_edges_that_are_shorter_than_quads_are_no_features_of_theirs() {
+    let quads = |mesh: &TriangleMesh, count: usize, length: Option<f64>| {
         let mut options = QuadOptions {
             sizing: Sizing::Quads(count),
             ..QuadOptions::default()
         };
         options.guidance.feature_angle = Some(0.5);
         options.guidance.feature_length = length;
-        quadrangulate(&mesh, &options, Monitor::default).unwrap()
+        quadrangulate(mesh, &options, Monitor::default).unwrap()
     };
-    let [made, all] = [None, Some(0.0)].map(|length| quads(200, length));
+    let mesh = needle(2_000, 0.05);
+    let [made, all] = [None, Some(0.0)].map(|length| quads(&mesh, 200, length));
     assert!(made.features.is_empty() && made.quads.is_conforming());
     assert_eq!(made.quads.figures().irregular, 8);
     assert!(!all.features.is_empty());
     // Where the mesh is refined for its quads as well.
-    let fine = quads(2_000, Some(0.5));
-    assert!(fine.refined.is_some() && fine.quads.is_conforming());
-    assert_eq!((fine.features.len(), fine.feature_length), (0, Some(0.5)));
+    let [made, all] = [1.2, 0.0].map(|length| quads(&needle(320, 0.15), 2_000, Some(length)));
+    assert!(made.refined.is_some() && made.quads.is_conforming());
+    assert_eq!((made.features.len(), made.feature_length), (0, Some(1.2)));
+    assert!(!all.features.is_empty());
 }
