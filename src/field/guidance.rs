@@ -77,31 +77,49 @@ impl Guidance {
     /// Those of [`FeatureGraph::with_sharp`], [`FeatureGraph::from_lines`] and
     /// [`FeatureGraph::from_edges`].
     pub fn features(&self, mesh: &TriangleMesh) -> Result<FeatureGraph> {
-        self.features_of(mesh, self.symmetry == 4)
+        let given = self.given_features(mesh)?;
+        let Some(angle) = self.feature_angle.filter(|&angle| angle != 0.0) else {
+            return Ok(given);
+        };
+        let with_sharp = match self.symmetry {
+            4 => given.clone().with_sharp(mesh, angle)?,
+            _ => (given.clone()).with(mesh, &FeatureGraph::by_angle(mesh, angle)?)?,
+        };
+        self.without_short(mesh, with_sharp, &given)
     }
 
-    /// The same, with all three edges of a face where they are sharp: faces that will be divided can follow them.
+    /// The same, and the third edge of each face between sharp edges: a face that will be divided can follow all three.
     pub(crate) fn features_to_divide(&self, mesh: &TriangleMesh) -> Result<FeatureGraph> {
-        self.features_of(mesh, false)
-    }
-
-    fn features_of(&self, mesh: &TriangleMesh, two_of_each_face: bool) -> Result<FeatureGraph> {
-        let lines = FeatureGraph::from_lines(mesh, &self.feature_lines)?;
-        let edges = FeatureGraph::from_edges(mesh, &self.feature_edges)?;
-        let mut features = lines.with(mesh, &edges)?;
-        if self.align_boundary && self.symmetry != 1 {
-            features = features.with(mesh, &FeatureGraph::boundary(mesh))?;
-        }
+        let features = self.features(mesh)?;
         let Some(angle) = self.feature_angle.filter(|&angle| angle != 0.0) else {
             return Ok(features);
         };
-        let with_sharp = match two_of_each_face {
-            true => features.clone().with_sharp(mesh, angle)?,
-            false => (features.clone()).with(mesh, &FeatureGraph::by_angle(mesh, angle)?)?,
-        };
+        let sharp = FeatureGraph::by_angle(mesh, angle)?;
+        let with_sharp = sharp.with(mesh, &features)?;
+        self.without_short(mesh, with_sharp, &features)
+    }
+
+    /// The features that the caller names, without sharp edges.
+    fn given_features(&self, mesh: &TriangleMesh) -> Result<FeatureGraph> {
+        let lines = FeatureGraph::from_lines(mesh, &self.feature_lines)?;
+        let edges = FeatureGraph::from_edges(mesh, &self.feature_edges)?;
+        let given = lines.with(mesh, &edges)?;
+        match self.align_boundary && self.symmetry != 1 {
+            true => given.with(mesh, &FeatureGraph::boundary(mesh)),
+            false => Ok(given),
+        }
+    }
+
+    /// The features without what is too short, but with all edges of `held`.
+    fn without_short(
+        &self,
+        mesh: &TriangleMesh,
+        features: FeatureGraph,
+        held: &FeatureGraph,
+    ) -> Result<FeatureGraph> {
         match self.feature_length.filter(|&length| length != 0.0) {
-            Some(length) => with_sharp.without_short(mesh, &features, length),
-            None => Ok(with_sharp),
+            Some(length) => features.without_short(mesh, held, length),
+            None => Ok(features),
         }
     }
 

@@ -44,8 +44,7 @@ const MAPS: usize = 3;
 /// The most maps of other sizes, one more for each further field.
 const MOST_MAPS: usize = 6;
 
-/// Fewer maps are solved for in proportion where they have more integers than this: each takes longer than their
-/// number grows.
+/// Of maps with more integers than this fewer are made, in inverse proportion: each takes long.
 const MANY_INTEGERS: usize = 200;
 
 /// The most of them whose quads are extracted.

@@ -68,12 +68,7 @@ impl RefinedInput {
         if !is_in_range(mesh, guidance) {
             return Ok(None);
         }
-        // Faces between three sharp edges are divided.
-        let every = guidance.features_to_divide(mesh)?;
-        let wanted = guidance
-            .features(mesh)?
-            .with(mesh, &every)?
-            .with(mesh, features)?;
+        let wanted = guidance.features_to_divide(mesh)?.with(mesh, features)?;
         let sides = directed_faces(guidance).flat_map(|f| [0, 1, 2].map(|k| mesh.edge_of(f, k)));
         let sides = FeatureGraph::from_edges(mesh, &sides.collect::<Vec<_>>())?;
         let held = wanted.clone().with(mesh, &sides)?;

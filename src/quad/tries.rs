@@ -108,8 +108,8 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Tries<'a, M> {
     }
 
     /// The best of these results: the first try and, while none is good, those with sharp edges as features, with
-    /// smaller quads where the first ones lose the surface, with the mesh as it is, and with more quads. Of those that
-    /// are equally good the first is kept, or that with the fewest irregular vertices.
+    /// smaller quads where the first ones lose the surface, with fewer features, with the mesh as it is, and with more
+    /// quads. Of those that are equally good the first is kept, or that with the fewest irregular vertices.
     pub(super) fn others(
         &mut self,
         mesh: &TriangleMesh,
