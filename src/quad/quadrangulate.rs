@@ -25,9 +25,9 @@ const FIRST: f64 = 0.97;
 /// [`is_conforming`](crate::extract::QuadMesh::is_conforming) tells whether the result consists of quads
 /// only. Sharp edges that are too short for the quads are no features
 /// ([`Guidance::for_quads`](crate::field::Guidance::for_quads)). Features that rounding puts on one line are
-/// separated if the quads then conform. Extraction copes with nearly all folds. Untangling is tried only if its quads do not conform, and the result is
-/// kept if its quads conform or need fewer repairs. If the quads still do not conform, and the options
-/// give no size of details, the field is solved for again with larger details excluded. Small parts of the
+/// separated if the quads then conform. Extraction copes with nearly all folds. Untangling is tried only if its quads
+/// do not conform or miss features, and the result is kept if it is better. If the quads still do not conform, and the
+/// options give no size of details, the field is solved for again with larger details excluded. Small parts of the
 /// mesh that are lost get smaller quads, and so does a mesh without any quads
 /// ([`Sizing::Lengths`](crate::map::Sizing::Lengths)).
 ///

@@ -268,6 +268,19 @@ fn irregular_vertices_keep_an_edge_away_from_features() {
     }
 }
 
+#[test]
+#[ignore = "half a minute of work"]
+fn only_long_curves_are_followed_where_quads_along_shorter_ones_do_not_conform() {
+    let Some(folder) = archive() else {
+        return crate::common::skip::skip_unless_ci(MISSING);
+    };
+    let mesh = load(&folder, "femur").unwrap();
+    let (made, _) = near_features_of(&mesh, None);
+    let edge = Sizing::Quads(1_000).edge_length(&mesh);
+    assert!(made.quads.is_conforming() && !made.features.is_empty());
+    assert!((made.feature_length.unwrap() / edge - 8.0).abs() < 1e-9);
+}
+
 /// Prints the table of all sound meshes. It takes minutes and runs on demand only.
 #[test]
 #[ignore = "minutes of work"]
