@@ -23,17 +23,22 @@ const GAIN: f64 = 1e-3;
 const ROUNDS: usize = 20;
 
 /// Quads with a scaled Jacobian of at most this count as inverted: a rounding of the vertices makes them so.
-const INVERTED: f64 = 1e-3;
+pub(super) const INVERTED: f64 = 1e-3;
+
+/// An edge that is not longer than this part of the longest of its quad is a point.
+const NO_EDGE: f64 = 1e-6;
 
 /// How far a corner of an inverted quad may leave the surface, in the mean edge of the quad: more only if
 /// less does not suffice.
 const LEAVES: [f64; 4] = [0.02, 0.05, 0.1, 0.2];
 
-/// Improves poor quads until no vertex moves, on the surface, and then inverted ones off it.
-pub(super) fn mend(quads: &mut QuadMesh, surface: &mut Surface) {
+/// How often such a quad is moved by each part: one corner at a time.
+const TIMES: usize = 3;
+
+/// Moves corners of inverted quads off the surface.
+pub(super) fn leave_surface(quads: &mut QuadMesh) {
     let around = quads.around();
-    mend_on(quads, surface, &around);
-    for part in LEAVES {
+    for part in LEAVES.into_iter().flat_map(|part| [part; TIMES]) {
         for q in 0..quads.quads.len() {
             if quality(quads, q) <= INVERTED {
                 leave(quads, q, part, &around);
@@ -70,8 +75,9 @@ fn leave(quads: &mut QuadMesh, quad: usize, part: f64, around: &[Vec<u32>]) {
     }
 }
 
-/// Improves poor quads on the surface.
-fn mend_on(quads: &mut QuadMesh, surface: &mut Surface, around: &[Vec<u32>]) {
+/// Improves poor quads until no vertex moves, on the surface.
+pub(super) fn mend(quads: &mut QuadMesh, surface: &mut Surface) {
+    let around = quads.around();
     for _ in 0..ROUNDS {
         let mut is_better = false;
         for q in 0..quads.quads.len() {
@@ -91,17 +97,34 @@ fn mend_on(quads: &mut QuadMesh, surface: &mut Surface, around: &[Vec<u32>]) {
     }
 }
 
-fn quality(quads: &QuadMesh, quad: usize) -> f64 {
-    scaled_jacobian(quads.quads[quad].map(|v| quads.vertices[v as usize]))
+/// The scaled Jacobian of a quad; the least one if two of its corners are at one point.
+pub(super) fn quality(quads: &QuadMesh, quad: usize) -> f64 {
+    let corners = quads.quads[quad].map(|v| quads.vertices[v as usize]);
+    let length = |k: usize| norm(sub(corners[(k + 1) % 4], corners[k]));
+    let lengths = [0, 1, 2, 3].map(length);
+    let [least, most] = [f64::min, f64::max].map(|of| lengths.into_iter().fold(lengths[0], of));
+    match least <= NO_EDGE * most {
+        true => -1.0,
+        false => scaled_jacobian(corners),
+    }
 }
 
+/// The least quality of these quads, less one for each that has an edge of no length.
 fn worst(quads: &QuadMesh, around: &[u32]) -> f64 {
     let qualities = around.iter().map(|&q| quality(quads, q as usize));
-    qualities.fold(f64::INFINITY, f64::min)
+    qualities.fold(f64::INFINITY, |worst, quality| match quality <= -1.0 {
+        true => worst.min(0.0) - 1.0,
+        false => worst.min(quality),
+    })
 }
 
 /// Moves a vertex to the best of the places tried. Returns whether it moved.
-fn improve(quads: &mut QuadMesh, surface: &mut Surface, v: usize, around: &[u32]) -> bool {
+pub(super) fn improve(
+    quads: &mut QuadMesh,
+    surface: &mut Surface,
+    v: usize,
+    around: &[u32],
+) -> bool {
     let before = quads.vertices[v];
     let mut best = (worst(quads, around) + GAIN, before);
     for place in places(quads, v, around) {
@@ -174,5 +197,35 @@ mod tests {
         assert!(quality(&quads, 0) > 0.02);
         let lengths = quads.vertices.iter().map(|p| p[1].abs());
         assert!(lengths.filter(|y| *y > 0.0 && *y < 0.05).count() <= 1);
+    }
+
+    #[test]
+    fn a_vertex_leaves_another_one_even_if_more_quads_have_edges_of_no_length() {
+        // Two quads side by side, each with two corners at one point.
+        let mut quads = QuadMesh {
+            vertices: vec![
+                [0.0; 3],
+                [0.0; 3],
+                [1.0, 1.0, 0.0],
+                [0.0, 1.0, 0.0],
+                [2.0, 0.0, 0.0],
+                [2.0, 1.0, 0.0],
+            ],
+            origins: Vec::new(),
+            quads: vec![[0, 1, 2, 3], [1, 4, 5, 2]],
+            others: Vec::new(),
+            partial_cells: 0,
+            folds_removed: 0,
+            repaired: 0,
+            folded: Vec::new(),
+            expected_euler: 1,
+        };
+        assert_eq!(quality(&quads, 0), -1.0);
+        quads.vertices[4] = quads.vertices[5];
+        assert_eq!(worst(&quads, &[0, 1]), -2.0);
+        quads.vertices[1] = [1.0, 0.0, 0.0];
+        assert_eq!(worst(&quads, &[0, 1]), -1.0);
+        quads.vertices[4] = [2.0, 0.0, 0.0];
+        assert_eq!(worst(&quads, &[0, 1]), 1.0);
     }
 }

@@ -4,15 +4,18 @@
 //! `bouaziz2012`, section 4), of a size between its own and the mean size. A vertex moves to the
 //! mean of its targets, and from there to the closest point of the surface. Vertices on the
 //! boundary and on features slide along them; a vertex where these end, meet or turn is fixed.
-//! Quads that are still inverted are improved one vertex at a time.
+//! Poor quads are improved one vertex at a time. In the quads of a whole run, those that are missing at the boundary
+//! are added before, and flat ones are collapsed after that.
 //!
 //! Closest points are looked for among thousands of triangles each where these are long needles. Smoothing ends
 //! early there.
 
 mod chains;
+mod collapse;
 mod curve;
 mod mend;
 mod quality;
+mod rims;
 mod square;
 mod surface;
 
@@ -66,10 +69,15 @@ pub fn smooth(
     options: &SmoothOptions,
     monitor: &mut Monitor,
 ) -> Result<()> {
-    smooth_to(quads, mesh, options, None, monitor)
+    let (_watch, _memory) = (monitor.watch(), mesh.watch_memory());
+    if smoothed(quads, mesh, options, (None, false), monitor)?.is_some() {
+        mend::leave_surface(quads);
+    }
+    Ok(())
 }
 
-/// As [`smooth`], where edges of quads are to have these lengths, in any unit, in every face of the mesh.
+/// As [`smooth`], where edges of quads are to have these lengths, in any unit, in every face of the mesh. Quads
+/// that are missing at the boundary are added, and flat ones are collapsed if all conform.
 pub(crate) fn smooth_to(
     quads: &mut QuadMesh,
     mesh: &TriangleMesh,
@@ -77,16 +85,37 @@ pub(crate) fn smooth_to(
     lengths: Option<&[f64]>,
     monitor: &mut Monitor,
 ) -> Result<()> {
+    let (_watch, _memory) = (monitor.watch(), mesh.watch_memory());
+    if let Some(mut surface) = smoothed(quads, mesh, options, (lengths, true), monitor)? {
+        if quads.is_conforming() {
+            collapse::collapse(quads, &mut surface);
+        }
+        mend::leave_surface(quads);
+    }
+    Ok(())
+}
+
+/// Moves vertices on the surface, after quads that are missing at the boundary are added if `fills`. `None` if the
+/// caller wants what there is.
+fn smoothed(
+    quads: &mut QuadMesh,
+    mesh: &TriangleMesh,
+    options: &SmoothOptions,
+    (lengths, fills): (Option<&[f64]>, bool),
+    monitor: &mut Monitor,
+) -> Result<Option<Surface>> {
     let _span = span("smooth");
     check(options)?;
-    let (_watch, _memory) = (monitor.watch(), mesh.watch_memory());
     if monitor.finishes() {
-        return Ok(());
+        return Ok(None);
     }
     let features = FeatureGraph::from_edges(mesh, &options.features)?;
     let features = features.with(mesh, &FeatureGraph::boundary(mesh))?;
     let mut surface = Surface::new(quads, mesh, &features)?;
     chains::close(quads, mesh, &mut surface);
+    if fills {
+        rims::fill(quads, mesh, &features, &mut surface);
+    }
     let home = quads.vertices.clone();
     let sizes = lengths.map(|lengths| relative_sizes(quads, mesh, lengths));
     for round in 0..options.rounds {
@@ -115,7 +144,7 @@ pub(crate) fn smooth_to(
         surface.project_all(&wanted.collect::<Vec<_>>(), &mut quads.vertices);
     }
     mend::mend(quads, &mut surface);
-    Ok(())
+    Ok(Some(surface))
 }
 
 /// The length that edges of each quad are to have, over the mean of all, from the places where it was extracted.
@@ -155,4 +184,37 @@ fn check(options: &SmoothOptions) -> Result<()> {
         });
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SIDE: u32 = 4;
+
+    /// A square of four by four quads, and the same with two triangles for each.
+    pub(super) fn grid() -> (QuadMesh, TriangleMesh) {
+        let row = SIDE + 1;
+        let at = |i: u32, j: u32| i + row * j;
+        let cells = (0..SIDE * SIDE).map(|c| (c % SIDE, c / SIDE));
+        let quad = |(i, j)| [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
+        let quads: Vec<[u32; 4]> = cells.map(quad).collect();
+        let vertices = (0..row * row).map(|v| [f64::from(v % row), f64::from(v / row), 0.0]);
+        let vertices: Vec<[f64; 3]> = vertices.collect();
+        let halves = |&[a, b, c, d]: &[u32; 4]| [[a, b, c], [a, c, d]];
+        let triangles = quads.iter().flat_map(halves).collect();
+        let mesh = TriangleMesh::new(vertices.clone(), triangles).unwrap();
+        let quads = QuadMesh {
+            origins: (0..vertices.len()).map(Origin::Vertex).collect(),
+            vertices,
+            quads,
+            others: Vec::new(),
+            partial_cells: 0,
+            folds_removed: 0,
+            repaired: 0,
+            folded: Vec::new(),
+            expected_euler: 1,
+        };
+        (quads, mesh)
+    }
 }

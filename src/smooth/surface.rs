@@ -80,6 +80,14 @@ impl Surface {
         })
     }
 
+    /// Notes a vertex that was added to the quads at this point, and the node that it is, if any.
+    pub(super) fn add_vertex(&mut self, at: Vec3, bond: Bond, node: Option<usize>) {
+        self.bonds.push(bond);
+        self.node.push(node);
+        self.hints.push(None);
+        self.fixed.push(at);
+    }
+
     /// Whether closest points have taken so long that no more may be looked for.
     pub(super) fn has_spent_its_work(&self) -> bool {
         self.work > WORK_PER_VERTEX * self.fixed.len() as u64

@@ -281,6 +281,42 @@ fn only_long_curves_are_followed_where_quads_along_shorter_ones_do_not_conform()
     assert!((made.feature_length.unwrap() / edge - 8.0).abs() < 1e-9);
 }
 
+#[test]
+#[ignore = "a minute of work"]
+fn quads_along_sharp_edges_are_not_inverted() {
+    let Some(folder) = archive() else {
+        return crate::common::skip::skip_unless_ci(MISSING);
+    };
+    for name in ["fandisk_large", "elk", "homer"] {
+        let mesh = load(&folder, name).unwrap();
+        let (made, _) = near_features_of(&mesh, None);
+        assert!(made.quads.is_conforming(), "{name}");
+        assert_eq!(QuadQuality::new(&made.quads).inverted, 0, "{name}");
+    }
+}
+
+#[test]
+#[ignore = "half a minute of work"]
+fn quads_of_mirrored_meshes_have_no_gaps_along_the_seam() {
+    let Some(folder) = archive() else {
+        return crate::common::skip::skip_unless_ci(MISSING);
+    };
+    for name in ["couplingdown", "man"] {
+        let mesh = load(&folder, name).unwrap();
+        let options = QuadOptions {
+            sizing: Sizing::Quads(1_000),
+            mirror: vec!["auto".parse().unwrap()],
+            ..QuadOptions::default()
+        };
+        let quads = quadrangulate(&mesh, &options, Monitor::default)
+            .unwrap()
+            .quads;
+        assert!(quads.is_conforming(), "{name}");
+        assert_eq!(quads.figures().euler, mesh.euler_characteristic(), "{name}");
+        assert_eq!(QuadQuality::new(&quads).inverted, 0, "{name}");
+    }
+}
+
 /// Prints the table of all sound meshes. It takes minutes and runs on demand only.
 #[test]
 #[ignore = "minutes of work"]
