@@ -1,10 +1,13 @@
 //! Quads that are mirrored: the mesh is cut by its mirror planes, the part on one side is turned into quads
 //! with the cut as a feature, and the other parts are its mirror images.
 
+use super::final_error::is_final;
 use super::mirror_images::{Seams, with_image};
+use super::quadrangulate::whole;
 use super::refined_input::{check_faces, divided};
 use super::size_metric::SizeMetric;
-use super::{Near, QuadOptions, Quadrangulation, quadrangulate};
+use super::tries::smaller;
+use super::{Near, QuadOptions, Quadrangulation};
 use crate::error::{Error, Result};
 use crate::extract::Origin;
 use crate::map::Sizing;
@@ -12,8 +15,11 @@ use crate::mesh::features::FeatureGraph;
 use crate::mesh::mirror::{Half, MirrorPlane, mirror_planes};
 use crate::mesh::vector::{Vec3, add, scale};
 use crate::mesh::{ClosestPoint, TriangleMesh, barycentric};
-use crate::monitor::{Monitor, with_threads};
+use crate::monitor::{Monitor, optional, with_threads};
 use crate::smooth::SmoothOptions;
+
+/// How many times as many quads are tried where those of the part conform but leave gaps along the seam.
+const MORE: [f64; 2] = [1.1, 1.25];
 
 /// The part of a mesh that was turned into quads, and the planes that its mirror images are behind.
 #[derive(Debug, Clone)]
@@ -43,8 +49,36 @@ pub(super) fn mirrored<'a>(
         let given = of_half(mesh, &half, options)?;
         Ok::<_, Error>((planes, half, given))
     })?;
-    let made = quadrangulate(&half.mesh, &given, monitor)?;
-    Ok(with_images(mesh, planes, half, made))
+    let run = monitor().run();
+    let monitor = || monitor().of_run(&run);
+    let made = whole(&half.mesh, &given, &monitor)?;
+    let part_conforms = made.quads.is_conforming();
+    let mut best = with_images(mesh, &planes, &half, made);
+    for more in MORE {
+        if !part_conforms || best.quads.is_conforming() {
+            break;
+        }
+        let other = QuadOptions {
+            sizing: smaller(&given.sizing, more),
+            ..given.clone()
+        };
+        let again = optional(&monitor, || {
+            run.with_share([1.0, 1.0], || whole(&half.mesh, &other, &monitor))
+        });
+        match again {
+            Ok(None) => break,
+            Ok(Some(made)) => {
+                let found = with_images(mesh, &planes, &half, made);
+                if found.quads.is_conforming() {
+                    best = found;
+                }
+            }
+            Err(error) if is_final(&error) => return Err(error),
+            // The quads that there are remain.
+            Err(_) => {}
+        }
+    }
+    Ok(best)
 }
 
 /// The options for the part.
@@ -123,14 +157,14 @@ fn of_vertices(mesh: &TriangleMesh, half: &Half, values: &[f64]) -> Vec<f64> {
 /// The result for the whole mesh, with elements of the given mesh where it names elements.
 fn with_images(
     mesh: &TriangleMesh,
-    planes: Vec<MirrorPlane>,
-    half: Half,
+    planes: &[MirrorPlane],
+    half: &Half,
     made: Quadrangulation,
 ) -> Quadrangulation {
     let mut quads = made.quads;
     let kept = quads.vertices.len();
-    let mut seams = Seams::of_quads(&mut quads, &planes, &half);
-    let mut of_mesh = Seams::of_half(&half);
+    let mut seams = Seams::of_quads(&mut quads, planes, half);
+    let mut of_mesh = Seams::of_half(half);
     for (k, plane) in planes.iter().enumerate() {
         of_mesh.count_image(k);
         with_image(&mut quads, &mut seams, plane, k, of_mesh.euler());
@@ -139,7 +173,7 @@ fn with_images(
     let tree = ClosestPoint::new(mesh);
     for v in 0..quads.origins.len() {
         let (origin, at) = (quads.origins[v], quads.vertices[v]);
-        quads.origins[v] = given_place(mesh, &half, &tree, origin, (v < kept).then_some(at), at);
+        quads.origins[v] = given_place(mesh, half, &tree, origin, (v < kept).then_some(at), at);
     }
     quads.folded = given(quads.folded.iter().map(|&f| half.face_origin[f]));
     let edges = |of: Vec<usize>| given(of.into_iter().filter_map(|e| half.edge_origin[e]));
@@ -149,7 +183,10 @@ fn with_images(
         features: edges(made.features),
         missed_features: edges(made.missed_features),
         apart: given(apart),
-        mirrored: Some(Mirrored { planes, half }),
+        mirrored: Some(Mirrored {
+            planes: planes.to_vec(),
+            half: half.clone(),
+        }),
         ..made
     }
 }

@@ -81,9 +81,19 @@ pub fn quadrangulate<'a>(
     if !options.mirror.is_empty() {
         return mirrored(mesh, options, monitor);
     }
-    with_threads(options.field.threads, || {
-        on_threads(mesh, options, &monitor)
-    })
+    whole(mesh, options, &monitor)
+}
+
+/// The quads of a mesh that is not mirrored.
+///
+/// # Errors
+/// Those of [`quadrangulate`].
+pub(super) fn whole<'a>(
+    mesh: &TriangleMesh,
+    options: &QuadOptions,
+    monitor: &impl Fn() -> Monitor<'a>,
+) -> Result<Quadrangulation> {
+    with_threads(options.field.threads, || on_threads(mesh, options, monitor))
 }
 
 fn on_threads<'a>(

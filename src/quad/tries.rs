@@ -277,7 +277,7 @@ fn finer(mesh: &TriangleMesh, again: &QuadOptions) -> Vec<QuadOptions> {
 }
 
 /// The sizes with so many times as many quads.
-fn smaller(sizing: &Sizing, more: f64) -> Sizing {
+pub(super) fn smaller(sizing: &Sizing, more: f64) -> Sizing {
     let shorter = |length: f64| length / more.sqrt();
     match sizing {
         Sizing::Quads(quads) => Sizing::Quads((more * *quads as f64).ceil() as usize),

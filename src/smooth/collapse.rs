@@ -2,16 +2,18 @@
 //!
 //! Where three corners of a quad lie on one straight feature, the quad is flat wherever they slide, and where a map was
 //! folded, thin quads are left. Two moves of connectivity remove one quad each (`tarini2010`): opposite
-//! corners of a quad become one vertex, or a vertex of two quads goes and makes them one. A move is made if, after
-//! the vertices around it have moved, the quads there are better by more than the removal of a quad is worth.
+//! corners of a quad become one vertex, or a vertex of two quads goes and makes them one. A move is made if the quads
+//! there are better after it, once the vertices around it have moved.
 //! Corners on features and on the boundary stay, so that quads follow them as before.
 
 use std::collections::BTreeSet;
 
 use super::mend::{INVERTED, improve, quality};
 use super::surface::{Bond, Surface};
+use crate::error::Result;
 use crate::extract::QuadMesh;
 use crate::mesh::vector::Vec3;
+use crate::monitor::{Monitor, may_continue};
 
 /// Quads with a scaled Jacobian of less than this are collapsed if that helps.
 const FLAT: f64 = 0.1;
@@ -28,17 +30,25 @@ const ROUNDS: usize = 4;
 /// The most quads around a vertex that a move makes.
 const MOST_AROUND: usize = 7;
 
-/// Collapses flat quads of a conforming mesh, the worst first, until no move helps.
-pub(super) fn collapse(quads: &mut QuadMesh, surface: &mut Surface) {
+/// Collapses flat quads of a conforming mesh, the worst first, until no move helps or the caller wants what there is.
+///
+/// # Errors
+/// [`Error::Cancelled`](crate::Error::Cancelled).
+pub(super) fn collapse(
+    quads: &mut QuadMesh,
+    surface: &mut Surface,
+    monitor: &mut Monitor,
+) -> Result<()> {
     let mut collapse = Collapse {
         is_gone: vec![false; quads.quads.len()],
         around: quads.around(),
         quads,
         surface,
     };
-    while collapse.remove_some() {}
+    while !monitor.finishes() && collapse.remove_some()? {}
     let is_gone = collapse.is_gone;
     compact(quads, &is_gone);
+    Ok(())
 }
 
 /// What a move of connectivity makes of the quads.
@@ -67,13 +77,17 @@ struct Collapse<'a> {
 
 impl Collapse<'_> {
     /// Removes each quad that is flat, the worst first, if that helps. Returns whether one was removed.
-    fn remove_some(&mut self) -> bool {
+    fn remove_some(&mut self) -> Result<bool> {
         let all = (0..self.is_gone.len()).filter(|&q| !self.is_gone[q]);
         let all = all.map(|q| (quality(self.quads, q), q as u32));
         let mut flat: Vec<(f64, u32)> = all.filter(|pair| pair.0 < FLAT).collect();
         flat.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        let removed = flat.into_iter().filter(|&(_, quad)| self.remove(quad));
-        removed.count() > 0
+        let mut removes = false;
+        for (_, quad) in flat {
+            may_continue()?;
+            removes |= self.remove(quad);
+        }
+        Ok(removes)
     }
 
     /// Makes the best move that removes a quad, if it is still flat and one helps.
@@ -282,7 +296,6 @@ mod tests {
     use super::*;
     use crate::extract::Origin;
     use crate::mesh::TriangleMesh;
-    use crate::monitor::Monitor;
     use crate::smooth::tests::grid;
     use crate::smooth::{QuadQuality, SmoothOptions, smooth, smooth_to};
 

@@ -88,7 +88,7 @@ pub(crate) fn smooth_to(
     let (_watch, _memory) = (monitor.watch(), mesh.watch_memory());
     if let Some(mut surface) = smoothed(quads, mesh, options, (lengths, true), monitor)? {
         if quads.is_conforming() {
-            collapse::collapse(quads, &mut surface);
+            collapse::collapse(quads, &mut surface, monitor)?;
         }
         mend::leave_surface(quads);
     }

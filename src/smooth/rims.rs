@@ -46,13 +46,14 @@ pub(super) fn fill(
             continue;
         };
         let way = rims.way(from, to, most);
-        let mut corners: Vec<u32> = chain.iter().rev().copied().collect();
-        if ends[0] == ends[1] {
-            corners.pop();
-        }
-        let Some(stops) = way.and_then(|way| way.stops(&rims, corners.len())) else {
+        let Some(stops) = way.and_then(|way| way.stops(&rims, chain.len())) else {
             continue;
         };
+        // Once around the boundary there are at least three edges.
+        if ends[0] == ends[1] && stops.len() < 2 {
+            continue;
+        }
+        let mut corners: Vec<u32> = chain.iter().rev().copied().collect();
         let mut filling = Filling { quads, surface };
         corners.extend(stops.into_iter().map(|added| filling.add(added)));
         filling.fill(&corners);
