@@ -45,7 +45,7 @@ pub struct Arguments {
 
     /// How dense quads are at every vertex, as a factor of the number of edges along a length: a file with one number
     /// a vertex; property:NAME, a scalar property of the vertices of the mesh (PLY); or colors, the colours of its
-    /// vertices (OBJ, PLY), where red is 2, white 1 and cyan 1/2
+    /// vertices (OBJ, PLY, glTF), where red is 2, white 1 and cyan 1/2
     #[arg(long, value_name = "DENSITY.txt|property:NAME|colors", value_parser = Density::parse)]
     pub density: Option<Density>,
 

@@ -9,15 +9,15 @@ use crate::soup::{PolygonSoup, SoupError};
 /// Something in which polygons on both sides of an edge may differ.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Attribute {
-    /// The material: `usemtl` of OBJ.
+    /// The material: `usemtl` of OBJ, that of a primitive of glTF.
     Materials,
     /// The object and the groups: `o` and `g` of OBJ.
     Groups,
     /// The smoothing group: `s` of OBJ; `0` and `off` are the same.
     Smoothing,
-    /// Texture coordinates of corners: `vt` of OBJ.
+    /// Texture coordinates of corners: `vt` of OBJ, `TEXCOORD_0` of glTF.
     Seams,
-    /// Normals of corners: `vn` of OBJ.
+    /// Normals of corners: `vn` of OBJ, `NORMAL` of glTF.
     Normals,
     /// The colour of the face: `red`, `green`, `blue` and `alpha` of the faces of PLY.
     Colors,
@@ -95,8 +95,8 @@ pub(super) struct Values {
 impl Attributes {
     /// The attributes in the contents of a file, whose soup is `soup`.
     ///
-    /// OBJ and PLY files have attributes, and glTF files materials; those of other formats are not read. Buffers beside
-    /// a glTF file are not found: use [`parse_in`](Self::parse_in) or [`read_as`](Self::read_as).
+    /// OBJ, PLY and glTF files have attributes; those of other formats are not read. Buffers beside a glTF file are not
+    /// found: use [`parse_in`](Self::parse_in) or [`read_as`](Self::read_as).
     ///
     /// # Errors
     /// [`SoupError::Parse`] with the line for a corner that names no texture coordinates or no normal, and
@@ -207,8 +207,9 @@ impl Attributes {
         &self.values.face_colors
     }
 
-    /// Red, green, blue and alpha of every vertex from 0 to 1, if the file has them: `v x y z r g b` of OBJ, and
-    /// `red`, `green`, `blue` and `alpha` of PLY. NaN for a vertex without a colour.
+    /// Red, green, blue and alpha of every vertex from 0 to 1, if the file has them: `v x y z r g b` of OBJ,
+    /// `red`, `green`, `blue` and `alpha` of PLY, and `COLOR_0` of glTF, as it is stored. NaN for a vertex without a
+    /// colour.
     pub fn vertex_colors(&self) -> Option<&[[f64; 4]]> {
         self.values.vertex_colors.as_deref()
     }

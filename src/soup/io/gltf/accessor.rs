@@ -1,9 +1,8 @@
 //! Accessors of glTF (section 3.6.2): arrays of numbers in a buffer, tight or interleaved, whole or
 //! sparse, of every component type. Every place is checked before it is read.
 
-use super::Source;
 use super::document::{Accessor, SparsePart};
-use super::malformed;
+use super::{Part, Source, malformed};
 use crate::soup::SoupError;
 
 /// Where elements lie.
@@ -69,6 +68,34 @@ impl Source<'_> {
             )));
         }
         Ok(numbers.into_iter().map(|index| index as i64).collect())
+    }
+
+    /// An attribute of the vertices of a part, if it has it.
+    pub(super) fn of_vertices<const N: usize>(
+        &mut self,
+        part: &Part,
+        name: &str,
+        shape: &str,
+    ) -> Result<Option<Vec<[f64; N]>>, SoupError> {
+        let Some(&number) = part.primitive.attributes.get(name) else {
+            return Ok(None);
+        };
+        let numbers = self.numbers(number, shape, N)?;
+        let values = numbers.as_chunks().0.to_vec();
+        self.spend(values.len())?;
+        match values.len() == part.vertices {
+            true => Ok(Some(values)),
+            false => Err(malformed(format!(
+                "accessor {number}: {name} of {} vertices, where there are {}",
+                values.len(),
+                part.vertices
+            ))),
+        }
+    }
+
+    /// The type of the elements of an accessor.
+    pub(super) fn shape(&self, number: usize) -> Result<&str, SoupError> {
+        Ok(&self.accessor(number)?.shape)
     }
 
     fn accessor(&self, number: usize) -> Result<&Accessor, SoupError> {

@@ -1,7 +1,8 @@
 //! glTF 2.0 (Khronos Group, 2021), as JSON and as a binary file.
 //!
 //! Read are all primitives of triangles of the meshes of a scene, at the places that the nodes give
-//! them, and which material they have; images, skins, morph targets and animations are not. A transform that mirrors turns
+//! them, their materials, and the first texture coordinates and colours, and normals; images, skins, morph targets and
+//! animations are not. A transform that mirrors turns
 //! the triangles, so that they face the same side as before. Primitives of a mesh that share positions
 //! share vertices. A number that names no vertex of its own primitive becomes negative, so that it names
 //! none of another.
@@ -36,17 +37,25 @@ const NUMBERS: usize = 1 << 24;
 
 pub(super) fn parse(bytes: &[u8], folder: Option<&Path>) -> Result<PolygonSoup, SoupError> {
     let (document, own) = container::open(bytes)?;
-    read(&document, own, bytes.len(), folder, |_, _| ())
+    read(&document, own, bytes.len(), folder, |_, _, _| Ok(()))
 }
 
-/// Reads the scene of a document whose file has `size` bytes, `own` of them a buffer, and tells of each primitive, with
-/// the number of polygons up to its end.
+/// What a primitive has added to a soup: its last polygons, and vertices that others may share.
+struct Part<'a> {
+    primitive: &'a Primitive,
+    /// The first of its vertices.
+    first: usize,
+    vertices: usize,
+}
+
+/// Reads the scene of a document whose file has `size` bytes, `own` of them a buffer, and tells of each part, with the
+/// soup up to its end.
 fn read(
     document: &Document,
     own: Option<&[u8]>,
     size: usize,
     folder: Option<&Path>,
-    mut tell: impl FnMut(&Primitive, usize),
+    mut tell: impl FnMut(&mut Source, &Part, &PolygonSoup) -> Result<(), SoupError>,
 ) -> Result<PolygonSoup, SoupError> {
     let required = document.extensions_required.iter();
     if let Some(name) = required.into_iter().find(|name| !is_harmless(name)) {
@@ -109,7 +118,7 @@ impl Source<'_> {
         mesh: &Mesh,
         transform: &Transform,
         soup: &mut PolygonSoup,
-        tell: &mut impl FnMut(&Primitive, usize),
+        tell: &mut impl FnMut(&mut Source, &Part, &PolygonSoup) -> Result<(), SoupError>,
     ) -> Result<(), SoupError> {
         // The first vertex and the number of vertices of each array of positions.
         let mut placed: BTreeMap<usize, (i64, usize)> = BTreeMap::new();
@@ -149,7 +158,12 @@ impl Source<'_> {
                 };
             }
             add_triangles(primitive, &corners, transform.mirrors(), soup)?;
-            tell(primitive, soup.polygon_count());
+            let part = Part {
+                primitive,
+                first: first as usize,
+                vertices: count,
+            };
+            tell(self, &part, soup)?;
         }
         Ok(())
     }

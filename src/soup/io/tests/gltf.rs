@@ -478,3 +478,92 @@ fn triangles_have_the_material_of_their_primitive() {
     let found = Attributes::parse(plain.as_bytes(), Format::Gltf, &soup).unwrap();
     assert_eq!(found.present().count(), 0);
 }
+
+/// Two squares: the first has texture coordinates, normals and colours, of which two corners share theirs.
+fn with_arrays() -> Value {
+    let mut bytes = buffer();
+    let textures = [[0.0_f32, 1.0], [1.0, 1.0], [1.0, 0.25], [0.0, 1.0]];
+    let normals = [[0.0_f32, 0.0, 1.0]; 4];
+    let colors = [[255_u8, 0, 0, 255], [0, 51, 0, 0], [0; 4], [255; 4]];
+    for x in textures.as_flattened().iter().chain(normals.as_flattened()) {
+        bytes.extend(x.to_le_bytes());
+    }
+    bytes.extend(colors.as_flattened());
+    let mut document = square();
+    document["meshes"][0]["primitives"] = json!([
+        {
+            "attributes": {"POSITION": 0, "TEXCOORD_0": 2, "NORMAL": 3, "COLOR_0": 4},
+            "indices": 1,
+        },
+        {"attributes": {"POSITION": 5}, "indices": 1},
+    ]);
+    let arrays = [
+        (60, 32, 5126, "VEC2", false),
+        (92, 48, 5126, "VEC3", false),
+        (140, 16, 5121, "VEC4", true),
+    ];
+    let mut add = |list: &str, value: Value| document[list].as_array_mut().unwrap().push(value);
+    for (view, (start, length, kind, shape, normalized)) in (2..).zip(arrays) {
+        add(
+            "bufferViews",
+            json!({"buffer": 0, "byteOffset": start, "byteLength": length}),
+        );
+        add(
+            "accessors",
+            json!({
+                "bufferView": view, "componentType": kind, "count": 4, "type": shape,
+                "normalized": normalized,
+            }),
+        );
+    }
+    add(
+        "accessors",
+        json!({"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3"}),
+    );
+    with_buffer(document, &bytes)
+}
+
+#[test]
+fn corners_have_texture_coordinates_and_normals_and_vertices_have_colors() {
+    let text = with_arrays().to_string();
+    assert!(Attributes::are_in(text.as_bytes(), Format::Gltf).unwrap());
+    let soup = read(text.clone(), Format::Gltf);
+    assert_eq!((soup.positions().len(), soup.polygon_count()), (8, 4));
+    let found = Attributes::parse(text.as_bytes(), Format::Gltf, &soup).unwrap();
+    let none = u32::MAX;
+    let of_first = |labels: [u32; 6]| [labels, [none; 6]].concat();
+    // The corners are 0 1 2 0 2 3, and 3 has the texture coordinates of 0.
+    let seams = of_first([0, 1, 2, 0, 2, 0]);
+    assert_eq!(found.labels(Attribute::Seams), Some(&seams[..]));
+    assert_eq!(
+        found.texture_coordinates()[..3],
+        [[0.0, 0.0], [1.0, 0.0], [1.0, 0.75]]
+    );
+    assert_eq!(
+        found.labels(Attribute::Normals),
+        Some(&of_first([0; 6])[..])
+    );
+    assert_eq!(found.labels(Attribute::Materials), None);
+    let colors = found.vertex_colors().unwrap();
+    assert_eq!(colors[0], [1.0, 0.0, 0.0, 1.0]);
+    assert_eq!(colors[1], [0.0, 0.2, 0.0, 0.0]);
+    assert!(colors[4..].as_flattened().iter().all(|x| x.is_nan()));
+}
+
+#[test]
+fn colors_without_alpha_are_opaque_and_arrays_of_other_lengths_are_refused() {
+    let mut document = with_arrays();
+    document["accessors"][4]["type"] = "VEC3".into();
+    let text = document.to_string();
+    let soup = read(text.clone(), Format::Gltf);
+    let found = Attributes::parse(text.as_bytes(), Format::Gltf, &soup).unwrap();
+    assert_eq!(found.vertex_colors().unwrap()[0], [1.0, 0.0, 0.0, 1.0]);
+    for (place, name) in [(2, "TEXCOORD_0"), (3, "NORMAL"), (4, "COLOR_0")] {
+        let mut document = with_arrays();
+        document["accessors"][place]["count"] = 3.into();
+        let text = document.to_string();
+        let error = Attributes::parse(text.as_bytes(), Format::Gltf, &soup).unwrap_err();
+        let expected = format!("accessor {place}: {name} of 3 vertices, where there are 4");
+        assert!(error.to_string().contains(&expected), "{error}");
+    }
+}
