@@ -49,10 +49,6 @@ pub(super) fn fill(
         let Some(stops) = way.and_then(|way| way.stops(&rims, chain.len())) else {
             continue;
         };
-        // Once around the boundary there are at least three edges.
-        if ends[0] == ends[1] && stops.len() < 2 {
-            continue;
-        }
         let mut corners: Vec<u32> = chain.iter().rev().copied().collect();
         let mut filling = Filling { quads, surface };
         corners.extend(stops.into_iter().map(|added| filling.add(added)));
@@ -190,7 +186,7 @@ impl<'a> Rims<'a> {
                     last = after;
                 }
                 let is_joined = edges.contains(&[first.min(last), first.max(last)]);
-                if is_on(last) && !is_joined {
+                if is_on(last) && first != last && !is_joined {
                     found.push(chain);
                 }
             }
@@ -198,7 +194,7 @@ impl<'a> Rims<'a> {
         found
     }
 
-    /// The boundary from one place to another, or once around, with faces on the left, if it is at most so long.
+    /// The boundary from one place to another, with faces on the left, if it is at most so long.
     fn way(&self, from: Spot, to: Spot, most: f64) -> Option<Way> {
         let mut way = Way {
             length: 0.0,
@@ -206,7 +202,7 @@ impl<'a> Rims<'a> {
             nodes: Vec::new(),
         };
         let mut at = from;
-        while way.steps.len() == 1 && from == to || at.vertex != to.vertex || at.part > to.part {
+        while at.vertex != to.vertex || at.part > to.part {
             let (length, next) = self.step(at.vertex)?;
             way.length += (1.0 - at.part) * length;
             at = Spot {
