@@ -108,16 +108,11 @@ pub(super) mod tests {
         let faces = quads.iter().map(|q| q.as_slice());
         let most = faces.chain(others.iter().copied()).flatten().max();
         let count = most.map_or(0, |&v| v as usize + 1);
+        let vertices = (0..count).map(|v| [v as f64, 0.0, 0.0]).collect();
         QuadMesh {
-            vertices: (0..count).map(|v| [v as f64, 0.0, 0.0]).collect(),
             origins: (0..count).map(Origin::Vertex).collect(),
-            quads: quads.to_vec(),
             others: others.iter().map(|face| face.to_vec()).collect(),
-            partial_cells: 0,
-            folds_removed: 0,
-            repaired: 0,
-            folded: Vec::new(),
-            expected_euler: 1,
+            ..QuadMesh::from_quads(vertices, quads.to_vec(), 1)
         }
     }
 

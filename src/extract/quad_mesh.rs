@@ -37,6 +37,22 @@ pub struct QuadMesh {
 }
 
 impl QuadMesh {
+    /// Quads that come from no map: their vertices have no places on a mesh, and `expected_euler` is the Euler
+    /// characteristic of their surface.
+    pub fn from_quads(vertices: Vec<Vec3>, quads: Vec<[u32; 4]>, expected_euler: i64) -> Self {
+        QuadMesh {
+            origins: vec![Origin::Middle; vertices.len()],
+            vertices,
+            quads,
+            others: Vec::new(),
+            partial_cells: 0,
+            folds_removed: 0,
+            repaired: 0,
+            folded: Vec::new(),
+            expected_euler,
+        }
+    }
+
     /// All faces: the quads, then the others.
     pub fn faces(&self) -> impl Iterator<Item = &[u32]> {
         let quads = self.quads.iter().map(|quad| quad.as_slice());

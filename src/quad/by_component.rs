@@ -2,7 +2,6 @@
 
 use crate::extract::{Origin, QuadMesh};
 use crate::mesh::TriangleMesh;
-use crate::mesh::vector::Vec3;
 
 /// The components of a mesh, with what their quads must have.
 pub(super) struct Components {
@@ -63,7 +62,11 @@ impl Components {
             let known = polygon.iter().find_map(|&v| component[v as usize]);
             known.unwrap_or(0)
         };
-        let mut parts: Vec<QuadMesh> = self.euler.iter().map(|&euler| empty(euler)).collect();
+        let mut parts: Vec<QuadMesh> = self
+            .euler
+            .iter()
+            .map(|&euler| QuadMesh::from_quads(Vec::new(), Vec::new(), euler))
+            .collect();
         // The component that a vertex was last added to, and its number there.
         let mut numbers = vec![(usize::MAX, 0); quads.vertices.len()];
         let mut number = |c: usize, part: &mut QuadMesh, v: u32| {
@@ -98,23 +101,9 @@ impl Components {
     }
 }
 
-fn empty(euler: i64) -> QuadMesh {
-    QuadMesh {
-        vertices: Vec::<Vec3>::new(),
-        origins: Vec::new(),
-        quads: Vec::new(),
-        others: Vec::new(),
-        partial_cells: 0,
-        folds_removed: 0,
-        repaired: 0,
-        folded: Vec::new(),
-        expected_euler: euler,
-    }
-}
-
 /// The quads of all components as one mesh.
 pub(super) fn join(parts: Vec<QuadMesh>) -> QuadMesh {
-    let mut whole = empty(0);
+    let mut whole = QuadMesh::from_quads(Vec::new(), Vec::new(), 0);
     for part in parts {
         let first = whole.vertices.len() as u32;
         whole.vertices.extend(part.vertices);

@@ -92,15 +92,8 @@ mod tests {
     fn the_surface_is_covered_by_itself_and_not_by_half_of_itself() {
         let mesh = by_name("rounded-cube", 2_000).unwrap();
         let whole = QuadMesh {
-            vertices: mesh.vertices().to_vec(),
-            origins: Vec::new(),
-            quads: Vec::new(),
             others: mesh.triangles().iter().map(|t| t.to_vec()).collect(),
-            partial_cells: 0,
-            folds_removed: 0,
-            repaired: 0,
-            folded: Vec::new(),
-            expected_euler: 2,
+            ..QuadMesh::from_quads(mesh.vertices().to_vec(), Vec::new(), 2)
         };
         assert_eq!(lost(&whole, &mesh, far(&mesh)), 0.0);
         let half = QuadMesh {

@@ -3,7 +3,7 @@
 
 use super::final_error::is_final;
 use super::mirror_images::{Seams, with_image};
-use super::quadrangulate::whole;
+use super::quadrangulate::unmirrored;
 use super::refined_input::{check_faces, divided};
 use super::size_metric::SizeMetric;
 use super::tries::smaller;
@@ -30,7 +30,8 @@ pub struct Mirrored {
     pub half: Half,
 }
 
-/// The quads of the part on one side of the planes, and their mirror images.
+/// The quads of the part on one side of the planes, and their mirror images. Where quads of the part conform but leave
+/// gaps along the seam, more of them are tried.
 ///
 /// # Errors
 /// Those of [`mirror_planes`], [`Half::new`] and [`quadrangulate`](super::quadrangulate()), and
@@ -51,26 +52,26 @@ pub(super) fn mirrored<'a>(
     })?;
     let run = monitor().run();
     let monitor = || monitor().of_run(&run);
-    let made = whole(&half.mesh, &given, &monitor)?;
+    let made = unmirrored(&half.mesh, &given, &monitor)?;
     let part_conforms = made.quads.is_conforming();
-    let mut best = with_images(mesh, &planes, &half, made);
+    let first = with_images(mesh, &planes, &half, made);
+    if !part_conforms || first.quads.is_conforming() {
+        return Ok(first);
+    }
     for more in MORE {
-        if !part_conforms || best.quads.is_conforming() {
-            break;
-        }
         let other = QuadOptions {
             sizing: smaller(&given.sizing, more),
             ..given.clone()
         };
         let again = optional(&monitor, || {
-            run.with_share([1.0, 1.0], || whole(&half.mesh, &other, &monitor))
+            run.with_share([1.0, 1.0], || unmirrored(&half.mesh, &other, &monitor))
         });
         match again {
             Ok(None) => break,
             Ok(Some(made)) => {
                 let found = with_images(mesh, &planes, &half, made);
                 if found.quads.is_conforming() {
-                    best = found;
+                    return Ok(found);
                 }
             }
             Err(error) if is_final(&error) => return Err(error),
@@ -78,7 +79,7 @@ pub(super) fn mirrored<'a>(
             Err(_) => {}
         }
     }
-    Ok(best)
+    Ok(first)
 }
 
 /// The options for the part.

@@ -127,17 +127,7 @@ mod tests {
 
     #[test]
     fn many_more_quads_than_were_asked_for_have_to_follow_all_features() {
-        let one = QuadMesh {
-            vertices: vec![[0.0; 3]; 4],
-            origins: Vec::new(),
-            quads: vec![[0, 1, 2, 3]],
-            others: Vec::new(),
-            partial_cells: 0,
-            folds_removed: 0,
-            repaired: 0,
-            folded: Vec::new(),
-            expected_euler: 1,
-        };
+        let one = QuadMesh::from_quads(vec![[0.0; 3]; 4], vec![[0, 1, 2, 3]], 1);
         assert!(one.is_conforming());
         let of = |asked: f64, missed: usize| Outcome::of_quads(&one, asked, missed);
         assert!(of(1.0, 5) < of(0.5, 1) && of(1.0, 1) < of(1.0, 5));

@@ -81,14 +81,14 @@ pub fn quadrangulate<'a>(
     if !options.mirror.is_empty() {
         return mirrored(mesh, options, monitor);
     }
-    whole(mesh, options, &monitor)
+    unmirrored(mesh, options, &monitor)
 }
 
-/// The quads of a mesh that is not mirrored.
+/// The quads of a mesh, without regard to its mirror planes.
 ///
 /// # Errors
 /// Those of [`quadrangulate`].
-pub(super) fn whole<'a>(
+pub(super) fn unmirrored<'a>(
     mesh: &TriangleMesh,
     options: &QuadOptions,
     monitor: &impl Fn() -> Monitor<'a>,
@@ -155,7 +155,6 @@ fn cut_apart(quads: &QuadMesh) -> Option<QuadMesh> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::extract::Origin;
     use crate::mesh::shape::by_name;
     use crate::monitor::spawned;
 
@@ -163,17 +162,9 @@ mod tests {
     fn book(expected_euler: i64) -> QuadMesh {
         let page = |k: u32| [[1.0, f64::from(k), 0.0], [1.0, f64::from(k), 1.0]];
         let spine = [[0.0, 0.0, 0.0], [0.0, 0.0, 1.0]];
-        QuadMesh {
-            vertices: [spine, page(0), page(1), page(2)].concat(),
-            origins: vec![Origin::Middle; 8],
-            quads: vec![[0, 2, 3, 1], [0, 4, 5, 1], [0, 6, 7, 1]],
-            others: Vec::new(),
-            partial_cells: 0,
-            folds_removed: 0,
-            repaired: 0,
-            folded: Vec::new(),
-            expected_euler,
-        }
+        let vertices = [spine, page(0), page(1), page(2)].concat();
+        let quads = vec![[0, 2, 3, 1], [0, 4, 5, 1], [0, 6, 7, 1]];
+        QuadMesh::from_quads(vertices, quads, expected_euler)
     }
 
     #[test]

@@ -180,17 +180,8 @@ mod tests {
     #[test]
     fn a_quad_with_three_corners_on_a_straight_boundary_becomes_convex() {
         // Corner 1 is straight: the quad is a triangle until it leaves the line.
-        let mut quads = QuadMesh {
-            vertices: vec![[0.0; 3], [1.0, 0.0, 0.0], [2.0, 0.0, 0.0], [1.0, 1.0, 0.0]],
-            origins: Vec::new(),
-            quads: vec![[0, 1, 2, 3]],
-            others: Vec::new(),
-            partial_cells: 0,
-            folds_removed: 0,
-            repaired: 0,
-            folded: Vec::new(),
-            expected_euler: 1,
-        };
+        let vertices = vec![[0.0; 3], [1.0, 0.0, 0.0], [2.0, 0.0, 0.0], [1.0, 1.0, 0.0]];
+        let mut quads = QuadMesh::from_quads(vertices, vec![[0, 1, 2, 3]], 1);
         let around = quads.around();
         assert_eq!(quality(&quads, 0), 0.0);
         leave(&mut quads, 0, LEAVES[0], &around);
@@ -202,24 +193,17 @@ mod tests {
     #[test]
     fn a_vertex_leaves_another_one_even_if_more_quads_have_edges_of_no_length() {
         // Two quads side by side, each with two corners at one point.
-        let mut quads = QuadMesh {
-            vertices: vec![
-                [0.0; 3],
-                [0.0; 3],
-                [1.0, 1.0, 0.0],
-                [0.0, 1.0, 0.0],
-                [2.0, 0.0, 0.0],
-                [2.0, 1.0, 0.0],
-            ],
-            origins: Vec::new(),
-            quads: vec![[0, 1, 2, 3], [1, 4, 5, 2]],
-            others: Vec::new(),
-            partial_cells: 0,
-            folds_removed: 0,
-            repaired: 0,
-            folded: Vec::new(),
-            expected_euler: 1,
-        };
+        let flat = |[x, y]: [f64; 2]| [x, y, 0.0];
+        let corners = [
+            [0.0; 2],
+            [0.0; 2],
+            [1.0; 2],
+            [0.0, 1.0],
+            [2.0, 0.0],
+            [2.0, 1.0],
+        ];
+        let vertices = corners.map(flat).to_vec();
+        let mut quads = QuadMesh::from_quads(vertices, vec![[0, 1, 2, 3], [1, 4, 5, 2]], 1);
         assert_eq!(quality(&quads, 0), -1.0);
         quads.vertices[4] = quads.vertices[5];
         assert_eq!(worst(&quads, &[0, 1]), -2.0);

@@ -206,14 +206,7 @@ mod tests {
         let mesh = TriangleMesh::new(vertices.clone(), triangles).unwrap();
         let quads = QuadMesh {
             origins: (0..vertices.len()).map(Origin::Vertex).collect(),
-            vertices,
-            quads,
-            others: Vec::new(),
-            partial_cells: 0,
-            folds_removed: 0,
-            repaired: 0,
-            folded: Vec::new(),
-            expected_euler: 1,
+            ..QuadMesh::from_quads(vertices, quads, 1)
         };
         (quads, mesh)
     }

@@ -208,17 +208,7 @@ mod tests {
 
     /// Quads whose only use is their vertices, which are those of the mesh.
     fn vertices_of(mesh: &TriangleMesh) -> QuadMesh {
-        QuadMesh {
-            vertices: mesh.vertices().to_vec(),
-            origins: vec![Origin::Middle; mesh.vertex_count()],
-            quads: Vec::new(),
-            others: Vec::new(),
-            partial_cells: 0,
-            folds_removed: 0,
-            repaired: 0,
-            folded: Vec::new(),
-            expected_euler: 0,
-        }
+        QuadMesh::from_quads(mesh.vertices().to_vec(), Vec::new(), 0)
     }
 
     /// Whether the closest points of sixty rounds take so long that no more are looked for.

@@ -7,24 +7,6 @@ use crate::mesh::shape::by_name;
 use crate::mesh::vector::Vec3;
 use crate::monitor::{CancelToken, with_threads};
 
-/// Quads of these vertices.
-fn quads_of(vertices: Vec<Vec3>, quads: Vec<[u32; 4]>) -> QuadMesh {
-    QuadMesh {
-        origins: vertices
-            .iter()
-            .map(|_| crate::extract::Origin::Middle)
-            .collect(),
-        vertices,
-        quads,
-        others: Vec::new(),
-        partial_cells: 0,
-        folds_removed: 0,
-        repaired: 0,
-        folded: Vec::new(),
-        expected_euler: 1,
-    }
-}
-
 /// A grid of `n` by `n` quads over a parallelogram, of which `place` gives the points from parameters up to 1.
 fn grid(n: u32, place: impl Fn(f64, f64) -> Vec3) -> QuadMesh {
     let part = |i: u32| f64::from(i) / f64::from(n);
@@ -36,7 +18,7 @@ fn grid(n: u32, place: impl Fn(f64, f64) -> Vec3) -> QuadMesh {
             [v, v + 1, v + n + 2, v + n + 1]
         })
     });
-    quads_of(vertices, quads.collect())
+    QuadMesh::from_quads(vertices, quads.collect(), 1)
 }
 
 /// A mesh of `n` by `n` squares of two triangles each.

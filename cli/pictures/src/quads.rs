@@ -186,7 +186,6 @@ fn add_balls(scene: &mut Scene, quads: &QuadMesh, edges: &[Edge], radius: f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use roundel::extract::Origin;
 
     /// A cube of six quads, with the first as two triangles if asked for.
     fn cube(split: bool) -> QuadMesh {
@@ -202,18 +201,11 @@ mod tests {
             true => vec![vec![0, 2, 3], vec![0, 3, 1]],
             false => Vec::new(),
         };
+        let corner = |v: usize| [0, 1, 2].map(|axis| (v >> axis & 1) as f64);
+        let quads = sides[usize::from(split)..].to_vec();
         QuadMesh {
-            vertices: (0..8)
-                .map(|v| [0, 1, 2].map(|axis| (v >> axis & 1) as f64))
-                .collect(),
-            origins: vec![Origin::Middle; 8],
-            quads: sides[usize::from(split)..].to_vec(),
             others,
-            partial_cells: 0,
-            folds_removed: 0,
-            repaired: 0,
-            folded: Vec::new(),
-            expected_euler: 2,
+            ..QuadMesh::from_quads((0..8).map(corner).collect(), quads, 2)
         }
     }
 

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use roundel::Result;
-use roundel::extract::{Origin, QuadMesh};
+use roundel::extract::QuadMesh;
 use roundel::layout::LayoutQuads;
 use roundel::layout::found::{FoundLayout, QuadSurface};
 use roundel::mesh::TriangleMesh;
@@ -140,17 +140,8 @@ impl Found<'_> {
 }
 
 fn mesh_of(surface: &QuadSurface) -> QuadMesh {
-    QuadMesh {
-        vertices: surface.positions().to_vec(),
-        origins: vec![Origin::Middle; surface.positions().len()],
-        quads: surface.quads().to_vec(),
-        others: Vec::new(),
-        partial_cells: 0,
-        folds_removed: 0,
-        repaired: 0,
-        folded: Vec::new(),
-        expected_euler: surface.euler_characteristic(),
-    }
+    let (vertices, quads) = (surface.positions().to_vec(), surface.quads().to_vec());
+    QuadMesh::from_quads(vertices, quads, surface.euler_characteristic())
 }
 
 /// The quads, each as two triangles.

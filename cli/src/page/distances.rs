@@ -47,17 +47,7 @@ mod tests {
             [0.0, 4.0, 0.0],
         ];
         let mesh = TriangleMesh::new(flat.clone(), vec![[0, 1, 2], [0, 2, 3]]).unwrap();
-        let mut quads = QuadMesh {
-            vertices: flat,
-            origins: Vec::new(),
-            quads: vec![[0, 1, 2, 3]],
-            others: Vec::new(),
-            partial_cells: 0,
-            folds_removed: 0,
-            repaired: 0,
-            folded: Vec::new(),
-            expected_euler: 1,
-        };
+        let mut quads = QuadMesh::from_quads(flat, vec![[0, 1, 2, 3]], 1);
         assert_eq!(distances(&quads, &mesh), [0.0]);
         quads.vertices[1][2] = 0.5;
         assert_eq!(distances(&quads, &mesh), [0.5]);

@@ -62,8 +62,8 @@ impl Density {
             Density::Colors => {
                 let Some(colors) = &attributes.vertex_colors else {
                     return refused(
-                        "--density colors: the vertices of the mesh have no colours; those of .obj, .ply \
-                         and .gltf files are read"
+                        "--density colors: the vertices of the mesh have no colours; those of .obj, .ply, \
+                         .gltf and .glb files are read"
                             .into(),
                     );
                 };

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use roundel::soup::PolygonSoup;
 use roundel::soup::io::{Attribute, Attributes, Format, parse};
@@ -307,4 +307,95 @@ fn what_cannot_be_kept_is_refused_if_it_is_asked_for() {
         code == 0 && reason.starts_with("line 57: a corner names no"),
         "{report}"
     );
+}
+
+/// A square of 10 by 10 squares as glTF, with a buffer beside it: positions, texture coordinates and colours that grow
+/// along x and y, then triangles.
+fn square_of_gltf(scratch: &Scratch) -> PathBuf {
+    let place = |v: u16| [f32::from(v % 11), f32::from(v / 11)];
+    let positions = (0..121).map(place).flat_map(|[x, y]| [x, y, 0.0]);
+    // They start at the upper side of the image.
+    let textures = (0..121)
+        .map(place)
+        .flat_map(|[x, y]| [x / 10.0, 1.0 - y / 10.0]);
+    let colors = (0..121)
+        .map(place)
+        .flat_map(|[x, y]| [x / 10.0, y / 10.0, 0.0]);
+    let numbers = positions.chain(textures).chain(colors);
+    let mut bytes: Vec<u8> = numbers.flat_map(f32::to_le_bytes).collect();
+    let corners = (0..100).flat_map(|f: u16| {
+        let a = 11 * (f / 10) + f % 10;
+        [a, a + 1, a + 12, a, a + 12, a + 11]
+    });
+    bytes.extend(corners.flat_map(u16::to_le_bytes));
+    fs::write(scratch.path("square.bin"), &bytes).unwrap();
+    let view = |start: usize, length: usize| json!({"buffer": 0, "byteOffset": start, "byteLength": length});
+    let array = |view: usize, kind: u32, count: usize, shape: &str| json!({"bufferView": view, "componentType": kind, "count": count, "type": shape});
+    let document = json!({
+        "asset": {"version": "2.0"},
+        "meshes": [{"primitives": [{
+            "attributes": {"POSITION": 0, "TEXCOORD_0": 1, "COLOR_0": 2},
+            "indices": 3,
+        }]}],
+        "accessors": [
+            array(0, 5126, 121, "VEC3"),
+            array(1, 5126, 121, "VEC2"),
+            array(2, 5126, 121, "VEC3"),
+            array(3, 5123, 600, "SCALAR"),
+        ],
+        "bufferViews": [view(0, 1452), view(1452, 968), view(2420, 1452), view(3872, 1200)],
+        "buffers": [{"uri": "square.bin", "byteLength": bytes.len()}],
+    });
+    scratch.write("square.gltf", document.to_string())
+}
+
+#[test]
+fn texture_coordinates_and_colours_of_gltf_come_back() {
+    let scratch = Scratch::new("kept-gltf");
+    let mesh = square_of_gltf(&scratch);
+    let out = scratch.path("quads.obj");
+    let words = ["quad", text(&mesh), "--quads", "64", "-o", text(&out)];
+    let (code, report) = run(&words);
+    assert_eq!(code, 0, "{report}");
+    let kept = &report["kept"];
+    assert_eq!([&kept["vertex_colors"], &kept["uv"]], [true, true]);
+    let (soup, attributes) = read(&out, Format::Obj);
+    let near = |a: f64, b: f64| (a - b).abs() < 1e-6;
+    let seams = attributes.labels(Attribute::Seams).unwrap();
+    for (&v, &label) in soup.corners().iter().zip(seams) {
+        let [x, y, _] = soup.positions()[v as usize];
+        let [s, t] = attributes.texture_coordinates()[label as usize];
+        assert!(near(s, x / 10.0) && near(t, y / 10.0), "{x} {y}: {s} {t}");
+    }
+    for (&[x, y, _], color) in soup
+        .positions()
+        .iter()
+        .zip(attributes.vertex_colors().unwrap())
+    {
+        assert!(
+            near(color[0], x / 10.0) && near(color[1], y / 10.0),
+            "{x} {y}: {color:?}"
+        );
+    }
+    // The density of quads follows the colours as well.
+    let dense = scratch.path("dense.obj");
+    let words = [
+        "quad",
+        text(&mesh),
+        "--quads",
+        "200",
+        "--density",
+        "colors",
+        "-o",
+        text(&dense),
+    ];
+    let (code, report) = run(&words);
+    assert_eq!(code, 0, "{report}");
+    let (soup, _) = read(&dense, Format::Obj);
+    let mean = |axis: usize| {
+        let sum: f64 = soup.positions().iter().map(|p| p[axis]).sum();
+        sum / soup.positions().len() as f64
+    };
+    let [x, y] = [mean(0), mean(1)];
+    assert!(x > 5.5 && y < 4.75, "{x} {y}");
 }

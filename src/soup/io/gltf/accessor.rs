@@ -2,7 +2,7 @@
 //! sparse, of every component type. Every place is checked before it is read.
 
 use super::document::{Accessor, SparsePart};
-use super::{Part, Source, malformed};
+use super::{Source, malformed};
 use crate::soup::SoupError;
 
 /// Where elements lie.
@@ -70,25 +70,21 @@ impl Source<'_> {
         Ok(numbers.into_iter().map(|index| index as i64).collect())
     }
 
-    /// An attribute of the vertices of a part, if it has it.
+    /// The values of an attribute that an accessor gives to so many vertices.
     pub(super) fn of_vertices<const N: usize>(
         &mut self,
-        part: &Part,
-        name: &str,
-        shape: &str,
-    ) -> Result<Option<Vec<[f64; N]>>, SoupError> {
-        let Some(&number) = part.primitive.attributes.get(name) else {
-            return Ok(None);
-        };
+        number: usize,
+        (name, shape): (&str, &str),
+        vertices: usize,
+    ) -> Result<Vec<[f64; N]>, SoupError> {
         let numbers = self.numbers(number, shape, N)?;
         let values = numbers.as_chunks().0.to_vec();
         self.spend(values.len())?;
-        match values.len() == part.vertices {
-            true => Ok(Some(values)),
+        match values.len() == vertices {
+            true => Ok(values),
             false => Err(malformed(format!(
-                "accessor {number}: {name} of {} vertices, where there are {}",
-                values.len(),
-                part.vertices
+                "accessor {number}: {name} of {} vertices, where there are {vertices}",
+                values.len()
             ))),
         }
     }

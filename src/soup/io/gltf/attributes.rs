@@ -1,6 +1,7 @@
 //! The materials of the triangles of a scene, texture coordinates and normals of their corners, and colours of its
 //! vertices.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use super::document::Document;
@@ -44,6 +45,8 @@ struct Found {
     normals: OfCorners<3>,
     /// Of the first vertices; NaN for those that have none.
     colors: Vec<Color>,
+    /// The accessors that were read for them, and the first vertices that they were read for.
+    colored: BTreeSet<(usize, usize)>,
 }
 
 impl Found {
@@ -60,15 +63,12 @@ impl Found {
         }
         let label = material.map_or(NO_LABEL, |material| material as u32);
         self.materials.resize(soup.polygon_count(), label);
-        let mut textures = source.of_vertices::<2>(part, TEXTURE, "VEC2")?;
-        // In glTF they start at the upper side of the image, in the other formats at the lower one.
-        for [_, v] in textures.iter_mut().flatten() {
-            *v = 1.0 - *v;
-        }
-        self.textures.add(textures, part, soup);
-        let normals = source.of_vertices::<3>(part, NORMAL, "VEC3")?;
-        self.normals.add(normals, part, soup);
-        if let Some(colors) = colors(source, part)? {
+        self.textures.add(source, part, soup, (TEXTURE, "VEC2"))?;
+        self.normals.add(source, part, soup, (NORMAL, "VEC3"))?;
+        if let Some(accessor) = part.accessor(COLOR)
+            && self.colored.insert((accessor, part.first))
+        {
+            let colors = colors(source, accessor, part.vertices)?;
             self.colors.resize(soup.positions().len(), [f64::NAN; 4]);
             for (known, color) in self.colors[part.first..].iter_mut().zip(colors) {
                 // Primitives that share vertices may differ: the first counts.
@@ -84,6 +84,10 @@ impl Found {
         let is_named = self.materials.iter().any(|&label| label != NO_LABEL);
         let has_colors = !self.colors.is_empty();
         self.colors.resize(soup.positions().len(), [f64::NAN; 4]);
+        // In glTF they start at the upper side of the image, in the other formats at the lower one.
+        for [_, v] in &mut self.textures.values {
+            *v = 1.0 - *v;
+        }
         let (seams, normals) = (self.textures.labels(), self.normals.labels());
         let values = Values {
             materials: names(document),
@@ -98,17 +102,13 @@ impl Found {
     }
 }
 
-/// The colours of the vertices of a part, if it has some. Those without alpha are opaque.
-fn colors(source: &mut Source, part: &Part) -> Result<Option<Vec<Color>>, SoupError> {
-    let Some(&accessor) = part.primitive.attributes.get(COLOR) else {
-        return Ok(None);
-    };
+/// The colours that an accessor gives to so many vertices. Those without alpha are opaque.
+fn colors(source: &mut Source, accessor: usize, vertices: usize) -> Result<Vec<Color>, SoupError> {
     if source.shape(accessor)? == "VEC4" {
-        return source.of_vertices::<4>(part, COLOR, "VEC4");
+        return source.of_vertices(accessor, (COLOR, "VEC4"), vertices);
     }
-    let colors = source.of_vertices::<3>(part, COLOR, "VEC3")?;
-    let opaque = |[r, g, b]: [f64; 3]| [r, g, b, 1.0];
-    Ok(colors.map(|colors| colors.into_iter().map(opaque).collect()))
+    let colors = source.of_vertices(accessor, (COLOR, "VEC3"), vertices)?;
+    Ok(colors.into_iter().map(|[r, g, b]| [r, g, b, 1.0]).collect())
 }
 
 /// The values of corners, which are those of vertices.
@@ -117,20 +117,48 @@ struct OfCorners<const N: usize> {
     values: Vec<[f64; N]>,
     /// For each corner the number of its value.
     corners: Vec<u32>,
+    /// Where the values of an accessor start, for so many vertices: primitives share accessors.
+    starts: BTreeMap<(usize, usize), usize>,
 }
 
 impl<const N: usize> OfCorners<N> {
     /// Adds the corners that a part has added to a soup.
-    fn add(&mut self, values: Option<Vec<[f64; N]>>, part: &Part, soup: &PolygonSoup) {
-        let start = self.values.len();
-        let has_values = values.is_some();
-        let of_corner = |&corner: &i64| match usize::try_from(corner) {
-            Ok(vertex) if has_values => (start + vertex - part.first) as u32,
+    fn add(
+        &mut self,
+        source: &mut Source,
+        part: &Part,
+        soup: &PolygonSoup,
+        (name, shape): (&str, &str),
+    ) -> Result<(), SoupError> {
+        let start = match part.accessor(name) {
+            Some(accessor) => Some(self.start(source, accessor, (name, shape), part.vertices)?),
+            None => None,
+        };
+        let of_corner = |&corner: &i64| match (start, usize::try_from(corner)) {
+            (Some(start), Ok(vertex)) => (start + vertex - part.first) as u32,
             _ => NO_LABEL,
         };
         let corners = &soup.corners()[self.corners.len()..];
         self.corners.extend(corners.iter().map(of_corner));
-        self.values.extend(values.into_iter().flatten());
+        Ok(())
+    }
+
+    /// Where the values of an accessor start. They are read if they were not yet.
+    fn start(
+        &mut self,
+        source: &mut Source,
+        accessor: usize,
+        what: (&str, &str),
+        vertices: usize,
+    ) -> Result<usize, SoupError> {
+        if let Some(&start) = self.starts.get(&(accessor, vertices)) {
+            return Ok(start);
+        }
+        let start = self.values.len();
+        let values = source.of_vertices(accessor, what, vertices)?;
+        self.values.extend(values);
+        self.starts.insert((accessor, vertices), start);
+        Ok(start)
     }
 
     /// The labels of the corners, none if no corner has a value.

@@ -1,11 +1,10 @@
 //! glTF 2.0 (Khronos Group, 2021), as JSON and as a binary file.
 //!
-//! Read are all primitives of triangles of the meshes of a scene, at the places that the nodes give
-//! them, their materials, and the first texture coordinates and colours, and normals; images, skins, morph targets and
-//! animations are not. A transform that mirrors turns
-//! the triangles, so that they face the same side as before. Primitives of a mesh that share positions
-//! share vertices. A number that names no vertex of its own primitive becomes negative, so that it names
-//! none of another.
+//! Read are all primitives of triangles of the meshes of a scene, at the places that the nodes give them, with their
+//! materials, normals, and first texture coordinates and colours; images, skins, morph targets and animations are not.
+//! A transform that mirrors turns the triangles, so that they face the same side as before. Primitives of a mesh that
+//! share positions share vertices. A number that names no vertex of its own primitive becomes negative, so that it
+//! names none of another.
 //!
 //! The crate `gltf` was looked at: it refuses positions without bounds and most required extensions, and
 //! where its validation is passed over it panics on files that are not sound; it reads positions of
@@ -46,6 +45,13 @@ struct Part<'a> {
     /// The first of its vertices.
     first: usize,
     vertices: usize,
+}
+
+impl Part<'_> {
+    /// The accessor of an attribute of its vertices, if they have it.
+    fn accessor(&self, attribute: &str) -> Option<usize> {
+        self.primitive.attributes.get(attribute).copied()
+    }
 }
 
 /// Reads the scene of a document whose file has `size` bytes, `own` of them a buffer, and tells of each part, with the
