@@ -5,16 +5,16 @@
 //! mean of its targets, and from there to the closest point of the surface. Vertices on the
 //! boundary and on features slide along them; a vertex where these end, meet or turn is fixed.
 //! Poor quads are improved one vertex at a time. In the quads of a whole run, those that are missing at the boundary
-//! are added before, and flat ones are collapsed after that.
+//! are added before, and flat ones are removed or turned after that.
 //!
 //! Closest points are looked for among thousands of triangles each where these are long needles. Smoothing ends
 //! early there.
 
 mod chains;
-mod collapse;
 mod curve;
 mod mend;
 mod quality;
+mod reconnect;
 mod rims;
 mod square;
 mod surface;
@@ -77,7 +77,7 @@ pub fn smooth(
 }
 
 /// As [`smooth`], where edges of quads are to have these lengths, in any unit, in every face of the mesh. Quads
-/// that are missing at the boundary are added, and flat ones are collapsed if all conform.
+/// that are missing at the boundary are added, and flat ones are removed or turned if all conform.
 pub(crate) fn smooth_to(
     quads: &mut QuadMesh,
     mesh: &TriangleMesh,
@@ -88,7 +88,7 @@ pub(crate) fn smooth_to(
     let (_watch, _memory) = (monitor.watch(), mesh.watch_memory());
     if let Some(mut surface) = smoothed(quads, mesh, options, (lengths, true), monitor)? {
         if quads.is_conforming() {
-            collapse::collapse(quads, &mut surface, monitor)?;
+            reconnect::reconnect(quads, &mut surface, monitor)?;
         }
         mend::leave_surface(quads);
     }

@@ -318,7 +318,7 @@ impl Filling<'_> {
 mod tests {
     use crate::extract::QuadMesh;
     use crate::monitor::Monitor;
-    use crate::smooth::collapse::compact;
+    use crate::smooth::reconnect::compact;
     use crate::smooth::tests::grid;
     use crate::smooth::{QuadQuality, SmoothOptions, smooth_to};
 

@@ -282,12 +282,12 @@ fn only_long_curves_are_followed_where_quads_along_shorter_ones_do_not_conform()
 }
 
 #[test]
-#[ignore = "a minute of work"]
+#[ignore = "two minutes of work"]
 fn quads_along_sharp_edges_are_not_inverted() {
     let Some(folder) = archive() else {
         return crate::common::skip::skip_unless_ci(MISSING);
     };
-    for name in ["fandisk_large", "elk", "homer"] {
+    for name in ["fandisk_large", "elk", "homer", "bull"] {
         let mesh = load(&folder, name).unwrap();
         let (made, _) = near_features_of(&mesh, None);
         assert!(made.quads.is_conforming(), "{name}");

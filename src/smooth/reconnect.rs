@@ -1,10 +1,10 @@
-//! Collapses quads that no motion of their corners makes convex.
+//! Changes the connectivity around quads that no motion of their corners makes convex.
 //!
 //! Where three corners of a quad lie on one straight feature, the quad is flat wherever they slide, and where a map was
-//! folded, thin quads are left. Two moves of connectivity remove one quad each (`tarini2010`): opposite
-//! corners of a quad become one vertex, or a vertex of two quads goes and makes them one. A move is made if the quads
-//! there are better after it, once the vertices around it have moved.
-//! Corners on features and on the boundary stay, so that quads follow them as before.
+//! folded, thin quads are left. Three moves help (`tarini2010`): opposite corners of a quad become one vertex, a vertex
+//! of two quads goes and makes them one, or the edge of two quads turns within their six corners. A move is made if the
+//! quads there are better after it, once the vertices around it have moved.
+//! Corners and edges on features and on the boundary stay, so that quads follow them as before.
 
 use std::collections::BTreeSet;
 
@@ -15,13 +15,13 @@ use crate::extract::QuadMesh;
 use crate::mesh::vector::Vec3;
 use crate::monitor::{Monitor, may_continue};
 
-/// Quads with a scaled Jacobian of less than this are collapsed if that helps.
+/// Moves are tried for quads with a scaled Jacobian of less than this.
 const FLAT: f64 = 0.1;
 
 /// Quads around a move count by how much their scaled Jacobian is less than this.
 const FAIR: f64 = 0.3;
 
-/// The least improvement of that sum for which a quad is removed.
+/// The least improvement of that sum for which a move is made.
 const GAIN: f64 = 0.1;
 
 /// How often all vertices around a move are moved before it is judged.
@@ -30,44 +30,45 @@ const ROUNDS: usize = 4;
 /// The most quads around a vertex that a move makes.
 const MOST_AROUND: usize = 7;
 
-/// Collapses flat quads of a conforming mesh, the worst first, until no move helps or the caller wants what there is.
+/// Removes or turns flat quads of a conforming mesh, the worst first, until no move helps or the caller wants what there
+/// is.
 ///
 /// # Errors
 /// [`Error::Cancelled`](crate::Error::Cancelled).
-pub(super) fn collapse(
+pub(super) fn reconnect(
     quads: &mut QuadMesh,
     surface: &mut Surface,
     monitor: &mut Monitor,
 ) -> Result<()> {
-    let mut collapse = Collapse {
+    let mut reconnect = Reconnect {
         is_gone: vec![false; quads.quads.len()],
         around: quads.around(),
         quads,
         surface,
     };
-    while !monitor.finishes() && collapse.remove_some()? {}
-    let is_gone = collapse.is_gone;
+    while !monitor.finishes() && reconnect.some()? {}
+    let is_gone = reconnect.is_gone;
     compact(quads, &is_gone);
     Ok(())
 }
 
 /// What a move of connectivity makes of the quads.
 struct Rewritten {
-    removed: u32,
+    removed: Option<u32>,
     /// The vertex that goes.
-    gone: u32,
-    /// Other quads, and their new corners.
+    gone: Option<u32>,
+    /// Quads that stay, and their new corners.
     changed: Vec<(u32, [u32; 4])>,
 }
 
 /// What there was before a move.
 struct Before {
-    removed: u32,
+    removed: Option<u32>,
     changed: Vec<(u32, [u32; 4])>,
     places: Vec<(u32, Vec3)>,
 }
 
-struct Collapse<'a> {
+struct Reconnect<'a> {
     quads: &'a mut QuadMesh,
     surface: &'a mut Surface,
     /// The quads at every vertex that are still there.
@@ -75,23 +76,23 @@ struct Collapse<'a> {
     is_gone: Vec<bool>,
 }
 
-impl Collapse<'_> {
-    /// Removes each quad that is flat, the worst first, if that helps. Returns whether one was removed.
-    fn remove_some(&mut self) -> Result<bool> {
+impl Reconnect<'_> {
+    /// Makes a move for each quad that is flat, the worst first, if one helps. Returns whether one was made.
+    fn some(&mut self) -> Result<bool> {
         let all = (0..self.is_gone.len()).filter(|&q| !self.is_gone[q]);
         let all = all.map(|q| (quality(self.quads, q), q as u32));
         let mut flat: Vec<(f64, u32)> = all.filter(|pair| pair.0 < FLAT).collect();
         flat.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        let mut removes = false;
+        let mut moves = false;
         for (_, quad) in flat {
             may_continue()?;
-            removes |= self.remove(quad);
+            moves |= self.move_best(quad);
         }
-        Ok(removes)
+        Ok(moves)
     }
 
-    /// Makes the best move that removes a quad, if it is still flat and one helps.
-    fn remove(&mut self, quad: u32) -> bool {
+    /// Makes the best move for a quad, if it is still flat and one helps.
+    fn move_best(&mut self, quad: u32) -> bool {
         let is_flat = !self.is_gone[quad as usize] && quality(self.quads, quad as usize) < FLAT;
         if !is_flat || self.surface.has_spent_its_work() {
             return false;
@@ -99,7 +100,8 @@ impl Collapse<'_> {
         let mut best: Option<(f64, Rewritten)> = None;
         let merged = (0..4).filter_map(|k| self.merged(quad, k));
         let without = (0..4).filter_map(|k| self.without(quad, k));
-        for rewritten in merged.chain(without).collect::<Vec<_>>() {
+        let turns = (0..8).filter_map(|k| self.turned_edge(quad, k / 2, k % 2 == 1));
+        for rewritten in merged.chain(without).chain(turns).collect::<Vec<_>>() {
             let (gain, before) = self.make(&rewritten);
             self.undo(before);
             if gain > GAIN && best.as_ref().is_none_or(|(most, _)| gain > *most) {
@@ -130,8 +132,8 @@ impl Collapse<'_> {
             (q, corners.map(|v| if v == gone { kept } else { v }))
         });
         Some(Rewritten {
-            removed: quad,
-            gone,
+            removed: Some(quad),
+            gone: Some(gone),
             changed: with_kept.collect(),
         })
     }
@@ -150,9 +152,36 @@ impl Collapse<'_> {
         let count = |v: u32| self.around[v as usize].len();
         let keeps_enough = [left, right].into_iter().all(|v| count(v) > self.least(v));
         (self.is_free(gone) && is_doublet && keeps_enough).then(|| Rewritten {
-            removed: quad,
-            gone,
+            removed: Some(quad),
+            gone: Some(gone),
             changed: vec![(other, [left, across, right, beyond])],
+        })
+    }
+
+    /// The edge from corner `k` on of a quad turns within the six corners of its two quads, by one corner or back.
+    fn turned_edge(&self, quad: u32, k: usize, back: bool) -> Option<Rewritten> {
+        let [start, end, c, d] = turned(self.quads.quads[quad as usize], k);
+        let (other, [_, _, e, f]) = self.around[end as usize].iter().find_map(|&q| {
+            let corners = self.quads.quads[q as usize];
+            let at = corners.iter().position(|&v| v == end)?;
+            (corners[(at + 1) % 4] == start).then(|| (q, turned(corners, at)))
+        })?;
+        let ring = BTreeSet::from([start, e, f, end, c, d]);
+        let (from, to) = if back { (f, d) } else { (e, c) };
+        let count = |v: u32| self.around[v as usize].len();
+        let is_sound = ring.len() == 6
+            && [start, end].into_iter().any(|v| self.is_free(v))
+            && [start, end].into_iter().all(|v| count(v) > self.least(v))
+            && [from, to].into_iter().all(|v| count(v) < MOST_AROUND)
+            && !self.neighbours(from).contains(&to);
+        let corners = match back {
+            true => [[f, end, c, d], [d, start, e, f]],
+            false => [[e, f, end, c], [c, d, start, e]],
+        };
+        is_sound.then(|| Rewritten {
+            removed: None,
+            gone: None,
+            changed: [quad, other].into_iter().zip(corners).collect(),
         })
     }
 
@@ -190,7 +219,7 @@ impl Collapse<'_> {
         let removed = rewritten.removed;
         let of_quad = |quad: u32| self.quads.quads[quad as usize];
         let known = rewritten.changed.iter().map(|&(q, _)| q);
-        let vertices: BTreeSet<u32> = known.chain([removed]).flat_map(of_quad).collect();
+        let vertices: BTreeSet<u32> = known.chain(removed).flat_map(of_quad).collect();
         let of_vertex = |v: &u32| self.around[*v as usize].iter().copied();
         let near: BTreeSet<u32> = vertices.iter().flat_map(of_vertex).collect();
         let vertices: BTreeSet<u32> = near.iter().copied().flat_map(of_quad).collect();
@@ -203,15 +232,17 @@ impl Collapse<'_> {
             places: vertices.iter().map(place).collect(),
         };
         let cost = self.cost(&near);
-        self.leave(removed);
-        self.is_gone[removed as usize] = true;
+        if let Some(removed) = removed {
+            self.leave(removed);
+            self.is_gone[removed as usize] = true;
+        }
         for &(quad, corners) in &rewritten.changed {
             self.leave(quad);
             self.enter(quad, corners);
         }
         for _ in 0..ROUNDS {
             let mut moves = false;
-            for &v in vertices.iter().filter(|&&v| v != rewritten.gone) {
+            for &v in vertices.iter().filter(|&&v| Some(v) != rewritten.gone) {
                 let around = &self.around[v as usize];
                 moves |= improve(self.quads, self.surface, v as usize, around);
             }
@@ -227,8 +258,10 @@ impl Collapse<'_> {
             self.leave(quad);
             self.enter(quad, corners);
         }
-        self.is_gone[before.removed as usize] = false;
-        self.enter(before.removed, self.quads.quads[before.removed as usize]);
+        if let Some(removed) = before.removed {
+            self.is_gone[removed as usize] = false;
+            self.enter(removed, self.quads.quads[removed as usize]);
+        }
         for (v, place) in before.places {
             self.quads.vertices[v as usize] = place;
         }
@@ -305,26 +338,25 @@ mod tests {
         quads.vertices.len() as u32 - 1
     }
 
-    /// What smoothing makes of quads, where it keeps connectivity and where it collapses quads.
+    /// What smoothing makes of quads, where it keeps connectivity and where it changes it.
     fn both(quads: &QuadMesh, mesh: &TriangleMesh) -> [QuadMesh; 2] {
         let options = SmoothOptions::default();
         let mut monitor = Monitor::default();
-        let [mut kept, mut collapsed] = [quads.clone(), quads.clone()];
+        let [mut kept, mut changed] = [quads.clone(), quads.clone()];
         smooth(&mut kept, mesh, &options, &mut monitor).unwrap();
-        smooth_to(&mut collapsed, mesh, &options, None, &mut monitor).unwrap();
+        smooth_to(&mut changed, mesh, &options, None, &mut monitor).unwrap();
         assert_eq!(kept.quads, quads.quads);
-        [kept, collapsed]
+        [kept, changed]
     }
 
-    /// Whether these are the quads of the grid, as good as they were.
-    fn is_grid(found: &QuadMesh) -> bool {
+    /// Whether these are the quads of the grid, with a scaled Jacobian of more than `quality`.
+    fn is_grid(found: &QuadMesh, quality: f64) -> bool {
         let (grid, _) = grid();
-        let quality = QuadQuality::new(found).scaled_jacobian_min;
         found.is_conforming()
             && found.origins.len() == found.vertices.len()
             && found.quads.len() == grid.quads.len()
             && found.figures() == grid.figures()
-            && quality > 0.9
+            && QuadQuality::new(found).scaled_jacobian_min > quality
     }
 
     #[test]
@@ -337,10 +369,10 @@ mod tests {
         }
         quads.quads.push([1, 2, 3, inside]);
         assert!(quads.is_conforming());
-        let [kept, collapsed] = both(&quads, &mesh);
+        let [kept, changed] = both(&quads, &mesh);
         assert!(QuadQuality::new(&kept).scaled_jacobian_min < FLAT);
-        assert!(is_grid(&collapsed));
-        assert_eq!(collapsed.vertices[2][1], 0.0);
+        assert!(is_grid(&changed, 0.9));
+        assert_eq!(changed.vertices[2][1], 0.0);
     }
 
     #[test]
@@ -351,15 +383,30 @@ mod tests {
         quads.quads[5] = [a, b, c, inside];
         quads.quads.push([a, inside, c, d]);
         assert!(quads.is_conforming());
-        let [kept, collapsed] = both(&quads, &mesh);
+        let [kept, changed] = both(&quads, &mesh);
         assert!(QuadQuality::new(&kept).scaled_jacobian_min < FLAT);
-        assert!(is_grid(&collapsed));
+        assert!(is_grid(&changed, 0.9));
+    }
+
+    #[test]
+    fn an_edge_turns_where_three_corners_lie_on_a_straight_side() {
+        let (mut quads, mesh) = grid();
+        // Two quads of the lower side, from left to right, share the edge from its middle up.
+        let [left, foot, right] = [1, 2, 3];
+        let [above_left, above, above_right] = [6, 7, 8];
+        assert_eq!(quads.quads[1], [left, foot, above, above_left]);
+        quads.quads[1] = [left, foot, right, above_left];
+        quads.quads[2] = [right, above_right, above, above_left];
+        assert!(quads.is_conforming());
+        let [kept, changed] = both(&quads, &mesh);
+        assert!(QuadQuality::new(&kept).scaled_jacobian_min < FLAT);
+        assert!(is_grid(&changed, FAIR));
     }
 
     #[test]
     fn good_quads_stay_as_they_are() {
         let (quads, mesh) = grid();
-        let [kept, collapsed] = both(&quads, &mesh);
-        assert_eq!(kept, collapsed);
+        let [kept, changed] = both(&quads, &mesh);
+        assert_eq!(kept, changed);
     }
 }
