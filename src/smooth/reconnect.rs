@@ -46,7 +46,7 @@ pub(super) fn reconnect(
         quads,
         surface,
     };
-    while !monitor.finishes() && reconnect.some()? {}
+    while !monitor.finishes() && reconnect.move_some()? {}
     let is_gone = reconnect.is_gone;
     compact(quads, &is_gone);
     Ok(())
@@ -78,7 +78,7 @@ struct Reconnect<'a> {
 
 impl Reconnect<'_> {
     /// Makes a move for each quad that is flat, the worst first, if one helps. Returns whether one was made.
-    fn some(&mut self) -> Result<bool> {
+    fn move_some(&mut self) -> Result<bool> {
         let all = (0..self.is_gone.len()).filter(|&q| !self.is_gone[q]);
         let all = all.map(|q| (quality(self.quads, q), q as u32));
         let mut flat: Vec<(f64, u32)> = all.filter(|pair| pair.0 < FLAT).collect();
@@ -390,17 +390,27 @@ mod tests {
 
     #[test]
     fn an_edge_turns_where_three_corners_lie_on_a_straight_side() {
-        let (mut quads, mesh) = grid();
         // Two quads of the lower side, from left to right, share the edge from its middle up.
         let [left, foot, right] = [1, 2, 3];
         let [above_left, above, above_right] = [6, 7, 8];
-        assert_eq!(quads.quads[1], [left, foot, above, above_left]);
-        quads.quads[1] = [left, foot, right, above_left];
-        quads.quads[2] = [right, above_right, above, above_left];
-        assert!(quads.is_conforming());
-        let [kept, changed] = both(&quads, &mesh);
-        assert!(QuadQuality::new(&kept).scaled_jacobian_min < FLAT);
-        assert!(is_grid(&changed, FAIR));
+        let to_the_left = [
+            [left, foot, right, above_left],
+            [right, above_right, above, above_left],
+        ];
+        let to_the_right = [
+            [left, foot, right, above_right],
+            [left, above_right, above, above_left],
+        ];
+        for turned in [to_the_left, to_the_right] {
+            let (mut quads, mesh) = grid();
+            assert_eq!(quads.quads[1], [left, foot, above, above_left]);
+            assert_eq!(quads.quads[2], [foot, right, above_right, above]);
+            quads.quads[1..3].copy_from_slice(&turned);
+            assert!(quads.is_conforming());
+            let [kept, changed] = both(&quads, &mesh);
+            assert!(QuadQuality::new(&kept).scaled_jacobian_min < FLAT);
+            assert!(is_grid(&changed, FAIR));
+        }
     }
 
     #[test]
