@@ -67,6 +67,9 @@ pub struct SeamlessProblem {
     pub(crate) isolines: Vec<Isoline>,
     /// The target lengths of the gradients.
     density: Density,
+    /// By what factor lengths are larger than that along the arm that the field stores, and smaller across, in every
+    /// face; empty where they are neither.
+    aspects: Vec<f64>,
 }
 
 impl SeamlessProblem {
@@ -138,6 +141,7 @@ impl SeamlessProblem {
             cones,
             isolines,
             density,
+            aspects: Vec::new(),
         };
         this.state(mesh)?;
         Ok(this)
@@ -157,6 +161,15 @@ impl SeamlessProblem {
         self.set_integers(mesh)?;
         may_continue()?;
         self.pin_origins(mesh)
+    }
+
+    /// Makes quads longer by a factor for every face along the arm that the field stores, and narrower by it across.
+    /// Their area stays, and so do these factors at other sizes. Only linear terms change.
+    pub(crate) fn stretch(&mut self, mesh: &TriangleMesh, aspects: Vec<f64>) -> Result<()> {
+        self.aspects = aspects;
+        let energy = self.dirichlet(mesh)?;
+        self.problem.set_linear(&energy.linear)?;
+        self.problem.set_constant(energy.constant)
     }
 
     /// Changes the target size of quads. Only linear terms change: the solver of this problem keeps its
@@ -254,9 +267,22 @@ impl SeamlessProblem {
 
     /// The target gradients of a face: the combed arms, scaled by the density.
     pub(crate) fn targets(&self, mesh: &TriangleMesh, face: usize) -> [[f64; 3]; 2] {
-        let arms = self.combing.arms(mesh, &self.field, face);
+        let arms = self.proportions(mesh, face);
         let density = self.density.of(face, self.combing.quarters()[face]);
         [0, 1].map(|axis| arms[axis].map(|x| density[axis] * x))
+    }
+
+    /// The combed arms of a face, of length 1 but where quads are stretched: there in inverse proportion to lengths.
+    pub(crate) fn proportions(&self, mesh: &TriangleMesh, face: usize) -> [[f64; 3]; 2] {
+        let [first, second] = self.combing.arms(mesh, &self.field, face);
+        let Some(&aspect) = self.aspects.get(face) else {
+            return [first, second];
+        };
+        let longer = match self.combing.quarters()[face] % 2 {
+            0 => aspect,
+            _ => aspect.recip(),
+        };
+        [first.map(|x| x / longer), second.map(|x| x * longer)]
     }
 
     /// The unknown that is `s` of a seam; `t` is the next.

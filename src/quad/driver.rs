@@ -40,7 +40,7 @@ use crate::map::Sizing;
 use crate::mesh::TriangleMesh;
 use crate::mesh::features::FeatureGraph;
 use crate::monitor::{Monitor, Stage, may_continue, optional};
-use crate::smooth::{SmoothOptions, smooth_to};
+use crate::smooth::{Shapes, SmoothOptions, smooth_to};
 use crate::solve::Solution;
 use crate::untangle::{FINER, Untangled};
 
@@ -548,13 +548,13 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Driver<'a, M> {
                     features: [&given.features[..], &features].concat(),
                     ..given.clone()
                 };
-                smooth_to(
-                    &mut quads,
-                    mesh,
-                    &given,
-                    self.lengths.as_deref(),
-                    &mut monitor(),
-                )?;
+                let problem = followed.maps.problem();
+                let proportions = |face| problem.proportions(mesh, face);
+                let shapes = Shapes {
+                    lengths: self.lengths.as_deref(),
+                    proportions: (options.stretch > 0.0).then_some(&proportions),
+                };
+                smooth_to(&mut quads, mesh, &given, shapes, &mut monitor())?;
                 missed_features = missed(mesh, &quads, &missed_features);
                 Ok(())
             })?;

@@ -14,6 +14,7 @@ use super::clearance::Clearance;
 use super::final_error::is_final;
 use super::outcome::Outcome;
 use super::quadrangulation::timed;
+use super::stretch::Stretch;
 use crate::error::{Error, Result};
 use crate::field::{FieldOptions, Guidance, OrientationField, solve_field};
 use crate::map::SeamlessProblem;
@@ -77,6 +78,7 @@ pub(super) fn choose_field<'a>(
 ) -> Result<ChosenField> {
     let (run, count) = (monitor().run(), field_count(mesh, options));
     let clearance = Clearance::new(mesh, options, features, off_features, &monitor())?;
+    let stretch = Stretch::new(mesh, options)?;
     let all: Vec<QuadOptions> = std::iter::once(options.clone())
         .chain(others(mesh, options))
         .collect();
@@ -86,7 +88,8 @@ pub(super) fn choose_field<'a>(
         monitor,
         |done| run.enter(Stage::Field, done, count),
         |k, monitor| {
-            let follow = || follow(mesh, &all[k], (features, &clearance), count == 1, &monitor);
+            let shared = (features, &clearance, &stretch);
+            let follow = || follow(mesh, &all[k], shared, count == 1, &monitor);
             if k == 0 {
                 return follow().map(Some);
             }
@@ -151,7 +154,7 @@ struct Followed {
 fn follow<'a>(
     mesh: &TriangleMesh,
     options: &QuadOptions,
-    (features, clearance): (&FeatureGraph, &Clearance),
+    (features, clearance, stretch): (&FeatureGraph, &Clearance, &Option<Stretch>),
     is_only: bool,
     monitor: &impl Fn() -> Monitor<'a>,
 ) -> Result<Followed> {
@@ -167,6 +170,9 @@ fn follow<'a>(
     let chosen = timed(of_map, || {
         let sizing = &options.sizing;
         let mut problem = SeamlessProblem::with_features(mesh, &field, sizing, features)?;
+        if let Some(stretch) = stretch {
+            problem.stretch(mesh, stretch.aspects(field.angles()))?;
+        }
         may_continue()?;
         let mut solver = Solver::new(problem.problem())?;
         if is_only {

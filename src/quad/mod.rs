@@ -13,6 +13,7 @@
 //! | the choice of the field | `fields`, `aim` |
 //! | a number of quads, met | `count` |
 //! | density painted as a colour | `painted` |
+//! | quads longer than wide | `stretch` |
 //! | repeated solves of a map's problem | `map_solver` |
 //! | the quads of one map | `attempt`, `missed` |
 //! | smaller quads where there are none | `smaller` |
@@ -48,6 +49,7 @@ mod refined_input;
 mod size_metric;
 mod smaller;
 mod stage_ends;
+mod stretch;
 mod strips;
 mod tries;
 

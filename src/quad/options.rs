@@ -42,6 +42,9 @@ options! {
         /// See [`SizeMetric`](super::SizeMetric).
         adapt: f64 = 0.0, "0" in "[0, 1]",
             "how far quads get smaller where the surface curves: 0: not at all, 1: until edges deviate from it equally far everywhere";
+        /// Where irregular vertices or features leave no room for it, quads of the map stay as long as wide.
+        stretch: f64 = 0.0, "0" in "[0, 1]",
+            "how far quads get longer along directions in which the surface curves less: 0: not at all, 1: until edges of both directions deviate from it equally far, or are four to one";
         min_length: Option<f64> = None, "unset" in "(0, inf)",
             "the least length of an edge of quads that is aimed at, in units of the mesh";
         max_length: Option<f64> = None, "unset" in "(0, inf)",

@@ -1,4 +1,4 @@
-//! Smoothing of quads on the surface, towards squares of one size.
+//! Smoothing of quads on the surface, towards squares of one size, or rectangles where quads are to be longer than wide.
 //!
 //! Every quad has a target for its corners: the square closest to it (the least-squares fit of
 //! `bouaziz2012`, section 4), of a size between its own and the mean size. A vertex moves to the
@@ -15,6 +15,7 @@ mod curve;
 mod mend;
 mod quality;
 mod reconnect;
+mod rectangle;
 mod rims;
 mod square;
 mod surface;
@@ -23,7 +24,7 @@ use crate::error::{Error, Result};
 use crate::extract::{Origin, QuadMesh};
 use crate::mesh::TriangleMesh;
 use crate::mesh::features::FeatureGraph;
-use crate::mesh::vector::{add, scale, sub};
+use crate::mesh::vector::{Vec3, add, dot, normalize, scale, sub};
 use crate::monitor::{Monitor, Phase, collect_in_parts, span};
 pub use quality::QuadQuality;
 use surface::Surface;
@@ -70,23 +71,33 @@ pub fn smooth(
     monitor: &mut Monitor,
 ) -> Result<()> {
     let (_watch, _memory) = (monitor.watch(), mesh.watch_memory());
-    if smoothed(quads, mesh, options, (None, false), monitor)?.is_some() {
+    if smoothed(quads, mesh, options, (Shapes::default(), false), monitor)?.is_some() {
         mend::leave_surface(quads);
     }
     Ok(())
 }
 
-/// As [`smooth`], where edges of quads are to have these lengths, in any unit, in every face of the mesh. Quads
-/// that are missing at the boundary are added, and flat ones are removed or turned if all conform.
+/// What quads are to be like in every face of the mesh.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct Shapes<'a> {
+    /// The lengths of their edges, in any unit; all are to be equal if there are none.
+    pub(crate) lengths: Option<&'a [f64]>,
+    /// Two vectors along the edges, in inverse proportion to the lengths of these; quads are to be squares if there
+    /// are none.
+    pub(crate) proportions: Option<&'a dyn Fn(usize) -> [Vec3; 2]>,
+}
+
+/// As [`smooth`], where quads are to have these shapes. Quads that are missing at the boundary are added, and flat ones
+/// are removed or turned if all conform.
 pub(crate) fn smooth_to(
     quads: &mut QuadMesh,
     mesh: &TriangleMesh,
     options: &SmoothOptions,
-    lengths: Option<&[f64]>,
+    shapes: Shapes,
     monitor: &mut Monitor,
 ) -> Result<()> {
     let (_watch, _memory) = (monitor.watch(), mesh.watch_memory());
-    if let Some(mut surface) = smoothed(quads, mesh, options, (lengths, true), monitor)? {
+    if let Some(mut surface) = smoothed(quads, mesh, options, (shapes, true), monitor)? {
         if quads.is_conforming() {
             reconnect::reconnect(quads, &mut surface, monitor)?;
         }
@@ -101,7 +112,7 @@ fn smoothed(
     quads: &mut QuadMesh,
     mesh: &TriangleMesh,
     options: &SmoothOptions,
-    (lengths, fills): (Option<&[f64]>, bool),
+    (shapes, fills): (Shapes, bool),
     monitor: &mut Monitor,
 ) -> Result<Option<Surface>> {
     let _span = span("smooth");
@@ -117,7 +128,8 @@ fn smoothed(
         rims::fill(quads, mesh, &features, &mut surface);
     }
     let home = quads.vertices.clone();
-    let sizes = lengths.map(|lengths| relative_sizes(quads, mesh, lengths));
+    let sizes = (shapes.lengths).map(|lengths| relative_sizes(quads, mesh, lengths));
+    let aspects = (shapes.proportions).map(|proportions| aspects(quads, mesh, proportions));
     for round in 0..options.rounds {
         if monitor.finishes() || surface.has_spent_its_work() {
             break;
@@ -127,7 +139,13 @@ fn smoothed(
         let targets = collect_in_parts(quads.quads.len(), LEAST, |q| {
             let corners = quads.quads[q].map(|v| quads.vertices[v as usize]);
             let size = sizes.as_ref().map_or(size, |sizes| size * sizes[q]);
-            square::closest(corners, size, options.uniformity)
+            match &aspects {
+                None => square::closest(corners, size, options.uniformity),
+                Some(aspects) => {
+                    let edges = [size * aspects[q], size / aspects[q]];
+                    rectangle::closest(corners, edges, options.uniformity)
+                }
+            }
         });
         let mut sum = vec![([0.0; 3], 0.0); quads.vertices.len()];
         for (quad, targets) in quads.quads.iter().zip(targets) {
@@ -145,6 +163,39 @@ fn smoothed(
     }
     mend::mend(quads, &mut surface);
     Ok(Some(surface))
+}
+
+/// By what factor the first and the third edge of each quad are to be longer than its size, and the others shorter: the
+/// mean at the places where its corners were extracted.
+fn aspects(
+    quads: &QuadMesh,
+    mesh: &TriangleMesh,
+    proportions: &dyn Fn(usize) -> [Vec3; 2],
+) -> Vec<f64> {
+    let of_quad = |quad: &[u32; 4]| {
+        let corners = quad.map(|v| quads.vertices[v as usize]);
+        let sides = rectangle::sides(corners).map(normalize);
+        let (mut sum, mut count) = (0.0, 0.0);
+        let mut add = |face: usize| {
+            let arms = proportions(face);
+            let squared =
+                sides.map(|side| arms.iter().map(|&arm| dot(arm, side).powi(2)).sum::<f64>());
+            if squared.iter().all(|&s| s > 0.0) {
+                sum += (squared[1] / squared[0]).ln();
+                count += 1.0;
+            }
+        };
+        for &v in quad {
+            match quads.origins[v as usize] {
+                Origin::Vertex(v) => mesh.ring(v).for_each(|(face, _)| add(face)),
+                Origin::Face(face, _) => add(face),
+                Origin::Middle => {}
+            }
+        }
+        // A fourth of the logarithm of the squared ratio.
+        (0.25 * sum / f64::max(count, 1.0)).exp()
+    };
+    quads.quads.iter().map(of_quad).collect()
 }
 
 /// The length that edges of each quad are to have, over the mean of all, from the places where it was extracted.

@@ -330,7 +330,7 @@ mod tests {
     use crate::extract::Origin;
     use crate::mesh::TriangleMesh;
     use crate::smooth::tests::grid;
-    use crate::smooth::{QuadQuality, SmoothOptions, smooth, smooth_to};
+    use crate::smooth::{QuadQuality, Shapes, SmoothOptions, smooth, smooth_to};
 
     fn add_vertex(quads: &mut QuadMesh, at: Vec3) -> u32 {
         quads.vertices.push(at);
@@ -344,7 +344,14 @@ mod tests {
         let mut monitor = Monitor::default();
         let [mut kept, mut changed] = [quads.clone(), quads.clone()];
         smooth(&mut kept, mesh, &options, &mut monitor).unwrap();
-        smooth_to(&mut changed, mesh, &options, None, &mut monitor).unwrap();
+        smooth_to(
+            &mut changed,
+            mesh,
+            &options,
+            Shapes::default(),
+            &mut monitor,
+        )
+        .unwrap();
         assert_eq!(kept.quads, quads.quads);
         [kept, changed]
     }

@@ -320,7 +320,7 @@ mod tests {
     use crate::monitor::Monitor;
     use crate::smooth::reconnect::compact;
     use crate::smooth::tests::grid;
-    use crate::smooth::{QuadQuality, SmoothOptions, smooth_to};
+    use crate::smooth::{QuadQuality, Shapes, SmoothOptions, smooth_to};
 
     /// The grid without these quads, smoothed.
     fn filled(missing: &[usize]) -> QuadMesh {
@@ -332,7 +332,7 @@ mod tests {
             &mut quads,
             &mesh,
             &SmoothOptions::default(),
-            None,
+            Shapes::default(),
             &mut monitor,
         )
         .unwrap();

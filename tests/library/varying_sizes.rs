@@ -93,3 +93,32 @@ fn without_varying_sizes_quads_are_those_of_before() {
     };
     assert_ne!(plain.vertices, quads(&mesh, adapted).vertices);
 }
+
+/// The mean ratio of the two lengths of a quad, the longer over the shorter.
+fn elongation(quads: &QuadMesh) -> f64 {
+    let of = |quad: &[u32; 4]| {
+        let corners = quad.map(|v| quads.vertices[v as usize]);
+        let lengths = [0, 1, 2, 3].map(|k| norm(sub(corners[(k + 1) % 4], corners[k])));
+        let ratio = (lengths[0] + lengths[2]) / (lengths[1] + lengths[3]);
+        ratio.max(ratio.recip())
+    };
+    quads.quads.iter().map(of).sum::<f64>() / quads.quads.len() as f64
+}
+
+/// On a torus the tube curves more around than along.
+#[test]
+fn quads_are_longer_where_the_surface_curves_less_if_they_are_stretched() {
+    let mesh = by_name("torus", 4_000).unwrap();
+    let stretched = |stretch: f64| {
+        let options = QuadOptions {
+            stretch,
+            ..QuadOptions::default()
+        };
+        elongation(&quads(&mesh, options))
+    };
+    let [none, half, full] = [0.0, 0.5, 1.0].map(stretched);
+    assert!(
+        none < 1.25 && half > 1.1 * none && full > 1.2 * half,
+        "{none} {half} {full}"
+    );
+}

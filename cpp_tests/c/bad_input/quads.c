@@ -49,6 +49,7 @@ static void settings(fixture* f) {
     BAD(f, roundel_quad_options_set_near_vertices(q, 2, bad_vertices),
         ROUNDEL_ERROR_INDEX_OUT_OF_RANGE, "vertices", 1);
     BAD(f, roundel_quad_options_set_real(q, "adapt", 1.5), beyond, "[0, 1]", NONE);
+    BAD(f, roundel_quad_options_set_real(q, "stretch", -0.5), beyond, "[0, 1]", NONE);
     BAD(f, roundel_quad_options_set_real(q, "min_length", 0.0), beyond, "(0,", NONE);
     BAD(f, roundel_quad_options_set_real(q, "max_length", -1.0), beyond, "(0,", NONE);
     BAD(f, roundel_quad_options_set_real(q, "gradation", 1.0), beyond, "(1,", NONE);

@@ -58,6 +58,10 @@ struct QuadOptions {
     /// How far quads get smaller where the surface curves: 0: not at all, 1: until edges deviate
     /// from it equally far everywhere. In [0, 1]; 0 by default.
     std::optional<double> adapt = std::nullopt;
+    /// How far quads get longer along directions in which the surface curves less: 0: not at all,
+    /// 1: until edges of both directions deviate from it equally far, or are four to one. In [0,
+    /// 1]; 0 by default.
+    std::optional<double> stretch = std::nullopt;
     /// The least length of an edge of quads that is aimed at, in units of the mesh. In (0, inf).
     std::optional<double> min_length = std::nullopt;
     /// The largest length of an edge of quads that is aimed at, in units of the mesh. In (0, inf).
@@ -134,6 +138,10 @@ struct QuadOptions {
     }
     QuadOptions& set_adapt(double value) {
         adapt = value;
+        return *this;
+    }
+    QuadOptions& set_stretch(double value) {
+        stretch = value;
         return *this;
     }
     QuadOptions& set_min_length(double value) {
@@ -247,6 +255,9 @@ template <class Tell> bool each_quad_option(const QuadOptions& options, const Te
         return false;
     }
     if (options.adapt && !tell("adapt", *options.adapt)) {
+        return false;
+    }
+    if (options.stretch && !tell("stretch", *options.stretch)) {
         return false;
     }
     if (options.min_length && !tell("min_length", *options.min_length)) {

@@ -600,6 +600,7 @@ def quad(
     vary_curvature: bool = True,
     refine: bool = True,
     adapt: float = 0.0,
+    stretch: float = 0.0,
     min_length: Optional[float] = None,
     max_length: Optional[float] = None,
     gradation: float = 1.5,
