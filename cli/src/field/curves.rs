@@ -108,6 +108,18 @@ impl Curves {
         Ok(guides)
     }
 
+    /// The curves that guide the field, as polylines on the surface.
+    pub fn guide_lines(&self, mesh: &TriangleMesh) -> Result<Vec<Vec<Vec3>>> {
+        let Some(path) = &self.guide_curves else {
+            return Ok(Vec::new());
+        };
+        let places = |curve: Vec<SurfacePoint>| {
+            let places = curve.iter().map(|point| point.position(mesh));
+            places.collect()
+        };
+        Ok(drawn(mesh, path)?.into_iter().map(places).collect())
+    }
+
     /// Cuts the mesh along the curves that are features, and gives what is to be followed there.
     pub fn follow(
         &self,

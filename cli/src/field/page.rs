@@ -13,12 +13,14 @@ use crate::summary::{counted_vertices, outcome, thousands};
 pub(super) fn write(path: &Path, arguments: &Arguments, solved: &Solved) -> Result<()> {
     let Solved { mesh, field, .. } = solved;
     let irregular = counted_vertices(field.irregular_vertices(mesh).len(), "irregular ");
+    let guides = arguments.directions.curves.guide_lines(mesh)?;
     let page = Page {
         mesh: &arguments.mesh,
         summary: format!("{irregular}, {}", outcome(&solved.solution)),
         tables: tables(solved),
         scene: Scene::new(mesh, None, &solved.changes)
             .features(mesh, &solved.features, &[])
+            .guides(&guides)
             .field(mesh, field),
     };
     page.write(path)

@@ -6,6 +6,7 @@ use roundel::extract::QuadMesh;
 use roundel::field::OrientationField;
 use roundel::map::SeamlessMap;
 use roundel::mesh::TriangleMesh;
+use roundel::mesh::vector::Vec3;
 use serde::Serialize;
 
 use super::arrays::{Array, Grid};
@@ -29,6 +30,9 @@ pub struct Scene {
     /// Pairs of vertices: edges that quads follow, and those that no quad follows.
     features: Array,
     missed: Array,
+    /// Curves that guide the field.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    guides: Option<Lines>,
     #[serde(skip_serializing_if = "Option::is_none")]
     field: Option<Field>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -39,6 +43,15 @@ pub struct Scene {
     layout: Option<Layout>,
     /// What repair changed on the mesh, refined if it was.
     changes: Vec<Marks>,
+}
+
+/// Polylines in space.
+#[derive(Serialize)]
+struct Lines {
+    /// The number of sides of each.
+    sides: Array,
+    /// Their points, one line after the other: one more than its sides.
+    positions: Array,
 }
 
 #[derive(Serialize)]
@@ -99,6 +112,7 @@ impl Scene {
             given: refined.map(|_| Array::indices(given.triangles().as_flattened())),
             features: Array::indices(&[]),
             missed: Array::indices(&[]),
+            guides: None,
             field: None,
             map: None,
             quads: None,
@@ -115,6 +129,17 @@ impl Scene {
         };
         self.features = ends(edges);
         self.missed = ends(missed);
+        self
+    }
+
+    /// Adds curves that guide the field, if there are any.
+    pub fn guides(mut self, curves: &[Vec<Vec3>]) -> Self {
+        let sides: Vec<u32> = curves.iter().map(|curve| curve.len() as u32 - 1).collect();
+        let positions = curves.concat().into_flattened();
+        self.guides = (!curves.is_empty()).then(|| Lines {
+            sides: Array::indices(&sides),
+            positions: Array::doubles(&positions),
+        });
         self
     }
 

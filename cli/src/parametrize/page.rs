@@ -18,12 +18,14 @@ pub(super) fn write(path: &Path, arguments: &Arguments, solved: &Solved) -> Resu
         counted(map.flipped().len(), "face"),
         outcome(&solved.solution)
     );
+    let guides = arguments.directions.curves.guide_lines(mesh)?;
     let page = Page {
         mesh: &arguments.mesh,
         summary,
         tables: tables(solved),
         scene: Scene::new(mesh, None, &solved.changes)
             .features(mesh, &solved.features, &[])
+            .guides(&guides)
             .field(mesh, &solved.field.field)
             .map(mesh, map),
     };

@@ -22,8 +22,10 @@ pub(super) fn write(path: &Path, arguments: &Arguments, solved: &Solved) -> Resu
     let mesh = made.mesh(given);
     let is_other = made.refined.is_some() || made.mirrored.is_some();
     let refined = is_other.then_some(mesh);
+    let guides = arguments.directions.curves.guide_lines(given)?;
     let scene = Scene::new(given, refined, &solved.changes)
         .features(given, &made.features, &made.missed_features)
+        .guides(&guides)
         .field(mesh, &made.field)
         .map(mesh, &made.untangled.map)
         .quads(given, &made.quads);

@@ -440,6 +440,43 @@ fn layouts_have_pages_with_patches_in_colours_and_numbers_along_arcs() {
 }
 
 #[test]
+fn guide_curves_are_a_layer_of_fields_maps_and_quads() {
+    let scratch = Scratch::new("page-guides");
+    let square = "v 1 0 0.03\nv 0 1 0.03\nv -1 0 0.03\nv 0 -1 0.03\nl 1 2 3 4 1\n";
+    let (lines, page) = (
+        scratch.write("square.obj", square),
+        scratch.path("report.html"),
+    );
+    let with_page = [
+        "shape:sphere:800",
+        "--guide-curves",
+        lines.to_str().unwrap(),
+        "--force",
+        "--report",
+        page.to_str().unwrap(),
+    ];
+    for words in [
+        &["field"][..],
+        &["parametrize", "--quads", "150"],
+        &["quad", "--quads", "150"],
+    ] {
+        let (code, output) = finish(program(&[words, &with_page].concat()));
+        assert_eq!(code, 0, "{words:?}: {output:?}");
+        let guides = &data(&fs::read_to_string(&page).unwrap())["guides"];
+        assert!(guides["positions"]["data"].as_str().unwrap().len() > 1_000);
+    }
+    let window = Window {
+        width: 1400,
+        is_dark: false,
+    };
+    // Of the quads, which are last.
+    if let Some(found) = found(&scratch, &page, &window) {
+        let drawn = &found["layers"]["drawn"];
+        assert!(drawn["layer-guides"].as_u64() > Some(500), "{drawn}");
+    }
+}
+
+#[test]
 fn a_browser_without_webgl_is_told_so_and_shows_the_figures() {
     let scratch = Scratch::new("page-without-webgl");
     let Made { page, .. } = make(&scratch, &["shape:rounded-cube:600", "--quads", "100"]);

@@ -21,6 +21,7 @@ const COLOURS = {
   integer: rgb("#12385c"),
   feature: rgb("#0b0e12"),
   missed: rgb("#e6007e"),
+  guide: rgb("#6a3fd0"),
   arc: rgb("#101820"),
   selected: rgb("#ff9d00"),
   positive: rgb("#d5342c"),

@@ -31,6 +31,7 @@ function readModel(text) {
     given: data.given ? Uint32Array.from(decode(data.given)) : triangles,
     isRefined: Boolean(data.given),
     features: { edges: decode(data.features), missed: decode(data.missed) },
+    guides: data.guides && readLines(data.guides),
     field: data.field && { ...data.field, angles: decode(data.field.angles) },
     map: data.map && readMap(data.map, corners),
     quads: data.quads && readQuads(data.quads),
@@ -60,6 +61,16 @@ function readQuads({ positions, corners, others, distances }) {
   const quads = Array.from({ length: flat.length / 4 }, (_, q) => [...flat.subarray(4 * q, 4 * q + 4)]);
   const faces = [...quads, ...others];
   return { vertices, quads, others, faces, irregular: irregularOf(vertices.length, faces), distances: decode(distances) };
+}
+
+function readLines({ sides, positions }) {
+  const all = decode(positions);
+  let start = 0;
+  return Array.from(decode(sides), (count) => {
+    const line = Array.from({ length: count + 1 }, (_, k) => vectorOf(all, start + k));
+    start += count + 1;
+    return line;
+  });
 }
 
 function readLayout({ patches, edges, vertices }) {

@@ -10,7 +10,7 @@ function make(tag, properties = {}, ...children) {
 }
 
 /** The layers that a page has: name, title, count, and whether there is anything to see. */
-function layersOf({ triangles, given, isRefined, features, field, map, quads, layout, changes }) {
+function layersOf({ triangles, given, isRefined, features, guides, field, map, quads, layout, changes }) {
   const count = (n, noun) => `${thousands(n)} ${noun}${n === 1 ? "" : "s"}`;
   const edges = features.edges.length / 2, missed = features.missed.length / 2;
   const layers = [
@@ -18,6 +18,7 @@ function layersOf({ triangles, given, isRefined, features, field, map, quads, la
     ["triangles", "Triangles", isRefined ? "of the file" : ""],
   ];
   if (edges) layers.push(["features", "Features", missed ? `${count(edges, "edge")}, ${missed} missed` : count(edges, "edge")]);
+  if (guides) layers.push(["guides", "Guide curves", thousands(guides.length)]);
   if (field) {
     layers.push(["field", "Field", field.symmetry === 4 ? "crosses" : `${field.symmetry} arms`]);
     layers.push(["irregular", "Irregular vertices of the field", thousands(field.irregular.length)]);
@@ -40,7 +41,7 @@ const KINDS = { quad: "quad", corner: "quad vertex", triangle: "triangle", verte
 /** What each button shows. */
 function presetsOf({ field, map, quads, layout }) {
   const presets = [["Input", ["input", "triangles", "features", "changes"]]];
-  if (field) presets.unshift(["Field", ["input", "features", "field", "irregular"]]);
+  if (field) presets.unshift(["Field", ["input", "features", "guides", "field", "irregular"]]);
   if (map) presets.unshift(["Map", ["input", "features", "integers", "irregular"]]);
   if (quads) presets.unshift(["Quads", ["quads", "features", "poles"]]);
   if (layout) presets.unshift(["Layout", ["quads", "features", "poles", "arcs", "numbers"]]);

@@ -52,6 +52,8 @@ class View {
       const rims = model.quads.others.flatMap((face) => face.map((v, k) => [place(v), place(face[(k + 1) % face.length])]));
       this.others = segments(gl, shaders.lines, rims);
     }
+    const guides = (model.guides ?? []).map((line) => line.map(model.place));
+    this.guides = segments(gl, shaders.lines, guides.flatMap((line) => line.slice(1).map((p, k) => [line[k], p])));
     if (model.layout) this.makeLayout();
     this.showChanges();
   }
@@ -202,6 +204,7 @@ class View {
       line(this.features[0], this.ink() === COLOURS.chalk ? COLOURS.chalk : COLOURS.feature, 2.4, 0.003);
       line(this.features[1], COLOURS.missed, 4, 0.005);
     }
+    if (layers.guides) line(this.guides, COLOURS.guide, 3.2, 0.003);
     if (layers.arcs) line(this.arcs, this.ink() === COLOURS.chalk ? COLOURS.chalk : COLOURS.arc, 3.2, 0.003);
     if (layers.field) this.drawCrosses();
     line(this.selected, COLOURS.selected, 4, 0.0035);
