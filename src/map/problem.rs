@@ -69,7 +69,7 @@ pub struct SeamlessProblem {
     density: Density,
     /// By what factor lengths are larger than that along the arm that the field stores, and smaller across, in every
     /// face; empty where they are neither.
-    aspects: Vec<f64>,
+    elongations: Vec<f64>,
 }
 
 impl SeamlessProblem {
@@ -141,7 +141,7 @@ impl SeamlessProblem {
             cones,
             isolines,
             density,
-            aspects: Vec::new(),
+            elongations: Vec::new(),
         };
         this.state(mesh)?;
         Ok(this)
@@ -165,8 +165,8 @@ impl SeamlessProblem {
 
     /// Makes quads longer by a factor for every face along the arm that the field stores, and narrower by it across.
     /// Their area stays, and so do these factors at other sizes. Only linear terms change.
-    pub(crate) fn stretch(&mut self, mesh: &TriangleMesh, aspects: Vec<f64>) -> Result<()> {
-        self.aspects = aspects;
+    pub(crate) fn elongate(&mut self, mesh: &TriangleMesh, elongations: Vec<f64>) -> Result<()> {
+        self.elongations = elongations;
         let energy = self.dirichlet(mesh)?;
         self.problem.set_linear(&energy.linear)?;
         self.problem.set_constant(energy.constant)
@@ -275,12 +275,12 @@ impl SeamlessProblem {
     /// The combed arms of a face, of length 1 but where quads are stretched: there in inverse proportion to lengths.
     pub(crate) fn proportions(&self, mesh: &TriangleMesh, face: usize) -> [[f64; 3]; 2] {
         let [first, second] = self.combing.arms(mesh, &self.field, face);
-        let Some(&aspect) = self.aspects.get(face) else {
+        let Some(&elongation) = self.elongations.get(face) else {
             return [first, second];
         };
         let longer = match self.combing.quarters()[face] % 2 {
-            0 => aspect,
-            _ => aspect.recip(),
+            0 => elongation,
+            _ => elongation.recip(),
         };
         [first.map(|x| x / longer), second.map(|x| x * longer)]
     }

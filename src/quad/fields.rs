@@ -88,7 +88,7 @@ pub(super) fn choose_field<'a>(
         monitor,
         |done| run.enter(Stage::Field, done, count),
         |k, monitor| {
-            let shared = (features, &clearance, &stretch);
+            let shared = (features, &clearance, stretch.as_ref());
             let follow = || follow(mesh, &all[k], shared, count == 1, &monitor);
             if k == 0 {
                 return follow().map(Some);
@@ -154,7 +154,7 @@ struct Followed {
 fn follow<'a>(
     mesh: &TriangleMesh,
     options: &QuadOptions,
-    (features, clearance, stretch): (&FeatureGraph, &Clearance, &Option<Stretch>),
+    (features, clearance, stretch): (&FeatureGraph, &Clearance, Option<&Stretch>),
     is_only: bool,
     monitor: &impl Fn() -> Monitor<'a>,
 ) -> Result<Followed> {
@@ -171,7 +171,7 @@ fn follow<'a>(
         let sizing = &options.sizing;
         let mut problem = SeamlessProblem::with_features(mesh, &field, sizing, features)?;
         if let Some(stretch) = stretch {
-            problem.stretch(mesh, stretch.aspects(field.angles()))?;
+            problem.elongate(mesh, stretch.elongations(field.angles()))?;
         }
         may_continue()?;
         let mut solver = Solver::new(problem.problem())?;

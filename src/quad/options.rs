@@ -42,7 +42,7 @@ options! {
         /// See [`SizeMetric`](super::SizeMetric).
         adapt: f64 = 0.0, "0" in "[0, 1]",
             "how far quads get smaller where the surface curves: 0: not at all, 1: until edges deviate from it equally far everywhere";
-        /// Where irregular vertices or features leave no room for it, quads of the map stay as long as wide.
+        /// The map has these lengths as nearly as irregular vertices and integers allow.
         stretch: f64 = 0.0, "0" in "[0, 1]",
             "how far quads get longer along directions in which the surface curves less: 0: not at all, 1: until edges of both directions deviate from it equally far, or are four to one";
         min_length: Option<f64> = None, "unset" in "(0, inf)",

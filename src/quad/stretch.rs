@@ -44,7 +44,7 @@ impl Stretch {
 
     /// By what factor lengths are to be larger along an arm of the cross in every face, given by its angle from the
     /// first edge, and smaller across it.
-    pub(super) fn aspects(&self, angles: &[f64]) -> Vec<f64> {
+    pub(super) fn elongations(&self, angles: &[f64]) -> Vec<f64> {
         let of_face = |(face, angle): (usize, &f64)| {
             let (sin, cos) = (angle - self.curvature.direction[face]).sin_cos();
             let (k1, k2) = (self.curvature.k1[face], self.curvature.k2[face]);
@@ -79,7 +79,7 @@ mod tests {
         let mesh = by_name("torus", 20_000).unwrap();
         assert!(stretched(&mesh, 0.0).is_none());
         let along = curvature(&mesh).direction;
-        let [half, full] = [0.5, 1.0].map(|s| stretched(&mesh, s).unwrap().aspects(&along));
+        let [half, full] = [0.5, 1.0].map(|s| stretched(&mesh, s).unwrap().elongations(&along));
         let mut count = 0;
         for face in 0..mesh.face_count() {
             assert!(full[face] >= 1.0 && full[face] <= 2.0);
@@ -101,7 +101,7 @@ mod tests {
         let along = curvature(&mesh).direction;
         let turned = |by: f64| -> Vec<f64> {
             let angles = along.iter().map(|angle| angle + by);
-            full.aspects(&angles.collect::<Vec<_>>())
+            full.elongations(&angles.collect::<Vec<_>>())
         };
         let [first, second, diagonal] = [0.0, FRAC_PI_2, FRAC_PI_4].map(turned);
         for ((a, b), c) in first.into_iter().zip(second).zip(diagonal) {
@@ -114,8 +114,8 @@ mod tests {
     fn what_is_round_or_flat_stays() {
         let sphere = by_name("sphere", 2_000).unwrap();
         let along = curvature(&sphere).direction;
-        let aspects = stretched(&sphere, 1.0).unwrap().aspects(&along);
-        assert!(aspects.iter().all(|aspect| (aspect - 1.0).abs() < 0.05));
+        let factors = stretched(&sphere, 1.0).unwrap().elongations(&along);
+        assert!(factors.iter().all(|factor| (factor - 1.0).abs() < 0.05));
         assert!(stretched(&by_name("plane", 200).unwrap(), 1.0).is_none());
     }
 }

@@ -17,16 +17,18 @@ mod quality;
 mod reconnect;
 mod rectangle;
 mod rims;
+mod shapes;
 mod square;
 mod surface;
 
 use crate::error::{Error, Result};
-use crate::extract::{Origin, QuadMesh};
+use crate::extract::QuadMesh;
 use crate::mesh::TriangleMesh;
 use crate::mesh::features::FeatureGraph;
-use crate::mesh::vector::{Vec3, add, dot, normalize, scale, sub};
+use crate::mesh::vector::{add, scale, sub};
 use crate::monitor::{Monitor, Phase, collect_in_parts, span};
 pub use quality::QuadQuality;
+pub(crate) use shapes::Shapes;
 use surface::Surface;
 
 /// The least number of quads that are worth a thread.
@@ -77,16 +79,6 @@ pub fn smooth(
     Ok(())
 }
 
-/// What quads are to be like in every face of the mesh.
-#[derive(Clone, Copy, Default)]
-pub(crate) struct Shapes<'a> {
-    /// The lengths of their edges, in any unit; all are to be equal if there are none.
-    pub(crate) lengths: Option<&'a [f64]>,
-    /// Two vectors along the edges, in inverse proportion to the lengths of these; quads are to be squares if there
-    /// are none.
-    pub(crate) proportions: Option<&'a dyn Fn(usize) -> [Vec3; 2]>,
-}
-
 /// As [`smooth`], where quads are to have these shapes. Quads that are missing at the boundary are added, and flat ones
 /// are removed or turned if all conform.
 pub(crate) fn smooth_to(
@@ -128,8 +120,7 @@ fn smoothed(
         rims::fill(quads, mesh, &features, &mut surface);
     }
     let home = quads.vertices.clone();
-    let sizes = (shapes.lengths).map(|lengths| relative_sizes(quads, mesh, lengths));
-    let aspects = (shapes.proportions).map(|proportions| aspects(quads, mesh, proportions));
+    let (sizes, elongations) = (shapes.sizes(quads, mesh), shapes.elongations(quads, mesh));
     for round in 0..options.rounds {
         if monitor.finishes() || surface.has_spent_its_work() {
             break;
@@ -139,10 +130,10 @@ fn smoothed(
         let targets = collect_in_parts(quads.quads.len(), LEAST, |q| {
             let corners = quads.quads[q].map(|v| quads.vertices[v as usize]);
             let size = sizes.as_ref().map_or(size, |sizes| size * sizes[q]);
-            match &aspects {
+            match &elongations {
                 None => square::closest(corners, size, options.uniformity),
-                Some(aspects) => {
-                    let edges = [size * aspects[q], size / aspects[q]];
+                Some(elongations) => {
+                    let edges = [size * elongations[q], size / elongations[q]];
                     rectangle::closest(corners, edges, options.uniformity)
                 }
             }
@@ -165,65 +156,6 @@ fn smoothed(
     Ok(Some(surface))
 }
 
-/// By what factor the first and the third edge of each quad are to be longer than its size, and the others shorter: the
-/// mean at the places where its corners were extracted.
-fn aspects(
-    quads: &QuadMesh,
-    mesh: &TriangleMesh,
-    proportions: &dyn Fn(usize) -> [Vec3; 2],
-) -> Vec<f64> {
-    let of_quad = |quad: &[u32; 4]| {
-        let corners = quad.map(|v| quads.vertices[v as usize]);
-        let sides = rectangle::sides(corners).map(normalize);
-        let (mut sum, mut count) = (0.0, 0.0);
-        let mut add = |face: usize| {
-            let arms = proportions(face);
-            let squared =
-                sides.map(|side| arms.iter().map(|&arm| dot(arm, side).powi(2)).sum::<f64>());
-            if squared.iter().all(|&s| s > 0.0) {
-                sum += (squared[1] / squared[0]).ln();
-                count += 1.0;
-            }
-        };
-        for &v in quad {
-            match quads.origins[v as usize] {
-                Origin::Vertex(v) => mesh.ring(v).for_each(|(face, _)| add(face)),
-                Origin::Face(face, _) => add(face),
-                Origin::Middle => {}
-            }
-        }
-        // A fourth of the logarithm of the squared ratio.
-        (0.25 * sum / f64::max(count, 1.0)).exp()
-    };
-    quads.quads.iter().map(of_quad).collect()
-}
-
-/// The length that edges of each quad are to have, over the mean of all, from the places where it was extracted.
-fn relative_sizes(quads: &QuadMesh, mesh: &TriangleMesh, lengths: &[f64]) -> Vec<f64> {
-    let of_vertex = |v: usize| {
-        let ring = mesh.ring(v);
-        let count = ring.len() as f64;
-        ring.map(|(face, _)| lengths[face]).sum::<f64>() / count
-    };
-    let of_origin = |&origin: &Origin| match origin {
-        Origin::Vertex(v) => Some(of_vertex(v)),
-        Origin::Face(face, _) => Some(lengths[face]),
-        Origin::Middle => None,
-    };
-    let at: Vec<Option<f64>> = quads.origins.iter().map(of_origin).collect();
-    let of_quad = |quad: &[u32; 4]| {
-        let known: Vec<f64> = quad.iter().filter_map(|&v| at[v as usize]).collect();
-        (!known.is_empty()).then(|| known.iter().sum::<f64>() / known.len() as f64)
-    };
-    let sizes: Vec<Option<f64>> = quads.quads.iter().map(of_quad).collect();
-    let known = sizes.iter().flatten();
-    let mean = known.clone().sum::<f64>() / known.count().max(1) as f64;
-    sizes
-        .iter()
-        .map(|size| size.map_or(1.0, |size| size / mean))
-        .collect()
-}
-
 fn check(options: &SmoothOptions) -> Result<()> {
     if !(0.0..=1.0).contains(&options.uniformity) {
         return Err(Error::InvalidArgument {
@@ -240,6 +172,7 @@ fn check(options: &SmoothOptions) -> Result<()> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::extract::Origin;
 
     const SIDE: u32 = 4;
 

@@ -95,7 +95,7 @@ fn without_varying_sizes_quads_are_those_of_before() {
 }
 
 /// The mean ratio of the two lengths of a quad, the longer over the shorter.
-fn elongation(quads: &QuadMesh) -> f64 {
+fn mean_aspect_ratio(quads: &QuadMesh) -> f64 {
     let of = |quad: &[u32; 4]| {
         let corners = quad.map(|v| quads.vertices[v as usize]);
         let lengths = [0, 1, 2, 3].map(|k| norm(sub(corners[(k + 1) % 4], corners[k])));
@@ -114,7 +114,7 @@ fn quads_are_longer_where_the_surface_curves_less_if_they_are_stretched() {
             stretch,
             ..QuadOptions::default()
         };
-        elongation(&quads(&mesh, options))
+        mean_aspect_ratio(&quads(&mesh, options))
     };
     let [none, half, full] = [0.0, 0.5, 1.0].map(stretched);
     assert!(
