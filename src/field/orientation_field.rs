@@ -1,11 +1,11 @@
 //! An orientation field, and its energy measured on the mesh.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 use super::Guide;
 use crate::error::{Error, Result};
 use crate::linalg::CompensatedSum;
-use crate::mesh::TriangleMesh;
+use crate::mesh::{Reordered, TriangleMesh};
 
 /// An N-symmetric direction field: N arms evenly around in every face, a cross for N = 4, and how
 /// they match over edges.
@@ -50,6 +50,28 @@ impl OrientationField {
     /// The angle from arm to arm.
     pub(crate) fn step(&self) -> f64 {
         TAU / f64::from(self.symmetry)
+    }
+
+    /// The field of a mesh in another order, on `given`, the mesh as it was.
+    pub(crate) fn on_given(&self, reordered: &Reordered, given: &TriangleMesh) -> Self {
+        let of_edge = |edge: usize| {
+            let (place, is_turned) = reordered.place_of_edge(given, edge);
+            let (jump, kappa) = (self.period_jumps[place], self.kappa[place]);
+            match is_turned {
+                // The angle from the other side would be -pi.
+                true if kappa == PI => (-jump - i32::from(self.symmetry), PI),
+                true => (-jump, 0.0 - kappa),
+                false => (jump, kappa),
+            }
+        };
+        let (period_jumps, kappa) = (0..given.edge_count()).map(of_edge).unzip();
+        OrientationField {
+            symmetry: self.symmetry,
+            angles: reordered.of_given_faces(&self.angles),
+            period_jumps,
+            kappa,
+            constrained: reordered.of_given_faces(&self.constrained),
+        }
     }
 
     /// Whether this can be a field on that mesh.

@@ -1,6 +1,6 @@
 //! A seamless map: coordinates on the cut surface and how they change over the cut.
 
-use crate::mesh::turned;
+use crate::mesh::{Reordered, TriangleMesh, turned};
 
 /// How coordinates change over one cut edge, from its first to its second face.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -47,6 +47,29 @@ pub struct SeamlessMap {
 }
 
 impl SeamlessMap {
+    /// The map of a mesh in another order, on `given`, the mesh as it was.
+    pub(crate) fn on_given(&self, reordered: &Reordered, given: &TriangleMesh) -> Self {
+        let transitions = self.transitions.iter().map(|transition| {
+            let edge = reordered.edge(given, transition.edge);
+            let (_, is_turned) = reordered.place_of_edge(given, edge);
+            let over = match is_turned {
+                true => transition.inverse(),
+                false => *transition,
+            };
+            Transition { edge, ..over }
+        });
+        let mut transitions: Vec<Transition> = transitions.collect();
+        transitions.sort_unstable_by_key(|transition| transition.edge);
+        SeamlessMap {
+            values: self.values.clone(),
+            copies: reordered.of_given_faces(&self.copies),
+            transitions,
+            cones: sorted(self.cones.iter().map(|&v| reordered.vertex(v))),
+            flipped: sorted(self.flipped.iter().map(|&f| reordered.face(f))),
+            ..*self
+        }
+    }
+
     /// The coordinates of the corners of a face.
     pub fn uv(&self, face: usize) -> [[f64; 2]; 3] {
         let uv = self.vertex_uvs();
@@ -94,4 +117,10 @@ impl SeamlessMap {
     pub fn energy(&self) -> f64 {
         self.energy
     }
+}
+
+fn sorted(numbers: impl Iterator<Item = usize>) -> Vec<usize> {
+    let mut numbers: Vec<usize> = numbers.collect();
+    numbers.sort_unstable();
+    numbers
 }

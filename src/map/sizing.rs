@@ -49,6 +49,20 @@ impl Sizing {
         }
     }
 
+    /// The same sizes on a mesh whose face k is, or is a part of, face `origins[k]`.
+    pub(crate) fn on_faces(&self, origins: &[u32]) -> Self {
+        match self {
+            Sizing::Lengths(lengths) => {
+                Sizing::Lengths(origins.iter().map(|&f| lengths[f as usize]).collect())
+            }
+            Sizing::Graded { quads, lengths } => Sizing::Graded {
+                quads: *quads,
+                lengths: origins.iter().map(|&f| lengths[f as usize]).collect(),
+            },
+            other => other.clone(),
+        }
+    }
+
     /// The lengths at every vertex, where they are graded: the mean of the faces around it. Else none.
     pub(crate) fn vertex_lengths(&self, mesh: &TriangleMesh) -> Vec<f64> {
         let Sizing::Graded { lengths, .. } = self else {

@@ -35,6 +35,7 @@ mod orientation;
 mod origin;
 mod plane;
 pub mod refine;
+mod reordered;
 mod rings;
 pub mod shape;
 mod subdivide;
@@ -55,6 +56,7 @@ pub(crate) use barycentric::barycentric;
 pub(crate) use closest::{closest, closest_on_segment};
 pub(crate) use orientation::orientation;
 pub(crate) use plane::{angle_at, angle_between, turned};
+pub(crate) use reordered::Reordered;
 
 #[cfg(test)]
 mod error_tests;

@@ -1,8 +1,7 @@
-//! From a mesh to quads by one set of options, step by step.
+//! From a mesh that is as fine as it has to be to quads by one set of options, step by step.
 //!
 //! ```text
-//! size, features
-//! refinement  where the mesh is too coarse or too thin for quads of this size
+//! size        that of all quads, or one for each face
 //! field       the one of several whose map has the least distorted relaxation
 //! map         integers are decided; feature curves that they put on one line are separated
 //! quads       are extracted from the map
@@ -29,7 +28,6 @@ use super::final_error::is_final;
 use super::missed::missed;
 use super::options::QuadOptions;
 use super::quadrangulation::timed;
-use super::refined_input::RefinedInput;
 use super::size_metric::SizeMetric;
 use super::smaller::{SIZES, smaller_quads};
 use super::stage_ends::stage_ends;
@@ -39,7 +37,7 @@ use crate::field::FieldProblem;
 use crate::map::Sizing;
 use crate::mesh::TriangleMesh;
 use crate::mesh::features::FeatureGraph;
-use crate::monitor::{Monitor, Stage, may_continue, optional};
+use crate::monitor::{Monitor, Stage, optional};
 use crate::smooth::{Shapes, SmoothOptions, smooth_to};
 use crate::solve::Solution;
 use crate::untangle::{FINER, Untangled};
@@ -105,75 +103,8 @@ pub(super) enum Effort {
     Again,
 }
 
-/// The quads by one set of options: [`quadrangulate`](super::quadrangulate()) tells what is tried. The first
-/// try spends `work` as the others do, but is made in any case.
-///
-/// # Errors
-/// Those of [`quadrangulate`](super::quadrangulate()).
-pub(super) fn by_options<'a>(
-    mesh: &TriangleMesh,
-    options: &QuadOptions,
-    effort: Effort,
-    work: &Cell<u64>,
-    monitor: &impl Fn() -> Monitor<'a>,
-) -> Result<Quadrangulation> {
-    options.sizing.check(mesh)?;
-    SizeMetric::check(mesh, options)?;
-    may_continue()?;
-    let features = options.guidance.features(mesh)?;
-    may_continue()?;
-    let mut seconds = 0.0;
-    let input = timed(&mut seconds, || refined(mesh, &features, options))?;
-    let Some(input) = input else {
-        return of_mesh(mesh, features, options, effort, work, monitor);
-    };
-    let smooth = match &options.smooth {
-        Some(given) => {
-            let kept = FeatureGraph::from_edges(mesh, &given.features)?;
-            Some(SmoothOptions {
-                features: input.refined.parts_of(|edge| kept.contains(edge)),
-                ..given.clone()
-            })
-        }
-        None => None,
-    };
-    let density = match options.density.is_empty() {
-        true => Vec::new(),
-        false => input.refined.values_at_vertices(mesh, &options.density)?,
-    };
-    let given = QuadOptions {
-        guidance: input.guidance.clone(),
-        sizing: input.sizing.clone(),
-        smooth,
-        density,
-        ..options.clone()
-    };
-    let features = input.features.clone();
-    let mut made = of_mesh(&input.refined.mesh, features, &given, effort, work, monitor)?;
-    made.seconds.refine = seconds;
-    Ok(input.result_for(mesh, made))
-}
-
-/// The refined mesh, where the options allow it and the mesh needs it.
-fn refined(
-    mesh: &TriangleMesh,
-    features: &FeatureGraph,
-    options: &QuadOptions,
-) -> Result<Option<RefinedInput>> {
-    if !options.refine {
-        return Ok(None);
-    }
-    let held = match &options.smooth {
-        Some(given) => FeatureGraph::from_edges(mesh, &given.features)?,
-        None => FeatureGraph::none(mesh),
-    };
-    let held = held.with(mesh, features)?;
-    may_continue()?;
-    RefinedInput::new(mesh, &options.guidance, &held, &options.sizing)
-}
-
-/// The quads of a mesh that is as fine as it has to be.
-fn of_mesh<'a>(
+/// The quads of a mesh in the order that it has.
+pub(super) fn in_order<'a>(
     mesh: &TriangleMesh,
     features: FeatureGraph,
     options: &QuadOptions,
@@ -181,9 +112,6 @@ fn of_mesh<'a>(
     work: &Cell<u64>,
     monitor: &impl Fn() -> Monitor<'a>,
 ) -> Result<Quadrangulation> {
-    may_continue()?;
-    let features = features.with_two_of_each_face(mesh);
-    may_continue()?;
     monitor().run().plan(stage_ends(mesh, options));
     let faces = match effort {
         Effort::Again => FACES_AGAIN,

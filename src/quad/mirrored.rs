@@ -10,7 +10,6 @@ use super::tries::smaller;
 use super::{Near, QuadOptions, Quadrangulation};
 use crate::error::{Error, Result};
 use crate::extract::Origin;
-use crate::map::Sizing;
 use crate::mesh::features::FeatureGraph;
 use crate::mesh::mirror::{Half, MirrorPlane, mirror_planes};
 use crate::mesh::vector::{Vec3, add, scale};
@@ -112,20 +111,11 @@ fn of_half(mesh: &TriangleMesh, half: &Half, options: &QuadOptions) -> Result<Qu
         origin.is_some_and(|w| options.near_vertices.contains(&(w as usize)))
     };
     let near_vertices: Vec<usize> = (0..half.mesh.vertex_count()).filter(is_near).collect();
+    let sizing = options.sizing.on_faces(&half.face_origin);
     Ok(QuadOptions {
-        sizing: match &options.sizing {
-            Sizing::Quads(quads) => Sizing::Quads(quads.div_ceil(images)),
-            Sizing::Lengths(lengths) => {
-                let of_face = half.face_origin.iter().map(|&f| lengths[f as usize]);
-                Sizing::Lengths(of_face.collect())
-            }
-            Sizing::Graded { quads, lengths } => Sizing::Graded {
-                quads: quads.div_ceil(images),
-                lengths: (half.face_origin.iter())
-                    .map(|&f| lengths[f as usize])
-                    .collect(),
-            },
-            other => other.clone(),
+        sizing: match options.sizing.quads() {
+            Some(quads) => sizing.with_quads(quads.div_ceil(images)),
+            None => sizing,
         },
         guidance,
         smooth,

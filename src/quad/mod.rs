@@ -5,9 +5,10 @@
 //! | quads, from a mesh | `quadrangulate`, `rank`, `coverage` |
 //! | other options, where quads are not good | `tries`, `final_error` |
 //! | components whose quads are not good | `apart`, `part`, `by_component` |
-//! | quads, by one set of options | `driver` |
+//! | quads, by one set of options | `by_options`, `driver` |
 //! | a part of a mesh, and its mirror images | `mirrored`, `mirror_images` |
 //! | a mesh that is refined first | `refined_input` |
+//! | a mesh whose neighbours are far apart in memory | `reordered_input` |
 //! | a map without folds, from its problem | `fold_free` |
 //! | a field and its current map | `field_map` |
 //! | the choice of the field | `fields`, `aim` |
@@ -23,6 +24,7 @@ mod aim;
 mod apart;
 mod attempt;
 mod by_component;
+mod by_options;
 mod clearance;
 mod compare;
 mod count;
@@ -46,6 +48,7 @@ mod quadrangulate;
 mod quadrangulation;
 mod rank;
 mod refined_input;
+mod reordered_input;
 mod size_metric;
 mod smaller;
 mod stage_ends;

@@ -5,8 +5,9 @@ use std::cell::Cell;
 
 use super::apart::apart;
 use super::by_component::Components;
+use super::by_options::by_options;
 use super::coverage::far;
-use super::driver::{Effort, by_options};
+use super::driver::Effort;
 use super::final_error::is_final;
 use super::mirrored::mirrored;
 use super::rank::Rank;

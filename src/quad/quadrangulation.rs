@@ -12,6 +12,10 @@ use crate::solve::Solution;
 use crate::untangle::Untangled;
 
 /// Quads, and the results of the steps before them.
+///
+/// If neighbours are far apart among the faces of a large mesh, all is made of the same mesh in another order. Elements
+/// here are those of the mesh that was given all the same; only the unknowns of the solutions are numbered as in that
+/// order.
 #[derive(Debug)]
 pub struct Quadrangulation {
     /// The quads, smoothed if the options ask for it.

@@ -100,20 +100,7 @@ impl RefinedInput {
         Ok(RefinedInput {
             features: FeatureGraph::from_edges(&refined.mesh, &parts)?,
             guidance,
-            sizing: match sizing {
-                Sizing::Lengths(lengths) => {
-                    let of_face = refined.face_origin.iter().map(|&f| lengths[f as usize]);
-                    Sizing::Lengths(of_face.collect())
-                }
-                Sizing::Graded { quads, lengths } => {
-                    let of_face = refined.face_origin.iter().map(|&f| lengths[f as usize]);
-                    Sizing::Graded {
-                        quads: *quads,
-                        lengths: of_face.collect(),
-                    }
-                }
-                other => other.clone(),
-            },
+            sizing: sizing.on_faces(&refined.face_origin),
             refined,
         })
     }

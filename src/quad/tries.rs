@@ -2,8 +2,9 @@
 
 use std::cell::Cell;
 
+use super::by_options::by_options;
 use super::coverage::denser;
-use super::driver::{Effort, by_options};
+use super::driver::Effort;
 use super::rank::{Rank, has_features};
 use super::{Count, QuadOptions, Quadrangulation};
 use crate::error::{Error, Result};

@@ -169,3 +169,54 @@ fn sharp_edges_all_around_a_face_are_accepted() {
     let kept = around.filter(|edge| made.features.contains(edge)).count();
     assert!(made.quads.is_conforming() && kept == 2);
 }
+
+/// A mesh with its vertices and faces in an order in which neighbours are anywhere.
+fn scattered(mesh: &TriangleMesh) -> TriangleMesh {
+    let far = |count: usize| {
+        // Prime, and no divisor of the count: each number is met once.
+        let step = 7_919;
+        assert!(!count.is_multiple_of(step));
+        (0..count).map(move |k| k * step % count)
+    };
+    let mut places = vec![0; mesh.vertex_count()];
+    let vertices: Vec<usize> = far(mesh.vertex_count()).collect();
+    for (place, &vertex) in vertices.iter().enumerate() {
+        places[vertex] = place as u32;
+    }
+    let points = vertices.iter().map(|&v| mesh.position(v));
+    let faces = far(mesh.face_count()).map(|f| mesh.corners(f).map(|v| places[v]));
+    TriangleMesh::new(points.collect(), faces.collect()).unwrap()
+}
+
+#[test]
+fn a_large_mesh_in_no_order_has_a_field_a_map_and_quads_of_its_own_elements() {
+    let mesh = scattered(&shape::by_name("torus", 34_000).unwrap());
+    let made = |threads: usize| {
+        let made = of(&mesh, 500, |options| {
+            options.field.threads = threads;
+            options.guidance.curvature_weight = 0.0;
+        });
+        let bits: Vec<_> = (made.quads.vertices.iter().flatten())
+            .chain(made.field.angles())
+            .map(|x| x.to_bits())
+            .collect();
+        (made, bits)
+    };
+    let (found, bits) = made(1);
+    assert!(bits == made(2).1);
+    assert!(found.quads.is_conforming() && found.refined.is_none());
+    let energy = found.field_solution.energy();
+    assert!((found.field.energy(&mesh) - energy).abs() < 1e-9 * energy.max(1.0));
+    for (place, origin) in found.quads.vertices.iter().zip(&found.quads.origins) {
+        let near = match *origin {
+            Origin::Vertex(vertex) => mesh.position(vertex),
+            Origin::Face(face, _) => mesh.position(mesh.corners(face)[0]),
+            Origin::Middle => panic!("no vertex is in the middle of a cell"),
+        };
+        let moved = (0..3)
+            .map(|axis| (near[axis] - place[axis]).powi(2))
+            .sum::<f64>();
+        // Less than the edge of a quad.
+        assert!(moved.sqrt() < 0.3, "{near:?} {place:?}");
+    }
+}
