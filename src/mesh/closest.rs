@@ -61,11 +61,6 @@ impl ClosestPoint {
         }
     }
 
-    /// The numbers of all triangles, those of a box next to each other.
-    pub(crate) fn into_order(self) -> Vec<u32> {
-        self.order
-    }
-
     /// The triangle with the point closest to `p`, and that point; none if there is no triangle.
     ///
     /// A `hint`, a triangle that may be near such as that of the last search, shortens the search.

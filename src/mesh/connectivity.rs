@@ -98,7 +98,8 @@ fn bucket_by_lower_end(vertex_count: usize, triangles: &[[u32; 3]]) -> (Vec<u32>
     (start, halves)
 }
 
-fn number_edges(twin: Vec<u32>) -> Connectivity {
+/// The edges of half-edges with these opposites.
+pub(super) fn number_edges(twin: Vec<u32>) -> Connectivity {
     let mut edge_half = Vec::with_capacity(twin.len() / 2);
     let mut half_edge = vec![0u32; twin.len()];
     for (h, &t) in twin.iter().enumerate() {

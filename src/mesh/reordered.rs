@@ -4,18 +4,30 @@
 //! the surface, and over the unknowns of its problems, then waits for memory: a field, a map and quads of a mesh of
 //! 200,000 such faces take half as long again, or twice as long, as in this order.
 
-use super::{ClosestPoint, MeshError, TriangleMesh};
+use super::TriangleMesh;
+use super::vector::{Vec3, sub};
+use crate::error::Result;
+use crate::monitor::{collect_in_parts, may_continue};
 
 /// The faces of a mesh that is in the cache in any order.
 const FEW: usize = 1 << 15;
 
-/// The most edges, as a part of all, whose two faces or vertices may be far apart. Where the order follows the
-/// surface, about one in sixteen are.
+/// The edges that are looked at, spread evenly over all.
+const LOOKS: usize = 1 << 12;
+
+/// The most of these edges, as a part of all, whose two faces or vertices may be far apart. Where the order follows
+/// the surface, about one in sixteen are.
 const FAR: f64 = 0.25;
 
 /// Numbers are far apart if they differ by more than so many times the root of how many there are. Those of
 /// neighbours in two rows of a grid differ by one root.
 const ROOTS: f64 = 4.0;
+
+/// The cells of space along each axis, as a power of two: three such numbers fit into 64 bits.
+const BITS: u32 = 21;
+
+/// The least number of faces that are worth a thread.
+const LEAST: usize = 1 << 14;
 
 /// A mesh in another order. Corners of faces stay in theirs.
 #[derive(Debug)]
@@ -33,38 +45,47 @@ impl Reordered {
     /// A large mesh in another order, if neighbours are far apart in its own.
     ///
     /// # Errors
-    /// Those of [`new`](Self::new).
-    pub fn if_scattered(mesh: &TriangleMesh) -> Result<Option<Self>, MeshError> {
+    /// The reason to end the current step.
+    pub fn if_scattered(mesh: &TriangleMesh) -> Result<Option<Self>> {
         match mesh.face_count() > FEW && is_scattered(mesh) {
             true => Self::new(mesh).map(Some),
             false => Ok(None),
         }
     }
 
-    /// The mesh in the order of its boxes in space.
+    /// The mesh with its faces in the order of the cells of space in which they are (`morton1966`), and its vertices in
+    /// the order of the first face of each.
     ///
     /// # Errors
-    /// None for a mesh whose faces and vertices can be made again.
-    pub fn new(mesh: &TriangleMesh) -> Result<Self, MeshError> {
-        let faces = ClosestPoint::new(mesh).into_order();
+    /// The reason to end the current step.
+    pub fn new(mesh: &TriangleMesh) -> Result<Self> {
+        let [low, high] = mesh.bounding_box();
+        let size = sub(high, low).into_iter().fold(0.0, f64::max);
+        let mut cells = collect_in_parts(mesh.face_count(), LEAST, |face| {
+            let corners = mesh.corner_positions(face);
+            let center = [0, 1, 2].map(|axis| corners.iter().map(|p| p[axis] / 3.0).sum());
+            (cell(center, low, size), face as u32)
+        });
+        may_continue()?;
+        cells.sort_unstable();
+        may_continue()?;
+        let faces: Vec<u32> = cells.into_iter().map(|(_, face)| face).collect();
+        let mut place_of_face = vec![0; faces.len()];
         let mut vertices = Vec::with_capacity(mesh.vertex_count());
         let mut place_of_vertex = vec![u32::MAX; mesh.vertex_count()];
-        let mut place_of_face = vec![0; mesh.face_count()];
-        let mut triangles = Vec::with_capacity(mesh.face_count());
         for (place, &face) in faces.iter().enumerate() {
             place_of_face[face as usize] = place as u32;
-            triangles.push(mesh.triangles()[face as usize].map(|v| {
+            for &v in &mesh.triangles()[face as usize] {
                 let place = &mut place_of_vertex[v as usize];
                 if *place == u32::MAX {
                     *place = vertices.len() as u32;
                     vertices.push(v);
                 }
-                *place
-            }));
+            }
         }
-        let positions = vertices.iter().map(|&v| mesh.position(v as usize));
+        may_continue()?;
         Ok(Reordered {
-            mesh: TriangleMesh::new(positions.collect(), triangles)?,
+            mesh: mesh.in_order([&faces, &vertices], [&place_of_face, &place_of_vertex])?,
             faces,
             vertices,
             place_of_face,
@@ -125,19 +146,30 @@ fn picked<T: Clone>(values: &[T], places: &[u32]) -> Vec<T> {
     picked.collect()
 }
 
+/// The number of the cell of space in which a point of the box at `low` is: the bits of its numbers along the axes in
+/// turn, so that cells with near numbers are near each other.
+fn cell(point: Vec3, low: Vec3, size: f64) -> u64 {
+    let cells = f64::from(1u32 << BITS);
+    let along = sub(point, low).map(|x| (x / size * cells) as u64);
+    let along = along.map(|k| k.min((1 << BITS) - 1));
+    let bit = |k: u32| (0..3).fold(0, |bits, axis| bits << 1 | along[axis] >> k & 1);
+    (0..BITS).rev().fold(0, |cell, k| cell << 3 | bit(k))
+}
+
 /// Whether the faces or the vertices of many edges have numbers that are far apart.
 fn is_scattered(mesh: &TriangleMesh) -> bool {
-    let [faces, vertices] = [mesh.face_count(), mesh.vertex_count()];
     let near = |count: usize| (ROOTS * (count as f64).sqrt()) as usize;
-    let [near_face, near_vertex] = [faces, vertices].map(near);
+    let [near_face, near_vertex] = [mesh.face_count(), mesh.vertex_count()].map(near);
+    let looks = LOOKS.min(mesh.edge_count());
     let [mut far_faces, mut far_vertices] = [0, 0];
-    for edge in mesh.edges() {
+    for k in 0..looks {
+        let edge = mesh.edge(k * mesh.edge_count() / looks);
         let [a, b] = edge.vertices;
         far_vertices += usize::from(a.abs_diff(b) > near_vertex);
         let second = edge.second.map_or(edge.first.0, |(face, _)| face);
         far_faces += usize::from(edge.first.0.abs_diff(second) > near_face);
     }
-    far_faces.max(far_vertices) as f64 > FAR * mesh.edge_count() as f64
+    far_faces.max(far_vertices) as f64 > FAR * looks as f64
 }
 
 #[cfg(test)]
@@ -176,6 +208,40 @@ mod tests {
         }
         let small = shuffled(&by_name("torus", 2_000).unwrap());
         assert!(is_scattered(&small) && Reordered::if_scattered(&small).unwrap().is_none());
+    }
+
+    #[test]
+    fn connectivity_is_that_of_a_mesh_that_is_made_in_this_order() {
+        for name in ["torus", "plane", "gear"] {
+            let mesh = Reordered::new(&shuffled(&by_name(name, 1_000).unwrap()))
+                .unwrap()
+                .mesh;
+            let made = TriangleMesh::new(mesh.vertices().to_vec(), mesh.triangles().to_vec());
+            let made = made.unwrap();
+            assert!(mesh.edges().eq(made.edges()), "{name}");
+            for v in 0..mesh.vertex_count() {
+                assert!(mesh.ring(v).eq(made.ring(v)), "{name}");
+            }
+            for face in 0..mesh.face_count() {
+                for k in 0..3 {
+                    assert_eq!(mesh.neighbor(face, k), made.neighbor(face, k), "{name}");
+                    assert_eq!(mesh.edge_of(face, k), made.edge_of(face, k), "{name}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn cells_with_near_numbers_are_near_each_other() {
+        let at = |p: Vec3| cell(p, [0.0; 3], 2.0);
+        assert_eq!(at([0.0; 3]), 0);
+        assert_eq!(at([2.0; 3]), (1 << (3 * BITS)) - 1);
+        // The halves along the first axis, then those along the others.
+        let half = 1 << (3 * BITS - 1);
+        assert_eq!(at([1.0, 0.0, 0.0]), half);
+        assert_eq!(at([0.0, 1.0, 0.0]), half / 2);
+        assert_eq!(at([0.0, 0.0, 1.0]), half / 4);
+        assert_eq!(at([0.5, 0.0, 0.0]), half / 8);
     }
 
     #[test]

@@ -3,11 +3,12 @@
 use std::ops::Neg;
 use std::sync::OnceLock;
 
-use super::connectivity::{Connectivity, NONE, connect};
+use super::connectivity::{Connectivity, NONE, connect, number_edges};
 use super::rings::{Rings, rings};
 use super::vector::Vec3;
 use super::{MeshError, check};
-use crate::monitor::{Watch, span, watch_memory};
+use crate::error::Error;
+use crate::monitor::{Watch, may_continue_at, span, watch_memory};
 
 /// The problems of a mesh have about so many unknowns and coefficients for each face.
 const PARTS: usize = 8;
@@ -66,6 +67,64 @@ impl TriangleMesh {
             half_edge,
             ring_start: start,
             ring: corner,
+            angles: OnceLock::new(),
+            area: OnceLock::new(),
+        })
+    }
+
+    /// The same mesh with face `faces[k]` as face k and vertex `vertices[k]` as vertex k: each is there once, and
+    /// `place_of_face` and `place_of_vertex` tell where. Corners of faces stay in their order.
+    ///
+    /// # Errors
+    /// The reason to end the current step.
+    pub(super) fn in_order(
+        &self,
+        [faces, vertices]: [&[u32]; 2],
+        [place_of_face, place_of_vertex]: [&[u32]; 2],
+    ) -> Result<TriangleMesh, Error> {
+        let half = |half: u32| match half {
+            NONE => NONE,
+            _ => 3 * place_of_face[half as usize / 3] + half % 3,
+        };
+        let mut triangles = Vec::with_capacity(faces.len());
+        let mut twin = Vec::with_capacity(3 * faces.len());
+        for (k, &face) in faces.iter().enumerate() {
+            may_continue_at(k)?;
+            let face = face as usize;
+            triangles.push(self.triangles[face].map(|v| place_of_vertex[v as usize]));
+            twin.extend([0, 1, 2].map(|k| half(self.twin[3 * face + k])));
+        }
+        let Connectivity {
+            twin,
+            edge_half,
+            half_edge,
+        } = number_edges(twin);
+        let mut ring_start = Vec::with_capacity(vertices.len() + 1);
+        let mut ring = Vec::with_capacity(self.ring.len());
+        ring_start.push(0);
+        for (k, &vertex) in vertices.iter().enumerate() {
+            may_continue_at(k)?;
+            let [start, end] = [0, 1].map(|k| self.ring_start[vertex as usize + k] as usize);
+            let first = ring.len();
+            ring.extend(self.ring[start..end].iter().map(|&corner| half(corner)));
+            if !self.is_boundary_vertex(vertex as usize) {
+                let own = &mut ring[first..];
+                let lowest = (0..own.len()).min_by_key(|&k| own[k]).unwrap_or(0);
+                own.rotate_left(lowest);
+            }
+            ring_start.push(ring.len() as u32);
+        }
+        Ok(TriangleMesh {
+            vertices: vertices
+                .iter()
+                .map(|&v| self.position(v as usize))
+                .collect(),
+            triangles,
+            twin,
+            edge_half,
+            half_edge,
+            ring_start,
+            ring,
             angles: OnceLock::new(),
             area: OnceLock::new(),
         })

@@ -199,9 +199,9 @@ mod tests {
     }
 
     fn gear() -> (TriangleMesh, QuadOptions) {
-        let mesh = by_name("gear", 1_500).unwrap();
+        let mesh = by_name("gear", 3_000).unwrap();
         let options = QuadOptions {
-            sizing: Sizing::Quads(600),
+            sizing: Sizing::Quads(400),
             smooth: None,
             guidance: Guidance {
                 feature_angle: Some(0.6),
