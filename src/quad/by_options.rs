@@ -10,7 +10,7 @@ use super::quadrangulation::timed;
 use super::refined_input::RefinedInput;
 use super::reordered_input::ReorderedInput;
 use super::size_metric::SizeMetric;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::mesh::TriangleMesh;
 use crate::mesh::features::FeatureGraph;
 use crate::monitor::{Monitor, may_continue};
@@ -98,14 +98,13 @@ fn of_mesh<'a>(
     let Some(input) = ReorderedInput::new(mesh, &features, options)? else {
         return in_order(mesh, features, options, effort, work, monitor);
     };
-    let features = input.features.clone();
-    let made = in_order(
-        input.mesh(),
-        features,
-        &input.options,
-        effort,
-        work,
-        monitor,
-    )?;
-    Ok(input.result_for(mesh, made))
+    let there = input.features.clone();
+    match in_order(input.mesh(), there, &input.options, effort, work, monitor) {
+        Ok(made) => Ok(input.result_for(mesh, made)),
+        // The same error of the mesh as it is names an element that the caller knows.
+        Err(Error::InvalidArgument { index: Some(_), .. }) => {
+            in_order(mesh, features, options, effort, work, monitor)
+        }
+        Err(error) => Err(error),
+    }
 }

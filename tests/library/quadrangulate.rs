@@ -1,7 +1,7 @@
 //! From a mesh to quads in one call: properties of the quads that hold whatever the solver decides.
 
 use roundel::extract::{Origin, QuadMesh};
-use roundel::field::Guidance;
+use roundel::field::{Constraint, Guidance};
 use roundel::map::Sizing;
 use roundel::mesh::{TriangleMesh, shape};
 use roundel::quad::{QuadOptions, Quadrangulation, quadrangulate};
@@ -219,4 +219,20 @@ fn a_large_mesh_in_no_order_has_a_field_a_map_and_quads_of_its_own_elements() {
         // Less than the edge of a quad.
         assert!(moved.sqrt() < 0.3, "{near:?} {place:?}");
     }
+}
+
+#[test]
+fn errors_of_a_large_mesh_in_no_order_name_its_own_elements() {
+    let mesh = scattered(&shape::by_name("torus", 34_000).unwrap());
+    let twice = Constraint {
+        face: 12_345,
+        angle: 0.0,
+    };
+    let mut options = QuadOptions::default();
+    options.guidance.constraints = vec![twice, twice];
+    let error = quadrangulate(&mesh, &options, Monitor::default).unwrap_err();
+    assert!(
+        error.to_string().contains("face 12345 is named twice"),
+        "{error}"
+    );
 }
