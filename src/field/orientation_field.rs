@@ -118,3 +118,37 @@ impl OrientationField {
         sum.value()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn frames_that_are_opposite_match_the_same_arms_from_both_sides() {
+        let corners = [[0.0; 3], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+        let given = TriangleMesh::new(corners.to_vec(), vec![[0, 1, 2], [2, 3, 0]]).unwrap();
+        let reordered = Reordered::new(&given).unwrap();
+        let mesh = &reordered.mesh;
+        let kappa = mesh.transports();
+        let inner = kappa.iter().position(|&kappa| kappa == PI).unwrap();
+        assert!(
+            reordered
+                .place_of_edge(&given, reordered.edge(&given, inner))
+                .1
+        );
+        let mut period_jumps = vec![0; mesh.edge_count()];
+        period_jumps[inner] = 1;
+        let there = OrientationField {
+            symmetry: 4,
+            angles: vec![0.2, 0.7],
+            period_jumps,
+            kappa,
+            constrained: vec![false; 2],
+        };
+        let here = there.on_given(&reordered, &given);
+        assert_eq!(here.angles, [0.7, 0.2]);
+        assert_eq!(here.kappa, given.transports());
+        let error = here.energy(&given) - there.energy(mesh);
+        assert!(error.abs() < 1e-12, "{error}");
+    }
+}

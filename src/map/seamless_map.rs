@@ -64,8 +64,8 @@ impl SeamlessMap {
             values: self.values.clone(),
             copies: reordered.of_given_faces(&self.copies),
             transitions,
-            cones: sorted(self.cones.iter().map(|&v| reordered.vertex(v))),
-            flipped: sorted(self.flipped.iter().map(|&f| reordered.face(f))),
+            cones: reordered.given_vertices(&self.cones),
+            flipped: reordered.given_faces(&self.flipped),
             ..*self
         }
     }
@@ -117,10 +117,4 @@ impl SeamlessMap {
     pub fn energy(&self) -> f64 {
         self.energy
     }
-}
-
-fn sorted(numbers: impl Iterator<Item = usize>) -> Vec<usize> {
-    let mut numbers: Vec<usize> = numbers.collect();
-    numbers.sort_unstable();
-    numbers
 }

@@ -13,9 +13,9 @@ use crate::untangle::Untangled;
 
 /// Quads, and the results of the steps before them.
 ///
-/// If neighbours are far apart among the faces of a large mesh, all is made of the same mesh in another order. Elements
-/// here are those of the mesh that was given all the same; only the unknowns of the solutions are numbered as in that
-/// order.
+/// If neighbouring faces of a large mesh are far apart in memory, the steps use the same mesh in another order. Elements
+/// that are named here are still those of the mesh that was given. Only the unknowns of the solutions are numbered as in
+/// that order.
 #[derive(Debug)]
 pub struct Quadrangulation {
     /// The quads, smoothed if the options ask for it.

@@ -79,9 +79,8 @@ impl ReorderedInput {
 
     /// The result for `given`, the mesh as it was.
     pub fn result_for(&self, given: &TriangleMesh, made: Quadrangulation) -> Quadrangulation {
-        let faces = |faces: &[usize]| sorted(faces, |f| self.reordered.face(f));
-        let vertices = |vertices: &[usize]| sorted(vertices, |v| self.reordered.vertex(v));
-        let edges = |edges: &[usize]| sorted(edges, |e| self.reordered.edge(given, e));
+        let faces = |faces: &[usize]| self.reordered.given_faces(faces);
+        let edges = |edges: &[usize]| self.reordered.given_edges(given, edges);
         let origin = |origin: &Origin| match *origin {
             Origin::Vertex(vertex) => Origin::Vertex(self.reordered.vertex(vertex)),
             Origin::Face(face, weights) => Origin::Face(self.reordered.face(face), weights),
@@ -97,7 +96,7 @@ impl ReorderedInput {
             field: made.field.on_given(&self.reordered, given),
             untangled: Untangled {
                 map: untangled.map.on_given(&self.reordered, given),
-                winding_defects: vertices(&untangled.winding_defects),
+                winding_defects: (self.reordered).given_vertices(&untangled.winding_defects),
                 stuck_faces: faces(&untangled.stuck_faces),
                 collapsed_edges: edges(&untangled.collapsed_edges),
                 ..untangled
@@ -108,12 +107,6 @@ impl ReorderedInput {
             ..made
         }
     }
-}
-
-fn sorted(places: &[usize], number: impl Fn(usize) -> usize) -> Vec<usize> {
-    let mut numbers: Vec<usize> = places.iter().map(|&place| number(place)).collect();
-    numbers.sort_unstable();
-    numbers
 }
 
 fn guidance(

@@ -205,6 +205,14 @@ fn a_large_mesh_in_no_order_has_a_field_a_map_and_quads_of_its_own_elements() {
     let (found, bits) = made(1);
     assert!(bits == made(2).1);
     assert!(found.quads.is_conforming() && found.refined.is_none());
+    // The field was solved for in another order.
+    let (own, solved) = (found.field.angles(), found.field_solution.values());
+    let mut solved = solved[..own.len()].to_vec();
+    assert!(own != solved);
+    let mut own = own.to_vec();
+    own.sort_by(f64::total_cmp);
+    solved.sort_by(f64::total_cmp);
+    assert!(own == solved);
     let energy = found.field_solution.energy();
     assert!((found.field.energy(&mesh) - energy).abs() < 1e-9 * energy.max(1.0));
     for (place, origin) in found.quads.vertices.iter().zip(&found.quads.origins) {
