@@ -8,7 +8,7 @@
 
 use std::sync::Arc;
 
-use super::rounding::{curvature, roundings_of_expansion};
+use super::rounding::roundings_of_expansion;
 use super::{Elimination, Expansion, ReducedModel, Rounding, right_sides};
 use crate::error::Result;
 use crate::linalg::{CompensatedSum, TwoFold};
@@ -68,7 +68,7 @@ impl Centre {
             guess,
             origin,
             rounding: Rounding {
-                curvature: curvature(problem, model, reduced),
+                curvature: elimination.curvature(problem, model, reduced),
                 slope,
                 constant: energy.error + energy.value.low.abs(),
             },

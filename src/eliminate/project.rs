@@ -90,7 +90,10 @@ pub(super) fn with_diagonal(lower: &Sparse) -> Result<Sparse> {
 /// The linear term and the constant. Both cancel badly on real problems, so both sums are compensated.
 pub(super) fn linear(model: &Model, expansion: &Expansion) -> Result<(Vec<f64>, f64)> {
     let offset = expansion.offset();
-    let pulled = model.hessian().mul_symmetric(offset);
+    let pulled = match offset.iter().all(|t| *t == 0.0) {
+        true => vec![0.0; offset.len()],
+        false => model.hessian().mul_symmetric(offset),
+    };
     may_continue()?;
     let mut gradient = vec![CompensatedSum::new(0.0); expansion.matrix().cols()];
     let mut constant = CompensatedSum::new(model.constant());

@@ -8,6 +8,8 @@
 //! entries in row i of T. The products with T are computed in twice the working precision, so the
 //! entries of `T'QT` are rounded once more.
 
+use std::sync::Arc;
+
 use super::ReducedModel;
 use crate::linalg::Sparse;
 use crate::monitor::both;
@@ -24,7 +26,7 @@ const LEAST: usize = 1 << 15;
 pub struct Rounding {
     /// By reduced unknown: the exact value of `y'Hy` differs from the computed one by at most
     /// `sum_a curvature[a] y_a^2`.
-    pub curvature: Vec<f64>,
+    pub curvature: Arc<Vec<f64>>,
     /// By reduced unknown: the error of the linear term.
     pub slope: Vec<f64>,
     /// The error of the constant.
@@ -46,7 +48,7 @@ impl Rounding {
             members.iter().map(of).collect()
         };
         Rounding {
-            curvature: pick(&self.curvature),
+            curvature: Arc::new(pick(&self.curvature)),
             slope: pick(&self.slope),
             constant: 0.0,
         }

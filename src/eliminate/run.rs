@@ -1,18 +1,18 @@
 //! The elimination from start to end.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use super::record::Record;
 use super::steps::{Definitions, Step};
 use super::tableau::Tableau;
 use super::{
     Expansion, ReducedModel, Rounding, back, continuous, hold, integral, project, right_sides,
-    subtree, sweep,
+    rounding, subtree, sweep,
 };
 use crate::error::Result;
 use crate::linalg::{Ordering, Sparse, principal_submatrix};
 use crate::monitor::{Monitor, Phase, both, may_continue, span};
-use crate::problem::Model;
+use crate::problem::{Model, Problem};
 
 /// The least number of unknowns that are worth a thread.
 const LEAST: usize = 1 << 14;
@@ -41,6 +41,8 @@ pub struct Elimination {
     free: Vec<u32>,
     matrix: Arc<Sparse>,
     hessian: Arc<Sparse>,
+    /// The [bound](Rounding::curvature) for this Hessian, once it has been asked for.
+    curvature: OnceLock<Arc<Vec<f64>>>,
 }
 
 impl Elimination {
@@ -104,6 +106,7 @@ impl Elimination {
             free,
             matrix: Arc::new(matrix),
             hessian: Arc::new(hessian),
+            curvature: OnceLock::new(),
         })
     }
 
@@ -170,6 +173,21 @@ impl Elimination {
             free: free.to_vec(),
             expansion,
         })
+    }
+
+    /// The [bound](Rounding::curvature) for the Hessian of `reduced`, which was made from `problem`. It is kept if
+    /// no unknowns are held.
+    pub(super) fn curvature(
+        &self,
+        problem: &Problem,
+        model: &Model,
+        reduced: &ReducedModel,
+    ) -> Arc<Vec<f64>> {
+        let made = || Arc::new(rounding::curvature(problem, model, reduced));
+        match Arc::ptr_eq(&self.hessian, &reduced.hessian) {
+            true => Arc::clone(self.curvature.get_or_init(made)),
+            false => made(),
+        }
     }
 
     /// Whether `unknown` was pinned when the constraints were eliminated.

@@ -39,6 +39,9 @@ const SPLITS_SHARE: u64 = 4;
 /// cannot be predicted, and the splits have given most of the bound.
 const SPLIT_TREE_SHARE: u64 = 50;
 
+/// Offers take as long as the lattice methods for `m` integers if the factor has one entry for so many of `m^3`.
+const ENTRIES_PER_CUBE: u64 = 4;
+
 /// Finds good integers for `model` without a proof.
 ///
 /// # Errors
@@ -67,7 +70,10 @@ fn or_rounded(
     search: &mut Search,
 ) -> Result<()> {
     match found {
-        Err(Error::Overflow { .. } | Error::NotFinite { .. }) if search.best().is_some() => {
+        Err(Error::Overflow { .. } | Error::NotFinite { .. }) => {
+            if search.best().is_none() {
+                round::direct(model, factors, search)?;
+            }
             round::adaptive(model, options, factors, search)
         }
         other => other,
@@ -295,8 +301,15 @@ fn raise(pieces: &[Piece], certificate: &Certificate, search: &mut Search) {
     }
 }
 
+/// Whether an offer takes about as long as all of [`decode`] without its offers. Then only its last result is offered,
+/// unless a time limit may come before.
+fn offers_once(m: usize, factors: &Factors, options: &Options) -> bool {
+    let entries = factors.entries() as u64;
+    options.time_limit == f64::INFINITY && (m as u64).pow(3) <= ENTRIES_PER_CUBE * entries
+}
+
 /// Direct rounding, nearest plane, beam search and block improvement, then perturbation rounds. Each result
-/// is offered.
+/// is offered, or the last one alone if [offers take long](offers_once).
 ///
 /// With dependent vectors the reduction depends on tolerances, so adaptive rounding is offered as well.
 /// Pieces whose vectors generate no lattice are not improved further. There are no pieces if the search was
@@ -307,11 +320,16 @@ fn decode(
     factors: &mut Factors,
     search: &mut Search,
 ) -> Result<Vec<Piece>> {
-    round::direct(model, factors, search)?;
+    search.prepare(factors)?;
+    let m = model.integers().len();
+    let rounded = round::nearest_integers(model, search.relaxed());
+    let mut once = offers_once(m, factors, options);
+    if !once || search.monitor.ends() {
+        search.offer(factors, &rounded)?;
+    }
     if search.monitor.ends() {
         return Ok(Vec::new());
     }
-    let m = model.integers().len();
     let relaxed: Vec<f64> = {
         let at = |&i: &u32| search.relaxed()[i as usize];
         model.integers().iter().map(at).collect()
@@ -320,8 +338,17 @@ fn decode(
     search.work.spend(4 * (m as u64).pow(3));
     let mut stop = |work| search.ends(work);
     let mut pieces = pieces(m, r, full, &relaxed, &mut stop)?;
-    search.offer(factors, &assemble(&pieces, m)?)?;
-    if !pieces.iter().all(Piece::is_regular) {
+    let is_regular = pieces.iter().all(Piece::is_regular);
+    if once && is_regular {
+        start_from(&mut pieces, &rounded)?;
+    } else if once {
+        search.offer(factors, &rounded)?;
+        once = false;
+    }
+    if !once {
+        search.offer(factors, &assemble(&pieces, m)?)?;
+    }
+    if !is_regular {
         round::adaptive(model, options, factors, search)?;
     }
     if let Some(best) = search.incumbent_integers() {
@@ -340,7 +367,7 @@ fn decode(
             better |= piece.take(z);
         }
         better |= improve(piece, piece.z.clone(), &mut stop)?;
-        if better {
+        if better && !once {
             search.offer(factors, &assemble(&pieces, m)?)?;
         }
     }
@@ -350,10 +377,13 @@ fn decode(
             let piece = &mut pieces[at];
             let mut stop = |work| search.ends(work);
             let start = perturbed(piece, &mut shaken);
-            if improve(piece, start, &mut stop)? {
+            if improve(piece, start, &mut stop)? && !once {
                 search.offer(factors, &assemble(&pieces, m)?)?;
             }
         }
+    }
+    if once {
+        search.offer(factors, &assemble(&pieces, m)?)?;
     }
     Ok(pieces)
 }

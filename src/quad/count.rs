@@ -283,7 +283,7 @@ impl<'m, M: Fn() -> Monitor<'m>> Meeting<'_, '_, M> {
             if !is_near || std::mem::replace(&mut known.is_used, true) {
                 continue;
             }
-            let strips = Strips::new(mesh, &known.solved.map);
+            let strips = Strips::new(mesh, &known.solved.map)?;
             let tolerance = TOLERANCE_OF_STRIPS * self.asked / self.per_square;
             let Some(strip) = strips.of_quads(missing / self.per_square, tolerance) else {
                 continue;

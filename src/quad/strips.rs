@@ -6,27 +6,42 @@
 //! strip is twice as long, the relaxation of the surface beyond moves by about a whole line, and with it its integers,
 //! unless others are nearly as good.
 
-use std::collections::BTreeMap;
+use std::ops::Range;
 
 use super::aim::squares;
-use crate::linalg::DisjointSets;
+use crate::error::Result;
+use crate::linalg::{DisjointSets, NO_PLACE};
 use crate::map::SeamlessMap;
 use crate::mesh::TriangleMesh;
+use crate::monitor::{in_parts, may_continue, may_continue_at};
 
 /// A strip that covers less than this part of a face, or of whose width an edge takes less, is not seen there:
 /// coordinates are rounded.
 const SEEN: f64 = 1e-6;
 
+/// The least number of faces that are worth a thread.
+const LEAST: usize = 1 << 13;
+
 /// The part of a strip in one face.
 #[derive(Debug, Clone, Copy)]
 struct Piece {
-    face: usize,
+    face: u32,
     /// The coordinate across the strip: 0 for u, 1 for v.
-    axis: usize,
+    axis: u8,
     /// The strip lies between this integer and the next.
     level: i64,
     /// What part of the face it covers.
     share: f64,
+}
+
+impl Piece {
+    fn face(&self) -> usize {
+        self.face as usize
+    }
+
+    fn axis(&self) -> usize {
+        usize::from(self.axis)
+    }
 }
 
 /// All strips of a map.
@@ -34,7 +49,7 @@ pub(super) struct Strips {
     /// By face, axis and level.
     pieces: Vec<Piece>,
     /// The strip of every piece.
-    strip_of: Vec<usize>,
+    strip_of: Vec<u32>,
     strips: Vec<Strip>,
 }
 
@@ -49,20 +64,27 @@ struct Strip {
 }
 
 impl Strips {
-    pub(super) fn new(mesh: &TriangleMesh, map: &SeamlessMap) -> Self {
-        let pieces = pieces(mesh, map);
-        let (strip_of, count) = joined(mesh, map, &pieces);
+    /// The strips of a map.
+    ///
+    /// # Errors
+    /// The reason to end the current step.
+    pub(super) fn new(mesh: &TriangleMesh, map: &SeamlessMap) -> Result<Self> {
+        let pieces = pieces(mesh, map)?;
+        let (strip_of, count) = joined(mesh, map, &pieces)?;
         let mut strips = vec![Strip::default(); count];
-        for (piece, &strip) in pieces.iter().zip(&strip_of) {
-            strips[strip].quads += piece.share * squares(map.uv(piece.face)).abs();
-            strips[strip].area += piece.share * mesh.area(piece.face);
+        for (number, (piece, &strip)) in pieces.iter().zip(&strip_of).enumerate() {
+            may_continue_at(number)?;
+            let strip = &mut strips[strip as usize];
+            strip.quads += piece.share * squares(map.uv(piece.face())).abs();
+            strip.area += piece.share * mesh.area(piece.face());
         }
+        may_continue()?;
         count_crossings(map, &pieces, &strip_of, &mut strips);
-        Strips {
+        Ok(Strips {
             pieces,
             strip_of,
             strips,
-        }
+        })
     }
 
     /// The strip that adds this number of quads within a tolerance if there are two of it. Of several it is the one of
@@ -84,8 +106,8 @@ impl Strips {
     /// twice.
     pub(super) fn stretch(&self, strip: usize, factors: &mut [[f64; 2]]) {
         for (piece, &of) in self.pieces.iter().zip(&self.strip_of) {
-            if of == strip {
-                factors[piece.face][piece.axis] *= 1.0 + piece.share;
+            if of as usize == strip {
+                factors[piece.face()][piece.axis()] *= 1.0 + piece.share;
             }
         }
     }
@@ -108,58 +130,83 @@ fn share_below(corners: [f64; 3], level: f64) -> f64 {
     }
 }
 
-fn pieces(mesh: &TriangleMesh, map: &SeamlessMap) -> Vec<Piece> {
-    let mut pieces = Vec::new();
-    for face in 0..mesh.face_count() {
-        let uv = map.uv(face);
-        for axis in 0..2 {
-            let corners = uv.map(|p| p[axis]);
-            let low = corners.iter().copied().fold(f64::INFINITY, f64::min);
-            let high = corners.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-            for level in (low.floor() as i64)..=(high.floor() as i64) {
-                let [from, to] = [level, level + 1].map(|l| share_below(corners, l as f64));
-                if to - from > SEEN {
-                    let share = to - from;
-                    pieces.push(Piece {
-                        face,
-                        axis,
-                        level,
-                        share,
-                    });
-                }
+fn pieces(mesh: &TriangleMesh, map: &SeamlessMap) -> Result<Vec<Piece>> {
+    let of_faces = |faces: Range<usize>| -> Result<Vec<Piece>> {
+        let mut pieces = Vec::with_capacity(2 * faces.len());
+        for face in faces {
+            may_continue_at(face)?;
+            let uv = map.uv(face);
+            for axis in 0..2 {
+                pieces_across(face, axis, uv.map(|p| p[axis]), &mut pieces);
             }
         }
+        Ok(pieces)
+    };
+    let mut parts = in_parts(mesh.face_count(), LEAST, of_faces).into_iter();
+    let mut all = parts.next().unwrap_or_else(|| Ok(Vec::new()))?;
+    for part in parts {
+        all.extend(part?);
     }
-    pieces
+    Ok(all)
+}
+
+/// The pieces of a face whose corners have these coordinates along an axis.
+fn pieces_across(face: usize, axis: usize, corners: [f64; 3], pieces: &mut Vec<Piece>) {
+    let low = corners.iter().copied().fold(f64::INFINITY, f64::min);
+    let high = corners.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    for level in (low.floor() as i64)..=(high.floor() as i64) {
+        let [from, to] = [level, level + 1].map(|l| share_below(corners, l as f64));
+        if to - from > SEEN {
+            pieces.push(Piece {
+                face: face as u32,
+                axis: axis as u8,
+                level,
+                share: to - from,
+            });
+        }
+    }
 }
 
 /// The strip of every piece, and the number of strips: pieces are joined over edges that their strip crosses.
-fn joined(mesh: &TriangleMesh, map: &SeamlessMap, pieces: &[Piece]) -> (Vec<usize>, usize) {
+fn joined(mesh: &TriangleMesh, map: &SeamlessMap, pieces: &[Piece]) -> Result<(Vec<u32>, usize)> {
+    let mut first_piece = vec![0u32; mesh.face_count() + 1];
+    for piece in pieces {
+        first_piece[piece.face() + 1] += 1;
+    }
+    for face in 0..mesh.face_count() {
+        first_piece[face + 1] += first_piece[face];
+    }
     let at = |face: usize, axis: usize, level: i64| {
-        let key = (face, axis, level);
-        let of = |piece: &Piece| (piece.face, piece.axis, piece.level);
-        pieces.binary_search_by_key(&key, of).ok()
+        let own = first_piece[face] as usize..first_piece[face + 1] as usize;
+        own.into_iter()
+            .find(|&number| (pieces[number].axis(), pieces[number].level) == (axis, level))
     };
-    let transitions: BTreeMap<usize, _> = map.transitions().iter().map(|t| (t.edge, t)).collect();
+    let mut transition_of = vec![NO_PLACE; mesh.edge_count()];
+    for (number, transition) in map.transitions().iter().enumerate() {
+        transition_of[transition.edge] = number as u32;
+    }
     let mut sets = DisjointSets::new(pieces.len());
     for (number, piece) in pieces.iter().enumerate() {
-        let uv = map.uv(piece.face);
+        may_continue_at(number)?;
+        let uv = map.uv(piece.face());
         for k in 0..3 {
             let (Some((across, _)), true) = (
-                mesh.neighbor(piece.face, k),
-                mesh.is_first_side(piece.face, k),
+                mesh.neighbor(piece.face(), k),
+                mesh.is_first_side(piece.face(), k),
             ) else {
                 continue;
             };
-            let ends = [uv[k][piece.axis], uv[(k + 1) % 3][piece.axis]];
+            let ends = [uv[k], uv[(k + 1) % 3]].map(|end| end[piece.axis()]);
             let level = piece.level as f64;
             let is_below = ends.iter().all(|&end| end < level + SEEN);
             let is_above = ends.iter().all(|&end| end > level + 1.0 - SEEN);
             if is_below || is_above {
                 continue;
             }
-            let (mut axis, mut there) = (piece.axis, piece.level);
-            if let Some(transition) = transitions.get(&mesh.edge_of(piece.face, k)) {
+            let (mut axis, mut there) = (piece.axis(), piece.level);
+            let place = transition_of[mesh.edge_of(piece.face(), k)];
+            if place != NO_PLACE {
+                let transition = &map.transitions()[place as usize];
                 let mut middle = [0.0; 2];
                 middle[axis] = level + 0.5;
                 let moved = transition.apply(middle);
@@ -171,26 +218,34 @@ fn joined(mesh: &TriangleMesh, map: &SeamlessMap, pieces: &[Piece]) -> (Vec<usiz
             }
         }
     }
-    let mut numbers = BTreeMap::new();
-    let strip_of = (0..pieces.len()).map(|number| {
-        let next = numbers.len();
-        *numbers.entry(sets.root(number)).or_insert(next)
-    });
-    let strip_of: Vec<usize> = strip_of.collect();
-    (strip_of, numbers.len())
+    may_continue()?;
+    // The root of a set is its first piece.
+    let (mut strip_of, mut count) = (Vec::with_capacity(pieces.len()), 0);
+    for number in 0..pieces.len() {
+        let root = sets.root(number);
+        if root == number {
+            strip_of.push(count);
+            count += 1;
+        } else {
+            strip_of.push(strip_of[root]);
+        }
+    }
+    Ok((strip_of, count as usize))
 }
 
 /// Counts the quads in which strips cross themselves: those whose middle lies in a face.
-fn count_crossings(map: &SeamlessMap, pieces: &[Piece], strip_of: &[usize], strips: &mut [Strip]) {
-    let numbered: Vec<(&Piece, usize)> = pieces.iter().zip(strip_of.iter().copied()).collect();
-    for of_face in numbered.chunk_by(|a, b| a.0.face == b.0.face) {
-        let uv = map.uv(of_face[0].0.face);
-        let split = of_face.partition_point(|(piece, _)| piece.axis == 0);
-        for (across, a) in &of_face[..split] {
-            for (along, b) in &of_face[split..] {
+fn count_crossings(map: &SeamlessMap, pieces: &[Piece], strip_of: &[u32], strips: &mut [Strip]) {
+    let mut start = 0;
+    for of_face in pieces.chunk_by(|a, b| a.face == b.face) {
+        let own = &strip_of[start..start + of_face.len()];
+        start += of_face.len();
+        let uv = map.uv(of_face[0].face());
+        let split = of_face.partition_point(|piece| piece.axis == 0);
+        for (across, a) in of_face[..split].iter().zip(&own[..split]) {
+            for (along, b) in of_face[split..].iter().zip(&own[split..]) {
                 let middle = [across.level, along.level].map(|level| level as f64 + 0.5);
                 if a == b && contains(uv, middle) {
-                    strips[*a].crossings += 1.0;
+                    strips[*a as usize].crossings += 1.0;
                 }
             }
         }
@@ -209,6 +264,8 @@ fn contains(uv: [[f64; 2]; 3], p: [f64; 2]) -> bool {
 
 #[cfg(test)]
 mod tests {
+    use std::collections::BTreeMap;
+
     use super::*;
     use crate::extract::{IntegerGridMap, QuadMesh, extract};
     use crate::field::smoothest_field;
@@ -281,7 +338,7 @@ mod tests {
             assert!(map.flipped().is_empty(), "{name}");
             let exact = IntegerGridMap::from_seamless(&shape.mesh, &map).unwrap();
             let made = extract(&shape.mesh, &exact, &mut Monitor::default()).unwrap();
-            let strips = Strips::new(&shape.mesh, &map).strips;
+            let strips = Strips::new(&shape.mesh, &map).unwrap().strips;
             let mut found: Vec<usize> = strips.iter().map(|s| s.quads.round() as usize).collect();
             found.sort_unstable();
             assert_eq!(found, by_walking(&made), "{name}");
@@ -298,7 +355,7 @@ mod tests {
         for (name, quads) in [("torus", 500), ("rounded-cube", 300)] {
             let mut shape = Shape::new(name, quads);
             let first = shape.map();
-            let strips = Strips::new(&shape.mesh, &first);
+            let strips = Strips::new(&shape.mesh, &first).unwrap();
             let shortest = |a: &usize, b: &usize| {
                 let quads = |s: usize| strips.strips[s].quads;
                 quads(*a).total_cmp(&quads(*b))

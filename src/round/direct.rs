@@ -30,9 +30,13 @@ pub(super) fn round_all(
     factors: &mut Factors,
     search: &mut Search,
 ) -> Result<Vec<f64>> {
-    let integers = model.integers().iter();
-    let rounded = integers.map(|&k| model.nearest(k as usize, search.relaxed()[k as usize]));
-    let rounded: Vec<f64> = rounded.collect();
+    let rounded = nearest_integers(model, search.relaxed());
     search.offer(factors, &rounded)?;
     Ok(rounded)
+}
+
+/// The integers nearest to those of a point.
+pub(crate) fn nearest_integers(model: &ReducedModel, point: &[f64]) -> Vec<f64> {
+    let nearest = |&k: &u32| model.nearest(k as usize, point[k as usize]);
+    model.integers().iter().map(nearest).collect()
 }

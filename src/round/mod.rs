@@ -10,7 +10,7 @@ mod multiple;
 mod regions;
 
 pub(crate) use adaptive::adaptive;
-pub(crate) use direct::direct;
+pub(crate) use direct::{direct, nearest_integers};
 pub(crate) use greedy::greedy;
 pub(crate) use multiple::multiple;
 

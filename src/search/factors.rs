@@ -56,6 +56,30 @@ struct ContinuousBlock {
     factor: Cholesky,
 }
 
+/// The factor of the continuous block, made before the search asks for it.
+pub(crate) struct MadeAhead {
+    block: ContinuousBlock,
+    /// The seconds from the end of the other task to that of the factorization.
+    waited: f64,
+}
+
+impl MadeAhead {
+    /// Does a task, and makes the factor of the continuous block of `model` on other threads meanwhile.
+    pub fn during<T>(
+        model: &ReducedModel,
+        ordering: Ordering,
+        task: impl FnOnce() -> T,
+    ) -> (T, Result<Self>) {
+        let ((done, ended), block) = both(
+            true,
+            || (task(), Instant::now()),
+            || ContinuousBlock::new(model, ordering),
+        );
+        let waited = ended.elapsed().as_secs_f64();
+        (done, block.map(|block| MadeAhead { block, waited }))
+    }
+}
+
 impl Factors {
     /// No factor yet. Each one will be made in this order.
     pub fn new(ordering: Ordering) -> Self {
@@ -117,24 +141,27 @@ impl Factors {
         Ok(self.relaxed.insert(factor))
     }
 
-    /// Makes the factors of the whole Hessian and of its continuous block at the same time. The search needs
-    /// the second one, unless the model has several components, which are searched with factors of their own.
-    fn make_both(&mut self, model: &ReducedModel) -> Result<()> {
+    /// Whether the factor of the continuous block, which the search needs later, is worth a thread of its own while
+    /// the relaxation is solved. A model of several components is searched with factors of their own.
+    pub fn is_worth_making_ahead(&self, model: &ReducedModel, strategy: Strategy) -> Result<bool> {
+        let is_large = allowed_threads() > 1 && model.dim() >= WORTH_A_THREAD;
         let is_known = self.relaxed.is_some() || self.continuous.is_some();
-        if is_known || has_several_components(model)? {
-            return Ok(());
+        let is_used = self.is_searched(strategy) && !model.integers().is_empty();
+        if !is_large || is_known || !is_used || self.has_schur_factor(model) {
+            return Ok(false);
         }
-        let ordering = self.ordering;
-        let (relaxed, continuous) = timed(&mut self.seconds, || {
-            Ok(both(
-                true,
-                || RelaxedFactor::ordered(model.hessian(), model.integers(), ordering),
-                || ContinuousBlock::new(model, ordering),
-            ))
-        })?;
-        self.relaxed = Some(relaxed?);
-        self.continuous = Some(continuous?);
-        Ok(())
+        Ok(!has_several_components(model)?)
+    }
+
+    /// Keeps a factor that was [made ahead](MadeAhead::during).
+    pub fn keep(&mut self, ahead: MadeAhead) {
+        self.seconds += ahead.waited;
+        self.continuous = Some(ahead.block);
+    }
+
+    /// Whether a search follows.
+    fn is_searched(&self, strategy: Strategy) -> bool {
+        strategy != Strategy::Relax || self.is_searched
     }
 
     /// Minimises the objective with all integers real, with a factor that `strategy` needs as well.
@@ -145,14 +172,9 @@ impl Factors {
         rounding: impl FnOnce() -> Vec<f64>,
     ) -> Result<Minimum> {
         let (gradient, guess) = (model.gradient(), model.guess());
-        let is_searched = strategy != Strategy::Relax || self.is_searched;
-        if is_searched && self.has_schur_factor(model) {
+        if self.is_searched(strategy) && self.has_schur_factor(model) {
             let factor = self.schur_factor(model)?.whole();
             return minimise(model.hessian(), gradient, rounding, guess, factor);
-        }
-        let is_searched = is_searched && !model.integers().is_empty();
-        if is_searched && allowed_threads() > 1 && model.dim() >= WORTH_A_THREAD {
-            self.make_both(model)?;
         }
         self.relaxed(model)?.minimise(gradient, rounding, guess)
     }
@@ -164,8 +186,7 @@ impl Factors {
         model: &ReducedModel,
         strategy: Strategy,
     ) -> Result<Option<(Vec<f64>, f64)>> {
-        let is_searched = strategy != Strategy::Relax || self.is_searched;
-        if is_searched && self.has_schur_factor(model) {
+        if self.is_searched(strategy) && self.has_schur_factor(model) {
             return self.schur_factor(model)?.whole().null_direction();
         }
         self.relaxed(model)?.null_direction()

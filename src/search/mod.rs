@@ -24,7 +24,7 @@ pub use strategy::Strategy;
 pub use table::{OptionInfo, OptionKind, OptionValue, UNSET};
 pub use warm_start::WarmStart;
 
-pub(crate) use factors::Factors;
+pub(crate) use factors::{Factors, MadeAhead};
 pub(crate) use incumbent::Incumbent;
 pub(crate) use lazy_rows::LazyProblem;
 pub(crate) use status::is_closed;

@@ -12,6 +12,7 @@ use crate::error::{Error, Result};
 use crate::linalg::{TwoFold, places, sum_below};
 use crate::monitor::{Monitor, may_continue, relative_gap};
 use crate::problem::{Model, Objective};
+use crate::round;
 use crate::search::{
     ALWAYS, Factors, GAP_TOLERANCE, Options, Search, SolveStatus, StoppedBy, WarmStart,
 };
@@ -162,8 +163,7 @@ fn run(
                 search.stop_by(StoppedBy::Memory);
             }
             Err(Error::Cancelled | Error::TimeLimit) if required => {
-                let relaxed = |&i: &u32| model.nearest(i as usize, search.relaxed()[i as usize]);
-                let nearest: Vec<f64> = model.integers().iter().map(relaxed).collect();
+                let nearest = round::nearest_integers(model, search.relaxed());
                 search.offer_in_any_case(factors, &nearest)?;
             }
             other => other?,

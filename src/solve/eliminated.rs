@@ -4,13 +4,16 @@ use super::around::around_relaxation;
 use super::candidate::Candidate;
 use super::components::by_components;
 use super::expand::expand;
+use super::relax::Relaxation;
 use super::solution::{Counts, Seconds, Solution};
-use crate::eliminate::{Elimination, ReducedModel};
+use crate::eliminate::{Centre, Elimination, ReducedModel};
 use crate::error::Result;
 use crate::monitor::{Monitor, Phase, may_continue};
 use crate::problem::{Model, Problem};
 use crate::round;
-use crate::search::{Factors, Options, SolveStatus, StoppedBy, Strategy, WarmStart, of_relaxation};
+use crate::search::{
+    Factors, MadeAhead, Options, SolveStatus, StoppedBy, Strategy, WarmStart, of_relaxation,
+};
 
 /// A problem with all results that do not depend on its right sides.
 pub(super) struct EliminatedProblem<'a> {
@@ -109,6 +112,24 @@ pub(super) struct SearchResult {
     pub work: u64,
 }
 
+/// The model around the relaxation's minimiser, and the relaxation of this model, while a factor for the search is
+/// made on other threads where that is worth while.
+fn relaxation(
+    of: &mut EliminatedProblem,
+    reduced: &ReducedModel,
+    options: &Options,
+) -> Result<(Centre, Relaxation)> {
+    let (strategy, ordering) = (options.strategy, options.ordering);
+    if !of.factors.is_worth_making_ahead(reduced, strategy)? {
+        return around_relaxation(of, reduced, strategy);
+    }
+    let task = || around_relaxation(of, reduced, strategy);
+    let (around, ahead) = MadeAhead::during(reduced, ordering, task);
+    let around = around?;
+    of.factors.keep(ahead?);
+    Ok(around)
+}
+
 /// The relaxation, and the search around its minimiser.
 fn decide(
     of: &mut EliminatedProblem,
@@ -119,7 +140,7 @@ fn decide(
     monitor.progress(Phase::Factor, 0.0)?;
     // Before the search there is no result that could be kept.
     let watch = monitor.watch();
-    let (centre, relaxation) = around_relaxation(of, reduced, options.strategy)?;
+    let (centre, relaxation) = relaxation(of, reduced, options)?;
     drop(watch);
     let work = of_relaxation(reduced);
     let status = match options.strategy {
