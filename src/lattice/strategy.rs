@@ -39,8 +39,9 @@ const SPLITS_SHARE: u64 = 4;
 /// cannot be predicted, and the splits have given most of the bound.
 const SPLIT_TREE_SHARE: u64 = 50;
 
-/// Offers take as long as the lattice methods for `m` integers if the factor has one entry for so many of `m^3`.
-const ENTRIES_PER_CUBE: u64 = 4;
+/// One of the `m^3` steps of the lattice methods takes about as long as an entry of the factor does in an offer. Up to
+/// so many steps for each entry, the methods take less time than the offers that are left out.
+const STEPS_PER_ENTRY: u64 = 4;
 
 /// Finds good integers for `model` without a proof.
 ///
@@ -301,11 +302,11 @@ fn raise(pieces: &[Piece], certificate: &Certificate, search: &mut Search) {
     }
 }
 
-/// Whether an offer takes about as long as all of [`decode`] without its offers. Then only its last result is offered,
-/// unless a time limit may come before.
+/// Whether offers take most of the time of [`decode`]. Then only its last result is offered, unless a time limit may come
+/// before.
 fn offers_once(m: usize, factors: &Factors, options: &Options) -> bool {
     let entries = factors.entries() as u64;
-    options.time_limit == f64::INFINITY && (m as u64).pow(3) <= ENTRIES_PER_CUBE * entries
+    options.time_limit == f64::INFINITY && (m as u64).pow(3) <= STEPS_PER_ENTRY * entries
 }
 
 /// Direct rounding, nearest plane, beam search and block improvement, then perturbation rounds. Each result
@@ -417,4 +418,76 @@ fn perturbed(piece: &Piece, shaken: &mut u64) -> Vec<i64> {
         }
     };
     piece.z.iter().map(&mut step).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::cell::Cell;
+
+    use super::*;
+    use crate::monitor::{Event, EventKind, Flow, Monitor};
+    use crate::problem::Problem;
+    use crate::solve::{Solution, solve_with};
+    use crate::test_random::Random;
+
+    /// A path of real unknowns, on which each of `m` integers has a place and a wish.
+    fn path(m: usize, each: usize, random: &mut Random) -> Problem {
+        let n = m * each;
+        let mut problem = Problem::new(n + m).unwrap();
+        for i in 1..n {
+            let indices = [i - 1, i];
+            problem
+                .add_least_squares(&indices, &[1.0, -1.0], random.next(), 1.0)
+                .unwrap();
+        }
+        for k in 0..m {
+            let indices = [k * each, n + k];
+            problem.set_integers(&[n + k]).unwrap();
+            problem
+                .add_least_squares(&indices, &[1.0, -0.8], 3.0 * random.next(), 0.1)
+                .unwrap();
+            problem
+                .add_least_squares(&indices[1..], &[1.0], 9.0 * random.next(), 0.01)
+                .unwrap();
+        }
+        problem
+    }
+
+    /// The solution, and how often a better one was found on the way.
+    fn solved(problem: &Problem, time_limit: f64) -> (Solution, usize) {
+        let options = Options {
+            strategy: Strategy::Lattice,
+            time_limit,
+            ..Options::default()
+        };
+        let improved = Cell::new(0);
+        let monitor = Monitor::default().on_event(|event: &Event| {
+            improved.set(improved.get() + usize::from(event.kind == EventKind::Improved));
+            Flow::Continue
+        });
+        let solution = solve_with(problem, &options, monitor).unwrap();
+        (solution, improved.get())
+    }
+
+    #[test]
+    fn where_offers_take_long_the_last_result_alone_is_offered() {
+        let mut random = Random::new(17);
+        let mut most = 0;
+        for _ in 0..10 {
+            let problem = path(8, 60, &mut random);
+            let (alone, once) = solved(&problem, f64::INFINITY);
+            let (last, times) = solved(&problem, 1e6);
+            assert_eq!(once, 1);
+            assert_eq!(alone.values(), last.values());
+            most = most.max(times);
+        }
+        assert!(most > 1, "nothing was improved");
+    }
+
+    #[test]
+    fn many_integers_of_few_real_unknowns_are_offered_as_they_get_better() {
+        let mut random = Random::new(18);
+        let times = |_| solved(&path(30, 2, &mut random), f64::INFINITY).1;
+        assert!((0..5).map(times).max() > Some(1));
+    }
 }

@@ -271,7 +271,7 @@ mod tests {
     use crate::field::smoothest_field;
     use crate::map::{SeamlessOptions, SeamlessProblem};
     use crate::mesh::shape::by_name;
-    use crate::monitor::Monitor;
+    use crate::monitor::{Monitor, spawned, with_threads};
     use crate::quad::aim::area;
     use crate::search::Options;
     use crate::solve::Solver;
@@ -284,7 +284,11 @@ mod tests {
 
     impl Shape {
         fn new(name: &str, quads: usize) -> Self {
-            let mesh = by_name(name, 2_000).unwrap();
+            Self::of_triangles(name, 2_000, quads)
+        }
+
+        fn of_triangles(name: &str, triangles: usize, quads: usize) -> Self {
+            let mesh = by_name(name, triangles).unwrap();
             let (given, options) = (Default::default(), Options::default());
             let (field, _) = smoothest_field(&mesh, &given, &options, Monitor::default).unwrap();
             let problem = SeamlessProblem::new(&mesh, &field, &SeamlessOptions { quads }).unwrap();
@@ -348,6 +352,24 @@ mod tests {
                     .all(|s| (s.quads - s.quads.round()).abs() < 1e-3)
             );
         }
+    }
+
+    #[test]
+    fn any_number_of_threads_finds_the_same_strips() {
+        let mut shape = Shape::of_triangles("torus", 2 * LEAST, 300);
+        let map = shape.map();
+        let of = |threads| with_threads(threads, || Strips::new(&shape.mesh, &map).unwrap());
+        let one = of(1);
+        let other = || {
+            let two = of(2);
+            assert_eq!(one.strip_of, two.strip_of);
+            let sizes = |strips: &Strips| -> Vec<[u64; 3]> {
+                let of = |s: &Strip| [s.quads, s.crossings, s.area].map(f64::to_bits);
+                strips.strips.iter().map(of).collect()
+            };
+            assert_eq!(sizes(&one), sizes(&two));
+        };
+        assert!(spawned(other) > 0);
     }
 
     #[test]

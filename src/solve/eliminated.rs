@@ -194,3 +194,36 @@ fn counts(model: &Model, reduced: &ReducedModel, factors: &Factors) -> Counts {
         factor_nonzeros: factors.entries(),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::field::FieldProblem;
+    use crate::mesh::shape::by_name;
+    use crate::monitor::spawned;
+    use crate::solve::solve;
+
+    #[test]
+    fn the_factor_that_the_search_needs_is_made_beside_the_relaxation() {
+        let mesh = by_name("torus", 3_000).unwrap();
+        let field = FieldProblem::new(&mesh, &[]).unwrap();
+        let of = |strategy, threads| {
+            let options = Options {
+                strategy,
+                threads,
+                ..Options::default()
+            };
+            solve(field.problem(), &options).unwrap()
+        };
+        let one = of(Strategy::Adaptive, 1);
+        let other = || {
+            let two = of(Strategy::Adaptive, 2);
+            assert_eq!(one.values(), two.values());
+            assert_eq!(one.energy().to_bits(), two.energy().to_bits());
+            assert!(two.seconds().factor <= two.seconds().total);
+        };
+        assert!(spawned(other) > 0);
+        let relaxed = || drop(of(Strategy::Relax, 2));
+        assert_eq!(spawned(relaxed), 0, "no search follows");
+    }
+}
