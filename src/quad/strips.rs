@@ -177,9 +177,10 @@ fn joined(mesh: &TriangleMesh, map: &SeamlessMap, pieces: &[Piece]) -> Result<(V
         first_piece[face + 1] += first_piece[face];
     }
     let at = |face: usize, axis: usize, level: i64| {
-        let own = first_piece[face] as usize..first_piece[face + 1] as usize;
-        own.into_iter()
-            .find(|&number| (pieces[number].axis(), pieces[number].level) == (axis, level))
+        let [first, end] = [face, face + 1].map(|f| first_piece[f] as usize);
+        let of = |piece: &Piece| (piece.axis(), piece.level);
+        let found = pieces[first..end].binary_search_by_key(&(axis, level), of);
+        found.ok().map(|place| first + place)
     };
     let mut transition_of = vec![NO_PLACE; mesh.edge_count()];
     for (number, transition) in map.transitions().iter().enumerate() {

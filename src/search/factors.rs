@@ -1,4 +1,4 @@
-//! The factors of a reduced model, each made on first use and kept.
+//! The factors of a reduced model, each made on first use, or ahead of it on another thread, and kept.
 //!
 //! If there are few integers, one [`SchurFactor`] serves every purpose. Otherwise there are three factors:
 //! a supernodal one for the relaxation, a simplicial one in which greedy rounding fixes unknowns, and one
