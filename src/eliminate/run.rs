@@ -227,3 +227,37 @@ fn eliminate_row(tableau: &mut Tableau, r: usize) -> Result<()> {
         integral::eliminate(tableau, r)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_bound_of_the_hessian_is_made_once_unless_unknowns_are_held() {
+        let mut problem = Problem::new(4).unwrap();
+        for i in 1..4 {
+            problem
+                .add_least_squares(&[i - 1, i], &[1.0, -0.3], 1.0, 1.0)
+                .unwrap();
+        }
+        problem.add_constraint(&[0, 1], &[1.0, 0.7], 2.0).unwrap();
+        let mut monitor = Monitor::default();
+        let model = Model::new(&problem).unwrap();
+        let elimination = Elimination::new(&model, Ordering::FillReducing, &mut monitor).unwrap();
+        let reduced = elimination.reduce(&model, &mut monitor).unwrap();
+        let of = |problem: &Problem, model: &Model, reduced: &ReducedModel| {
+            let made = rounding::curvature(problem, model, reduced);
+            let bound = elimination.curvature(problem, model, reduced);
+            assert_eq!(*bound, made);
+            bound
+        };
+        let first = of(&problem, &model, &reduced);
+        assert!(first.iter().all(|&bound| bound > 0.0));
+        assert!(Arc::ptr_eq(&first, &of(&problem, &model, &reduced)));
+
+        problem.pin(3, 5.0).unwrap();
+        let model = Model::new(&problem).unwrap();
+        let held = elimination.reduce(&model, &mut monitor).unwrap();
+        assert_eq!(of(&problem, &model, &held).len(), first.len() - 1);
+    }
+}

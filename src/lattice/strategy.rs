@@ -425,8 +425,10 @@ mod tests {
     use std::cell::Cell;
 
     use super::*;
+    use crate::eliminate::eliminate;
+    use crate::linalg::Ordering;
     use crate::monitor::{Event, EventKind, Flow, Monitor};
-    use crate::problem::Problem;
+    use crate::problem::{Model, Problem};
     use crate::solve::{Solution, solve_with};
     use crate::test_random::Random;
 
@@ -482,6 +484,23 @@ mod tests {
             most = most.max(times);
         }
         assert!(most > 1, "nothing was improved");
+    }
+
+    #[test]
+    fn after_a_failure_integers_are_rounded_also_if_nothing_was_offered() {
+        let problem = path(4, 20, &mut Random::new(19));
+        let mut monitor = Monitor::default();
+        let reduced = eliminate(&Model::new(&problem).unwrap(), &mut monitor).unwrap();
+        let point = vec![0.3; reduced.dim()];
+        let mut search = Search::new(&reduced, point, f64::NEG_INFINITY, &mut monitor);
+        let mut factors = Factors::new(Ordering::FillReducing);
+        let failed = Err(Error::Overflow {
+            what: "an integer of a lattice".into(),
+            index: None,
+        });
+        let options = Options::default();
+        or_rounded(failed, &reduced, &options, &mut factors, &mut search).unwrap();
+        assert!(search.best().is_some());
     }
 
     #[test]

@@ -13,7 +13,7 @@ use crate::error::Result;
 use crate::linalg::{DisjointSets, NO_PLACE};
 use crate::map::SeamlessMap;
 use crate::mesh::TriangleMesh;
-use crate::monitor::{in_parts, may_continue, may_continue_at};
+use crate::monitor::{in_parts, joined, may_continue, may_continue_at};
 
 /// A strip that covers less than this part of a face, or of whose width an edge takes less, is not seen there:
 /// coordinates are rounded.
@@ -70,7 +70,7 @@ impl Strips {
     /// The reason to end the current step.
     pub(super) fn new(mesh: &TriangleMesh, map: &SeamlessMap) -> Result<Self> {
         let pieces = pieces(mesh, map)?;
-        let (strip_of, count) = joined(mesh, map, &pieces)?;
+        let (strip_of, count) = strips_of(mesh, map, &pieces)?;
         let mut strips = vec![Strip::default(); count];
         for (number, (piece, &strip)) in pieces.iter().zip(&strip_of).enumerate() {
             may_continue_at(number)?;
@@ -142,12 +142,8 @@ fn pieces(mesh: &TriangleMesh, map: &SeamlessMap) -> Result<Vec<Piece>> {
         }
         Ok(pieces)
     };
-    let mut parts = in_parts(mesh.face_count(), LEAST, of_faces).into_iter();
-    let mut all = parts.next().unwrap_or_else(|| Ok(Vec::new()))?;
-    for part in parts {
-        all.extend(part?);
-    }
-    Ok(all)
+    let parts = in_parts(mesh.face_count(), LEAST, of_faces);
+    Ok(joined(parts.into_iter().collect::<Result<_>>()?))
 }
 
 /// The pieces of a face whose corners have these coordinates along an axis.
@@ -168,7 +164,11 @@ fn pieces_across(face: usize, axis: usize, corners: [f64; 3], pieces: &mut Vec<P
 }
 
 /// The strip of every piece, and the number of strips: pieces are joined over edges that their strip crosses.
-fn joined(mesh: &TriangleMesh, map: &SeamlessMap, pieces: &[Piece]) -> Result<(Vec<u32>, usize)> {
+fn strips_of(
+    mesh: &TriangleMesh,
+    map: &SeamlessMap,
+    pieces: &[Piece],
+) -> Result<(Vec<u32>, usize)> {
     let mut first_piece = vec![0u32; mesh.face_count() + 1];
     for piece in pieces {
         first_piece[piece.face() + 1] += 1;
