@@ -34,3 +34,5 @@ pub use options::{Constraint, FieldOptions, Guide, PrescribedIndex};
 pub use orientation_field::OrientationField;
 pub use problem::FieldProblem;
 pub use solve_field::{smoothest_field, solve_field};
+
+pub(crate) use solve_field::{JumpsDecided, WithDetails, decide_jumps};

@@ -6,6 +6,10 @@ use super::Guide;
 use crate::error::{Error, Result};
 use crate::linalg::CompensatedSum;
 use crate::mesh::{Reordered, TriangleMesh};
+use crate::monitor::collect_in_parts;
+
+/// The least number of edges that are worth a thread.
+const LEAST: usize = 1 << 14;
 
 /// An N-symmetric direction field: N arms evenly around in every face, a cross for N = 4, and how
 /// they match over edges.
@@ -64,7 +68,8 @@ impl OrientationField {
                 false => (jump, kappa),
             }
         };
-        let (period_jumps, kappa) = (0..given.edge_count()).map(of_edge).unzip();
+        let of_edges = collect_in_parts(given.edge_count(), LEAST, of_edge);
+        let (period_jumps, kappa) = of_edges.into_iter().unzip();
         OrientationField {
             symmetry: self.symmetry,
             angles: reordered.of_given_faces(&self.angles),

@@ -150,25 +150,42 @@ fn prepared(
     Ok((problem, kept))
 }
 
-/// The smoothest field for the surface with all details, with the period jumps of the solver's last
-/// solution, which was found without them.
-fn smoothest_with(
-    mesh: &TriangleMesh,
-    problem: &FieldProblem,
-    given: &FieldOptions,
-    solver: &mut Solver,
-    options: &Options,
-    monitor: Monitor,
-) -> Result<(OrientationField, Solution)> {
-    may_continue()?;
-    let of_sizes = graded_flow(mesh, given)?;
-    solver.set_least_squares_right_sides(&problem.right_sides(mesh, &of_sizes))?;
-    let keep = Options {
-        warm_start: WarmStart::Keep,
-        ..options.clone()
-    };
-    let solution = solver.solve_with(&keep, monitor)?;
-    Ok((problem.field(mesh, &solution)?, solution))
+/// A field whose period jumps are decided.
+pub(crate) enum JumpsDecided {
+    /// All of it is.
+    All(OrientationField, Solution),
+    /// It was found without the details of the surface, which turn its directions.
+    WithoutDetails(OrientationField, Box<WithDetails>),
+}
+
+/// The problem of a field with its solver, which has decided the period jumps without the details of the surface.
+pub(crate) struct WithDetails {
+    problem: FieldProblem,
+    solver: Solver,
+}
+
+impl WithDetails {
+    /// The smoothest field for the surface with all details, with the period jumps of the solver's last
+    /// solution.
+    pub fn solve<'a>(
+        mut self,
+        mesh: &TriangleMesh,
+        given: &FieldOptions,
+        options: &Options,
+        monitor: impl Fn() -> Monitor<'a>,
+    ) -> Result<(OrientationField, Solution)> {
+        let _memory = mesh.watch_memory();
+        may_continue()?;
+        let of_sizes = graded_flow(mesh, given)?;
+        let right_sides = self.problem.right_sides(mesh, &of_sizes);
+        self.solver.set_least_squares_right_sides(&right_sides)?;
+        let keep = Options {
+            warm_start: WarmStart::Keep,
+            ..options.clone()
+        };
+        let solution = self.solver.solve_with(&keep, monitor())?;
+        Ok((self.problem.field(mesh, &solution)?, solution))
+    }
 }
 
 /// The smoothest field among those that a map can follow, and the solution that it was read from.
@@ -193,27 +210,49 @@ pub fn solve_field<'a>(
     monitor: impl Fn() -> Monitor<'a>,
 ) -> Result<(OrientationField, Solution)> {
     let run = monitor().run();
+    let monitor = || monitor().of_run(&run);
+    match decide_jumps(mesh, options, solver, &monitor)? {
+        JumpsDecided::All(field, solution) => Ok((field, solution)),
+        JumpsDecided::WithoutDetails(_, left) => left.solve(mesh, options, solver, monitor),
+    }
+}
+
+/// The first part of [`solve_field`]: all but the details of the surface.
+///
+/// # Errors
+/// Those of [`solve_field`].
+pub(crate) fn decide_jumps<'a>(
+    mesh: &TriangleMesh,
+    options: &FieldOptions,
+    solver: &Options,
+    monitor: impl Fn() -> Monitor<'a>,
+) -> Result<JumpsDecided> {
+    let run = monitor().run();
     run.name_stage(Stage::Field);
     let monitor = || monitor().of_run(&run);
     let Decided {
         problem,
-        solver: mut kept,
+        solver: kept,
         solution,
         field,
     } = decided(mesh, options, solver, &monitor)?;
     let _memory = mesh.watch_memory();
     may_continue()?;
     if options.indices.is_some() || options.symmetry != 4 {
-        return Ok((field, solution));
+        return Ok(JumpsDecided::All(field, solution));
     }
     let found = field.vertex_index_steps(mesh);
     let steps = feasible_indices(mesh, found.clone(), &options.regular);
     may_continue()?;
     if steps == found {
-        return match options.detail > 0.0 {
-            true => smoothest_with(mesh, &problem, options, &mut kept, solver, monitor()),
-            false => Ok((field, solution)),
+        let left = WithDetails {
+            problem,
+            solver: kept,
         };
+        return Ok(match options.detail > 0.0 {
+            true => JumpsDecided::WithoutDetails(field, Box::new(left)),
+            false => JumpsDecided::All(field, solution),
+        });
     }
     let irregular = (0..steps.len()).filter(|&v| steps[v] != 0);
     let indices = irregular.map(|vertex| PrescribedIndex {
@@ -233,10 +272,10 @@ pub fn solve_field<'a>(
                 | Error::Infeasible { .. }
                 | Error::NoIntegerSolution { .. },
             ) => give_way(mesh, &field, &mut feasible),
-            other => return other,
+            other => return other.map(|(field, solution)| JumpsDecided::All(field, solution)),
         }
     }
-    Ok((field, solution))
+    Ok(JumpsDecided::All(field, solution))
 }
 
 /// Removes the directions of faces around vertices whose prescribed index differs from that of the field.

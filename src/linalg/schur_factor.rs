@@ -9,7 +9,7 @@
 //! require. The integers become a dense block in any order. This factor is therefore efficient if
 //! there are few integers.
 
-use super::{Cholesky, EliminationTree, Sparse, minimum_degree, principal_submatrix};
+use super::{Analysis, Cholesky, EliminationTree, Sparse, minimum_degree, principal_submatrix};
 use crate::error::Result;
 use crate::monitor::may_continue;
 
@@ -28,6 +28,15 @@ impl SchurFactor {
     /// # Errors
     /// As [`Cholesky::new`].
     pub fn new(lower: &Sparse, continuous: &[u32], integers: &[u32]) -> Result<Self> {
+        let analysis = Self::analyse(lower, continuous, integers)?;
+        Self::with(&analysis, lower, integers.len())
+    }
+
+    /// The order of elimination and the pattern of the factor, for all matrices of this pattern.
+    ///
+    /// # Errors
+    /// As [`Cholesky::new`].
+    pub fn analyse(lower: &Sparse, continuous: &[u32], integers: &[u32]) -> Result<Analysis> {
         let block = principal_submatrix(lower, continuous)?;
         let order = minimum_degree(&block)?;
         may_continue()?;
@@ -35,11 +44,19 @@ impl SchurFactor {
         may_continue()?;
         let mut order: Vec<u32> = tree.order.iter().map(|&k| continuous[k as usize]).collect();
         order.extend(integers);
-        let factor = Cholesky::in_order(lower, &order)?;
-        let (trailing, full) = factor.trailing_factor(integers.len())?;
+        Analysis::in_order(lower, order)
+    }
+
+    /// As [`new`](Self::new), for a matrix with the pattern that was [analysed](Self::analyse) and so many integers.
+    ///
+    /// # Errors
+    /// As [`Cholesky::new`].
+    pub fn with(analysis: &Analysis, lower: &Sparse, integers: usize) -> Result<Self> {
+        let factor = Cholesky::with(analysis, lower)?;
+        let (trailing, full) = factor.trailing_factor(integers)?;
         Ok(SchurFactor {
             factor,
-            integers: integers.len(),
+            integers,
             trailing,
             full,
         })

@@ -163,6 +163,34 @@ impl SeamlessProblem {
         self.pin_origins(mesh)
     }
 
+    /// Follows another field with the same period jumps instead. Only linear terms change, in `solver` too.
+    ///
+    /// False if the field has other period jumps, or if there are isolines, for these may depend on directions. Then
+    /// nothing changes.
+    pub(crate) fn follow_directions(
+        &mut self,
+        mesh: &TriangleMesh,
+        field: &OrientationField,
+        solver: &mut Solver,
+    ) -> Result<bool> {
+        let is_same = field.period_jumps() == self.field.period_jumps();
+        if !is_same || !self.isolines.is_empty() {
+            return Ok(false);
+        }
+        self.field = field.clone();
+        let energy = self.dirichlet(mesh)?;
+        self.tell(&energy, solver)?;
+        Ok(true)
+    }
+
+    /// Sets the linear terms of the energy, in `solver` too.
+    fn tell(&mut self, energy: &Dirichlet, solver: &mut Solver) -> Result<()> {
+        solver.set_linear(&energy.linear)?;
+        solver.set_constant(energy.constant)?;
+        self.problem.set_linear(&energy.linear)?;
+        self.problem.set_constant(energy.constant)
+    }
+
     /// Makes quads longer by a factor for every face along the arm that the field stores, and narrower by it across.
     /// Their area stays, and so do these factors at other sizes. Only linear terms change.
     pub(crate) fn elongate(&mut self, mesh: &TriangleMesh, elongations: Vec<f64>) -> Result<()> {
@@ -238,10 +266,7 @@ impl SeamlessProblem {
         let mut this = self.clone();
         this.density = density;
         let energy = this.dirichlet(mesh)?;
-        solver.set_linear(&energy.linear)?;
-        solver.set_constant(energy.constant)?;
-        this.problem.set_linear(&energy.linear)?;
-        this.problem.set_constant(energy.constant)?;
+        this.tell(&energy, solver)?;
         Ok(this)
     }
 

@@ -23,11 +23,7 @@ pub(super) fn aim(
     sizing: &Sizing,
     monitor: Monitor,
 ) -> Result<f64> {
-    let options = Options {
-        strategy: Strategy::Relax,
-        ..Options::default()
-    };
-    let solution = solver.solve_with(&options, monitor)?;
+    let solution = solver.solve_with(&relaxation(), monitor)?;
     may_continue()?;
     let squares = area(mesh, &problem.map(mesh, &solution)?);
     let Some(wanted) = sizing.quads() else {
@@ -39,6 +35,14 @@ pub(super) fn aim(
         problem.resize(mesh, &sizing.with_quads(asked), solver)?;
     }
     Ok(solution.energy() / squares * wanted as f64)
+}
+
+/// The options of the relaxation.
+pub(super) fn relaxation() -> Options {
+    Options {
+        strategy: Strategy::Relax,
+        ..Options::default()
+    }
 }
 
 /// The area of a map in unit squares.

@@ -14,13 +14,14 @@ use super::clearance::Clearance;
 use super::final_error::is_final;
 use super::outcome::Outcome;
 use super::quadrangulation::timed;
+use super::stated_map::MapData;
 use super::stretch::Stretch;
 use crate::error::{Error, Result};
-use crate::field::{FieldOptions, Guidance, OrientationField, solve_field};
+use crate::field::{FieldOptions, Guidance, JumpsDecided, OrientationField, decide_jumps};
 use crate::map::SeamlessProblem;
 use crate::mesh::TriangleMesh;
 use crate::mesh::features::FeatureGraph;
-use crate::monitor::{Monitor, Stage, may_continue, optional, side_by_side};
+use crate::monitor::{Monitor, Stage, optional, side_by_side};
 use crate::solve::{Solution, Solver};
 
 /// Another use of curvature.
@@ -164,21 +165,29 @@ fn follow<'a>(
     let mut field_options = options.guidance.options_with(mesh, features, regular)?;
     field_options.kept_turns = clearance.kept_turns.clone();
     field_options.lengths = options.sizing.vertex_lengths(mesh);
-    let (field, solution) = timed(of_field, || {
-        solve_field(mesh, &field_options, &options.field, monitor)
+    let decided = timed(of_field, || {
+        decide_jumps(mesh, &field_options, &options.field, monitor)
     })?;
+    let map = MapData {
+        mesh,
+        sizing: &options.sizing,
+        features,
+        stretch,
+        is_searched: is_only,
+    };
+    let (field, solution, (mut problem, mut solver)) = match decided {
+        JumpsDecided::All(field, solution) => {
+            let stated = timed(of_map, || map.state(&field))?;
+            (field, solution, stated)
+        }
+        JumpsDecided::WithoutDetails(first, left) => {
+            let options = (&field_options, &options.field);
+            let seconds = [&mut *of_field, &mut *of_map];
+            map.state_with_details((&first, *left), options, monitor, seconds)?
+        }
+    };
     let chosen = timed(of_map, || {
-        let sizing = &options.sizing;
-        let mut problem = SeamlessProblem::with_features(mesh, &field, sizing, features)?;
-        if let Some(stretch) = stretch {
-            problem.elongate(mesh, stretch.elongations(field.angles()))?;
-        }
-        may_continue()?;
-        let mut solver = Solver::new(problem.problem())?;
-        if is_only {
-            solver.expect_search();
-        }
-        let energy = aim(mesh, &mut problem, &mut solver, sizing, monitor())?;
+        let energy = aim(mesh, &mut problem, &mut solver, &options.sizing, monitor())?;
         Ok(ChosenField {
             outcome: Outcome::of_relaxation(energy, problem.cones().len()),
             options: field_options,

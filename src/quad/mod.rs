@@ -11,7 +11,7 @@
 //! | a mesh whose neighbours are far apart in memory | `reordered_input` |
 //! | a map without folds, from its problem | `fold_free` |
 //! | a field and its current map | `field_map` |
-//! | the choice of the field | `fields`, `aim` |
+//! | the choice of the field | `fields`, `stated_map`, `aim` |
 //! | a number of quads, met | `count` |
 //! | density painted as a colour | `painted` |
 //! | quads longer than wide | `stretch` |
@@ -52,6 +52,7 @@ mod reordered_input;
 mod size_metric;
 mod smaller;
 mod stage_ends;
+mod stated_map;
 mod stretch;
 mod strips;
 mod tries;

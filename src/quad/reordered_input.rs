@@ -7,6 +7,7 @@ use crate::extract::{Origin, QuadMesh};
 use crate::field::{Constraint, Guidance, Guide, PrescribedIndex};
 use crate::mesh::features::FeatureGraph;
 use crate::mesh::{Reordered, TriangleMesh};
+use crate::monitor::both;
 use crate::smooth::SmoothOptions;
 use crate::untangle::Untangled;
 
@@ -87,15 +88,20 @@ impl ReorderedInput {
             Origin::Middle => Origin::Middle,
         };
         let (quads, untangled) = (made.quads, made.untangled);
+        let (field, map) = both(
+            true,
+            || made.field.on_given(&self.reordered, given),
+            || untangled.map.on_given(&self.reordered, given),
+        );
         Quadrangulation {
             quads: QuadMesh {
                 origins: quads.origins.iter().map(origin).collect(),
                 folded: faces(&quads.folded),
                 ..quads
             },
-            field: made.field.on_given(&self.reordered, given),
+            field,
             untangled: Untangled {
-                map: untangled.map.on_given(&self.reordered, given),
+                map,
                 winding_defects: (self.reordered).given_vertices(&untangled.winding_defects),
                 stuck_faces: faces(&untangled.stuck_faces),
                 collapsed_edges: edges(&untangled.collapsed_edges),

@@ -10,8 +10,8 @@ use super::Strategy;
 use crate::eliminate::{ReducedModel, has_several_components};
 use crate::error::Result;
 use crate::linalg::{
-    Cholesky, Ldl, Minimum, Ordering, RelaxedFactor, SchurFactor, Sparse, coupling, minimise,
-    minimise_bounded, principal_submatrix, residual,
+    Analysis, Cholesky, Ldl, Minimum, Ordering, RelaxedFactor, SchurFactor, Sparse, coupling,
+    minimise, minimise_bounded, principal_submatrix, residual,
 };
 use crate::monitor::{allowed_threads, both, may_continue};
 
@@ -30,6 +30,8 @@ pub(crate) struct Factors {
     is_searched: bool,
     keep: bool,
     schur_factor: Option<SchurFactor>,
+    /// The order and the pattern of that factor, until it is made.
+    schur_analysis: Option<Analysis>,
     /// By component: its own factors.
     components: Vec<Factors>,
     seconds: f64,
@@ -164,6 +166,19 @@ impl Factors {
         strategy != Strategy::Relax || self.is_searched
     }
 
+    /// Makes the order and the pattern of the factor that the relaxation needs, if that is the one with the integers
+    /// last.
+    pub fn analyse(&mut self, model: &ReducedModel, strategy: Strategy) -> Result<()> {
+        let is_needed = self.is_searched(strategy) && self.has_schur_factor(model);
+        if is_needed && self.schur_factor.is_none() && self.schur_analysis.is_none() {
+            let made = timed(&mut self.seconds, || {
+                SchurFactor::analyse(model.hessian(), model.continuous(), model.integers())
+            })?;
+            self.schur_analysis = Some(made);
+        }
+        Ok(())
+    }
+
     /// Minimises the objective with all integers real, with a factor that `strategy` needs as well.
     pub fn minimise(
         &mut self,
@@ -245,7 +260,11 @@ impl Factors {
         let factor = match self.schur_factor.take() {
             Some(factor) => factor,
             None => timed(&mut self.seconds, || {
-                SchurFactor::new(model.hessian(), model.continuous(), model.integers())
+                let (hessian, integers) = (model.hessian(), model.integers());
+                match self.schur_analysis.take() {
+                    Some(analysis) => SchurFactor::with(&analysis, hessian, integers.len()),
+                    None => SchurFactor::new(hessian, model.continuous(), integers),
+                }
             })?,
         };
         Ok(self.schur_factor.insert(factor))

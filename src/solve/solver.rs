@@ -84,6 +84,21 @@ impl Solver {
         })
     }
 
+    /// Makes the elimination, and the order and the pattern of the factor of a relaxation, which the next solve with
+    /// this ordering then finds. They do not depend on right sides.
+    ///
+    /// # Errors
+    /// As [`solve_with`](crate::solve_with).
+    pub(crate) fn analyse(&mut self, options: &Options, monitor: &mut Monitor) -> Result<()> {
+        let _memory = watch_memory(self.problem.size());
+        with_threads(options.threads, || {
+            let mut eliminated = self.prepare(options, monitor)?;
+            let (reduced, _) = eliminated.reduce(monitor)?;
+            let _watch = monitor.watch();
+            eliminated.factors.analyse(&reduced, options.strategy)
+        })
+    }
+
     /// The problem in its current state.
     pub fn problem(&self) -> &Problem {
         &self.problem
