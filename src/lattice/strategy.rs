@@ -6,7 +6,7 @@
 
 use super::certificate::Certificate;
 use super::prove::{FIRST, GROWTH, radius_for};
-use super::{Diagonals, Limits, Piece, Splits, assemble, beam, improve_blocks, pieces};
+use super::{Blocks, Diagonals, Limits, Piece, Splits, assemble, beam, improve_blocks, pieces};
 use crate::eliminate::ReducedModel;
 use crate::error::{Error, Result};
 use crate::monitor::{Phase, span};
@@ -360,25 +360,26 @@ fn decode(
     let discrete: Vec<usize> = (0..pieces.len())
         .filter(|&at| pieces[at].basis.is_discrete())
         .collect();
-    for &at in &discrete {
+    let mut blocks: Vec<Blocks> = discrete.iter().map(|_| Blocks::default()).collect();
+    for (&at, blocks) in discrete.iter().zip(&mut blocks) {
         let mut better = false;
         let piece = &mut pieces[at];
         let mut stop = |work| search.ends(work);
         if let Some(z) = beam(&piece.basis, &piece.target, options.beam_width, &mut stop) {
             better |= piece.take(z);
         }
-        better |= improve(piece, piece.z.clone(), &mut stop)?;
+        better |= improve(piece, blocks, piece.z.clone(), &mut stop)?;
         if better && !once {
             search.offer(factors, &assemble(&pieces, m)?)?;
         }
     }
     let mut shaken = 0;
     for _ in 0..options.lattice_rounds {
-        for &at in &discrete {
+        for (&at, blocks) in discrete.iter().zip(&mut blocks) {
             let piece = &mut pieces[at];
             let mut stop = |work| search.ends(work);
             let start = perturbed(piece, &mut shaken);
-            if improve(piece, start, &mut stop)? && !once {
+            if improve(piece, blocks, start, &mut stop)? && !once {
                 search.offer(factors, &assemble(&pieces, m)?)?;
             }
         }
@@ -400,9 +401,14 @@ fn start_from(pieces: &mut [Piece], integers: &[f64]) -> Result<()> {
 }
 
 /// Block improvement from `z`. Returns whether the result is better than the best point.
-fn improve(piece: &mut Piece, mut z: Vec<i64>, stop: &mut dyn FnMut(u64) -> bool) -> Result<bool> {
+fn improve(
+    piece: &mut Piece,
+    blocks: &mut Blocks,
+    mut z: Vec<i64>,
+    stop: &mut dyn FnMut(u64) -> bool,
+) -> Result<bool> {
     let value = piece.target.distance(&piece.basis, &z);
-    improve_blocks(&piece.basis, &piece.target, &mut z, value, stop)?;
+    improve_blocks(&piece.basis, &piece.target, blocks, &mut z, value, stop)?;
     Ok(piece.take(z))
 }
 

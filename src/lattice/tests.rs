@@ -124,7 +124,7 @@ fn an_orthogonal_basis_is_rounded_and_proved_at_once() {
         vec![0.0, 1.0, 0.0],
         vec![0.0, 0.0, 0.1],
     ]);
-    let found = closest(&gram, &[0.4, -3.6, 7.5], None, 1000).unwrap();
+    let found = closest(&reduced(&gram), &[0.4, -3.6, 7.5], None, 1000).unwrap();
     assert_eq!(found.point[..2], [0, -4]);
     assert!(found.complete && found.nodes <= 6);
     assert!((found.value - (0.64 + 0.16 + 0.0025)).abs() < 1e-12);
@@ -173,7 +173,7 @@ fn enumeration_finds_what_brute_force_finds() {
         let n = 1 + round % 4;
         let gram = random.gram(n, 0.3);
         let target = random.target(n);
-        let found = closest(&gram, &target, None, u64::MAX).unwrap();
+        let found = closest(&reduced(&gram), &target, None, u64::MAX).unwrap();
         assert!(found.complete);
         let best = brute_force(&gram, &target, found.value);
         assert!(
@@ -229,7 +229,7 @@ fn relations_between_vectors_are_free_coordinates() {
     let basis = reduced(&gram);
     assert_eq!((basis.rank(), basis.is_discrete()), (2, true));
     // The point closest to (1.7, 0.3) is (1.5, 0).
-    let found = closest(&gram, &[1.7, 0.0, 0.3, 9.0], None, 100).unwrap();
+    let found = closest(&reduced(&gram), &[1.7, 0.0, 0.3, 9.0], None, 100).unwrap();
     assert!(found.complete);
     assert!((found.value - (0.04 + 0.09)).abs() < 1e-12);
     assert_eq!(2 * found.point[0] + found.point[1], 3);
@@ -239,7 +239,7 @@ fn relations_between_vectors_are_free_coordinates() {
 #[test]
 fn vectors_that_depend_without_being_a_lattice_prove_nothing() {
     let gram = gram_of(&[vec![1.0], vec![std::f64::consts::SQRT_2]]);
-    let found = closest(&gram, &[0.3, 0.4], None, 1000).unwrap();
+    let found = closest(&reduced(&gram), &[0.3, 0.4], None, 1000).unwrap();
     assert!(!found.complete);
     assert!(found.value < 0.05);
 }
@@ -248,7 +248,7 @@ fn vectors_that_depend_without_being_a_lattice_prove_nothing() {
 fn the_start_is_kept_where_nothing_is_better() {
     let gram = gram_of(&[vec![1.0, 0.0], vec![0.0, 1.0]]);
     for start in [[0, 0], [1, 0], [0, 1], [1, 1]] {
-        let found = closest(&gram, &[0.5, 0.5], Some(&start), 1000).unwrap();
+        let found = closest(&reduced(&gram), &[0.5, 0.5], Some(&start), 1000).unwrap();
         assert_eq!(found.point, start);
     }
 }
