@@ -382,3 +382,44 @@ fn timed<T>(seconds: &mut f64, make: impl FnOnce() -> Result<T>) -> Result<T> {
     *seconds += started.elapsed().as_secs_f64();
     made
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::eliminate::eliminate;
+    use crate::monitor::Monitor;
+    use crate::problem::{Model, Problem};
+
+    #[test]
+    fn a_pattern_that_was_analysed_serves_the_factor_that_a_relaxation_needs() {
+        let mut problem = Problem::new(30).unwrap();
+        for i in 1..30 {
+            let spring = [i - 1, i];
+            problem
+                .add_least_squares(&spring, &[1.0, -1.0], 0.3, 1.0)
+                .unwrap();
+        }
+        problem.add_least_squares(&[0], &[1.0], 0.0, 1.0).unwrap();
+        problem.set_integers(&[4, 17]).unwrap();
+        let model = Model::new(&problem).unwrap();
+        let reduced = eliminate(&model, &mut Monitor::default()).unwrap();
+        let mut factors = Factors::kept(Ordering::FillReducing);
+        factors.analyse(&reduced, Strategy::Relax).unwrap();
+        assert!(factors.schur_analysis.is_none(), "nothing is searched");
+        factors.expect_search();
+        factors.analyse(&reduced, Strategy::Relax).unwrap();
+        assert!(factors.schur_analysis.is_some());
+        let minimum = factors
+            .minimise(&reduced, Strategy::Relax, Vec::new)
+            .unwrap();
+        assert!(factors.schur_analysis.is_none() && factors.schur_factor.is_some());
+        let mut others = Factors::kept(Ordering::FillReducing);
+        others.expect_search();
+        let expected = others
+            .minimise(&reduced, Strategy::Relax, Vec::new)
+            .unwrap();
+        assert_eq!(minimum, expected);
+        factors.analyse(&reduced, Strategy::Relax).unwrap();
+        assert!(factors.schur_analysis.is_none(), "the factor is there");
+    }
+}
