@@ -211,7 +211,7 @@ pub fn solve_field<'a>(
 ) -> Result<(OrientationField, Solution)> {
     let run = monitor().run();
     let monitor = || monitor().of_run(&run);
-    match decide_jumps(mesh, options, solver, &monitor)? {
+    match decide_jumps(mesh, options, solver, monitor)? {
         JumpsDecided::All(field, solution) => Ok((field, solution)),
         JumpsDecided::WithoutDetails(_, left) => left.solve(mesh, options, solver, monitor),
     }
