@@ -8,9 +8,8 @@ use std::collections::BinaryHeap;
 use std::ops::Range;
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 
-use faer::sparse::linalg::cholesky::supernodal::SymbolicSupernodalCholesky;
-
 use super::ordering::NONE;
+use super::supernodes::Supernodes;
 use crate::error::{Error, Result};
 use crate::monitor::{allowed_threads, in_parts, is_simulated, simulate_graph};
 
@@ -36,21 +35,19 @@ pub(super) struct AssemblyTree {
 }
 
 impl AssemblyTree {
-    pub fn new(factor: &SymbolicSupernodalCholesky<u32>) -> Self {
-        let count = factor.n_supernodes();
-        let columns = |s: usize| factor.supernode_begin()[s]..factor.supernode_end()[s];
-        let mut supernode_of = vec![0u32; factor.nrows()];
+    pub fn new(factor: &Supernodes) -> Self {
+        let count = factor.count();
+        let mut supernode_of = vec![0u32; factor.dim()];
         for s in 0..count {
-            let range = columns(s);
-            supernode_of[range.start as usize..range.end as usize].fill(s as u32);
+            supernode_of[factor.columns(s)].fill(s as u32);
         }
-        let of_first_row = |s: usize| factor.supernode(s).pattern().first();
+        let of_first_row = |s: usize| factor.rows(s).first();
         let parent: Vec<u32> = (0..count)
             .map(|s| of_first_row(s).map_or(NONE, |&row| supernode_of[row as usize]))
             .collect();
         let work = |s: usize| {
-            let columns = columns(s).len() as u64;
-            let rows = columns + factor.supernode(s).pattern().len() as u64;
+            let columns = factor.width(s) as u64;
+            let rows = columns + factor.rows(s).len() as u64;
             columns * rows * rows + 2000
         };
         let work: Vec<u64> = (0..count).map(work).collect();

@@ -12,13 +12,12 @@
 
 use std::sync::Arc;
 
-use faer::sparse::linalg::cholesky::supernodal::SupernodalLdltRef;
-
 use super::Sparse;
 use super::analysis::{Analysis, FactorPattern};
 use super::multifrontal::{Columns, factorize};
 use super::ordering::Ordering;
 use super::scaling::equilibrate;
+use super::tree_solve::Factor;
 use super::wide_registers::leave_wide_registers;
 use crate::error::{Error, Result};
 use crate::monitor::{change_in_parts, collect_in_parts, span};
@@ -59,7 +58,7 @@ impl Cholesky {
     /// Factors the symmetric matrix with lower triangle `lower`. Every diagonal entry must be stored.
     ///
     /// # Errors
-    /// [`Error::OutOfMemory`], [`Error::Overflow`] if the factor would have more than 2^32 entries, and for a large
+    /// [`Error::OutOfMemory`], [`Error::Overflow`] for more than 2^32 entries, and for a large
     /// matrix the reason to end the current step.
     pub fn new(lower: &Sparse) -> Result<Self> {
         Self::ordered(lower, Ordering::FillReducing)
@@ -89,7 +88,7 @@ impl Cholesky {
         let _span = span("factor");
         let pattern = Arc::clone(&analysis.pattern);
         let scale = equilibrate(lower);
-        let mut values = zeros(pattern.supernodes.len_val())?;
+        let mut values = zeros(pattern.supernodes.value_count())?;
         let tolerance = pivot_tolerance(lower.rows());
         let columns = Columns::new(lower, &scale, |i| pattern.place[i])?;
         let (supernodes, tree) = (&pattern.supernodes, &pattern.tree);
@@ -156,11 +155,10 @@ impl Cholesky {
     pub fn entries(&self) -> usize {
         let supernodes = &self.pattern.supernodes;
         let entries = |s: usize| {
-            let columns = supernodes.supernode_end()[s] - supernodes.supernode_begin()[s];
-            let (columns, rows) = (columns as usize, supernodes.supernode(s).pattern().len());
+            let (columns, rows) = (supernodes.width(s), supernodes.rows(s).len());
             columns * (columns - 1) / 2 + columns * rows
         };
-        (0..supernodes.n_supernodes()).map(entries).sum()
+        (0..supernodes.count()).map(entries).sum()
     }
 
     /// The unknowns whose pivot vanished, in order of elimination.
@@ -224,17 +222,18 @@ impl Cholesky {
         &self,
         mut visit: impl FnMut(usize, f64, &mut dyn Iterator<Item = (usize, f64)>),
     ) {
-        let factor = SupernodalLdltRef::new(&self.pattern.supernodes, &self.values);
-        for s in 0..self.pattern.supernodes.n_supernodes() {
-            let block = factor.supernode(s);
-            let (start, val) = (block.start(), block.val());
-            for k in 0..val.ncols() {
-                let row = |i: usize| match i.checked_sub(val.ncols()) {
+        let supernodes = &self.pattern.supernodes;
+        for s in 0..supernodes.count() {
+            let (columns, rows) = (supernodes.columns(s), supernodes.rows(s));
+            let (start, width) = (columns.start, columns.len());
+            let block = &self.values[supernodes.values(s)];
+            for (k, column) in block.chunks_exact(width + rows.len()).enumerate() {
+                let row = |i: usize| match i.checked_sub(width) {
                     None => start + i,
-                    Some(below) => block.pattern()[below] as usize,
+                    Some(below) => rows[below] as usize,
                 };
-                let mut entries = (k + 1..val.nrows()).map(|i| (row(i), val[(i, k)]));
-                visit(start + k, val[(k, k)], &mut entries);
+                let mut entries = (k + 1..column.len()).map(|i| (row(i), column[i]));
+                visit(start + k, column[k], &mut entries);
             }
         }
     }
@@ -261,8 +260,11 @@ impl Cholesky {
             let i = order[k] as usize;
             if k < held { b[i] * self.scale[i] } else { 0.0 }
         });
-        let factor = SupernodalLdltRef::new(&self.pattern.supernodes, &self.values);
-        let solve = || self.pattern.solve.solve(&factor, &mut x, held);
+        let factor = Factor {
+            supernodes: &self.pattern.supernodes,
+            values: &self.values,
+        };
+        let solve = || self.pattern.solve.solve(factor, &mut x, held);
         self.pattern.work(solve)?;
         leave_wide_registers();
         change_in_parts(b, LEAST, |i, b| {

@@ -30,6 +30,7 @@ pub mod sparse;
 mod static_condensation;
 mod submatrix;
 mod substitute;
+mod supernodes;
 mod tree_solve;
 mod unpreconditioned_cg;
 pub mod vector;

@@ -2,8 +2,8 @@
 //!
 //! faer's own factorization uses one thread on such matrices, and cannot be interrupted. Here each supernode is a
 //! dense front: its columns of the matrix and the update matrices of its children are added up, its columns are
-//! eliminated, and what that leaves for the rows below is its own update matrix, for its parent. The result is laid
-//! out as faer's. A pivot at or below the tolerance is replaced by [`NULL_PIVOT`], as faer does it.
+//! eliminated, and what that leaves for the rows below is its own update matrix, for its parent. A pivot at or below
+//! the tolerance is replaced by [`NULL_PIVOT`], as faer does it.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
@@ -15,7 +15,6 @@ use faer::linalg::cholesky::ldlt::factor::{
 use faer::linalg::matmul::matmul;
 use faer::linalg::triangular_solve::solve_unit_lower_triangular_in_place;
 use faer::reborrow::{Reborrow, ReborrowMut};
-use faer::sparse::linalg::cholesky::supernodal::SymbolicSupernodalCholesky;
 use faer::{Accum, MatMut, MatRef, Par};
 
 use super::Sparse;
@@ -23,6 +22,7 @@ use super::assembly_tree::AssemblyTree;
 use super::cholesky::{NULL_PIVOT, out_of_memory, overflow};
 use super::ordering::NONE;
 use super::sparse::reserve;
+use super::supernodes::Supernodes;
 use super::wide_registers::with_wide_registers;
 use crate::error::Result;
 use crate::monitor::is_wanted;
@@ -84,7 +84,7 @@ impl Columns {
 /// [`Error::OutOfMemory`](crate::Error::OutOfMemory), [`Error::Overflow`](crate::Error::Overflow), and the reason
 /// to end the current step.
 pub(super) fn factorize(
-    factor: &SymbolicSupernodalCholesky<u32>,
+    factor: &Supernodes,
     tree: &AssemblyTree,
     columns: &Columns,
     tolerance: f64,
@@ -93,8 +93,7 @@ pub(super) fn factorize(
     let mut blocks = Vec::with_capacity(tree.tasks().len());
     let mut rest = values;
     for task in tree.tasks() {
-        let ends = factor.col_ptr_for_val();
-        let (block, after) = rest.split_at_mut((ends[task.end] - ends[task.start]) as usize);
+        let (block, after) = rest.split_at_mut(factor.values_of(task.clone()).len());
         blocks.push(Mutex::new(block));
         rest = after;
     }
@@ -105,18 +104,17 @@ pub(super) fn factorize(
         columns,
         tolerance,
         has_null: AtomicBool::new(false),
-        updates: (0..factor.n_supernodes()).map(|_| none()).collect(),
+        updates: (0..factor.count()).map(|_| none()).collect(),
     };
-    let widest = (0..factor.n_supernodes()).map(|s| width(factor, s)).max();
+    let widest = (0..factor.count()).map(|s| factor.width(s)).max();
     tree.work(
-        || Scratch::new(factor.nrows(), widest.unwrap_or(0)),
+        || Scratch::new(factor.dim(), widest.unwrap_or(0)),
         |scratch, k| {
             let mut block = blocks[k].lock().unwrap_or_else(PoisonError::into_inner);
             let mut rest = &mut **block;
             for s in tree.tasks()[k].clone() {
                 is_wanted()?;
-                let height = width(factor, s) + factor.supernode(s).pattern().len();
-                let (front, after) = rest.split_at_mut(height * width(factor, s));
+                let (front, after) = rest.split_at_mut(factor.values(s).len());
                 fronts.eliminate(s, front, scratch)?;
                 rest = after;
             }
@@ -126,14 +124,9 @@ pub(super) fn factorize(
     Ok(fronts.has_null.into_inner())
 }
 
-/// The number of columns of a supernode.
-fn width(factor: &SymbolicSupernodalCholesky<u32>, s: usize) -> usize {
-    (factor.supernode_end()[s] - factor.supernode_begin()[s]) as usize
-}
-
 /// What all fronts have in common.
 struct Fronts<'a> {
-    factor: &'a SymbolicSupernodalCholesky<u32>,
+    factor: &'a Supernodes,
     tree: &'a AssemblyTree,
     columns: &'a Columns,
     tolerance: f64,
@@ -175,7 +168,7 @@ impl Scratch {
 impl Fronts<'_> {
     /// Makes the columns of supernode `s`, and its update matrix. `front` is its block of the factor.
     fn eliminate(&self, s: usize, front: &mut [f64], scratch: &mut Scratch) -> Result<()> {
-        let (width, rows) = (width(self.factor, s), self.factor.supernode(s).pattern());
+        let (width, rows) = (self.factor.width(s), self.factor.rows(s));
         let below = rows.len();
         let mut update = scratch.spare.pop().unwrap_or_default();
         update.clear();
@@ -203,8 +196,8 @@ impl Fronts<'_> {
 
     /// Adds up the columns of the matrix and the update matrices of the children, in their order.
     fn assemble(&self, s: usize, front: &mut [f64], update: &mut [f64], scratch: &mut Scratch) {
-        let (width, rows) = (width(self.factor, s), self.factor.supernode(s).pattern());
-        let (start, below) = (self.factor.supernode_begin()[s] as usize, rows.len());
+        let (width, rows) = (self.factor.width(s), self.factor.rows(s));
+        let (start, below) = (self.factor.columns(s).start, rows.len());
         let height = width + below;
         for k in 0..width {
             scratch.place[start + k] = k as u32;
@@ -223,7 +216,7 @@ impl Fronts<'_> {
             let child = child as usize;
             let kept = self.updates[child].lock();
             let of_child = std::mem::take(&mut *kept.unwrap_or_else(PoisonError::into_inner));
-            let rows = self.factor.supernode(child).pattern().iter();
+            let rows = self.factor.rows(child).iter();
             scratch.rows.clear();
             scratch
                 .rows

@@ -8,6 +8,7 @@ use super::Sparse;
 use super::scaling::equilibrate;
 use super::sparse::reserve;
 use crate::error::{Error, Result};
+use crate::monitor::may_continue_at;
 
 /// The parent of a root.
 pub const NONE: u32 = u32::MAX;
@@ -132,11 +133,11 @@ impl EliminationTree {
     /// post-ordered afterwards, which changes neither fill nor work.
     ///
     /// # Errors
-    /// [`Error::OutOfMemory`] and [`Error::Overflow`].
+    /// [`Error::OutOfMemory`], [`Error::Overflow`], and the reason to end the current step.
     pub fn new(lower: &Sparse, order: &[u32]) -> Result<Self> {
         let position = inverse(order);
         let (offsets, columns) = permute_pattern(lower, &position)?;
-        let parent = parents(&offsets, &columns);
+        let parent = parents(&offsets, &columns)?;
         let post = post_order(&parent);
         let place = inverse(&post);
         let parent: Vec<u32> = post
@@ -207,11 +208,15 @@ pub(super) fn too_many_entries() -> Error {
 }
 
 /// The parents of all positions by path compression through virtual ancestors (`liu1990`, algorithm 4.2).
-fn parents(offsets: &[u32], columns: &[u32]) -> Vec<u32> {
+///
+/// # Errors
+/// The reason to end the current step.
+pub(super) fn parents(offsets: &[u32], columns: &[u32]) -> Result<Vec<u32>> {
     let n = offsets.len() - 1;
     let mut parent = vec![NONE; n];
     let mut ancestor = vec![NONE; n];
     for i in 0..n {
+        may_continue_at(i)?;
         for &j in &columns[offsets[i] as usize..offsets[i + 1] as usize] {
             let mut j = j as usize;
             while ancestor[j] != NONE && ancestor[j] != i as u32 {
@@ -225,7 +230,7 @@ fn parents(offsets: &[u32], columns: &[u32]) -> Vec<u32> {
             }
         }
     }
-    parent
+    Ok(parent)
 }
 
 pub(super) fn post_order(parent: &[u32]) -> Vec<u32> {

@@ -8,9 +8,8 @@
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
 
-use faer::sparse::linalg::cholesky::supernodal::{SupernodalLdltRef, SymbolicSupernodalCholesky};
-
 use super::assembly_tree::AssemblyTree;
+use super::supernodes::Supernodes;
 use crate::monitor::{Stop, collect_in_turn, may_continue};
 
 /// A subtree with less than one in so many entries of the factor is not solved apart.
@@ -28,23 +27,26 @@ pub(super) struct SolveParts {
     above_positions: usize,
 }
 
-/// `L` and its columns, in faer's layout.
-type Factor<'a> = SupernodalLdltRef<'a, u32, f64>;
+/// `L` with the pivots on its diagonal.
+#[derive(Clone, Copy)]
+pub(super) struct Factor<'a> {
+    pub supernodes: &'a Supernodes,
+    pub values: &'a [f64],
+}
 
 impl SolveParts {
-    pub fn new(tree: &AssemblyTree, symbolic: &SymbolicSupernodalCholesky<u32>) -> Self {
-        let first_value = |s: usize| symbolic.col_ptr_for_val()[s] as usize;
-        let least = symbolic.len_val() / PARTS;
+    pub fn new(tree: &AssemblyTree, supernodes: &Supernodes) -> Self {
+        let least = supernodes.value_count() / PARTS;
         let mut parts = SolveParts {
             subtrees: Vec::new(),
             above: Vec::new(),
-            place: vec![0; symbolic.nrows()],
+            place: vec![0; supernodes.dim()],
             above_positions: 0,
         };
         for (task, waits) in tree.tasks().iter().zip(tree.waits()) {
-            let positions = symbolic.supernode_begin()[task.start] as usize
-                ..symbolic.supernode_end()[task.end - 1] as usize;
-            if *waits == 0 && first_value(task.end) - first_value(task.start) >= least {
+            let [first, last] = [task.start, task.end - 1].map(|s| supernodes.columns(s));
+            let positions = first.start..last.end;
+            if *waits == 0 && supernodes.values_of(task.clone()).len() >= least {
                 parts.subtrees.push((task.clone(), positions));
             } else {
                 parts.above.extend(task.clone().map(|s| s as u32));
@@ -62,7 +64,7 @@ impl SolveParts {
     ///
     /// # Errors
     /// The end of the call.
-    pub fn solve(&self, factor: &Factor, x: &mut [f64], held: usize) -> Result<(), Stop> {
+    pub fn solve(&self, factor: Factor, x: &mut [f64], held: usize) -> Result<(), Stop> {
         let mut above = Vec::with_capacity(self.above_positions);
         let mut inside = Vec::with_capacity(self.subtrees.len());
         let (mut rest, mut at) = (&mut *x, 0);
@@ -132,7 +134,7 @@ impl SolveParts {
     }
 
     /// Forward substitution in a subtree. The result is what it subtracts from the unknowns above.
-    fn eliminate(&self, factor: &Factor, subtree: usize, own: &mut [f64]) -> Vec<f64> {
+    fn eliminate(&self, factor: Factor, subtree: usize, own: &mut [f64]) -> Vec<f64> {
         let (supernodes, positions) = &self.subtrees[subtree];
         let mut pull = vec![0.0; self.above_positions];
         let mut rows = Vec::new();
@@ -153,7 +155,7 @@ impl SolveParts {
     }
 
     /// Back substitution in a subtree.
-    fn substitute(&self, factor: &Factor, subtree: usize, own: &mut [f64], above: &[f64]) {
+    fn substitute(&self, factor: Factor, subtree: usize, own: &mut [f64], above: &[f64]) {
         let (supernodes, positions) = &self.subtrees[subtree];
         let mut rows = Vec::new();
         for s in supernodes.clone().rev() {
@@ -172,15 +174,13 @@ impl SolveParts {
 }
 
 /// The first position of a supernode, its block, and its rows below.
-fn of_supernode<'a>(factor: &Factor<'a>, s: usize) -> (usize, Block<'a>, &'a [u32]) {
-    let supernode = factor.supernode(s);
-    let symbolic = factor.symbolic();
-    let range = symbolic.col_ptr_for_val()[s] as usize..symbolic.col_ptr_for_val()[s + 1] as usize;
+fn of_supernode<'a>(factor: Factor<'a>, s: usize) -> (usize, Block<'a>, &'a [u32]) {
+    let columns = factor.supernodes.columns(s);
     let block = Block {
-        width: supernode.val().ncols(),
-        values: &factor.values()[range],
+        width: columns.len(),
+        values: &factor.values[factor.supernodes.values(s)],
     };
-    (supernode.start(), block, supernode.pattern())
+    (columns.start, block, factor.supernodes.rows(s))
 }
 
 /// The block of a supernode: by columns, pivots on the diagonal of its top.

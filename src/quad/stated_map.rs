@@ -52,7 +52,7 @@ impl MapData<'_> {
     }
 
     /// The field with the details of the surface, which `first` has left out, and the problem of its map. The times of
-    /// both are added to `seconds`; that of the map is the time for which the field does not take longer.
+    /// both are added to `seconds`. What is done for the map before the field is finished counts as time of the field.
     pub fn state_with_details<'m>(
         &self,
         (first, left): (&OrientationField, WithDetails),
