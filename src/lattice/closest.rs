@@ -29,8 +29,8 @@ pub fn reduced(gram: &Gram) -> Result<Basis> {
     Ok(basis)
 }
 
-/// Minimises `(z - target)' G (z - target)` over integer z, in the [reduced] basis of the lattice with Gram matrix G, with
-/// at most `nodes` nodes. The result is never worse than `start`.
+/// Minimises `(z - target)' G (z - target)` over integer z, in the [reduced] basis of the lattice with Gram matrix G,
+/// with at most `nodes` nodes. The result is never worse than `start`.
 ///
 /// # Errors
 /// [`Error::Overflow`](crate::Error::Overflow) for coordinates too large to be exact.

@@ -302,8 +302,8 @@ fn raise(pieces: &[Piece], certificate: &Certificate, search: &mut Search) {
     }
 }
 
-/// Whether offers take most of the time of [`decode`]. Then only its last result is offered, unless a time limit may come
-/// before.
+/// Whether offers take most of the time of [`decode`]. Then only its last result is offered, unless a time limit may
+/// come before.
 fn offers_once(m: usize, factors: &Factors, options: &Options) -> bool {
     let entries = factors.entries() as u64;
     options.time_limit == f64::INFINITY && (m as u64).pow(3) <= STEPS_PER_ENTRY * entries

@@ -49,8 +49,8 @@ impl Analysis {
     /// factor sparse.
     ///
     /// # Errors
-    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory), [`Error::Overflow`](crate::Error::Overflow) for a matrix with more
-    /// than 2^32 entries, and the reason to end the current step.
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory), [`Error::Overflow`](crate::Error::Overflow) for a matrix with
+    /// more than 2^32 entries, and the reason to end the current step.
     pub fn new(lower: &Sparse) -> Result<Self> {
         let order = {
             let _span = span("order");

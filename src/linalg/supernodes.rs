@@ -1,9 +1,10 @@
 //! The supernodes of a factor: columns next to each other that have the same rows below, stored as one dense block.
 //!
 //! The numbers of entries of all columns follow from the elimination tree without the pattern of the factor
-//! (`davis2006`, sections 4.4 and 4.5). A column joins the one before it if this is its only child and has the same rows.
-//! Supernodes then join the one before them, if that is a child and few zeros are stored for it (`ashcraft1989`), as
-//! few as CHOLMOD allows (`chen2008`). At last each row is put into all supernodes of its subtree (`liu1990`, section 4).
+//! (`davis2006`, sections 4.4 and 4.5). A column joins the one before it if this is its only child and has the same
+//! rows. Supernodes then join the one before them, if that is a child and few zeros are stored for it
+//! (`ashcraft1989`), as few as CHOLMOD allows (`chen2008`). At last each row is put into all supernodes of its subtree
+//! (`liu1990`, section 4).
 //!
 //! All loops ask whether the call goes on: on large problems these steps take half a second.
 
@@ -35,8 +36,8 @@ impl Supernodes {
     /// The supernodes of the factor of the matrix with lower triangle `lower`, with unknown i at position `place[i]`.
     ///
     /// # Errors
-    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory), [`Error::Overflow`](crate::Error::Overflow), and the reason to
-    /// end the current step.
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory), [`Error::Overflow`](crate::Error::Overflow), and the reason
+    /// to end the current step.
     pub fn new(lower: &Sparse, place: &[u32]) -> Result<Self> {
         // The lower positions of each position.
         let pattern = permute_pattern(lower, place)?;
@@ -131,7 +132,8 @@ impl Supernodes {
         &self.rows[self.first_row[s]..self.first_row[s + 1]]
     }
 
-    /// The place of a block among all values. It is dense and by columns: first the rows of its columns, then those below.
+    /// The place of a block among all values. It is dense and by columns: first the rows of its columns, then those
+    /// below.
     pub fn values(&self, s: usize) -> Range<usize> {
         self.values_of(s..s + 1)
     }
@@ -161,8 +163,8 @@ impl Supernode {
 
 /// The number of entries of each column of the factor, the diagonal included.
 ///
-/// The columns with an entry in one row are a subtree. Each of its leaves adds one to all columns above it, and where two
-/// of them meet, one of both is taken away again.
+/// The columns with an entry in one row are a subtree. Each of its leaves adds one to all columns above it, and where
+/// two of them meet, one of both is taken away again.
 fn column_counts((offsets, columns): &(Vec<u32>, Vec<u32>), parent: &[u32]) -> Result<Vec<u32>> {
     let n = parent.len();
     let (starts, rows) = transposed(offsets, columns)?;
