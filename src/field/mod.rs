@@ -35,4 +35,4 @@ pub use orientation_field::OrientationField;
 pub use problem::FieldProblem;
 pub use solve_field::{smoothest_field, solve_field};
 
-pub(crate) use solve_field::{JumpsDecided, WithDetails, decide_jumps};
+pub(crate) use solve_field::{DirectionProblem, JumpsDecided, decide_jumps};

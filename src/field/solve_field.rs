@@ -155,16 +155,17 @@ pub(crate) enum JumpsDecided {
     /// All of it is.
     All(OrientationField, Solution),
     /// It was found without the details of the surface, which turn its directions.
-    WithoutDetails(OrientationField, Box<WithDetails>),
+    WithoutDetails(OrientationField, Box<DirectionProblem>),
 }
 
-/// The problem of a field with its solver, which has decided the period jumps without the details of the surface.
-pub(crate) struct WithDetails {
+/// The problem of a field whose period jumps are decided, and its solver: what is left are the directions that the
+/// details of the surface give it.
+pub(crate) struct DirectionProblem {
     problem: FieldProblem,
     solver: Solver,
 }
 
-impl WithDetails {
+impl DirectionProblem {
     /// The smoothest field for the surface with all details, with the period jumps of the solver's last
     /// solution.
     pub fn solve<'a>(
@@ -245,7 +246,7 @@ pub(crate) fn decide_jumps<'a>(
     let steps = feasible_indices(mesh, found.clone(), &options.regular);
     may_continue()?;
     if steps == found {
-        let left = WithDetails {
+        let left = DirectionProblem {
             problem,
             solver: kept,
         };

@@ -167,7 +167,7 @@ fn redecide(basis: &Basis, left: &[f64], z: &mut [i64], block: &Block) -> Result
 mod tests {
     use super::super::{DEPTH, lll, nearest_plane};
     use super::*;
-    use crate::monitor::with_threads;
+    use crate::monitor::{spawned, with_threads};
     use crate::test_random::Random;
 
     /// A reduced basis, a target, and a point that is not the closest one.
@@ -199,7 +199,9 @@ mod tests {
         for _ in 0..3 {
             let mut of = problem(50, &mut random);
             let mut kept = Blocks::default();
-            let first = with_threads(3, || improved(&of, &mut kept));
+            let mut first = (Vec::new(), 0.0);
+            let on_threads = || first = with_threads(3, || improved(&of, &mut kept));
+            assert!(spawned(on_threads) > 0);
             assert_eq!(kept.of_vector.len(), 50);
             assert_eq!(
                 first,

@@ -175,27 +175,34 @@ pub(super) fn inverse(order: &[u32]) -> Vec<u32> {
 /// For each position, the lower positions with which it shares an entry. Those of position `k` are
 /// `columns[offsets[k]..offsets[k + 1]]`.
 pub(super) fn permute_pattern(lower: &Sparse, position: &[u32]) -> Result<(Vec<u32>, Vec<u32>)> {
-    let pairs = || {
-        let pairs = lower
-            .entries()
-            .map(|(i, j, _)| [i, j].map(|i| position[i as usize]));
-        pairs
-            .filter(|[a, b]| a != b)
-            .map(|[a, b]| (a.max(b) as usize, a.min(b)))
+    let n = lower.rows();
+    // The higher and the lower position of each entry of a row off the diagonal.
+    let pairs = |i: usize| {
+        let others = lower.row(i).map(|(j, _)| j).filter(move |&j| j != i);
+        others.map(move |j| {
+            let [a, b] = [i, j].map(|i| position[i]);
+            (a.max(b) as usize, a.min(b))
+        })
     };
-    let mut offsets = vec![0u32; position.len() + 1];
-    pairs().for_each(|(k, _)| offsets[k + 1] += 1);
-    for k in 0..position.len() {
+    let mut offsets = vec![0u32; n + 1];
+    for i in 0..n {
+        may_continue_at(i)?;
+        pairs(i).for_each(|(k, _)| offsets[k + 1] += 1);
+    }
+    for k in 0..n {
         let end = offsets[k].checked_add(offsets[k + 1]);
         offsets[k + 1] = end.ok_or_else(too_many_entries)?;
     }
     let mut next = offsets.clone();
-    let mut columns = reserve(offsets[position.len()] as usize)?;
-    columns.resize(offsets[position.len()] as usize, 0);
-    pairs().for_each(|(k, column)| {
-        columns[next[k] as usize] = column;
-        next[k] += 1;
-    });
+    let mut columns = reserve(offsets[n] as usize)?;
+    columns.resize(offsets[n] as usize, 0);
+    for i in 0..n {
+        may_continue_at(i)?;
+        for (k, column) in pairs(i) {
+            columns[next[k] as usize] = column;
+            next[k] += 1;
+        }
+    }
     Ok((offsets, columns))
 }
 

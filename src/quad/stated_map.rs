@@ -10,7 +10,7 @@ use super::aim::relaxation;
 use super::quadrangulation::timed;
 use super::stretch::Stretch;
 use crate::error::Result;
-use crate::field::{FieldOptions, OrientationField, WithDetails};
+use crate::field::{DirectionProblem, FieldOptions, OrientationField};
 use crate::map::{SeamlessProblem, Sizing};
 use crate::mesh::TriangleMesh;
 use crate::mesh::features::FeatureGraph;
@@ -55,7 +55,7 @@ impl MapData<'_> {
     /// both are added to `seconds`. What is done for the map before the field is finished counts as time of the field.
     pub fn state_with_details<'m>(
         &self,
-        (first, left): (&OrientationField, WithDetails),
+        (first, left): (&OrientationField, DirectionProblem),
         (given, options): (&FieldOptions, &Options),
         monitor: &impl Fn() -> Monitor<'m>,
         [of_field, of_map]: [&mut f64; 2],
@@ -101,6 +101,7 @@ mod tests {
     use super::*;
     use crate::field::{JumpsDecided, decide_jumps, solve_field};
     use crate::mesh::shape::by_name;
+    use crate::monitor::traced;
     use crate::problem::Model;
 
     fn data<'a>(
@@ -133,23 +134,36 @@ mod tests {
         };
         let solver = Options::default();
         let with = |threads| {
-            with_threads(threads, || {
-                assert_eq!(map.is_worth_a_thread(), threads > 1);
-                let decided = decide_jumps(&mesh, &given, &solver, Monitor::default).unwrap();
-                let JumpsDecided::WithoutDetails(first, left) = decided else {
-                    panic!("details are left out");
-                };
-                let (both, mut seconds) = ((&first, *left), [0.0; 2]);
-                let [of_field, of_map] = &mut seconds;
-                let options = (&given, &solver);
-                let stated =
-                    map.state_with_details(both, options, &Monitor::default, [of_field, of_map]);
-                let (field, _, (problem, mut solver)) = stated.unwrap();
-                assert_ne!(field.angles(), first.angles());
-                assert!(seconds.iter().all(|&s| s > 0.0));
-                let relaxed = solver.solve(&relaxation()).unwrap();
-                (field, linear(&problem), relaxed)
-            })
+            let (found, trace) = traced(false, || {
+                with_threads(threads, || {
+                    assert_eq!(map.is_worth_a_thread(), threads > 1);
+                    let decided = decide_jumps(&mesh, &given, &solver, Monitor::default).unwrap();
+                    let JumpsDecided::WithoutDetails(first, left) = decided else {
+                        panic!("details are left out");
+                    };
+                    let (both, mut seconds) = ((&first, *left), [0.0; 2]);
+                    let [of_field, of_map] = &mut seconds;
+                    let options = (&given, &solver);
+                    let stated = map.state_with_details(
+                        both,
+                        options,
+                        &Monitor::default,
+                        [of_field, of_map],
+                    );
+                    let (field, _, (problem, mut solver)) = stated.unwrap();
+                    assert_ne!(field.angles(), first.angles());
+                    assert!(seconds.iter().all(|&s| s > 0.0));
+                    let relaxed = solver.solve(&relaxation()).unwrap();
+                    (field, linear(&problem), relaxed)
+                })
+            });
+            let mut stated = trace
+                .spans
+                .iter()
+                .filter(|span| span.name == "assemble map");
+            assert!(stated.all(|span| span.thread == usize::from(threads > 1)));
+            assert!(trace.spans.iter().any(|span| span.name == "assemble map"));
+            found
         };
         let [one, two] = [1, 2].map(with);
         assert_eq!(one.0, two.0);
