@@ -11,29 +11,21 @@
 //! Threads may relax regions of one problem at the same time. They share it without locks: what a region reads and
 //! writes belongs to it alone, see [`LocalSolve::relax`].
 
-use std::sync::atomic::AtomicU8;
-use std::sync::atomic::Ordering::Relaxed;
-
 use super::Sparse;
 use super::ring::Ring;
-use super::shared_float::SharedFloat;
-use super::static_condensation::{Entry, StaticCondensation};
+use super::static_condensation::StaticCondensation;
+use super::unknown::{DETERMINED, FIXED, INTEGER, LOCAL, MOVED, QUEUED};
 use crate::error::Result;
 
 /// The over-relaxation factor. Of 1.0, 1.4, 1.6 and 1.8 it reached the smallest error with the fewest
 /// updates.
 const OVERRELAXATION: f64 = 1.6;
 
-/// An unknown whose remaining curvature is at most this share of its diagonal entry counts as undetermined.
-const UNDECIDED: f64 = 1e-10;
-
 /// A minimisation of `1/2 x'Ax + g'x` that stays near its minimum while unknowns are being fixed.
 #[derive(Debug)]
 pub struct LocalSolve<'a> {
     gradient: &'a [f64],
     system: StaticCondensation,
-    integer: Vec<bool>,
-    unknowns: Vec<Unknown>,
 }
 
 /// What is left of a re-optimisation.
@@ -69,24 +61,6 @@ impl Wave {
     }
 }
 
-/// Flags of an unknown. One that waits in a queue.
-const QUEUED: u8 = 1;
-/// One that is fixed for good.
-const FIXED: u8 = 2;
-/// One that is among those that have moved.
-const MOVED: u8 = 4;
-
-/// The data of one unknown that an update of a neighbour reads, in one cache line.
-#[derive(Debug)]
-#[repr(align(32))]
-struct Unknown {
-    /// The current value, except for a free local integer, whose value is computed on demand.
-    value: SharedFloat,
-    /// The slope of the condensed objective. Unused for local integers.
-    residual: SharedFloat,
-    flags: AtomicU8,
-}
-
 impl<'a> LocalSolve<'a> {
     /// Starts at `point`, the minimiser for the `A` with lower triangle `lower`.
     ///
@@ -103,67 +77,67 @@ impl<'a> LocalSolve<'a> {
         integers.iter().for_each(|&i| integer[i as usize] = true);
         Ok(LocalSolve {
             gradient,
-            system: StaticCondensation::new(lower, &integer)?,
-            integer,
-            unknowns: point.iter().map(|&x| Unknown::at(x)).collect(),
+            system: StaticCondensation::new(lower, &integer, point)?,
         })
     }
 
     /// Whether an unknown is a local integer.
     pub fn is_local(&self, unknown: u32) -> bool {
-        self.system.is_local(unknown as usize)
+        self.system.unknown(unknown as usize).has(LOCAL)
     }
 
     /// The unknowns that an unknown couples to: for a local integer those of its row, for any other one those that
     /// it couples to while local integers are free or once they are fixed.
     pub fn neighbours(&self, unknown: u32) -> impl Iterator<Item = u32> + '_ {
         let i = unknown as usize;
-        let (own, condensed) = match self.system.is_local(i) {
+        let (own, condensed) = match self.is_local(unknown) {
             true => (self.system.coupling_range(i), &[][..]),
             false => (0..0, self.system.row(i)),
         };
         let of_row = own.map(|at| self.system.coupling(at).0 as u32);
-        of_row.chain(condensed.iter().map(|entry| entry.column))
+        of_row.chain(condensed.iter().map(|entry| entry.column()))
     }
 
     /// The current value of an unknown.
     pub fn value(&self, unknown: u32) -> f64 {
         let i = unknown as usize;
-        let own = &self.unknowns[i];
-        if own.has(FIXED) || !self.system.is_local(i) {
+        let own = self.system.unknown(i);
+        if own.has(FIXED) || !own.has(LOCAL) {
             return own.value.get();
         }
         let couplings = self.system.couplings(i);
         let pull: f64 = couplings
-            .map(|(j, v)| v * self.unknowns[j].value.get())
+            .map(|(j, v)| v * self.system.unknown(j).value.get())
             .sum();
         -(self.gradient[i] + pull) / self.system.diagonal(i)
     }
 
     /// The current values of all unknowns.
     pub fn point(&self) -> Vec<f64> {
-        (0..self.unknowns.len() as u32)
+        (0..self.system.dim() as u32)
             .map(|i| self.value(i))
             .collect()
     }
 
     /// Whether an unknown is fixed.
     pub fn is_fixed(&self, unknown: u32) -> bool {
-        self.unknowns[unknown as usize].has(FIXED)
+        self.system.unknown(unknown as usize).has(FIXED)
     }
 
     /// Fixes an unknown to `value` for good and queues its neighbours.
     pub fn fix(&self, unknown: u32, value: f64, wave: &mut Wave) {
         let k = unknown as usize;
         let step = value - self.value(unknown);
-        self.unknowns[k].value.set(value);
-        self.unknowns[k].set(FIXED);
-        if self.system.is_local(k) {
+        let own = self.system.unknown(k);
+        own.value.set(value);
+        own.set(FIXED);
+        if own.has(LOCAL) {
             let row = self.system.coupling_range(k);
             wave.queue.reserve(row.len());
             for at in row {
                 let (j, value) = self.system.coupling(at);
-                self.unknowns[j].pull(j as u32, value, step, &mut wave.queue);
+                let neighbour = self.system.unknown(j);
+                neighbour.pull(j as u32, value, step, &mut wave.queue);
             }
             self.system.release(k);
         } else {
@@ -193,14 +167,13 @@ impl<'a> LocalSolve<'a> {
                 continue;
             }
             let i = i as usize;
-            let curvature = self.system.curvature(i);
-            let unknown = &self.unknowns[i];
+            let unknown = self.system.unknown(i);
             unknown.clear(QUEUED);
-            let residual = unknown.residual.get();
+            let [residual, curvature] = [unknown.residual.get(), unknown.curvature.get()];
             if unknown.has(FIXED) || residual.abs() <= tolerance * curvature {
                 continue;
             }
-            if curvature > UNDECIDED * self.system.diagonal(i) {
+            if unknown.has(DETERMINED) {
                 let step = -OVERRELAXATION * residual / curvature;
                 unknown.value.add(step);
                 unknown.residual.set(residual + curvature * step);
@@ -214,7 +187,7 @@ impl<'a> LocalSolve<'a> {
     /// Takes over `point`, which was computed elsewhere as the minimiser for the unknowns fixed so far.
     pub fn settle_at(&self, point: &[f64], wave: &mut Wave) {
         for (i, &value) in point.iter().enumerate() {
-            let unknown = &self.unknowns[i];
+            let unknown = self.system.unknown(i);
             unknown.residual.set(0.0);
             unknown.clear(QUEUED);
             if !unknown.has(FIXED) && unknown.value.get() != value {
@@ -231,13 +204,13 @@ impl<'a> LocalSolve<'a> {
         let mut integers = Vec::new();
         for i in std::mem::take(&mut wave.moved) {
             let k = i as usize;
-            let unknown = &self.unknowns[k];
+            let unknown = self.system.unknown(k);
             unknown.clear(MOVED);
-            if self.integer[k] && !unknown.has(FIXED) {
+            if unknown.has(INTEGER) && !unknown.has(FIXED) {
                 integers.push(i);
             }
             for j in self.system.followers(k) {
-                let follower = &self.unknowns[j as usize];
+                let follower = self.system.unknown(j as usize);
                 if !follower.has(MOVED) {
                     follower.set(MOVED);
                     integers.push(j);
@@ -245,7 +218,7 @@ impl<'a> LocalSolve<'a> {
             }
         }
         for &i in &integers {
-            self.unknowns[i as usize].clear(MOVED);
+            self.system.unknown(i as usize).clear(MOVED);
         }
         integers
     }
@@ -253,53 +226,20 @@ impl<'a> LocalSolve<'a> {
     /// Applies a step of unknown `i` to the slopes of its neighbours.
     fn spread(&self, i: usize, step: f64, wave: &mut Wave) {
         self.mark_moved(i, wave);
-        let row = self.system.row(i);
+        let row = self.system.active(i);
         wave.queue.reserve(row.len());
-        for Entry { column, value } in row {
-            let neighbour = &self.unknowns[*column as usize];
-            neighbour.pull(*column, value.get(), step, &mut wave.queue);
+        for entry in row {
+            let neighbour = self.system.unknown(entry.column() as usize);
+            neighbour.pull(entry.column(), entry.value(), step, &mut wave.queue);
         }
     }
 
     fn mark_moved(&self, i: usize, wave: &mut Wave) {
-        let unknown = &self.unknowns[i];
+        let unknown = self.system.unknown(i);
         if !unknown.has(MOVED) {
             unknown.set(MOVED);
             wave.moved.push(i as u32);
         }
-    }
-}
-
-impl Unknown {
-    fn at(value: f64) -> Self {
-        Unknown {
-            value: SharedFloat::new(value),
-            residual: SharedFloat::new(0.0),
-            flags: AtomicU8::new(0),
-        }
-    }
-
-    fn has(&self, flag: u8) -> bool {
-        self.flags.load(Relaxed) & flag != 0
-    }
-
-    fn set(&self, flag: u8) {
-        self.flags.store(self.flags.load(Relaxed) | flag, Relaxed);
-    }
-
-    fn clear(&self, flag: u8) {
-        self.flags.store(self.flags.load(Relaxed) & !flag, Relaxed);
-    }
-
-    /// Changes the slope of unknown `i`, which is this one, by the step of a neighbour, and queues it unless it is
-    /// fixed, or the entry `coupling` between both vanishes. The queue must have room.
-    fn pull(&self, i: u32, coupling: f64, step: f64, queue: &mut Ring) {
-        self.residual.add(coupling * step);
-        let flags = self.flags.load(Relaxed);
-        let enters = (coupling != 0.0) & (flags & (QUEUED | FIXED) == 0);
-        queue.push_if(i, enters);
-        self.flags
-            .store(flags | (u8::from(enters) * QUEUED), Relaxed);
     }
 }
 

@@ -32,6 +32,7 @@ mod submatrix;
 mod substitute;
 mod supernodes;
 mod tree_solve;
+mod unknown;
 mod unpreconditioned_cg;
 pub mod vector;
 mod wide_registers;
