@@ -11,7 +11,7 @@ use super::{Constraint, FieldOptions, FieldProblem, OrientationField, Prescribed
 use crate::error::{Error, Result};
 use crate::mesh::TriangleMesh;
 use crate::monitor::{Monitor, Stage, both, may_continue, optional};
-use crate::search::{Options, WarmStart};
+use crate::search::Options;
 use crate::solve::{Solution, Solver, solve_with};
 
 /// The least number of faces that are worth a thread.
@@ -140,6 +140,7 @@ fn prepared(
                 problem.keep_regular(mesh, options, first)?;
             }
             let mut kept = Solver::new(problem.problem())?;
+            kept.expect_one_relaxation();
             kept.eliminate(solver, monitor)?;
             Ok((problem, kept))
         },
@@ -180,11 +181,7 @@ impl DirectionProblem {
         let of_sizes = graded_flow(mesh, given)?;
         let right_sides = self.problem.right_sides(mesh, &of_sizes);
         self.solver.set_least_squares_right_sides(&right_sides)?;
-        let keep = Options {
-            warm_start: WarmStart::Keep,
-            ..options.clone()
-        };
-        let solution = self.solver.solve_with(&keep, monitor())?;
+        let solution = self.solver.follow(options, monitor())?;
         Ok((self.problem.field(mesh, &solution)?, solution))
     }
 }

@@ -37,13 +37,13 @@ const WHAT: &str = "the variables";
 /// A mixed-integer quadratic problem under construction.
 ///
 /// Parts may be added in any order and any number of times; quadratic and linear terms are summed. A call
-/// that fails changes nothing. Copies share rows and what is given for each unknown until one of them changes it. The
-/// [crate] page states the problem and its signs.
+/// that fails changes nothing. Copies share quadratic entries, rows and what is given for each unknown until one of
+/// them changes it. The [crate] page states the problem and its signs.
 #[derive(Debug, Clone)]
 pub struct Problem {
     variables: usize,
     /// Entries of the lower triangle of Q. Duplicates are not summed yet.
-    quadratic: Vec<(u32, u32, f64)>,
+    quadratic: Arc<Vec<(u32, u32, f64)>>,
     linear: Arc<Vec<f64>>,
     constant: f64,
     least_squares: RowList,
@@ -75,7 +75,7 @@ impl Problem {
         }
         Ok(Problem {
             variables,
-            quadratic: Vec::new(),
+            quadratic: Arc::default(),
             linear: Arc::new(filled(variables, 0.0)?),
             constant: 0.0,
             least_squares: RowList::default(),
@@ -117,6 +117,11 @@ impl Problem {
 
     pub(crate) fn constant(&self) -> f64 {
         self.constant
+    }
+
+    /// Whether the objective is a sum of squares and a constant.
+    pub(crate) fn is_sum_of_squares(&self) -> bool {
+        self.quadratic.is_empty() && self.linear.iter().all(|&q| q == 0.0)
     }
 
     /// The least-squares rows as given, and their weights.
@@ -212,12 +217,11 @@ impl Problem {
         entries: impl Iterator<Item = (u32, u32, f64)> + Clone,
     ) -> Result<()> {
         let mut lower = lower_triangle(triangle, self.variables, entries)?;
-        self.quadratic
-            .try_reserve(lower.len())
-            .map_err(|_| Error::OutOfMemory {
-                what: "quadratic entries",
-            })?;
-        self.quadratic.append(&mut lower);
+        if self.quadratic.is_empty() {
+            self.quadratic = Arc::new(lower);
+        } else {
+            own(&mut self.quadratic, lower.len(), "quadratic entries")?.append(&mut lower);
+        }
         Ok(())
     }
 

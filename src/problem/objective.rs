@@ -140,7 +140,7 @@ impl Objective<'_> {
     pub fn curvature(&self, direction: &[TwoFold], magnitude: &[f64]) -> (f64, f64) {
         let problem = self.0;
         let (mut sum, mut size) = (CompensatedSum::new(0.0), 0.0);
-        for &(i, j, v) in &problem.quadratic {
+        for &(i, j, v) in problem.quadratic() {
             let v = if i == j { 0.5 * v } else { v };
             let (x, y) = (direction[i as usize], direction[j as usize]);
             sum.add_product_of_three(v, x.high, y.high);

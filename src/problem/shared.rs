@@ -30,6 +30,7 @@ pub(super) fn own<'a, T: Clone>(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::problem::{Problem, Triangle};
 
     #[test]
     fn a_list_is_copied_where_it_is_shared_and_only_there() {
@@ -40,6 +41,20 @@ mod tests {
         let other = Arc::clone(&list);
         own(&mut list, 1, "numbers").unwrap().push(4);
         assert_eq!((&list[..], &other[..]), (&[1, 2, 3, 4][..], &[1, 2, 3][..]));
+    }
+
+    #[test]
+    fn copies_of_a_problem_share_quadratic_entries_until_one_adds_some() {
+        let mut problem = Problem::new(2).unwrap();
+        let add = |problem: &mut Problem, value| {
+            problem.add_quadratic_triplets(Triangle::Lower, &[1], &[0], &[value])
+        };
+        add(&mut problem, 1.0).unwrap();
+        let mut copy = problem.clone();
+        assert_eq!(copy.quadratic().as_ptr(), problem.quadratic().as_ptr());
+        add(&mut copy, 2.0).unwrap();
+        assert_eq!(problem.quadratic(), [(1, 0, 1.0)]);
+        assert_eq!(copy.quadratic(), [(1, 0, 1.0), (1, 0, 2.0)]);
     }
 
     #[test]

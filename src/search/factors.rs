@@ -22,6 +22,8 @@ const WORTH_A_THREAD: usize = 4_096;
 #[derive(Debug, Default)]
 pub(crate) struct Factors {
     relaxed: Option<RelaxedFactor>,
+    /// The number of entries below the diagonal of that factor, once it has been made.
+    relaxed_entries: Option<usize>,
     continuous: Option<ContinuousBlock>,
     /// The factor in its original state, if it is kept.
     updatable: Option<Ldl>,
@@ -99,6 +101,14 @@ impl Factors {
         }
     }
 
+    /// No factor yet, to be made and kept as these.
+    pub fn anew(&self) -> Self {
+        Factors {
+            keep: self.keep,
+            ..Factors::new(self.ordering)
+        }
+    }
+
     /// From now on, relaxations are solved with the factors of the search that follows.
     pub fn expect_search(&mut self) {
         self.is_searched = true;
@@ -106,25 +116,18 @@ impl Factors {
 
     /// The factors of component `k` of the model.
     pub fn of_component(&mut self, k: usize) -> &mut Factors {
-        let (ordering, keep) = (self.ordering, self.keep);
         while self.components.len() <= k {
-            self.components.push(Factors {
-                keep,
-                ..Factors::new(ordering)
-            });
+            let next = self.anew();
+            self.components.push(next);
         }
         &mut self.components[k]
     }
 
     /// The number of entries below the diagonal of the relaxation's factor, if it has been made.
     pub fn entries(&self) -> usize {
-        let schur_factor = self
-            .schur_factor
-            .as_ref()
-            .map_or(0, |j| j.whole().entries());
-        self.relaxed
-            .as_ref()
-            .map_or(schur_factor, RelaxedFactor::entries)
+        let schur_factor = self.schur_factor.as_ref();
+        let of_schur_factor = || schur_factor.map_or(0, |j| j.whole().entries());
+        self.relaxed_entries.unwrap_or_else(of_schur_factor)
     }
 
     /// The seconds spent in factorizations so far.
@@ -140,7 +143,15 @@ impl Factors {
                 RelaxedFactor::ordered(model.hessian(), model.integers(), self.ordering)
             })?,
         };
+        self.relaxed_entries = Some(factor.entries());
         Ok(self.relaxed.insert(factor))
+    }
+
+    /// Frees the factor of the relaxation, which has been solved, unless factors are kept.
+    pub fn free_relaxed(&mut self) {
+        if !self.keep {
+            self.relaxed = None;
+        }
     }
 
     /// Whether the factor of the continuous block, which the search needs later, is worth a thread of its own while
@@ -280,6 +291,12 @@ impl Factors {
         Ok(factor.is_definite().then_some(factor))
     }
 
+    /// Whether the factor that [`follow`](Self::follow) needs has been made.
+    pub fn is_prepared(&self) -> bool {
+        let schur_factor = self.schur_factor.as_ref();
+        self.continuous.is_some() || schur_factor.is_some_and(SchurFactor::is_definite)
+    }
+
     /// Makes the factor that [`follow`](Self::follow) needs.
     pub fn prepare(&mut self, model: &ReducedModel) -> Result<()> {
         if self.definite_schur_factor(model)?.is_none() {
@@ -389,6 +406,27 @@ mod tests {
     use crate::eliminate::eliminate;
     use crate::monitor::Monitor;
     use crate::problem::{Model, Problem};
+
+    #[test]
+    fn the_factor_of_a_relaxation_is_freed_where_it_is_not_kept() {
+        let mut problem = Problem::new(3).unwrap();
+        for i in 0..3 {
+            problem
+                .add_least_squares(&[i, (i + 1) % 3], &[1.0, -0.5], 0.3, 1.0)
+                .unwrap();
+        }
+        let model = Model::new(&problem).unwrap();
+        let reduced = eliminate(&model, &mut Monitor::default()).unwrap();
+        for (made, is_kept) in [(Factors::new as fn(_) -> _, false), (Factors::kept, true)] {
+            let mut factors: Factors = made(Ordering::FillReducing).anew();
+            let before = factors.relaxed(&reduced).unwrap().entries();
+            assert_eq!(before, 3);
+            factors.free_relaxed();
+            assert_eq!(factors.relaxed.is_some(), is_kept);
+            assert_eq!(factors.entries(), before);
+            assert!(factors.relaxed(&reduced).is_ok(), "it is made again");
+        }
+    }
 
     #[test]
     fn a_pattern_that_was_analysed_serves_the_factor_that_a_relaxation_needs() {

@@ -38,6 +38,36 @@ impl EliminatedProblem<'_> {
         self.conclude(reduced, decided, clock, monitor)
     }
 
+    /// The best values for the integers of the start, without a relaxation. Values that the objective does not
+    /// determine are those of the start. None if the factor for that has not been made yet.
+    pub fn follow(&mut self, monitor: &mut Monitor) -> Result<Option<Solution>> {
+        let (reduced, clock) = self.reduce(monitor)?;
+        if !self.factors.is_prepared() {
+            return Ok(None);
+        }
+        let watch = monitor.watch();
+        let mut at = self.elimination.restrict(&reduced, self.earlier);
+        for &i in reduced.integers() {
+            at[i as usize] = round::nearest(at[i as usize]);
+        }
+        let centre = Centre::new(self.problem, self.model, self.elimination, &reduced, &at)?;
+        let point = self.factors.follow(centre.model(), &vec![0.0; at.len()])?;
+        let found = SearchResult {
+            values: expand(&centre, self.model, Strategy::Auto, &point),
+            energy: centre.model().energy(&point).0,
+            lower_bound: match self.problem.is_sum_of_squares() {
+                true => self.problem.constant(),
+                false => f64::NEG_INFINITY,
+            },
+            status: SolveStatus::Feasible,
+            complete: false,
+            stopped_by: StoppedBy::Nothing,
+            work: of_relaxation(&reduced),
+        };
+        drop(watch);
+        self.conclude(&reduced, found, &clock, monitor).map(Some)
+    }
+
     /// The reduced model for the current right sides, and the time when it was made.
     pub fn reduce(&mut self, monitor: &mut Monitor) -> Result<(ReducedModel, Clock)> {
         let _watch = monitor.watch();
@@ -142,6 +172,7 @@ fn decide(
     let watch = monitor.watch();
     let (centre, relaxation) = relaxation(of, reduced, options)?;
     drop(watch);
+    of.factors.free_relaxed();
     let work = of_relaxation(reduced);
     let status = match options.strategy {
         _ if reduced.integers().is_empty() => Some(SolveStatus::Optimal),
@@ -198,10 +229,62 @@ fn counts(model: &Model, reduced: &ReducedModel, factors: &Factors) -> Counts {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::field::FieldProblem;
+    use crate::field::{FieldProblem, curvature_constraints};
     use crate::mesh::shape::by_name;
-    use crate::monitor::spawned;
-    use crate::solve::solve;
+    use crate::monitor::{spawned, traced};
+    use crate::solve::{Solver, solve};
+
+    #[test]
+    fn values_follow_the_integers_of_the_last_solution_without_a_relaxation() {
+        let mesh = by_name("torus", 1_000).unwrap();
+        let directions = curvature_constraints(&mesh, 0.02).unwrap();
+        let stated = FieldProblem::new(&mesh, &directions).unwrap();
+        let mut field = stated.problem().clone();
+        let options = Options {
+            strategy: Strategy::Adaptive,
+            ..Options::default()
+        };
+        let keep = Options {
+            warm_start: WarmStart::Keep,
+            ..options.clone()
+        };
+        let rhs = field.least_squares().0.rhs();
+        let turned: Vec<f64> = (0..rhs.len())
+            .map(|k| rhs[k] + 0.1 * (k as f64).sin())
+            .collect();
+        // With a linear term squares alone are no bound.
+        for slope in [0.0, 0.01] {
+            let mut linear = vec![0.0; field.variables()];
+            (linear[0], linear[1]) = (slope, -slope);
+            field.set_linear(&linear).unwrap();
+            let solved = || {
+                let mut solver = Solver::new(&field).unwrap();
+                let first = solver.solve(&options).unwrap();
+                solver.set_least_squares_right_sides(&turned).unwrap();
+                (solver, first)
+            };
+            let expected = solved().0.solve(&keep).unwrap();
+            let (mut solver, first) = solved();
+            let (followed, trace) = traced(false, || solver.follow(&options, Monitor::default()));
+            let followed = followed.unwrap();
+            assert!(trace.spans.iter().any(|span| span.name == "centre"));
+            assert!(trace.spans.iter().all(|span| span.name != "relax"));
+            assert_eq!(followed.status(), expected.status());
+            assert!((followed.energy() - expected.energy()).abs() < 1e-9 * expected.energy());
+            assert!(followed.energy() != first.energy());
+            for (a, b) in followed.values().iter().zip(expected.values()) {
+                assert!((a - b).abs() < 1e-9, "{a} {b}");
+            }
+            let bound = followed.lower_bound().unwrap();
+            assert!(bound <= expected.lower_bound().unwrap() + 1e-9);
+            assert_eq!(bound.is_finite(), slope == 0.0);
+            // Without the factor it is a solve that keeps the integers.
+            let mut other = Solver::new(&field).unwrap();
+            other.set_guess(first.values()).unwrap();
+            let kept = other.follow(&options, Monitor::default()).unwrap();
+            assert!((kept.energy() - first.energy()).abs() < 1e-9 * first.energy());
+        }
+    }
 
     #[test]
     fn the_factor_that_the_search_needs_is_made_beside_the_relaxation() {

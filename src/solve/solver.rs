@@ -15,7 +15,7 @@ use crate::error::Result;
 use crate::linalg::Ordering;
 use crate::monitor::{Monitor, may_continue, watch_memory, with_threads};
 use crate::problem::{Model, Problem};
-use crate::search::{Factors, Options, SolveStatus, Strategy};
+use crate::search::{Factors, Options, SolveStatus, Strategy, WarmStart};
 
 /// A problem of fixed structure, with its elimination and factors kept from solve to solve.
 ///
@@ -36,6 +36,8 @@ pub struct Solver {
     cache: Option<Cache>,
     /// Whether a solve that decides integers follows those that decide none.
     is_searched: bool,
+    /// Whether factors that only another relaxation would use are kept.
+    keeps_all: bool,
     /// The last integer solution, unless the caller has set a guess since.
     earlier: Option<Vec<f64>>,
 }
@@ -64,6 +66,7 @@ impl Solver {
             stale: false,
             cache: None,
             is_searched: false,
+            keeps_all: true,
             earlier: None,
         })
     }
@@ -71,6 +74,11 @@ impl Solver {
     /// Lets solves that decide no integers use the factors of one that does and will follow.
     pub(crate) fn expect_search(&mut self) {
         self.is_searched = true;
+    }
+
+    /// Saves memory: no other relaxation is expected to follow the first one.
+    pub(crate) fn expect_one_relaxation(&mut self) {
+        self.keeps_all = false;
     }
 
     /// Makes the elimination, which the next solve with this ordering then finds.
@@ -211,6 +219,31 @@ impl Solver {
         Ok(solution)
     }
 
+    /// The best values for the integers of the last solution, without a relaxation, whose bound and minimiser a solve
+    /// with [`WarmStart::Keep`](crate::WarmStart::Keep) has as well. That solve is made instead where the factor for
+    /// the values alone has not been made.
+    ///
+    /// # Errors
+    /// The errors of [`solve_with`](crate::solve_with).
+    pub(crate) fn follow(&mut self, options: &Options, mut monitor: Monitor) -> Result<Solution> {
+        let _memory = watch_memory(self.problem.size());
+        let found = with_threads(options.threads, || match &self.earlier {
+            Some(_) if !self.problem.is_limited() => {
+                self.prepare(options, &mut monitor)?.follow(&mut monitor)
+            }
+            _ => Ok(None),
+        })?;
+        if let Some(solution) = found {
+            self.earlier = Some(solution.values().to_vec());
+            return Ok(solution);
+        }
+        let keep = Options {
+            warm_start: WarmStart::Keep,
+            ..options.clone()
+        };
+        self.solve_with(&keep, monitor)
+    }
+
     /// Solves the current problem under further rows between integers, which this solve keeps where it can.
     /// It uses the elimination and the factors of the problem without them. The bound is that of the
     /// relaxation without the rows.
@@ -300,7 +333,7 @@ impl Solver {
         tell_of_ignored_hint(&self.model, monitor);
         let mut cache = match self.cache.take() {
             Some(cache) if cache.serves(&self.model, options.ordering) => cache,
-            _ => Cache::new(&self.model, options.ordering, monitor)?,
+            _ => Cache::new(&self.model, options.ordering, self.keeps_all, monitor)?,
         };
         cache.leave_out_pinned(&self.model);
         let cache = self.cache.insert(cache);
@@ -318,12 +351,20 @@ impl Solver {
 }
 
 impl Cache {
-    fn new(model: &Model, ordering: Ordering, monitor: &mut Monitor) -> Result<Self> {
+    fn new(
+        model: &Model,
+        ordering: Ordering,
+        keeps_all: bool,
+        monitor: &mut Monitor,
+    ) -> Result<Self> {
         Ok(Cache {
             ordering,
             elimination: Elimination::new(model, ordering, monitor)?,
             pinned: pinned(model).collect(),
-            factors: Factors::kept(ordering),
+            factors: match keeps_all {
+                true => Factors::kept(ordering),
+                false => Factors::new(ordering),
+            },
         })
     }
 
@@ -340,7 +381,7 @@ impl Cache {
     fn leave_out_pinned(&mut self, model: &Model) {
         if !pinned(model).eq(self.pinned.iter().copied()) {
             self.pinned = pinned(model).collect();
-            self.factors = Factors::kept(self.ordering);
+            self.factors = self.factors.anew();
         }
     }
 }
