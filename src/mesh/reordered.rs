@@ -7,7 +7,7 @@
 use super::TriangleMesh;
 use super::vector::{Vec3, sub};
 use crate::error::Result;
-use crate::monitor::{collect_in_parts, may_continue};
+use crate::monitor::{collect_in_parts, for_each_part, may_continue, parts_of};
 
 /// The faces of a mesh that is in the cache in any order.
 const FEW: usize = 1 << 15;
@@ -67,7 +67,15 @@ impl Reordered {
             (cell(center, low, size), face as u32)
         });
         may_continue()?;
-        cells.sort_unstable();
+        // Parts are sorted by threads. The sort of the whole finds them, and merges them.
+        let mut rest = &mut cells[..];
+        let parts = parts_of(rest.len(), LEAST).into_iter().map(|range| {
+            let (part, others) = std::mem::take(&mut rest).split_at_mut(range.len());
+            rest = others;
+            part
+        });
+        for_each_part(parts.collect(), <[_]>::sort_unstable);
+        cells.sort();
         may_continue()?;
         let faces: Vec<u32> = cells.into_iter().map(|(_, face)| face).collect();
         let mut place_of_face = vec![0; faces.len()];

@@ -4,8 +4,14 @@
 //! vertex the corner after (f, k) is where the half-edge that enters it, (f, k + 2), has its
 //! opposite.
 
+use std::ops::Range;
+
 use super::MeshError;
 use super::connectivity::NONE;
+use crate::monitor::{in_parts, joined};
+
+/// The least number of vertices that are worth a thread.
+const LEAST: usize = 1 << 14;
 
 /// Corners by vertex: those of `v` are `corner[start[v]..start[v + 1]]`.
 pub(super) struct Rings {
@@ -38,19 +44,26 @@ pub(super) fn rings(
     for v in 0..vertex_count {
         start[v + 1] += start[v];
     }
-    let mut corner = vec![NONE; twin.len()];
-    for vertex in 0..vertex_count {
-        let ring = &mut corner[start[vertex] as usize..start[vertex + 1] as usize];
-        let mut h = first[vertex];
-        for (i, slot) in ring.iter_mut().enumerate() {
-            if h == NONE || (i > 0 && h == first[vertex]) {
-                return Err(MeshError::NonManifoldVertex { vertex });
+    let of_part = |part: Range<usize>| {
+        let mut corner = Vec::with_capacity((start[part.end] - start[part.start]) as usize);
+        for vertex in part {
+            let mut h = first[vertex];
+            for i in start[vertex]..start[vertex + 1] {
+                if h == NONE || (i > start[vertex] && h == first[vertex]) {
+                    return Err(MeshError::NonManifoldVertex { vertex });
+                }
+                corner.push(h);
+                h = twin[previous(h) as usize];
             }
-            *slot = h;
-            h = twin[previous(h) as usize];
         }
-    }
-    Ok(Rings { start, corner })
+        Ok(corner)
+    };
+    let corner: Result<Vec<Vec<u32>>, _> =
+        in_parts(vertex_count, LEAST, of_part).into_iter().collect();
+    Ok(Rings {
+        corner: joined(corner?),
+        start,
+    })
 }
 
 /// The half-edge before `h` in its face.

@@ -1,6 +1,6 @@
 //! The mesh itself: vertices, faces and their adjacency.
 
-use std::ops::Neg;
+use std::ops::{Neg, Range};
 use std::sync::OnceLock;
 
 use super::connectivity::{Connectivity, NONE, connect, number_edges};
@@ -8,10 +8,15 @@ use super::rings::{Rings, rings};
 use super::vector::Vec3;
 use super::{MeshError, check};
 use crate::error::Error;
-use crate::monitor::{Watch, may_continue_at, span, watch_memory};
+use crate::monitor::{
+    Watch, both, collect_in_parts, in_parts, joined, may_continue, span, watch_memory,
+};
 
 /// The problems of a mesh have about so many unknowns and coefficients for each face.
 const PARTS: usize = 8;
+
+/// The least number of faces or vertices that are worth a thread.
+const LEAST: usize = 1 << 14;
 
 /// An oriented triangle mesh, with or without boundary, that is known to be a 2-manifold.
 #[derive(Clone)]
@@ -86,39 +91,54 @@ impl TriangleMesh {
             NONE => NONE,
             _ => 3 * place_of_face[half as usize / 3] + half % 3,
         };
-        let mut triangles = Vec::with_capacity(faces.len());
-        let mut twin = Vec::with_capacity(3 * faces.len());
-        for (k, &face) in faces.iter().enumerate() {
-            may_continue_at(k)?;
-            let face = face as usize;
-            triangles.push(self.triangles[face].map(|v| place_of_vertex[v as usize]));
-            twin.extend([0, 1, 2].map(|k| half(self.twin[3 * face + k])));
-        }
+        let triangles = collect_in_parts(faces.len(), LEAST, |k| {
+            self.triangles[faces[k] as usize].map(|v| place_of_vertex[v as usize])
+        });
+        may_continue()?;
+        let twin = collect_in_parts(faces.len(), LEAST, |k| {
+            let first = 3 * faces[k] as usize;
+            [0, 1, 2].map(|k| half(self.twin[first + k]))
+        });
+        may_continue()?;
+        let corners = |v: u32| {
+            let [start, end] = [v, v + 1].map(|v| self.ring_start[v as usize] as usize);
+            &self.ring[start..end]
+        };
+        let of_part = |part: Range<usize>| {
+            let mut ring = Vec::new();
+            for &vertex in &vertices[part] {
+                let first = ring.len();
+                ring.extend(corners(vertex).iter().map(|&corner| half(corner)));
+                if !self.is_boundary_vertex(vertex as usize) {
+                    let own = &mut ring[first..];
+                    let lowest = (0..own.len()).min_by_key(|&k| own[k]).unwrap_or(0);
+                    own.rotate_left(lowest);
+                }
+            }
+            ring
+        };
+        let (edges, ring) = both(
+            faces.len() >= LEAST,
+            || number_edges(twin.into_flattened()),
+            || joined(in_parts(vertices.len(), LEAST, of_part)),
+        );
+        may_continue()?;
+        let mut ring_start = Vec::with_capacity(vertices.len() + 1);
+        let mut end = 0;
+        ring_start.push(end);
+        ring_start.extend(vertices.iter().map(|&v| {
+            end += corners(v).len() as u32;
+            end
+        }));
         let Connectivity {
             twin,
             edge_half,
             half_edge,
-        } = number_edges(twin);
-        let mut ring_start = Vec::with_capacity(vertices.len() + 1);
-        let mut ring = Vec::with_capacity(self.ring.len());
-        ring_start.push(0);
-        for (k, &vertex) in vertices.iter().enumerate() {
-            may_continue_at(k)?;
-            let [start, end] = [0, 1].map(|k| self.ring_start[vertex as usize + k] as usize);
-            let first = ring.len();
-            ring.extend(self.ring[start..end].iter().map(|&corner| half(corner)));
-            if !self.is_boundary_vertex(vertex as usize) {
-                let own = &mut ring[first..];
-                let lowest = (0..own.len()).min_by_key(|&k| own[k]).unwrap_or(0);
-                own.rotate_left(lowest);
-            }
-            ring_start.push(ring.len() as u32);
-        }
+        } = edges;
         Ok(TriangleMesh {
-            vertices: vertices
-                .iter()
-                .map(|&v| self.position(v as usize))
-                .collect(),
+            vertices: collect_in_parts(vertices.len(), LEAST, |k| {
+                self.position(vertices[k] as usize)
+            }),
             triangles,
             twin,
             edge_half,

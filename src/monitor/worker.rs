@@ -67,9 +67,16 @@ pub(crate) struct Worker {
     finish_at: Option<Instant>,
     is_optional: bool,
     has_solution: bool,
+    /// The threads that a task may use, with its own.
+    threads: usize,
 }
 
 impl Worker {
+    /// A task may use so many threads, instead of its own alone.
+    pub(crate) fn with_threads(self, threads: usize) -> Self {
+        Worker { threads, ..self }
+    }
+
     /// What is done with these monitors is optional, because the run has a result without it as well.
     pub(crate) fn optional(mut self) -> Self {
         (self.is_optional, self.has_solution) = (true, true);
@@ -109,8 +116,10 @@ impl Worker {
         T: Send + 'scope,
         F: FnOnce(&mut Monitor) -> T + Send + Clone + 'scope,
     {
+        let threads = self.threads;
         if trace::is_simulated() {
-            return Started::Simulated(task, number, trace::start_of_thread());
+            let start = trace::start_of_thread();
+            return Started::Simulated(task, [number, threads], start);
         }
         let (sender, result) = channel();
         let token = Ends(self.token.clone());
@@ -118,7 +127,7 @@ impl Worker {
         let there = move || {
             let mut monitor = self.monitor(&self.run());
             let _watch = monitor.watch();
-            let done = with_threads(1, || there(&mut monitor));
+            let done = with_threads(threads, || there(&mut monitor));
             // Nobody receives it where nobody waits.
             let _ = sender.send(done);
         };
@@ -142,8 +151,8 @@ impl Drop for Ends {
 pub(crate) enum Started<'scope, T, F> {
     There(Receiver<T>, ScopedJoinHandle<'scope, ()>, Ends),
     Here(F),
-    /// As another thread would do it from this time on.
-    Simulated(F, usize, f64),
+    /// As another thread, this many after this one, would do it with so many threads from this time on.
+    Simulated(F, [usize; 2], f64),
 }
 
 impl<T, F: FnOnce(&mut Monitor) -> T> Started<'_, T, F> {
@@ -151,8 +160,8 @@ impl<T, F: FnOnce(&mut Monitor) -> T> Started<'_, T, F> {
     pub(crate) fn wait(self, monitor: &mut Monitor) -> T {
         let (result, handle, token) = match self {
             Started::Here(task) => return task(monitor),
-            Started::Simulated(task, number, start) => {
-                let there = || with_threads(1, || task(monitor));
+            Started::Simulated(task, [number, threads], start) => {
+                let there = || with_threads(threads, || task(monitor));
                 let (found, end) = trace::as_thread(number, start, there);
                 trace::wait_until(end);
                 return found;
@@ -352,6 +361,7 @@ impl Monitor<'_> {
             finish_at: self.finish_at,
             is_optional: self.run.is_optional(),
             has_solution: self.run.has_solution(),
+            threads: 1,
         }
     }
 
@@ -462,6 +472,12 @@ mod tests {
             2 + there.wait(&mut monitor)
         });
         assert_eq!(sum, 42);
+        let threads = scope(|scope| {
+            let worker = monitor.worker().with_threads(3);
+            let there = worker.start(scope, 1, |_: &mut Monitor| allowed_threads());
+            there.wait(&mut monitor)
+        });
+        assert_eq!(threads, 3);
         let here = Started::Here(|_: &mut Monitor| 40);
         assert_eq!(here.wait(&mut monitor), 40);
         // Nobody waits: it would never end by itself.

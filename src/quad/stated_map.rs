@@ -72,10 +72,12 @@ impl MapData<'_> {
             solver.analyse(&relaxation(), monitor)?;
             Ok((problem, solver))
         };
-        let own = allowed_threads() - 1;
+        let others = allowed_threads() / 2;
+        let own = allowed_threads() - others;
         let mut of_call = monitor();
         std::thread::scope(|scope| {
-            let beside = of_call.worker().start(scope, own, ahead);
+            let worker = of_call.worker().with_threads(others);
+            let beside = worker.start(scope, own, ahead);
             let (field, solution) = timed(of_field, || with_threads(own, solve))?;
             let stated = timed(of_map, || {
                 let (mut problem, mut solver) = beside.wait(&mut of_call)?;

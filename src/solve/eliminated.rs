@@ -29,13 +29,14 @@ impl EliminatedProblem<'_> {
     /// Relaxation, search, expansion and verification.
     pub fn search(
         &mut self,
-        reduced: &ReducedModel,
+        reduced: ReducedModel,
         clock: &Clock,
         options: &Options,
         monitor: &mut Monitor,
     ) -> Result<Solution> {
+        let sizes = sizes(&reduced);
         let decided = decide(self, reduced, options, monitor)?;
-        self.conclude(reduced, decided, clock, monitor)
+        self.conclude(sizes, decided, clock, monitor)
     }
 
     /// The best values for the integers of the start, without a relaxation. Values that the objective does not
@@ -65,7 +66,8 @@ impl EliminatedProblem<'_> {
             work: of_relaxation(&reduced),
         };
         drop(watch);
-        self.conclude(&reduced, found, &clock, monitor).map(Some)
+        let sizes = sizes(&reduced);
+        self.conclude(sizes, found, &clock, monitor).map(Some)
     }
 
     /// The reduced model for the current right sides, and the time when it was made.
@@ -79,10 +81,10 @@ impl EliminatedProblem<'_> {
         Ok((reduced, clock))
     }
 
-    /// Expansion and verification.
+    /// Verification of what was found in a reduced model of these [sizes].
     pub fn conclude(
         &mut self,
-        reduced: &ReducedModel,
+        sizes: [usize; 2],
         found: SearchResult,
         clock: &Clock,
         monitor: &mut Monitor,
@@ -99,7 +101,7 @@ impl EliminatedProblem<'_> {
             status: found.status,
             complete: found.complete,
             stopped_by: found.stopped_by,
-            has_integers: !reduced.integers().is_empty(),
+            has_integers: sizes[0] > 0,
         };
         let (candidate, verdict) = candidate.verified(self.problem)?;
         Ok(Solution {
@@ -110,7 +112,7 @@ impl EliminatedProblem<'_> {
             complete: candidate.complete,
             stopped_by: candidate.stopped_by,
             work: found.work,
-            counts: counts(self.model, reduced, self.factors),
+            counts: counts(self.model, sizes, self.factors),
             seconds: Seconds {
                 eliminate: clock.eliminated,
                 factor: factored,
@@ -163,17 +165,17 @@ fn relaxation(
 /// The relaxation, and the search around its minimiser.
 fn decide(
     of: &mut EliminatedProblem,
-    reduced: &ReducedModel,
+    reduced: ReducedModel,
     options: &Options,
     monitor: &mut Monitor,
 ) -> Result<SearchResult> {
     monitor.progress(Phase::Factor, 0.0)?;
     // Before the search there is no result that could be kept.
     let watch = monitor.watch();
-    let (centre, relaxation) = relaxation(of, reduced, options)?;
+    let (centre, relaxation) = relaxation(of, &reduced, options)?;
     drop(watch);
     of.factors.free_relaxed();
-    let work = of_relaxation(reduced);
+    let work = of_relaxation(&reduced);
     let status = match options.strategy {
         _ if reduced.integers().is_empty() => Some(SolveStatus::Optimal),
         Strategy::Relax => Some(SolveStatus::Relaxed),
@@ -193,8 +195,10 @@ fn decide(
     monitor.check()?;
     let start = match options.warm_start {
         WarmStart::Off => None,
-        WarmStart::Offer | WarmStart::Keep => Some(start(of, reduced, centre.model())),
+        WarmStart::Offer | WarmStart::Keep => Some(start(of, &reduced, centre.model())),
     };
+    // The search needs the model around the centre alone.
+    drop(reduced);
     let found = by_components(of, &centre, relaxation, options, start, monitor)?;
     Ok(SearchResult {
         values: expand(&centre, of.model, options.strategy, &found.point),
@@ -214,14 +218,19 @@ fn start(of: &EliminatedProblem, reduced: &ReducedModel, model: &ReducedModel) -
     model.integers().iter().map(step).collect()
 }
 
-fn counts(model: &Model, reduced: &ReducedModel, factors: &Factors) -> Counts {
+/// The numbers of integers and of continuous unknowns.
+pub(super) fn sizes(reduced: &ReducedModel) -> [usize; 2] {
+    [reduced.integers().len(), reduced.continuous().len()]
+}
+
+fn counts(model: &Model, [integers, continuous]: [usize; 2], factors: &Factors) -> Counts {
     Counts {
         variables: model.variables(),
         integers: model.integer().iter().filter(|&&i| i).count(),
         constraints: model.constraints().rows(),
         inequalities: 0,
-        reduced_integers: reduced.integers().len(),
-        reduced_continuous: reduced.continuous().len(),
+        reduced_integers: integers,
+        reduced_continuous: continuous,
         factor_nonzeros: factors.entries(),
     }
 }

@@ -150,7 +150,7 @@ fn solve(
         earlier,
     };
     let (reduced, clock) = eliminated.reduce(monitor)?;
-    eliminated.search(&reduced, &clock, options, monitor)
+    eliminated.search(reduced, &clock, options, monitor)
 }
 
 impl Reformulation {

@@ -116,6 +116,6 @@ pub(super) fn solve_eliminated(
     let (reduced, clock) = problem.reduce(monitor)?;
     match solve_reformulated(&problem, &reduced, options, monitor)? {
         Some(solution) => Ok(solution),
-        None => problem.search(&reduced, &clock, options, monitor),
+        None => problem.search(reduced, &clock, options, monitor),
     }
 }

@@ -18,7 +18,7 @@
 use std::collections::BTreeSet;
 
 use super::Solution;
-use super::eliminated::{EliminatedProblem, SearchResult};
+use super::eliminated::{EliminatedProblem, SearchResult, sizes};
 use super::expand::clean;
 use super::relax::{Relaxation, relax};
 use super::run::solve_eliminated;
@@ -118,7 +118,8 @@ pub(super) fn solve_softly(
         work: of_relaxation(&reduced) + work,
         values,
     };
-    of.conclude(&reduced, decided, &clock, monitor).map(Some)
+    of.conclude(sizes(&reduced), decided, &clock, monitor)
+        .map(Some)
 }
 
 /// Converts rows in the caller's unknowns to rows in the reduced integers, each row once.
