@@ -103,14 +103,14 @@ fn curvature_weights_are_not_varied_without_curvature_guidance() {
 #[test]
 fn larger_details_are_tried_before_smaller_quads_unless_the_detail_is_given() {
     let mesh = shape::by_name("genus-3", 1000).unwrap();
-    let edge = (mesh.surface_area() / 12.0).sqrt();
-    let given = of(&mesh, 12, |options| {
+    let edge = (mesh.surface_area() / 20.0).sqrt();
+    let given = of(&mesh, 20, |options| {
         options.guidance.detail = Some(0.25 * edge);
         // No edge is as sharp, and none becomes a feature where quads do not conform.
         options.guidance.feature_angle = Some(std::f64::consts::PI);
         options.refine = false;
     });
-    let free = of(&mesh, 12, |_| {});
+    let free = of(&mesh, 20, |_| {});
     assert!(free.quads.is_conforming());
     // Only smaller quads around folds are left for this one.
     assert!(given.quads.quads.len() > free.quads.quads.len());
