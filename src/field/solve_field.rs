@@ -294,6 +294,7 @@ fn give_way(mesh: &TriangleMesh, field: &OrientationField, options: &mut FieldOp
 mod tests {
     use super::super::feasible_indices::MOST;
     use super::*;
+    use crate::monitor::traced;
 
     /// A cone so steep that the smoothest field turns with it: more than half a turn at the tip.
     fn horn(sides: u32) -> TriangleMesh {
@@ -332,6 +333,28 @@ mod tests {
         let after = field.vertex_index_steps(&mesh);
         assert!(after.iter().all(|&n| n <= MOST), "{after:?}");
         assert_eq!(after.iter().sum::<i32>(), before.iter().sum::<i32>());
+    }
+
+    #[test]
+    fn directions_from_details_need_no_relaxation() {
+        let mesh = crate::mesh::shape::by_name("torus", 1_000).unwrap();
+        let given = FieldOptions {
+            detail: 0.1,
+            ..FieldOptions::default()
+        };
+        let solver = Options::default();
+        let decided = decide_jumps(&mesh, &given, &solver, Monitor::default).unwrap();
+        let JumpsDecided::WithoutDetails(first, left) = decided else {
+            panic!("details are left out");
+        };
+        let (found, trace) = traced(false, || {
+            left.solve(&mesh, &given, &solver, Monitor::default)
+        });
+        let (field, _) = found.unwrap();
+        assert_eq!(field.period_jumps(), first.period_jumps());
+        assert_ne!(field.angles(), first.angles());
+        assert!(trace.spans.iter().any(|span| span.name == "centre"));
+        assert!(trace.spans.iter().all(|span| span.name != "relax"));
     }
 
     #[test]

@@ -7,7 +7,7 @@
 use super::TriangleMesh;
 use super::vector::{Vec3, sub};
 use crate::error::Result;
-use crate::monitor::{collect_in_parts, for_each_part, may_continue, parts_of};
+use crate::monitor::{collect_in_parts, may_continue, sort_in_parts};
 
 /// The faces of a mesh that is in the cache in any order.
 const FEW: usize = 1 << 15;
@@ -67,15 +67,7 @@ impl Reordered {
             (cell(center, low, size), face as u32)
         });
         may_continue()?;
-        // Parts are sorted by threads. The sort of the whole finds them, and merges them.
-        let mut rest = &mut cells[..];
-        let parts = parts_of(rest.len(), LEAST).into_iter().map(|range| {
-            let (part, others) = std::mem::take(&mut rest).split_at_mut(range.len());
-            rest = others;
-            part
-        });
-        for_each_part(parts.collect(), <[_]>::sort_unstable);
-        cells.sort();
+        sort_in_parts(&mut cells, LEAST);
         may_continue()?;
         let faces: Vec<u32> = cells.into_iter().map(|(_, face)| face).collect();
         let mut place_of_face = vec![0; faces.len()];
@@ -205,6 +197,7 @@ fn is_scattered(mesh: &TriangleMesh) -> bool {
 mod tests {
     use super::*;
     use crate::mesh::shape::by_name;
+    use crate::monitor::{spawned, with_threads};
     use crate::test_random::Random;
 
     /// A mesh with its faces and vertices in a random order.
@@ -241,10 +234,12 @@ mod tests {
 
     #[test]
     fn connectivity_is_that_of_a_mesh_that_is_made_in_this_order() {
-        for name in ["torus", "plane", "gear"] {
-            let mesh = Reordered::new(&shuffled(&by_name(name, 1_000).unwrap()))
-                .unwrap()
-                .mesh;
+        for (name, faces) in [("torus", 1_000), ("plane", 70_000), ("gear", 1_000)] {
+            let scattered = shuffled(&by_name(name, faces).unwrap());
+            let mut mesh = None;
+            let made = || mesh = Some(with_threads(3, || Reordered::new(&scattered).unwrap().mesh));
+            assert_eq!(spawned(made) > 0, faces > LEAST, "{name}");
+            let mesh = mesh.unwrap();
             let made = TriangleMesh::new(mesh.vertices().to_vec(), mesh.triangles().to_vec());
             let made = made.unwrap();
             assert!(mesh.edges().eq(made.edges()), "{name}");

@@ -70,3 +70,36 @@ pub(super) fn rings(
 fn previous(h: u32) -> u32 {
     if h.is_multiple_of(3) { h + 2 } else { h - 1 }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::shape::by_name;
+    use crate::monitor::{spawned, with_threads};
+
+    #[test]
+    fn threads_walk_around_parts_of_the_vertices_and_the_first_at_fault_is_named() {
+        let mesh = by_name("torus", 100_000).unwrap();
+        let count = mesh.vertex_count();
+        let of = |threads, count, triangles: &[[u32; 3]]| {
+            with_threads(threads, || rings(count, triangles, &mesh.twin))
+        };
+        let one = of(1, count, mesh.triangles()).unwrap();
+        let three = || {
+            let three = of(3, count, mesh.triangles()).unwrap();
+            assert_eq!((&one.start, &one.corner), (&three.start, &three.corner));
+        };
+        assert!(spawned(three) > 0);
+        // Of the last vertices each becomes one with a vertex in another part.
+        let mut triangles = mesh.triangles().to_vec();
+        for (dropped, vertex) in [(count - 1, count / 2), (count - 2, 3)] {
+            let corners = triangles.iter_mut().flatten();
+            let moved = corners.filter(|v| **v == dropped as u32);
+            moved.for_each(|v| *v = vertex as u32);
+            for threads in [1, 3] {
+                let found = of(threads, dropped, &triangles).err();
+                assert_eq!(found, Some(MeshError::NonManifoldVertex { vertex }));
+            }
+        }
+    }
+}

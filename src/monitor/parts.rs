@@ -95,15 +95,28 @@ pub(crate) fn change_in_parts<T: Send>(
     least: usize,
     change: impl Fn(usize, &mut T) + Sync,
 ) {
-    let mut rest = &mut *values;
-    let parts = parts_of(rest.len(), least).into_iter().map(|range| {
+    for_each_part(split(values, least), |(range, part)| {
+        range.zip(part).for_each(|(k, value)| change(k, value));
+    });
+}
+
+/// Sorts values in increasing order. Each thread has at least `least` of them.
+pub(crate) fn sort_in_parts<T: Ord + Send>(values: &mut [T], least: usize) {
+    for_each_part(split(values, least), |(_, part)| part.sort_unstable());
+    // This finds the parts, which are in order, and merges them.
+    values.sort();
+}
+
+/// The values of each part, and their numbers.
+fn split<T>(values: &mut [T], least: usize) -> Vec<(Range<usize>, &mut [T])> {
+    let ranges = parts_of(values.len(), least);
+    let mut rest = values;
+    let part = |range: Range<usize>| {
         let (part, others) = std::mem::take(&mut rest).split_at_mut(range.len());
         rest = others;
         (range, part)
-    });
-    for_each_part(parts.collect(), |(range, part)| {
-        range.zip(part).for_each(|(k, value)| change(k, value));
-    });
+    };
+    ranges.into_iter().map(part).collect()
 }
 
 /// Does two tasks, at the same time where that is worth a thread and one is allowed. They share the threads, and the
@@ -170,6 +183,11 @@ mod tests {
                 let mut changed = vec![1; count];
                 change_in_parts(&mut changed, 2, |k, value| *value *= 3 * k);
                 assert_eq!(changed, all);
+                let mut sorted: Vec<usize> = all.iter().map(|k| (k * 1009) % 3001).collect();
+                let mut expected = sorted.clone();
+                expected.sort_unstable();
+                sort_in_parts(&mut sorted, 2);
+                assert_eq!(sorted, expected);
             });
         }
     }

@@ -177,6 +177,36 @@ mod tests {
     }
 
     #[test]
+    fn a_map_ahead_has_half_of_the_threads() {
+        let mesh = by_name("torus", 24_000).unwrap();
+        let (sizing, features) = (Sizing::Quads(300), FeatureGraph::none(&mesh));
+        let given = FieldOptions {
+            detail: 0.1,
+            ..FieldOptions::default()
+        };
+        let solver = Options::default();
+        let decided = decide_jumps(&mesh, &given, &solver, Monitor::default).unwrap();
+        let JumpsDecided::WithoutDetails(first, left) = decided else {
+            panic!("details are left out");
+        };
+        let (stated, trace) = traced(false, || {
+            let map = data(&mesh, &sizing, &features);
+            let (both, options, mut seconds) = ((&first, *left), (&given, &solver), [0.0; 2]);
+            let [of_field, of_map] = &mut seconds;
+            let seconds = [of_field, of_map];
+            with_threads(4, || {
+                map.state_with_details(both, options, &Monitor::default, seconds)
+            })
+        });
+        assert!(stated.is_ok());
+        let on = |name, thread| {
+            let mut spans = trace.spans.iter();
+            spans.any(|span| span.name == name && span.thread == thread)
+        };
+        assert!(on("assemble map", 2) && on("part", 3));
+    }
+
+    #[test]
     fn a_map_with_isolines_or_of_other_jumps_is_stated_anew() {
         let mesh = by_name("torus", 600).unwrap();
         let of = |detail| {

@@ -296,6 +296,27 @@ mod tests {
     }
 
     #[test]
+    fn a_solver_that_expects_one_relaxation_frees_its_factor() {
+        let mesh = by_name("torus", 1_000).unwrap();
+        let field = FieldProblem::new(&mesh, &[]).unwrap();
+        let of = |strategy| Options {
+            strategy,
+            ..Options::default()
+        };
+        for is_one in [false, true] {
+            let mut solver = Solver::new(field.problem()).unwrap();
+            if is_one {
+                solver.expect_one_relaxation();
+            }
+            solver.solve(&of(Strategy::Adaptive)).unwrap();
+            let (relaxed, trace) = traced(false, || solver.solve(&of(Strategy::Relax)));
+            assert_eq!(relaxed.unwrap().status(), SolveStatus::Relaxed);
+            let is_made = trace.spans.iter().any(|span| span.name == "factor");
+            assert_eq!(is_made, is_one);
+        }
+    }
+
+    #[test]
     fn the_factor_that_the_search_needs_is_made_beside_the_relaxation() {
         let mesh = by_name("torus", 3_000).unwrap();
         let field = FieldProblem::new(&mesh, &[]).unwrap();

@@ -219,9 +219,10 @@ impl Solver {
         Ok(solution)
     }
 
-    /// The best values for the integers of the last solution, without a relaxation, whose bound and minimiser a solve
-    /// with [`WarmStart::Keep`](crate::WarmStart::Keep) has as well. That solve is made instead where the factor for
-    /// the values alone has not been made.
+    /// Finds the best values for the integers of the last solution. A solve with
+    /// [`WarmStart::Keep`](crate::WarmStart::Keep) finds them as well, but makes a relaxation first. Here there is none.
+    /// So the lower bound is that of a sum of squares, or infinite where the objective is something else. Where the
+    /// factor for the values has not been made, it is a solve that keeps the integers.
     ///
     /// # Errors
     /// The errors of [`solve_with`](crate::solve_with).
