@@ -37,6 +37,8 @@ pub struct Wave {
     held: Vec<u32>,
     /// The unknowns that have moved.
     moved: Vec<u32>,
+    /// The free integers among them and among those that follow them, while they are taken.
+    integers: Vec<u32>,
 }
 
 impl Wave {
@@ -199,28 +201,27 @@ impl<'a> LocalSolve<'a> {
         wave.held.clear();
     }
 
-    /// The free integers that may have moved since the last call, without repetition.
-    pub fn take_moved(&self, wave: &mut Wave) -> Vec<u32> {
-        let mut integers = Vec::new();
-        for i in std::mem::take(&mut wave.moved) {
+    /// Calls `moved` with each free integer that may have moved since the last call, without repetition.
+    pub fn take_moved(&self, wave: &mut Wave, mut moved: impl FnMut(u32)) {
+        for i in wave.moved.drain(..) {
             let k = i as usize;
             let unknown = self.system.unknown(k);
             unknown.clear(MOVED);
             if unknown.has(INTEGER) && !unknown.has(FIXED) {
-                integers.push(i);
+                wave.integers.push(i);
             }
             for j in self.system.followers(k) {
                 let follower = self.system.unknown(j as usize);
                 if !follower.has(MOVED) {
                     follower.set(MOVED);
-                    integers.push(j);
+                    wave.integers.push(j);
                 }
             }
         }
-        for &i in &integers {
+        for i in wave.integers.drain(..) {
             self.system.unknown(i as usize).clear(MOVED);
+            moved(i);
         }
-        integers
     }
 
     /// Applies a step of unknown `i` to the slopes of its neighbours.
@@ -296,8 +297,9 @@ mod tests {
         let mut wave = Wave::default();
         local.fix(10, 1.0, &mut wave);
         local.relax(&mut wave, 1e-9, usize::MAX, |_| true);
-        let moved = local.take_moved(&mut wave);
+        let mut moved = Vec::new();
+        local.take_moved(&mut wave, |i| moved.push(i));
         assert!(!moved.is_empty() && !moved.contains(&10));
-        assert!(local.take_moved(&mut wave).is_empty());
+        local.take_moved(&mut wave, |i| unreachable!("{i} has been taken"));
     }
 }

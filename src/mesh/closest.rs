@@ -31,6 +31,10 @@ struct Node {
 /// A box with at most this many triangles is not divided.
 const LEAF: usize = 4;
 
+/// The most boxes that are still to be visited at any time: one for each division on the way to a box, and the two of
+/// the last. There are at most 32 divisions, because each halves the number of triangles, which is one of 32 bits.
+const OPEN: usize = 34;
+
 /// A half with fewer triangles is not worth a thread.
 const LEAST: usize = 1 << 11;
 
@@ -100,15 +104,20 @@ impl ClosestPoint {
         is_wanted: impl Fn(usize) -> bool,
         work: &mut u64,
     ) -> Option<(usize, Vec3)> {
-        let mut open = match self.boxes.is_empty() {
-            true => Vec::new(),
-            false => vec![0u32],
-        };
-        while let Some(node) = open.pop() {
-            let bounds = &self.boxes[node as usize];
-            if distance(bounds, p) >= least {
+        // The boxes that are still to be visited, and how far away they are; the next one is the last.
+        let mut open = [(0.0, 0u32); OPEN];
+        let mut count = 0;
+        if let Some(all) = self.boxes.first() {
+            open[0] = (distance(all, p), 0);
+            count = 1;
+        }
+        while count > 0 {
+            count -= 1;
+            let (away, node) = open[count];
+            if away >= least {
                 continue;
             }
+            let bounds = &self.boxes[node as usize];
             if bounds.second == 0 {
                 *work += u64::from(bounds.last - bounds.first);
                 for &t in &self.order[bounds.first as usize..bounds.last as usize] {
@@ -121,12 +130,14 @@ impl ClosestPoint {
                 continue;
             }
             let halves = [node + 1, bounds.second];
-            let [a, b] = halves.map(|half| distance(&self.boxes[half as usize], p));
-            open.extend(if a < b {
-                [halves[1], halves[0]]
-            } else {
-                halves
-            });
+            let [a, b] = halves.map(|half| (distance(&self.boxes[half as usize], p), half));
+            let (near, far) = if a.0 < b.0 { (a, b) } else { (b, a) };
+            for half in [far, near] {
+                if half.0 < least {
+                    open[count] = half;
+                    count += 1;
+                }
+            }
         }
         best
     }

@@ -110,9 +110,8 @@ pub(crate) fn adaptive(
             passes.round(i);
         }
         passes.reoptimise(factors, search)?;
-        for i in passes.solve.take_moved(&mut passes.wave) {
-            candidates.push(i, passes.solve.value(i));
-        }
+        let (solve, wave) = (&passes.solve, &mut passes.wave);
+        solve.take_moved(wave, |i| candidates.push(i, solve.value(i)));
     }
     let nearest = |&i: &u32| model.nearest(i as usize, passes.solve.value(i));
     let rounded: Vec<f64> = integers.iter().map(nearest).collect();
@@ -157,9 +156,8 @@ impl Passes<'_> {
             budget -= self
                 .solve
                 .relax(&mut self.wave, tolerance, budget, |_| true);
-            for i in self.solve.take_moved(&mut self.wave) {
-                candidates.push(i, self.solve.value(i));
-            }
+            let (solve, wave) = (&self.solve, &mut self.wave);
+            solve.take_moved(wave, |i| candidates.push(i, solve.value(i)));
             let threshold = HASTE * self.left as f64;
             let threshold = self.options.rounding_threshold.max(threshold);
             for i in candidates.take(threshold, |i| self.undecided(i)) {
@@ -175,7 +173,7 @@ impl Passes<'_> {
         self.updates = self.updates.saturating_sub(rounded.updates);
         self.wave = rounded.wave;
         self.relax(self.updates, search);
-        self.solve.take_moved(&mut self.wave);
+        self.solve.take_moved(&mut self.wave, |_| {});
     }
 
     /// Re-optimises locally by so many updates at most. Returns whether the search goes on.

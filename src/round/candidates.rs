@@ -1,5 +1,5 @@
-//! A priority queue of the integers to round next, ordered by the distance from the nearest integer. Each
-//! range of distances has its own heap, so that a heap fits into the cache. Outdated entries are skipped.
+//! A priority queue of the integers to round next, ordered by the distance from the nearest integer. Where there are
+//! many, each range of distances has its own heap, so that a heap fits into the cache. Outdated entries are skipped.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -7,8 +7,11 @@ use std::collections::BinaryHeap;
 use super::greedy::TIE;
 use super::nearest;
 
-/// The number of ranges of distances.
+/// The most ranges of distances.
 const RANGES: usize = 1024;
+
+/// The unknowns for each range: a heap of so many fits into the cache.
+const UNKNOWNS_OF_RANGE: usize = 256;
 
 /// The undecided integers, the closest to an integer first. If deviations agree up to [`TIE`], the lowest
 /// unknown comes first.
@@ -28,7 +31,7 @@ impl Candidates {
     /// An empty queue for unknowns below `dim`.
     pub fn new(dim: usize) -> Self {
         Candidates {
-            heaps: vec![BinaryHeap::new(); RANGES],
+            heaps: vec![BinaryHeap::new(); (dim / UNKNOWNS_OF_RANGE).clamp(1, RANGES)],
             lowest: 0,
             entered: vec![u64::MAX; dim],
         }
@@ -43,7 +46,7 @@ impl Candidates {
         let entered = &mut self.entered[unknown as usize];
         if rank < *entered {
             *entered = rank;
-            let range = range_of(rank);
+            let range = range_of(rank, self.heaps.len());
             self.heaps[range].push(Reverse((rank, unknown)));
             self.lowest = self.lowest.min(range);
         }
@@ -51,7 +54,7 @@ impl Candidates {
 
     /// The least entry, outdated or not, and its heap.
     fn least(&mut self) -> Option<(usize, u64, u32)> {
-        let at = (self.lowest..RANGES).find(|&range| !self.heaps[range].is_empty())?;
+        let at = (self.lowest..self.heaps.len()).find(|&range| !self.heaps[range].is_empty())?;
         self.lowest = at;
         let &Reverse((rank, unknown)) = self.heaps[at].peek()?;
         Some((at, rank, unknown))
@@ -99,10 +102,10 @@ impl Candidates {
     }
 }
 
-/// The heap for deviations of this rank.
-fn range_of(rank: u64) -> usize {
+/// The heap for deviations of this rank, out of so many.
+fn range_of(rank: u64, ranges: usize) -> usize {
     let deviation = rank as f64 * TIE;
-    ((2.0 * deviation * RANGES as f64) as usize).min(RANGES - 1)
+    ((2.0 * deviation * ranges as f64) as usize).min(ranges - 1)
 }
 
 fn rank(value: f64) -> u64 {

@@ -202,7 +202,7 @@ impl Region<'_> {
     fn round(&mut self, ceiling: f64, monitor: &mut Monitor) {
         let solve = self.solve;
         let mut goes_on = self.relax(monitor);
-        solve.take_moved(&mut self.wave);
+        solve.take_moved(&mut self.wave, |_| {});
         let mut candidates = Candidates::new(self.integers.len());
         for (place, &i) in self.integers.iter().enumerate() {
             if !solve.is_fixed(i) {
@@ -226,11 +226,12 @@ impl Region<'_> {
                 self.rounded += 1;
             }
             goes_on = self.relax(monitor);
-            for i in solve.take_moved(&mut self.wave) {
-                if self.division.inner[i as usize] {
-                    candidates.push(self.division.place[i as usize], solve.value(i));
+            let Division { inner, place, .. } = self.division;
+            solve.take_moved(&mut self.wave, |i| {
+                if inner[i as usize] {
+                    candidates.push(place[i as usize], solve.value(i));
                 }
-            }
+            });
         }
     }
 
