@@ -85,7 +85,7 @@ pub mod untangle;
 #[path = "../tests/common/random.rs"]
 mod test_random;
 
-pub use capi::peak_memory;
+pub use capi::{peak_memory, release_free_memory};
 pub use error::{Conflicting, Error, InputError, Result};
 pub use linalg::Ordering;
 pub use monitor::{CancelToken, Event, Flow, Monitor};

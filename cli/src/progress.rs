@@ -10,7 +10,7 @@ use std::ops::Range;
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
-use roundel::monitor::{EventKind, Run, Stage};
+use roundel::monitor::{EventKind, Phase, Run, Stage};
 use roundel::{CancelToken, Event, Flow, Monitor, Options, Result};
 
 use crate::interrupt;
@@ -23,6 +23,8 @@ pub struct Progress {
     token: CancelToken,
     finish_at: Option<Instant>,
     tries: Tries,
+    /// The phase of the last event.
+    phase: Cell<Option<Phase>>,
 }
 
 /// Often enough to look alive, seldom enough to cost nothing.
@@ -62,6 +64,7 @@ impl Progress {
             token: interrupt::cancel_token()?,
             finish_at: None,
             tries: Tries::default(),
+            phase: Cell::default(),
         })
     }
 
@@ -81,6 +84,15 @@ impl Progress {
         self.run.next_call(of(from), of(to));
     }
 
+    /// Enters a phase. A factorization needs more memory at once than any other step, and extraction follows one whose
+    /// factor is kept.
+    fn enter(&self, phase: Phase) {
+        let is_next = self.phase.replace(Some(phase)) != Some(phase);
+        if (is_next || phase == Phase::Factor) && roundel::peak_memory() > Some(LARGE) {
+            roundel::release_free_memory();
+        }
+    }
+
     /// A monitor that keeps the line up to date, and ends with the run.
     pub fn monitor(&self) -> Monitor<'_> {
         let mut monitor = Monitor::default()
@@ -89,12 +101,11 @@ impl Progress {
         if let Some(time) = self.finish_at {
             monitor = monitor.finish_at(time);
         }
-        if self.bar.is_hidden() {
-            return monitor;
-        }
         monitor.on_event(|event| {
-            if let EventKind::Log(line) = event.kind {
-                self.bar.println(line);
+            match event.kind {
+                EventKind::Log(line) => self.bar.println(line),
+                EventKind::Progress { phase, .. } => self.enter(phase),
+                _ => {}
             }
             if self.tries.enter(event.stage) {
                 self.bar.set_style(style(false));
@@ -112,6 +123,10 @@ impl Drop for Progress {
         self.bar.finish_and_clear();
     }
 }
+
+/// From so many bytes on, memory that is free is given back to the operating system before each phase, so that blocks
+/// of other sizes do not come on top of it.
+const LARGE: u64 = 1 << 29;
 
 /// The style of the line, with or without the rest.
 fn style(tells_rest: bool) -> ProgressStyle {

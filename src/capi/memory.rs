@@ -1,4 +1,4 @@
-//! Peak memory of this process, from the operating system's own account.
+//! The memory of this process: its peak, from the operating system's own account, and what it does not use.
 
 /// The most memory that this process has had resident so far, in bytes; `None` where the operating
 /// system does not tell.
@@ -23,6 +23,16 @@ pub fn peak_memory() -> Option<u64> {
     }
     #[cfg(not(unix))]
     None
+}
+
+/// Gives memory that this process has freed, and its allocator keeps, back to the operating system. That of glibc
+/// keeps what lies between blocks in use, and blocks of other sizes may not fit there. Elsewhere nothing happens.
+pub fn release_free_memory() {
+    #[cfg(all(target_os = "linux", target_env = "gnu"))]
+    {
+        // SAFETY: the allocator takes its own locks, and leaves all blocks in use as they are.
+        unsafe { libc::malloc_trim(0) };
+    }
 }
 
 #[cfg(all(test, unix))]

@@ -104,7 +104,7 @@ pub use least_squares::*;
 pub use map::*;
 pub use map_fold_free::*;
 pub use map_results::*;
-pub use memory::peak_memory;
+pub use memory::{peak_memory, release_free_memory};
 pub use mesh::*;
 pub use mesh_files::*;
 pub use objective::*;

@@ -4,6 +4,8 @@
 //! Nearest matching decides that: the period jump is the one that leaves the least angle between
 //! the matched arms, at most an eighth of a turn for crosses (`ray2008`, section 3).
 
+use std::sync::Arc;
+
 use super::OrientationField;
 use crate::error::{Error, Result};
 use crate::mesh::TriangleMesh;
@@ -43,7 +45,7 @@ impl OrientationField {
             period_jumps: vec![0; kappa.len()],
             constrained: vec![false; angles.len()],
             angles,
-            kappa,
+            kappa: Arc::new(kappa),
         };
         for e in 0..mesh.edge_count() {
             field.period_jumps[e] = field.nearest_jump(mesh, e);

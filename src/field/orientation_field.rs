@@ -1,6 +1,7 @@
 //! An orientation field, and its energy measured on the mesh.
 
 use std::f64::consts::{PI, TAU};
+use std::sync::Arc;
 
 use super::Guide;
 use crate::error::{Error, Result};
@@ -18,7 +19,8 @@ pub struct OrientationField {
     pub(super) symmetry: u8,
     pub(super) angles: Vec<f64>,
     pub(super) period_jumps: Vec<i32>,
-    pub(super) kappa: Vec<f64>,
+    /// Copies share it.
+    pub(super) kappa: Arc<Vec<f64>>,
     pub(super) constrained: Vec<bool>,
 }
 
@@ -69,12 +71,12 @@ impl OrientationField {
             }
         };
         let of_edges = collect_in_parts(given.edge_count(), LEAST, of_edge);
-        let (period_jumps, kappa) = of_edges.into_iter().unzip();
+        let (period_jumps, kappa): (_, Vec<f64>) = of_edges.into_iter().unzip();
         OrientationField {
             symmetry: self.symmetry,
             angles: reordered.of_given_faces(&self.angles),
             period_jumps,
-            kappa,
+            kappa: Arc::new(kappa),
             constrained: reordered.of_given_faces(&self.constrained),
         }
     }
@@ -147,12 +149,12 @@ mod tests {
             symmetry: 4,
             angles: vec![0.2, 0.7],
             period_jumps,
-            kappa,
+            kappa: Arc::new(kappa),
             constrained: vec![false; 2],
         };
         let here = there.on_given(&reordered, &given);
         assert_eq!(here.angles, [0.7, 0.2]);
-        assert_eq!(here.kappa, given.transports());
+        assert_eq!(*here.kappa, given.transports());
         let error = here.energy(&given) - there.energy(mesh);
         assert!(error.abs() < 1e-12, "{error}");
     }

@@ -12,6 +12,7 @@
 //! from the constrained and guided faces: their frames cannot be turned to move a jump away.
 
 use std::f64::consts::TAU;
+use std::sync::Arc;
 
 use super::detail::detail;
 use super::prescribed_indices::{ring_sum, steps};
@@ -46,7 +47,7 @@ pub struct FieldProblem {
     pub(super) problem: Problem,
     symmetry: u8,
     jumps: Vec<Jump>,
-    kappa: Vec<f64>,
+    kappa: Arc<Vec<f64>>,
 }
 
 impl FieldProblem {
@@ -89,7 +90,7 @@ impl FieldProblem {
             problem: Problem::new(faces + jumps.iter().filter(unknown).count())?,
             symmetry: options.symmetry,
             jumps,
-            kappa,
+            kappa: Arc::new(kappa),
         };
         for c in &options.constraints {
             this.problem.pin(c.face, c.angle)?;
@@ -257,7 +258,7 @@ impl FieldProblem {
             symmetry: self.symmetry,
             angles,
             period_jumps,
-            kappa: self.kappa.clone(),
+            kappa: Arc::clone(&self.kappa),
             constrained: constrained.collect(),
         })
     }

@@ -13,6 +13,8 @@ pub(super) fn expand(
 ) -> Vec<f64> {
     let exact = centre.expand(point).into_iter();
     let mut values: Vec<f64> = exact.map(|x| x.high).collect();
+    // They are collected where both parts of each were.
+    values.shrink_to_fit();
     clean(&mut values, model, strategy);
     values
 }
