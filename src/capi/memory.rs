@@ -37,11 +37,16 @@ pub fn release_free_memory() {
 
 #[cfg(all(test, unix))]
 mod tests {
-    use super::peak_memory;
+    use super::*;
+    use std::sync::Mutex;
+
+    /// Only one of these tests has much memory at a time.
+    static MUCH: Mutex<()> = Mutex::new(());
 
     #[test]
     fn the_peak_grows_by_the_memory_that_is_touched_and_never_falls() {
         const MORE: usize = 256 << 20;
+        let _much = MUCH.lock().unwrap();
         let before = peak_memory().unwrap();
         let touched = vec![1_u8; before as usize + MORE];
         let during = peak_memory().unwrap();
@@ -49,5 +54,27 @@ mod tests {
         assert!(during < 16 * (before + MORE as u64), "bytes, not kibibytes");
         drop(touched);
         assert!(peak_memory().unwrap() >= during);
+    }
+
+    #[cfg(all(target_os = "linux", target_env = "gnu"))]
+    #[test]
+    fn free_memory_between_blocks_in_use_is_given_back() {
+        let _much = MUCH.lock().unwrap();
+        let resident = || {
+            let pages = std::fs::read_to_string("/proc/self/statm").unwrap();
+            pages.split(' ').nth(1).unwrap().parse::<usize>().unwrap() * 4096
+        };
+        // Small enough for the heap, in which one of eight stays.
+        let mut blocks: Vec<Vec<u8>> = (0..8192).map(|_| vec![1; 32 << 10]).collect();
+        let mut number = 0;
+        blocks.retain(|_| {
+            number += 1;
+            number % 8 == 0
+        });
+        let before = resident();
+        release_free_memory();
+        let after = resident();
+        assert!(after + (128 << 20) < before, "{before} to {after}");
+        assert!(blocks.iter().flatten().all(|&byte| byte == 1));
     }
 }

@@ -171,7 +171,7 @@ fn expand(reduced: &ReducedModel, y: &[f64]) -> Vec<TwoFold> {
 /// Moves `point` by the solution of the constraints for its own remainders, as iterative refinement does. A
 /// point of integers, or one whose remainders are too small to be solved for, stays.
 fn satisfy(point: &mut [TwoFold], model: &Model, elimination: &Elimination) {
-    for (x, pin) in point.iter_mut().zip(model.pinned()) {
+    for (x, pin) in point.iter_mut().zip(model.pinned().iter()) {
         if let Some(value) = pin {
             *x = (*value).into();
         }

@@ -117,7 +117,7 @@ fn given(record: &Record, model: &Model, r: usize) -> Result<Side> {
     let mut magnitude = rhs.abs();
     let mut rest = CompensatedSum::new(rhs);
     for (j, v) in model.constraints().row(r) {
-        if let Some(value) = model.pinned()[j] {
+        if let Some(value) = model.pinned().get(j) {
             let v = v * scale;
             rest.add_product(-v, value);
             magnitude = magnitude.max((v * value).abs());

@@ -125,7 +125,7 @@ impl Elimination {
         may_continue()?;
         let held: Vec<(u32, f64)> = (self.free.iter().enumerate())
             .filter_map(|(y, &u)| {
-                let pin = model.pinned().get(u as usize)?;
+                let pin = model.pinned().get(u as usize);
                 pin.map(|value| (y as u32, value))
             })
             .collect();

@@ -9,6 +9,7 @@ mod matrix;
 mod model;
 pub mod mps;
 mod objective;
+mod pins;
 pub mod qplib;
 mod rows;
 mod shared;
@@ -20,6 +21,7 @@ pub use limits::Inequalities;
 pub use matrix::{Layout, MatrixRef, Triangle};
 pub use model::Model;
 pub(crate) use objective::Objective;
+pub use pins::Pins;
 pub use rows::RowList;
 pub(crate) use text::{limits_text, row_text};
 
@@ -52,7 +54,7 @@ pub struct Problem {
     inequalities: Inequalities,
     bounds: Bounds,
     integer: Arc<Vec<bool>>,
-    pinned: Arc<Vec<Option<f64>>>,
+    pinned: Pins,
     guess: Arc<Vec<f64>>,
     cycles: Arc<CycleHint>,
 }
@@ -84,7 +86,7 @@ impl Problem {
             inequalities: Inequalities::default(),
             bounds: Bounds::default(),
             integer: Arc::new(filled(variables, false)?),
-            pinned: Arc::new(filled(variables, None)?),
+            pinned: Pins::free(variables),
             guess: Arc::new(filled(variables, 0.0)?),
             cycles: Arc::default(),
         })
@@ -161,7 +163,7 @@ impl Problem {
         &self.integer
     }
 
-    pub(crate) fn pins(&self) -> &[Option<f64>] {
+    pub(crate) fn pins(&self) -> &Pins {
         &self.pinned
     }
 
@@ -517,8 +519,7 @@ impl Problem {
     pub fn pin(&mut self, variable: usize, value: f64) -> Result<()> {
         in_range("variable", &[variable], self.variables)?;
         finite("pinned value", value)?;
-        own(&mut self.pinned, 0, WHAT)?[variable] = Some(value);
-        Ok(())
+        self.pinned.set(variable, Some(value), WHAT)
     }
 
     /// Frees a pinned unknown. An unknown that is free stays free.
@@ -527,8 +528,7 @@ impl Problem {
     /// [`Error::IndexOutOfRange`].
     pub fn unpin(&mut self, variable: usize) -> Result<()> {
         in_range("variable", &[variable], self.variables)?;
-        own(&mut self.pinned, 0, WHAT)?[variable] = None;
-        Ok(())
+        self.pinned.set(variable, None, WHAT)
     }
 
     /// Sets the initial guess, one value for each unknown (zero if not set). Unknowns that the objective does

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{CycleHint, Problem, RowList};
+use super::{CycleHint, Pins, Problem, RowList};
 use crate::error::{Error, Result};
 use crate::linalg::Sparse;
 use crate::monitor::{may_continue, may_continue_at, span};
@@ -21,7 +21,7 @@ pub struct Model {
     constraints: Arc<Sparse>,
     constraint_rhs: Vec<f64>,
     integer: Arc<Vec<bool>>,
-    pinned: Arc<Vec<Option<f64>>>,
+    pinned: Pins,
     guess: Arc<Vec<f64>>,
     cycles: Arc<CycleHint>,
     ignored_hint: Option<usize>,
@@ -120,10 +120,9 @@ impl Model {
 
     /// The same constraints with other right sides, and with every pinned unknown pinned to zero.
     pub(crate) fn with_constraint_right_sides(&self, rhs: Vec<f64>) -> Self {
-        let pinned = self.pinned.iter();
         Model {
             constraint_rhs: rhs,
-            pinned: Arc::new(pinned.map(|pin| pin.map(|_| 0.0)).collect()),
+            pinned: self.pinned.at_zero(),
             ..self.clone()
         }
     }
@@ -181,7 +180,7 @@ impl Model {
     }
 
     /// The value of each pinned unknown.
-    pub fn pinned(&self) -> &[Option<f64>] {
+    pub fn pinned(&self) -> &Pins {
         &self.pinned
     }
 

@@ -34,7 +34,7 @@ impl Statement {
             limits.then(|| (j as u32, side(lower), side(upper)))
         });
         let integers = (0..n).filter(|&j| problem.integers()[j]);
-        let pins = (0..).zip(problem.pins());
+        let pins = (0..).zip(problem.pins().iter());
         Statement {
             variables: n,
             quadratic: problem.quadratic().to_vec(),

@@ -22,7 +22,7 @@ pub(super) fn expand(
 /// Restores pins and integers, which the expansion may have rounded.
 pub(super) fn clean(values: &mut [f64], model: &Model, strategy: Strategy) {
     for (i, x) in values.iter_mut().enumerate() {
-        if let Some(pin) = model.pinned()[i] {
+        if let Some(pin) = model.pinned().get(i) {
             *x = pin;
         } else if model.integer()[i] && strategy != Strategy::Relax {
             *x = x.round();

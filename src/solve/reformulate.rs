@@ -262,7 +262,7 @@ impl Reformulation {
                 problem.add_constraint(&indices, &coefficients, rhs)?;
             }
         }
-        for (place, pin) in self.place.iter().zip(given.pins()) {
+        for (place, pin) in self.place.iter().zip(given.pins().iter()) {
             if let (&Place::Continuous(at), &Some(value)) = (place, pin) {
                 problem.pin(at, value)?;
             }

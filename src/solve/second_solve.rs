@@ -60,8 +60,8 @@ fn better(
     verdict: &Verdict,
     solve: impl FnOnce() -> Result<SecondSolve>,
 ) -> Option<SecondSolve> {
-    let free_integers =
-        (problem.integers().iter().zip(problem.pins())).any(|(is, pin)| *is && pin.is_none());
+    let free_integers = (problem.integers().iter().zip(problem.pins().iter()))
+        .any(|(is, pin)| *is && pin.is_none());
     if verdict.constraint_violation <= CLEAN || !free_integers {
         return None;
     }

@@ -134,7 +134,7 @@ fn bits(problem: &Problem, zeros: bool) -> Vec<u64> {
         all.extend(numbers.iter().map(|v| v.to_bits()));
     }
     all.extend(model.integer().iter().map(|&b| u64::from(b)));
-    for pin in model.pinned() {
+    for pin in model.pinned().iter() {
         all.push(pin.map_or(u64::MAX, f64::to_bits));
     }
     for j in 0..problem.variables() {
