@@ -140,4 +140,23 @@ mod tests {
         let now = [Some(0.4), None, Some(0.3)];
         assert_eq!(candidates.take(0.0, |i| now[i as usize]), [2]);
     }
+    #[test]
+    fn any_number_of_heaps_gives_the_same_order() {
+        let value = |i: u32| 0.37 * f64::from(i) + 1e-3 * f64::from(i % 7);
+        let order = |dim: usize| {
+            let mut candidates = Candidates::new(dim);
+            (0..300).for_each(|i| candidates.push(i, value(i + 1)));
+            // Some have moved since, some have been decided.
+            let now = |i: u32| (!i.is_multiple_of(5)).then(|| value(i + i % 2));
+            (0..300).for_each(|i| candidates.push(i, value(i + i % 2)));
+            let taken = std::iter::repeat_with(|| candidates.take(0.02, now));
+            let taken: Vec<Vec<u32>> = taken.take_while(|batch| !batch.is_empty()).collect();
+            (candidates.heaps.len(), taken)
+        };
+        let [one, some, most] = [300, 2_000, 1_000_000].map(order);
+        assert_eq!([one.0, some.0, most.0], [1, 7, RANGES]);
+        assert_eq!(one.1.concat().len(), 240);
+        assert_eq!(one.1, some.1);
+        assert_eq!(one.1, most.1);
+    }
 }
