@@ -9,6 +9,7 @@ mod evaluate;
 mod exit;
 mod extract;
 mod field;
+mod free_memory;
 mod generate;
 mod help;
 mod interrupt;

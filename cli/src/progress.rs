@@ -10,9 +10,10 @@ use std::ops::Range;
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
-use roundel::monitor::{EventKind, Phase, Run, Stage};
+use roundel::monitor::{EventKind, Run, Stage};
 use roundel::{CancelToken, Event, Flow, Monitor, Options, Result};
 
+use crate::free_memory::FreeMemory;
 use crate::interrupt;
 use crate::summary::telling_gap;
 
@@ -23,8 +24,7 @@ pub struct Progress {
     token: CancelToken,
     finish_at: Option<Instant>,
     tries: Tries,
-    /// The phase of the last event.
-    phase: Cell<Option<Phase>>,
+    memory: FreeMemory,
 }
 
 /// Often enough to look alive, seldom enough to cost nothing.
@@ -64,7 +64,7 @@ impl Progress {
             token: interrupt::cancel_token()?,
             finish_at: None,
             tries: Tries::default(),
-            phase: Cell::default(),
+            memory: FreeMemory::default(),
         })
     }
 
@@ -84,16 +84,7 @@ impl Progress {
         self.run.next_call(of(from), of(to));
     }
 
-    /// Enters a phase. A factorization needs more memory at once than any other step, and extraction follows one whose
-    /// factor is kept.
-    fn enter(&self, phase: Phase) {
-        let is_next = self.phase.replace(Some(phase)) != Some(phase);
-        if (is_next || phase == Phase::Factor) && roundel::peak_memory() > Some(LARGE) {
-            roundel::release_free_memory();
-        }
-    }
-
-    /// A monitor that keeps the line up to date, and ends with the run.
+    /// A monitor that keeps the line up to date, has free memory given back, and ends with the run.
     pub fn monitor(&self) -> Monitor<'_> {
         let mut monitor = Monitor::default()
             .of_run(&self.run)
@@ -104,7 +95,7 @@ impl Progress {
         monitor.on_event(|event| {
             match event.kind {
                 EventKind::Log(line) => self.bar.println(line),
-                EventKind::Progress { phase, .. } => self.enter(phase),
+                EventKind::Progress { phase, .. } => self.memory.enter(phase),
                 _ => {}
             }
             if self.tries.enter(event.stage) {
@@ -123,10 +114,6 @@ impl Drop for Progress {
         self.bar.finish_and_clear();
     }
 }
-
-/// From so many bytes on, memory that is free is given back to the operating system before each phase, so that blocks
-/// of other sizes do not come on top of it.
-const LARGE: u64 = 1 << 29;
 
 /// The style of the line, with or without the rest.
 fn style(tells_rest: bool) -> ProgressStyle {
@@ -206,6 +193,17 @@ mod tests {
         // It is told once.
         let others = [Stage::Quads, Stage::Field, Stage::Smooth];
         assert_eq!(others.map(|stage| tries.enter(stage)), [false; 3]);
+    }
+
+    #[test]
+    fn phases_are_entered_where_no_line_is_drawn_as_well() {
+        let progress = Progress::start(true).unwrap();
+        let mut problem = roundel::Problem::new(1).unwrap();
+        problem.add_least_squares(&[0], &[1.0], 0.3, 1.0).unwrap();
+        problem.set_integers(&[0]).unwrap();
+        assert_eq!(progress.memory.entered(), None);
+        roundel::solve_with(&problem, &Options::default(), progress.monitor()).unwrap();
+        assert!(progress.memory.entered().is_some());
     }
 
     #[test]

@@ -25,8 +25,8 @@ pub fn peak_memory() -> Option<u64> {
     None
 }
 
-/// Gives memory that this process has freed, and its allocator keeps, back to the operating system. That of glibc
-/// keeps what lies between blocks in use, and blocks of other sizes may not fit there. Elsewhere nothing happens.
+/// Gives memory that this process has freed back to the operating system. The allocator of glibc keeps such memory
+/// where it lies between blocks in use. With other allocators nothing happens.
 pub fn release_free_memory() {
     #[cfg(all(target_os = "linux", target_env = "gnu"))]
     {
@@ -61,8 +61,10 @@ mod tests {
     fn free_memory_between_blocks_in_use_is_given_back() {
         let _much = MUCH.lock().unwrap();
         let resident = || {
-            let pages = std::fs::read_to_string("/proc/self/statm").unwrap();
-            pages.split(' ').nth(1).unwrap().parse::<usize>().unwrap() * 4096
+            let status = std::fs::read_to_string("/proc/self/status").unwrap();
+            let line = status.lines().find(|line| line.starts_with("VmRSS:"));
+            let kibibytes = line.unwrap().split_whitespace().nth(1).unwrap();
+            kibibytes.parse::<usize>().unwrap() << 10
         };
         // Small enough for the heap, in which one of eight stays.
         let mut blocks: Vec<Vec<u8>> = (0..8192).map(|_| vec![1; 32 << 10]).collect();

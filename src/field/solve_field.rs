@@ -159,6 +159,25 @@ pub(crate) enum JumpsDecided {
     WithoutDetails(OrientationField, Box<DirectionProblem>),
 }
 
+#[cfg(test)]
+impl JumpsDecided {
+    /// The field of a mesh without details of this size, and the problem of its directions.
+    pub(crate) fn without(
+        details: f64,
+        mesh: &TriangleMesh,
+    ) -> (OrientationField, DirectionProblem, FieldOptions) {
+        let given = FieldOptions {
+            detail: details,
+            ..FieldOptions::default()
+        };
+        let decided = decide_jumps(mesh, &given, &Options::default(), Monitor::default);
+        match decided.unwrap() {
+            JumpsDecided::WithoutDetails(first, left) => (first, *left, given),
+            JumpsDecided::All(..) => unreachable!("details are left out"),
+        }
+    }
+}
+
 /// The problem of a field whose period jumps are decided, and its solver: what is left are the directions that the
 /// details of the surface give it.
 pub(crate) struct DirectionProblem {
@@ -338,17 +357,9 @@ mod tests {
     #[test]
     fn directions_from_details_need_no_relaxation() {
         let mesh = crate::mesh::shape::by_name("torus", 1_000).unwrap();
-        let given = FieldOptions {
-            detail: 0.1,
-            ..FieldOptions::default()
-        };
-        let solver = Options::default();
-        let decided = decide_jumps(&mesh, &given, &solver, Monitor::default).unwrap();
-        let JumpsDecided::WithoutDetails(first, left) = decided else {
-            panic!("details are left out");
-        };
+        let (first, left, given) = JumpsDecided::without(0.1, &mesh);
         let (found, trace) = traced(false, || {
-            left.solve(&mesh, &given, &solver, Monitor::default)
+            left.solve(&mesh, &given, &Options::default(), Monitor::default)
         });
         let (field, _) = found.unwrap();
         assert_eq!(field.period_jumps(), first.period_jumps());

@@ -6,8 +6,8 @@ use std::sync::Arc;
 use super::shared::own;
 use crate::error::Result;
 
-/// The value of each pinned unknown, and `None` for each that is free. Those after the last pinned one take no memory.
-/// Copies share the values until they are changed.
+/// The value of each pinned unknown, and `None` for each that is free. Unknowns after the last one that was pinned take
+/// no memory. Copies share the values until they are changed.
 #[derive(Debug, Clone)]
 pub struct Pins {
     unknowns: usize,
@@ -44,7 +44,7 @@ impl Pins {
         Ok(())
     }
 
-    /// The value of an unknown that is pinned.
+    /// The value of an unknown if it is pinned. One that the problem does not have is not.
     pub fn get(&self, unknown: usize) -> Option<f64> {
         self.values.get(unknown).copied().flatten()
     }

@@ -101,7 +101,7 @@ impl MapData<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::field::{JumpsDecided, decide_jumps, solve_field};
+    use crate::field::{JumpsDecided, solve_field};
     use crate::mesh::shape::by_name;
     use crate::monitor::{Span, traced};
     use crate::problem::Model;
@@ -130,20 +130,13 @@ mod tests {
         let mesh = by_name("torus", 6_000).unwrap();
         let (sizing, features) = (Sizing::Quads(300), FeatureGraph::none(&mesh));
         let map = data(&mesh, &sizing, &features);
-        let given = FieldOptions {
-            detail: 0.1,
-            ..FieldOptions::default()
-        };
         let solver = Options::default();
         let with = |threads| {
             let (found, trace) = traced(false, || {
                 with_threads(threads, || {
                     assert_eq!(map.is_worth_a_thread(), threads > 1);
-                    let decided = decide_jumps(&mesh, &given, &solver, Monitor::default).unwrap();
-                    let JumpsDecided::WithoutDetails(first, left) = decided else {
-                        panic!("details are left out");
-                    };
-                    let (both, mut seconds) = ((&first, *left), [0.0; 2]);
+                    let (first, left, given) = JumpsDecided::without(0.1, &mesh);
+                    let (both, mut seconds) = ((&first, left), [0.0; 2]);
                     let [of_field, of_map] = &mut seconds;
                     let options = (&given, &solver);
                     let stated = map.state_with_details(
@@ -156,7 +149,7 @@ mod tests {
                     assert_ne!(field.angles(), first.angles());
                     assert!(seconds.iter().all(|&s| s > 0.0));
                     let relaxed = solver.solve(&relaxation()).unwrap();
-                    (field, linear(&problem), relaxed)
+                    (field, linear(&problem), relaxed, given)
                 })
             });
             let mut stated = trace
@@ -172,7 +165,7 @@ mod tests {
         assert_eq!(one.1, two.1);
         assert_eq!(one.2.values(), two.2.values());
         assert_eq!(one.2.energy().to_bits(), two.2.energy().to_bits());
-        let (whole, _) = solve_field(&mesh, &given, &solver, Monitor::default).unwrap();
+        let (whole, _) = solve_field(&mesh, &one.3, &solver, Monitor::default).unwrap();
         assert_eq!(whole, two.0);
     }
 
@@ -180,18 +173,11 @@ mod tests {
     fn a_map_ahead_has_half_of_the_threads() {
         let mesh = by_name("torus", 24_000).unwrap();
         let (sizing, features) = (Sizing::Quads(300), FeatureGraph::none(&mesh));
-        let given = FieldOptions {
-            detail: 0.1,
-            ..FieldOptions::default()
-        };
         let solver = Options::default();
-        let decided = decide_jumps(&mesh, &given, &solver, Monitor::default).unwrap();
-        let JumpsDecided::WithoutDetails(first, left) = decided else {
-            panic!("details are left out");
-        };
+        let (first, left, given) = JumpsDecided::without(0.1, &mesh);
         let (stated, trace) = traced(false, || {
             let map = data(&mesh, &sizing, &features);
-            let (both, options, mut seconds) = ((&first, *left), (&given, &solver), [0.0; 2]);
+            let (both, options, mut seconds) = ((&first, left), (&given, &solver), [0.0; 2]);
             let [of_field, of_map] = &mut seconds;
             let seconds = [of_field, of_map];
             with_threads(4, || {

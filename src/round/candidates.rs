@@ -140,6 +140,7 @@ mod tests {
         let now = [Some(0.4), None, Some(0.3)];
         assert_eq!(candidates.take(0.0, |i| now[i as usize]), [2]);
     }
+
     #[test]
     fn any_number_of_heaps_gives_the_same_order() {
         let value = |i: u32| 0.37 * f64::from(i) + 1e-3 * f64::from(i % 7);

@@ -296,6 +296,14 @@ mod tests {
     }
 
     #[test]
+    fn values_take_no_more_memory_than_they_need() {
+        let mesh = by_name("torus", 1_000).unwrap();
+        let field = FieldProblem::new(&mesh, &[]).unwrap();
+        let solution = solve(field.problem(), &Options::default()).unwrap();
+        assert_eq!(solution.values.capacity(), field.problem().variables());
+    }
+
+    #[test]
     fn a_solver_that_expects_one_relaxation_frees_its_factor() {
         let mesh = by_name("torus", 1_000).unwrap();
         let field = FieldProblem::new(&mesh, &[]).unwrap();
