@@ -3430,6 +3430,13 @@ roundel_status roundel_quads_near_feature_count(const struct roundel_quads *quad
                                                 size_t *count);
 
 /**
+ * Gives the number of triangles of the mesh whose quads are pairs of them, because no map had quads that conform and
+ * cover the surface there: 0 where all quads are those of a map.
+ */
+roundel_status roundel_quads_paired_face_count(const struct roundel_quads *quads,
+                                               size_t *count);
+
+/**
  * Frees quads. NULL is allowed.
  */
 roundel_status roundel_quads_free(struct roundel_quads *quads);

@@ -28,6 +28,8 @@ pub(super) struct Quads {
     mesh: QuadMesh,
     /// See [`Quadrangulation`](crate::quad::Quadrangulation).
     near_features: Option<usize>,
+    /// The number of faces whose quads are pairs.
+    paired: usize,
 }
 
 impl Quads {
@@ -35,6 +37,7 @@ impl Quads {
         Quads {
             mesh,
             near_features: None,
+            paired: 0,
         }
     }
 }
@@ -76,6 +79,7 @@ pub unsafe extern "C" fn roundel_quads_make(
         out.set(guard::handle(Quads {
             mesh: made.quads,
             near_features: Some(made.near_features),
+            paired: made.paired.len(),
         }));
         Ok(())
     };
@@ -192,6 +196,23 @@ pub unsafe extern "C" fn roundel_quads_near_feature_count(
             what: "these quads were extracted from a map: nobody looked for features".into(),
             index: None,
         })?);
+        Ok(())
+    };
+    // SAFETY: the caller gives a live handle, or NULL.
+    unsafe { guard::read(quads, body) }
+}
+
+/// Gives the number of triangles of the mesh whose quads are pairs of them, because no map had quads that conform and
+/// cover the surface there: 0 where all quads are those of a map.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn roundel_quads_paired_face_count(
+    quads: *const roundel_quads,
+    count: *mut usize,
+) -> roundel_status {
+    let body = |quads: &Quads| {
+        // SAFETY: the caller gives a place for the number, or NULL.
+        let out = unsafe { Out::new("paired face count", count) }?;
+        out.set(quads.paired);
         Ok(())
     };
     // SAFETY: the caller gives a live handle, or NULL.

@@ -7,8 +7,9 @@
 use std::time::Instant;
 
 use super::by_component::{Components, join};
+use super::pairs::Paired;
 use super::part::Part;
-use super::rank::Rank;
+use super::rank::{Losses, Rank};
 use super::tries::Tries;
 use super::{QuadOptions, QuadSeconds, Quadrangulation};
 use crate::extract::QuadMesh;
@@ -36,6 +37,7 @@ pub(super) fn apart<'m, M: Fn() -> Monitor<'m>>(
         components,
         faces,
         quads: components.split(mesh, &made.quads),
+        losses: Losses::of(Some(&made)),
         replaced: Vec::new(),
         made,
     };
@@ -46,8 +48,7 @@ pub(super) fn apart<'m, M: Fn() -> Monitor<'m>>(
         .collect();
     apart.take(tries, &lost);
     let joined = join(apart.quads.clone());
-    let is_refined = apart.made.refined.is_some();
-    if !Rank::of_quads(mesh, options, tries.far, &joined, is_refined).is_good() {
+    if !Rank::of_quads(mesh, options, tries.far, &joined, apart.losses).is_good() {
         order.retain(|&c| apart.quads[c].is_conforming());
         apart.take(tries, &order);
     }
@@ -57,11 +58,21 @@ pub(super) fn apart<'m, M: Fn() -> Monitor<'m>>(
 /// A component that was tried.
 struct Taken {
     /// Its quads, if they are better.
-    better: Option<(Part, Quadrangulation)>,
+    better: Option<(Part, Better)>,
     /// The work.
     spent: u64,
     has_ended: bool,
     seconds: f64,
+}
+
+/// Better quads of a component.
+struct Better {
+    quads: QuadMesh,
+    features: Vec<usize>,
+    missed: Vec<usize>,
+    seconds: QuadSeconds,
+    /// Whether they are pairs of its triangles.
+    is_paired: bool,
 }
 
 /// The quads of all components so far.
@@ -73,8 +84,10 @@ struct Apart<'a> {
     faces: Vec<Vec<usize>>,
     /// The quads of each component.
     quads: Vec<QuadMesh>,
-    /// The components whose quads are their own.
-    replaced: Vec<usize>,
+    /// How much of the surface they may lose.
+    losses: Losses,
+    /// The components whose quads are their own, and whether they are pairs of triangles.
+    replaced: Vec<(usize, bool)>,
     made: Quadrangulation,
 }
 
@@ -141,28 +154,43 @@ impl Apart<'_> {
         &self,
         c: usize,
         tries: &mut Tries<'_, M>,
-    ) -> Option<(Part, Quadrangulation)> {
-        let (mesh, is_refined) = (self.mesh, self.made.refined.is_some());
-        let part = Part::new(mesh, self.faces[c].clone()).ok()?;
-        let given = part.options(mesh, self.options);
-        let rank = Rank::of_quads(&part.mesh, &given, tries.far, &self.quads[c], is_refined);
-        if rank.is_good() || !tries.may_take(&part.mesh) {
+    ) -> Option<(Part, Better)> {
+        let part = Part::new(self.mesh, self.faces[c].clone()).ok()?;
+        let given = part.options(self.mesh, self.options);
+        let mut rank = Rank::of_quads(&part.mesh, &given, tries.far, &self.quads[c], self.losses);
+        if rank.is_good() {
             return None;
         }
-        let first = tries.one(&part.mesh, &given)?;
-        let found = tries.others(&part.mesh, &given, first);
-        let found_rank = Rank::of(&part.mesh, &given, tries.far, &found, is_refined);
-        let found = found.ok()?;
-        (found_rank < rank).then_some((part, found))
+        let mut better: Option<Better> = None;
+        if tries.may_take(&part.mesh) {
+            let first = tries.one(&part.mesh, &given)?;
+            let found = tries.others(&part.mesh, &given, first);
+            let found_rank = Rank::of(&part.mesh, &given, tries.far, &found, self.losses);
+            if let Ok(found) = found
+                && found_rank < rank
+            {
+                (better, rank) = (Some(Better::of(found)), found_rank);
+            }
+        }
+        let quads = better
+            .as_ref()
+            .map_or(&self.quads[c], |better| &better.quads);
+        if Paired::are_better(&part.mesh, &given, rank, quads)
+            && !tries.has_ended()
+            && let Some(paired) = Paired::new(&part.mesh, &given, tries.monitor)
+        {
+            better = Some(Better::of_pairs(paired));
+        }
+        Some((part, better?))
     }
 
     /// Keeps the quads that a component has alone. Its seconds count by the factor `scale`.
-    fn keep(&mut self, c: usize, part: &Part, found: Quadrangulation, scale: f64) {
+    fn keep(&mut self, c: usize, part: &Part, found: Better, scale: f64) {
         let (mesh, of_face, made) = (self.mesh, &self.components.of_face, &mut self.made);
         let is_elsewhere = |edge: &usize| of_face[mesh.edge(*edge).first.0] != c;
         for (all, own) in [
             (&mut made.features, &found.features),
-            (&mut made.missed_features, &found.missed_features),
+            (&mut made.missed_features, &found.missed),
         ] {
             all.retain(is_elsewhere);
             all.extend(part.edges_of_whole(mesh, own));
@@ -170,18 +198,48 @@ impl Apart<'_> {
         }
         made.seconds = sum(made.seconds, found.seconds, scale);
         self.quads[c] = part.on_whole(found.quads);
-        self.replaced.push(c);
+        self.replaced.push((c, found.is_paired));
     }
 
     /// All quads as one mesh.
     fn finish(mut self) -> Quadrangulation {
         if !self.replaced.is_empty() {
-            let own = self.replaced.iter().flat_map(|&c| &self.faces[c]);
-            self.made.apart = own.copied().collect();
-            self.made.apart.sort_unstable();
+            let faces_of = |is_wanted: &dyn Fn(bool) -> bool| {
+                let own = self
+                    .replaced
+                    .iter()
+                    .filter(|(_, paired)| is_wanted(*paired));
+                let mut own: Vec<usize> = own.flat_map(|(c, _)| &self.faces[*c]).copied().collect();
+                own.sort_unstable();
+                own
+            };
+            self.made.apart = faces_of(&|_| true);
+            self.made.paired = faces_of(&|is_paired| is_paired);
             self.made.quads = join(self.quads);
         }
         self.made
+    }
+}
+
+impl Better {
+    fn of(found: Quadrangulation) -> Self {
+        Better {
+            quads: found.quads,
+            features: found.features,
+            missed: found.missed_features,
+            seconds: found.seconds,
+            is_paired: false,
+        }
+    }
+
+    fn of_pairs(paired: Paired) -> Self {
+        Better {
+            quads: paired.quads,
+            features: paired.features,
+            missed: paired.missed,
+            seconds: QuadSeconds::default(),
+            is_paired: true,
+        }
     }
 }
 

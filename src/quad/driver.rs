@@ -515,6 +515,7 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Driver<'a, M> {
             refined: None,
             mirrored: None,
             apart: Vec::new(),
+            paired: Vec::new(),
             maps_for_count,
         })
     }

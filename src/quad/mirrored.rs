@@ -168,12 +168,13 @@ fn with_images(
     }
     quads.folded = given(quads.folded.iter().map(|&f| half.face_origin[f]));
     let edges = |of: Vec<usize>| given(of.into_iter().filter_map(|e| half.edge_origin[e]));
-    let apart = made.apart.iter().map(|&f| half.face_origin[f]);
+    let faces = |of: &[usize]| given(of.iter().map(|&f| half.face_origin[f]));
     Quadrangulation {
         quads,
         features: edges(made.features),
         missed_features: edges(made.missed_features),
-        apart: given(apart),
+        apart: faces(&made.apart),
+        paired: faces(&made.paired),
         mirrored: Some(Mirrored {
             planes: planes.to_vec(),
             half: half.clone(),

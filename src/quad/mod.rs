@@ -4,6 +4,7 @@
 //! | --- | --- |
 //! | quads, from a mesh | `quadrangulate`, `rank`, `coverage` |
 //! | other options, where quads are not good | `tries`, `final_error` |
+//! | pairs of triangles, where no other quads conform | `pairs` |
 //! | components whose quads are not good | `apart`, `part`, `by_component` |
 //! | quads, by one set of options | `by_options`, `driver` |
 //! | a part of a mesh, and its mirror images | `mirrored`, `mirror_images` |
@@ -43,6 +44,7 @@ mod missed;
 mod options;
 mod outcome;
 mod painted;
+mod pairs;
 mod part;
 mod quadrangulate;
 mod quadrangulation;

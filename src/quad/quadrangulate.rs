@@ -10,7 +10,8 @@ use super::coverage::far;
 use super::driver::Effort;
 use super::final_error::is_final;
 use super::mirrored::mirrored;
-use super::rank::Rank;
+use super::pairs::Paired;
+use super::rank::{Losses, Rank};
 use super::tries::Tries;
 use super::{QuadOptions, Quadrangulation};
 use crate::error::Result;
@@ -39,7 +40,8 @@ const FIRST: f64 = 0.97;
 /// until there are more than four for each that was asked for. Where more than one triangle in twenty is folded,
 /// that is tried before untangling.
 ///
-/// If a mesh that had to be refined, or whose quads do not conform, is still not covered by quads that conform,
+/// If a mesh that had to be refined, or whose quads do not conform, is still not covered by quads that conform, if
+/// folds of its map were repaired and that loses more than 3 % of it,
 /// or if it had to be refined and its quads miss features that were asked for, it is tried once more with its
 /// sharp edges as features, if the options give no angle; if its quads conform, up to three times with smaller quads
 /// where they lose the surface; if they do not conform, once more with only those sharp edges as features whose curves
@@ -51,6 +53,11 @@ const FIRST: f64 = 0.97;
 /// these ways, and their quads replace those of the first try if they are better. These tries end when they have made
 /// fields, maps and quads of 1,200,000 triangles in all, or what takes as long.
 /// [`Quadrangulation::apart`] names the triangles of components that have quads of their own.
+///
+/// Where all of that leaves quads that do not conform, triangles of the component are paired, if it has at most 50,000
+/// (`remacle2012`): its quads then conform. [`Quadrangulation::paired`] names these triangles. They are also paired
+/// where more than a fifth of the surface is lost, if that gives at most twice as many quads as there are or as were
+/// asked for.
 ///
 /// Quads that do not conform even then are quads only, manifold and oriented: faces that contain a vertex twice
 /// are dropped, those that are no quads are split, and all are cut apart at edges with more than two faces, or
@@ -119,16 +126,22 @@ fn on_threads<'a>(
         Err(error) if is_final(&error) => return Err(error),
         first => first,
     };
-    let far = far(mesh);
-    if !Rank::of_first(mesh, options, far, &best).is_good() {
+    let (far, losses) = (far(mesh), Losses::of(best.as_ref().ok()));
+    let rank_of = |made: &Result<Quadrangulation>| Rank::of(mesh, options, far, made, losses);
+    if !rank_of(&best).is_good() {
         let mut tries = Tries::new(far, &monitor);
         if best.is_err() || components.count == 1 {
             best = tries.others(mesh, options, best);
         }
-        if components.count > 1
-            && let Ok(made) = best
+        if components.count > 1 {
+            best = best.map(|made| apart(&mut tries, mesh, options, &components, made));
+        } else if let rank = rank_of(&best)
+            && let Ok(made) = &mut best
+            && Paired::are_better(mesh, options, rank, &made.quads)
+            && !tries.has_ended()
+            && let Some(paired) = Paired::new(mesh, options, &monitor)
         {
-            best = Ok(apart(&mut tries, mesh, options, &components, made));
+            paired.replace(made, mesh);
         }
     }
     if let Ok(made) = &mut best

@@ -52,6 +52,9 @@ pub struct Quadrangulation {
     /// The faces of the mesh that was given whose components were tried alone, in increasing order. Their
     /// quads follow fields and maps of their own, and not those above.
     pub apart: Vec<usize>,
+    /// Those of the faces of the mesh that was given whose quads are pairs of triangles, because no map had good ones,
+    /// in increasing order.
+    pub paired: Vec<usize>,
     /// The number of maps at other scales that were solved for to meet the number of quads.
     pub maps_for_count: usize,
 }

@@ -9,16 +9,56 @@ use crate::field::Guidance;
 use crate::mesh::TriangleMesh;
 
 /// The largest factor between the number of quads and what was asked for.
-const FACTOR: f64 = 2.0;
+pub(super) const FACTOR: f64 = 2.0;
+
+/// The part of the surface that may be lost where a mesh needs no refinement and folds were repaired.
+const LOST_BY_REPAIRS: f64 = 0.03;
+
+/// The thousandths of the surface that may be lost before quads that are no map's are better.
+const GONE: u32 = 200;
 
 /// Of good quads with more irregular vertices than so many times those of the first, others are tried.
 const ROUGHER: f64 = 1.25;
+
+/// How much of a surface quads may lose.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Losses {
+    /// The mesh was fine enough and nothing was repaired: quads cut off what their size cuts off.
+    Any,
+    /// The mesh was fine enough, but folds of the map had to be repaired, and that may cut off more.
+    Few,
+    /// The mesh had to be refined, so that its details may be smaller than quads.
+    Least,
+}
+
+impl Losses {
+    /// What the first result for a mesh, and all others, may lose.
+    pub(super) fn of(first: Option<&Quadrangulation>) -> Self {
+        match first {
+            Some(made) if made.refined.is_some() => Losses::Least,
+            Some(made) if made.quads.repaired == 0 && made.quads.is_conforming() => Losses::Any,
+            Some(_) => Losses::Few,
+            None => Losses::Least,
+        }
+    }
+
+    /// The largest part of the surface.
+    pub(super) fn largest(self) -> f64 {
+        match self {
+            Losses::Any => 1.0,
+            Losses::Few => LOST_BY_REPAIRS,
+            Losses::Least => LOST,
+        }
+    }
+}
 
 /// The members are compared from first to last, and less is better.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Rank {
     has_none: bool,
     does_not_conform: bool,
+    /// The number of quads is off by more than a factor of two although the mesh was fine enough for them.
+    is_beyond: bool,
     /// Thousandths of the surface that are lost, where they are more than may be.
     lost: u32,
     /// Features of a mesh that had to be refined that the quads miss, if the caller asked for features.
@@ -34,42 +74,43 @@ impl Rank {
     pub(super) const WORST: Rank = Rank {
         has_none: true,
         does_not_conform: true,
+        is_beyond: true,
         lost: 1000,
         missed: usize::MAX,
         is_off: true,
         irregular: usize::MAX,
     };
 
-    /// The rank of quads of a mesh. A point is lost if it is farther than `far` from them; quads that conform
-    /// are not asked for that unless they `may_lose` some.
+    /// The rank of quads of a mesh. A point is lost if it is farther than `far` from them.
     pub(super) fn of_quads(
         mesh: &TriangleMesh,
         options: &QuadOptions,
         far: f64,
         quads: &QuadMesh,
-        may_lose: bool,
+        losses: Losses,
     ) -> Self {
         if quads.faces().next().is_none() {
             return Self::WORST;
         }
         let conforms = quads.is_conforming();
-        // Quads of a mesh that is fine enough are as large as they were asked to be.
-        let lost = match conforms && !may_lose {
+        let lost = match conforms && losses == Losses::Any {
             true => 0.0,
             false => lost(quads, mesh, far),
         };
         let edge = options.sizing.edge_length(mesh);
         let more = quads.quads.len() as f64 * edge * edge / mesh.surface_area();
+        let is_off = !(1.0 / FACTOR..=FACTOR).contains(&more);
         Rank {
             has_none: false,
             does_not_conform: !conforms,
-            lost: match lost <= LOST {
+            is_beyond: is_off && losses == Losses::Few,
+            lost: match lost <= losses.largest() {
                 true => 0,
                 false => (1000.0 * lost).round() as u32,
             },
             missed: 0,
             irregular: quads.figures().irregular,
-            is_off: !(1.0 / FACTOR..=FACTOR).contains(&more),
+            is_off,
         }
     }
 
@@ -79,29 +120,18 @@ impl Rank {
         options: &QuadOptions,
         far: f64,
         made: &Result<Quadrangulation>,
-        may_lose: bool,
+        losses: Losses,
     ) -> Self {
         match made {
             Ok(made) => Rank {
-                missed: match may_lose && has_features(mesh, &options.guidance) {
+                missed: match losses == Losses::Least && has_features(mesh, &options.guidance) {
                     true => made.missed_features.len(),
                     false => 0,
                 },
-                ..Self::of_quads(mesh, options, far, &made.quads, may_lose)
+                ..Self::of_quads(mesh, options, far, &made.quads, losses)
             },
             Err(_) => Self::WORST,
         }
-    }
-
-    /// The rank of the first result: quads lose nothing of a mesh that needs no refinement.
-    pub(super) fn of_first(
-        mesh: &TriangleMesh,
-        options: &QuadOptions,
-        far: f64,
-        made: &Result<Quadrangulation>,
-    ) -> Self {
-        let may_lose = made.as_ref().is_ok_and(|made| made.refined.is_some());
-        Self::of(mesh, options, far, made, may_lose)
     }
 
     /// Whether there are more irregular vertices than in the quads that were to be improved.
@@ -114,9 +144,19 @@ impl Rank {
         self.has_none || self.does_not_conform
     }
 
+    /// Whether quads conform, but much of the surface is lost.
+    pub(super) fn loses_much(self) -> bool {
+        self.loses() && self.lost > GONE
+    }
+
     /// Whether quads conform but lose some of the surface.
     pub(super) fn loses(self) -> bool {
         !self.does_not_conform() && self.lost > 0
+    }
+
+    /// Whether quads conform and lose some of the surface, but no more than others.
+    pub(super) fn loses_no_more_than(self, other: Rank) -> bool {
+        self.loses() && self.lost <= other.lost
     }
 
     /// Whether quads do not conform or lose some of the surface, so that more of them may help.
@@ -134,4 +174,52 @@ impl Rank {
 pub(super) fn has_features(mesh: &TriangleMesh, guidance: &Guidance) -> bool {
     let is_inner = |&edge: &usize| mesh.edge(edge).second.is_some();
     guidance.feature_angle.is_some() || guidance.feature_edges.iter().any(is_inner)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::map::Sizing;
+    use crate::mesh::shape::by_name;
+
+    /// The rank of six quads in the middle of a sphere, where so many were asked for.
+    fn of_small_cube(asked: usize, losses: Losses) -> Rank {
+        let mesh = by_name("sphere", 500).unwrap();
+        let side = |bit: usize| if bit == 1 { 0.1 } else { -0.1 };
+        let corners = (0..8).map(|v| [side(v & 1), side(v >> 1 & 1), side(v >> 2)]);
+        let quads = [
+            [0, 2, 3, 1],
+            [4, 5, 7, 6],
+            [0, 1, 5, 4],
+            [2, 6, 7, 3],
+            [0, 4, 6, 2],
+        ];
+        let quads = [&quads[..], &[[1, 3, 7, 5]]].concat();
+        let cube = QuadMesh::from_quads(corners.collect(), quads, 2);
+        assert!(cube.is_conforming());
+        let options = QuadOptions {
+            sizing: Sizing::Quads(asked),
+            ..QuadOptions::default()
+        };
+        Rank::of_quads(&mesh, &options, 0.1, &cube, losses)
+    }
+
+    #[test]
+    fn what_quads_lose_counts_where_folds_were_repaired_or_the_mesh_was_refined() {
+        assert!(of_small_cube(6, Losses::Any).is_good());
+        for losses in [Losses::Few, Losses::Least] {
+            let rank = of_small_cube(6, losses);
+            assert!(rank.loses() && rank.loses_much() && !rank.is_good());
+            assert!(rank.loses_no_more_than(rank) && rank < Rank::WORST);
+        }
+    }
+
+    #[test]
+    fn of_a_mesh_that_was_fine_enough_a_number_far_off_is_worse_than_a_loss() {
+        let covers = |rank: Rank| Rank { lost: 0, ..rank };
+        let near = of_small_cube(6, Losses::Few);
+        assert!(near < covers(of_small_cube(60, Losses::Few)));
+        let near = of_small_cube(6, Losses::Least);
+        assert!(near > covers(of_small_cube(60, Losses::Least)));
+    }
 }

@@ -5,7 +5,7 @@ use std::cell::Cell;
 use super::by_options::by_options;
 use super::coverage::denser;
 use super::driver::Effort;
-use super::rank::{Rank, has_features};
+use super::rank::{Losses, Rank, has_features};
 use super::{Count, QuadOptions, Quadrangulation};
 use crate::error::{Error, Result};
 use crate::extract::QuadMesh;
@@ -15,7 +15,7 @@ use crate::mesh::TriangleMesh;
 use crate::monitor::{Monitor, optional};
 
 /// The angle of edges that become features where quads without features lose the surface: 40 degrees.
-const SHARP: f64 = 40.0 * std::f64::consts::PI / 180.0;
+pub(super) const SHARP: f64 = 40.0 * std::f64::consts::PI / 180.0;
 
 /// How many times as many quads are tried.
 const MORE: f64 = 1.5;
@@ -120,15 +120,15 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Tries<'a, M> {
         if mesh.face_count() > MOST_FACES {
             return first;
         }
-        let rank = Rank::of_first(mesh, options, self.far, &first);
-        let may_lose = first.as_ref().map_or(true, |made| made.refined.is_some());
+        let losses = Losses::of(first.as_ref().ok());
+        let rank = Rank::of(mesh, options, self.far, &first, losses);
         let mut again = as_tried_again(options);
         let mut best = Best {
             asked: options,
             made: first,
             rank,
-            may_lose,
-            refine: again.refine,
+            losses,
+            options: again.clone(),
         };
         let incomplete = best.incomplete();
         if !has_features(mesh, &options.guidance) {
@@ -142,6 +142,12 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Tries<'a, M> {
             };
             self.improve(mesh, &sharp, &mut best);
         }
+        if let Some(sharp_quads) = best.incomplete()
+            && best.options.guidance.feature_angle != again.guidance.feature_angle
+        {
+            let sharp = best.options.clone();
+            self.with_denser(mesh, &sharp, sharp_quads, &mut best);
+        }
         if let Some(quads) = incomplete
             && (!best.rank.is_good() || best.rank.is_rougher_than(rank))
         {
@@ -153,7 +159,7 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Tries<'a, M> {
         {
             again = longer;
         }
-        if again.refine && !best.rank.is_good() {
+        if again.refine && losses == Losses::Least && !best.rank.is_good() {
             let unrefined = QuadOptions {
                 refine: false,
                 ..again.clone()
@@ -166,11 +172,7 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Tries<'a, M> {
                 self.with_denser(mesh, &unrefined, quads, &mut best);
             }
         }
-        let again = QuadOptions {
-            refine: best.refine,
-            ..again
-        };
-        for finer in finer(mesh, &again) {
+        for finer in finer(mesh, &best.options) {
             if !best.rank.covers_too_little() {
                 break;
             }
@@ -179,19 +181,21 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Tries<'a, M> {
         best.made
     }
 
-    /// Tries smaller and smaller quads where these ones lose the surface.
+    /// Tries smaller and smaller quads where these ones lose the surface, while that loses no more.
     fn with_denser(
         &mut self,
         mesh: &TriangleMesh,
         options: &QuadOptions,
-        mut quads: QuadMesh,
+        (mut quads, mut rank): (QuadMesh, Rank),
         best: &mut Best<'_>,
     ) {
         let mut options = options.clone();
         for _ in 0..DENSER {
             options.density = denser(&quads, mesh, self.far, &options.density);
             match self.improve(mesh, &options, best) {
-                Some((found, rank)) if rank.loses() => quads = found,
+                Some((found, next)) if next.loses_no_more_than(rank) => {
+                    (quads, rank) = (found, next)
+                }
                 _ => break,
             }
         }
@@ -208,10 +212,10 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Tries<'a, M> {
             return None;
         }
         let found = self.one(mesh, options)?;
-        let rank = Rank::of(mesh, best.asked, self.far, &found, best.may_lose);
+        let rank = Rank::of(mesh, best.asked, self.far, &found, best.losses);
         let quads = found.as_ref().ok().map(|made| made.quads.clone());
         if rank < best.rank {
-            (best.made, best.rank, best.refine) = (found, rank, options.refine);
+            (best.made, best.rank, best.options) = (found, rank, options.clone());
         }
         quads.map(|quads| (quads, rank))
     }
@@ -223,18 +227,18 @@ struct Best<'a> {
     asked: &'a QuadOptions,
     made: Result<Quadrangulation>,
     rank: Rank,
-    /// Whether quads that conform are asked whether they lose some of the surface.
-    may_lose: bool,
-    /// Whether the try may refine the mesh.
-    refine: bool,
+    /// How much of the surface quads may lose.
+    losses: Losses,
+    /// Its options, or those of tries after the first.
+    options: QuadOptions,
 }
 
 impl Best<'_> {
     /// The quads, if they conform but lose some of the surface.
-    fn incomplete(&self) -> Option<QuadMesh> {
+    fn incomplete(&self) -> Option<(QuadMesh, Rank)> {
         let made = self.made.as_ref().ok();
         made.filter(|_| self.rank.loses())
-            .map(|made| made.quads.clone())
+            .map(|made| (made.quads.clone(), self.rank))
     }
 }
 

@@ -236,7 +236,7 @@ fn keys() -> Vec<&'static str> {
 /// An author and a year, such as bommes2009.
 fn is_key(word: &str) -> bool {
     let author = word.trim_end_matches(|c: char| c.is_ascii_digit());
-    let years = ["19", "20"];
+    let years = ["18", "19", "20"];
     word.len() == author.len() + 4
         && years.iter().any(|y| word[author.len()..].starts_with(y))
         && author.len() > 1

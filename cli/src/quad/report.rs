@@ -37,6 +37,7 @@ pub(super) struct QuadReport<'a> {
     mirror: Vec<Plane>,
     field_irregular_vertices: usize,
     near_features: usize,
+    paired_faces: usize,
     /// The number of sharp edges that are too short to be features.
     short_features: usize,
     flipped_before: usize,
@@ -243,6 +244,7 @@ impl<'a> QuadReport<'a> {
             mirror: made.mirrored.as_ref().map(planes).unwrap_or_default(),
             field_irregular_vertices: made.untangled.map.cones().len(),
             near_features: made.near_features,
+            paired_faces: made.paired.len(),
             short_features: solved.too_short,
             flipped_before: made.untangled.flipped_before,
             flipped: made.untangled.flipped_after,

@@ -57,6 +57,13 @@ impl fmt::Display for QuadSummary<'_> {
             &words(&made.quads),
             seconds.extract + seconds.smooth,
         )?;
+        if !made.paired.is_empty() {
+            let pairs = format!(
+                "of {}: no map fits there",
+                counted(made.paired.len(), "triangle")
+            );
+            writeln!(f, "{:<10} {pairs}", "pairs")?;
+        }
         if let Some(kept) = solved.kept.words() {
             line(f, "kept", &kept, solved.kept.seconds)?;
         }

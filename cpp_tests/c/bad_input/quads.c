@@ -216,6 +216,12 @@ static void transfers(fixture* f, const roundel_mesh* torus) {
     HOLDS(near == 7);
     GOOD(roundel_quads_near_feature_count(quads, &near));
     HOLDS(near == 0);
+    near = 7;
+    BAD(f, roundel_quads_paired_face_count(NULL, &near), null, "quads", NONE);
+    BAD(f, roundel_quads_paired_face_count(quads, NULL), null, "paired face count", NONE);
+    HOLDS(near == 7);
+    GOOD(roundel_quads_paired_face_count(quads, &near));
+    HOLDS(near == 0);
     GOOD(roundel_quads_free(quads));
 }
 

@@ -104,6 +104,14 @@ class Quads {
         return value;
     }
 
+    /// The number of triangles of the mesh whose quads are pairs of them, because no map had quads
+    /// that conform and cover the surface there: 0 where all quads are those of a map.
+    std::size_t paired_face_count(Status* status = nullptr) const {
+        std::size_t value = 0;
+        detail::check(roundel_quads_paired_face_count(get(), &value), status);
+        return value;
+    }
+
     /// Vertices minus edges plus faces.
     std::int64_t euler_characteristic(Status* status = nullptr) const {
         std::int64_t value = 0;

@@ -99,6 +99,14 @@ class Quads:
         return number(lib.roundel_quads_near_feature_count, self._handle.pointer)
 
     @property
+    def paired_face_count(self) -> int:
+        """The number of triangles of the mesh whose quads are pairs of them.
+
+        No map had quads that conform and cover the surface there. It is 0 where all quads are those of a map.
+        """
+        return number(lib.roundel_quads_paired_face_count, self._handle.pointer)
+
+    @property
     def euler_characteristic(self) -> int:
         """Vertices minus edges plus faces."""
         call = lib.roundel_quads_euler_characteristic
