@@ -29,7 +29,7 @@ fn made(mesh: &TriangleMesh, options: &QuadOptions) -> Result<Quadrangulation> {
 }
 
 /// Vertices and quads without a mirror image within a distance: 0 allows no other bit.
-fn asymmetric(quads: &QuadMesh, plane: &MirrorPlane, tolerance: f64) -> usize {
+pub(super) fn asymmetric(quads: &QuadMesh, plane: &MirrorPlane, tolerance: f64) -> usize {
     let cell = |p: Vec3| p.map(|x| (x / 1e-9).round() as i64);
     let mut near: BTreeMap<[i64; 3], Vec<usize>> = BTreeMap::new();
     for (v, &p) in quads.vertices.iter().enumerate() {

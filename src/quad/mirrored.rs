@@ -218,3 +218,38 @@ fn given_place(
         None => place,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::mirror_tests::asymmetric;
+    use super::super::pairs::Paired;
+    use super::*;
+    use crate::mesh::shape::by_name;
+
+    /// The half has a boundary on the plane. A triangle there that is a quad alone has a vertex on the plane.
+    #[test]
+    fn pairs_of_triangles_are_mirrored() {
+        for name in ["torus", "sphere", "plate-with-holes"] {
+            let mesh = by_name(name, 700).unwrap();
+            let options = QuadOptions {
+                mirror: vec!["x".parse().unwrap()],
+                ..QuadOptions::default()
+            };
+            let planes = mirror_planes(&mesh, &options.mirror, options.mirror_tolerance).unwrap();
+            let half = Half::new(&mesh, &planes).unwrap();
+            let given = of_half(&mesh, &half, &options).unwrap();
+            let mut made = unmirrored(&half.mesh, &given, &Monitor::default).unwrap();
+            let paired = Paired::new(&half.mesh, &given, &Monitor::default).unwrap();
+            paired.replace(&mut made, &half.mesh);
+            let whole = with_images(&mesh, &planes, &half, made);
+            assert!(
+                whole.quads.is_conforming(),
+                "{name}: {:?}",
+                whole.quads.figures()
+            );
+            assert_eq!(asymmetric(&whole.quads, &planes[0], 0.0), 0, "{name}");
+            let is_of_mesh = whole.paired.iter().all(|&f| f < mesh.face_count());
+            assert!(is_of_mesh && whole.paired.is_sorted() && !whole.paired.is_empty());
+        }
+    }
+}

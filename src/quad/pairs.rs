@@ -1,16 +1,15 @@
 //! Quads of pairs of triangles, where no map has good ones (`remacle2012`).
 //!
-//! Two triangles at an edge make a quad. Those pairs are chosen that divide all triangles among them at the least
-//! cost:
+//! Two triangles at an edge make a quad. Edges are chosen so that each triangle has one, at the least cost:
 //!
 //! ```text
-//! minimise   sum_e c_e x_e + sum_t c_t x_t
-//! subject to sum_{e of t} x_e + x_t = 1    for each triangle t
+//! minimise   sum_e c_e x_e
+//! subject to sum_{e of t} x_e = 1    for each triangle t
 //!            x binary
 //! ```
 //!
-//! Only triangles at the boundary have an x_t: such a triangle alone becomes a quad by the middle of its edge there,
-//! or three quads if all of its edges are there. There always is a solution. The triangles of a closed surface are
+//! An edge at the boundary leaves its triangle alone: it becomes a quad with a vertex in the middle of that edge, or
+//! three quads if it has no neighbours at all. There always is a solution. The triangles of a closed surface are
 //! vertices of a cubic graph without bridges, and these have a perfect matching (`petersen1891`). A surface with a
 //! boundary is half of its double, and pairs of the double across the boundary are triangles alone.
 //!
@@ -57,8 +56,8 @@ pub(super) struct Paired {
 }
 
 impl Paired {
-    /// Whether quads of this rank are worse: they do not conform, or they lose much of the surface although they are
-    /// as many, or as many were asked for.
+    /// Whether pairs are better than quads of this rank: these do not conform, or they lose much of the surface, and
+    /// pairs are not far more than they are or than were asked for.
     pub(super) fn are_better(
         mesh: &TriangleMesh,
         options: &QuadOptions,
@@ -143,7 +142,7 @@ fn exact() -> Options {
     }
 }
 
-/// The problem. The unknown of an edge at the boundary is that of its triangle alone.
+/// The problem, with an unknown for each edge.
 fn problem(mesh: &TriangleMesh, features: &FeatureGraph) -> Result<Problem> {
     let mut problem = Problem::new(mesh.edge_count())?;
     let all: Vec<usize> = (0..mesh.edge_count()).collect();

@@ -40,10 +40,9 @@ const FIRST: f64 = 0.97;
 /// until there are more than four for each that was asked for. Where more than one triangle in twenty is folded,
 /// that is tried before untangling.
 ///
-/// If a mesh that had to be refined, or whose quads do not conform, is still not covered by quads that conform, if
-/// folds of its map were repaired and that loses more than 3 % of it,
-/// or if it had to be refined and its quads miss features that were asked for, it is tried once more with its
-/// sharp edges as features, if the options give no angle; if its quads conform, up to three times with smaller quads
+/// A mesh is tried by other options if its quads do not conform; if it had to be refined, and they do not cover it or
+/// miss features that were asked for; and if folds of its map were repaired, and they lose more than 3 % of it. It is
+/// tried once more with its sharp edges as features, if the options give no angle; if its quads conform, up to three times with smaller quads
 /// where they lose the surface; if they do not conform, once more with only those sharp edges as features whose curves
 /// are four times as long; once more without refinement; once more with half as many quads again as were asked for, and
 /// with 500, if that is needed to conform or to cover the surface. Quads that cover the surface end these tries, unless
