@@ -42,15 +42,16 @@ const FIRST: f64 = 0.97;
 ///
 /// A mesh is tried by other options if its quads do not conform; if it had to be refined, and they do not cover it or
 /// miss features that were asked for; and if folds of its map were repaired, and they lose more than 3 % of it. It is
-/// tried once more with its sharp edges as features, if the options give no angle; if its quads conform, up to three times with smaller quads
-/// where they lose the surface; if they do not conform, once more with only those sharp edges as features whose curves
-/// are four times as long; once more without refinement; once more with half as many quads again as were asked for, and
-/// with 500, if that is needed to conform or to cover the surface. Quads that cover the surface end these tries, unless
-/// sharp edges give them more than a quarter more irregular vertices. The best result is kept, and of equal ones the
-/// one with the fewest irregular vertices. Of a mesh of several components, only those are tried again whose quads do
-/// not conform, and then, if the surface is not covered, those that do not cover theirs: each alone, as it is and in
-/// these ways, and their quads replace those of the first try if they are better. These tries end when they have made
-/// fields, maps and quads of 1,200,000 triangles in all, or what takes as long.
+/// tried once more with its sharp edges as features, if the options give no angle; if its quads conform, up to three
+/// times with smaller quads where they lose the surface; if they do not conform, once more with only those sharp
+/// edges as features whose curves are four times as long; once more without refinement; once more with half as many
+/// quads again as were asked for, and with 500, if that is needed to conform or to cover the surface. Quads that
+/// cover the surface end these tries, unless sharp edges give them more than a quarter more irregular vertices. The
+/// best result is kept, and of equal ones the one with the fewest irregular vertices. Of a mesh of several
+/// components, only those are tried again whose quads do not conform, and then, if the surface is not covered, those
+/// that do not cover theirs: each alone, as it is and in these ways, and their quads replace those of the first try
+/// if they are better. These tries end when they have made fields, maps and quads of 1,200,000 triangles in all, or
+/// what takes as long.
 /// [`Quadrangulation::apart`] names the triangles of components that have quads of their own.
 ///
 /// Where all of that leaves quads that do not conform, triangles of the component are paired, if it has at most 50,000
