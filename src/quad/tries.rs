@@ -172,7 +172,12 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Tries<'a, M> {
                 self.with_denser(mesh, &unrefined, quads, &mut best);
             }
         }
-        for finer in finer(mesh, &best.options) {
+        // Quads that conform on a mesh that was fine enough stay near the number that was asked for.
+        let most = match losses == Losses::Few && !best.rank.does_not_conform() {
+            true => 1,
+            false => usize::MAX,
+        };
+        for finer in finer(mesh, &best.options).into_iter().take(most) {
             if !best.rank.covers_too_little() {
                 break;
             }
@@ -299,7 +304,35 @@ pub(super) fn smaller(sizing: &Sizing, more: f64) -> Sizing {
 
 #[cfg(test)]
 mod tests {
+    use super::super::coverage::{far, lost};
     use super::*;
+    use crate::mesh::shape::by_name;
+
+    /// Quads that are too large for the tubes cut parts of them off. Others are nearer, and not many times as many.
+    #[test]
+    fn quads_that_lose_by_repairs_are_tried_again_near_their_number() {
+        let mesh = by_name("genus-5", 2_000).unwrap();
+        let options = QuadOptions {
+            sizing: Sizing::Quads(60),
+            count: Count::About,
+            ..QuadOptions::default()
+        };
+        let first = by_options(
+            &mesh,
+            &options,
+            Effort::Full,
+            &Cell::new(u64::MAX),
+            &Monitor::default,
+        );
+        let of =
+            |made: &Result<Quadrangulation>| lost(&made.as_ref().unwrap().quads, &mesh, far(&mesh));
+        let (before, count) = (of(&first), first.as_ref().unwrap().quads.quads.len());
+        assert!(before > Losses::Few.largest() && first.as_ref().unwrap().quads.repaired > 0);
+        let best = Tries::new(far(&mesh), &Monitor::default).others(&mesh, &options, first);
+        assert!(of(&best) < 0.7 * before, "{} of {before}", of(&best));
+        let quads = &best.as_ref().unwrap().quads;
+        assert!(quads.is_conforming() && quads.quads.len() < 2 * count.max(60));
+    }
 
     #[test]
     fn curves_of_sharp_edges_have_to_be_longer_where_there_is_an_angle_and_a_length() {
