@@ -31,7 +31,7 @@ use crate::mesh::{Edge, TriangleMesh};
 use crate::monitor::{Monitor, optional};
 use crate::problem::Problem;
 use crate::search::{Options, Strategy};
-use crate::smooth::{Shapes, SmoothOptions, smooth_to};
+use crate::smooth::{QuadQuality, Shapes, SmoothOptions, smooth_to};
 use crate::solve::solve_with;
 
 /// The cost of a triangle alone: a quad with a straight angle is as bad as one whose angles are off by 135 degrees.
@@ -104,7 +104,8 @@ impl Paired {
     }
 }
 
-/// The quads after smoothing along sharp edges, unless that loses some of the surface.
+/// The quads after smoothing along sharp edges, if they are better then: fewer are inverted, or as many and their angles
+/// are nearer to right ones. Pairs of regular triangles are not, and others may lose some of the surface.
 fn smoothed<'a>(
     mesh: &TriangleMesh,
     options: &QuadOptions,
@@ -131,7 +132,13 @@ fn smoothed<'a>(
     };
     let mut moved = quads.clone();
     smooth_to(&mut moved, mesh, &given, Shapes::default(), &mut monitor())?;
-    let is_better = moved.is_conforming() && lost(&moved, mesh, far(mesh)) <= Losses::Few.largest();
+    let faults = |quads: &QuadMesh| {
+        let quality = QuadQuality::new(quads);
+        (quality.inverted, quality.angle_deviation)
+    };
+    let is_better = moved.is_conforming()
+        && lost(&moved, mesh, far(mesh)) <= Losses::Few.largest()
+        && faults(&moved) < faults(&quads);
     Ok(if is_better { moved } else { quads })
 }
 
@@ -370,6 +377,81 @@ mod tests {
             assert!(found.features.len() > 100 && found.missed.is_empty());
             assert!(found.quads.is_conforming());
         }
+    }
+
+    /// The diagonals of squares, which would be the middle of every quad.
+    #[test]
+    fn flat_features_are_edges_of_quads_too() {
+        let mesh = by_name("plane", 200).unwrap();
+        let is_diagonal = |e: &usize| {
+            let edge = mesh.edge(*e);
+            edge.second.is_some() && cost(&mesh, edge) < 1e-6
+        };
+        let diagonals: Vec<usize> = (0..mesh.edge_count()).filter(is_diagonal).collect();
+        assert!(diagonals.len() > 50);
+        let mut options = still();
+        options.guidance.feature_edges = diagonals.iter().copied().step_by(9).collect();
+        assert!(paired(&mesh, &options).missed.is_empty());
+    }
+
+    /// Two halves of a square, one turned about the diagonal by an angle; and those of a rhombus.
+    #[test]
+    fn angles_of_quads_and_between_their_triangles_cost() {
+        let cost_of = |points: [Vec3; 4]| {
+            let mesh = TriangleMesh::new(points.to_vec(), vec![[0, 1, 2], [2, 3, 0]]).unwrap();
+            let inner = mesh.edges().find(|edge| edge.second.is_some()).unwrap();
+            cost(&mesh, inner)
+        };
+        let turned = |angle: f64| {
+            let [x, z] = [angle.cos(), angle.sin()];
+            cost_of([
+                [0.0, -1.0, 0.0],
+                [1.0, 0.0, 0.0],
+                [0.0, 1.0, 0.0],
+                [-x, 0.0, z],
+            ])
+        };
+        for (angle, expected) in [(0.0, 0.0), (FRAC_PI_2, 1.0), (-0.5 * FRAC_PI_2, 0.5)] {
+            assert!((turned(angle) - expected).abs() < 1e-9);
+        }
+        // Its angles are 60 and 120 degrees.
+        let height = 3f64.sqrt();
+        let rhombus = [
+            [0.0, -1.0, 0.0],
+            [height, 0.0, 0.0],
+            [0.0, 1.0, 0.0],
+            [-height, 0.0, 0.0],
+        ];
+        assert!((cost_of(rhombus) - 1.0 / 3.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn smoothing_makes_pairs_better_or_leaves_them() {
+        let quality =
+            |mesh: &TriangleMesh, options| QuadQuality::new(&paired(mesh, &options).quads);
+        let both = |mesh: &TriangleMesh| {
+            [still(), QuadOptions::default()].map(|options| quality(mesh, options))
+        };
+        let plane = by_name("plane", 400).unwrap();
+        let step = 0.4 * plane.edge_length(0, 0);
+        let moved =
+            plane
+                .vertices()
+                .iter()
+                .enumerate()
+                .map(|(v, p)| match plane.is_boundary_vertex(v) {
+                    true => *p,
+                    false => [
+                        p[0] + step * (v as f64).sin(),
+                        p[1] + step * (2.0 * v as f64).cos(),
+                        0.0,
+                    ],
+                });
+        let moved = TriangleMesh::new(moved.collect(), plane.triangles().to_vec()).unwrap();
+        let [before, after] = both(&moved);
+        assert!(after.inverted < before.inverted, "{after:?} of {before:?}");
+        let [before, after] = both(&by_name("genus-2", 1_000).unwrap());
+        assert_eq!(after, before);
     }
 
     #[test]

@@ -178,37 +178,32 @@ pub(super) fn has_features(mesh: &TriangleMesh, guidance: &Guidance) -> bool {
 
 #[cfg(test)]
 mod tests {
+    use super::super::pairs::Paired;
     use super::*;
     use crate::map::Sizing;
     use crate::mesh::shape::by_name;
+    use crate::mesh::vector::scale;
+    use crate::monitor::Monitor;
 
-    /// The rank of six quads in the middle of a sphere, where so many were asked for.
-    fn of_small_cube(asked: usize, losses: Losses) -> Rank {
-        let mesh = by_name("sphere", 500).unwrap();
-        let side = |bit: usize| if bit == 1 { 0.1 } else { -0.1 };
-        let corners = (0..8).map(|v| [side(v & 1), side(v >> 1 & 1), side(v >> 2)]);
-        let quads = [
-            [0, 2, 3, 1],
-            [4, 5, 7, 6],
-            [0, 1, 5, 4],
-            [2, 6, 7, 3],
-            [0, 4, 6, 2],
-        ];
-        let quads = [&quads[..], &[[1, 3, 7, 5]]].concat();
-        let cube = QuadMesh::from_quads(corners.collect(), quads, 2);
-        assert!(cube.is_conforming());
+    /// The rank of ten quads on a small sphere in the middle of a sphere, where so many were asked for.
+    fn of_small_quads(asked: usize, losses: Losses) -> Rank {
+        let [mesh, small] = [500, 20].map(|triangles| by_name("sphere", triangles).unwrap());
         let options = QuadOptions {
             sizing: Sizing::Quads(asked),
             ..QuadOptions::default()
         };
-        Rank::of_quads(&mesh, &options, 0.1, &cube, losses)
+        let paired = Paired::new(&small, &options, &Monitor::default);
+        let mut quads = paired.unwrap().quads;
+        quads.vertices.iter_mut().for_each(|p| *p = scale(*p, 0.1));
+        assert!(quads.is_conforming() && quads.quads.len() == 10);
+        Rank::of_quads(&mesh, &options, 0.1, &quads, losses)
     }
 
     #[test]
     fn what_quads_lose_counts_where_folds_were_repaired_or_the_mesh_was_refined() {
-        assert!(of_small_cube(6, Losses::Any).is_good());
+        assert!(of_small_quads(10, Losses::Any).is_good());
         for losses in [Losses::Few, Losses::Least] {
-            let rank = of_small_cube(6, losses);
+            let rank = of_small_quads(10, losses);
             assert!(rank.loses() && rank.loses_much() && !rank.is_good());
             assert!(rank.loses_no_more_than(rank) && rank < Rank::WORST);
         }
@@ -217,9 +212,9 @@ mod tests {
     #[test]
     fn of_a_mesh_that_was_fine_enough_a_number_far_off_is_worse_than_a_loss() {
         let covers = |rank: Rank| Rank { lost: 0, ..rank };
-        let near = of_small_cube(6, Losses::Few);
-        assert!(near < covers(of_small_cube(60, Losses::Few)));
-        let near = of_small_cube(6, Losses::Least);
-        assert!(near > covers(of_small_cube(60, Losses::Least)));
+        let near = of_small_quads(10, Losses::Few);
+        assert!(near < covers(of_small_quads(100, Losses::Few)));
+        let near = of_small_quads(10, Losses::Least);
+        assert!(near > covers(of_small_quads(100, Losses::Least)));
     }
 }

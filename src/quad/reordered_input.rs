@@ -109,8 +109,6 @@ impl ReorderedInput {
             },
             features: edges(&made.features),
             missed_features: edges(&made.missed_features),
-            apart: faces(&made.apart),
-            paired: faces(&made.paired),
             ..made
         }
     }

@@ -172,16 +172,13 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Tries<'a, M> {
                 self.with_denser(mesh, &unrefined, quads, &mut best);
             }
         }
-        // Quads that conform on a mesh that was fine enough stay near the number that was asked for.
-        let most = match losses == Losses::Few && !best.rank.does_not_conform() {
-            true => 1,
-            false => usize::MAX,
-        };
-        for finer in finer(mesh, &best.options).into_iter().take(most) {
-            if !best.rank.covers_too_little() {
+        for (k, finer) in finer(mesh, &best.options).iter().enumerate() {
+            // Quads that conform on a mesh that was fine enough stay near the number that was asked for.
+            let is_near = losses == Losses::Few && !best.rank.does_not_conform();
+            if !best.rank.covers_too_little() || is_near && k > 0 {
                 break;
             }
-            self.improve(mesh, &finer, &mut best);
+            self.improve(mesh, finer, &mut best);
         }
         best.made
     }
@@ -305,18 +302,31 @@ pub(super) fn smaller(sizing: &Sizing, more: f64) -> Sizing {
 #[cfg(test)]
 mod tests {
     use super::super::coverage::{far, lost};
+    use super::super::quadrangulate;
     use super::*;
     use crate::mesh::shape::by_name;
+
+    fn about(quads: usize) -> QuadOptions {
+        QuadOptions {
+            sizing: Sizing::Quads(quads),
+            count: Count::About,
+            ..QuadOptions::default()
+        }
+    }
+
+    /// The first quads do not conform. Half as many again do, and 500 are not tried.
+    #[test]
+    fn few_quads_that_conform_are_not_followed_by_many() {
+        let mesh = by_name("genus-5", 2_000).unwrap();
+        let made = quadrangulate(&mesh, &about(20), Monitor::default).unwrap();
+        assert!(made.quads.is_conforming() && made.quads.quads.len() < 200);
+    }
 
     /// Quads that are too large for the tubes cut parts of them off. Others are nearer, and not many times as many.
     #[test]
     fn quads_that_lose_by_repairs_are_tried_again_near_their_number() {
         let mesh = by_name("genus-5", 2_000).unwrap();
-        let options = QuadOptions {
-            sizing: Sizing::Quads(60),
-            count: Count::About,
-            ..QuadOptions::default()
-        };
+        let options = about(60);
         let first = by_options(
             &mesh,
             &options,

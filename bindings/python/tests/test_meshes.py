@@ -300,6 +300,16 @@ def test_attributes_of_other_meshes_and_of_no_file_are_refused(tmp_path):
         torus.attributes(tmp_path / "none.ply")
 
 
+def test_triangles_whose_quads_are_pairs_are_counted():
+    sphere = roundel.Mesh.shape("sphere", 80)
+    inner = np.arange(len(sphere.vertices)) * 7 % 5 < 2
+    spikes = roundel.Mesh(np.where(inner[:, None], 0.1, 1.0) * sphere.vertices, sphere.faces)
+    quads = roundel.quad(spikes, quads=100)
+    assert quads.paired_face_count == len(spikes.faces) == 2 * len(quads.faces)
+    assert quads.conforming
+    assert roundel.quad(sphere, quads=100).paired_face_count == 0
+
+
 def test_irregular_vertices_near_features_are_counted():
     gear = roundel.Mesh.shape("gear", 4000)
     assert roundel.quad(gear, quads=500, features=40).near_feature_count == 0

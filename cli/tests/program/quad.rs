@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::Path;
 
+use roundel::mesh::{TriangleMesh, io, shape};
 use serde_json::{Value, json};
 
 use crate::run::{Scratch, finish, only_object, program};
@@ -188,4 +189,27 @@ fn faults_are_told_by_number_on_one_line() {
     let stderr = String::from_utf8(output.stderr).unwrap();
     assert_eq!((code, stderr.lines().count()), (0, 1), "{stderr}");
     assert!(stderr.contains("triangles folded by the map 1"), "{stderr}");
+}
+
+/// A sphere with vertices that are pulled towards its centre: no map of few quads covers it.
+#[test]
+fn triangles_whose_quads_are_pairs_are_told() {
+    let scratch = Scratch::new("quad-pairs");
+    let sphere = shape::by_name("sphere", 80).unwrap();
+    let points = sphere.vertices().iter().enumerate().map(|(v, p)| {
+        let scale = if v * 7 % 5 < 2 { 0.1 } else { 1.0 };
+        p.map(|x| scale * x)
+    });
+    let spikes = TriangleMesh::new(points.collect(), sphere.triangles().to_vec()).unwrap();
+    let file = scratch.path("spikes.obj");
+    io::write(&file, &spikes).unwrap();
+    let words = ["quad", text(&file), "--quads", "100"];
+    let (code, told) = run(&[&words[..], &["--json"]].concat());
+    assert_eq!((code, &told["conforming"]), (0, &json!(true)), "{told}");
+    assert_eq!(told["paired_faces"], json!(spikes.face_count()), "{told}");
+    let (_, output) = finish(program(&words));
+    let summary = String::from_utf8(output.stdout).unwrap();
+    assert!(summary.contains("pairs      of 80 triangles"), "{summary}");
+    let (_, told) = run(&["quad", "shape:sphere:80", "--quads", "100", "--json"]);
+    assert_eq!(told["paired_faces"], json!(0), "{told}");
 }
