@@ -29,6 +29,7 @@ mod dual_active_set;
 mod exchange;
 mod form;
 mod hull;
+mod implied_bounds;
 mod interior;
 mod inverse;
 mod lazy;
@@ -294,20 +295,22 @@ fn search_ordered(
     Ok(found)
 }
 
-/// Searches a form after the perspective reformulation, if that raises its bound.
+/// Searches a form after the perspective reformulation and with rows that choices imply, if these raise its bound.
 fn search_strengthened(
     form: &Form,
     start: Option<Vec<f64>>,
     limits: Limits,
     monitor: &mut Monitor,
 ) -> Result<tree::Found> {
-    let strengthened = perspective::strengthened(form, monitor)?;
-    tree::search(
-        strengthened.as_ref().unwrap_or(form),
-        start,
-        limits,
-        monitor,
-    )
+    let perspective = perspective::strengthened(form, monitor)?;
+    let form = perspective.as_ref().unwrap_or(form);
+    let Some(form) = implied_bounds::strengthened(form, monitor)? else {
+        return tree::search(form, start, limits, monitor);
+    };
+    let mut found = tree::search(&form, start, limits, monitor)?;
+    // The caller does not know these rows.
+    found.conflict.clear();
+    Ok(found)
 }
 
 /// Searches a part without the copies of its unknowns. What is returned has them.

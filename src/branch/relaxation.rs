@@ -23,6 +23,15 @@ const STEPS: usize = 30;
 /// Proximal steps end when the bound is within this part of the energy.
 const CLOSE: f64 = 1e-10;
 
+/// Where integers are fractional, proximal steps end as well when the bound is within this part of what the energy
+/// is below the cutoff, and within [`ROUGH`] times the energy.
+const PART: f64 = 1e-2;
+
+const ROUGH: f64 = 1e-3;
+
+/// A value this close to an integer may become one by further steps.
+const NEAR: f64 = 1e-3;
+
 /// The largest number of times that bounds are tightened through all rows before the interior-point method.
 const ROUNDS: usize = 5;
 
@@ -176,12 +185,25 @@ impl<'a> Relaxation<'a> {
                 self.solver.point(),
                 &self.solver.inverse().added,
             );
-            if energy - best <= CLOSE * energy.abs().max(1e-3) || moved <= 1e-10 {
+            let mut close = CLOSE * energy.abs().max(1e-3);
+            if !self.is_integral() {
+                // The node is branched on whatever further steps find.
+                let missing = (PART * (cutoff - energy)).min(ROUGH * energy.abs());
+                close = close.max(missing);
+            }
+            if energy - best <= close || moved <= 1e-10 {
                 break;
             }
         }
         self.centre = Some(centre);
         result.unwrap_or(Relaxed::Solved { bound: best })
+    }
+
+    /// Whether further steps may leave all integers of the solver's point integral.
+    fn is_integral(&self) -> bool {
+        let unknowns = self.solver.form().integer.iter().zip(self.solver.point());
+        let mut integers = unknowns.filter(|(is_integer, _)| **is_integer);
+        integers.all(|(_, x)| (x - x.round()).abs() <= NEAR)
     }
 
     /// Starts the next solve from these rows. The interior-point method has no use for them.
@@ -348,4 +370,47 @@ fn ray(form: &Form, limits: &[Interval], mut direction: Vec<f64>) -> Option<Vec<
         .fold(0.0, |m: f64, (_, _, v)| m.max(v.abs()));
     let is_flat = curved.iter().all(|c| c.abs() <= STILL * most);
     (slope < -STILL * size && is_flat).then_some(direction)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::implied_bounds::tests::layout;
+    use super::*;
+
+    fn solved(form: &Form, cutoff: f64) -> (f64, u64) {
+        let shared = Shared::new(form, &regularization(form)).unwrap();
+        let mut relaxation = Relaxation::new(form, &shared);
+        match relaxation.solve(cutoff, &form.boxes) {
+            Relaxed::Solved { bound } => (bound, relaxation.solver.iterations),
+            other => panic!("{other:?}"),
+        }
+    }
+
+    #[test]
+    fn a_node_far_from_the_cutoff_takes_fewer_steps() {
+        let mut form = layout(&[20.0, 21.0, 23.0, 26.0], &[5.0, 3.0, 6.0, 4.0], 0.1);
+        form.constant += 100.0;
+        // No distance is larger, and so the bound is not far off after some steps.
+        for side in form.boxes.iter_mut() {
+            side.upper = side.upper.min(50.0);
+        }
+        let mut real = form.clone();
+        real.integer.fill(false);
+        let (exact, steps) = solved(&real, f64::INFINITY);
+        let (bound, fewer) = solved(&form, exact + 1e6);
+        assert!(
+            bound <= exact && exact - bound <= 1.1 * ROUGH * exact,
+            "{exact} {bound}"
+        );
+        assert!(fewer < steps, "{fewer} {steps}");
+        let (bound, _) = solved(&form, exact + 1e-5);
+        assert!((exact - bound).abs() <= 1e-7, "{exact} {bound}");
+        // All integers are integral: the first two stay apart, and none of the others is near.
+        let mut decided = layout(&[20.0, 30.0], &[5.0, 3.0], 0.1);
+        decided.limits[3] = Interval::point(1.0);
+        let (bound, _) = solved(&decided, 1e6);
+        decided.integer.fill(false);
+        let (exact, _) = solved(&decided, f64::INFINITY);
+        assert!((exact - bound).abs() <= 1e-9, "{exact} {bound}");
+    }
 }

@@ -10,7 +10,18 @@ use pulp::Arch;
 pub(super) struct Ldl {
     /// The entries below the diagonal of each row.
     rows: Vec<Vec<f64>>,
+    /// The first entries of each row, as many as that and a multiple of [`LANES`], are zero.
+    zeros: Vec<usize>,
     diagonal: Vec<f64>,
+}
+
+/// The sums of an inner product that are added side by side.
+const LANES: usize = 8;
+
+/// How many numbers at the beginning are zero, rounded down to a multiple of [`LANES`].
+fn zeros(values: &[f64]) -> usize {
+    let first = values.iter().position(|v| *v != 0.0);
+    first.unwrap_or(values.len()) / LANES * LANES
 }
 
 impl Ldl {
@@ -30,6 +41,7 @@ impl Ldl {
 
     /// Appends the result of [`next_row`](Self::next_row).
     pub fn append(&mut self, row: Vec<f64>, diagonal: f64) {
+        self.zeros.push(zeros(&row));
         self.rows.push(row);
         self.diagonal.push(diagonal);
     }
@@ -38,7 +50,15 @@ impl Ldl {
     pub fn remove(&mut self, at: usize) {
         let mut weight = self.diagonal.remove(at);
         self.rows.remove(at);
+        self.zeros.remove(at);
         let mut column: Vec<f64> = self.rows[at..].iter_mut().map(|r| r.remove(at)).collect();
+        for (zeros, value) in self.zeros[at..].iter_mut().zip(&column) {
+            // Entries after the one that goes move by one.
+            if *zeros > at {
+                debug_assert!(*value == 0.0);
+                *zeros -= LANES;
+            }
+        }
         // L D L' + weight column column' for the rows from `at` on.
         for j in 0..column.len() {
             let p = column[j];
@@ -69,9 +89,13 @@ impl Ldl {
         Arch::new().dispatch(
             #[inline(always)]
             || {
-                for i in done..b.len() {
-                    let below = dot(&self.rows[i], &b[..i]);
-                    b[i] -= below;
+                let start = zeros(b);
+                for i in done.max(start)..b.len() {
+                    let from = self.zeros[i].max(start);
+                    if from < i {
+                        let below = dot(&self.rows[i][from..], &b[from..i]);
+                        b[i] -= below;
+                    }
                 }
             },
         );
@@ -92,7 +116,11 @@ impl Ldl {
             || {
                 for i in (0..b.len()).rev() {
                     let x = b[i];
-                    for (b, l) in b[..i].iter_mut().zip(&self.rows[i]) {
+                    let from = self.zeros[i];
+                    if from >= i {
+                        continue;
+                    }
+                    for (b, l) in b[from..i].iter_mut().zip(&self.rows[i][from..]) {
                         *b -= l * x;
                     }
                 }
@@ -103,6 +131,7 @@ impl Ldl {
     /// Removes everything.
     pub fn clear(&mut self) {
         self.rows.clear();
+        self.zeros.clear();
         self.diagonal.clear();
     }
 }
@@ -164,6 +193,36 @@ mod tests {
             let mut b: Vec<f64> = left.iter().map(|row| dot(row, &x)).collect();
             ldl.solve(&mut b);
             assert!(b.iter().zip(&x).all(|(b, x)| (b - x).abs() < 1e-9), "{b:?}");
+        }
+    }
+
+    #[test]
+    fn zeros_at_the_beginning_of_rows_change_nothing() {
+        let mut random = Random::new(5);
+        // Vector k has entries at k, and at two places after it; so rows begin at many places.
+        let mut vectors: Vec<Vec<f64>> = (0..40)
+            .map(|k| {
+                let mut vector = vec![0.0; 60];
+                for at in [k, k + 7, k + 20] {
+                    vector[at] = 1.0 + 0.3 * random.symmetric();
+                }
+                vector
+            })
+            .collect();
+        vectors.reverse();
+        let mut ldl = factor(&gram(&vectors));
+        assert!(ldl.zeros.iter().any(|zeros| *zeros >= LANES));
+        for at in [39, 0, 20, 9, 17, 30, 8, 16, 5] {
+            ldl.remove(at);
+            vectors.remove(at);
+            let left = gram(&vectors);
+            for unit in 0..left.len() {
+                let mut x: Vec<f64> = left.iter().map(|row| row[unit]).collect();
+                ldl.solve(&mut x);
+                let is_unit =
+                    |(k, x): (usize, &f64)| (x - f64::from(u8::from(k == unit))).abs() < 1e-9;
+                assert!(x.iter().enumerate().all(is_unit), "{x:?}");
+            }
         }
     }
 
