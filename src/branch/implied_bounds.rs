@@ -17,6 +17,7 @@
 use std::collections::{BTreeMap, HashSet};
 
 use super::form::{Form, Interval};
+use super::interior;
 use super::relaxation::{Relaxation, Relaxed, regularization};
 use super::shared::Shared;
 use crate::error::{Conflicting, Result};
@@ -64,6 +65,10 @@ pub(super) fn strengthened(form: &Form, monitor: &mut Monitor) -> Result<Option<
     }
     let _watch = monitor.watch_search();
     let next = with_rows(form, &rows)?;
+    if interior::is_for(&next) && !interior::is_for(form) {
+        // Nodes would take longer than before.
+        return Ok(None);
+    }
     let (before, after) = (root_bound(form)?, root_bound(&next)?);
     let is_better = after > before + WORTH * before.abs();
     Ok(is_better.then_some(next))

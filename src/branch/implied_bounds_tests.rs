@@ -179,3 +179,12 @@ fn rows_that_add_nothing_are_not_made() {
             .is_none()
     );
 }
+
+#[test]
+fn nodes_are_solved_by_the_same_method_as_without_the_rows() {
+    // 455 rows, and 91 that choices imply.
+    let form = random_layout(14, &mut Random::new(2));
+    assert_eq!(rows(&form).len(), 91);
+    let strengthened = strengthened(&form, &mut Monitor::default()).unwrap();
+    assert_eq!(strengthened.is_none(), cfg!(feature = "interior-point"));
+}
