@@ -133,6 +133,12 @@ impl Form {
         self.gradient.len()
     }
 
+    /// Whether an unknown is 0 or 1.
+    pub fn is_binary(&self, j: usize) -> bool {
+        let limits = self.limits[j];
+        self.integer[j] && limits.lower == 0.0 && limits.upper == 1.0
+    }
+
     /// A bound on the rounding errors of the objective at a point.
     pub fn rounding(&self, x: &[f64]) -> f64 {
         let products = self.hessian.entries();

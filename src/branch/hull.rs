@@ -220,10 +220,6 @@ impl Rows {
 
 /// All unknowns that may be copies, by rows that define them.
 fn copies(form: &Form, columns: &Sparse) -> HashMap<u32, Copied> {
-    let is_binary = |j: usize| {
-        let limits = form.limits[j];
-        form.integer[j] && limits.lower == 0.0 && limits.upper == 1.0
-    };
     let mut is_curved = vec![false; form.dim()];
     for (i, j, _) in form.hessian.entries() {
         is_curved[i as usize] = true;
@@ -234,7 +230,9 @@ fn copies(form: &Form, columns: &Sparse) -> HashMap<u32, Copied> {
     let is_choice = |i: &usize| {
         let sides = form.row_limits[*i];
         let mut row = form.rows.row(*i);
-        sides.is_point() && sides.lower != 0.0 && row.all(|(j, a)| is_binary(j) && a == sides.lower)
+        sides.is_point()
+            && sides.lower != 0.0
+            && row.all(|(j, a)| form.is_binary(j) && a == sides.lower)
     };
     let choices: HashSet<Vec<usize>> = rows
         .clone()
@@ -253,7 +251,7 @@ fn copies(form: &Form, columns: &Sparse) -> HashMap<u32, Copied> {
             let is_upper = sides.upper == 0.0 && sides.lower == f64::NEG_INFINITY && a > 0.0;
             let is_lower = sides.lower == 0.0 && sides.upper == f64::INFINITY && a < 0.0;
             let most = (-c / a).min(form.limits[v].upper);
-            let fits = form.rows.row(i).len() == 2 && is_binary(binary) && most > 0.0;
+            let fits = form.rows.row(i).len() == 2 && form.is_binary(binary) && most > 0.0;
             (fits && (is_upper || is_lower)).then_some((binary, most, i))
         })
     };

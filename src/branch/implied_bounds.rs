@@ -146,11 +146,6 @@ fn least(form: &Form, (y, is_upper): Signed) -> f64 {
     }
 }
 
-fn is_binary(form: &Form, j: usize) -> bool {
-    let limits = form.limits[j];
-    form.integer[j] && limits.lower == 0.0 && limits.upper == 1.0
-}
-
 /// The sets of binaries of which at most one is 1.
 fn choices(form: &Form) -> Vec<Vec<u32>> {
     let choice = |(i, sides): (usize, &Interval)| {
@@ -161,7 +156,7 @@ fn choices(form: &Form) -> Vec<Vec<u32>> {
             false => sides.lower == first,
         };
         let is_choice =
-            is_one && row.len() > 1 && row.all(|(j, a)| a == first && is_binary(form, j));
+            is_one && row.len() > 1 && row.all(|(j, a)| a == first && form.is_binary(j));
         is_choice.then(|| form.rows.row(i).map(|(j, _)| j as u32).collect())
     };
     form.row_limits
@@ -235,7 +230,7 @@ fn halves(form: &Form, i: usize) -> Vec<Half> {
     let sides = form.row_limits[i];
     let mut integers = form.rows.row(i).filter(|&(j, _)| form.integer[j]);
     let binary = integers.next();
-    if integers.next().is_some() || binary.is_some_and(|(j, _)| !is_binary(form, j)) {
+    if integers.next().is_some() || binary.is_some_and(|(j, _)| !form.is_binary(j)) {
         return Vec::new();
     }
     let of = |sign: f64, side: f64| Half {

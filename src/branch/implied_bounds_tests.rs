@@ -1,6 +1,7 @@
 //! The rows hold at all points with integers, and raise the bound of layouts.
 
-use super::super::tree::least as least_energy;
+use super::super::search_strengthened;
+use super::super::tree::{Limits, least as least_energy, search};
 use super::*;
 use crate::linalg::Random;
 
@@ -187,4 +188,23 @@ fn nodes_are_solved_by_the_same_method_as_without_the_rows() {
     assert_eq!(rows(&form).len(), 91);
     let strengthened = strengthened(&form, &mut Monitor::default()).unwrap();
     assert_eq!(strengthened.is_none(), cfg!(feature = "interior-point"));
+}
+
+#[test]
+fn layouts_take_fewer_nodes() {
+    let mut random = Random::new(7);
+    let limits = Limits {
+        inner: false,
+        ..Limits::inner(u64::MAX)
+    };
+    let mut nodes = [0; 2];
+    for _ in 0..5 {
+        let form = random_layout(5, &mut random);
+        let monitor = &mut Monitor::default();
+        nodes[0] += search(&form, None, limits, monitor).unwrap().nodes;
+        nodes[1] += search_strengthened(&form, None, limits, monitor)
+            .unwrap()
+            .nodes;
+    }
+    assert!(nodes[1] < nodes[0], "{nodes:?}");
 }

@@ -112,10 +112,6 @@ pub(super) fn strengthened(form: &Form, monitor: &mut Monitor) -> Result<Option<
 
 /// The unknowns that are zero where a binary is, with squares of their own.
 fn links(form: &Form) -> Result<Vec<Link>> {
-    let is_binary = |j: usize| {
-        let limits = form.limits[j];
-        form.integer[j] && limits.lower == 0.0 && limits.upper == 1.0
-    };
     let mut found: HashMap<(u32, u32), Link> = HashMap::new();
     for (i, sides) in form.row_limits.iter().enumerate() {
         let row: Vec<(usize, f64)> = form.rows.row(i).collect();
@@ -123,7 +119,7 @@ fn links(form: &Form) -> Result<Vec<Link>> {
             continue;
         };
         for [(x, a), (z, b)] in [[first, second], [second, first]] {
-            if x == z || !is_binary(z) || form.limits[x].is_point() {
+            if x == z || !form.is_binary(z) || form.limits[x].is_point() {
                 continue;
             }
             let end = -b / a;

@@ -23,10 +23,11 @@ const STEPS: usize = 30;
 /// Proximal steps end when the bound is within this part of the energy.
 const CLOSE: f64 = 1e-10;
 
-/// Where integers are fractional, proximal steps end as well when the bound is within this part of what the energy
-/// is below the cutoff, and within [`ROUGH`] times the energy.
+/// Where integers are fractional, proximal steps also end when the bound is closer to the energy than this part of the
+/// distance from the energy to the cutoff.
 const PART: f64 = 1e-2;
 
+/// They do not end so where the bound differs from the energy by more than this part of it.
 const ROUGH: f64 = 1e-3;
 
 /// A value this close to an integer may become one by further steps.
@@ -186,7 +187,7 @@ impl<'a> Relaxation<'a> {
                 &self.solver.inverse().added,
             );
             let mut close = CLOSE * energy.abs().max(1e-3);
-            if !self.is_integral() {
+            if cutoff.is_finite() && !self.is_integral() {
                 // The node is branched on whatever further steps find.
                 let missing = (PART * (cutoff - energy)).min(ROUGH * energy.abs());
                 close = close.max(missing);
@@ -403,9 +404,12 @@ mod tests {
             "{exact} {bound}"
         );
         assert!(fewer < steps, "{fewer} {steps}");
-        let (bound, _) = solved(&form, exact + 1e-5);
-        assert!((exact - bound).abs() <= 1e-7, "{exact} {bound}");
-        // All integers are integral: the first two stay apart, and none of the others is near.
+        // Near the cutoff and without one, the bound is exact.
+        for cutoff in [exact + 1e-5, f64::INFINITY] {
+            let (bound, _) = solved(&form, cutoff);
+            assert!((exact - bound).abs() <= 1e-7, "{exact} {bound}");
+        }
+        // Where all integers are integral, the bound is exact.
         let mut decided = layout(&[20.0, 30.0], &[5.0, 3.0], 0.1);
         decided.limits[3] = Interval::point(1.0);
         let (bound, _) = solved(&decided, 1e6);

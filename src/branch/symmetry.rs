@@ -104,15 +104,11 @@ fn bring(point: &mut Vec<f64>, exchanges: &[Exchange], from: usize, to: usize) {
 
 /// The rows of which exactly one binary is 1.
 fn choice_rows(form: &Form) -> Vec<Vec<u32>> {
-    let is_binary = |j: usize| {
-        let limits = form.limits[j];
-        form.integer[j] && limits.lower == 0.0 && limits.upper == 1.0
-    };
     let is_choice = |i: &usize| {
         let sides = form.row_limits[*i];
         let mut row = form.rows.row(*i);
         let is_long = row.len() > 1;
-        is_long && sides == Interval::point(1.0) && row.all(|(j, a)| a == 1.0 && is_binary(j))
+        is_long && sides == Interval::point(1.0) && row.all(|(j, a)| a == 1.0 && form.is_binary(j))
     };
     let rows = (0..form.rows.rows()).filter(is_choice);
     rows.map(|i| form.rows.row(i).map(|(j, _)| j as u32).collect())
