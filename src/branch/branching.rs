@@ -4,8 +4,9 @@
 //! solved for a few iterations instead (reliability branching, `achterberg2005`).
 
 use super::form::Interval;
+use super::node::Node;
 use super::pseudo_costs::merit;
-use super::tree::{Node, Tree};
+use super::tree::Tree;
 
 /// A value this close to an integer counts as one.
 const INTEGRAL: f64 = 1e-6;

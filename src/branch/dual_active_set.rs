@@ -15,19 +15,7 @@ use super::working_set::Ldl;
 use crate::monitor::may_continue;
 
 /// A row whose square that the others leave is below this part of its own depends on them.
-const DEPENDENT: f64 = 1e-9;
-
-/// What is left of a square below this part of it is a rounding error.
-const LOST: f64 = 1e-15;
-
-/// Sides contradict each other if they miss each other by this part of their sizes.
-const CONTRADICTION: f64 = 1e-8;
-
-/// A sum below this part of its terms' sizes is zero.
-const CANCELLED: f64 = 1e-8;
-
-/// An entry of a dual direction below this part of the largest is a rounding error.
-const NOTHING: f64 = 1e-11;
+pub(super) const DEPENDENT: f64 = 1e-9;
 
 /// Rows may be violated by this, relative to the sizes of their sides.
 pub(super) const FEASIBLE: f64 = 1e-9;
@@ -99,7 +87,7 @@ pub(super) struct DualActiveSet<'a> {
     /// substitution with L.
     missed: Vec<f64>,
     substituted: Vec<f64>,
-    /// Rows that are violated only by rounding errors of rows on which they depend.
+    /// Rows that are violated only by rounding errors.
     is_ignored: Vec<bool>,
     ignored: Vec<u32>,
     pub(super) point: Vec<f64>,
@@ -220,6 +208,11 @@ impl<'a> DualActiveSet<'a> {
         }
     }
 
+    /// Counts multiplications from this number on.
+    pub fn count_from(&mut self, work: u64) {
+        (self.work, self.next_look) = (work, work + LOOK);
+    }
+
     /// Whether the call is to end. A solve from fewer active rows takes longer, and is right as well.
     fn ends(&mut self) -> bool {
         if self.work >= self.next_look {
@@ -236,7 +229,7 @@ impl<'a> DualActiveSet<'a> {
         self.start_from(&active);
     }
 
-    fn interval(&self, row: usize) -> Interval {
+    pub(super) fn interval(&self, row: usize) -> Interval {
         let n = self.limits.len();
         match row.checked_sub(n) {
             None => self.limits[row],
@@ -260,7 +253,7 @@ impl<'a> DualActiveSet<'a> {
     }
 
     /// The row of the factor for a row that is not active, and what is left of its square.
-    fn factor_row(&mut self, row: usize) -> (Vec<f64>, f64, f64) {
+    pub(super) fn factor_row(&mut self, row: usize) -> (Vec<f64>, f64, f64) {
         let (indices, values) = self.image(row);
         for (&j, v) in indices.iter().zip(values) {
             self.scattered[j as usize] = *v;
@@ -292,13 +285,13 @@ impl<'a> DualActiveSet<'a> {
         }
     }
 
-    fn append(&mut self, active: Active, entries: Vec<f64>, diagonal: f64) {
+    pub(super) fn append(&mut self, active: Active, entries: Vec<f64>, diagonal: f64) {
         self.place[active.row as usize] = self.active.len() as u32;
         self.active.push(active);
         self.factor.append(entries, diagonal);
     }
 
-    fn remove(&mut self, at: usize) {
+    pub(super) fn remove(&mut self, at: usize) {
         let row = self.active.remove(at).row;
         self.place[row as usize] = NOT_ACTIVE;
         for (k, active) in self.active.iter().enumerate().skip(at) {
@@ -341,6 +334,7 @@ impl<'a> DualActiveSet<'a> {
             .map(|(x, q)| 0.5 * x * q)
             .sum();
         let last = self.iterations + most;
+        let mut added = NOT_ACTIVE;
         loop {
             if self.iterations >= last || self.ends() {
                 return Outcome::Stopped;
@@ -351,6 +345,11 @@ impl<'a> DualActiveSet<'a> {
             if let Some((at, step)) = self.blocking(&target) {
                 for (active, new) in self.active.iter_mut().zip(&target) {
                     active.multiplier += step * (new - active.multiplier);
+                }
+                let active = self.active[at];
+                if active.row == added && active.multiplier == 0.0 {
+                    // Its multiplier moves away from zero but for rounding errors, and so these violate it.
+                    self.ignore(added as usize);
                 }
                 self.remove(at);
                 continue;
@@ -376,6 +375,7 @@ impl<'a> DualActiveSet<'a> {
                 }
                 return Outcome::Optimal;
             };
+            added = row as u32;
             if let Some(certificate) = self.activate(row, upper) {
                 return Outcome::Infeasible(certificate);
             }
@@ -498,95 +498,10 @@ impl<'a> DualActiveSet<'a> {
         worst
     }
 
-    /// Whether the active rows in this direction cancel a row. Where some unknowns have a curvature and others
-    /// only the small one that was added, the norm of `P` does not show it.
-    fn cancels(&mut self, row: usize, sign: f64, direction: &[f64]) -> bool {
-        let (form, n) = (self.form, self.limits.len());
-        let mut sizes = vec![0.0; n];
-        let mut sums = vec![0.0; n];
-        let mut add = |row: usize, by: f64| {
-            let mut term = |j: usize, v: f64| {
-                sums[j] += v;
-                sizes[j] += v.abs();
-            };
-            match row.checked_sub(n) {
-                None => term(row, by),
-                Some(row) => form.rows.row(row).for_each(|(j, a)| term(j, a * by)),
-            }
-        };
-        add(row, sign);
-        for (held, &d) in self.active.iter().zip(direction) {
-            add(held.row as usize, d);
-        }
-        self.work += n as u64;
-        let mut pairs = sums.iter().zip(&sizes);
-        pairs.all(|(sum, size): (&f64, &f64)| sum.abs() <= CANCELLED * size)
-    }
-
-    /// Whether the sides of a combination of rows contradict each other by more than rounding errors.
-    fn contradicts(&self, row: Active, sign: f64, direction: &[f64]) -> bool {
-        let own = sign * self.held(row);
-        let held = self.active.iter().zip(direction);
-        let held = held
-            .filter(|(_, d)| **d != 0.0)
-            .map(|(a, d)| d * self.held(*a));
-        let (sum, size) = held.fold((own, own.abs()), |(s, m), t: f64| (s + t, m + t.abs()));
-        -sum > CONTRADICTION * size.max(1.0)
-    }
-
-    /// Makes a violated row active. If it depends on the active rows, one of these leaves for it; if none can,
-    /// their combination is the certificate that no point exists.
-    fn activate(&mut self, row: usize, upper: bool) -> Option<Vec<(u32, f64)>> {
-        let sign = if upper { 1.0 } else { -1.0 };
-        let mut active = Active {
-            row: row as u32,
-            upper,
-            multiplier: 0.0,
-        };
-        loop {
-            let (entries, left, square) = self.factor_row(row);
-            if left > DEPENDENT * square {
-                self.append(active, entries, left);
-                return None;
-            }
-            // `A_W' direction + sign a = 0`, and `entries` are `D^-1 L^-1 A_W P a`.
-            let mut direction: Vec<f64> = entries.iter().map(|l| -sign * l).collect();
-            self.factor.solve_transposed(&mut direction);
-            if left > LOST * square && !self.cancels(row, sign, &direction) {
-                self.append(active, entries, left);
-                return None;
-            }
-            let largest = direction.iter().fold(1.0, |m: f64, d| m.max(d.abs()));
-            let mut first: Option<(usize, f64)> = None;
-            for (k, (held, d)) in self.active.iter().zip(&mut direction).enumerate() {
-                if d.abs() <= NOTHING * largest {
-                    *d = 0.0;
-                }
-                let falls = if held.upper { *d < 0.0 } else { *d > 0.0 };
-                if falls && !self.interval(held.row as usize).is_point() {
-                    let step = (held.multiplier / -*d).max(0.0);
-                    if first.is_none_or(|(_, best)| step < best) {
-                        first = Some((k, step));
-                    }
-                }
-            }
-            let Some((at, step)) = first else {
-                if !self.contradicts(active, sign, &direction) {
-                    self.is_ignored[row] = true;
-                    self.ignored.push(row as u32);
-                    return None;
-                }
-                let rows = self.active.iter().zip(&direction);
-                let rows = rows.filter(|(_, d)| **d != 0.0);
-                let rows = rows.map(|(held, d)| (held.row, *d));
-                return Some(rows.chain([(row as u32, sign)]).collect());
-            };
-            for (held, d) in self.active.iter_mut().zip(&direction) {
-                held.multiplier += step * d;
-            }
-            active.multiplier += step * sign;
-            self.remove(at);
-        }
+    /// Leaves a row out until the end of the solve.
+    pub(super) fn ignore(&mut self, row: usize) {
+        self.is_ignored[row] = true;
+        self.ignored.push(row as u32);
     }
 }
 

@@ -8,11 +8,12 @@ use std::collections::BinaryHeap;
 
 use super::conflict;
 use super::form::{Form, Interval, without_zeros};
+use super::node::Node;
 use super::presolve::round_rows;
 use super::pseudo_costs::PseudoCosts;
 use super::relaxation::regularization;
 use super::shared::Shared;
-use super::tree::{Found, Limits, Node, Tree};
+use super::tree::{Found, Limits, Tree};
 use crate::error::{Conflicting, Error, Result};
 use crate::linalg::Sparse;
 use crate::monitor::Monitor;

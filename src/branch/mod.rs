@@ -12,15 +12,18 @@
 //! | `hull` | copies of unknowns that convex hulls of choices have, left out |
 //! | `symmetry`, `dominated` | choices that may change places, in one order |
 //! | `perspective` | squares that a binary switches on, with a larger bound |
-//! | `inverse`, `shared`, `working_set`, `dual_active_set`, `refine` | one strictly convex quadratic program |
+//! | `inverse`, `shared`, `working_set` | the matrices of a strictly convex quadratic program |
+//! | `dual_active_set`, `activation`, `refine` | its solution |
 //! | `relaxation`, `interior` | the relaxation of a node, also where Q is singular, and where many rows are active |
 //! | `safe_bound` | lower bounds that rounding errors cannot make false |
-//! | `pseudo_costs`, `branching`, `tree` | the search |
+//! | `pseudo_costs`, `branching`, `node`, `tree` | the search |
+//! | `rounds` | several nodes at the same time |
 //! | `record` | what a proof is made from |
 //! | `primal`, `exchange`, `anneal` | points with integers: rounding, exchanges, annealing, smaller problems |
 //! | `lazy` | rows that the caller adds during the search |
 //! | `conflict` | why there is no solution |
 
+mod activation;
 mod anneal;
 mod branching;
 mod conflict;
@@ -33,6 +36,7 @@ mod implied_bounds;
 mod interior;
 mod inverse;
 mod lazy;
+mod node;
 mod perspective;
 mod presolve;
 mod primal;
@@ -41,6 +45,7 @@ mod pseudo_costs;
 mod record;
 mod refine;
 mod relaxation;
+mod rounds;
 mod safe_bound;
 mod shared;
 mod symmetry;

@@ -4,6 +4,8 @@
 //! (`savelsbergh1994`). Bounds are rounded outwards for unknowns that are real, and to integers for those that
 //! are not.
 
+use std::sync::Arc;
+
 use super::form::{Form, Interval};
 use crate::linalg::Sparse;
 use crate::proof::Step;
@@ -17,7 +19,7 @@ const WORTH: f64 = 1e-2;
 /// Rows in both orders.
 #[derive(Debug)]
 pub(super) struct Propagator {
-    columns: Sparse,
+    columns: Arc<Sparse>,
     is_waiting: Vec<bool>,
     waiting: Vec<u32>,
     /// The changes of bounds, for a proof.
@@ -64,8 +66,18 @@ impl Activity {
 impl Propagator {
     pub fn new(form: &Form) -> Self {
         Propagator {
-            columns: form.rows.transpose(),
+            columns: Arc::new(form.rows.transpose()),
             is_waiting: vec![false; form.rows.rows()],
+            waiting: Vec::new(),
+            steps: None,
+        }
+    }
+
+    /// Another one for the same rows.
+    pub fn another(&self) -> Self {
+        Propagator {
+            columns: Arc::clone(&self.columns),
+            is_waiting: vec![false; self.is_waiting.len()],
             waiting: Vec::new(),
             steps: None,
         }

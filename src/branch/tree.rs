@@ -3,71 +3,27 @@
 //! A node is a set of bounds. Its relaxation is solved from the active rows of its parent. It is cut off where
 //! its bound reaches the incumbent's energy, where its relaxation has no point, or where its minimiser is
 //! integer. Else one unknown is branched on; the child that looks better is searched next, and the other
-//! waits. When a dive ends, the waiting node of the lowest bound is next.
+//! waits. When a dive ends, the waiting node of the lowest bound is next. A large tree is searched in
+//! [rounds](super::rounds) of several nodes at the same time.
 
-use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
 use super::branching::{Branching, child_limits, floor_between};
-use super::dual_active_set::{Active, WarmStart};
+use super::dual_active_set::Active;
 use super::form::{Form, Interval};
 use super::lazy::LazyRows;
+use super::node::{Node, keep_last};
 use super::propagate::Propagator;
 use super::pseudo_costs::PseudoCosts;
 use super::record::Record;
 use super::relaxation::{Relaxation, Relaxed, regularization};
+use super::rounds::{Pause, Rounds};
 use super::safe_bound::is_contradiction;
 use super::shared::Shared;
 use crate::error::Result;
 use crate::monitor::Monitor;
 use crate::proof::Visited;
 use crate::search::StoppedBy;
-
-/// A node that waits.
-pub(super) struct Node {
-    pub bound: f64,
-    number: u64,
-    /// The bounds that differ from the root's.
-    limits: Vec<(u32, Interval)>,
-    warm: WarmStart,
-    branching: Option<Branching>,
-    /// Its number in the record.
-    visited: usize,
-}
-
-impl Node {
-    pub fn root() -> Self {
-        Node {
-            bound: f64::NEG_INFINITY,
-            number: 0,
-            limits: Vec::new(),
-            warm: WarmStart::new(),
-            branching: None,
-            visited: 0,
-        }
-    }
-}
-
-impl PartialEq for Node {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other) == Ordering::Equal
-    }
-}
-impl Eq for Node {}
-impl PartialOrd for Node {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-impl Ord for Node {
-    /// The greatest node is the next: the lowest bound, then the newest.
-    fn cmp(&self, other: &Self) -> Ordering {
-        other
-            .bound
-            .total_cmp(&self.bound)
-            .then(self.number.cmp(&other.number))
-    }
-}
 
 /// What ends a search early.
 #[derive(Debug, Clone, Copy)]
@@ -166,6 +122,7 @@ pub(super) struct Tree<'a, 'm, 'e> {
     /// The node after which simulated annealing runs next.
     pub next_run: u64,
     pub limits: Limits,
+    pub pause: Pause,
     pub conflict: Vec<(u32, f64)>,
     pub ray: Option<Vec<f64>>,
     pub stopped_by: StoppedBy,
@@ -188,6 +145,17 @@ pub(super) fn search(
     limits: Limits,
     monitor: &mut Monitor,
 ) -> Result<Found> {
+    search_in_rounds(form, start, limits, &Rounds::default(), monitor)
+}
+
+/// [`search`] with other rounds.
+pub(super) fn search_in_rounds(
+    form: &Form,
+    start: Option<Vec<f64>>,
+    limits: Limits,
+    rounds: &Rounds,
+    monitor: &mut Monitor,
+) -> Result<Found> {
     let shared = Shared::new(form, &regularization(form))?;
     let _watch = monitor.watch_search();
     let mut tree = Tree::new(form, &shared, limits, monitor);
@@ -198,7 +166,10 @@ pub(super) fn search(
     if let Some(start) = start {
         tree.round(&start);
     }
-    Ok(tree.found())
+    if limits.inner || limits.recorded || limits.first {
+        return Ok(tree.found());
+    }
+    Ok(tree.found_in_rounds(rounds))
 }
 
 /// What became of a node.
@@ -217,12 +188,23 @@ impl<'a, 'm, 'e> Tree<'a, 'm, 'e> {
         limits: Limits,
         monitor: &'m mut Monitor<'e>,
     ) -> Self {
+        let solvers = (Relaxation::new(form, shared), Propagator::new(form));
+        Tree::with_solvers(form, shared, solvers, limits, monitor)
+    }
+
+    pub fn with_solvers(
+        form: &'a Form,
+        shared: &'a Shared,
+        (relaxation, propagator): (Relaxation<'a>, Propagator),
+        limits: Limits,
+        monitor: &'m mut Monitor<'e>,
+    ) -> Self {
         let integers = (0..form.dim() as u32).filter(|&j| form.integer[j as usize]);
         Tree {
             form,
             shared,
-            relaxation: Relaxation::new(form, shared),
-            propagator: Propagator::new(form),
+            relaxation,
+            propagator,
             costs: PseudoCosts::new(form.dim()),
             root: form.limits.clone(),
             waiting: BinaryHeap::new(),
@@ -235,6 +217,7 @@ impl<'a, 'm, 'e> Tree<'a, 'm, 'e> {
             next_part: FIRST_PART,
             next_run: FIRST_RUN,
             limits,
+            pause: Pause::NEVER,
             conflict: Vec::new(),
             ray: None,
             stopped_by: StoppedBy::Nothing,
@@ -306,25 +289,41 @@ impl<'a, 'm, 'e> Tree<'a, 'm, 'e> {
     }
 
     pub fn run(&mut self) {
-        while let Some(mut node) = self.next_node() {
+        if let Some(node) = self.run_from(None) {
+            self.wait(node);
+        }
+    }
+
+    /// Searches, first from a node at which an earlier run has ended. Returns the node at which this one ends, if it
+    /// does before nothing waits.
+    pub fn run_from(&mut self, mut last: Option<Node>) -> Option<Node> {
+        loop {
+            let is_last = last.is_some();
+            let node = last.take().or_else(|| self.next_node())?;
             if node.bound >= self.cutoff() {
                 self.done = self.done.min(node.bound);
                 continue;
             }
-            self.jump_to(&node);
-            loop {
-                match self.visit(node) {
-                    Step::Done => break,
-                    Step::Split(next, other) => {
-                        self.wait(*other);
-                        self.dive_to(&next);
-                        node = *next;
-                    }
-                    Step::Ended(node) => {
-                        self.wait(*node);
-                        return;
-                    }
+            if !is_last {
+                self.jump_to(&node);
+            }
+            if let Some(node) = self.dive(node) {
+                return Some(node);
+            }
+        }
+    }
+
+    /// Searches from a node, one child after the other. Returns the node at which a limit ends that.
+    fn dive(&mut self, mut node: Node) -> Option<Node> {
+        loop {
+            match self.visit(node) {
+                Step::Done => return None,
+                Step::Split(next, other) => {
+                    self.wait(*other);
+                    self.dive_to(&next);
+                    node = *next;
                 }
+                Step::Ended(node) => return Some(*node),
             }
         }
     }
@@ -358,9 +357,22 @@ impl<'a, 'm, 'e> Tree<'a, 'm, 'e> {
         }
     }
 
+    /// The multiplications so far, with those for which nodes take time.
+    pub fn spent(&self) -> u64 {
+        self.spent_with(0)
+    }
+
+    /// [`spent`](Self::spent) after so many more nodes that took no multiplications.
+    pub fn spent_with(&self, nodes: u64) -> u64 {
+        self.relaxation.solver.work + (self.nodes + nodes) * NODE
+    }
+
     /// Whether to end.
     pub fn is_ended(&mut self) -> bool {
-        let work = self.relaxation.solver.work + self.nodes * NODE;
+        let work = self.spent();
+        if self.best.is_some() && self.pause.is_at(self.nodes, work) {
+            return true;
+        }
         let most = match self.best.is_some() || self.limits.inner {
             true => self.limits.work,
             false => self.limits.work.saturating_mul(FIRST),
@@ -386,15 +398,15 @@ impl<'a, 'm, 'e> Tree<'a, 'm, 'e> {
         let boxes = self.boxes();
         let cutoff = self.cutoff();
         self.relaxation.kept = self.record.as_ref().map(|_| Default::default());
-        let solved = self.relaxation.solve(cutoff, &boxes);
+        let solved = self.solve(cutoff, &boxes);
         let parent = node.bound;
         if let (Some(record), Some(kept)) = (&mut self.record, self.relaxation.kept.take()) {
             record.bounded(node.visited, parent, kept);
         }
         match solved {
             Relaxed::Infeasible(rows) => {
-                if !rows.is_empty() && !is_contradiction(self.form, &boxes, &rows) {
-                    // Rounding errors leave a doubt, and so the bound stays.
+                if self.is_in_doubt(&rows, &boxes) {
+                    // The bound stays.
                     self.done = self.done.min(node.bound);
                 }
                 if let Some(record) = &mut self.record {
@@ -454,6 +466,23 @@ impl<'a, 'm, 'e> Tree<'a, 'm, 'e> {
         }
         let (variable, at) = self.choose(&node, &fractional, &point);
         self.split(node, variable, at)
+    }
+
+    /// Solves the relaxation of a node; again from no active rows, if what shows that it has no point does not hold.
+    fn solve(&mut self, cutoff: f64, boxes: &[Interval]) -> Relaxed {
+        let solved = self.relaxation.solve(cutoff, boxes);
+        match &solved {
+            Relaxed::Infeasible(rows) if self.is_in_doubt(rows, boxes) => {
+                self.relaxation.start_from(&[]);
+                self.relaxation.solve(cutoff, boxes)
+            }
+            _ => solved,
+        }
+    }
+
+    /// Whether rounding errors leave a doubt about what these rows show.
+    fn is_in_doubt(&self, rows: &[(u32, f64)], boxes: &[Interval]) -> bool {
+        !rows.is_empty() && !is_contradiction(self.form, boxes, rows)
     }
 
     /// Whether the caller cuts off a point that the form allows.
@@ -555,20 +584,6 @@ impl<'a, 'm, 'e> Tree<'a, 'm, 'e> {
     }
 }
 
-/// Leaves only the last limits of each unknown, which replace those before. A deep tree without bounds repeats
-/// each unknown at every level.
-fn keep_last(limits: &mut Vec<(u32, Interval)>, unknowns: usize) {
-    let mut last = vec![usize::MAX; unknowns];
-    for (at, (j, _)) in limits.iter().enumerate() {
-        last[*j as usize] = at;
-    }
-    let mut at = 0;
-    limits.retain(|(j, _)| {
-        at += 1;
-        last[*j as usize] == at - 1
-    });
-}
-
 /// The least energy of a form, and where it is. The search begins at `start`.
 #[cfg(test)]
 pub(super) fn least(form: &Form, start: Option<Vec<f64>>) -> Option<(Vec<f64>, f64)> {
@@ -576,20 +591,7 @@ pub(super) fn least(form: &Form, start: Option<Vec<f64>>) -> Option<(Vec<f64>, f
         inner: false,
         ..Limits::inner(u64::MAX)
     };
-    let found = search(form, start, limits, &mut Monitor::default());
-    found.unwrap().best
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn only_the_last_limits_of_each_unknown_are_kept() {
-        let at = |j: u32, value: f64| (j, Interval::point(value));
-        let mut limits = vec![at(1, 0.0), at(0, 1.0), at(1, 2.0), at(3, 3.0), at(1, 4.0)];
-        keep_last(&mut limits, 4);
-        let kept: Vec<(u32, f64)> = limits.iter().map(|(j, l)| (*j, l.lower)).collect();
-        assert_eq!(kept, [(0, 1.0), (3, 3.0), (1, 4.0)]);
-    }
+    let found = search(form, start, limits, &mut Monitor::default()).unwrap();
+    assert!(found.is_complete, "{found:?}");
+    found.best
 }
