@@ -406,7 +406,6 @@ impl<'a, 'm, 'e> Tree<'a, 'm, 'e> {
         match solved {
             Relaxed::Infeasible(rows) => {
                 if self.is_in_doubt(&rows, &boxes) {
-                    // The bound stays.
                     self.done = self.done.min(node.bound);
                 }
                 if let Some(record) = &mut self.record {
@@ -480,7 +479,7 @@ impl<'a, 'm, 'e> Tree<'a, 'm, 'e> {
         }
     }
 
-    /// Whether rounding errors leave a doubt about what these rows show.
+    /// Whether rounding errors leave a doubt about what these rows show. The bound of such a node stays.
     fn is_in_doubt(&self, rows: &[(u32, f64)], boxes: &[Interval]) -> bool {
         !rows.is_empty() && !is_contradiction(self.form, boxes, rows)
     }
@@ -595,3 +594,7 @@ pub(super) fn least(form: &Form, start: Option<Vec<f64>>) -> Option<(Vec<f64>, f
     assert!(found.is_complete, "{found:?}");
     found.best
 }
+
+#[cfg(test)]
+#[path = "tree_tests.rs"]
+mod tests;
