@@ -2,9 +2,11 @@
 
 use super::super::Random;
 use super::super::ordering::inverse;
-use super::minimum_degree;
+use super::domains::eliminated_in_domains;
+use super::quotient_graph::QuotientGraph;
+use super::{Pattern, minimum_degree};
 use crate::error::Error;
-use crate::monitor::{CancelToken, Monitor};
+use crate::monitor::{CancelToken, Monitor, spawned, with_threads};
 
 /// The rows of a lower triangle with these edges.
 fn rows(n: usize, edges: impl Iterator<Item = [u32; 2]>) -> (Vec<usize>, Vec<u32>) {
@@ -124,4 +126,96 @@ fn an_order_that_is_not_wanted_ends() {
     let cancelled = Monitor::default().cancel_token(token);
     let ends = cancelled.watching(|| minimum_degree(&offsets, &columns));
     assert_eq!(ends, Err(Error::Cancelled));
+}
+
+/// A grid with its unknowns in rows of squares of `side` by `side`, so that ranges of unknowns are compact.
+fn tiled_grid(side: u32, tiles: u32) -> (Vec<usize>, Vec<u32>) {
+    let width = side * tiles;
+    let at = move |x: u32, y: u32| {
+        let tile = y / side * tiles + x / side;
+        tile * side * side + y % side * side + x % side
+    };
+    let edges = (0..width).flat_map(move |y| {
+        (0..width).flat_map(move |x| {
+            let right = (x + 1 < width).then(|| [at(x, y), at(x + 1, y)]);
+            let up = (y + 1 < width).then(|| [at(x, y), at(x, y + 1)]);
+            right.into_iter().chain(up)
+        })
+    });
+    rows((width * width) as usize, edges)
+}
+
+/// The entries of the factor below the diagonal, by subtrees of the elimination tree (`liu1990`).
+fn sparse_fill(offsets: &[usize], columns: &[u32], order: &[u32]) -> usize {
+    let n = order.len();
+    let place = inverse(order);
+    let mut rows = vec![Vec::new(); n];
+    for i in 0..n {
+        for &j in &columns[offsets[i]..offsets[i + 1]] {
+            let (a, b) = (place[i] as usize, place[j as usize] as usize);
+            rows[a.max(b)].push(a.min(b));
+        }
+    }
+    let (mut parent, mut passed) = (vec![n; n], vec![n; n]);
+    let mut count = 0;
+    for i in 0..n {
+        passed[i] = i;
+        for &column in &rows[i] {
+            let mut k = column;
+            while passed[k] != i {
+                passed[k] = i;
+                count += 1;
+                parent[k] = parent[k].min(i);
+                k = parent[k];
+            }
+        }
+    }
+    count
+}
+
+#[test]
+fn domains_are_eliminated_at_the_same_time_with_about_the_fill_of_the_whole() {
+    let (offsets, columns) = tiled_grid(33, 5);
+    let pattern = Pattern {
+        offsets: &offsets,
+        columns: &columns,
+    };
+    let n = pattern.unknowns();
+    assert!(eliminated_in_domains(pattern).unwrap().is_some());
+    let order = |threads| with_threads(threads, || minimum_degree(&offsets, &columns).unwrap());
+    let mut in_domains = Vec::new();
+    assert!(spawned(|| in_domains = order(4)) > 0);
+    assert_eq!(in_domains, order(1));
+    let mut sorted = in_domains.clone();
+    sorted.sort_unstable();
+    assert_eq!(sorted, (0..n as u32).collect::<Vec<_>>());
+    let mut whole = QuotientGraph::new(pattern, 0..n, &[]).unwrap();
+    whole.eliminate_up_to(usize::MAX).unwrap();
+    let [ours, whole] = [&in_domains, &whole.order()].map(|o| sparse_fill(&offsets, &columns, o));
+    assert!(10 * ours < 11 * whole, "{ours} {whole}");
+}
+
+#[test]
+fn there_are_no_domains_where_unknowns_are_in_no_order() {
+    let (offsets, columns) = random(30_000, 60_000, 1);
+    let pattern = Pattern {
+        offsets: &offsets,
+        columns: &columns,
+    };
+    assert!(eliminated_in_domains(pattern).unwrap().is_none());
+}
+
+#[test]
+fn unknowns_with_very_many_neighbours_come_last_after_domains_as_well() {
+    let n = 30_000;
+    let chain = (2..n as u32).map(|v| [v - 1, v]);
+    let star = (1..n as u32).step_by(9).map(|v| [0, v]);
+    let (offsets, columns) = rows(n, chain.chain(star));
+    let pattern = Pattern {
+        offsets: &offsets,
+        columns: &columns,
+    };
+    assert!(eliminated_in_domains(pattern).unwrap().is_some());
+    let order = minimum_degree(&offsets, &columns).unwrap();
+    assert_eq!(order[n - 1], 0);
 }
