@@ -27,6 +27,7 @@ pub(crate) use parts::{
     in_blocks, joined, parts_of, sort_in_parts,
 };
 pub use run::Run;
+pub(crate) use threads::SharedThreads;
 pub use threads::{allowed_threads, with_threads};
 pub use trace::{Span, Trace, traced};
 pub(crate) use trace::{is_simulated, simulate_graph, span};

@@ -8,7 +8,7 @@ use std::panic::resume_unwind;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
-use super::threads::{allowed_threads, with_threads};
+use super::threads::{SharedThreads, allowed_threads};
 use super::trace;
 use super::worker::{in_parts, spawn};
 
@@ -119,8 +119,8 @@ fn split<T>(values: &mut [T], least: usize) -> Vec<(Range<usize>, &mut [T])> {
     ranges.into_iter().map(part).collect()
 }
 
-/// Does two tasks, at the same time where that is worth a thread and one is allowed. They share the threads, and the
-/// first stays on the thread of the call.
+/// Does two tasks, at the same time where that is worth a thread and one is allowed. They share the threads, all of
+/// which are the other's when one has ended. The first stays on the thread of the call.
 pub(crate) fn both<A, B: Send>(
     is_worth_a_thread: bool,
     first: impl FnOnce() -> A,
@@ -130,12 +130,13 @@ pub(crate) fn both<A, B: Send>(
     if !is_worth_a_thread || threads < 2 {
         return (first(), second());
     }
-    let own = threads - threads / 2;
+    let (own, others) = (threads - threads / 2, threads / 2);
+    let shared = SharedThreads::among(2);
     if trace::is_simulated() {
         let start = trace::start_of_thread();
-        let first = with_threads(own, first);
-        let there = || with_threads(threads / 2, second);
+        let there = || shared.task(others, second);
         let (second, end) = trace::as_thread(own, start, there);
+        let first = shared.task(own, first);
         trace::wait_until(end);
         return (first, second);
     }
@@ -143,9 +144,9 @@ pub(crate) fn both<A, B: Send>(
     // It is taken once, by the other thread if there is one.
     let take = || second.lock().ok().and_then(|mut second| second.take());
     std::thread::scope(|scope| {
-        let there = || take().map(|second| with_threads(threads / 2, second));
+        let there = || take().map(|second| shared.task(others, second));
         let there = spawn(scope, own, there);
-        let first = with_threads(own, first);
+        let first = shared.task(own, first);
         let there = match there {
             Ok(handle) => handle.join().unwrap_or_else(|panic| resume_unwind(panic)),
             Err(_) => None,
@@ -168,6 +169,7 @@ pub(crate) fn in_blocks<T: Send>(count: usize, block: impl Fn(Range<usize>) -> T
 #[cfg(test)]
 mod tests {
     use super::super::spawned;
+    use super::super::threads::with_threads;
     use super::*;
     use std::sync::Barrier;
 
@@ -196,8 +198,9 @@ mod tests {
     fn both_tasks_are_done_at_the_same_time_if_that_is_worth_a_thread() {
         let barrier = Barrier::new(2);
         let meets = |result: u32| {
+            let threads = allowed_threads();
             barrier.wait();
-            (result, allowed_threads())
+            (result, threads)
         };
         let found = with_threads(3, || both(true, || meets(1), || meets(2)));
         assert_eq!(found, ((1, 2), (2, 1)));
@@ -208,6 +211,17 @@ mod tests {
             });
             assert_eq!(started, 0);
         }
+    }
+
+    #[test]
+    fn the_task_that_is_left_gets_all_threads() {
+        let until_all = || {
+            while allowed_threads() < 3 {
+                std::thread::yield_now();
+            }
+        };
+        with_threads(3, || both(true, until_all, || ()));
+        with_threads(3, || both(true, || (), until_all));
     }
 
     #[test]

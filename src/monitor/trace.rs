@@ -9,6 +9,8 @@ use std::cell::RefCell;
 use std::sync::{Arc, Mutex};
 use std::time::Instant;
 
+use super::threads::SharedThreads;
+
 /// What starting a thread takes, in seconds. Simulated threads take it as well.
 const START: f64 = 30e-6;
 
@@ -129,18 +131,37 @@ impl Drop for Open {
     }
 }
 
+/// The number of the thread that is so many after this one. Tasks that share threads have those of tasks that have
+/// ended.
+fn after(thread: usize, number: usize) -> usize {
+    match SharedThreads::numbers() {
+        Some(all) => all.start + (thread - all.start + number) % all.len(),
+        None => thread + number,
+    }
+}
+
+/// The number of this thread. 0 without a trace.
+pub(super) fn thread() -> usize {
+    with_clock(|clock| clock.thread).unwrap_or(0)
+}
+
 /// The task of another thread, `number` after this one, with a clock of its own.
 pub(super) fn on_thread<T>(number: usize, task: impl FnOnce() -> T) -> impl FnOnce() -> T {
     let clock = with_clock(|clock| Clock {
         started: clock.started,
         spans: Arc::clone(&clock.spans),
-        thread: clock.thread + number,
+        thread: after(clock.thread, number),
         ..*clock
     });
     move || {
         let _within = Within::new(clock);
         task()
     }
+}
+
+/// The time on this thread's own clock. 0 without a trace.
+pub(super) fn now() -> f64 {
+    with_clock(|clock| clock.now()).unwrap_or(0.0)
 }
 
 /// Whether tasks of several threads are done one after another by this one.
@@ -158,8 +179,8 @@ pub(super) fn as_thread<T>(number: usize, start: f64, task: impl FnOnce() -> T) 
     let own = with_clock(|clock| {
         let now = clock.now();
         clock.behind += now - start;
-        clock.thread += number;
-        now
+        let there = after(clock.thread, number);
+        (now, std::mem::replace(&mut clock.thread, there))
     });
     let result = {
         let _task = span("task");
@@ -167,8 +188,10 @@ pub(super) fn as_thread<T>(number: usize, start: f64, task: impl FnOnce() -> T) 
     };
     let end = with_clock(|clock| {
         let end = clock.now();
-        clock.behind += end - own.unwrap_or(end);
-        clock.thread -= number;
+        if let Some((now, thread)) = own {
+            clock.behind += end - now;
+            clock.thread = thread;
+        }
         end
     });
     (result, end.unwrap_or(0.0))
@@ -246,10 +269,12 @@ pub(crate) fn simulate_graph<E>(
 
 #[cfg(test)]
 mod tests {
-    use super::super::threads::with_threads;
+    use super::super::parts::both;
+    use super::super::threads::{allowed_threads, with_threads};
     use super::super::worker::{in_parts, tasks};
     use super::*;
     use crate::monitor::Monitor;
+    use std::collections::BTreeSet;
     use std::time::Duration;
 
     fn work(milliseconds: u64) {
@@ -274,6 +299,47 @@ mod tests {
             assert!(0.0 <= span.start && span.start <= span.end && span.end <= trace.seconds);
         }
         let _nobody = span("without a trace");
+    }
+
+    #[test]
+    fn a_simulated_task_gets_the_threads_of_one_that_has_ended() {
+        let ((), trace) = with_threads(2, || {
+            traced(true, || {
+                let first = || {
+                    let before = allowed_threads();
+                    work(9);
+                    (before, allowed_threads())
+                };
+                assert_eq!(both(true, first, || work(3)), ((1, 2), ()));
+                assert_eq!(both(true, first, || work(30)), ((1, 1), ()));
+            })
+        });
+        assert!(trace.seconds < 0.045, "{trace:?}");
+    }
+
+    #[test]
+    fn threads_of_tasks_that_have_ended_keep_their_numbers() {
+        for is_simulated in [true, false] {
+            let ((), trace) = with_threads(4, || {
+                traced(is_simulated, || {
+                    let all = || {
+                        work(5);
+                        while allowed_threads() < 4 {
+                            std::thread::yield_now();
+                        }
+                        in_parts(4, 1, |_| work(1));
+                    };
+                    // In a simulation the second task is done first, and never gets other threads.
+                    match is_simulated {
+                        true => both(true, all, || ()),
+                        false => both(true, || (), all),
+                    };
+                })
+            });
+            let parts = of_name(&trace, "part");
+            let threads: BTreeSet<usize> = parts.iter().map(|span| span.thread).collect();
+            assert!(threads.into_iter().eq(0..4), "{parts:?}");
+        }
     }
 
     fn duration(span: &Span) -> f64 {

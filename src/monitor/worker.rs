@@ -17,10 +17,10 @@ use std::time::{Duration, Instant};
 use super::Monitor;
 use super::cancel::{CancelToken, Stop};
 use super::run::Run;
-use super::threads::{allowed_threads, with_threads};
+use super::threads::{SharedThreads, allowed_threads, with_threads};
 use super::trace;
 use super::watch::Limits;
-use crate::error::Result;
+use crate::error::{Error, Result};
 
 /// How often the thread of the call asks its monitor while it waits.
 const WAIT: Duration = Duration::from_millis(5);
@@ -69,12 +69,18 @@ pub(crate) struct Worker {
     has_solution: bool,
     /// The threads that a task may use, with its own.
     threads: usize,
+    shared: Option<SharedThreads>,
 }
 
 impl Worker {
-    /// A task may use so many threads, instead of its own alone.
-    pub(crate) fn with_threads(self, threads: usize) -> Self {
-        Worker { threads, ..self }
+    /// A task may use so many of these threads, instead of its own alone.
+    pub(crate) fn with_threads(self, threads: usize, shared: &SharedThreads) -> Self {
+        let shared = Some(shared.clone());
+        Worker {
+            threads,
+            shared,
+            ..self
+        }
     }
 
     /// What is done with these monitors is optional, because the run has a result without it as well.
@@ -116,10 +122,10 @@ impl Worker {
         T: Send + 'scope,
         F: FnOnce(&mut Monitor) -> T + Send + Clone + 'scope,
     {
-        let threads = self.threads;
+        let (threads, shared) = (self.threads, self.shared.clone());
         if trace::is_simulated() {
             let start = trace::start_of_thread();
-            return Started::Simulated(task, [number, threads], start);
+            return Started::Simulated(task, [number, threads], shared, start);
         }
         let (sender, result) = channel();
         let token = Ends(self.token.clone());
@@ -127,7 +133,7 @@ impl Worker {
         let there = move || {
             let mut monitor = self.monitor(&self.run());
             let _watch = monitor.watch();
-            let done = with_threads(threads, || there(&mut monitor));
+            let done = on_threads(threads, shared.as_ref(), || there(&mut monitor));
             // Nobody receives it where nobody waits.
             let _ = sender.send(done);
         };
@@ -152,7 +158,15 @@ pub(crate) enum Started<'scope, T, F> {
     There(Receiver<T>, ScopedJoinHandle<'scope, ()>, Ends),
     Here(F),
     /// As another thread, this many after this one, would do it with so many threads from this time on.
-    Simulated(F, [usize; 2], f64),
+    Simulated(F, [usize; 2], Option<SharedThreads>, f64),
+}
+
+/// Does a task with so many threads, which may be some of these.
+fn on_threads<T>(threads: usize, shared: Option<&SharedThreads>, task: impl FnOnce() -> T) -> T {
+    match shared {
+        Some(shared) => shared.task(threads, task),
+        None => with_threads(threads, task),
+    }
 }
 
 impl<T, F: FnOnce(&mut Monitor) -> T> Started<'_, T, F> {
@@ -160,8 +174,8 @@ impl<T, F: FnOnce(&mut Monitor) -> T> Started<'_, T, F> {
     pub(crate) fn wait(self, monitor: &mut Monitor) -> T {
         let (result, handle, token) = match self {
             Started::Here(task) => return task(monitor),
-            Started::Simulated(task, [number, threads], start) => {
-                let there = || with_threads(threads, || task(monitor));
+            Started::Simulated(task, [number, threads], shared, start) => {
+                let there = || on_threads(threads, shared.as_ref(), || task(monitor));
                 let (found, end) = trace::as_thread(number, start, there);
                 trace::wait_until(end);
                 return found;
@@ -183,7 +197,7 @@ impl<T, F: FnOnce(&mut Monitor) -> T> Started<'_, T, F> {
 
 /// Does `count` tasks on the threads that are allowed and gives their results in the order of the tasks. A task
 /// gets its number, and a function that makes its monitors. An error of one ends all. Tasks at the same time share
-/// the threads.
+/// the threads; where no task is left, those that are not done get them.
 ///
 /// The thread of the call does the first one, with monitors of the call. All others are optional, because the
 /// run has a result without them as well. `begins` hears, on the thread of the call, how many are done.
@@ -213,6 +227,7 @@ pub(crate) fn side_by_side<'m, T: Send>(
         let done = trace::simulate(count, threads, share, each);
         return done.into_iter().collect();
     }
+    let shared = SharedThreads::among(threads);
     let mut of_call = monitor();
     let worker = of_call.worker().optional();
     let limits = Limits::current();
@@ -224,14 +239,13 @@ pub(crate) fn side_by_side<'m, T: Send>(
     std::thread::scope(|scope| {
         for number in 1..threads {
             let (sender, worker) = (sender.clone(), worker.clone());
-            let limits = limits.clone();
+            let (limits, shared) = (limits.clone(), shared.clone());
             let (task, take, next, done) = (&task, &take, &next, &done);
-            let there = move || {
-                let _watch = limits.watch();
+            let all = move || {
                 while let Some(k) = take() {
                     let run = worker.run();
                     let _watch = worker.monitor(&run).watch();
-                    let result = with_threads(share, || task(k, &|| worker.monitor(&run)));
+                    let result = task(k, &|| worker.monitor(&run));
                     done.fetch_add(1, Relaxed);
                     let is_last = result.is_err();
                     if is_last {
@@ -242,25 +256,32 @@ pub(crate) fn side_by_side<'m, T: Send>(
                     }
                 }
             };
+            let there = move || {
+                let _watch = limits.watch();
+                shared.task(share, all);
+            };
             if spawn(scope, number * share, there).is_err() {
                 break;
             }
         }
         drop(sender);
-        let mut own = Some(0);
-        while let Some(k) = own {
-            begins(done.load(Relaxed));
-            match with_threads(share, || task(k, &|| monitor())) {
-                Ok(result) => found.push((k, Ok(result))),
-                Err(error) => {
-                    token.0.cancel();
-                    return Err(error);
+        shared.task(share, || {
+            let mut own = Some(0);
+            while let Some(k) = own {
+                begins(done.load(Relaxed));
+                match task(k, &|| monitor()) {
+                    Ok(result) => found.push((k, Ok(result))),
+                    Err(error) => {
+                        token.0.cancel();
+                        return Err(error);
+                    }
                 }
+                done.fetch_add(1, Relaxed);
+                of_call.pass_on(&token.0);
+                own = take();
             }
-            done.fetch_add(1, Relaxed);
-            of_call.pass_on(&token.0);
-            own = take();
-        }
+            Ok::<(), Error>(())
+        })?;
         loop {
             match results.recv_timeout(WAIT) {
                 Ok(result) => found.push(result),
@@ -268,7 +289,7 @@ pub(crate) fn side_by_side<'m, T: Send>(
                 Err(RecvTimeoutError::Disconnected) => break,
             }
         }
-        Ok(())
+        Ok::<(), Error>(())
     })?;
     found.sort_by_key(|(k, _)| *k);
     found.into_iter().map(|(_, result)| result).collect()
@@ -362,6 +383,7 @@ impl Monitor<'_> {
             is_optional: self.run.is_optional(),
             has_solution: self.run.has_solution(),
             threads: 1,
+            shared: None,
         }
     }
 
@@ -472,10 +494,23 @@ mod tests {
             2 + there.wait(&mut monitor)
         });
         assert_eq!(sum, 42);
-        let threads = scope(|scope| {
-            let worker = monitor.worker().with_threads(3);
-            let there = worker.start(scope, 1, |_: &mut Monitor| allowed_threads());
-            there.wait(&mut monitor)
+        let threads = with_threads(5, || {
+            let shared = SharedThreads::among(2);
+            scope(|scope| {
+                let worker = monitor.worker().with_threads(3, &shared);
+                let until_all = |_: &mut Monitor| {
+                    let first = allowed_threads();
+                    while allowed_threads() < 5 {
+                        std::thread::yield_now();
+                    }
+                    first
+                };
+                let there = worker.start(scope, 1, until_all);
+                // The other task gets these two when this one ends.
+                std::thread::sleep(Duration::from_millis(20));
+                assert_eq!(shared.task(2, allowed_threads), 2);
+                there.wait(&mut monitor)
+            })
         });
         assert_eq!(threads, 3);
         let here = Started::Here(|_: &mut Monitor| 40);

@@ -14,7 +14,7 @@ use crate::field::{DirectionProblem, FieldOptions, OrientationField};
 use crate::map::{SeamlessProblem, Sizing};
 use crate::mesh::TriangleMesh;
 use crate::mesh::features::FeatureGraph;
-use crate::monitor::{Monitor, allowed_threads, may_continue, with_threads};
+use crate::monitor::{Monitor, SharedThreads, allowed_threads, may_continue};
 use crate::search::Options;
 use crate::solve::{Solution, Solver};
 
@@ -74,11 +74,12 @@ impl MapData<'_> {
         };
         let others = allowed_threads() / 2;
         let own = allowed_threads() - others;
+        let shared = SharedThreads::among(2);
         let mut of_call = monitor();
         std::thread::scope(|scope| {
-            let worker = of_call.worker().with_threads(others);
+            let worker = of_call.worker().with_threads(others, &shared);
             let beside = worker.start(scope, own, ahead);
-            let (field, solution) = timed(of_field, || with_threads(own, solve))?;
+            let (field, solution) = timed(of_field, || shared.task(own, solve))?;
             let stated = timed(of_map, || {
                 let (mut problem, mut solver) = beside.wait(&mut of_call)?;
                 match problem.follow_directions(mesh, &field, &mut solver)? {
@@ -103,7 +104,7 @@ mod tests {
     use super::*;
     use crate::field::{JumpsDecided, solve_field};
     use crate::mesh::shape::by_name;
-    use crate::monitor::{Span, traced};
+    use crate::monitor::{Span, traced, with_threads};
     use crate::problem::Model;
 
     fn data<'a>(
