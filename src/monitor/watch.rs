@@ -25,8 +25,57 @@ pub(super) struct Limits {
     /// Whether a caller who wants the results so far ends the call as well, because there are none.
     ends_to_finish: bool,
     deadline: Option<Instant>,
-    /// The bytes that there must be between one question and the next.
-    room: usize,
+    room: Room,
+}
+
+/// The memory that there must be between one question and the next.
+#[derive(Debug, Clone, Copy, Default)]
+struct Room {
+    bytes: usize,
+    /// The questions so far.
+    questions: u32,
+    /// Whether the system grants it whenever it is asked, so that it is not asked any more.
+    is_granted: bool,
+}
+
+/// The questions of a call after which it pays to ask the system for its limits.
+const QUESTIONS: u32 = 8;
+
+impl Room {
+    /// Whether there is room. The limits of the system are those since the call began.
+    fn is_there(&mut self) -> bool {
+        if self.bytes == 0 || self.is_granted {
+            return true;
+        }
+        self.questions += 1;
+        self.is_granted = self.questions == QUESTIONS && is_memory_unlimited();
+        has_room(self.bytes)
+    }
+
+    /// The room of a call within one of the room `before`: more than that is asked for anew.
+    fn within(self, before: Room) -> Self {
+        if self.bytes > before.bytes {
+            self
+        } else {
+            before
+        }
+    }
+}
+
+/// Whether the system sets no limit to the addresses of this process, and grants all that it is asked for.
+fn is_memory_unlimited() -> bool {
+    let read = |path| std::fs::read_to_string(path).unwrap_or_default();
+    let limits = read("/proc/self/limits");
+    let is_unlimited = |name: &str| {
+        let line = limits.lines().find_map(|line| line.strip_prefix(name));
+        line.is_some_and(|line| line.trim_start().starts_with("unlimited"))
+    };
+    let commit = read("/proc/sys/vm/overcommit_memory");
+    // 2 stands for no more than there is.
+    ["0", "1"].contains(&commit.trim())
+        && ["Max address space", "Max data size"]
+            .into_iter()
+            .all(is_unlimited)
 }
 
 /// While this lives, calls of its thread end as its monitor asks, also those that take no monitor: they return
@@ -43,7 +92,8 @@ pub struct Watch {
 impl Limits {
     /// Whether another thread can be started.
     pub(super) fn has_room_for_a_thread(&self) -> bool {
-        has_room(self.room.saturating_mul(2).saturating_add(THREAD))
+        let bytes = self.room.bytes.saturating_mul(2).saturating_add(THREAD);
+        self.room.is_granted || has_room(bytes)
     }
 
     /// What ends the current call of this thread.
@@ -61,7 +111,7 @@ impl Limits {
             token: self.token.or_else(|| before.token.clone()),
             ends_to_finish,
             deadline: deadlines.into_iter().flatten().min(),
-            room: self.room.max(before.room),
+            room: self.room.within(before.room),
         });
         Watch {
             before,
@@ -72,7 +122,15 @@ impl Limits {
 
 impl Drop for Watch {
     fn drop(&mut self) {
-        CURRENT.set(std::mem::take(&mut self.before));
+        let mut before = std::mem::take(&mut self.before);
+        CURRENT.with_borrow_mut(|limits| {
+            // What a call within another one has asked need not be asked again.
+            if before.room.bytes > 0 {
+                before.room.questions = before.room.questions.max(limits.room.questions);
+                before.room.is_granted |= limits.room.is_granted;
+            }
+            *limits = before;
+        });
     }
 }
 
@@ -127,7 +185,10 @@ const THREAD: usize = 160 << 20;
 /// next step.
 pub(crate) fn watch_memory(items: usize) -> Watch {
     let limits = Limits {
-        room: items.saturating_mul(ROOM).saturating_add(LEAST_ROOM),
+        room: Room {
+            bytes: items.saturating_mul(ROOM).saturating_add(LEAST_ROOM),
+            ..Room::default()
+        },
         ..Limits::default()
     };
     limits.watch()
@@ -171,9 +232,9 @@ fn has_room(bytes: usize) -> bool {
 /// so.
 pub(crate) fn may_continue() -> Result<(), Stop> {
     is_wanted()?;
-    match CURRENT.with_borrow(|limits| limits.room) {
-        room if room > 0 && !has_room(room) => Err(Stop::OutOfMemory),
-        _ => Ok(()),
+    match CURRENT.with_borrow_mut(|limits| limits.room.is_there()) {
+        true => Ok(()),
+        false => Err(Stop::OutOfMemory),
     }
 }
 
@@ -266,6 +327,26 @@ mod tests {
         assert!((1..usize::MAX).contains(&room_up_to(usize::MAX, 2)));
         assert!(room_for("all that there is", usize::MAX, 1).is_err());
         assert_eq!(may_continue(), Ok(()));
+    }
+
+    #[test]
+    fn a_system_without_limits_is_asked_no_more_than_a_few_times_a_call() {
+        let is_granted = || CURRENT.with_borrow(|limits| limits.room.is_granted);
+        let ask = || (0..QUESTIONS).for_each(|_| assert_eq!(may_continue(), Ok(())));
+        let outer = watch_memory(1_000);
+        assert!(!is_granted());
+        let inner = watch_memory(10);
+        ask();
+        assert_eq!(is_granted(), is_memory_unlimited());
+        drop(inner);
+        assert_eq!(is_granted(), is_memory_unlimited());
+        let more = watch_memory(2_000);
+        assert!(!is_granted());
+        drop(more);
+        assert_eq!(is_granted(), is_memory_unlimited());
+        drop(outer);
+        let _another = watch_memory(1_000);
+        assert!(!is_granted());
     }
 
     #[test]
