@@ -93,7 +93,7 @@ impl Centre {
         let direction = direction(&self.model, y);
         let matrix = self.model.expansion.matrix();
         let magnitude = |i| matrix.row(i).map(|(a, t)| (t * y[a]).abs()).sum();
-        let magnitude: Vec<f64> = (0..matrix.rows()).map(magnitude).collect();
+        let magnitude: Vec<f64> = collect_in_parts(matrix.rows(), LEAST, magnitude);
         let (curvature, size) = Objective(problem).curvature(&direction, &magnitude);
         let rounding = self.model.dim() as f64 * FLAT;
         curvature.abs() * smallest_pivot.min(1.0) <= rounding * rounding * size

@@ -236,6 +236,7 @@ mod tests {
     fn connectivity_is_that_of_a_mesh_that_is_made_in_this_order() {
         for (name, faces) in [("torus", 1_000), ("plane", 70_000), ("gear", 1_000)] {
             let scattered = shuffled(&by_name(name, faces).unwrap());
+            scattered.angles();
             let mut mesh = None;
             let made = || mesh = Some(with_threads(3, || Reordered::new(&scattered).unwrap().mesh));
             assert_eq!(spawned(made) > 0, faces > LEAST, "{name}");
@@ -243,6 +244,11 @@ mod tests {
             let made = TriangleMesh::new(mesh.vertices().to_vec(), mesh.triangles().to_vec());
             let made = made.unwrap();
             assert!(mesh.edges().eq(made.edges()), "{name}");
+            assert!(
+                mesh.angles
+                    .get()
+                    .is_some_and(|known| known == made.angles())
+            );
             for v in 0..mesh.vertex_count() {
                 assert!(mesh.ring(v).eq(made.ring(v)), "{name}");
             }

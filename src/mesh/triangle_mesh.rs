@@ -145,7 +145,12 @@ impl TriangleMesh {
             half_edge,
             ring_start,
             ring,
-            angles: OnceLock::new(),
+            angles: match self.angles.get() {
+                Some(angles) => {
+                    collect_in_parts(faces.len(), LEAST, |k| angles[faces[k] as usize]).into()
+                }
+                None => OnceLock::new(),
+            },
             area: OnceLock::new(),
         })
     }

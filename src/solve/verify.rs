@@ -5,6 +5,7 @@
 
 use crate::error::{Error, Result};
 use crate::linalg::CompensatedSum;
+use crate::monitor::in_blocks;
 use crate::problem::{Objective, Problem};
 
 /// The energy and the violations of a point, measured on the caller's problem.
@@ -44,20 +45,25 @@ pub fn verify(problem: &Problem, x: &[f64]) -> Result<Verdict> {
     })
 }
 
+/// The largest of the values of all numbers below `count`, which are not negative.
+fn largest(count: usize, value: impl Fn(usize) -> f64 + Sync) -> f64 {
+    let blocks = in_blocks(count, |block| block.map(&value).fold(0.0, f64::max));
+    blocks.into_iter().fold(0.0, f64::max)
+}
+
 fn constraint_violation(problem: &Problem, x: &[f64]) -> f64 {
     let rows = problem.constraint_rows();
-    let mut worst: f64 = 0.0;
-    for k in 0..rows.len() {
+    let equalities = largest(rows.len(), |k| {
         let mut difference = CompensatedSum::new(-rows.rhs()[k]);
         let mut size = 0.0;
         for (j, c) in rows.row(k) {
             difference.add_product(c, x[j]);
             size += (c * x[j]).abs();
         }
-        worst = worst.max(difference.value().abs() / f64::max(1.0, size));
-    }
+        difference.value().abs() / f64::max(1.0, size)
+    });
     let rows = problem.inequality_rows();
-    for k in 0..rows.len() {
+    let inequalities = largest(rows.len(), |k| {
         let size: f64 = rows.row(k).map(|(j, c)| (c * x[j]).abs()).sum();
         let above = |side: f64| {
             let mut difference = CompensatedSum::new(-side);
@@ -65,18 +71,18 @@ fn constraint_violation(problem: &Problem, x: &[f64]) -> f64 {
                 .for_each(|(j, c)| difference.add_product(c, x[j]));
             difference.value()
         };
-        worst = worst.max(outside(rows.lower()[k], rows.upper()[k], above) / f64::max(1.0, size));
-    }
-    for (j, x) in x.iter().enumerate() {
+        outside(rows.lower()[k], rows.upper()[k], above) / f64::max(1.0, size)
+    });
+    let pins = problem.pins();
+    let single = largest(x.len(), |j| {
         let (lower, upper) = problem.limits_of(j);
-        worst = worst.max(outside(lower, upper, |side| x - side) / x.abs().max(1.0));
-    }
-    for (pin, x) in problem.pins().iter().zip(x) {
-        if let Some(value) = pin {
-            worst = worst.max((x - value).abs() / value.abs().max(1.0));
+        let bounds = outside(lower, upper, |side| x[j] - side) / x[j].abs().max(1.0);
+        match pins[j] {
+            Some(value) => bounds.max((x[j] - value).abs() / value.abs().max(1.0)),
+            None => bounds,
         }
-    }
-    worst
+    });
+    equalities.max(inequalities).max(single)
 }
 
 /// How far a value is outside an interval. `above(side)` is the value minus `side`.
@@ -91,15 +97,17 @@ fn outside(lower: f64, upper: f64, above: impl Fn(f64) -> f64) -> f64 {
 }
 
 fn integrality_violation(problem: &Problem, x: &[f64]) -> f64 {
-    let integers = problem.integers().iter().zip(x).filter(|(i, _)| **i);
-    integers
-        .map(|(_, x)| (x - x.round()).abs())
-        .fold(0.0, f64::max)
+    let integers = problem.integers();
+    largest(x.len(), |j| match integers[j] {
+        true => (x[j] - x[j].round()).abs(),
+        false => 0.0,
+    })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::monitor::with_threads;
 
     /// `(x0 - x1)^2 + x1 x1 / 2 - x0 + 1`, `x0 + 2 x1 = 3`, x2 pinned to 4, x1 an integer.
     fn problem() -> Result<Problem> {
@@ -135,6 +143,23 @@ mod tests {
         assert_eq!(violation(&problem).constraint_violation, 0.5);
         problem.set_bounds(&[1], &[4.0], &[none]).unwrap();
         assert_eq!(violation(&problem).constraint_violation, 3.0);
+    }
+
+    #[test]
+    fn the_worst_of_many_rows_may_be_anywhere() {
+        let count = 50_000;
+        for worst in [0, 20_000, count - 1] {
+            let mut problem = Problem::new(count).unwrap();
+            problem.set_integers(&[worst]).unwrap();
+            for i in 0..count {
+                problem.add_constraint(&[i], &[1.0], 0.0).unwrap();
+            }
+            let mut x = vec![0.125; count];
+            x[worst] = -0.25;
+            let verdict = with_threads(2, || verify(&problem, &x)).unwrap();
+            assert_eq!(verdict.constraint_violation, 0.25);
+            assert_eq!(verdict.integrality_violation, 0.25);
+        }
     }
 
     #[test]
