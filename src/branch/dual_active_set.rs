@@ -20,6 +20,9 @@ pub(super) const DEPENDENT: f64 = 1e-9;
 /// Rows may be violated by this, relative to the sizes of their sides.
 pub(super) const FEASIBLE: f64 = 1e-9;
 
+/// A violation so many times larger than what active rows miss is none of rounding errors.
+const SURE: f64 = 1e3;
+
 /// The largest number of corrections.
 const CORRECTIONS: usize = 2;
 
@@ -367,7 +370,7 @@ impl<'a> DualActiveSet<'a> {
             if self.dual_objective > cutoff {
                 return Outcome::Cutoff;
             }
-            let Some((row, upper)) = self.most_violated() else {
+            let Some((row, upper)) = self.violated() else {
                 if self.inverse.is_definite() {
                     self.correct(1);
                 } else {
@@ -435,15 +438,34 @@ impl<'a> DualActiveSet<'a> {
         first
     }
 
-    /// `x = x_0 - P A_W' mu`. Where the small diagonal that was added makes `P` large, what the active rows
-    /// miss by rounding errors is taken out by further steps of the same kind.
+    /// `x = x_0 - P A_W' mu`.
     fn move_point(&mut self) {
         self.point.copy_from_slice(&self.centre);
         let multipliers: Vec<f64> = self.active.iter().map(|a| a.multiplier).collect();
         self.step(&multipliers);
+    }
+
+    /// The row that is violated most, and whether the point is above it. Where the small diagonal that was added makes
+    /// `P` large, what the active rows miss by rounding errors is taken out of the point, by further steps of the same
+    /// kind, unless the violation is far larger.
+    fn violated(&mut self) -> Option<(usize, bool)> {
         if !self.inverse.is_definite() {
+            if let Some((row, upper, violation)) = self.most_violated()
+                && violation > SURE * self.largest_miss()
+            {
+                return Some((row, upper));
+            }
             self.correct(CORRECTIONS);
         }
+        let (row, upper, _) = self.most_violated()?;
+        Some((row, upper))
+    }
+
+    /// How far the point is at most from the sides that active rows are held at.
+    fn largest_miss(&self) -> f64 {
+        let missed = |a: &Active| self.product(a.row as usize, &self.point) - self.held(*a);
+        let missed = self.active.iter().map(|a| missed(a).abs());
+        missed.fold(0.0, f64::max)
     }
 
     /// Subtracts `P A_W'` times these multipliers from the point.
@@ -467,9 +489,10 @@ impl<'a> DualActiveSet<'a> {
         self.work += work;
     }
 
-    /// The row outside its limits whose violation is largest in the norm of Q, and whether it is above.
-    fn most_violated(&self) -> Option<(usize, bool)> {
-        let mut worst: Option<(usize, bool)> = None;
+    /// The row outside its limits whose violation is largest in the norm of Q, whether the point is above it, and how
+    /// far.
+    fn most_violated(&self) -> Option<(usize, bool, f64)> {
+        let mut worst: Option<(usize, bool, f64)> = None;
         let mut most = 0.0;
         let mut look = |row: usize, value: f64, interval: Interval| {
             let (below, above) = (interval.lower - value, value - interval.upper);
@@ -485,7 +508,7 @@ impl<'a> DualActiveSet<'a> {
                 && !self.is_ignored[row]
             {
                 most = violation * self.scales[row];
-                worst = Some((row, upper));
+                worst = Some((row, upper, violation));
             }
         };
         for (j, (&x, &interval)) in self.point.iter().zip(&self.limits).enumerate() {

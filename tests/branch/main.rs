@@ -16,6 +16,10 @@ mod random;
 #[path = "../certificate/rational.rs"]
 #[allow(dead_code)] // The search for the least energy, which has no rows.
 mod rational;
+mod shared;
+#[path = "../common/skip.rs"]
+#[allow(dead_code)] // What a machine with CI has to have.
+mod skip;
 
 use check::{Tally, check, check_disguised, check_not_convex};
 use kinds::KINDS;
