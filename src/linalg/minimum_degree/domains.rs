@@ -33,20 +33,17 @@ pub(super) fn eliminated_in_domains(pattern: Pattern) -> Result<Option<QuotientG
         return Ok(None);
     }
     let range = |k: usize| k * n / count..(k + 1) * n / count;
-    let leaving = |k: usize| -> Vec<[u32; 2]> { pattern.pairs_leaving(range(k)).collect() };
-    let mut between = collect_in_turn(count, leaving).concat();
-    between.extend_from_within(..);
-    let half = between.len() / 2;
-    between[half..].iter_mut().for_each(|pair| pair.swap(0, 1));
-    between.sort_unstable();
-    between.dedup();
-    let mut at_borders = 0;
-    for (k, pair) in between.iter().enumerate() {
-        at_borders += usize::from(k == 0 || between[k - 1][0] != pair[0]);
-    }
+    let leaving = || (0..count).flat_map(|k| pattern.pairs_leaving(range(k)));
+    let mut is_at_border = vec![false; n];
+    leaving().flatten().for_each(|v| is_at_border[v] = true);
+    let at_borders = is_at_border.iter().filter(|&&is| is).count();
     if at_borders * INSIDE > n {
         return Ok(None);
     }
+    let both_ways = |[i, j]: [usize; 2]| [[i as u32, j as u32], [j as u32, i as u32]];
+    let mut between: Vec<[u32; 2]> = leaving().flat_map(both_ways).collect();
+    between.sort_unstable();
+    between.dedup();
     let graphs = collect_in_turn(count, |k| {
         is_wanted()?;
         let range = range(k);

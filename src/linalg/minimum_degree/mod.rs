@@ -40,34 +40,26 @@ impl<'a> Pattern<'a> {
         self.offsets.len() - 1
     }
 
-    /// The neighbours of row `i` that are in its row.
-    fn row(self, i: usize) -> impl Iterator<Item = usize> + 'a {
-        let row = &self.columns[self.offsets[i]..self.offsets[i + 1]];
-        row.iter().map(|&j| j as usize).filter(move |&j| j != i)
+    /// The pairs of an unknown among these and a neighbour that is in its row.
+    fn pairs(self, rows: Range<usize>) -> impl Iterator<Item = [usize; 2]> + 'a {
+        rows.flat_map(move |i| {
+            let row = &self.columns[self.offsets[i]..self.offsets[i + 1]];
+            let pairs = row.iter().map(move |&j| [i, j as usize]);
+            pairs.filter(|[i, j]| i != j)
+        })
     }
 
     /// The pairs of neighbours that both belong to this part, numbered within it.
     fn pairs_within(self, part: Range<usize>) -> impl Iterator<Item = [usize; 2]> + 'a {
-        let within = part.clone();
         let first = part.start;
-        part.flat_map(move |i| {
-            let row = self.row(i).filter({
-                let within = within.clone();
-                move |j| within.contains(j)
-            });
-            row.map(move |j| [i - first, j - first])
-        })
+        let pairs = self.pairs(part.clone());
+        let pairs = pairs.filter(move |[_, j]| part.contains(j));
+        pairs.map(move |pair| pair.map(|v| v - first))
     }
 
     /// The pairs of neighbours in rows of this part that do not both belong to it.
-    fn pairs_leaving(self, part: Range<usize>) -> impl Iterator<Item = [u32; 2]> + 'a {
-        let within = part.clone();
-        part.flat_map(move |i| {
-            let row = self.row(i).filter({
-                let within = within.clone();
-                move |j| !within.contains(j)
-            });
-            row.map(move |j| [i as u32, j as u32])
-        })
+    fn pairs_leaving(self, part: Range<usize>) -> impl Iterator<Item = [usize; 2]> + 'a {
+        let pairs = self.pairs(part.clone());
+        pairs.filter(move |[_, j]| !part.contains(j))
     }
 }
