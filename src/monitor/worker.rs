@@ -280,7 +280,7 @@ pub(crate) fn side_by_side<'m, T: Send>(
                 of_call.pass_on(&token.0);
                 own = take();
             }
-            Ok::<(), Error>(())
+            Ok(())
         })?;
         loop {
             match results.recv_timeout(WAIT) {
@@ -404,6 +404,7 @@ mod tests {
     use crate::error::Error;
     use crate::monitor::{Event, Flow, Phase};
     use std::collections::HashSet;
+    use std::sync::atomic::AtomicBool;
     use std::sync::{Barrier, Mutex};
     use std::thread::{current, scope};
 
@@ -495,19 +496,22 @@ mod tests {
         });
         assert_eq!(sum, 42);
         let threads = with_threads(5, || {
-            let shared = SharedThreads::among(2);
+            let (shared, begun) = (SharedThreads::among(2), AtomicBool::new(false));
             scope(|scope| {
                 let worker = monitor.worker().with_threads(3, &shared);
                 let until_all = |_: &mut Monitor| {
                     let first = allowed_threads();
+                    begun.store(true, Relaxed);
                     while allowed_threads() < 5 {
                         std::thread::yield_now();
                     }
                     first
                 };
                 let there = worker.start(scope, 1, until_all);
+                while !begun.load(Relaxed) {
+                    std::thread::yield_now();
+                }
                 // The other task gets these two when this one ends.
-                std::thread::sleep(Duration::from_millis(20));
                 assert_eq!(shared.task(2, allowed_threads), 2);
                 there.wait(&mut monitor)
             })

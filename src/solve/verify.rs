@@ -107,7 +107,7 @@ fn integrality_violation(problem: &Problem, x: &[f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::monitor::with_threads;
+    use crate::monitor::{spawned, with_threads};
 
     /// `(x0 - x1)^2 + x1 x1 / 2 - x0 + 1`, `x0 + 2 x1 = 3`, x2 pinned to 4, x1 an integer.
     fn problem() -> Result<Problem> {
@@ -156,7 +156,10 @@ mod tests {
             }
             let mut x = vec![0.125; count];
             x[worst] = -0.25;
-            let verdict = with_threads(2, || verify(&problem, &x)).unwrap();
+            let mut verdict = None;
+            let verified = || verdict = Some(verify(&problem, &x).unwrap());
+            assert!(spawned(|| with_threads(2, verified)) > 0);
+            let verdict = verdict.unwrap();
             assert_eq!(verdict.constraint_violation, 0.25);
             assert_eq!(verdict.integrality_violation, 0.25);
         }
