@@ -171,15 +171,13 @@ fn at_200_000_triangles_cancelling_takes_at_most_100_milliseconds() {
             time_limit: 8.0,
             ..options.clone()
         };
-        let factoring = solve(&problem, &horizon).unwrap().seconds().factor;
+        let made = solve(&problem, &horizon);
+        assert!(matches!(made, Ok(_) | Err(Error::TimeLimit)));
         let whole = started.elapsed();
-        println!("{:9} factors for {factoring:.2} s", options.strategy.name());
         for step in 0..16 {
             let delay = whole.mul_f64((f64::from(step) + 0.5) / 16.0);
             let ended = cancelled_after(&problem, &options, delay);
-            // Factorizations come before the first solution and cannot be interrupted.
-            let factoring = if ended.solved { 0.0 } else { factoring };
-            if ended.latency.as_secs_f64() > 0.1 + factoring {
+            if ended.latency > Duration::from_millis(100) {
                 late.push((options.strategy.name(), ended.requested, ended.latency));
             }
             println!(

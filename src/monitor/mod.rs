@@ -33,7 +33,8 @@ pub use trace::{Span, Trace, traced};
 pub(crate) use trace::{is_simulated, simulate_graph, span};
 pub use watch::Watch;
 pub(crate) use watch::{
-    is_room_for, is_wanted, may_continue, may_continue_at, room_for, room_up_to, watch_memory,
+    is_room_for, is_wanted, is_wanted_at, may_continue, may_continue_at, room_for, room_up_to,
+    watch_memory,
 };
 #[cfg(test)]
 pub(crate) use worker::spawned;

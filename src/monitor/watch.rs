@@ -262,6 +262,15 @@ pub(crate) fn may_continue_at(item: usize) -> Result<(), Stop> {
     }
 }
 
+/// [`is_wanted`] in a loop over the rows of a dense matrix, each with `width` entries of which each takes as many
+/// operations. It asks at the first row, and then once in some thousand entries.
+pub(crate) fn is_wanted_at(row: usize, width: usize) -> Result<(), Stop> {
+    match row * width % 4096 < width {
+        true => is_wanted(),
+        false => Ok(()),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -276,6 +285,9 @@ mod tests {
         assert_eq!(may_continue(), Err(Stop::Cancelled));
         assert_eq!(may_continue_at(8192), Err(Stop::Cancelled));
         assert_eq!(may_continue_at(8193), Ok(()));
+        let asks = |width: usize| (0..100).filter(move |&row| is_wanted_at(row, width).is_err());
+        assert_eq!(asks(50).collect::<Vec<_>>(), [0, 82]);
+        assert_eq!(asks(5_000).count(), 100);
         drop(watch);
         assert_eq!(may_continue(), Ok(()));
     }

@@ -74,8 +74,12 @@ pub(super) fn by_components(
         work: 0,
     };
     let place = places(whole.dim(), whole.integers());
+    let size = |part: &Component| part.model.hessian().len();
+    let mut left: usize = parts.iter().map(size).sum();
     for (done, &k) in order.iter().enumerate() {
         let (part, of_part) = (&parts[k], &relaxed[k]);
+        let ends_soon = left <= SOON;
+        left -= size(part);
         pending -= of_part.energy;
         let last = done + 1 == order.len();
         let known = if last { found.energy } else { f64::INFINITY };
@@ -91,7 +95,15 @@ pub(super) fn by_components(
             .of_component(parts.len(), found.energy + pending, share)
             .judged_by(|step| exact.difference_of(&part.members, step));
         let factors = of.factors.of_component(k);
-        let own = run(of.model, &part.model, options, start, factors, search, true)?;
+        let own = run(
+            of.model,
+            &part.model,
+            options,
+            start,
+            factors,
+            search,
+            ends_soon,
+        )?;
         for (&i, x) in part.members.iter().zip(&own.point) {
             found.point[i as usize] = *x;
         }
@@ -138,8 +150,13 @@ impl Relaxed {
     }
 }
 
-/// Runs the strategy. If there is no solution when the search is stopped and one is `required`, the nearest
-/// integers are taken.
+/// After the search was stopped, components without a solution get the nearest integers if all of them together have
+/// at most this many entries in their Hessians, which takes a few hundredths of a second. Larger ones would
+/// keep the caller waiting.
+const SOON: usize = 200_000;
+
+/// Runs the strategy. If there is no solution when the search is stopped, but one `ends_soon`, the nearest integers
+/// are taken.
 fn run(
     given: &Model,
     model: &ReducedModel,
@@ -147,7 +164,7 @@ fn run(
     start: Option<Vec<f64>>,
     factors: &mut Factors,
     mut search: Search,
-    required: bool,
+    ends_soon: bool,
 ) -> Result<Found> {
     if let Some(integers) = start {
         search.offer(factors, &integers)?;
@@ -162,7 +179,7 @@ fn run(
             Err(Error::OutOfMemory { .. }) if search.best().is_some() => {
                 search.stop_by(StoppedBy::Memory);
             }
-            Err(Error::Cancelled | Error::TimeLimit) if required => {
+            Err(Error::Cancelled | Error::TimeLimit) if ends_soon => {
                 let nearest = round::nearest_integers(model, search.relaxed());
                 search.offer_in_any_case(factors, &nearest)?;
             }

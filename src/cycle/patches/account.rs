@@ -24,6 +24,8 @@
 use super::local::{dot, inverse};
 use super::tree::{PatchTree, System};
 use crate::cycle::detect::TOLERANCE;
+use crate::error::Result;
+use crate::monitor::is_wanted_at;
 
 /// Bounds on the errors of a tree, for all energies up to a cap.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -42,7 +44,10 @@ fn gamma(k: usize) -> f64 {
 
 impl Account {
     /// The errors of `tree` for energies up to `cap`. `offsets` bounds the error of `kappa`, as a distance.
-    pub fn new(system: System, tree: &PatchTree, cap: f64, offsets: f64) -> Self {
+    ///
+    /// # Errors
+    /// The end of the call.
+    pub fn new(system: System, tree: &PatchTree, cap: f64, offsets: f64) -> Result<Self> {
         let basis = &tree.basis;
         let weight = |e: u32| system.graph.edges[e as usize].weight;
         let longest = (0..basis.len()).map(|i| basis.cycles.get(i).len());
@@ -80,10 +85,10 @@ impl Account {
         for at in 0..tree.patches.len() {
             let own = basis.own[at].clone();
             let size = diagonal[own].iter().map(|d| (d * cap).sqrt()).collect();
-            distances += distance_error(tree, at, size, cap).powi(2);
+            distances += distance_error(tree, at, size, cap)?.powi(2);
         }
         shift += SAFETY * distances.sqrt();
-        Account { relative, shift }
+        Ok(Account { relative, shift })
     }
 
     /// The relative error of squared lengths.
@@ -113,7 +118,7 @@ impl Account {
 
 /// A bound on the difference between a computed distance of the patch and the length of its computed w.
 /// `size` bounds what each own cycle sums up to.
-fn distance_error(tree: &PatchTree, at: usize, mut size: Vec<f64>, cap: f64) -> f64 {
+fn distance_error(tree: &PatchTree, at: usize, mut size: Vec<f64>, cap: f64) -> Result<f64> {
     let (front, local) = (&tree.fronts[at], &tree.locals[at]);
     let n = local.own;
     let radius = cap.sqrt();
@@ -126,9 +131,10 @@ fn distance_error(tree: &PatchTree, at: usize, mut size: Vec<f64>, cap: f64) -> 
     let image: Vec<f64> = (0..n)
         .map(|i| dot(&absolute(&row(&local.map, i)), &size))
         .collect();
-    let steps = steps_bound(local.own, &local.r, &image, radius);
+    let steps = steps_bound(local.own, &local.r, &image, radius)?;
     let mut square = 0.0;
     for i in 0..n {
+        is_wanted_at(i, n)?;
         let own = row(&local.map, i);
         let reach = dot(&absolute(&row(&local.r, i)), &steps) + image[i];
         let mut error = gamma(2 * n + 16) * reach;
@@ -144,33 +150,33 @@ fn distance_error(tree: &PatchTree, at: usize, mut size: Vec<f64>, cap: f64) -> 
         }
         square += error * error;
     }
-    let rotation = rotation_error(n, &local.map, &front.diagonal);
-    let substitution = gamma(n + 2) * condition(n, &front.diagonal);
-    square.sqrt() + (rotation + substitution) * radius
+    let rotation = rotation_error(n, &local.map, &front.diagonal)?;
+    let substitution = gamma(n + 2) * condition(n, &front.diagonal)?;
+    Ok(square.sqrt() + (rotation + substitution) * radius)
 }
 
 /// By coordinate: a bound on `|z|` for all z with `|R z + M c| <= radius`, where `image` bounds `|M c|`.
-fn steps_bound(n: usize, r: &[f64], image: &[f64], radius: f64) -> Vec<f64> {
+fn steps_bound(n: usize, r: &[f64], image: &[f64], radius: f64) -> Result<Vec<f64>> {
     // In the reverse order R is lower triangular. Twice its computed inverse covers the inverse's error
     // unless R is so ill-conditioned that the other terms are useless too.
     let reversed: Vec<f64> = (0..n * n)
         .map(|k| r[(n - 1 - k % n) * n + n - 1 - k / n])
         .collect();
-    let inverse = inverse(&reversed, n);
+    let inverse = inverse(&reversed, n)?;
     let reach: Vec<f64> = image.iter().map(|m| m + 2.0 * radius).collect();
-    (0..n)
-        .map(|i| {
-            let row = (0..n).map(|j| inverse[(n - 1 - j) * n + n - 1 - i].abs());
-            1.0 + 2.0 * row.zip(&reach).map(|(v, m)| v * m).sum::<f64>()
-        })
-        .collect()
+    let bound = |i: usize| {
+        let row = (0..n).map(|j| inverse[(n - 1 - j) * n + n - 1 - i].abs());
+        1.0 + 2.0 * row.zip(&reach).map(|(v, m)| v * m).sum::<f64>()
+    };
+    Ok((0..n).map(bound).collect())
 }
 
 /// A bound on the relative difference between `|M G w|` and `|w|`.
-fn rotation_error(n: usize, map: &[f64], lower: &[f64]) -> f64 {
+fn rotation_error(n: usize, map: &[f64], lower: &[f64]) -> Result<f64> {
     let mut product = vec![0.0; n * n];
     let mut size: f64 = 0.0;
     for i in 0..n {
+        is_wanted_at(i, n)?;
         for k in 0..n {
             let m = map[i * n + k];
             for j in 0..=k {
@@ -184,6 +190,7 @@ fn rotation_error(n: usize, map: &[f64], lower: &[f64]) -> f64 {
     let rounding = gamma(n + 2) * size;
     let mut square = 0.0;
     for i in 0..n {
+        is_wanted_at(i, n)?;
         for j in 0..=i {
             let sum: f64 = (0..n)
                 .map(|k| product[k * n + i] * product[k * n + j])
@@ -192,14 +199,15 @@ fn rotation_error(n: usize, map: &[f64], lower: &[f64]) -> f64 {
             square += if i == j { off * off } else { 2.0 * off * off };
         }
     }
-    square.sqrt() + (3.0 * rounding + gamma(n + 2)) * (n as f64 + 1.0)
+    Ok(square.sqrt() + (3.0 * rounding + gamma(n + 2)) * (n as f64 + 1.0))
 }
 
 /// The Frobenius norm of `|G^-1| |G|`.
-fn condition(n: usize, lower: &[f64]) -> f64 {
-    let inverse = inverse(lower, n);
+fn condition(n: usize, lower: &[f64]) -> Result<f64> {
+    let inverse = inverse(lower, n)?;
     let mut square = 0.0;
     for i in 0..n {
+        is_wanted_at(i, n)?;
         let mut row = vec![0.0; n];
         for k in 0..=i {
             for j in 0..=k {
@@ -208,5 +216,5 @@ fn condition(n: usize, lower: &[f64]) -> f64 {
         }
         square += dot(&row, &row);
     }
-    square.sqrt()
+    Ok(square.sqrt())
 }

@@ -11,6 +11,7 @@ use std::collections::BinaryHeap;
 
 use super::coarsen::Weighted;
 use crate::linalg::Random;
+use crate::monitor::{Stop, is_wanted};
 
 /// Graphs of at most this many nodes are not coarsened further.
 const COARSEST: usize = 48;
@@ -46,10 +47,18 @@ impl Measure {
 
 /// A bisection: by node, whether it is in the second half. All nodes are in one half if the graph has no
 /// bisection with two halves of the least share.
-pub(super) fn bisect(graph: &Weighted, measure: Measure, random: &mut Random) -> Vec<bool> {
+///
+/// # Errors
+/// The end of the call.
+pub(super) fn bisect(
+    graph: &Weighted,
+    measure: Measure,
+    random: &mut Random,
+) -> Result<Vec<bool>, Stop> {
     let total: f64 = graph.size.iter().sum();
     let mut levels: Vec<(Weighted, Vec<u32>)> = Vec::new();
     loop {
+        is_wanted()?;
         let finest = levels.last().map_or(graph, |l| &l.0);
         if finest.nodes() <= COARSEST {
             break;
@@ -64,7 +73,7 @@ pub(super) fn bisect(graph: &Weighted, measure: Measure, random: &mut Random) ->
     let mut best: Option<(f64, Vec<bool>)> = None;
     for _ in 0..SEEDS {
         let mut halves = Halves::new(coarsest, grow(coarsest, total, random), measure);
-        halves.refine();
+        halves.refine()?;
         let value = halves.value();
         if best.as_ref().is_none_or(|b| value < b.0) {
             best = Some((value, halves.side));
@@ -75,10 +84,10 @@ pub(super) fn bisect(graph: &Weighted, measure: Measure, random: &mut Random) ->
         let finer = levels.last().map_or(graph, |l| &l.0);
         let projected = map.iter().map(|&c| side[c as usize]).collect();
         let mut halves = Halves::new(finer, projected, measure);
-        halves.refine();
+        halves.refine()?;
         side = halves.side;
     }
-    side
+    Ok(side)
 }
 
 /// Grows the second half from a random seed by the node with the heaviest edges to it, until it has half
@@ -192,14 +201,16 @@ impl<'a> Halves<'a> {
         }
     }
 
-    fn refine(&mut self) {
+    fn refine(&mut self) -> Result<(), Stop> {
         for _ in 0..PASSES {
+            is_wanted()?;
             let before = self.value();
             self.pass();
             if self.value() >= before {
                 break;
             }
         }
+        Ok(())
     }
 
     /// Moves nodes, each at most once, and takes back the moves after the best prefix.

@@ -463,7 +463,7 @@ impl Inner {
             }
         }
         super::factor::eliminate(&mut lower, n, n)?;
-        let by_rows = inverse(&lower, n);
+        let by_rows = inverse(&lower, n).ok()?;
         let square: f64 = by_rows.iter().map(|v| v * v).sum();
         let mut columns = vec![0.0; n * n];
         for i in 0..n {

@@ -9,6 +9,7 @@ use super::bisect::{Measure, bisect};
 use super::coarsen::Weighted;
 use crate::cycle::graph::Graph;
 use crate::linalg::Random;
+use crate::monitor::is_wanted;
 
 /// No parent.
 pub(super) const NO_PATCH: usize = usize::MAX;
@@ -132,6 +133,9 @@ impl Dissection<'_> {
 
     /// The bisection that loses the least.
     fn best(&mut self, nodes: &[u32], edges: &[u32]) -> Option<Halving> {
+        if (self.stop)(0) {
+            return None;
+        }
         let whole = self.least_energy(nodes, edges);
         let mut best: Option<Halving> = None;
         let measure = Measure {
@@ -143,7 +147,7 @@ impl Dissection<'_> {
                 if (self.stop)(PER_EDGE * edges.len() as u64) {
                     return None;
                 }
-                let side = bisect(&graph, measure, &mut self.random);
+                let side = bisect(&graph, measure, &mut self.random).ok()?;
                 let Some(mut halving) = self.halve(nodes, edges, &side) else {
                     continue;
                 };
@@ -238,7 +242,8 @@ impl Dissection<'_> {
         let mut power = dot(&force, &direction);
         let mut image = vec![0.0; n + 1];
         for _ in 0..STEPS {
-            if power <= 1e-6 * energy.abs() {
+            // Whoever ends the call does not need the estimate.
+            if power <= 1e-6 * energy.abs() || is_wanted().is_err() {
                 break;
             }
             image.fill(0.0);

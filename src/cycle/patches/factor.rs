@@ -9,7 +9,7 @@ use std::ops::Range;
 use super::dissect::Patch;
 use super::nested::NestedBasis;
 use crate::cycle::graph::Graph;
-use crate::monitor::is_room_for;
+use crate::monitor::{is_room_for, is_wanted_at};
 
 /// A front of more rows is not factored.
 const WIDEST: usize = 3_000;
@@ -31,7 +31,7 @@ pub(super) struct Front {
 }
 
 /// The factor by patches. None if a front is too large, also for the memory that is left, if a pivot is not positive,
-/// or if `stop`, which gets the multiplications, says so.
+/// if the call ends, or if `stop`, which gets the multiplications, says so.
 pub(super) fn factor(
     graph: &Graph,
     patches: &[Patch],
@@ -123,10 +123,11 @@ pub(super) fn factor(
     Some(fronts)
 }
 
-/// Eliminates the first `n` columns of a lower triangle by rows. None if a pivot is not positive.
+/// Eliminates the first `n` columns of a lower triangle by rows. None if a pivot is not positive, or if the call ends.
 pub(super) fn eliminate(front: &mut [f64], all: usize, n: usize) -> Option<()> {
     let mut column = vec![0.0; all];
     for k in 0..n {
+        is_wanted_at(k, all).ok()?;
         let pivot = front[k * all + k];
         if pivot.is_nan() || pivot <= 0.0 {
             return None;

@@ -10,6 +10,7 @@
 use super::factor::Front;
 use crate::error::Result;
 use crate::lattice::{Basis, lll};
+use crate::monitor::is_wanted_at;
 
 /// The reduced lattice of one patch, and what an entry of its list needs.
 #[derive(Debug, Clone)]
@@ -32,7 +33,7 @@ impl Local {
     /// worse basis of the same lattice.
     ///
     /// # Errors
-    /// For entries that are too large to be exact.
+    /// For entries that are too large to be exact, and the end of the call.
     pub fn new(
         front: &Front,
         alpha: &[f64],
@@ -40,7 +41,7 @@ impl Local {
         stop: &mut dyn FnMut(u64) -> bool,
     ) -> Result<Self> {
         let n = front.own;
-        let inverse = inverse(&front.diagonal, n);
+        let inverse = inverse(&front.diagonal, n)?;
         // In the reverse order of rows and columns the inverse is upper triangular.
         let mut factor = vec![0.0; n * n];
         for i in 0..n {
@@ -65,6 +66,7 @@ impl Local {
         let mut map = vec![0.0; n * n];
         let mut unit = vec![0.0; n];
         for j in 0..n {
+            is_wanted_at(j, n)?;
             unit[n - 1 - j] = 1.0;
             let coordinates = basis.coordinates(&unit);
             unit[n - 1 - j] = 0.0;
@@ -90,9 +92,13 @@ impl Local {
 }
 
 /// The inverse of a lower triangular matrix, by rows.
-pub(super) fn inverse(lower: &[f64], n: usize) -> Vec<f64> {
+///
+/// # Errors
+/// The end of the call.
+pub(super) fn inverse(lower: &[f64], n: usize) -> Result<Vec<f64>> {
     let mut inverse = vec![0.0; n * n];
     for i in 0..n {
+        is_wanted_at(i, n)?;
         for k in 0..i {
             let factor = lower[i * n + k];
             for j in 0..=k {
@@ -105,7 +111,7 @@ pub(super) fn inverse(lower: &[f64], n: usize) -> Vec<f64> {
             .iter_mut()
             .for_each(|v| *v /= pivot);
     }
-    inverse
+    Ok(inverse)
 }
 
 pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {

@@ -65,7 +65,7 @@ impl Watch for Watched<'_, '_, '_> {
 /// that could be better.
 ///
 /// # Errors
-/// For lack of memory, and those of the evaluation of offers.
+/// For lack of memory, the end of the call, and those of the evaluation of offers.
 pub(in crate::cycle) fn prove(
     model: &ReducedModel,
     space: &CycleSpace,
@@ -76,6 +76,7 @@ pub(in crate::cycle) fn prove(
     search: &mut Search,
 ) -> Result<bool> {
     let _span = span("prove");
+    let _watch = search.monitor.watch_search();
     let Some(integers) = search.incumbent_integers() else {
         return Ok(false);
     };
@@ -200,11 +201,12 @@ struct Tried {
 impl Trials<'_> {
     /// A tree. `None` if the watch ends it.
     fn tree(&self, recipe: &Recipe, watch: &mut dyn Watch) -> Result<Option<(PatchTree, Account)>> {
-        let tree = PatchTree::new(self.system, self.residuals, recipe, &mut |w| watch.ends(w))?;
-        Ok(tree.map(|tree| {
-            let account = Account::new(self.system, &tree, 2.0 * self.energy, self.offsets);
-            (tree, account)
-        }))
+        let stop = &mut |work| watch.ends(work);
+        let Some(tree) = PatchTree::new(self.system, self.residuals, recipe, stop)? else {
+            return Ok(None);
+        };
+        let account = Account::new(self.system, &tree, 2.0 * self.energy, self.offsets)?;
+        Ok(Some((tree, account)))
     }
 
     /// The first rounds on the tree of a recipe, with at most so much work and so many nodes.

@@ -46,6 +46,9 @@ impl PatchTree {
         let dissected = span("dissect");
         let patches = dissect(system.graph, residuals, recipe, stop);
         drop(dissected);
+        if stop(0) {
+            return Ok(None);
+        }
         let Ok(basis) = NestedBasis::new(system.graph, &patches) else {
             return Ok(None);
         };
