@@ -199,6 +199,11 @@ impl<'a> Monitor<'a> {
         self.hard_stop().is_none() && self.finishes() && self.run.has_solution()
     }
 
+    /// Whether the caller still waits for a result: the token is not cancelled, and the time limit has not passed.
+    pub(crate) fn is_awaited(&self) -> Result<(), Stop> {
+        self.hard_stop().map_or(Ok(()), Err)
+    }
+
     fn hard_stop(&self) -> Option<Stop> {
         let is_late = |limit: Duration| self.started.elapsed() >= limit;
         if self.token.as_ref().is_some_and(CancelToken::is_cancelled) {

@@ -49,11 +49,11 @@ const HASTY_UPDATES: usize = 20;
 
 /// Rounds by passes.
 ///
-/// If the caller wants a result, few and large passes round what is left. If it has to stop for another reason,
-/// or after [`UPDATES_PER_UNKNOWN`], it offers the integers decided so far and rounds the others.
+/// If the caller wants the results so far, few and large passes round what is left. After [`UPDATES_PER_UNKNOWN`], and
+/// where a callback ends the search, it offers the integers decided so far and rounds the others.
 ///
 /// # Errors
-/// [`Error::OutOfMemory`](crate::Error::OutOfMemory), and the errors of [`Search::offer`].
+/// [`Error::OutOfMemory`](crate::Error::OutOfMemory), the end of the call, and the errors of [`Search::offer`].
 pub(crate) fn adaptive(
     model: &ReducedModel,
     options: &Options,
@@ -91,6 +91,7 @@ pub(crate) fn adaptive(
         updates: (UPDATES_PER_UNKNOWN * model.dim()).max(options.gauss_seidel_updates),
     };
     passes.in_regions(search);
+    search.monitor.is_awaited()?;
     let mut candidates = Candidates::new(model.dim());
     for &i in integers {
         if let Some(value) = passes.undecided(i) {
@@ -100,6 +101,7 @@ pub(crate) fn adaptive(
     while passes.left > 0 && passes.updates > 0 {
         let done = 1.0 - passes.left as f64 / integers.len() as f64;
         if search.monitor.ends_at(Phase::Round, done) {
+            search.monitor.is_awaited()?;
             if search.monitor.finishes() {
                 passes.finish(&mut candidates);
             }

@@ -170,7 +170,9 @@ pub(super) fn round_in_regions(
                 rounded: 0,
                 updates: 0,
             };
-            region.round(HIGHEST * level as f64 / LEVELS as f64, monitor);
+            if !monitor.ends() {
+                region.round(HIGHEST * level as f64 / LEVELS as f64, monitor);
+            }
             (region.rounded, region.updates, region.wave)
         });
         for (count, updates, wave) in regions {
