@@ -40,6 +40,21 @@ impl Interval {
         }
     }
 
+    /// The integers on one side of `value`: those above it where `x` is above it, else those below. Where `value` is an
+    /// end, those on the other side.
+    pub fn without(self, value: f64, x: f64) -> Self {
+        match x > value && value < self.upper || value <= self.lower {
+            true => Interval {
+                lower: value + 1.0,
+                ..self
+            },
+            false => Interval {
+                upper: value - 1.0,
+                ..self
+            },
+        }
+    }
+
     pub fn is_point(self) -> bool {
         self.lower == self.upper
     }

@@ -20,6 +20,7 @@
 //! | `rounds` | several nodes at the same time |
 //! | `record` | what a proof is made from |
 //! | `primal`, `exchange`, `anneal` | points with integers: rounding, exchanges, annealing, smaller problems |
+//! | `dive` | a first point where rounding finds none |
 //! | `lazy` | rows that the caller adds during the search |
 //! | `conflict` | why there is no solution |
 
@@ -27,6 +28,7 @@ mod activation;
 mod anneal;
 mod branching;
 mod conflict;
+mod dive;
 mod dominated;
 mod dual_active_set;
 mod exchange;
@@ -292,12 +294,38 @@ fn search_ordered(
         symmetry::ordered(form, start.as_deref())
     };
     let Some((ordered, start)) = ordered else {
-        return search_strengthened(form, start, limits, monitor);
+        return search_with_first(form, start, limits, monitor);
     };
-    let mut found = search_strengthened(&ordered, start, limits, monitor)?;
+    let mut found = search_with_first(&ordered, start, limits, monitor)?;
     // Bounds of the order are none of the whole.
     found.conflict.clear();
     Ok(found)
+}
+
+/// Searches a form. Where relaxations take their time, there is a point before the bound is raised.
+fn search_with_first(
+    form: &Form,
+    start: Option<Vec<f64>>,
+    limits: Limits,
+    monitor: &mut Monitor,
+) -> Result<tree::Found> {
+    if start.is_some() || !interior::is_for(form) {
+        return search_strengthened(form, start, limits, monitor);
+    }
+    let first = tree::search(form, None, Limits { nodes: 1, ..limits }, monitor)?;
+    let start = first.best.as_ref().map(|(point, _)| point.clone());
+    match search_strengthened(form, start, limits, monitor) {
+        Ok(found) if found.best.is_none() && !found.is_complete => Ok(tree::Found {
+            best: first.best,
+            bound: found.bound.max(first.bound),
+            ..found
+        }),
+        Err(Error::Cancelled | Error::TimeLimit) if first.best.is_some() => {
+            monitor.ends();
+            Ok(first)
+        }
+        found => found,
+    }
 }
 
 /// Searches a form after the perspective reformulation and with rows that choices imply, if these raise its bound.

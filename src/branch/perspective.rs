@@ -42,6 +42,11 @@ const MARGIN: f64 = 1e-4;
 /// The squares of unknowns that Q couples are this part of the largest that leaves the rest semi-definite.
 const PART: f64 = 0.9;
 
+/// Rounds end where one takes this many times the iterations of the first one, or of this many: its nodes would take as
+/// long.
+const LONGER: u64 = 3;
+const LEAST: u64 = 1000;
+
 /// The largest number of coupled unknowns. Their binaries are coupled with them, and a node takes several times as
 /// long: of portfolios, those of 50 and 100 assets gain, one of 200 takes twice the time.
 const COUPLED: usize = 128;
@@ -78,6 +83,7 @@ pub(super) fn strengthened(form: &Form, monitor: &mut Monitor) -> Result<Option<
     let mut first = None;
     let mut best: Option<(f64, Form)> = None;
     let mut active: Vec<Active> = Vec::new();
+    let mut most = u64::MAX;
     for round in 0..ROUNDS {
         if monitor.ends() {
             break;
@@ -90,11 +96,15 @@ pub(super) fn strengthened(form: &Form, monitor: &mut Monitor) -> Result<Option<
         };
         let mut relaxation = Relaxation::new(&next, &shared);
         relaxation.start_from(&active);
+        relaxation.most = relaxation.most.min(most);
         let Relaxed::Solved { bound } = relaxation.solve(f64::INFINITY, &next.boxes) else {
             break;
         };
         slopes = next_slopes(form, &links, relaxation.solver.point(), relaxation.active());
         active = relaxation.active().to_vec();
+        if first.is_none() {
+            most = LONGER * relaxation.solver.iterations.max(LEAST);
+        }
         let start = *first.get_or_insert(bound);
         let before = best.as_ref().map_or(start, |(best, _)| *best);
         if best.is_none() || bound > before {

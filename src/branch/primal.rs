@@ -28,7 +28,9 @@ impl Tree<'_, '_, '_> {
     /// The integers are fixed one after the other, the closest to an integer first, and the bounds of the others
     /// are tightened each time (`berthold2014`, fix and propagate).
     pub fn round(&mut self, point: &[f64]) {
-        let Some(limits) = self.fixed(point) else {
+        let limits = self.boxes();
+        let order = self.closest(&limits, point);
+        let Some(limits) = self.fixed(limits, point, &order) else {
             return;
         };
         if self.integers.len() == self.form.dim() {
@@ -39,7 +41,7 @@ impl Tree<'_, '_, '_> {
             return;
         }
         if self.relaxation.interior.is_some() {
-            if let Some(x) = self.without_fixed(&limits) {
+            if let Some(x) = self.best_within(&limits) {
                 self.offer(x);
             }
             return;
@@ -69,11 +71,11 @@ impl Tree<'_, '_, '_> {
         }
     }
 
-    /// The real unknowns that are best where all integers are fixed, from a form that has only these. Most are fixed
-    /// as well where the form is large.
-    fn without_fixed(&mut self, limits: &[Interval]) -> Option<Vec<f64>> {
+    /// The minimiser of the relaxation within these limits of integers, from a form without the unknowns that they
+    /// fix. Where all integers are fixed and the form is large, most real unknowns are, too.
+    pub fn best_within(&mut self, limits: &[Interval]) -> Option<Vec<f64>> {
         let form = self.form;
-        let is_fixed = |j: usize| form.integer[j] || limits[j].width() <= CLOSE;
+        let is_fixed = |j: usize| limits[j].width() <= CLOSE;
         let value = |j: usize| match is_fixed(j) {
             true => self.root[j].nearest(limits[j].lower),
             false => 0.0,
@@ -86,7 +88,12 @@ impl Tree<'_, '_, '_> {
         let curved = form.hessian.mul_symmetric(&x);
         let slopes = form.gradient.iter().zip(&curved).map(|(q, c)| q + c);
         let slopes: Vec<f64> = slopes.collect();
-        let part = presolve::part(form, &x, &slopes, members, rows).ok()?;
+        let mut part = presolve::part(form, &x, &slopes, members, rows).ok()?;
+        for (own, &j) in part.form.limits.iter_mut().zip(&part.members) {
+            if form.integer[j as usize] {
+                *own = limits[j as usize];
+            }
+        }
         let shared = Shared::new(&part.form, &regularization(&part.form)).ok()?;
         let mut relaxation = Relaxation::new(&part.form, &shared);
         let found = relaxation.solve(f64::INFINITY, &part.form.boxes);
@@ -100,13 +107,15 @@ impl Tree<'_, '_, '_> {
         Some(x)
     }
 
-    /// Bounds on all unknowns with all integers fixed near a point, or nothing where that contradicts the rows.
-    fn fixed(&mut self, point: &[f64]) -> Option<Vec<Interval>> {
-        let mut limits = self.boxes();
-        let error = |j: u32| (point[j as usize] - point[j as usize].round()).abs();
-        let mut order = self.integers.clone();
-        order.sort_by(|&a, &b| error(a).total_cmp(&error(b)).then(a.cmp(&b)));
-        for j in order {
+    /// Tightens bounds on all unknowns: fixes these integers near a point, one after the other. Nothing where that
+    /// contradicts the rows.
+    pub fn fixed(
+        &mut self,
+        mut limits: Vec<Interval>,
+        point: &[f64],
+        order: &[u32],
+    ) -> Option<Vec<Interval>> {
+        for &j in order {
             let (v, x) = (j as usize, point[j as usize]);
             if limits[v].is_point() {
                 continue;
@@ -122,18 +131,7 @@ impl Tree<'_, '_, '_> {
                 continue;
             }
             limits = before;
-            let up = x > value && value < limits[v].upper || value <= limits[v].lower;
-            limits[v] = if up {
-                Interval {
-                    lower: value + 1.0,
-                    ..limits[v]
-                }
-            } else {
-                Interval {
-                    upper: value - 1.0,
-                    ..limits[v]
-                }
-            };
+            limits[v] = limits[v].without(value, x);
             let value = limits[v].nearest(x.round());
             limits[v] = Interval::point(value);
             self.propagator
@@ -141,6 +139,15 @@ impl Tree<'_, '_, '_> {
                 .ok()?;
         }
         Some(limits)
+    }
+
+    /// The integers that these limits do not fix, those first whose values are closest to one.
+    pub fn closest(&self, limits: &[Interval], point: &[f64]) -> Vec<u32> {
+        let error = |j: u32| (point[j as usize] - point[j as usize].round()).abs();
+        let is_left = |j: &u32| !limits[*j as usize].is_point();
+        let mut order: Vec<u32> = self.integers.iter().copied().filter(is_left).collect();
+        order.sort_by(|&a, &b| error(a).total_cmp(&error(b)).then(a.cmp(&b)));
+        order
     }
 
     /// Makes a point the incumbent if it is within all limits and better, after exchanges that lower its energy.

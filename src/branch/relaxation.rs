@@ -46,7 +46,8 @@ pub(super) struct Relaxation<'a> {
     pub solver: DualActiveSet<'a>,
     /// The centre of the next proximal step, or nothing where the Hessian is definite.
     centre: Option<Vec<f64>>,
-    most: u64,
+    /// The iterations that each of its solves may take.
+    pub most: u64,
     /// What tightens the bounds of real unknowns, where an interior-point method solves the relaxations.
     pub interior: Option<Propagator>,
     /// The best bound of a solve with its point and multipliers, for a proof.

@@ -440,7 +440,7 @@ impl<'a, 'm, 'e> Tree<'a, 'm, 'e> {
         }
         let every = if self.best.is_none() { 5 } else { 20 };
         if self.nodes == 1 || self.nodes.is_multiple_of(every) || fractional.is_empty() {
-            self.round(&point);
+            self.find_near(&point);
         }
         if self.nodes >= self.next_part && !fractional.is_empty() {
             self.search_part(&point);
