@@ -313,6 +313,10 @@ fn search_with_first(
         return search_strengthened(form, start, limits, monitor);
     }
     let first = tree::search(form, None, Limits { nodes: 1, ..limits }, monitor)?;
+    let is_enough = limits.first && first.best.is_some();
+    if is_enough || first.is_complete || first.ray.is_some() {
+        return Ok(first);
+    }
     let start = first.best.as_ref().map(|(point, _)| point.clone());
     match search_strengthened(form, start, limits, monitor) {
         Ok(found) if found.best.is_none() && !found.is_complete => Ok(tree::Found {

@@ -151,8 +151,8 @@ impl Relaxed {
 }
 
 /// After the search was stopped, components without a solution get the nearest integers if all of them together have
-/// at most this many entries in their Hessians, which takes a few hundredths of a second. Larger ones would
-/// keep the caller waiting.
+/// at most this many entries in their Hessians, which takes a few hundredths of a second. Larger ones would keep the
+/// caller waiting.
 const SOON: usize = 200_000;
 
 /// Runs the strategy. If there is no solution when the search is stopped, but one `ends_soon`, the nearest integers
