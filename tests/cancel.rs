@@ -16,7 +16,7 @@ use roundel::quad::{QuadOptions, quadrangulate};
 use roundel::smooth::{SmoothOptions, smooth};
 use roundel::{
     CancelToken, Error, Event, Flow, Model, Monitor, Options, Problem, SolveStatus, Solver,
-    Strategy, WarmStart, solve, solve_with,
+    Strategy, Triangle, WarmStart, solve, solve_with,
 };
 
 fn field(triangles: usize) -> Problem {
@@ -155,6 +155,49 @@ fn a_cancelled_warm_start_returns_the_earlier_solution() {
         assert_eq!(kept.values(), earlier.values());
         assert_eq!(kept.status(), SolveStatus::Cancelled);
     }
+}
+
+/// Two components that nothing couples: three integers, and `count` that are all coupled with each other.
+fn two_components(count: usize) -> Problem {
+    let mut problem = Problem::new(3 + count).unwrap();
+    for (first, len) in [(0, 3), (3, count)] {
+        let pairs = (0..len).flat_map(|i| (0..=i).map(move |j| (first + i, first + j)));
+        let (rows, columns): (Vec<usize>, Vec<usize>) = pairs.unzip();
+        let value = |(i, j): (&usize, &usize)| if i == j { 3.0 } else { 0.01 };
+        let values: Vec<f64> = rows.iter().zip(&columns).map(value).collect();
+        problem
+            .add_quadratic_triplets(Triangle::Lower, &rows, &columns, &values)
+            .unwrap();
+    }
+    let linear: Vec<f64> = (0..3 + count).map(|i| (i as f64).sin()).collect();
+    problem.add_linear(&linear).unwrap();
+    problem
+        .set_integers(&(0..3 + count).collect::<Vec<_>>())
+        .unwrap();
+    problem
+}
+
+/// After the first component has its integers, the others get theirs only if that takes no time.
+#[test]
+fn a_cancelled_solve_does_not_round_large_components_that_are_left() {
+    let options = Options {
+        strategy: Strategy::Direct,
+        ..Options::default()
+    };
+    let cancelled = |count: usize| {
+        let token = CancelToken::new();
+        let cancel = token.clone();
+        let at_first = move |event: &Event| {
+            if matches!(event.kind, EventKind::Improved) {
+                cancel.cancel();
+            }
+            Flow::Continue
+        };
+        let monitor = Monitor::default().cancel_token(token).on_event(at_first);
+        solve_with(&two_components(count), &options, monitor)
+    };
+    assert_eq!(cancelled(20).unwrap().status(), SolveStatus::Cancelled);
+    assert_eq!(cancelled(700).unwrap_err(), Error::Cancelled);
 }
 
 /// The promised latency, at a size where cancelling is not trivial. Run it alone on a quiet machine:

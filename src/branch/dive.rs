@@ -111,12 +111,14 @@ impl Tree<'_, '_, '_> {
 mod tests {
     use super::*;
     use crate::branch::form::Form;
+    use crate::branch::interior;
     use crate::branch::relaxation::{Relaxed, regularization};
+    use crate::branch::search_with_first;
     use crate::branch::shared::Shared;
     use crate::branch::tree::Limits;
     use crate::error::Conflicting;
     use crate::linalg::Sparse;
-    use crate::monitor::Monitor;
+    use crate::monitor::{CancelToken, EventKind, Flow, Monitor};
     use crate::test_random::Random;
 
     /// Amounts from 0 to a capacity that binaries switch on at a cost. Five equations with any coefficients hold if all
@@ -188,5 +190,28 @@ mod tests {
         }
         assert!(by_rounding < 20, "{by_rounding} {by_dives:?}");
         assert!(by_dives.iter().all(|found| *found > 27), "{by_dives:?}");
+    }
+
+    #[test]
+    fn a_first_point_is_kept_where_the_call_ends_before_the_bound_is_raised() {
+        let form = switches(&mut Random::new(7), 500);
+        assert_eq!(interior::is_for(&form), cfg!(feature = "interior-point"));
+        let token = CancelToken::new();
+        let cancel = token.clone();
+        let mut monitor = Monitor::default()
+            .cancel_token(token)
+            .on_event(move |event| {
+                if event.kind == EventKind::Improved {
+                    cancel.cancel();
+                }
+                Flow::Continue
+            });
+        let limits = Limits {
+            inner: false,
+            ..Limits::inner(u64::MAX)
+        };
+        let found = search_with_first(&form, None, limits, &mut monitor).unwrap();
+        assert!(found.best.is_some() && !found.is_complete);
+        assert!(monitor.ends());
     }
 }

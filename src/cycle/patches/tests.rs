@@ -1,14 +1,19 @@
 //! Proofs by trees of patches against flat enumeration and brute force, on small random systems.
 
+use super::bisect::{Measure, bisect};
+use super::coarsen::Weighted;
 use super::dissect::Recipe;
 use super::effort::Proof;
+use super::factor::eliminate;
+use super::local::inverse;
 use super::prove::prove;
 use crate::cycle::space::CycleSpace;
 use crate::cycle::tests::{Sketch, energy, reduced, space};
 use crate::eliminate::ReducedModel;
+use crate::error::Error;
 use crate::lattice;
-use crate::linalg::{Lowest, Minimum, Ordering};
-use crate::monitor::Monitor;
+use crate::linalg::{self, Lowest, Minimum, Ordering};
+use crate::monitor::{CancelToken, Monitor, Stop};
 use crate::problem::Problem;
 use crate::round::nearest;
 use crate::search::{Factors, Options, Search, Strategy};
@@ -205,4 +210,19 @@ fn the_tree_agrees_with_brute_force() {
         );
         compared += 1;
     }
+}
+
+#[test]
+fn the_steps_of_a_tree_end_with_their_call() {
+    let links = (0..99).map(|i| (i, i + 1, 1.0));
+    let path = Weighted::new(vec![1.0; 100], links);
+    let halved = || bisect(&path, Measure { balance: 0.8 }, &mut linalg::Random::new(1));
+    let eliminated = || eliminate(&mut [4.0], 1, 1);
+    assert!(halved().is_ok() && eliminated().is_some() && inverse(&[2.0], 1).is_ok());
+    let token = CancelToken::new();
+    token.cancel();
+    let _watch = Monitor::default().cancel_token(token).watch();
+    assert_eq!(halved(), Err(Stop::Cancelled));
+    assert_eq!(eliminated(), None);
+    assert_eq!(inverse(&[2.0], 1), Err(Error::Cancelled));
 }
