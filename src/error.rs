@@ -183,7 +183,8 @@ pub enum Error {
     /// A limit other than that of time ended the search before a first solution was found.
     #[error("the limit of {what} ended the search before a first solution was found")]
     SearchLimit {
-        /// What the limit is of: nodes, which the caller limits, or the work of `auto`.
+        /// What the limit is of: nodes, which the caller limits, the work of `auto`, or the precision of numbers:
+        /// rounding errors alone decide whether there is a solution.
         what: &'static str,
     },
 }

@@ -101,6 +101,9 @@ fn has_none(form: &Form, monitor: &Monitor) -> bool {
 /// The last certificate of a search of so many nodes and multiplications, if it shows that there is no solution.
 /// Points that it finds are none of the problem: the caller is not told.
 fn none_within(form: &Form, nodes: u64, work: u64, monitor: &Monitor) -> Option<Vec<(u32, f64)>> {
+    if form.limits.iter().any(|limits| limits.is_empty()) {
+        return Some(Vec::new());
+    }
     let limits = Limits {
         work,
         first: true,

@@ -1,6 +1,6 @@
 //! Forms with and without copies have the same least energy.
 
-use super::super::tree::least;
+use super::super::tree::tests::least;
 use super::*;
 use crate::error::Conflicting;
 use crate::linalg::Random;

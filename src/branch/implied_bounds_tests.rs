@@ -1,7 +1,8 @@
 //! The rows hold at all points with integers, and raise the bound of layouts.
 
 use super::super::search_strengthened;
-use super::super::tree::{Limits, least as least_energy, search};
+use super::super::tree::tests::least as least_energy;
+use super::super::tree::{Limits, search};
 use super::*;
 use crate::linalg::Random;
 

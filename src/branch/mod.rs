@@ -439,6 +439,7 @@ fn with_point(
             (Some(stop), _) => stop.into(),
             (None, StoppedBy::Nodes) => Error::SearchLimit { what: "nodes" },
             (None, StoppedBy::Budget) => Error::SearchLimit { what: "work" },
+            (None, StoppedBy::Nothing) => Error::SearchLimit { what: "precision" },
             (None, _) => Error::Cancelled,
         });
     }

@@ -1,7 +1,7 @@
 //! The reformulated form has the same energies at all points with integers, and a larger bound.
 
 use super::super::form::Interval;
-use super::super::tree::least;
+use super::super::tree::tests::least;
 use super::*;
 use crate::error::Conflicting;
 use crate::linalg::Random;

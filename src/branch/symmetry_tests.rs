@@ -1,6 +1,6 @@
 //! One order of choices has the least energy of all.
 
-use super::super::tree::least;
+use super::super::tree::tests::least;
 use super::*;
 use crate::error::Conflicting;
 use crate::linalg::Random;

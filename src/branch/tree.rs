@@ -246,16 +246,19 @@ impl<'a, 'm, 'e> Tree<'a, 'm, 'e> {
         let waiting = self.waiting.iter().chain(&self.stack);
         let is_empty = self.waiting.is_empty() && self.stack.is_empty();
         let bound = waiting.map(|node| node.bound).fold(self.done, f64::min);
-        let energy = self.best.as_ref();
-        let energy = energy.map_or(f64::INFINITY, |(_, energy)| *energy);
+        let energy = self.best.as_ref().map_or(f64::INFINITY, |best| best.1);
         // A search that ends at its first point leaves nodes out, and so does one that takes a node for empty by
         // rounding errors alone.
         let doubt = match self.limits.first {
             true => 0.0,
             false => DOUBT * energy.abs().max(DOUBT) + 1e4 * self.rounding,
         };
-        let leaves_out = self.best.is_some() && bound < self.enough(energy) - doubt;
-        let is_complete = is_empty && !leaves_out;
+        // Without an incumbent, a node that has a bound is not shown to be empty.
+        let is_left_out = match self.best {
+            None => bound < f64::INFINITY,
+            Some(_) => bound < self.enough(energy) - doubt,
+        };
+        let is_complete = is_empty && !is_left_out;
         Found {
             bound: bound.min(energy),
             ray: self.ray,
@@ -583,18 +586,6 @@ impl<'a, 'm, 'e> Tree<'a, 'm, 'e> {
     }
 }
 
-/// The least energy of a form, and where it is. The search begins at `start`.
-#[cfg(test)]
-pub(super) fn least(form: &Form, start: Option<Vec<f64>>) -> Option<(Vec<f64>, f64)> {
-    let limits = Limits {
-        inner: false,
-        ..Limits::inner(u64::MAX)
-    };
-    let found = search(form, start, limits, &mut Monitor::default()).unwrap();
-    assert!(found.is_complete, "{found:?}");
-    found.best
-}
-
 #[cfg(test)]
 #[path = "tree_tests.rs"]
-mod tests;
+pub(super) mod tests;

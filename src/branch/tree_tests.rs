@@ -5,6 +5,17 @@ use crate::branch::working_set::Ldl;
 use crate::error::Conflicting;
 use crate::linalg::Sparse;
 
+/// The least energy of a form, and where it is. The search begins at `start`.
+pub(in crate::branch) fn least(form: &Form, start: Option<Vec<f64>>) -> Option<(Vec<f64>, f64)> {
+    let limits = Limits {
+        inner: false,
+        ..Limits::inner(u64::MAX)
+    };
+    let found = search(form, start, limits, &mut Monitor::default()).unwrap();
+    assert!(found.is_complete, "{found:?}");
+    found.best
+}
+
 /// The least square of two unknowns from 0 to 1 whose sum is at least 1, the first at most 0.2.
 fn square() -> Form {
     let within = |lower: f64, upper: f64| Interval { lower, upper };
@@ -49,4 +60,21 @@ fn a_node_that_is_empty_by_rounding_errors_alone_is_solved_again() {
         (bound - (0.2f64.powi(2) + 0.8f64.powi(2))).abs() < 1e-12,
         "{bound}"
     );
+}
+
+#[test]
+fn without_a_point_a_search_is_complete_only_where_all_nodes_are_shown_to_be_empty() {
+    let form = square();
+    let shared = Shared::new(&form, &regularization(&form)).unwrap();
+    let mut monitor = Monitor::default();
+    for (done, is_complete) in [
+        (f64::INFINITY, true),
+        (f64::NEG_INFINITY, false),
+        (1.0, false),
+    ] {
+        let mut tree = Tree::new(&form, &shared, Limits::inner(1), &mut monitor);
+        tree.done = done;
+        let found = tree.result();
+        assert_eq!((found.is_complete, found.bound), (is_complete, done));
+    }
 }
