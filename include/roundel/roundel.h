@@ -169,7 +169,8 @@ enum roundel_status
      */
     ROUNDEL_ERROR_TIME_LIMIT = 61,
     /**
-     * The option nodes, or the budget of auto, ended the search before a first solution was found.
+     * The option nodes, the budget of auto, or the precision of numbers ended the search before a first solution was
+     * found.
      */
     ROUNDEL_ERROR_SEARCH_LIMIT = 62,
     /**

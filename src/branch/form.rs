@@ -1,8 +1,12 @@
 //! A problem in the form that branch and bound reads: one list of two-sided rows, and bounds.
 
+use super::dual_active_set::FEASIBLE;
 use crate::error::{Conflicting, Error, Result};
 use crate::linalg::Sparse;
 use crate::problem::{Model, Problem};
+
+/// The most by which an integer is outside of an interval that counts as within.
+const MOST: f64 = 1e-6;
 
 /// All numbers from `lower` to `upper`. A side that does not limit is infinite.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -32,11 +36,26 @@ impl Interval {
         }
     }
 
-    /// The integers within, as the interval from the least to the largest.
+    /// The integers within, as the interval from the least to the largest. Those outside by no more than what is
+    /// feasible for rows are within: sides are often an integer but for rounding errors, as `1.1 * 900` is.
     pub fn of_integers(self) -> Self {
+        let room = |side: f64| (FEASIBLE * side.abs().max(1.0)).min(MOST);
         Interval {
-            lower: self.lower.ceil(),
-            upper: self.upper.floor(),
+            lower: (self.lower - room(self.lower)).ceil(),
+            upper: (self.upper + room(self.upper)).floor(),
+        }
+    }
+
+    /// The multiples of a positive number within, as the interval from the least to the largest.
+    pub fn of_multiples(self, divisor: f64) -> Self {
+        let quotients = Interval {
+            lower: self.lower / divisor,
+            upper: self.upper / divisor,
+        };
+        let quotients = quotients.of_integers();
+        Interval {
+            lower: quotients.lower * divisor,
+            upper: quotients.upper * divisor,
         }
     }
 
@@ -80,6 +99,9 @@ impl Interval {
         self.upper - self.lower
     }
 }
+
+/// A row `sum_j a_j x_j >= side`.
+pub(super) type AtLeast = (Vec<(u32, f64)>, f64);
 
 /// `minimise 1/2 x'Qx + q'x + c` over `x` within `limits`, `Ax` within `row_limits`, some unknowns integer.
 #[derive(Debug, Clone)]
@@ -141,6 +163,27 @@ impl Form {
             limits,
             integer: model.integer().to_vec(),
         })
+    }
+
+    /// The form with more rows, of which the caller does not know.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`].
+    pub fn with_rows(&self, rows: &[AtLeast]) -> Result<Self> {
+        let mut next = self.clone();
+        let mut entries: Vec<(u32, u32, f64)> = self.rows.entries().collect();
+        for (row, side) in rows {
+            let i = next.row_limits.len();
+            entries.extend(row.iter().map(|&(j, a)| (i as u32, j, a)));
+            next.row_limits.push(Interval {
+                lower: *side,
+                upper: f64::INFINITY,
+            });
+            next.origins.push(Conflicting::Inequality(i));
+        }
+        let count = next.row_limits.len();
+        next.rows = Sparse::from_triplets(count, self.dim(), entries.into_iter())?;
+        Ok(next)
     }
 
     /// Number of unknowns.

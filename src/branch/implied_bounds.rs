@@ -16,12 +16,11 @@
 
 use std::collections::{BTreeMap, HashSet};
 
-use super::form::{Form, Interval};
+use super::form::{AtLeast, Form, Interval};
 use super::interior;
 use super::relaxation::{Relaxation, Relaxed, regularization};
 use super::shared::Shared;
-use crate::error::{Conflicting, Result};
-use crate::linalg::Sparse;
+use crate::error::Result;
 use crate::monitor::Monitor;
 
 /// The largest number of reals of a row that a binary switches on.
@@ -51,9 +50,6 @@ type Signed = (u32, bool);
 /// The least values that binaries imply where they are 1, and whether a row of the form says so.
 type Implied = BTreeMap<Signed, BTreeMap<u32, (f64, bool)>>;
 
-/// A row `sum_j a_j x_j >= side`.
-type Row = (Vec<(u32, f64)>, f64);
-
 /// A form with rows that choices imply, if it has such rows and they raise its bound.
 ///
 /// # Errors
@@ -64,7 +60,7 @@ pub(super) fn strengthened(form: &Form, monitor: &mut Monitor) -> Result<Option<
         return Ok(None);
     }
     let _watch = monitor.watch_search();
-    let next = with_rows(form, &rows)?;
+    let next = form.with_rows(&rows)?;
     if interior::is_for(&next) && !interior::is_for(form) {
         // Nodes would take longer than before.
         return Ok(None);
@@ -84,27 +80,8 @@ fn root_bound(form: &Form) -> Result<f64> {
     })
 }
 
-/// The form with more rows.
-fn with_rows(form: &Form, rows: &[Row]) -> Result<Form> {
-    let mut next = form.clone();
-    let mut entries: Vec<(u32, u32, f64)> = form.rows.entries().collect();
-    for (row, side) in rows {
-        let i = next.row_limits.len();
-        entries.extend(row.iter().map(|&(j, a)| (i as u32, j, a)));
-        next.row_limits.push(Interval {
-            lower: *side,
-            upper: f64::INFINITY,
-        });
-        // Nobody is told of these rows.
-        next.origins.push(Conflicting::Inequality(i));
-    }
-    let count = next.row_limits.len();
-    next.rows = Sparse::from_triplets(count, form.dim(), entries.into_iter())?;
-    Ok(next)
-}
-
 /// The rows that choices imply.
-fn rows(form: &Form) -> Vec<Row> {
+fn rows(form: &Form) -> Vec<AtLeast> {
     let implied = implied(form);
     let choices = choices(form);
     let mut choices_of: BTreeMap<u32, Vec<usize>> = BTreeMap::new();

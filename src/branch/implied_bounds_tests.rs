@@ -4,7 +4,8 @@ use super::super::search_strengthened;
 use super::super::tree::tests::least as least_energy;
 use super::super::tree::{Limits, search};
 use super::*;
-use crate::linalg::Random;
+use crate::error::Conflicting;
+use crate::linalg::{Random, Sparse};
 
 fn within(lower: f64, upper: f64) -> Interval {
     Interval { lower, upper }

@@ -11,6 +11,7 @@
 //! | `presolve`, `propagate` | what is decided before the search; bounds tightened through rows |
 //! | `hull` | copies of unknowns that convex hulls of choices have, left out |
 //! | `symmetry`, `dominated` | choices that may change places, in one order |
+//! | `mir`, `cuts` | mixed-integer rounding: rows that raise the bound of the root |
 //! | `perspective` | squares that a binary switches on, with a larger bound |
 //! | `inverse`, `shared`, `working_set` | the matrices of a strictly convex quadratic program |
 //! | `dual_active_set`, `activation`, `refine` | its solution |
@@ -28,6 +29,7 @@ mod activation;
 mod anneal;
 mod branching;
 mod conflict;
+mod cuts;
 mod dive;
 mod dominated;
 mod dual_active_set;
@@ -38,6 +40,7 @@ mod implied_bounds;
 mod interior;
 mod inverse;
 mod lazy;
+mod mir;
 mod node;
 mod perspective;
 mod presolve;
@@ -332,7 +335,8 @@ fn search_with_first(
     }
 }
 
-/// Searches a form after the perspective reformulation and with rows that choices imply, if these raise its bound.
+/// Searches a form after the perspective reformulation, with rows that choices imply, and with cuts, as far as these
+/// raise its bound.
 fn search_strengthened(
     form: &Form,
     start: Option<Vec<f64>>,
@@ -341,7 +345,12 @@ fn search_strengthened(
 ) -> Result<tree::Found> {
     let perspective = perspective::strengthened(form, monitor)?;
     let form = perspective.as_ref().unwrap_or(form);
-    let Some(form) = implied_bounds::strengthened(form, monitor)? else {
+    let implied = implied_bounds::strengthened(form, monitor)?;
+    let cut = match limits.first {
+        true => None,
+        false => cuts::strengthened(implied.as_ref().unwrap_or(form), monitor)?,
+    };
+    let Some(form) = cut.or(implied) else {
         return tree::search(form, start, limits, monitor);
     };
     let mut found = tree::search(&form, start, limits, monitor)?;

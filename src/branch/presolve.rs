@@ -149,10 +149,7 @@ pub(super) fn round_rows(form: &mut Form, first: usize, steps: &mut Option<Vec<S
         if sides.is_point() && (sides.lower / divisor).fract() == 0.0 {
             continue;
         }
-        let rounded = Interval {
-            lower: (sides.lower / divisor).ceil() * divisor,
-            upper: (sides.upper / divisor).floor() * divisor,
-        };
+        let rounded = sides.of_multiples(divisor);
         if let Some(steps) = steps {
             if rounded.lower > sides.lower {
                 steps.push(Step::RowLower(i as u32, rounded.lower));

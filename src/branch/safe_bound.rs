@@ -19,22 +19,22 @@ use super::inverse::Inverse;
 const UNIT: f64 = 0.5 * f64::EPSILON;
 
 /// A sum with the sum of the absolute values of its terms.
-#[derive(Clone, Copy, Default)]
-struct Sized {
-    sum: f64,
-    size: f64,
-    count: usize,
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Sized {
+    pub sum: f64,
+    pub size: f64,
+    pub count: usize,
 }
 
 impl Sized {
-    fn add(&mut self, term: f64) {
+    pub fn add(&mut self, term: f64) {
         self.sum += term;
         self.size += term.abs();
         self.count += 1;
     }
 
     /// A bound on the error of the sum. Each term may be a product of up to three numbers.
-    fn error(&self) -> f64 {
+    pub fn error(&self) -> f64 {
         (self.count as f64 + 4.0) * UNIT * self.size * (1.0 + 1e-6)
     }
 }

@@ -70,7 +70,8 @@ pub enum roundel_status {
     ROUNDEL_ERROR_CANCELLED = 60,
     /// The time limit passed before a first solution was found.
     ROUNDEL_ERROR_TIME_LIMIT = 61,
-    /// The option nodes, or the budget of auto, ended the search before a first solution was found.
+    /// The option nodes, the budget of auto, or the precision of numbers ended the search before a first solution was
+    /// found.
     ROUNDEL_ERROR_SEARCH_LIMIT = 62,
     /// A defect of the library, kept inside. The handle can only be freed from now on.
     ROUNDEL_ERROR_PANIC = 90,

@@ -172,6 +172,30 @@ fn squares_that_are_switched_on_have_the_bound_of_their_perspective() {
 }
 
 #[test]
+fn sides_that_are_integers_but_for_rounding_errors_hold_these_integers() {
+    // Capacities that are on are to be a tenth more than 900: in floating-point numbers, a little more than 990.
+    let demand = 1.1 * 900.0;
+    assert!(demand > 990.0);
+    let capacities = [455.0, 455.0, 80.0, 85.0];
+    let mut problem = Problem::new(5).unwrap();
+    problem.set_binaries(&[0, 1, 2, 3]).unwrap();
+    problem.add_linear(&[10.0, 10.0, 2.0, 3.0, 0.0]).unwrap();
+    let all = f64::INFINITY;
+    problem
+        .add_inequality(&[0, 1, 2, 3], &capacities, demand, all)
+        .unwrap();
+    // `0.1 x = 0.3` for an integer: the quotient is 2.9999999999999996.
+    problem.set_integers(&[4]).unwrap();
+    problem.add_inequality(&[4], &[0.1], 0.3, 0.3).unwrap();
+    let options = Options {
+        strategy: Strategy::Exact,
+        ..Options::default()
+    };
+    let solution = solve(&problem, &options).unwrap();
+    assert_eq!(solution.values(), [1.0, 1.0, 1.0, 0.0, 3.0]);
+}
+
+#[test]
 fn rows_that_come_during_the_search_count_like_those_before_it() {
     let (mut solved, mut without, mut relaxed) = (0, 0, 0);
     let is_tried = |name: &str| !matches!(name, "unbounded" | "not convex");

@@ -259,7 +259,7 @@ class TimeLimitError(Error):
 
 
 class SearchLimitError(Error):
-    """The option `nodes`, or the budget of auto, ended the search before a first solution was found."""
+    """The option `nodes`, the budget of auto, or the precision of numbers ended the search before a first solution."""
 
 
 class MissingPackageError(Error, ImportError):
