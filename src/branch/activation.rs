@@ -14,6 +14,9 @@ const CONTRADICTION: f64 = 1e-8;
 /// A sum below this part of its terms' sizes is zero.
 const CANCELLED: f64 = 1e-8;
 
+/// Steps of iterative refinement of a dual direction.
+const REFINEMENTS: usize = 2;
+
 /// An entry of a dual direction below this part of the largest is a rounding error.
 const NOTHING: f64 = 1e-11;
 
@@ -21,6 +24,13 @@ impl DualActiveSet<'_> {
     /// Whether the active rows in this direction cancel a row. Where some unknowns have a curvature and others
     /// only the small one that was added, the norm of `P` does not show it.
     fn cancels(&mut self, row: usize, sign: f64, direction: &[f64]) -> bool {
+        let (sums, sizes) = self.combined(row, sign, direction);
+        let mut pairs = sums.iter().zip(&sizes);
+        pairs.all(|(sum, size): (&f64, &f64)| sum.abs() <= CANCELLED * size)
+    }
+
+    /// `A_W' direction + sign a`, and the sums of the sizes of its terms.
+    fn combined(&mut self, row: usize, sign: f64, direction: &[f64]) -> (Vec<f64>, Vec<f64>) {
         let (form, n) = (self.form, self.limits.len());
         let mut sizes = vec![0.0; n];
         let mut sums = vec![0.0; n];
@@ -39,8 +49,20 @@ impl DualActiveSet<'_> {
             add(held.row as usize, d);
         }
         self.work += n as u64;
-        let mut pairs = sums.iter().zip(&sizes);
-        pairs.all(|(sum, size): (&f64, &f64)| sum.abs() <= CANCELLED * size)
+        (sums, sizes)
+    }
+
+    /// Iterative refinement of a direction, so that what it leaves of a row that depends on the active rows is zero.
+    fn refine_direction(&mut self, row: usize, sign: f64, direction: &mut [f64]) {
+        for _ in 0..REFINEMENTS {
+            let (sums, _) = self.combined(row, sign, direction);
+            let image = self.inverse.mul(&sums);
+            let product = |held: &Active| self.product(held.row as usize, &image);
+            let mut step: Vec<f64> = self.active.iter().map(product).collect();
+            self.factor.solve(&mut step);
+            self.work += (step.len() * step.len()) as u64;
+            direction.iter_mut().zip(&step).for_each(|(d, s)| *d -= s);
+        }
     }
 
     /// Whether the sides of a combination of rows contradict each other by more than rounding errors.
@@ -65,23 +87,30 @@ impl DualActiveSet<'_> {
         };
         loop {
             let (entries, left, square) = self.factor_row(row);
-            if left > DEPENDENT * square {
+            // Of more rows than unknowns, one depends on the others.
+            let is_full = self.active.len() >= self.limits.len();
+            if left > DEPENDENT * square && !is_full {
                 self.append(active, entries, left);
                 return None;
             }
             // `A_W' direction + sign a = 0`, and `entries` are `D^-1 L^-1 A_W P a`.
             let mut direction: Vec<f64> = entries.iter().map(|l| -sign * l).collect();
             self.factor.solve_transposed(&mut direction);
-            if left > LOST * square && !self.cancels(row, sign, &direction) {
+            if left > LOST * square {
+                self.refine_direction(row, sign, &mut direction);
+            }
+            let largest = direction.iter().fold(1.0, |m: f64, d| m.max(d.abs()));
+            let is_nothing = |d: &&mut f64| d.abs() <= NOTHING * largest;
+            direction
+                .iter_mut()
+                .filter(is_nothing)
+                .for_each(|d| *d = 0.0);
+            if left > LOST * square && !is_full && !self.cancels(row, sign, &direction) {
                 self.append(active, entries, left);
                 return None;
             }
-            let largest = direction.iter().fold(1.0, |m: f64, d| m.max(d.abs()));
             let mut first: Option<(usize, f64)> = None;
-            for (k, (held, d)) in self.active.iter().zip(&mut direction).enumerate() {
-                if d.abs() <= NOTHING * largest {
-                    *d = 0.0;
-                }
+            for (k, (held, d)) in self.active.iter().zip(&direction).enumerate() {
                 let falls = if held.upper { *d < 0.0 } else { *d > 0.0 };
                 if falls && !self.interval(held.row as usize).is_point() {
                     let step = (held.multiplier / -*d).max(0.0);
