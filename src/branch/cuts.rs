@@ -10,10 +10,10 @@ use crate::error::Result;
 use crate::monitor::Monitor;
 
 /// The largest number of rounds.
-const ROUNDS: usize = 20;
+const ROUNDS: usize = 50;
 
 /// Rounds end when the bound rises by less than this part of its rise so far.
-const LITTLE: f64 = 0.02;
+const LITTLE: f64 = 0.002;
 
 /// Cuts are kept if the bound rises by this part of it.
 const WORTH: f64 = 1e-4;

@@ -23,7 +23,7 @@ use super::form::{Form, Interval};
 use super::safe_bound::Sized;
 use crate::linalg::Sparse;
 
-/// The largest number of rows of a sum, apart from those of one integer and one real.
+/// A sum of this many rows gets no more, but for those of one integer and one real.
 const SUMMED: usize = 6;
 
 /// The largest number of unknowns of a sum.
@@ -87,12 +87,11 @@ impl<'a> Rounding<'a> {
     /// `point` is the minimiser.
     pub fn new(form: &'a Form, point: &[f64]) -> Self {
         let (n, rows) = (form.dim(), form.rows.rows());
-        let mut limits: Vec<Interval> = form
-            .limits
-            .iter()
-            .zip(&form.boxes)
-            .map(|(limits, implied)| limits.and(*implied))
-            .collect();
+        let limits = (0..n).map(|j| match form.integer[j] {
+            true => form.limits[j].of_integers(),
+            false => form.limits[j].and(form.boxes[j]),
+        });
+        let mut limits: Vec<Interval> = limits.collect();
         let mut values = point.to_vec();
         values.extend(form.rows.mul(point));
         for (i, sides) in form.row_limits.iter().enumerate() {
@@ -186,8 +185,11 @@ impl<'a> Rounding<'a> {
                 let is_one = others.next().is_none() && form.integer[z] && !used.contains(&i);
                 is_one.then(|| (self.distance(form.dim() + i) / a.abs(), i, a))
             };
-            let links = self.columns.row(x).filter_map(is_link);
+            let rows = self.columns.row(x);
+            let looked_at = rows.len() as u64;
+            let links = rows.filter_map(is_link);
             let nearest = links.min_by(|a, b| a.0.total_cmp(&b.0));
+            self.work += looked_at;
             if let Some((distance, row, a)) = nearest
                 && distance <= self.distance(x) + CLOSE
             {
