@@ -7,7 +7,7 @@ use super::mir::{Cut, Rounding};
 use super::relaxation::{Relaxation, Relaxed, regularization};
 use super::shared::Shared;
 use crate::error::Result;
-use crate::monitor::Monitor;
+use crate::monitor::{Monitor, is_wanted};
 
 /// The largest number of rounds.
 const ROUNDS: usize = 50;
@@ -120,7 +120,7 @@ fn separated(form: &Form, point: &[f64]) -> Vec<Cut> {
     let mut rounding = Rounding::new(form, point);
     let mut found = Vec::new();
     for row in 0..form.rows.rows() {
-        if rounding.work > WORK {
+        if rounding.work > WORK || is_wanted().is_err() {
             break;
         }
         rounding.separate(row, &mut found);
