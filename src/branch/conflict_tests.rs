@@ -116,3 +116,21 @@ fn the_naming_of_a_contradiction_ends_with_its_call() {
     // Nothing is left out: four rows, and the bounds of three unknowns.
     assert_eq!(of_form(&form, &members, &over).len(), 7);
 }
+
+#[test]
+fn an_empty_range_alone_is_the_contradiction() {
+    // A pin outside of the bounds of an integer, which rows couple with others.
+    let mut problem = Problem::new(3).unwrap();
+    problem.set_integers(&[0, 1, 2]).unwrap();
+    problem
+        .set_bounds(&[0, 1, 2], &[1.0, 0.0, 0.0], &[2.0, 1.0, 1.0])
+        .unwrap();
+    problem.pin(2, 2.0).unwrap();
+    problem.add_inequality(&[1], &[2.0], 0.5, 2.0).unwrap();
+    problem
+        .add_inequality(&[0, 1], &[-5.0, 4.0], f64::NEG_INFINITY, 0.0)
+        .unwrap();
+    assert!(form_of(&problem).limits[2].is_empty());
+    let named = of_form(&form_of(&problem), &[0, 1, 2], &Monitor::default());
+    assert_eq!(named, [Conflicting::Bounds(2)]);
+}

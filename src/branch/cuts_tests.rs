@@ -1,8 +1,6 @@
 //! Cuts raise the bound and keep the least energy.
 
-use super::super::search_strengthened;
-use super::super::tree::tests::least;
-use super::super::tree::{Limits, search};
+use super::super::tree::tests::{least, nodes};
 use super::*;
 use crate::branch::form::Interval;
 use crate::error::Conflicting;
@@ -87,24 +85,12 @@ fn the_least_energy_of_lots_stays_and_a_third_of_the_gap_is_closed() {
 #[test]
 fn lots_take_half_of_the_nodes() {
     let mut random = Random::new(7);
-    let limits = Limits {
-        inner: false,
-        ..Limits::inner(u64::MAX)
-    };
-    let mut nodes = [0; 2];
+    let mut all = [0; 2];
     for _ in 0..5 {
-        let form = lots(2, 6, &mut random);
-        let monitor = &mut Monitor::default();
-        let found = [
-            search(&form, None, limits, monitor).unwrap(),
-            search_strengthened(&form, None, limits, monitor).unwrap(),
-        ];
-        for (found, nodes) in found.iter().zip(&mut nodes) {
-            assert!(found.is_complete);
-            *nodes += found.nodes;
-        }
+        let own = nodes(&lots(2, 6, &mut random));
+        all = [all[0] + own[0], all[1] + own[1]];
     }
-    assert!(2 * nodes[1] < nodes[0], "{nodes:?}");
+    assert!(2 * all[1] < all[0], "{all:?}");
 }
 
 #[test]

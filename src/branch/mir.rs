@@ -235,7 +235,7 @@ impl<'a> Rounding<'a> {
         false
     }
 
-    /// The cut that the equation implies, one of its sides kept, if the minimiser is far enough from it.
+    /// The cut that the equation, times 1 or -1 and with `<=`, implies, if the minimiser is far enough from it.
     fn cut(&mut self, sign: f64) -> Option<Cut> {
         self.touched.sort_unstable();
         let sums = self.touched.iter().map(|&v| {
@@ -247,13 +247,12 @@ impl<'a> Rounding<'a> {
             (v, signed)
         });
         let (row, side) = weakened(sums, Sized::default(), &self.limits)?;
-        let (mut terms, side) = self.distances(&row, side)?;
+        let (mut terms, mut side) = self.distances(&row, side)?;
         self.work += 10 * terms.len() as u64;
         let scale = best_scale(&terms, side)?;
         let (mut rounded, mut right) = rounded(&terms, side, scale)?;
         let mut best = efficacy(&rounded, right);
-        // The other limits of integers between them.
-        let mut side = side;
+        // The other limits of integers that are between theirs.
         for k in 0..terms.len() {
             let Some(next) = self.with_other_limit(&terms, side, k) else {
                 continue;
@@ -473,7 +472,7 @@ fn rounded(terms: &[Term], side: f64, scale: f64) -> Option<(Vec<Term>, f64)> {
             let rise = (a - a.floor() - fraction).max(0.0) / rest;
             a.floor() + rise - 8.0 * unit * (a.abs() + 1.0) / (rest * rest)
         } else {
-            a.min(0.0) / rest * (1.0 + 8.0 * unit)
+            a.min(0.0) / rest * (1.0 + 8.0 * unit / rest)
         };
         let next = Term {
             coefficient,

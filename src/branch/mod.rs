@@ -11,8 +11,9 @@
 //! | `presolve`, `propagate` | what is decided before the search; bounds tightened through rows |
 //! | `hull` | copies of unknowns that convex hulls of choices have, left out |
 //! | `symmetry`, `dominated` | choices that may change places, in one order |
-//! | `mir`, `cuts` | mixed-integer rounding: rows that raise the bound of the root |
 //! | `perspective` | squares that a binary switches on, with a larger bound |
+//! | `implied_bounds` | rows for what choices imply of real unknowns |
+//! | `mir`, `cuts` | cuts at the root by mixed-integer rounding |
 //! | `inverse`, `shared`, `working_set` | the matrices of a strictly convex quadratic program |
 //! | `dual_active_set`, `activation`, `refine` | its solution |
 //! | `relaxation`, `interior` | the relaxation of a node, also where Q is singular, and where many rows are active |

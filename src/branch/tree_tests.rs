@@ -1,9 +1,12 @@
 //! A node is empty only where a certificate shows it.
 
 use super::*;
+use crate::branch::presolve::Part;
 use crate::branch::working_set::Ldl;
-use crate::error::Conflicting;
+use crate::branch::{search_strengthened, with_point};
+use crate::error::{Conflicting, Error};
 use crate::linalg::Sparse;
+use crate::problem::Problem;
 
 /// The least energy of a form, and where it is. The search begins at `start`.
 pub(in crate::branch) fn least(form: &Form, start: Option<Vec<f64>>) -> Option<(Vec<f64>, f64)> {
@@ -14,6 +17,23 @@ pub(in crate::branch) fn least(form: &Form, start: Option<Vec<f64>>) -> Option<(
     let found = search(form, start, limits, &mut Monitor::default()).unwrap();
     assert!(found.is_complete, "{found:?}");
     found.best
+}
+
+/// The nodes of a search of the form as it is, and of one after it is strengthened.
+pub(in crate::branch) fn nodes(form: &Form) -> [u64; 2] {
+    let limits = Limits {
+        inner: false,
+        ..Limits::inner(u64::MAX)
+    };
+    let monitor = &mut Monitor::default();
+    let found = [
+        search(form, None, limits, monitor).unwrap(),
+        search_strengthened(form, None, limits, monitor).unwrap(),
+    ];
+    found.map(|found| {
+        assert!(found.is_complete);
+        found.nodes
+    })
 }
 
 /// The least square of two unknowns from 0 to 1 whose sum is at least 1, the first at most 0.2.
@@ -76,5 +96,17 @@ fn without_a_point_a_search_is_complete_only_where_all_nodes_are_shown_to_be_emp
         tree.done = done;
         let found = tree.result();
         assert_eq!((found.is_complete, found.bound), (is_complete, done));
+        let mut problem = Problem::new(2).unwrap();
+        problem
+            .add_inequality(&[0, 1], &[1.0; 2], 1.0, f64::INFINITY)
+            .unwrap();
+        let form = square();
+        let part = Part {
+            form,
+            members: vec![0, 1],
+        };
+        let error = with_point(&problem, &[], &part, Ok(found), &monitor).unwrap_err();
+        let in_doubt = Error::SearchLimit { what: "precision" };
+        assert_eq!(error == in_doubt, !is_complete, "{error}");
     }
 }
