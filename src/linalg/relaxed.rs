@@ -57,11 +57,11 @@ impl RelaxedFactor {
         may_continue()?;
         let all = 0..n as u32;
         let (local, rest): (Vec<u32>, Vec<u32>) = all.partition(|&i| is_local[i as usize]);
-        let mut diagonal = vec![0.0; n];
-        for (i, _, v) in lower.entries().filter(|&(i, j, _)| i == j) {
-            diagonal[i as usize] = v;
-        }
-        let curvature: Vec<f64> = local.iter().map(|&p| diagonal[p as usize]).collect();
+        let diagonal = |&p: &u32| match lower.row(p as usize).last() {
+            Some((j, v)) if j == p as usize => v,
+            _ => 0.0,
+        };
+        let curvature: Vec<f64> = local.iter().map(diagonal).collect();
         let coupling = coupling(lower, &local, &rest)?;
         let place = places(n, &rest);
         let schur = if local.is_empty() {

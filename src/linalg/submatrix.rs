@@ -28,6 +28,28 @@ pub fn places(dim: usize, members: &[u32]) -> Vec<u32> {
 /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
 pub fn principal_submatrix(lower: &Sparse, members: &[u32]) -> Result<Sparse> {
     let place = places(lower.rows(), members);
+    rows_of(lower, members, &place, members.len())
+}
+
+/// The block with the rows `rows` and the columns `cols`, both of which must increase and have no member in common.
+///
+/// # Errors
+/// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+pub fn coupling(lower: &Sparse, rows: &[u32], cols: &[u32]) -> Result<Sparse> {
+    let (row, col) = (places(lower.rows(), rows), places(lower.rows(), cols));
+    let before = rows_of(lower, rows, &col, cols.len())?;
+    let after = rows_of(lower, cols, &row, rows.len())?;
+    match [before.len(), after.len()] {
+        [_, 0] => Ok(before),
+        [0, _] => Ok(after.transpose()),
+        // The columns of the lower triangle precede those that its rows give by symmetry.
+        _ => side_by_side(&before, &after.transpose()),
+    }
+}
+
+/// The rows `members` of a lower triangle, which must increase, with those of its entries that have a place among so
+/// many columns.
+fn rows_of(lower: &Sparse, members: &[u32], place: &[u32], columns: usize) -> Result<Sparse> {
     let of_rows = |part: Range<usize>| {
         let rows = &members[part];
         let most = match (rows.first(), rows.last()) {
@@ -46,28 +68,25 @@ pub fn principal_submatrix(lower: &Sparse, members: &[u32]) -> Result<Sparse> {
             }
             offsets.push(indices.len());
         }
-        Ok(Sparse::from_parts(members.len(), offsets, indices, values))
+        Ok(Sparse::from_parts(columns, offsets, indices, values))
     };
     Sparse::stacked(in_parts(members.len(), LEAST, of_rows))
 }
 
-/// The block with the rows `rows` and the columns `cols`, which must have no member in common.
-///
-/// # Errors
-/// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
-pub fn coupling(lower: &Sparse, rows: &[u32], cols: &[u32]) -> Result<Sparse> {
-    let (row, col) = (places(lower.rows(), rows), places(lower.rows(), cols));
-    let entries = lower.entries().filter_map(|(i, j, v)| {
-        let (i, j) = (i as usize, j as usize);
-        if row[i] != NO_PLACE && col[j] != NO_PLACE {
-            Some((row[i], col[j], v))
-        } else if row[j] != NO_PLACE && col[i] != NO_PLACE {
-            Some((row[j], col[i], v))
-        } else {
-            None
+/// The entries of two matrices of one shape, where those of the first precede those of the second in each row.
+fn side_by_side(first: &Sparse, second: &Sparse) -> Result<Sparse> {
+    let count = first.len() + second.len();
+    let mut offsets = reserve(first.rows() + 1)?;
+    let (mut indices, mut values) = (reserve(count)?, reserve(count)?);
+    offsets.push(0);
+    for i in 0..first.rows() {
+        for (j, v) in first.row(i).chain(second.row(i)) {
+            indices.push(j as u32);
+            values.push(v);
         }
-    });
-    Sparse::from_triplets(rows.len(), cols.len(), entries)
+        offsets.push(indices.len());
+    }
+    Ok(Sparse::from_parts(first.cols(), offsets, indices, values))
 }
 
 #[cfg(test)]

@@ -32,7 +32,7 @@ pub(crate) use shapes::Shapes;
 use surface::Surface;
 
 /// The least number of quads that are worth a thread.
-const LEAST: usize = 1 << 11;
+const LEAST: usize = 1 << 9;
 
 /// The options of smoothing.
 #[derive(Debug, Clone, PartialEq)]
@@ -119,7 +119,7 @@ fn smoothed(
     if fills {
         rims::fill(quads, mesh, &features, &mut surface);
     }
-    let home = quads.vertices.clone();
+    let (home, corners) = (quads.vertices.clone(), corners(quads));
     let (sizes, elongations) = (shapes.sizes(quads, mesh), shapes.elongations(quads, mesh));
     for round in 0..options.rounds {
         if monitor.finishes() || surface.has_spent_its_work() {
@@ -138,22 +138,30 @@ fn smoothed(
                 }
             }
         });
-        let mut sum = vec![([0.0; 3], 0.0); quads.vertices.len()];
-        for (quad, targets) in quads.quads.iter().zip(targets) {
-            for (&v, target) in quad.iter().zip(targets) {
-                let (total, count) = &mut sum[v as usize];
-                *total = add(*total, target);
-                *count += 1.0;
-            }
-        }
-        let wanted = sum.into_iter().zip(&home).map(|((total, count), &home)| {
-            let wanted = scale(total, 1.0 / count);
-            (count > 0.0).then(|| add(wanted, scale(sub(home, wanted), options.hold)))
-        });
-        surface.project_all(&wanted.collect::<Vec<_>>(), &mut quads.vertices);
+        let wanted = |v: usize| {
+            let (corners, home) = (&corners[v], home[v]);
+            let targets = corners
+                .iter()
+                .map(|&(q, k)| targets[q as usize][k as usize]);
+            let total = targets.fold([0.0; 3], add);
+            let wanted = scale(total, 1.0 / corners.len() as f64);
+            (!corners.is_empty()).then(|| add(wanted, scale(sub(home, wanted), options.hold)))
+        };
+        surface.project_all(wanted, &mut quads.vertices);
     }
     mend::mend(quads, &mut surface);
     Ok(Some(surface))
+}
+
+/// The corners of quads at every vertex, each as its quad and its number there, in the order of the quads.
+fn corners(quads: &QuadMesh) -> Vec<Vec<(u32, u8)>> {
+    let mut corners = vec![Vec::new(); quads.vertices.len()];
+    for (q, quad) in quads.quads.iter().enumerate() {
+        for (k, &v) in quad.iter().enumerate() {
+            corners[v as usize].push((q as u32, k as u8));
+        }
+    }
+    corners
 }
 
 fn check(options: &SmoothOptions) -> Result<()> {

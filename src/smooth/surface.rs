@@ -101,8 +101,12 @@ impl Surface {
     }
 
     /// Moves each vertex to the point nearest to its wanted one that satisfies its constraint, if there is one.
-    pub(super) fn project_all(&mut self, wanted: &[Option<Vec3>], vertices: &mut [Vec3]) {
-        let found = collect_in_parts(wanted.len(), LEAST, |v| Some(self.find(v, wanted[v]?)));
+    pub(super) fn project_all(
+        &mut self,
+        wanted: impl Fn(usize) -> Option<Vec3> + Sync,
+        vertices: &mut [Vec3],
+    ) {
+        let found = collect_in_parts(vertices.len(), LEAST, |v| Some(self.find(v, wanted(v)?)));
         for (v, found) in found.into_iter().enumerate() {
             if let Some(point) = found.and_then(|found| self.keep(v, found)) {
                 vertices[v] = point;
@@ -234,8 +238,7 @@ mod tests {
         let mut points = quads.vertices.clone();
         // Far beyond the corner, and beyond each side.
         for out in [[9.0, 9.0, 0.0], [9.0, 0.01, 0.0], [0.01, -9.0, 0.0]] {
-            let wanted = vec![Some(out); points.len()];
-            surface.project_all(&wanted, &mut points);
+            surface.project_all(|_| Some(out), &mut points);
             for (v, &before) in quads.vertices.iter().enumerate() {
                 match surface.bonds[v] {
                     Bond::Surface => assert_eq!(points[v], before),
@@ -251,8 +254,7 @@ mod tests {
                 );
             }
         }
-        let wanted = vec![Some([0.01, 0.02, 0.3]); points.len()];
-        surface.project_all(&wanted, &mut points);
+        surface.project_all(|_| Some([0.01, 0.02, 0.3]), &mut points);
         let inside = surface.bonds.iter().position(|&b| b == Bond::Surface);
         let moved = sub(points[inside.unwrap()], [0.01, 0.02, 0.0]);
         assert!(norm(moved) < 1e-15, "{moved:?}");
