@@ -105,28 +105,41 @@ impl IntegerGridMap {
         uvs: &[[[f64; 2]; 3]],
         quarters: impl Fn([(usize, usize); 2]) -> u8 + Sync,
     ) -> Result<Self> {
-        let over_edges = collect_in_parts(mesh.edge_count(), LEAST, |e| {
-            let edge = mesh.edge(e);
-            let sides = [edge.first, edge.second?];
-            Some((sides, step(uvs, sides, quarters(sides))))
-        });
+        // The step out of a face over each of its edges, or the edge over which there is none.
+        let of_face = |face: usize| {
+            let mut steps = [Step::default(); 3];
+            for (k, own) in steps.iter_mut().enumerate() {
+                let number = mesh.edge_of(face, k);
+                let edge = mesh.edge(number);
+                let Some(second) = edge.second else {
+                    continue;
+                };
+                let sides = [edge.first, second];
+                let step = step(uvs, sides, quarters(sides)).ok_or(number)?;
+                *own = match (face, k) == edge.first {
+                    true => step,
+                    false => step.inverse(),
+                };
+            }
+            Ok(steps)
+        };
+        let of_faces = collect_in_parts(mesh.face_count(), LEAST, of_face);
         may_continue()?;
-        let mut steps = vec![[Step::default(); 3]; mesh.face_count()];
-        for (e, over_edge) in over_edges.into_iter().enumerate() {
-            let Some((sides, step)) = over_edge else {
-                continue;
-            };
-            let step = step.ok_or_else(|| Error::InvalidArgument {
+        let without = of_faces.iter().filter_map(|steps| steps.as_ref().err());
+        if let Some(&e) = without.min() {
+            let edge = mesh.edge(e);
+            let (first, second) = (
+                edge.first.0,
+                edge.second.map_or(edge.first.0, |side| side.0),
+            );
+            return Err(Error::InvalidArgument {
                 what: format!(
-                    "over edge {e}, between faces {} and {}, the map does not change by a quarter turn and integers",
-                    sides[0].0, sides[1].0
+                    "over edge {e}, between faces {first} and {second}, the map does not change by a quarter turn and integers"
                 ),
                 index: Some(e),
-            })?;
-            let [(first, k), (second, l)] = sides;
-            steps[first][k] = step;
-            steps[second][l] = step.inverse();
+            });
         }
+        let steps: Vec<[Step; 3]> = of_faces.into_iter().flatten().collect();
         let mut map = IntegerGridMap {
             corners: vec![[[0; 2]; 3]; mesh.face_count()],
             turns: steps.iter().map(|s| s.map(|s| s.quarters)).collect(),

@@ -33,14 +33,12 @@ pub(super) fn count(mesh: &TriangleMesh, fraction: f64) -> Result<usize> {
 
 /// The `count` faces whose direction is most reliable.
 pub(super) fn most_reliable(curvature: &Curvature, count: usize) -> Vec<Constraint> {
-    let mut faces = curvature.by_reliability();
-    faces.truncate(count);
-    faces.sort_unstable();
     let constraint = |face| Constraint {
         face,
         angle: curvature.direction[face],
     };
-    faces.into_iter().map(constraint).collect()
+    let faces = curvature.most_reliable(count).into_iter();
+    faces.map(constraint).collect()
 }
 
 /// Guides with less weight are left out: they are below the rounding error of edges, which weigh 1.

@@ -57,11 +57,7 @@ impl RelaxedFactor {
         may_continue()?;
         let all = 0..n as u32;
         let (local, rest): (Vec<u32>, Vec<u32>) = all.partition(|&i| is_local[i as usize]);
-        let diagonal = |&p: &u32| match lower.row(p as usize).last() {
-            Some((j, v)) if j == p as usize => v,
-            _ => 0.0,
-        };
-        let curvature: Vec<f64> = local.iter().map(diagonal).collect();
+        let curvature: Vec<f64> = local.iter().map(|&p| lower.diagonal(p as usize)).collect();
         let coupling = coupling(lower, &local, &rest)?;
         let place = places(n, &rest);
         let schur = if local.is_empty() {
@@ -189,11 +185,7 @@ fn schur(
 ) -> Result<Sparse> {
     let dim = rest.len();
     let by_unknown = coupling.transpose();
-    let size = collect_in_parts(dim, LEAST, |a| {
-        let i = rest[a] as usize;
-        let diagonal = lower.row(i).find(|&(j, _)| j == i);
-        diagonal.map_or(0.0, |(_, v)| v.abs())
-    });
+    let size = collect_in_parts(dim, LEAST, |a| lower.diagonal(rest[a] as usize).abs());
     let tolerance = pivot_tolerance(dim);
     let is_cancelled =
         |a: usize, b: usize, v: f64| v * v <= tolerance * tolerance * size[a] * size[b];

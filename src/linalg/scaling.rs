@@ -7,10 +7,7 @@ use super::Sparse;
 /// Scaling by powers of two has no rounding error, so pivots that cancel exactly still do so.
 pub fn equilibrate(lower: &Sparse) -> Vec<f64> {
     (0..lower.rows())
-        .map(|i| match lower.row(i).last() {
-            Some((j, d)) if j == i => unit_scale(d),
-            _ => 1.0,
-        })
+        .map(|i| unit_scale(lower.diagonal(i)))
         .collect()
 }
 

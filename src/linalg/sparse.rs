@@ -257,6 +257,15 @@ impl Sparse {
             .map(|(&j, &v)| (j as usize, v))
     }
 
+    /// Entry `(i, i)` of a lower triangle: the last one of its row, or zero if it is not stored.
+    pub fn diagonal(&self, i: usize) -> f64 {
+        let row = self.offsets[i]..self.offsets[i + 1];
+        match self.indices[row.clone()].last() {
+            Some(&j) if j as usize == i => self.values[row.end - 1],
+            _ => 0.0,
+        }
+    }
+
     /// All entries `(row, column, value)`, row after row.
     pub fn entries(&self) -> impl Iterator<Item = (u32, u32, f64)> + Clone + '_ {
         (0..self.rows()).flat_map(move |i| self.row(i).map(move |(j, v)| (i as u32, j as u32, v)))

@@ -15,11 +15,14 @@ use super::shared_float::SharedFloat;
 use super::sparse::reserve;
 use super::unknown::{DETERMINED, INTEGER, LOCAL, MOST_ACTIVE, Unknown};
 use crate::error::{Error, Result};
-use crate::monitor::{collect_in_turn, may_continue, may_continue_at};
+use crate::monitor::{both, collect_in_turn, may_continue, may_continue_at};
 
 /// The rows that a thread takes at a time: those of local integers take less time than the others, which precede
 /// them.
 const ROWS: usize = 1 << 13;
+
+/// The transpose of a matrix with so many rows is worth a thread.
+const LARGE: usize = 1 << 14;
 
 /// The blocks of rows that are condensed before they are appended to the others.
 const BLOCKS: usize = 32;
@@ -192,14 +195,13 @@ impl StaticCondensation {
     /// `point`.
     pub fn new(lower: &Sparse, integer: &[bool], point: &[f64]) -> Result<Self> {
         let n = lower.rows();
-        let local = local_integers(lower, integer);
-        let mut diagonal = vec![0.0; n];
-        for i in 0..n {
-            let last = lower.row(i).last().filter(|&(j, _)| j == i);
-            diagonal[i] = last.map_or(0.0, |(_, v)| v);
-        }
+        let (local, upper) = both(
+            n >= LARGE,
+            || local_integers(lower, integer),
+            || lower.transpose(),
+        );
+        let diagonal: Vec<f64> = (0..n).map(|i| lower.diagonal(i)).collect();
         may_continue()?;
-        let upper = lower.transpose();
         let all = Uncondensed {
             triangles: [lower, &upper],
             diagonal: &diagonal,

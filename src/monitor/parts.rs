@@ -144,7 +144,10 @@ pub(crate) fn both<A, B: Send>(
     // It is taken once, by the other thread if there is one.
     let take = || second.lock().ok().and_then(|mut second| second.take());
     std::thread::scope(|scope| {
-        let there = || take().map(|second| shared.task(others, second));
+        let there = || {
+            let _task = trace::span("task");
+            take().map(|second| shared.task(others, second))
+        };
         let there = spawn(scope, own, there);
         let first = shared.task(own, first);
         let there = match there {
@@ -170,6 +173,7 @@ pub(crate) fn in_blocks<T: Send>(count: usize, block: impl Fn(Range<usize>) -> T
 mod tests {
     use super::super::spawned;
     use super::super::threads::with_threads;
+    use super::super::traced;
     use super::*;
     use std::sync::Barrier;
 
@@ -221,7 +225,17 @@ mod tests {
             }
         };
         with_threads(3, || both(true, until_all, || ()));
-        with_threads(3, || both(true, || (), until_all));
+        let ((), trace) = with_threads(3, || {
+            traced(false, || {
+                both(true, || (), until_all);
+            })
+        });
+        assert!(
+            trace
+                .spans
+                .iter()
+                .any(|span| (span.name, span.thread) == ("task", 2))
+        );
     }
 
     #[test]

@@ -33,11 +33,11 @@ impl Attempt {
         field: usize,
         solution: Solution,
         map: Untangled,
-        mut monitor: Monitor,
+        monitor: &mut Monitor,
     ) -> Result<Self> {
         may_continue()?;
         let exact = IntegerGridMap::from_seamless(mesh, &map.map)?;
-        let quads = extract(mesh, &exact, &mut monitor)?;
+        let quads = extract(mesh, &exact, monitor)?;
         may_continue()?;
         let missed = missed(mesh, &quads, features);
         Ok(Attempt {

@@ -35,9 +35,9 @@ use super::{QuadSeconds, Quadrangulation};
 use crate::error::{Error, Result};
 use crate::field::FieldProblem;
 use crate::map::Sizing;
-use crate::mesh::TriangleMesh;
 use crate::mesh::features::FeatureGraph;
-use crate::monitor::{Monitor, Stage, optional};
+use crate::mesh::{ClosestPoint, TriangleMesh};
+use crate::monitor::{Monitor, Stage, both, optional};
 use crate::smooth::{Shapes, SmoothOptions, smooth_to};
 use crate::solve::Solution;
 use crate::untangle::{FINER, Untangled};
@@ -80,6 +80,9 @@ const FACES: usize = 10_000;
 
 /// The same for a mesh that was tried before.
 const FACES_AGAIN: usize = 4_000;
+
+/// The tree of so many faces is worth a thread while quads are extracted.
+const LARGE: usize = 1 << 13;
 
 /// What a map takes besides what follows, in faces.
 const FACES_OF_ANY: u64 = 100;
@@ -143,6 +146,7 @@ pub(super) fn in_order<'a>(
         monitor,
         started: Instant::now(),
         fields: Vec::new(),
+        faces: None,
         seconds: QuadSeconds::default(),
     };
     let mut best = driver.follow(false)?;
@@ -222,6 +226,8 @@ pub(super) struct Driver<'a, M> {
     started: Instant,
     /// One for each size of quads or details that was tried.
     fields: Vec<FieldMap<'a, M>>,
+    /// The tree of the faces that smoothing looks for closest points in, once there are quads.
+    faces: Option<ClosestPoint>,
     seconds: QuadSeconds,
 }
 
@@ -420,8 +426,17 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Driver<'a, M> {
         let field = self.current;
         let features: Vec<usize> = self.features.edges().collect();
         let asked = asked(self.mesh, self.options);
-        let monitor = (self.monitor)();
-        Attempt::new(self.mesh, (&features, asked), field, solution, map, monitor)
+        let (mesh, mut monitor) = (self.mesh, (self.monitor)());
+        let is_wanted = self.faces.is_none() && self.options.smooth.is_some();
+        let is_large = is_wanted && mesh.face_count() >= LARGE;
+        let extract = || {
+            let to_follow = (&features[..], asked);
+            Attempt::new(mesh, to_follow, field, solution, map, &mut monitor)
+        };
+        let tree = || is_wanted.then(|| ClosestPoint::new(mesh));
+        let (found, tree) = both(is_large, extract, tree);
+        self.faces = self.faces.take().or(tree);
+        found
     }
 
     /// Counts the work of a map.
@@ -452,7 +467,7 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Driver<'a, M> {
     /// Smooths the quads, and compares strategies if the options ask for it.
     fn finish(mut self, best: Attempt, maps_for_count: usize) -> Result<Quadrangulation> {
         let (mesh, options, monitor) = (self.mesh, self.options, self.monitor);
-        let mut seconds = self.seconds;
+        let (mut seconds, faces) = (self.seconds, self.faces.take());
         seconds.extract = self.started.elapsed().as_secs_f64() - seconds.field - seconds.map;
         let followed = self.fields.swap_remove(best.field);
         // No smoothing mends a map that is folded nearly everywhere, and smoothing a million quads takes minutes.
@@ -482,7 +497,7 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Driver<'a, M> {
                     lengths: self.lengths.as_deref(),
                     proportions: (options.stretch > 0.0).then_some(&proportions),
                 };
-                smooth_to(&mut quads, mesh, &given, shapes, &mut monitor())?;
+                smooth_to(&mut quads, mesh, faces, &given, shapes, &mut monitor())?;
                 missed_features = missed(mesh, &quads, &missed_features);
                 Ok(())
             })?;

@@ -131,7 +131,8 @@ fn smoothed<'a>(
         ..given.clone()
     };
     let mut moved = quads.clone();
-    smooth_to(&mut moved, mesh, &given, Shapes::default(), &mut monitor())?;
+    let shapes = Shapes::default();
+    smooth_to(&mut moved, mesh, None, &given, shapes, &mut monitor())?;
     let faults = |quads: &QuadMesh| {
         let quality = QuadQuality::new(quads);
         (quality.inverted, quality.angle_deviation)

@@ -8,6 +8,7 @@
 //! what is at the rim of a region of one is inside a region of the other. Integers at the rims of both, and those
 //! with the largest deviations, are left to the passes over the whole problem.
 
+use std::cmp::Reverse;
 use std::collections::VecDeque;
 
 use super::adaptive::{UPDATES_AT_A_TIME, UPDATES_PER_UNKNOWN};
@@ -144,9 +145,14 @@ pub(super) fn round_in_regions(
     let division = |first| Division::new(solve, integers, dim, count, first);
     let (first, second) = both(true, || division(0.25), || division(0.75));
     let divisions = [first, second];
+    // The work of each region, at first by its integers, then by its last updates: what takes longest begins first.
+    let mut work = [0, 1].map(|which: usize| -> Vec<usize> {
+        divisions[which].integers.iter().map(Vec::len).collect()
+    });
     let mut left: Vec<u32> = Vec::new();
-    let steps = (1..=LEVELS).flat_map(|level| divisions.iter().map(move |of| (level, of)));
-    for (level, division) in steps {
+    let steps = (1..=LEVELS).flat_map(|level| [(level, 0), (level, 1)]);
+    for (level, which) in steps {
+        let (division, work) = (&divisions[which], &mut work[which]);
         let done = rounded.count as f64 / integers.len() as f64;
         if monitor.ends_at(Phase::Round, done) {
             break;
@@ -158,8 +164,11 @@ pub(super) fn round_in_regions(
         for i in inner {
             of_region[division.region[i as usize] as usize].push(i);
         }
-        let regions = tasks(count, monitor, |k, monitor| {
+        let mut order: Vec<usize> = (0..count).collect();
+        order.sort_by_key(|&k| (Reverse(work[k]), k));
+        let regions = tasks(count, monitor, |place, monitor| {
             let _span = span("region");
+            let k = order[place];
             let mut region = Region {
                 model,
                 options,
@@ -175,9 +184,12 @@ pub(super) fn round_in_regions(
             }
             (region.rounded, region.updates, region.wave)
         });
-        for (count, updates, wave) in regions {
+        let mut regions: Vec<_> = order.into_iter().zip(regions).collect();
+        regions.sort_unstable_by_key(|&(k, _)| k);
+        for (k, (count, updates, wave)) in regions {
             rounded.count += count;
             rounded.updates += updates;
+            work[k] = updates;
             left.extend(wave.into_left());
         }
     }

@@ -34,6 +34,8 @@ pub(crate) struct Factors {
     schur_factor: Option<SchurFactor>,
     /// The order and the pattern of that factor, until it is made.
     schur_analysis: Option<Analysis>,
+    /// Whether all integers of the model are in one component, once that is known.
+    is_connected: Option<bool>,
     /// By component: its own factors.
     components: Vec<Factors>,
     seconds: f64,
@@ -156,14 +158,27 @@ impl Factors {
 
     /// Whether the factor of the continuous block, which the search needs later, is worth a thread of its own while
     /// the relaxation is solved. A model of several components is searched with factors of their own.
-    pub fn is_worth_making_ahead(&self, model: &ReducedModel, strategy: Strategy) -> Result<bool> {
+    pub fn is_worth_making_ahead(
+        &mut self,
+        model: &ReducedModel,
+        strategy: Strategy,
+    ) -> Result<bool> {
         let is_large = allowed_threads() > 1 && model.dim() >= WORTH_A_THREAD;
         let is_known = self.relaxed.is_some() || self.continuous.is_some();
         let is_used = self.is_searched(strategy) && !model.integers().is_empty();
         if !is_large || is_known || !is_used || self.has_schur_factor(model) {
             return Ok(false);
         }
-        Ok(!has_several_components(model)?)
+        self.is_connected(model)
+    }
+
+    /// Whether all integers of the model are in one component.
+    pub fn is_connected(&mut self, model: &ReducedModel) -> Result<bool> {
+        let is_connected = match self.is_connected {
+            Some(known) => known,
+            None => !has_several_components(model)?,
+        };
+        Ok(*self.is_connected.insert(is_connected))
     }
 
     /// Keeps a factor that was [made ahead](MadeAhead::during).

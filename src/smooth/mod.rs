@@ -23,9 +23,9 @@ mod surface;
 
 use crate::error::{Error, Result};
 use crate::extract::QuadMesh;
-use crate::mesh::TriangleMesh;
 use crate::mesh::features::FeatureGraph;
 use crate::mesh::vector::{add, scale, sub};
+use crate::mesh::{ClosestPoint, TriangleMesh};
 use crate::monitor::{Monitor, Phase, collect_in_parts, span};
 pub use quality::QuadQuality;
 pub(crate) use shapes::Shapes;
@@ -73,23 +73,25 @@ pub fn smooth(
     monitor: &mut Monitor,
 ) -> Result<()> {
     let (_watch, _memory) = (monitor.watch(), mesh.watch_memory());
-    if smoothed(quads, mesh, options, (Shapes::default(), false), monitor)?.is_some() {
+    let shapes = (Shapes::default(), false);
+    if smoothed(quads, mesh, None, options, shapes, monitor)?.is_some() {
         mend::leave_surface(quads);
     }
     Ok(())
 }
 
 /// As [`smooth`], where quads are to have these shapes. Quads that are missing at the boundary are added, and flat ones
-/// are removed or turned if all conform.
+/// are removed or turned if all conform. `faces` is the tree of the mesh, if there is one already.
 pub(crate) fn smooth_to(
     quads: &mut QuadMesh,
     mesh: &TriangleMesh,
+    faces: Option<ClosestPoint>,
     options: &SmoothOptions,
     shapes: Shapes,
     monitor: &mut Monitor,
 ) -> Result<()> {
     let (_watch, _memory) = (monitor.watch(), mesh.watch_memory());
-    if let Some(mut surface) = smoothed(quads, mesh, options, (shapes, true), monitor)? {
+    if let Some(mut surface) = smoothed(quads, mesh, faces, options, (shapes, true), monitor)? {
         if quads.is_conforming() {
             reconnect::reconnect(quads, &mut surface, monitor)?;
         }
@@ -103,6 +105,7 @@ pub(crate) fn smooth_to(
 fn smoothed(
     quads: &mut QuadMesh,
     mesh: &TriangleMesh,
+    faces: Option<ClosestPoint>,
     options: &SmoothOptions,
     (shapes, fills): (Shapes, bool),
     monitor: &mut Monitor,
@@ -114,7 +117,7 @@ fn smoothed(
     }
     let features = FeatureGraph::from_edges(mesh, &options.features)?;
     let features = features.with(mesh, &FeatureGraph::boundary(mesh))?;
-    let mut surface = Surface::new(quads, mesh, &features)?;
+    let mut surface = Surface::new(quads, mesh, faces, &features)?;
     chains::close(quads, mesh, &mut surface);
     if fills {
         rims::fill(quads, mesh, &features, &mut surface);

@@ -347,6 +347,7 @@ mod tests {
         smooth_to(
             &mut changed,
             mesh,
+            None,
             &options,
             Shapes::default(),
             &mut monitor,

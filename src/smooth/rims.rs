@@ -331,6 +331,7 @@ mod tests {
         smooth_to(
             &mut quads,
             &mesh,
+            None,
             &SmoothOptions::default(),
             Shapes::default(),
             &mut monitor,

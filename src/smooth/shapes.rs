@@ -123,6 +123,7 @@ mod tests {
         smooth_to(
             &mut inner,
             &mesh,
+            None,
             &SmoothOptions::default(),
             shapes,
             &mut Monitor::default(),

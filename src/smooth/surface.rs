@@ -47,9 +47,11 @@ pub(super) struct Surface {
 }
 
 impl Surface {
+    /// `faces` is the tree of the mesh, made here if there is none yet.
     pub(super) fn new(
         quads: &QuadMesh,
         mesh: &TriangleMesh,
+        faces: Option<ClosestPoint>,
         features: &FeatureGraph,
     ) -> Result<Self> {
         let mut on = vec![Bond::Surface; mesh.edge_count()];
@@ -66,7 +68,7 @@ impl Surface {
         let (bonds, node) = quads.origins.iter().map(place).unzip();
         let curve = |curve| Curve::new(mesh, curve);
         may_continue()?;
-        let faces = ClosestPoint::new(mesh);
+        let faces = faces.unwrap_or_else(|| ClosestPoint::new(mesh));
         may_continue()?;
         Ok(Surface {
             faces,
@@ -218,7 +220,7 @@ mod tests {
     /// Whether the closest points of sixty rounds take so long that no more are looked for.
     fn takes_too_long(mesh: &TriangleMesh) -> bool {
         let quads = vertices_of(mesh);
-        let mut surface = Surface::new(&quads, mesh, &FeatureGraph::none(mesh)).unwrap();
+        let mut surface = Surface::new(&quads, mesh, None, &FeatureGraph::none(mesh)).unwrap();
         for round in 0..60 {
             for (v, &p) in quads.vertices.iter().enumerate() {
                 let beside = p.map(|x| x + 0.01 * f64::from(round));
@@ -234,7 +236,7 @@ mod tests {
         let boundary = FeatureGraph::boundary(&mesh);
         let mut quads = vertices_of(&mesh);
         quads.origins = (0..mesh.vertex_count()).map(Origin::Vertex).collect();
-        let mut surface = Surface::new(&quads, &mesh, &boundary).unwrap();
+        let mut surface = Surface::new(&quads, &mesh, None, &boundary).unwrap();
         let mut points = quads.vertices.clone();
         // Far beyond the corner, and beyond each side.
         for out in [[9.0, 9.0, 0.0], [9.0, 0.01, 0.0], [0.01, -9.0, 0.0]] {

@@ -48,7 +48,10 @@ pub(super) fn by_components(
     let whole = centre.model();
     let watch = monitor.watch();
     may_continue()?;
-    let parts = components(whole)?;
+    let parts = match of.factors.is_connected(whole)? {
+        true => None,
+        false => components(whole)?,
+    };
     drop(watch);
     let Some(parts) = parts else {
         let search = Search::new(whole, relaxation.point, relaxation.lower_bound, monitor)

@@ -51,9 +51,9 @@ pub(crate) fn relax(
 /// A diagonal entry that is negative by more than the rounding errors of its row.
 fn negative_diagonal(model: &ReducedModel) -> Option<usize> {
     (0..model.dim()).find(|&i| {
-        let row = model.hessian().row(i);
-        let size: f64 = row.clone().map(|(_, v)| v.abs()).sum();
-        row.last().is_some_and(|(j, d)| j == i && d < -1e-9 * size)
+        let diagonal = model.hessian().diagonal(i);
+        let size = || model.hessian().row(i).map(|(_, v)| v.abs()).sum::<f64>();
+        diagonal < 0.0 && diagonal < -1e-9 * size()
     })
 }
 

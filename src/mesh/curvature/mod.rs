@@ -38,11 +38,16 @@ impl Curvature {
         self.k1[face].abs() - self.k2[face].abs()
     }
 
-    /// All faces, the most reliable direction first; of equals the lower face first.
-    pub fn by_reliability(&self) -> Vec<usize> {
+    /// The `count` faces with the most reliable directions, or all if there are fewer; of equals the lower ones. In
+    /// increasing order.
+    pub fn most_reliable(&self, count: usize) -> Vec<usize> {
         let mut faces: Vec<usize> = (0..self.k1.len()).collect();
-        let key = |&f: &usize| self.reliability(f);
-        faces.sort_by(|a, b| key(b).total_cmp(&key(a)));
+        if count < faces.len() {
+            let key = |face: usize| self.reliability(face);
+            faces.select_nth_unstable_by(count, |&a, &b| key(b).total_cmp(&key(a)).then(a.cmp(&b)));
+            faces.truncate(count);
+            faces.sort_unstable();
+        }
         faces
     }
 }
