@@ -8,15 +8,13 @@ impl FeatureGraph {
     /// The graph of the marked edges.
     pub(super) fn of(mesh: &TriangleMesh, is_feature: Vec<bool>) -> Self {
         let spokes = Spokes::new(mesh, &is_feature);
-        let vertices = 0..mesh.vertex_count();
-        let degree: Vec<u32> = vertices
-            .clone()
-            .map(|v| spokes.of(v).len() as u32)
-            .collect();
-        let corners: Vec<usize> = vertices
-            .clone()
-            .filter(|&v| is_corner(mesh, &spokes, v))
-            .collect();
+        let mut degree = vec![0; mesh.vertex_count()];
+        for &v in &spokes.vertices {
+            degree[v] = spokes.of(v).len() as u32;
+        }
+        let vertices = spokes.vertices.iter().copied();
+        let is_corner = |&v: &usize| is_corner(mesh, &spokes, v);
+        let corners: Vec<usize> = vertices.clone().filter(is_corner).collect();
         let open_ends: Vec<usize> = vertices.filter(|&v| degree[v] == 1).collect();
         let mut is_node = vec![false; mesh.vertex_count()];
         for &v in corners.iter().chain(&open_ends) {
@@ -35,6 +33,8 @@ impl FeatureGraph {
 
 /// The feature edges at every vertex, in increasing order.
 struct Spokes {
+    /// The vertices with feature edges, in increasing order.
+    vertices: Vec<usize>,
     start: Vec<u32>,
     edge: Vec<u32>,
 }
@@ -54,8 +54,14 @@ impl Spokes {
         for v in 0..mesh.vertex_count() {
             start[v + 1] += start[v];
         }
+        let mut vertices: Vec<usize> = ends.iter().map(|&(v, _)| v as usize).collect();
+        vertices.dedup();
         let edge = ends.into_iter().map(|(_, e)| e).collect();
-        Spokes { start, edge }
+        Spokes {
+            vertices,
+            start,
+            edge,
+        }
     }
 
     fn of(&self, vertex: usize) -> &[u32] {
@@ -87,7 +93,8 @@ fn curves(mesh: &TriangleMesh, spokes: &Spokes, is_node: &[bool]) -> Vec<Feature
     let mut curves = Vec::new();
     // What is left once all curves at nodes are followed are loops without one.
     for starts_at_node in [true, false] {
-        for v in (0..mesh.vertex_count()).filter(|&v| is_node[v] == starts_at_node) {
+        let vertices = spokes.vertices.iter().copied();
+        for v in vertices.filter(|&v| is_node[v] == starts_at_node) {
             for &e in spokes.of(v) {
                 if !is_done[e as usize] {
                     curves.push(follow(mesh, spokes, is_node, &mut is_done, v, e as usize));

@@ -53,6 +53,9 @@ impl FeatureGraph {
     /// The graph without the longest edge of each face between three features: quads follow the other
     /// two, which enclose the largest angle.
     pub(crate) fn with_two_of_each_face(&self, mesh: &TriangleMesh) -> Self {
+        if self.curves.is_empty() {
+            return self.clone();
+        }
         let mut is_feature = self.is_feature.clone();
         for face in 0..mesh.face_count() {
             if (0..3).all(|k| is_feature[mesh.edge_of(face, k)]) {
