@@ -37,7 +37,7 @@ use crate::field::FieldProblem;
 use crate::map::Sizing;
 use crate::mesh::features::FeatureGraph;
 use crate::mesh::{ClosestPoint, TriangleMesh};
-use crate::monitor::{Monitor, Stage, both, optional};
+use crate::monitor::{Monitor, Stage, both, may_continue, optional};
 use crate::smooth::{Shapes, SmoothOptions, smooth_to};
 use crate::solve::Solution;
 use crate::untangle::{FINER, Untangled};
@@ -435,6 +435,8 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> Driver<'a, M> {
         };
         let tree = || is_wanted.then(|| ClosestPoint::new(mesh));
         let (found, tree) = both(is_large, extract, tree);
+        // A call that ends leaves boxes undivided.
+        let tree = tree.filter(|_| may_continue().is_ok());
         self.faces = self.faces.take().or(tree);
         found
     }
