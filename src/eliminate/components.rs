@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::{Expansion, ReducedModel};
 use crate::error::Result;
-use crate::linalg::{DisjointSets, NO_PLACE, Sparse};
+use crate::linalg::{DisjointSets, NO_PLACE, Sparse, principal_submatrix};
 use crate::monitor::{may_continue, may_continue_at};
 
 /// One component: some unknowns of a model, and the model in these alone.
@@ -71,13 +71,17 @@ pub fn components(model: &ReducedModel) -> Result<Option<Vec<Component>>> {
     }
     let mut entries = vec![Vec::new(); sets.len()];
     may_continue()?;
-    for (i, j, v) in model.hessian().entries() {
-        let (k, other) = (component[i as usize], component[j as usize]);
-        if k != NO_PLACE && k == other {
-            entries[k as usize].push((place[i as usize], place[j as usize], v));
+    let large = model.dim() / WITH_EXPANSION;
+    let is_small: Vec<bool> = sets.iter().map(|set| set.len() <= large).collect();
+    for i in 0..model.dim() {
+        let k = component[i];
+        if k == NO_PLACE || !is_small[k as usize] {
+            continue;
+        }
+        for (j, v) in model.hessian().row(i).filter(|&(j, _)| component[j] == k) {
+            entries[k as usize].push((place[i], place[j], v));
         }
     }
-    let large = model.dim() / WITH_EXPANSION;
     let made = sets.iter().zip(entries).map(|(set, entries)| {
         let members: Vec<u32> = set.iter().map(|&i| i as u32).collect();
         let pick = |v: &[f64]| -> Vec<f64> { set.iter().map(|&i| v[i]).collect() };
@@ -90,7 +94,10 @@ pub fn components(model: &ReducedModel) -> Result<Option<Vec<Component>>> {
             Expansion::new(Arc::new(Sparse::zeros(0, n)), Vec::new())
         };
         let part = ReducedModel {
-            hessian: Arc::new(Sparse::from_triplets(n, n, entries.into_iter())?),
+            hessian: Arc::new(match n > large {
+                true => principal_submatrix(model.hessian(), &members)?,
+                false => Sparse::from_triplets(n, n, entries.into_iter())?,
+            }),
             gradient: pick(&model.gradient),
             constant: 0.0,
             integers,
@@ -110,7 +117,8 @@ pub fn components(model: &ReducedModel) -> Result<Option<Vec<Component>>> {
 }
 
 /// A component with more than one in so many unknowns has its part of the expansion, which the cycles that the
-/// caller knows need. For all the small ones the copies would take more time than the cycles save.
+/// caller knows need. For all the small ones the copies would take more time than the cycles save. The entries of the
+/// small ones are found together, those of a large one by itself.
 const WITH_EXPANSION: usize = 64;
 
 #[cfg(test)]

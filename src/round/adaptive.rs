@@ -16,7 +16,7 @@ use super::regions::round_in_regions;
 use crate::eliminate::ReducedModel;
 use crate::error::Result;
 use crate::linalg::{Effort, LocalSolve, Wave, conjugate_gradient, minimise_fixed};
-use crate::monitor::{Phase, span};
+use crate::monitor::{Phase, both, span};
 use crate::search::{Factors, Options, Search};
 
 /// Gauss-Seidel updates between two checks of the monitor.
@@ -24,6 +24,9 @@ pub(super) const UPDATES_AT_A_TIME: usize = 10_000;
 
 /// So few integers are rounded exactly, whatever the size of their Schur complement.
 const FEW: usize = 256;
+
+/// The factor of so many unknowns is made beside what Gauss-Seidel needs.
+const LARGE: usize = 1 << 14;
 
 /// The most Gauss-Seidel updates of all passes, for each unknown, unless a single pass may make more.
 /// Meshes of tens of thousands of faces take a few; where many passes each move much of the problem, there
@@ -75,16 +78,19 @@ pub(crate) fn adaptive(
         }
         return Ok(());
     }
-    search.prepare(factors)?;
+    let is_large = model.dim() >= LARGE && !factors.is_prepared();
+    let (hessian, gradient) = (model.hessian(), model.gradient());
+    let relaxed = search.relaxed().to_vec();
+    let (prepared, solve) = both(
+        is_large,
+        || search.prepare(factors),
+        || LocalSolve::new(hessian, gradient, &relaxed, integers),
+    );
+    prepared?;
     let mut passes = Passes {
         model,
         options,
-        solve: LocalSolve::new(
-            model.hessian(),
-            model.gradient(),
-            search.relaxed(),
-            integers,
-        )?,
+        solve: solve?,
         wave: Wave::default(),
         left: integers.len(),
         global_steps: (GLOBAL_UNKNOWNS / model.dim().max(1)).max(1),

@@ -7,7 +7,7 @@
 use std::time::Instant;
 
 use super::Strategy;
-use crate::eliminate::{ReducedModel, has_several_components};
+use crate::eliminate::{Component, ReducedModel, components, has_several_components};
 use crate::error::Result;
 use crate::linalg::{
     Analysis, Cholesky, Ldl, Minimum, Ordering, RelaxedFactor, SchurFactor, Sparse, coupling,
@@ -169,16 +169,21 @@ impl Factors {
         if !is_large || is_known || !is_used || self.has_schur_factor(model) {
             return Ok(false);
         }
-        self.is_connected(model)
-    }
-
-    /// Whether all integers of the model are in one component.
-    pub fn is_connected(&mut self, model: &ReducedModel) -> Result<bool> {
         let is_connected = match self.is_connected {
             Some(known) => known,
             None => !has_several_components(model)?,
         };
         Ok(*self.is_connected.insert(is_connected))
+    }
+
+    /// The components of the model, or `None` if all its integers are in one.
+    pub fn split(&mut self, model: &ReducedModel) -> Result<Option<Vec<Component>>> {
+        let parts = match self.is_connected {
+            Some(true) => None,
+            _ => components(model)?,
+        };
+        self.is_connected = Some(parts.is_none());
+        Ok(parts)
     }
 
     /// Keeps a factor that was [made ahead](MadeAhead::during).

@@ -7,7 +7,7 @@
 use super::dispatch;
 use super::eliminated::EliminatedProblem;
 use super::relax::Relaxation;
-use crate::eliminate::{Centre, Component, ReducedModel, components};
+use crate::eliminate::{Centre, Component, ReducedModel};
 use crate::error::{Error, Result};
 use crate::linalg::{TwoFold, places, sum_below};
 use crate::monitor::{Monitor, may_continue, relative_gap};
@@ -48,10 +48,7 @@ pub(super) fn by_components(
     let whole = centre.model();
     let watch = monitor.watch();
     may_continue()?;
-    let parts = match of.factors.is_connected(whole)? {
-        true => None,
-        false => components(whole)?,
-    };
+    let parts = of.factors.split(whole)?;
     drop(watch);
     let Some(parts) = parts else {
         let search = Search::new(whole, relaxation.point, relaxation.lower_bound, monitor)
