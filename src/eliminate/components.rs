@@ -124,6 +124,7 @@ const WITH_EXPANSION: usize = 64;
 #[cfg(test)]
 mod tests {
     use crate::eliminate::eliminate;
+    use crate::linalg::principal_submatrix;
     use crate::monitor::Monitor;
     use crate::problem::{Model, Problem};
 
@@ -157,5 +158,31 @@ mod tests {
             })
             .sum();
         assert!((reduced.constant() + sum - reduced.energy(&y).0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn small_components_have_their_entries_as_large_ones_do() {
+        // A chain of all unknowns but two, which are a component of their own.
+        let pair = [7, 200];
+        let chain: Vec<usize> = (0..300).filter(|i| !pair.contains(i)).collect();
+        let mut problem = Problem::new(300).unwrap();
+        for ends in chain.windows(2).chain([&pair[..]]) {
+            let coefficients = [1.0, -0.1 * ends[0] as f64 - 0.7];
+            problem
+                .add_least_squares(ends, &coefficients, 0.3, 1.0)
+                .unwrap();
+        }
+        problem.set_integers(&[5, 200]).unwrap();
+        let model = Model::new(&problem).unwrap();
+        let reduced = eliminate(&model, &mut Monitor::default()).unwrap();
+        let parts = super::components(&reduced).unwrap().unwrap();
+        assert_eq!(
+            parts.iter().map(|p| p.members.len()).collect::<Vec<_>>(),
+            [298, 2]
+        );
+        for part in parts {
+            let own = principal_submatrix(reduced.hessian(), &part.members).unwrap();
+            assert_eq!(part.model.hessian(), &own);
+        }
     }
 }
