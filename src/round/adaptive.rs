@@ -87,6 +87,7 @@ pub(crate) fn adaptive(
         || LocalSolve::new(hessian, gradient, &relaxed, integers),
     );
     prepared?;
+    drop(relaxed);
     let mut passes = Passes {
         model,
         options,
