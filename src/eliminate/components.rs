@@ -71,7 +71,7 @@ pub fn components(model: &ReducedModel) -> Result<Option<Vec<Component>>> {
     }
     let mut entries = vec![Vec::new(); sets.len()];
     may_continue()?;
-    let large = model.dim() / WITH_EXPANSION;
+    let large = model.dim() / LARGE;
     let is_small: Vec<bool> = sets.iter().map(|set| set.len() <= large).collect();
     for i in 0..model.dim() {
         let k = component[i];
@@ -116,10 +116,10 @@ pub fn components(model: &ReducedModel) -> Result<Option<Vec<Component>>> {
     made.collect::<Result<_>>().map(Some)
 }
 
-/// A component with more than one in so many unknowns has its part of the expansion, which the cycles that the
-/// caller knows need. For all the small ones the copies would take more time than the cycles save. The entries of the
-/// small ones are found together, those of a large one by itself.
-const WITH_EXPANSION: usize = 64;
+/// A component with more than one in so many unknowns is large: its entries are copied by themselves, and it has its part
+/// of the expansion, which the cycles that the caller knows need. For all the small ones such copies would take more time
+/// than the cycles save, and their entries are found in one pass.
+const LARGE: usize = 64;
 
 #[cfg(test)]
 mod tests {

@@ -105,8 +105,8 @@ impl IntegerGridMap {
         uvs: &[[[f64; 2]; 3]],
         quarters: impl Fn([(usize, usize); 2]) -> u8 + Sync,
     ) -> Result<Self> {
-        // The step out of a face over each of its edges, or the edge over which there is none.
-        let of_face = |face: usize| {
+        // The step out of a face over each of its edges, or the edge over which there is none and its faces.
+        let of_face = |face: usize| -> std::result::Result<[Step; 3], [usize; 3]> {
             let mut steps = [Step::default(); 3];
             for (k, own) in steps.iter_mut().enumerate() {
                 let number = mesh.edge_of(face, k);
@@ -115,7 +115,8 @@ impl IntegerGridMap {
                     continue;
                 };
                 let sides = [edge.first, second];
-                let step = step(uvs, sides, quarters(sides)).ok_or(number)?;
+                let step = step(uvs, sides, quarters(sides));
+                let step = step.ok_or([number, edge.first.0, second.0])?;
                 *own = match (face, k) == edge.first {
                     true => step,
                     false => step.inverse(),
@@ -126,12 +127,7 @@ impl IntegerGridMap {
         let of_faces = collect_in_parts(mesh.face_count(), LEAST, of_face);
         may_continue()?;
         let without = of_faces.iter().filter_map(|steps| steps.as_ref().err());
-        if let Some(&e) = without.min() {
-            let edge = mesh.edge(e);
-            let (first, second) = (
-                edge.first.0,
-                edge.second.map_or(edge.first.0, |side| side.0),
-            );
+        if let Some(&[e, first, second]) = without.min() {
             return Err(Error::InvalidArgument {
                 what: format!(
                     "over edge {e}, between faces {first} and {second}, the map does not change by a quarter turn and integers"

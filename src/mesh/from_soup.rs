@@ -59,7 +59,7 @@ fn without_repair(soup: &PolygonSoup) -> Option<TriangleMesh> {
 mod tests {
     use super::*;
     use crate::mesh::shape;
-    use crate::monitor::{spawned, with_threads};
+    use crate::monitor::{Span, traced, with_threads};
 
     #[test]
     fn threads_change_neither_the_mesh_nor_what_repair_did() {
@@ -88,7 +88,10 @@ mod tests {
             };
             let one = made(1);
             assert_eq!(one.1.edits.list().is_empty(), is_whole);
-            assert!(spawned(|| assert_eq!(made(3), one)) > 0);
+            let (three, trace) = with_threads(3, || traced(false, || made(3)));
+            assert_eq!(three, one);
+            let elsewhere = |span: &Span| span.name == "half-edges" && span.thread > 0;
+            assert!(trace.spans.iter().any(elsewhere));
         }
     }
 }
