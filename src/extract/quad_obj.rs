@@ -1,7 +1,7 @@
 //! Quads as a file: Wavefront OBJ, or any format that the name tells.
 
 use std::fs::File;
-use std::io::{self, BufWriter, Write};
+use std::io::{self, Write};
 use std::path::Path;
 
 use super::QuadMesh;
@@ -9,6 +9,7 @@ use crate::error::Result;
 use crate::mesh::MeshError;
 #[cfg(feature = "mesh-io")]
 use crate::mesh::attributes::SurfaceAttributes;
+use crate::monitor::write_lines;
 
 impl QuadMesh {
     /// Writes vertices and faces to a file whose extension tells the format: see
@@ -43,21 +44,22 @@ impl QuadMesh {
     /// # Errors
     /// [`Error::Io`](crate::Error::Io) for a file that cannot be written.
     pub fn write_obj(&self, path: &Path) -> Result<()> {
-        let file = File::create(path).and_then(|file| self.encode(BufWriter::new(file)));
+        let file = File::create(path).and_then(|file| self.encode(file));
         Ok(file.map_err(|reason| MeshError::of_file(path, &reason))?)
     }
 
     fn encode(&self, mut out: impl Write) -> io::Result<()> {
-        for [x, y, z] in &self.vertices {
-            writeln!(out, "v {x} {y} {z}")?;
-        }
-        for face in self.faces() {
-            write!(out, "f")?;
-            for corner in face {
-                write!(out, " {}", corner + 1)?;
-            }
-            writeln!(out)?;
-        }
+        write_lines(&mut out, self.vertices.len(), |vertex, text| {
+            let [x, y, z] = self.vertices[vertex];
+            writeln!(text, "v {x} {y} {z}")
+        })?;
+        let faces: Vec<&[u32]> = self.faces().collect();
+        write_lines(&mut out, faces.len(), |face, text| {
+            write!(text, "f")?;
+            let mut corners = faces[face].iter();
+            corners.try_for_each(|corner| write!(text, " {}", corner + 1))?;
+            writeln!(text)
+        })?;
         out.flush()
     }
 }

@@ -8,7 +8,7 @@
 
 use std::f64::consts::TAU;
 use std::fs::File;
-use std::io::{self, BufWriter, Write};
+use std::io::{self, Write};
 use std::path::Path;
 
 use super::OrientationField;
@@ -16,6 +16,10 @@ use super::directions::angle;
 use crate::error::{Error, Result};
 use crate::mesh::vector::Vec3;
 use crate::mesh::{MeshError, TriangleMesh};
+use crate::monitor::{filter_in_parts, write_lines};
+
+/// The least number of edges that are worth a thread.
+const LEAST: usize = 1 << 12;
 
 impl OrientationField {
     /// Reads the field of a mesh from a text file.
@@ -46,7 +50,7 @@ impl OrientationField {
     pub fn write(&self, mesh: &TriangleMesh, path: impl AsRef<Path>) -> Result<()> {
         self.check_mesh(mesh)?;
         let path = path.as_ref();
-        let file = File::create(path).and_then(|file| self.encode(mesh, BufWriter::new(file)));
+        let file = File::create(path).and_then(|file| self.encode(mesh, file));
         Ok(file.map_err(|reason| MeshError::of_file(path, &reason))?)
     }
 
@@ -54,25 +58,29 @@ impl OrientationField {
         if self.symmetry != 4 {
             writeln!(out, "symmetry {}", self.symmetry)?;
         }
-        // Full turns of each face's angle, which its direction does not keep.
-        let mut turns = Vec::with_capacity(mesh.face_count());
-        for face in 0..mesh.face_count() {
+        write_lines(&mut out, mesh.face_count(), |face, text| {
+            let [x, y, z] = self.direction(mesh, face);
+            writeln!(text, "{x} {y} {z}")
+        })?;
+        // Full turns of a face's angle, which its direction does not keep.
+        let turns = |face: usize| {
             let direction = self.direction(mesh, face);
-            let [x, y, z] = direction;
-            writeln!(out, "{x} {y} {z}")?;
             let read = angle(mesh, face, direction).unwrap_or(self.angles[face]);
-            turns.push(((self.angles[face] - read) / TAU).round() as i32);
-        }
-        for (e, edge) in mesh.edges().enumerate() {
+            ((self.angles[face] - read) / TAU).round() as i32
+        };
+        let of_file = filter_in_parts(mesh.edge_count(), LEAST, |e| {
+            let is_interior = mesh.edge(e).second.is_some();
+            is_interior && self.period_jumps[e] != self.nearest_jump(mesh, e)
+        });
+        write_lines(&mut out, of_file.len(), |k, text| {
+            let (e, edge) = (of_file[k], mesh.edge(of_file[k]));
             let ((face, side), Some((across, _))) = (edge.first, edge.second) else {
-                continue;
+                return Ok(());
             };
-            if self.period_jumps[e] != self.nearest_jump(mesh, e) {
-                let jump =
-                    self.period_jumps[e] + i32::from(self.symmetry) * (turns[face] - turns[across]);
-                writeln!(out, "jump {face} {side} {jump}")?;
-            }
-        }
+            let full = turns(face) - turns(across);
+            let jump = self.period_jumps[e] + i32::from(self.symmetry) * full;
+            writeln!(text, "jump {face} {side} {jump}")
+        })?;
         out.flush()
     }
 }

@@ -4,12 +4,13 @@
 //! and nowhere else.
 
 use std::fs::File;
-use std::io::{self, BufWriter, Write};
+use std::io::{self, Write};
 use std::path::Path;
 
 use super::SeamlessMap;
 use crate::error::{Error, Result};
 use crate::mesh::{MeshError, TriangleMesh};
+use crate::monitor::write_lines;
 
 impl SeamlessMap {
     /// Writes the mesh with the coordinates of its corners. Numbers are written so that reading
@@ -26,21 +27,25 @@ impl SeamlessMap {
                 actual: self.copies().len(),
             });
         }
-        let file = File::create(path).and_then(|file| self.encode(mesh, BufWriter::new(file)));
+        let file = File::create(path).and_then(|file| self.encode(mesh, file));
         Ok(file.map_err(|reason| MeshError::of_file(path, &reason))?)
     }
 
     fn encode(&self, mesh: &TriangleMesh, mut out: impl Write) -> io::Result<()> {
-        for [x, y, z] in mesh.vertices() {
-            writeln!(out, "v {x} {y} {z}")?;
-        }
-        for [u, v] in self.vertex_uvs() {
-            writeln!(out, "vt {u} {v}")?;
-        }
-        for (corners, copies) in mesh.triangles().iter().zip(self.copies()) {
+        let (vertices, uvs) = (mesh.vertices(), self.vertex_uvs());
+        write_lines(&mut out, vertices.len(), |vertex, text| {
+            let [x, y, z] = vertices[vertex];
+            writeln!(text, "v {x} {y} {z}")
+        })?;
+        write_lines(&mut out, uvs.len(), |copy, text| {
+            let [u, v] = uvs[copy];
+            writeln!(text, "vt {u} {v}")
+        })?;
+        write_lines(&mut out, mesh.face_count(), |face, text| {
+            let (corners, copies) = (mesh.triangles()[face], self.copies()[face]);
             let [a, b, c] = [0, 1, 2].map(|k| (corners[k] + 1, copies[k] + 1));
-            writeln!(out, "f {}/{} {}/{} {}/{}", a.0, a.1, b.0, b.1, c.0, c.1)?;
-        }
+            writeln!(text, "f {}/{} {}/{} {}/{}", a.0, a.1, b.0, b.1, c.0, c.1)
+        })?;
         out.flush()
     }
 }

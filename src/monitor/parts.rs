@@ -3,6 +3,7 @@
 //! The results never depend on the number of threads: the value of an element depends on nothing but its number,
 //! and sums are those of blocks of a fixed length, which are joined in order.
 
+use std::io::{self, Write};
 use std::ops::Range;
 use std::panic::resume_unwind;
 use std::sync::Mutex;
@@ -14,6 +15,13 @@ use super::worker::{in_parts, spawn};
 
 /// The elements of a block of [`in_blocks`]: enough to be worth a thread.
 const BLOCK: usize = 1 << 14;
+
+/// The lines of a block of text, and the blocks that are in memory at the same time.
+const LINES: usize = 1 << 11;
+const TEXTS: usize = 64;
+
+/// Room for a line, in bytes: three numbers as long as numbers can be.
+const LINE: usize = 1 << 10;
 
 /// The values of all numbers below `count`, in order. Each thread has at least `least` of them.
 pub(crate) fn collect_in_parts<T: Send>(
@@ -169,6 +177,36 @@ pub(crate) fn in_blocks<T: Send>(count: usize, block: impl Fn(Range<usize>) -> T
     })
 }
 
+/// Writes `count` lines, in order: `line` appends the text of one.
+///
+/// # Errors
+/// Those of `line` and of `out`, and [`io::ErrorKind::OutOfMemory`].
+pub(crate) fn write_lines(
+    out: &mut impl Write,
+    count: usize,
+    line: impl Fn(usize, &mut Vec<u8>) -> io::Result<()> + Sync,
+) -> io::Result<()> {
+    let text = |lines: Range<usize>| -> io::Result<Vec<u8>> {
+        let mut text = Vec::new();
+        for k in lines {
+            text.try_reserve(LINE)?;
+            line(k, &mut text)?;
+        }
+        Ok(text)
+    };
+    let begin = |block: usize| count.min(block * LINES);
+    let blocks = count.div_ceil(LINES);
+    for first in (0..blocks).step_by(TEXTS) {
+        let texts = collect_in_turn(TEXTS.min(blocks - first), |k| {
+            text(begin(first + k)..begin(first + k + 1))
+        });
+        texts
+            .into_iter()
+            .try_for_each(|text| out.write_all(&text?))?;
+    }
+    Ok(())
+}
+
 #[cfg(test)]
 mod tests {
     use super::super::spawned;
@@ -236,6 +274,35 @@ mod tests {
                 .iter()
                 .any(|span| (span.name, span.thread) == ("task", 2))
         );
+    }
+
+    #[test]
+    fn lines_are_written_in_order() {
+        let wanted = |count: usize| -> String { (0..count).map(|k| format!("{k}\n")).collect() };
+        for count in [0, 1, LINES, LINES + 1, TEXTS * LINES + 7] {
+            for threads in [1, 3] {
+                let mut out = Vec::new();
+                with_threads(threads, || {
+                    write_lines(&mut out, count, |k, text| writeln!(text, "{k}")).unwrap();
+                });
+                assert!(out == wanted(count).as_bytes(), "{count} {threads}");
+            }
+        }
+        let started = spawned(|| {
+            let write = || write_lines(&mut Vec::new(), 3 * LINES, |_, _| Ok(()));
+            with_threads(2, write).unwrap();
+        });
+        assert_eq!(started, 1);
+    }
+
+    #[test]
+    fn an_error_of_a_line_ends_the_text() {
+        let line = |k: usize, text: &mut Vec<u8>| match k {
+            5000 => Err(io::Error::other("5000")),
+            _ => writeln!(text, "{k}"),
+        };
+        let error = write_lines(&mut Vec::new(), 10_000, line).unwrap_err();
+        assert_eq!(error.to_string(), "5000");
     }
 
     #[test]

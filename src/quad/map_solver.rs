@@ -167,7 +167,8 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> MapSolver<'a, M> {
         rounds: usize,
     ) -> Result<Separated> {
         let structure = self.structure(&first.map)?;
-        let elements = structure.held_elements(self.mesh, &self.problem, reach);
+        let monitor = (self.monitor)();
+        let elements = structure.held_elements(self.mesh, &self.problem, reach, &monitor)?;
         self.separate(first, rounds, |this, map| {
             elements.missed(this.mesh, &this.problem, map)
         })

@@ -5,6 +5,7 @@
 //! must not be collinear. Otherwise the faces between them have no area, wherever the other vertices move.
 
 use super::isoline_triangles::IsolineTriangle;
+use crate::error::Result;
 use crate::map::{SeamlessMap, SeamlessProblem, apart, row};
 use crate::mesh::TriangleMesh;
 use crate::mesh::orientation;
@@ -22,19 +23,22 @@ pub(crate) struct HeldElements {
 impl HeldElements {
     /// The elements of a problem in which integers hold these coordinates of every copy. Rows are between those
     /// within `reach` quads of each other.
+    ///
+    /// # Errors
+    /// The reason to end the current step.
     pub(super) fn new(
         problem: &SeamlessProblem,
         mesh: &TriangleMesh,
         held: &[[bool; 2]],
         reach: f64,
-    ) -> Self {
+    ) -> Result<Self> {
         let copies = &problem.sectors.copy;
         let is_held = |&face: &usize| copies[face].iter().all(|&c| held[c as usize] == [true; 2]);
-        HeldElements {
-            near: problem.near_rows(mesh, held, reach),
+        Ok(HeldElements {
+            near: problem.near_rows(mesh, held, reach)?,
             faces: (0..mesh.face_count()).filter(is_held).collect(),
             isoline_triangles: problem.isoline_triangles(mesh, held),
-        }
+        })
     }
 
     /// The rows that the integers of a map miss, and those that open the faces which they collapse or turn

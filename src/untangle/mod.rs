@@ -195,13 +195,17 @@ impl Structure {
 
     /// The elements that integers alone may collapse in maps of this problem, with rows between those within
     /// `reach` quads of each other.
+    ///
+    /// # Errors
+    /// Those of the monitor's requests to end.
     pub(crate) fn held_elements(
         &self,
         mesh: &TriangleMesh,
         problem: &SeamlessProblem,
         reach: f64,
-    ) -> HeldElements {
-        HeldElements::new(problem, mesh, &self.freedom.held(), reach)
+        monitor: &Monitor,
+    ) -> Result<HeldElements> {
+        monitor.watching(|| HeldElements::new(problem, mesh, &self.freedom.held(), reach))
     }
 
     /// [`untangle`], for a map of this structure.

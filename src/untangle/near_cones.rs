@@ -8,9 +8,12 @@
 use std::cmp::Reverse;
 use std::collections::{BTreeSet, BinaryHeap};
 use std::f64::consts::FRAC_PI_4;
+use std::sync::OnceLock;
 
+use crate::error::Result;
 use crate::map::{SeamlessProblem, row};
 use crate::mesh::{TriangleMesh, turned};
+use crate::monitor::{collect_in_turn, is_wanted};
 use crate::solve::SoftRow;
 
 /// How far paths go at first, in quads: the order of elements nearer than this is decided wrongly most often.
@@ -25,6 +28,9 @@ const NARROWEST: f64 = 0.2;
 
 /// The least ratio of the distance across to an isoline to that along it.
 const LEVEL: f64 = 0.5;
+
+/// A path asks whether it may go on once in so many vertices.
+const ASKS: usize = 1024;
 
 /// A copy of a vertex that a path has reached.
 #[derive(Debug, Clone, Copy)]
@@ -53,55 +59,79 @@ struct Chart {
 impl SeamlessProblem {
     /// The rows of all elements within `reach` quads of each other. `held` says which coordinates of every copy
     /// integers decide.
+    ///
+    /// # Errors
+    /// The reason to end the current step.
     pub(super) fn near_rows(
         &self,
         mesh: &TriangleMesh,
         held: &[[bool; 2]],
         reach: f64,
-    ) -> Vec<SoftRow> {
-        let lines = self.lines();
-        let mut found = Vec::new();
-        for v in 0..mesh.vertex_count() {
-            let mut copies = self.sectors.first[v]..self.sectors.first[v + 1];
-            if copies.any(|copy| held[copy as usize] == [true; 2]) {
-                Search::new(self, mesh, held, &lines, reach).from(v, &mut found);
-            }
-        }
-        found
+    ) -> Result<Vec<SoftRow>> {
+        let first = &self.sectors.first;
+        let is_point = |&v: &usize| {
+            let mut copies = first[v]..first[v + 1];
+            copies.any(|copy| held[copy as usize] == [true; 2])
+        };
+        let points: Vec<usize> = (0..mesh.vertex_count()).filter(is_point).collect();
+        let surface = Surface {
+            problem: self,
+            mesh,
+            held,
+            lines: self.lines(),
+            sides: (0..mesh.face_count()).map(|_| OnceLock::new()).collect(),
+        };
+        let rows = collect_in_turn(points.len(), |k| {
+            Search::new(&surface, points[k], reach).rows()
+        });
+        let rows = rows.into_iter().collect::<Result<Vec<_>>>()?;
+        Ok(rows.into_iter().flatten().collect())
+    }
+}
+
+/// The surface on which all searches go.
+struct Surface<'a> {
+    problem: &'a SeamlessProblem,
+    mesh: &'a TriangleMesh,
+    held: &'a [[bool; 2]],
+    lines: Vec<u32>,
+    /// The difference that each side of a face should have, once a search has come there.
+    sides: Vec<OnceLock<[[f64; 2]; 3]>>,
+}
+
+impl Surface<'_> {
+    /// The differences that the coordinates of the two other corners of a face should have to those of this one.
+    fn steps(&self, face: usize, corner: usize) -> [(usize, [f64; 2]); 2] {
+        let aim = |k: usize| self.problem.aim(self.mesh, face, k, (k + 1) % 3);
+        let sides = self.sides[face].get_or_init(|| [0, 1, 2].map(aim));
+        let [next, last] = [(corner + 1) % 3, (corner + 2) % 3];
+        [(next, sides[corner]), (last, sides[last].map(|x| -x))]
     }
 }
 
 /// The search from one cone or corner.
 struct Search<'a> {
-    problem: &'a SeamlessProblem,
-    mesh: &'a TriangleMesh,
-    held: &'a [[bool; 2]],
-    lines: &'a [u32],
+    surface: &'a Surface<'a>,
+    start: usize,
     /// The length of the longest path, in quads.
     reach: f64,
     charts: Vec<Chart>,
     /// By the bits of the length, then by number.
     heap: BinaryHeap<Reverse<(u64, usize)>>,
     states: Vec<Reached>,
+    rows: Vec<SoftRow>,
 }
 
 impl<'a> Search<'a> {
-    fn new(
-        problem: &'a SeamlessProblem,
-        mesh: &'a TriangleMesh,
-        held: &'a [[bool; 2]],
-        lines: &'a [u32],
-        reach: f64,
-    ) -> Self {
+    fn new(surface: &'a Surface, start: usize, reach: f64) -> Self {
         Search {
-            problem,
-            mesh,
-            held,
-            lines,
+            surface,
+            start,
             reach,
             charts: Vec::new(),
             heap: BinaryHeap::new(),
             states: Vec::new(),
+            rows: Vec::new(),
         }
     }
 
@@ -113,9 +143,11 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Searches from all copies of a vertex. A path ends at the first cone or corner.
-    fn from(&mut self, start: usize, found: &mut Vec<SoftRow>) {
-        let first = &self.problem.sectors.first;
+    /// The rows between the vertex, with all its copies, and what is found around it. A path ends at the first cone
+    /// or corner.
+    fn rows(mut self) -> Result<Vec<SoftRow>> {
+        let (surface, start) = (self.surface, self.start);
+        let first = &surface.problem.sectors.first;
         for copy in first[start]..first[start + 1] {
             let state = Reached {
                 vertex: start,
@@ -127,45 +159,52 @@ impl<'a> Search<'a> {
             };
             self.push(0.0, state);
         }
-        let mut settled = BTreeSet::new();
+        let mut is_settled = vec![false; surface.held.len()];
+        let mut settled = 0;
         // The isolines through the vertex itself.
         let unknowns = 2 * first[start] as usize..2 * first[start + 1] as usize;
-        let mut known: BTreeSet<u32> = self.lines[unknowns].iter().copied().collect();
+        let mut known: BTreeSet<u32> = surface.lines[unknowns].iter().copied().collect();
         while let Some(Reverse((bits, number))) = self.heap.pop() {
             let state = self.states[number];
-            if !settled.insert(state.copy) {
+            if std::mem::replace(&mut is_settled[state.copy as usize], true) {
                 continue;
             }
+            if settled % ASKS == 0 {
+                is_wanted()?;
+            }
+            settled += 1;
             if state.vertex != start {
-                match self.held[state.copy as usize] {
+                match surface.held[state.copy as usize] {
                     [true, true] => {
                         if start < state.vertex {
-                            self.separate_points(&state, found);
+                            self.separate_points(&state);
                         }
                         continue;
                     }
                     [false, false] => {}
                     [is_u, _] => {
                         let axis = usize::from(!is_u);
-                        let line = self.lines[2 * state.copy as usize + axis];
+                        let line = surface.lines[2 * state.copy as usize + axis];
                         if self.is_across(&state, axis) && known.insert(line) {
-                            self.separate_line(&state, axis, found);
+                            self.separate_line(&state, axis);
                         }
                     }
                 }
             }
-            self.go_on(f64::from_bits(bits), &state, state.vertex != start);
+            self.go_on(f64::from_bits(bits), &state);
         }
+        Ok(self.rows)
     }
 
-    fn go_on(&mut self, length: f64, state: &Reached, may_cross: bool) {
-        let (mesh, problem) = (self.mesh, self.problem);
+    fn go_on(&mut self, length: f64, state: &Reached) {
+        let surface = self.surface;
+        let (mesh, problem) = (surface.mesh, surface.problem);
         for (face, corner) in mesh.ring(state.vertex) {
             if problem.sectors.copy[face][corner] != state.copy {
                 continue;
             }
-            for end in [(corner + 1) % 3, (corner + 2) % 3] {
-                let step = turned(state.quarters, problem.aim(mesh, face, corner, end));
+            for (end, step) in surface.steps(face, corner) {
+                let step = turned(state.quarters, step);
                 let next = Reached {
                     vertex: mesh.corners(face)[end],
                     copy: problem.sectors.copy[face][end],
@@ -175,7 +214,7 @@ impl<'a> Search<'a> {
                 self.push(length + step[0].hypot(step[1]), next);
             }
             for k in [corner, (corner + 2) % 3] {
-                if may_cross && problem.cut().contains(mesh.edge_of(face, k)) {
+                if state.vertex != self.start && problem.cut().contains(mesh.edge_of(face, k)) {
                     self.cross(length, state, face, k);
                 }
             }
@@ -184,15 +223,16 @@ impl<'a> Search<'a> {
 
     /// Goes on at the same vertex in the chart beyond local edge `k` of a face.
     fn cross(&mut self, length: f64, state: &Reached, face: usize, k: usize) {
-        let Some((across, _)) = self.mesh.neighbor(face, k) else {
+        let (mesh, problem) = (self.surface.mesh, self.surface.problem);
+        let Some((across, _)) = mesh.neighbor(face, k) else {
             return;
         };
-        let corners = self.mesh.corners(across);
+        let corners = mesh.corners(across);
         let Some(corner) = corners.iter().position(|&w| w == state.vertex) else {
             return;
         };
-        let turn = self.problem.combing().transition_from(self.mesh, face, k);
-        let copy = self.problem.sectors.copy[across][corner];
+        let turn = problem.combing().transition_from(mesh, face, k);
+        let copy = problem.sectors.copy[across][corner];
         self.charts.push(Chart {
             entry: state.entry,
             exit: state.copy,
@@ -216,7 +256,7 @@ impl<'a> Search<'a> {
         across >= NARROWEST && across >= LEVEL * along
     }
 
-    fn separate_line(&self, state: &Reached, axis: usize, found: &mut Vec<SoftRow>) {
+    fn separate_line(&mut self, state: &Reached, axis: usize) {
         let axis = if state.quarters.is_multiple_of(2) {
             axis
         } else {
@@ -224,13 +264,14 @@ impl<'a> Search<'a> {
         };
         let mut by = [0.0; 2];
         by[axis] = 1f64.copysign(state.aim[axis]);
-        found.push(row(self.terms(state, by), 1.0, state.aim[axis]));
+        self.rows
+            .push(row(self.terms(state, by), 1.0, state.aim[axis]));
     }
 
     /// The rows for the direction of one cone from another, to the nearest eighth of a turn: along an axis it
     /// deviates by an eighth at most, and along a diagonal it stays in the quadrant. Far apart, it need only have a
     /// part in this direction.
-    fn separate_points(&self, state: &Reached, found: &mut Vec<SoftRow>) {
+    fn separate_points(&mut self, state: &Reached) {
         let [u, v] = state.aim;
         let distance = u.hypot(v);
         let eighths = (v.atan2(u) / FRAC_PI_4).round() as i32;
@@ -249,10 +290,11 @@ impl<'a> Search<'a> {
             }
             false => (signs, [[signs[0], 0.0], [0.0, signs[1]]]),
         };
-        found.push(row(self.terms(state, direction), 1.0, distance));
+        self.rows
+            .push(row(self.terms(state, direction), 1.0, distance));
         if distance <= NEAR {
             let limits = limits.map(|by| row(self.terms(state, by), 0.0, distance));
-            found.extend(limits);
+            self.rows.extend(limits);
         }
     }
 

@@ -54,7 +54,7 @@ impl Grid {
                 .for_each(|&end| held[end as usize][isoline.axis] = true);
         }
         cones.iter().for_each(|&[i, j]| held[7 * i + j] = [true; 2]);
-        self.problem.near_rows(&self.mesh, &held, reach)
+        self.problem.near_rows(&self.mesh, &held, reach).unwrap()
     }
 
     /// How many of the rows a map of the positions misses.
@@ -145,7 +145,8 @@ fn integers_decide_rows_over_the_cut() {
         let map: SeamlessMap = problem.map(&mesh, &solution).unwrap();
         let mut monitor = Monitor::default();
         let structure = Structure::new(&mesh, &problem, &map, &mut monitor).unwrap();
-        for row in problem.near_rows(&mesh, &structure.freedom.held(), NEAR) {
+        let held = structure.freedom.held();
+        for row in problem.near_rows(&mesh, &held, NEAR).unwrap() {
             let value: f64 = row.terms.iter().map(|&(i, c)| c * map.values()[i]).sum();
             assert!(
                 (value - value.round()).abs() < 1e-6,

@@ -62,7 +62,7 @@ impl<'a> CoarseMaps<'a> {
             Some(structure) => structure,
             None => Structure::new(mesh, &self.problem, &map, &mut monitor())?,
         };
-        let elements = structure.held_elements(mesh, &self.problem, FAR);
+        let elements = structure.held_elements(mesh, &self.problem, FAR, &monitor())?;
         let mut rows: Vec<SoftRow> = Vec::new();
         for _ in 0..ROUNDS {
             let known = rows.len();
