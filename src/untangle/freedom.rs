@@ -67,6 +67,11 @@ impl Freedom {
         }
     }
 
+    /// The corners of a face, with these values of all coordinates.
+    pub fn uv(&self, values: &[f64], face: usize) -> [[f64; 2]; 3] {
+        self.copies[face].map(|c| [values[2 * c as usize], values[2 * c as usize + 1]])
+    }
+
     /// Number of free unknowns.
     pub fn dim(&self) -> usize {
         self.moved.rows()

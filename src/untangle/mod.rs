@@ -55,12 +55,10 @@ use crate::monitor::Phase;
 use crate::monitor::{Monitor, may_continue, span};
 use energy::Rest;
 use freedom::Freedom;
-use region::{Region, regions};
+use region::{Region, at_once, regions};
+use schedule::Outcome;
 use stuck::Stuck;
 use system::System;
-
-/// The place of a free unknown that is not in the current region.
-const NONE: u32 = u32::MAX;
 
 /// The numbers of rings around a fold that may move, attempt after attempt.
 const RINGS: [usize; 6] = [3, 8, 20, 50, 120, usize::MAX];
@@ -231,9 +229,8 @@ impl Structure {
             if folded.is_empty() || work.budget == 0 {
                 break;
             }
-            for region in regions(work.freedom, &folded, rings) {
-                work.undo_folds(&region, schedule::FIRST_EPS, monitor)?;
-            }
+            let regions = regions(work.freedom, &folded, rings);
+            work.undo_folds(&regions, schedule::FIRST_EPS, monitor)?;
         }
         work.unwind(options.passes, monitor)?;
         monitor.progress(Phase::Untangle, 1.0)?;
@@ -260,8 +257,6 @@ struct Untangling<'a> {
     freedom: &'a Freedom,
     quarters: &'a [Option<i32>],
     values: Vec<f64>,
-    /// The place of each free unknown in the current region.
-    place: Vec<u32>,
     /// Newton steps made so far.
     steps: usize,
     /// The most Newton steps of a region.
@@ -283,7 +278,6 @@ impl<'a> Untangling<'a> {
             problem,
             freedom: &structure.freedom,
             quarters: &structure.quarters,
-            place: vec![NONE; structure.freedom.dim()],
             values: map.values().to_vec(),
             steps: 0,
             most_steps: options.steps,
@@ -297,52 +291,61 @@ impl<'a> Untangling<'a> {
     }
 
     fn uv(&self, face: usize) -> [[f64; 2]; 3] {
-        let copies = self.freedom.copies[face].map(|c| 2 * c as usize);
-        copies.map(|u| [self.values[u], self.values[u + 1]])
+        self.freedom.uv(&self.values, face)
     }
 
-    fn system<'r>(&mut self, region: &'r Region) -> Result<System<'r>>
+    fn system<'r>(&self, region: &'r Region) -> Result<System<'r>>
     where
         'a: 'r,
     {
-        for (k, &y) in region.unknowns.iter().enumerate() {
-            self.place[y as usize] = k as u32;
-        }
         let rest = |face: usize| at_rest(self.mesh, self.problem, face);
-        let system = System::new(self.freedom, region, rest, &self.place);
-        region
-            .unknowns
-            .iter()
-            .for_each(|&y| self.place[y as usize] = NONE);
-        system
+        System::new(self.freedom, region, rest)
     }
 
-    /// Works on one region, and keeps the result if it has fewer folds.
-    fn undo_folds(&mut self, region: &Region, first_eps: f64, monitor: &mut Monitor) -> Result<()> {
-        let mut system = self.system(region)?;
-        let before = system.folded(&self.values);
-        if before == 0 {
-            return Ok(());
-        }
-        let most_steps = self.most_steps.min(self.budget / system.faces());
-        if most_steps < LEAST_STEPS.min(self.most_steps) {
-            return Ok(());
-        }
-        let saved = system.save(&self.values);
-        let outcome = schedule::close_barrier(
-            &mut system,
-            &mut self.values,
-            most_steps,
-            first_eps,
+    /// Works on regions, and keeps the results that have fewer folds.
+    fn undo_folds(
+        &mut self,
+        regions: &[Region],
+        first_eps: f64,
+        monitor: &mut Monitor,
+    ) -> Result<()> {
+        let steps: Vec<usize> = regions.iter().map(|of| self.steps_for(of)).collect();
+        let undone = |this: &Self, k: usize, steps, values: &mut [f64], monitor: &mut Monitor| {
+            if steps == 0 {
+                return Ok(Outcome::default());
+            }
+            let mut system = this.system(&regions[k])?;
+            schedule::undo_folds(&mut system, values, steps, first_eps, monitor)
+        };
+        let done = at_once(
+            &self.values,
+            regions.len(),
             monitor,
+            |k, values, monitor| undone(self, k, steps[k], values, monitor),
         )?;
-        if outcome.folded >= before {
-            system.restore(&mut self.values, &saved);
+        for (k, mut outcome) in done.into_iter().enumerate() {
+            // The budget is spent in the order of the regions.
+            let left = self.steps_for(&regions[k]);
+            if left != steps[k] {
+                let mut values = self.values.clone();
+                outcome = undone(self, k, left, &mut values, monitor)?;
+            }
+            let better = outcome.better.iter();
+            better.for_each(|moved| moved.put(&mut self.values));
+            self.steps += outcome.steps;
+            let looked_at = outcome.steps.saturating_mul(regions[k].faces.len());
+            self.budget = self.budget.saturating_sub(looked_at);
         }
-        self.steps += outcome.steps;
-        let looked_at = outcome.steps.saturating_mul(system.faces());
-        self.budget = self.budget.saturating_sub(looked_at);
         Ok(())
+    }
+
+    /// The Newton steps that a region may make.
+    fn steps_for(&self, region: &Region) -> usize {
+        let steps = self.most_steps.min(self.budget / region.faces.len().max(1));
+        match steps < LEAST_STEPS.min(self.most_steps) {
+            true => 0,
+            false => steps,
+        }
     }
 }
 

@@ -7,11 +7,10 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::NONE;
 use super::energy::{Quadratic, Rest};
 use super::freedom::Freedom;
-use super::region::{Region, regions};
-use super::schedule;
+use super::region::{Region, at_once, regions};
+use super::schedule::{FIRST_EPS, undo_folds};
 use super::system::System;
 use crate::error::Result;
 use crate::linalg::Sparse;
@@ -84,8 +83,7 @@ impl Patchwork {
             unknowns: (0..self.freedom.dim() as u32).collect(),
             faces: (0..self.rests.len() as u32).collect(),
         };
-        let mut place = vec![NONE; self.freedom.dim()];
-        let mut system = self.system(&whole, &mut place)?;
+        let mut system = self.system(&whole)?;
         let valid = values.to_vec();
         let forms: Vec<Quadratic> = self.dirichlet(values);
         system.minimise(values, &forms)?;
@@ -120,7 +118,7 @@ impl Patchwork {
     pub fn folded(&self, values: &[f64]) -> Vec<usize> {
         let faces = 0..self.rests.len();
         faces
-            .filter(|&f| orientation(self.uv(values, f)) <= 0.0)
+            .filter(|&f| orientation(self.freedom.uv(values, f)) <= 0.0)
             .collect()
     }
 
@@ -134,7 +132,7 @@ impl Patchwork {
             .map_or(0, |&v| v as usize + 1);
         let mut angles = vec![0.0; count];
         for (face, vertices) in self.vertices.iter().enumerate() {
-            let uv = self.uv(values, face);
+            let uv = self.freedom.uv(values, face);
             for k in 0..3 {
                 angles[vertices[k] as usize] += angle_at(uv, k);
             }
@@ -145,51 +143,32 @@ impl Patchwork {
 
     fn unfold(&self, values: &mut [f64], monitor: &mut Monitor) -> Result<usize> {
         let mut steps = 0;
-        let mut place = vec![NONE; self.freedom.dim()];
         for rings in RINGS {
             let folded = self.folded(values);
             if folded.is_empty() {
                 break;
             }
-            for region in regions(&self.freedom, &folded, rings) {
-                let mut system = self.system(&region, &mut place)?;
-                let (before, saved) = (system.folded(values), system.save(values));
-                let outcome = schedule::close_barrier(
-                    &mut system,
-                    values,
-                    STEPS_OF_REGION,
-                    schedule::FIRST_EPS,
-                    monitor,
-                )?;
+            let regions = regions(&self.freedom, &folded, rings);
+            let done = at_once(values, regions.len(), monitor, |k, values, monitor| {
+                let mut system = self.system(&regions[k])?;
+                undo_folds(&mut system, values, STEPS_OF_REGION, FIRST_EPS, monitor)
+            })?;
+            for outcome in done {
                 steps += outcome.steps;
-                if outcome.folded >= before {
-                    system.restore(values, &saved);
-                }
+                outcome.better.iter().for_each(|moved| moved.put(values));
             }
         }
         Ok(steps)
     }
 
-    fn system<'r>(&'r self, region: &'r Region, place: &mut [u32]) -> Result<System<'r>> {
-        for (k, &y) in region.unknowns.iter().enumerate() {
-            place[y as usize] = k as u32;
-        }
-        let system = System::new(&self.freedom, region, |face| self.rests[face], place);
-        region
-            .unknowns
-            .iter()
-            .for_each(|&y| place[y as usize] = NONE);
-        system
-    }
-
-    fn uv(&self, values: &[f64], face: usize) -> [[f64; 2]; 3] {
-        self.freedom.copies[face].map(|c| [values[2 * c as usize], values[2 * c as usize + 1]])
+    fn system<'r>(&'r self, region: &'r Region) -> Result<System<'r>> {
+        System::new(&self.freedom, region, |face| self.rests[face])
     }
 
     /// The Dirichlet energy of every face, to second order.
     fn dirichlet(&self, values: &[f64]) -> Vec<Quadratic> {
         let of_face = |(face, rest): (usize, &Rest)| {
-            let uv = self.uv(values, face);
+            let uv = self.freedom.uv(values, face);
             let area = rest.weight * rest.weight;
             let mut form = Quadratic::ZERO;
             for (i, g) in rest.gradients.iter().enumerate() {

@@ -2,7 +2,11 @@
 //!
 //! A fold only affects its neighbourhood, and a small system is cheap. Regions that touch are merged.
 
+use std::sync::Mutex;
+
 use super::freedom::Freedom;
+use crate::error::Result;
+use crate::monitor::{Monitor, tasks};
 
 /// A connected set of free unknowns and all faces that they move, both increasing.
 pub(super) struct Region {
@@ -44,6 +48,42 @@ pub(super) fn regions(freedom: &Freedom, folded: &[usize], rings: usize) -> Vec<
     found
 }
 
+/// Coordinates of a region, and where they have moved to.
+pub(super) struct Moved {
+    pub coordinates: Vec<u32>,
+    pub to: Vec<f64>,
+}
+
+impl Moved {
+    pub fn put(&self, values: &mut [f64]) {
+        for (&i, to) in self.coordinates.iter().zip(&self.to) {
+            values[i as usize] = *to;
+        }
+    }
+}
+
+/// Works on `count` regions at the same time, and gives the results in order. Every work gets these values of all
+/// coordinates, reads and changes none but those of its region, and leaves them as they were: no two regions have a
+/// face in common.
+pub(super) fn at_once<T: Send>(
+    values: &[f64],
+    count: usize,
+    monitor: &mut Monitor,
+    work: impl Fn(usize, &mut [f64], &mut Monitor) -> Result<T> + Sync,
+) -> Result<Vec<T>> {
+    let copies: Mutex<Vec<Vec<f64>>> = Mutex::default();
+    let done = tasks(count, monitor, |k, monitor| {
+        let spare = copies.lock().ok().and_then(|mut copies| copies.pop());
+        let mut copy = spare.unwrap_or_else(|| values.to_vec());
+        let result = work(k, &mut copy, monitor);
+        if let Ok(mut copies) = copies.lock() {
+            copies.push(copy);
+        }
+        result
+    });
+    done.into_iter().collect()
+}
+
 /// The region of a free unknown; its unknowns are removed from `is_free`.
 fn connected(
     freedom: &Freedom,
@@ -71,4 +111,46 @@ fn connected(
     unknowns.sort_unstable();
     faces.sort_unstable();
     Region { unknowns, faces }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::stiffen::tests::with_work;
+    use super::*;
+    use crate::monitor::{spawned, with_threads};
+
+    #[test]
+    fn regions_at_once_move_as_one_after_the_other() {
+        with_work("genus-2", 80, |work, _| {
+            let regions = regions(work.freedom, &work.folded(), 3);
+            assert!(regions.len() > 2);
+            let (values, whole) = (work.values.clone(), work.budget);
+            let faces: usize = regions.iter().map(|region| region.faces.len()).sum();
+            let limits = |work: &super::super::Untangling| -> Vec<usize> {
+                regions
+                    .iter()
+                    .map(|region| work.steps_for(region))
+                    .collect()
+            };
+            for (budget, is_enough) in [(whole, true), (12 * faces, false)] {
+                let mut results = Vec::new();
+                let mut undo = |group: usize, threads: usize| {
+                    (work.values, work.budget, work.steps) = (values.clone(), budget, 0);
+                    let before = limits(work);
+                    with_threads(threads, || {
+                        for some in regions.chunks(group) {
+                            work.undo_folds(some, 1.0, &mut Monitor::default()).unwrap();
+                        }
+                    });
+                    assert_eq!(limits(work) == before, is_enough);
+                    results.push((work.values.clone(), work.budget, work.steps));
+                };
+                undo(1, 1);
+                undo(regions.len(), 1);
+                assert!(spawned(|| undo(regions.len(), 3)) > 0);
+                assert!(results[0].0 != values && results[0].2 > 0);
+                assert!(results.iter().all(|result| *result == results[0]));
+            }
+        });
+    }
 }

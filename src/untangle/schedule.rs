@@ -4,6 +4,7 @@
 //! `garanzha2021`, section 3.2, equation (7): eps falls faster when the last minimisation gained more and
 //! when fewer faces are folded.
 
+use super::region::Moved;
 use super::system::System;
 use crate::error::Result;
 use crate::monitor::Monitor;
@@ -28,21 +29,41 @@ const INNER_STEPS: usize = 6;
 const POLISHING_STEPS: usize = 3;
 
 /// The result of the work on a region.
+#[derive(Default)]
 pub(super) struct Outcome {
-    /// Faces still folded.
-    pub folded: usize,
+    /// Where the region has moved to, if that has fewer folds.
+    pub better: Option<Moved>,
     /// Newton steps made.
     pub steps: usize,
 }
 
-/// Works on a region until nothing is folded, for at most `most_steps` steps.
-pub(super) fn close_barrier(
+/// Works on a region until nothing is folded, for at most `most_steps` steps, and leaves `x` as it was.
+pub(super) fn undo_folds(
     system: &mut System,
     x: &mut [f64],
     most_steps: usize,
     first_eps: f64,
     monitor: &mut Monitor,
 ) -> Result<Outcome> {
+    let before = system.folded(x);
+    if before == 0 {
+        return Ok(Outcome::default());
+    }
+    let saved = system.save(x);
+    let (folded, steps) = close_barrier(system, x, most_steps, first_eps, monitor)?;
+    let better = (folded < before).then(|| system.moved(x));
+    system.restore(x, &saved);
+    Ok(Outcome { better, steps })
+}
+
+/// Changes the energy of a region step by step. Returns the faces still folded, and the Newton steps made.
+fn close_barrier(
+    system: &mut System,
+    x: &mut [f64],
+    most_steps: usize,
+    first_eps: f64,
+    monitor: &mut Monitor,
+) -> Result<(usize, usize)> {
     let mut eps = first_eps;
     let mut steps = 0;
     let mut folded = system.folded(x);
@@ -64,7 +85,7 @@ pub(super) fn close_barrier(
     if folded == 0 {
         steps += polish(system, x, eps)?;
     }
-    Ok(Outcome { folded, steps })
+    Ok((folded, steps))
 }
 
 /// The next eps, after a minimisation that gained the part `gain` of the energy.

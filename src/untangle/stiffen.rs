@@ -14,7 +14,7 @@
 
 use super::Untangling;
 use super::energy::Quadratic;
-use super::region::{Region, regions};
+use super::region::{Moved, Region, at_once, regions};
 use crate::error::{Error, Result};
 use crate::map::gradient;
 use crate::mesh::vector::{dot, norm, sub};
@@ -37,39 +37,49 @@ impl Untangling<'_> {
     /// Stiffens the surroundings of each fold until it is gone, at most `times` times, and keeps
     /// the state with the fewest folds.
     pub(super) fn stiffen(&mut self, times: usize, monitor: &mut Monitor) -> Result<()> {
-        for region in regions(self.freedom, &self.folded(), RINGS) {
-            monitor.progress(Phase::Untangle, 0.0)?;
-            monitor.watching(|| self.stiffen_region(&region, times))?;
-        }
+        let regions = regions(self.freedom, &self.folded(), RINGS);
+        let stiffened = at_once(
+            &self.values,
+            regions.len(),
+            monitor,
+            |k, values, monitor| {
+                monitor.progress(Phase::Untangle, 0.0)?;
+                monitor.watching(|| self.stiffened(&regions[k], times, values))
+            },
+        )?;
+        let all = stiffened.iter();
+        all.for_each(|moved| moved.put(&mut self.values));
         Ok(())
     }
 
-    fn stiffen_region(&mut self, region: &Region, times: usize) -> Result<()> {
+    /// The best state of a region. Leaves `values` as they were.
+    fn stiffened(&self, region: &Region, times: usize, values: &mut [f64]) -> Result<Moved> {
         let mut system = self.system(region)?;
-        let mut least = system.folded(&self.values);
-        let mut best = system.save(&self.values);
+        let mut least = system.folded(values);
+        let mut best = system.moved(values);
+        let before = system.save(values);
         let neighbors = self.neighbors_in(region);
         let mut weights = vec![1.0; region.faces.len()];
         for _ in 0..times {
             if least == 0 {
                 break;
             }
-            self.stiffen_distorted(region, &neighbors, &mut weights);
+            self.stiffen_distorted(region, values, &neighbors, &mut weights);
             let faces = region.faces.iter().zip(&weights);
-            let forms: Vec<_> = faces.map(|(&f, &w)| self.misfit(f as usize, w)).collect();
-            match system.minimise(&mut self.values, &forms) {
+            let forms = faces.map(|(&f, &w)| self.misfit(f as usize, values, w));
+            match system.minimise(values, &forms.collect::<Vec<_>>()) {
                 // Next to a triangle without area the weights overflow.
                 Err(Error::Overflow { .. }) => break,
                 other => other?,
             }
-            let folded = system.folded(&self.values);
+            let folded = system.folded(values);
             if folded < least {
                 least = folded;
-                best = system.save(&self.values);
+                best = system.moved(values);
             }
         }
-        system.restore(&mut self.values, &best);
-        Ok(())
+        system.restore(values, &before);
+        Ok(best)
     }
 
     /// For each face of a region, the places of its neighbours in the region.
@@ -83,6 +93,7 @@ impl Untangling<'_> {
     fn stiffen_distorted(
         &self,
         region: &Region,
+        values: &[f64],
         neighbors: &[[Option<usize>; 3]],
         weights: &mut [f64],
     ) {
@@ -92,7 +103,9 @@ impl Untangling<'_> {
             if count > 0.0 { sum / count } else { values[k] }
         };
         let faces = region.faces.iter();
-        let distortion: Vec<f64> = faces.map(|&f| self.distortion(f as usize)).collect();
+        let distortion: Vec<f64> = faces
+            .map(|&f| self.distortion(f as usize, values))
+            .collect();
         for (k, weight) in weights.iter_mut().enumerate() {
             let laplacian = distortion[k] - mean(&distortion, k);
             *weight += (BY_LAPLACIAN * laplacian.abs()).min(MOST);
@@ -105,8 +118,8 @@ impl Untangling<'_> {
     }
 
     /// The distortion of the map of a face relative to its targets: 0 for an isometry.
-    fn distortion(&self, face: usize) -> f64 {
-        let uv = self.uv(face);
+    fn distortion(&self, face: usize, values: &[f64]) -> f64 {
+        let uv = self.freedom.uv(values, face);
         let targets = self.problem.targets(self.mesh, face);
         // The columns of the Jacobian: along each target, by the square of its length.
         let along = |axis: usize| {
@@ -123,11 +136,12 @@ impl Untangling<'_> {
     }
 
     /// Half of `weight area (|grad u - h X|^2 + |grad v - h Y|^2)`, from the coordinates as they are.
-    fn misfit(&self, face: usize, weight: f64) -> Quadratic {
+    fn misfit(&self, face: usize, values: &[f64], weight: f64) -> Quadratic {
         let area = weight * self.mesh.area(face);
         let hats = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
         let hats = hats.map(|values| gradient(self.mesh, face, values));
-        let (uv, targets) = (self.uv(face), self.problem.targets(self.mesh, face));
+        let uv = self.freedom.uv(values, face);
+        let targets = self.problem.targets(self.mesh, face);
         let mut form = Quadratic::ZERO;
         for (axis, target) in targets.into_iter().enumerate() {
             let found = gradient(self.mesh, face, uv.map(|corner| corner[axis]));
@@ -143,7 +157,7 @@ impl Untangling<'_> {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::super::{Structure, UntangleOptions};
     use super::*;
     use crate::field::{FieldOptions, solve_field};
@@ -153,7 +167,11 @@ mod tests {
     use crate::solve::solve;
 
     /// Calls `look` with the untangling of a shape's map at its start, and with the energy of the map.
-    fn with_work(name: &str, quads: usize, look: impl FnOnce(&mut Untangling, f64)) {
+    pub(in crate::untangle) fn with_work(
+        name: &str,
+        quads: usize,
+        look: impl FnOnce(&mut Untangling, f64),
+    ) {
         let mesh: TriangleMesh = jitter(&shape::by_name(name, 2000).unwrap(), 1e-3, 7).unwrap();
         let (options, field) = (Options::default(), FieldOptions::default());
         let (field, _) = solve_field(&mesh, &field, &options, Monitor::default).unwrap();
@@ -182,7 +200,8 @@ mod tests {
         with_work("plane", 100, |work, _| {
             let region = everything(work);
             let mut weights = vec![1.0; region.faces.len()];
-            work.stiffen_distorted(&region, &work.neighbors_in(&region), &mut weights);
+            let neighbors = work.neighbors_in(&region);
+            work.stiffen_distorted(&region, &work.values, &neighbors, &mut weights);
             assert!(weights.iter().all(|w| (1.0..1.01).contains(w)));
         });
     }
@@ -192,7 +211,7 @@ mod tests {
         with_work("genus-2", 80, |work, energy| {
             let region = everything(work);
             let forms: Vec<_> = (0..work.mesh.face_count())
-                .map(|f| work.misfit(f, 1.0))
+                .map(|f| work.misfit(f, &work.values, 1.0))
                 .collect();
             let slope = |form: &Quadratic| form.slope.iter().map(|s| s.abs()).sum::<f64>();
             let before = work.values.clone();

@@ -6,7 +6,7 @@
 use super::energy::{Quadratic, Rest};
 use super::freedom::Freedom;
 use super::hessian::Hessian;
-use super::region::Region;
+use super::region::{Moved, Region};
 use crate::error::{Error, Result};
 use crate::linalg::Sparse;
 use crate::mesh::orientation;
@@ -33,13 +33,10 @@ pub(super) struct System<'a> {
 }
 
 impl<'a> System<'a> {
-    /// `place` gives the position of each free unknown in the region; unknowns outside have a larger
-    /// number.
     pub fn new(
         freedom: &'a Freedom,
         region: &'a Region,
         rest: impl Fn(usize) -> Rest,
-        place: &[u32],
     ) -> Result<Self> {
         let moved = region
             .unknowns
@@ -51,8 +48,10 @@ impl<'a> System<'a> {
         let dim = region.unknowns.len();
         let row = |k: usize, coordinate: u32| {
             let entries = freedom.moves.row(coordinate as usize);
-            let inside = entries.filter(|&(y, _)| (place[y] as usize) < dim);
-            inside.map(move |(y, v)| (k as u32, place[y], v))
+            entries.filter_map(move |(y, v)| {
+                let place = region.unknowns.binary_search(&(y as u32)).ok()?;
+                Some((k as u32, place as u32, v))
+            })
         };
         let of_faces = region
             .faces
@@ -72,11 +71,6 @@ impl<'a> System<'a> {
             freedom,
             region,
         })
-    }
-
-    /// Number of faces: what one step costs.
-    pub fn faces(&self) -> usize {
-        self.region.faces.len()
     }
 
     /// The energy at coordinates `x`.
@@ -162,6 +156,14 @@ impl<'a> System<'a> {
         }
     }
 
+    /// The coordinates of the region as they are now.
+    pub fn moved(&self, x: &[f64]) -> Moved {
+        Moved {
+            coordinates: self.coordinates.clone(),
+            to: self.save(x),
+        }
+    }
+
     fn place(&self, x: &mut [f64], start: &[f64], change: &[f64], length: f64) {
         for ((&i, start), change) in self.coordinates.iter().zip(start).zip(change) {
             x[i as usize] = start + length * change;
@@ -170,11 +172,7 @@ impl<'a> System<'a> {
 
     fn shapes<'b>(&'b self, x: &'b [f64]) -> impl Iterator<Item = (&'b Rest, [[f64; 2]; 3])> + 'b {
         let faces = self.region.faces.iter().zip(&self.rests);
-        faces.map(|(&face, rest)| {
-            let copies = self.freedom.copies[face as usize];
-            let uv = copies.map(|c| [x[2 * c as usize], x[2 * c as usize + 1]]);
-            (rest, uv)
-        })
+        faces.map(|(&face, rest)| (rest, self.freedom.uv(x, face as usize)))
     }
 
     /// Energy and slope in the region's unknowns; `hessian` becomes the projected one.

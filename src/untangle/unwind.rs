@@ -234,9 +234,7 @@ impl Untangling<'_> {
                 break;
             }
             was_folded = true;
-            for region in regions(self.freedom, &folded, rings) {
-                self.undo_folds(&region, first_eps, monitor)?;
-            }
+            self.undo_folds(&regions(self.freedom, &folded, rings), first_eps, monitor)?;
         }
         Ok(was_folded)
     }
