@@ -13,7 +13,7 @@ use super::place::doubled_area;
 use crate::error::{Error, Result};
 use crate::map::SeamlessMap;
 use crate::mesh::{TriangleMesh, angle_at, turned};
-use crate::monitor::{collect_in_parts, may_continue};
+use crate::monitor::{collect_if_wanted, may_continue, may_continue_at};
 
 /// The least number of edges or vertices that are worth a thread.
 const LEAST: usize = 1 << 13;
@@ -124,8 +124,7 @@ impl IntegerGridMap {
             }
             Ok(steps)
         };
-        let of_faces = collect_in_parts(mesh.face_count(), LEAST, of_face);
-        may_continue()?;
+        let of_faces = collect_if_wanted(mesh.face_count(), LEAST, of_face)?;
         let without = of_faces.iter().filter_map(|steps| steps.as_ref().err());
         if let Some(&[e, first, second]) = without.min() {
             return Err(Error::InvalidArgument {
@@ -141,11 +140,11 @@ impl IntegerGridMap {
             turns: steps.iter().map(|s| s.map(|s| s.quarters)).collect(),
             is_irregular: vec![false; mesh.vertex_count()],
         };
-        let settled = collect_in_parts(mesh.vertex_count(), LEAST, |v| {
+        let settled = collect_if_wanted(mesh.vertex_count(), LEAST, |v| {
             settled(mesh, uvs, &steps, v)
-        });
-        may_continue()?;
+        })?;
         for (v, settled) in settled.into_iter().enumerate() {
+            may_continue_at(v)?;
             let (mut at, is_irregular) = settled?;
             map.is_irregular[v] = is_irregular;
             for (f, k) in mesh.ring(v) {

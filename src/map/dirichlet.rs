@@ -19,7 +19,7 @@ use super::sectors::Sectors;
 use crate::error::Result;
 use crate::mesh::TriangleMesh;
 use crate::mesh::vector::{Vec3, cotangent, cross, dot, norm, sub};
-use crate::monitor::{both, collect_in_parts, may_continue, may_continue_at};
+use crate::monitor::{both, collect_if_wanted, may_continue, may_continue_at};
 use crate::problem::{Problem, Triangle};
 
 /// The least number of faces that are worth a thread.
@@ -57,7 +57,7 @@ impl Dirichlet {
         targets: impl Fn(usize) -> [Vec3; 2] + Sync,
     ) -> Result<Self> {
         // By local edge, the weight and how far its ends are to be apart.
-        let edges: Vec<OfEdges> = collect_in_parts(mesh.face_count(), LEAST, |face| {
+        let edges: Vec<OfEdges> = collect_if_wanted(mesh.face_count(), LEAST, |face| {
             let targets = targets(face);
             let corners = mesh.corner_positions(face);
             let relief = relief(corners);
@@ -66,8 +66,7 @@ impl Dirichlet {
                 let weight = relief * 0.5 * cotangent(sub(a, c), sub(b, c));
                 (weight, targets.map(|target| dot(target, sub(b, a))))
             })
-        });
-        may_continue()?;
+        })?;
         let (sums, pairs) = both(
             mesh.face_count() >= LEAST,
             || Sums::new(sectors, unknowns, &edges),

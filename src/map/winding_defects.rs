@@ -9,7 +9,7 @@ use std::f64::consts::FRAC_PI_2;
 use super::{SeamlessMap, SeamlessProblem};
 use crate::error::Result;
 use crate::mesh::{TriangleMesh, angle_at, orientation};
-use crate::monitor::{filter_in_parts, may_continue};
+use crate::monitor::{collect_if_wanted, may_continue};
 
 /// The least number of vertices that are worth a thread.
 const LEAST: usize = 1 << 12;
@@ -27,21 +27,23 @@ impl SeamlessProblem {
         let _memory = mesh.watch_memory();
         let quarters = self.quarters(mesh)?;
         may_continue()?;
-        let defects = winding_defects(mesh, &quarters, |face| map.uv(face));
-        may_continue()?;
-        Ok(defects)
+        winding_defects(mesh, &quarters, |face| map.uv(face))
     }
 }
 
 /// The vertices with given quarter turns at which a map makes another number of them.
+///
+/// # Errors
+/// The reason to end the current step.
 pub(crate) fn winding_defects(
     mesh: &TriangleMesh,
     quarters: &[Option<i32>],
     uv: impl Fn(usize) -> [[f64; 2]; 3] + Sync,
-) -> Vec<usize> {
-    filter_in_parts(mesh.vertex_count(), LEAST, |v| {
+) -> Result<Vec<usize>> {
+    let is_defect = collect_if_wanted(mesh.vertex_count(), LEAST, |v| {
         has_winding_defect(mesh, quarters, &uv, v)
-    })
+    })?;
+    Ok((0..is_defect.len()).filter(|&v| is_defect[v]).collect())
 }
 
 /// Whether a map makes another number of quarter turns around a vertex than is given for it.

@@ -23,8 +23,8 @@ pub use cancel::CancelToken;
 pub(crate) use cancel::Stop;
 pub use event::{Event, EventKind, Flow, Phase, Stage};
 pub(crate) use parts::{
-    both, change_in_parts, collect_in_parts, collect_in_turn, filter_in_parts, for_each_part,
-    in_blocks, joined, parts_of, sort_in_parts, write_lines,
+    both, change_in_parts, collect_if_wanted, collect_in_parts, collect_in_turn, filter_in_parts,
+    for_each_part, in_blocks, joined, parts_of, sort_in_parts, write_lines,
 };
 pub use run::Run;
 pub(crate) use threads::SharedThreads;

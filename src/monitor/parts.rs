@@ -9,12 +9,17 @@ use std::panic::resume_unwind;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
+use super::Stop;
 use super::threads::{SharedThreads, allowed_threads};
 use super::trace;
+use super::watch::is_wanted;
 use super::worker::{in_parts, spawn};
 
 /// The elements of a block of [`in_blocks`]: enough to be worth a thread.
 const BLOCK: usize = 1 << 14;
+
+/// The elements after which [`collect_if_wanted`] asks.
+const ASKS: usize = 1 << 12;
 
 /// The lines of a block of text, and the blocks that are in memory at the same time.
 const LINES: usize = 1 << 11;
@@ -37,6 +42,28 @@ pub(crate) fn collect_in_parts<T: Send>(
         values
     });
     joined(parts)
+}
+
+/// As [`collect_in_parts`], unless the call is to end: each thread asks once in a block.
+///
+/// # Errors
+/// The reason to end.
+pub(crate) fn collect_if_wanted<T: Send>(
+    count: usize,
+    least: usize,
+    value: impl Fn(usize) -> T + Sync,
+) -> Result<Vec<T>, Stop> {
+    let parts = in_parts(count, least, |part| {
+        let mut values = Vec::with_capacity(part.len());
+        for k in part {
+            if values.len() % ASKS == 0 {
+                is_wanted()?;
+            }
+            values.push(value(k));
+        }
+        Ok(values)
+    });
+    parts.into_iter().collect::<Result<_, _>>().map(joined)
 }
 
 /// The results of `count` tasks, in order. Each thread takes the next task when it has done one.
@@ -211,7 +238,7 @@ pub(crate) fn write_lines(
 mod tests {
     use super::super::spawned;
     use super::super::threads::with_threads;
-    use super::super::traced;
+    use super::super::{CancelToken, Monitor, traced};
     use super::*;
     use std::sync::Barrier;
 
@@ -274,6 +301,26 @@ mod tests {
                 .iter()
                 .any(|span| (span.name, span.thread) == ("task", 2))
         );
+    }
+
+    #[test]
+    fn a_loop_ends_with_its_call() {
+        let token = CancelToken::new();
+        for threads in [1, 3] {
+            token.reset();
+            let _watch = Monitor::default().cancel_token(token.clone()).watch();
+            let doubled = |k: usize| 2 * k;
+            let done = with_threads(threads, || collect_if_wanted(10 * ASKS, 1, doubled));
+            assert_eq!(done, Ok((0..10 * ASKS).map(doubled).collect()));
+            let calls = AtomicUsize::new(0);
+            let cancels = |_| {
+                token.cancel();
+                calls.fetch_add(1, Relaxed);
+            };
+            let done = with_threads(threads, || collect_if_wanted(10 * ASKS, 1, cancels));
+            assert_eq!(done, Err(Stop::Cancelled));
+            assert!(calls.load(Relaxed) <= threads * ASKS);
+        }
     }
 
     #[test]

@@ -219,7 +219,7 @@ impl Structure {
         may_continue()?;
         let mut work = Untangling::new(self, mesh, problem, map, options);
         let flipped_before = work.folded().len();
-        if flipped_before == 0 && work.winding_defects().is_empty() {
+        if flipped_before == 0 && work.winding_defects()?.is_empty() {
             return Untangled::untouched(mesh, problem, map.clone());
         }
         work.stiffen(options.stiffenings, monitor)?;
@@ -241,7 +241,7 @@ impl Structure {
             collapsed_edges: stuck.edges,
             flipped_before,
             flipped_stiffened,
-            winding_defects: work.winding_defects(),
+            winding_defects: work.winding_defects()?,
             flipped_after: left.len(),
             steps: work.steps,
             visited: options.passes.saturating_mul(mesh.face_count()) - work.budget,
