@@ -202,6 +202,9 @@ mod tests {
         PrescribedIndex { vertex, steps }
     }
 
+    /// What is changed in options.
+    type Change<'a> = &'a dyn Fn(&mut FieldOptions);
+
     type Found = Result<(OrientationField, Solution)>;
 
     fn by(strategy: Strategy) -> Options {
@@ -324,7 +327,7 @@ mod tests {
         let [tori, sheet] = tori_and_sheet();
         let on_boundary = (0..sheet.vertex_count()).rfind(|&v| sheet.is_boundary_vertex(v));
         let around = |vertex| tori.ring(vertex).map(|(face, _)| constraint(face, 0.0));
-        let changes: [(Option<usize>, &TriangleMesh, &dyn Fn(&mut FieldOptions)); 6] = [
+        let changes: [(Option<usize>, &TriangleMesh, Change); 6] = [
             (Some(17), &tori, &|o| {
                 o.lengths = vec![1.0; tori.vertex_count()];
                 o.lengths[17] = f64::NAN;
@@ -353,7 +356,7 @@ mod tests {
         let mesh = by_name("torus", 600).unwrap();
         let (faces, vertices) = (mesh.face_count(), mesh.vertex_count());
         assert!(FieldOptions::default().fit(&mesh));
-        let changes: [&dyn Fn(&mut FieldOptions); 6] = [
+        let changes: [Change; 6] = [
             &|o| o.constraints = vec![constraint(faces, 0.0)],
             &|o| o.guides = vec![guide(faces, 1.0)],
             &|o| o.indices = Some(vec![index(vertices, 0)]),
