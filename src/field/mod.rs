@@ -15,6 +15,7 @@ mod file;
 mod graded_flow;
 mod guidance;
 mod guidance_file;
+mod in_order;
 mod index;
 mod options;
 mod orientation_field;

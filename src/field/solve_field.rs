@@ -7,6 +7,7 @@
 use super::detail::detail;
 use super::feasible_indices::feasible_indices;
 use super::graded_flow::graded_flow;
+use super::in_order::in_order;
 use super::{Constraint, FieldOptions, FieldProblem, OrientationField, PrescribedIndex};
 use crate::error::{Error, Result};
 use crate::mesh::TriangleMesh;
@@ -22,6 +23,10 @@ const LEAST: usize = 1 << 12;
 /// With a length of [details](FieldOptions::detail) this is [`solve_field`], because callers who exclude
 /// details want quads.
 ///
+/// A mesh of more than 32,768 faces whose neighbours are far apart in memory is solved on in another order. The
+/// solution's values are then those of the problem of the mesh in that order, whose optimum is the same; the field is
+/// that of the mesh as it is given.
+///
 /// # Errors
 /// Those of [`solve_field`].
 pub fn smoothest_field<'a>(
@@ -33,11 +38,13 @@ pub fn smoothest_field<'a>(
     if options.detail > 0.0 {
         return solve_field(mesh, options, solver, monitor);
     }
-    if !options.regular.is_empty() {
-        let found = decided(mesh, options, solver, &monitor)?;
-        return Ok((found.field, found.solution));
-    }
-    solve_stated(mesh, options, solver, monitor())
+    in_order(mesh, options, monitor(), |mesh, options| {
+        if !options.regular.is_empty() {
+            let found = decided(mesh, options, solver, &monitor)?;
+            return Ok((found.field, found.solution));
+        }
+        solve_stated(mesh, options, solver, monitor())
+    })
 }
 
 /// The field of the problem that these options state.
@@ -217,6 +224,8 @@ impl DirectionProblem {
 /// constraints. Other directions of faces around a vertex are dropped if they alone decide an index that
 /// no map can have.
 ///
+/// A scattered mesh is solved on in another order, as by [`smoothest_field`].
+///
 /// # Errors
 /// Those of [`FieldProblem::with_options`], of [`solve`](crate::solve()) and of
 /// [`FieldProblem::field`].
@@ -228,13 +237,16 @@ pub fn solve_field<'a>(
 ) -> Result<(OrientationField, Solution)> {
     let run = monitor().run();
     let monitor = || monitor().of_run(&run);
-    match decide_jumps(mesh, options, solver, monitor)? {
-        JumpsDecided::All(field, solution) => Ok((field, solution)),
-        JumpsDecided::WithoutDetails(_, left) => left.solve(mesh, options, solver, monitor),
-    }
+    in_order(mesh, options, monitor(), |mesh, options| {
+        let decided = decide_jumps(mesh, options, solver, monitor)?;
+        match decided {
+            JumpsDecided::All(field, solution) => Ok((field, solution)),
+            JumpsDecided::WithoutDetails(_, left) => left.solve(mesh, options, solver, monitor),
+        }
+    })
 }
 
-/// The first part of [`solve_field`]: all but the details of the surface.
+/// The first part of [`solve_field`]: all but the details of the surface, on the mesh in the order that it has.
 ///
 /// # Errors
 /// Those of [`solve_field`].

@@ -57,6 +57,8 @@ pub(crate) use closest::{closest, closest_on_segment};
 pub(crate) use orientation::orientation;
 pub(crate) use plane::{angle_at, angle_between, turned};
 pub(crate) use reordered::Reordered;
+#[cfg(test)]
+pub(crate) use reordered::shuffled;
 
 #[cfg(test)]
 mod error_tests;

@@ -140,6 +140,18 @@ impl Reordered {
         (self.mesh.edge_of(place, k), is_turned)
     }
 
+    /// Where these vertices are now, in their order.
+    pub fn places_of_vertices(&self, vertices: &[usize]) -> Vec<usize> {
+        let places = vertices.iter().map(|&v| self.place_of_vertex(v));
+        places.collect()
+    }
+
+    /// Where these edges of `given`, the mesh as it was, are now, in their order.
+    pub fn places_of_edges(&self, given: &TriangleMesh, edges: &[usize]) -> Vec<usize> {
+        let places = edges.iter().map(|&e| self.place_of_edge(given, e).0);
+        places.collect()
+    }
+
     /// The number that each face had.
     pub fn faces(&self) -> &[u32] {
         &self.faces
@@ -193,31 +205,31 @@ fn is_scattered(mesh: &TriangleMesh) -> bool {
     far_faces.max(far_vertices) as f64 > FAR * looks as f64
 }
 
+/// A mesh with its faces and vertices in a random order.
+#[cfg(test)]
+pub(crate) fn shuffled(mesh: &TriangleMesh) -> TriangleMesh {
+    let mut random = crate::test_random::Random::new(7);
+    let mut order = |n: usize| {
+        let mut order: Vec<u32> = (0..n as u32).collect();
+        (1..n).for_each(|k| order.swap(k, random.below(k + 1)));
+        order
+    };
+    let vertices = order(mesh.vertex_count());
+    let mut place = vec![0; vertices.len()];
+    for (at, &v) in vertices.iter().enumerate() {
+        place[v as usize] = at as u32;
+    }
+    let faces = order(mesh.face_count());
+    let triangles = picked(mesh.triangles(), &faces);
+    let triangles = triangles.into_iter().map(|t| t.map(|v| place[v as usize]));
+    TriangleMesh::new(picked(mesh.vertices(), &vertices), triangles.collect()).unwrap()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::mesh::shape::by_name;
     use crate::monitor::{spawned, with_threads};
-    use crate::test_random::Random;
-
-    /// A mesh with its faces and vertices in a random order.
-    fn shuffled(mesh: &TriangleMesh) -> TriangleMesh {
-        let mut random = Random::new(7);
-        let mut order = |n: usize| {
-            let mut order: Vec<u32> = (0..n as u32).collect();
-            (1..n).for_each(|k| order.swap(k, random.below(k + 1)));
-            order
-        };
-        let vertices = order(mesh.vertex_count());
-        let mut place = vec![0; vertices.len()];
-        for (at, &v) in vertices.iter().enumerate() {
-            place[v as usize] = at as u32;
-        }
-        let faces = order(mesh.face_count());
-        let triangles = picked(mesh.triangles(), &faces);
-        let triangles = triangles.into_iter().map(|t| t.map(|v| place[v as usize]));
-        TriangleMesh::new(picked(mesh.vertices(), &vertices), triangles.collect()).unwrap()
-    }
 
     #[test]
     fn large_meshes_in_no_order_are_put_into_one_and_others_stay() {

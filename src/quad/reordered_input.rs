@@ -4,7 +4,6 @@
 use super::{QuadOptions, Quadrangulation};
 use crate::error::Result;
 use crate::extract::{Origin, QuadMesh};
-use crate::field::{Constraint, Guidance, Guide, PrescribedIndex};
 use crate::mesh::features::FeatureGraph;
 use crate::mesh::{Reordered, TriangleMesh};
 use crate::monitor::both;
@@ -44,22 +43,18 @@ impl ReorderedInput {
         options: &QuadOptions,
         reordered: Reordered,
     ) -> Result<Self> {
-        let edges = |edges: &[usize]| -> Vec<usize> {
-            let places = edges.iter().map(|&e| reordered.place_of_edge(mesh, e).0);
-            places.collect()
-        };
+        let edges = |edges: &[usize]| reordered.places_of_edges(mesh, edges);
         let features: Vec<usize> = (0..mesh.edge_count())
             .filter(|&e| features.contains(e))
             .collect();
-        let vertex = |vertex: usize| reordered.place_of_vertex(vertex);
         let options = QuadOptions {
-            guidance: guidance(&reordered, &options.guidance, edges),
+            guidance: options.guidance.in_order(mesh, &reordered),
             sizing: options.sizing.on_faces(reordered.faces()),
             density: match options.density.is_empty() {
                 true => Vec::new(),
                 false => reordered.of_vertices(&options.density),
             },
-            near_vertices: options.near_vertices.iter().map(|&v| vertex(v)).collect(),
+            near_vertices: reordered.places_of_vertices(&options.near_vertices),
             smooth: options.smooth.as_ref().map(|given| SmoothOptions {
                 features: edges(&given.features),
                 ..given.clone()
@@ -114,54 +109,14 @@ impl ReorderedInput {
     }
 }
 
-fn guidance(
-    reordered: &Reordered,
-    given: &Guidance,
-    edges: impl Fn(&[usize]) -> Vec<usize>,
-) -> Guidance {
-    let face = |face: usize| reordered.place_of_face(face);
-    let vertex = |vertex: usize| reordered.place_of_vertex(vertex);
-    // Corners of faces keep their order, and angles are those from the first edge.
-    let constraints = given.constraints.iter().map(|of| Constraint {
-        face: face(of.face),
-        ..*of
-    });
-    let guides = given.guides.iter().map(|of| Guide {
-        face: face(of.face),
-        ..*of
-    });
-    let indices = given.indices.as_ref().map(|indices| {
-        let there = indices.iter().map(|of| PrescribedIndex {
-            vertex: vertex(of.vertex),
-            ..*of
-        });
-        there.collect()
-    });
-    let lines = given.feature_lines.iter().map(|line| line.map(vertex));
-    Guidance {
-        constraints: constraints.collect(),
-        guides: guides.collect(),
-        indices,
-        feature_lines: lines.collect(),
-        feature_edges: edges(&given.feature_edges),
-        ..given.clone()
-    }
-}
-
 /// Whether the options name only elements that the mesh has.
 fn is_in_range(mesh: &TriangleMesh, options: &QuadOptions) -> bool {
-    let guidance = &options.guidance;
-    let constraints = guidance.constraints.iter().map(|of| of.face);
-    let mut faces = constraints.chain(guidance.guides.iter().map(|of| of.face));
-    let indices = guidance.indices.iter().flatten().map(|of| of.vertex);
-    let lines = guidance.feature_lines.iter().flatten().copied();
-    let near = options.near_vertices.iter().copied();
-    let mut vertices = indices.chain(lines).chain(near);
     let smooth = options.smooth.iter().flat_map(|smooth| &smooth.features);
-    let mut edges = guidance.feature_edges.iter().chain(smooth);
-    faces.all(|f| f < mesh.face_count())
-        && vertices.all(|v| v < mesh.vertex_count())
-        && edges.all(|&e| e < mesh.edge_count())
+    let mut edges = smooth.copied();
+    let mut near = options.near_vertices.iter().copied();
+    options.guidance.fits(mesh)
+        && near.all(|v| v < mesh.vertex_count())
+        && edges.all(|e| e < mesh.edge_count())
 }
 
 #[cfg(test)]
@@ -171,6 +126,7 @@ mod tests {
 
     use super::*;
     use crate::check::{CheckOptions, check_map};
+    use crate::field::{Constraint, Guidance, Guide};
     use crate::map::Sizing;
     use crate::mesh::shape::by_name;
     use crate::mesh::vector::{Vec3, norm, sub};
