@@ -3031,10 +3031,6 @@ roundel_status roundel_field_boundary_index_steps(const struct roundel_field *fi
  * vertices that no edge joins, a negative weight or an index at the boundary. The error's index is then
  * the position in the list. Also fails with ROUNDEL_ERROR_INVALID_ARGUMENT for indices that do not sum
  * to the Euler characteristic. Other failures are those of roundel_problem_solve.
- *
- * A mesh of more than 32768 faces whose neighbours are far apart in memory is solved on in another order. The field is
- * that of the mesh as it is given. The values of its solution are those of the problem in that order, and it must not
- * be given to roundel_field_from_solution.
  */
 roundel_status roundel_field_solve(const struct roundel_mesh *mesh,
                                    const struct roundel_guidance *guidance,

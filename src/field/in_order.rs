@@ -1,24 +1,35 @@
 //! The field of a mesh whose neighbours are far apart in memory, solved for on the mesh in a better order: what is
-//! given for its elements, there, and the field, as if nothing had been done.
+//! given for its elements, there, and the field and the solution, as if nothing had been done.
 
+use std::collections::VecDeque;
+use std::sync::Arc;
+
+use super::spanning_forest::spanning_forest;
 use super::{Constraint, FieldOptions, Guidance, Guide, OrientationField, PrescribedIndex};
 use crate::error::{Error, Result};
 use crate::mesh::{Reordered, TriangleMesh};
-use crate::monitor::{Monitor, may_continue};
+use crate::monitor::{Monitor, may_continue, may_continue_at};
+use crate::search::Strategy;
 use crate::solve::Solution;
 
-/// Solves on the mesh in a [better order](Reordered::if_scattered), if it needs one, else as it is. The field is that
-/// of the mesh as it is.
+/// Solves on the mesh in a [better order](Reordered::if_scattered), if it needs one, else as it is. Field and solution
+/// are those of the mesh as it is.
 ///
 /// # Errors
 /// The reason to end the call, and those of `solve`, which name elements of the mesh as it is.
 pub(super) fn in_order(
     mesh: &TriangleMesh,
     options: &FieldOptions,
+    strategy: Strategy,
     monitor: Monitor,
     solve: impl Fn(&TriangleMesh, &FieldOptions) -> Result<(OrientationField, Solution)>,
 ) -> Result<(OrientationField, Solution)> {
-    match better_order(mesh, options, monitor)? {
+    // The jumps of a relaxation are no numbers of arms.
+    let reordered = match strategy {
+        Strategy::Relax => None,
+        _ => better_order(mesh, options, monitor)?,
+    };
+    match reordered {
         Some(reordered) => solve_on(reordered, mesh, options, solve),
         None => solve(mesh, options),
     }
@@ -49,7 +60,10 @@ fn solve_on(
         Ok((field, solution)) => {
             let _memory = given.watch_memory();
             may_continue()?;
-            Ok((field.on_given(&reordered, given), solution))
+            let field = field.on_given(&reordered, given);
+            drop(reordered);
+            let (field, values) = field.on_forest(given, options)?;
+            Ok((field, solution.with_values(values)))
         }
         Err(error) if names_no_element(&error) => Err(error),
         // The same error of the mesh as it is names an element that the caller knows.
@@ -66,6 +80,80 @@ fn names_no_element(error: &Error) -> bool {
         error,
         Error::Cancelled | Error::TimeLimit | Error::SearchLimit { .. } | Error::OutOfMemory { .. }
     )
+}
+
+impl OrientationField {
+    /// The same crosses with jumps of zero on the forest of the problem that these options state, and the values of its
+    /// unknowns. Where an arm is replaced by another, jumps over the sides of the face change with it. Angles between
+    /// frames are those of the mesh, which may differ by a rounding, and by a turn where they are half a turn.
+    fn on_forest(
+        mut self,
+        mesh: &TriangleMesh,
+        options: &FieldOptions,
+    ) -> Result<(Self, Vec<f64>)> {
+        let constrained = self.constrained.iter().zip(&self.angles);
+        let fixed = constrained.map(|(&is, &angle)| is.then_some(angle));
+        let guided = options.guided(mesh, &fixed.collect::<Vec<_>>())?;
+        let named = self.constrained.iter().zip(&guided);
+        let is_rooted: Vec<bool> = named.map(|(&is, guide)| is || guide.is_some()).collect();
+        may_continue()?;
+        let in_forest = spanning_forest(mesh, &is_rooted);
+        may_continue()?;
+        let step = self.step();
+        let before = std::mem::replace(&mut self.kappa, Arc::new(mesh.transports()));
+        let kappas = before.iter().zip(self.kappa.iter());
+        for (jump, (before, kappa)) in self.period_jumps.iter_mut().zip(kappas) {
+            *jump = jump.saturating_add(((before - kappa) / step).round() as i32);
+        }
+        may_continue()?;
+        let turns = self.turns_onto(mesh, &in_forest, &is_rooted);
+        may_continue()?;
+        for (angle, &turns) in self.angles.iter_mut().zip(&turns) {
+            *angle += step * turns as f64;
+        }
+        let mut values = self.angles.clone();
+        for (e, edge) in mesh.edges().enumerate() {
+            may_continue_at(e)?;
+            let (i, Some((j, _))) = (edge.first.0, edge.second) else {
+                continue;
+            };
+            let jump = i64::from(self.period_jumps[e]) + turns[j] - turns[i];
+            self.period_jumps[e] = i32::try_from(jump).map_err(|_| Error::Overflow {
+                what: format!("the period jump of edge {e} is beyond 2^31"),
+                index: Some(e),
+            })?;
+            if !in_forest[e] && !(self.constrained[i] && self.constrained[j]) {
+                values.push(jump as f64);
+            }
+        }
+        Ok((self, values))
+    }
+
+    /// By how many arms each face has to turn so that jumps on the forest are zero. Its roots stay.
+    fn turns_onto(&self, mesh: &TriangleMesh, in_forest: &[bool], is_rooted: &[bool]) -> Vec<i64> {
+        let mut turns = vec![0; mesh.face_count()];
+        let mut is_reached = is_rooted.to_vec();
+        let mut queue: VecDeque<usize> = (0..turns.len()).filter(|&f| is_rooted[f]).collect();
+        for first in 0..turns.len() {
+            while let Some(face) = queue.pop_front() {
+                for k in 0..3 {
+                    let e = mesh.edge_of(face, k);
+                    let Some((across, _)) = mesh.neighbor(face, k).filter(|_| in_forest[e]) else {
+                        continue;
+                    };
+                    if !std::mem::replace(&mut is_reached[across], true) {
+                        let jump = i64::from(self.period_jumps[e]);
+                        turns[across] = turns[face] - mesh.out_of(face, k, jump);
+                        queue.push_back(across);
+                    }
+                }
+            }
+            if !std::mem::replace(&mut is_reached[first], true) {
+                queue.push_back(first);
+            }
+        }
+        turns
+    }
 }
 
 // Corners of faces keep their order, and angles are those from the first edge.
@@ -180,11 +268,12 @@ mod tests {
     use std::f64::consts::FRAC_PI_2;
 
     use super::*;
-    use crate::field::{smoothest_field, solve_field};
+    use crate::field::{FieldProblem, smoothest_field, solve_field};
     use crate::mesh::shape::by_name;
     use crate::mesh::shuffled;
     use crate::monitor::{CancelToken, with_threads};
-    use crate::search::{Options, Strategy};
+    use crate::search::Options;
+    use crate::solve::verify;
 
     fn constraint(face: usize, angle: f64) -> Constraint {
         Constraint { face, angle }
@@ -249,6 +338,12 @@ mod tests {
         let constrained = field.constrained().iter().enumerate();
         let constrained = constrained.filter(|(_, is)| **is).map(|(face, _)| face);
         assert!(constrained.eq([40, 310]));
+        // The values are those of the problem of the mesh as it is.
+        let problem = FieldProblem::with_options(&mesh, &options).unwrap();
+        assert!(problem.field(&mesh, &solution).unwrap() == field);
+        let verdict = verify(problem.problem(), solution.values()).unwrap();
+        assert!((verdict.energy - solution.energy()).abs() < 1e-9);
+        assert_eq!(verdict.integrality_violation, 0.0);
     }
 
     #[test]
@@ -398,10 +493,8 @@ mod tests {
                 .iter()
                 .all(|c| off(&field, c.face, c.angle) < 1e-12)
         );
-        // The values are those of the problem in the other order.
-        let reordered = Reordered::new(&mesh).unwrap();
-        let there = &solution.values()[..mesh.face_count()];
-        assert_eq!(reordered.of_given_faces(there), field.angles());
+        let problem = FieldProblem::with_options(&mesh, &options).unwrap();
+        assert!(problem.field(&mesh, &solution).unwrap() == field);
     }
 
     #[test]
@@ -414,12 +507,12 @@ mod tests {
             assert_ne!(there.triangles(), mesh.triangles());
             Err(Error::TimeLimit)
         };
-        let found = in_order(&mesh, &options, Monitor::default(), ended);
+        let found = in_order(&mesh, &options, Strategy::Auto, Monitor::default(), ended);
         assert_eq!((found.unwrap_err(), calls.get()), (Error::TimeLimit, 1));
         let token = CancelToken::new();
         token.cancel();
         let monitor = Monitor::default().cancel_token(token);
-        let found = in_order(&mesh, &options, monitor, ended);
+        let found = in_order(&mesh, &options, Strategy::Auto, monitor, ended);
         assert_eq!((found.unwrap_err(), calls.get()), (Error::Cancelled, 1));
     }
 }

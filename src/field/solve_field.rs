@@ -23,9 +23,8 @@ const LEAST: usize = 1 << 12;
 /// With a length of [details](FieldOptions::detail) this is [`solve_field`], because callers who exclude
 /// details want quads.
 ///
-/// A mesh of more than 32,768 faces whose neighbours are far apart in memory is solved on in another order. The
-/// solution's values are then those of the problem of the mesh in that order, whose optimum is the same; the field is
-/// that of the mesh as it is given.
+/// A mesh of more than 32,768 faces whose neighbours are far apart in memory is solved on in another order, except for
+/// a relaxation. Field and solution are those of the mesh as it is given.
 ///
 /// # Errors
 /// Those of [`solve_field`].
@@ -38,13 +37,19 @@ pub fn smoothest_field<'a>(
     if options.detail > 0.0 {
         return solve_field(mesh, options, solver, monitor);
     }
-    in_order(mesh, options, monitor(), |mesh, options| {
-        if !options.regular.is_empty() {
-            let found = decided(mesh, options, solver, &monitor)?;
-            return Ok((found.field, found.solution));
-        }
-        solve_stated(mesh, options, solver, monitor())
-    })
+    in_order(
+        mesh,
+        options,
+        solver.strategy,
+        monitor(),
+        |mesh, options| {
+            if !options.regular.is_empty() {
+                let found = decided(mesh, options, solver, &monitor)?;
+                return Ok((found.field, found.solution));
+            }
+            solve_stated(mesh, options, solver, monitor())
+        },
+    )
 }
 
 /// The field of the problem that these options state.
@@ -237,13 +242,19 @@ pub fn solve_field<'a>(
 ) -> Result<(OrientationField, Solution)> {
     let run = monitor().run();
     let monitor = || monitor().of_run(&run);
-    in_order(mesh, options, monitor(), |mesh, options| {
-        let decided = decide_jumps(mesh, options, solver, monitor)?;
-        match decided {
-            JumpsDecided::All(field, solution) => Ok((field, solution)),
-            JumpsDecided::WithoutDetails(_, left) => left.solve(mesh, options, solver, monitor),
-        }
-    })
+    in_order(
+        mesh,
+        options,
+        solver.strategy,
+        monitor(),
+        |mesh, options| {
+            let decided = decide_jumps(mesh, options, solver, monitor)?;
+            match decided {
+                JumpsDecided::All(field, solution) => Ok((field, solution)),
+                JumpsDecided::WithoutDetails(_, left) => left.solve(mesh, options, solver, monitor),
+            }
+        },
+    )
 }
 
 /// The first part of [`solve_field`]: all but the details of the surface, on the mesh in the order that it has.

@@ -60,6 +60,11 @@ impl Solution {
         &self.values
     }
 
+    /// The same solution with the values of another problem that states the same.
+    pub(crate) fn with_values(self, values: Vec<f64>) -> Self {
+        Solution { values, ..self }
+    }
+
     /// The objective, in the caller's units.
     pub fn energy(&self) -> f64 {
         self.energy
