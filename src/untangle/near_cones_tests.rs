@@ -1,11 +1,12 @@
 //! Rows between cones near each other: on flat meshes, where coordinates are positions and the tests name the
 //! cones, because a flat field has none; and over the cut of curved ones.
 
+use crate::error::Error;
 use crate::field::{Constraint, FieldProblem, solve_field};
 use crate::map::{SeamlessMap, SeamlessOptions, SeamlessProblem, Sizing};
 use crate::mesh::features::FeatureGraph;
 use crate::mesh::{TriangleMesh, shape};
-use crate::monitor::Monitor;
+use crate::monitor::{CancelToken, Monitor, spawned, with_threads};
 use crate::search::{Options, Strategy};
 use crate::solve::{SoftRow, solve};
 use crate::untangle::{FAR, NEAR, Structure};
@@ -126,6 +127,22 @@ fn a_cone_stays_on_its_side_of_an_isoline() {
     assert_eq!(grid.missed(&rows, |[x, y]| [6.0 - x, y]), 1);
     // Its own isoline is no obstacle.
     assert!(grid.rows(&[[3, 2]]).is_empty());
+}
+
+#[test]
+fn searches_are_made_at_once_and_can_be_cancelled() {
+    let grid = Grid::new(&[]);
+    let rows = || grid.rows(&[[1, 1], [3, 1], [2, 4], [4, 4]]);
+    let one = with_threads(1, rows);
+    assert!(!one.is_empty());
+    let started = spawned(|| assert_eq!(with_threads(3, rows), one));
+    assert_eq!(started, 2);
+    let token = CancelToken::new();
+    token.cancel();
+    let _watch = Monitor::default().cancel_token(token).watch();
+    let held = vec![[true; 2]; grid.mesh.vertex_count()];
+    let rows = grid.problem.near_rows(&grid.mesh, &held, NEAR);
+    assert_eq!(rows, Err(Error::Cancelled));
 }
 
 #[test]
