@@ -122,7 +122,8 @@ impl OrientationField {
                 what: format!("the period jump of edge {e} is beyond 2^31"),
                 index: Some(e),
             })?;
-            if !in_forest[e] && !(self.constrained[i] && self.constrained[j]) {
+            let is_known = in_forest[e] || self.constrained[i] && self.constrained[j];
+            if !is_known {
                 values.push(jump as f64);
             }
         }
