@@ -8,7 +8,7 @@ use super::spanning_forest::spanning_forest;
 use super::{Constraint, FieldOptions, Guidance, Guide, OrientationField, PrescribedIndex};
 use crate::error::{Error, Result};
 use crate::mesh::{Reordered, TriangleMesh};
-use crate::monitor::{Monitor, may_continue, may_continue_at};
+use crate::monitor::{Monitor, may_continue, may_continue_at, span};
 use crate::search::Strategy;
 use crate::solve::Solution;
 
@@ -45,8 +45,8 @@ fn better_order(
     if !options.fit(mesh) {
         return Ok(None);
     }
-    let _watch = monitor.watch();
-    let _memory = mesh.watch_memory();
+    let (_watch, _memory) = (monitor.watch(), mesh.watch_memory());
+    let _span = span("order mesh");
     Reordered::if_scattered(mesh)
 }
 
@@ -272,7 +272,7 @@ mod tests {
     use crate::field::{FieldProblem, smoothest_field, solve_field};
     use crate::mesh::shape::by_name;
     use crate::mesh::shuffled;
-    use crate::monitor::{CancelToken, with_threads};
+    use crate::monitor::{CancelToken, traced, with_threads};
     use crate::search::Options;
     use crate::solve::verify;
 
@@ -483,9 +483,21 @@ mod tests {
             let solve = || smoothest_field(&mesh, &options, &solver, Monitor::default);
             with_threads(threads, solve).unwrap()
         });
-        assert_eq!(one.0, three.0);
-        assert_eq!(one.1.values(), three.1.values());
+        assert!(one.0 == three.0 && one.1.values() == three.1.values());
         let (field, solution) = one;
+        // The other entry does the same.
+        let solve = || on_given(&mesh, &options).unwrap();
+        let as_it_is = |mesh: &TriangleMesh, options: &FieldOptions| {
+            let problem = FieldProblem::with_options(mesh, options)?;
+            let solution = crate::solve::solve(problem.problem(), &by(Strategy::Adaptive))?;
+            Ok((problem.field(mesh, &solution)?, solution))
+        };
+        let reordered = Reordered::new(&mesh).unwrap();
+        let wanted = solve_on(reordered, &mesh, &options, as_it_is).unwrap();
+        let (found, trace) = traced(false, solve);
+        assert!(trace.spans.iter().any(|span| span.name == "order mesh"));
+        assert!(wanted.0 == field && found.0 == field);
+        assert!(as_it_is(&mesh, &options).unwrap().0 != field);
         let error = field.energy(&mesh) - solution.energy();
         assert!(error.abs() < 1e-9 * solution.energy(), "{error}");
         assert!(
@@ -496,6 +508,42 @@ mod tests {
         );
         let problem = FieldProblem::with_options(&mesh, &options).unwrap();
         assert!(problem.field(&mesh, &solution).unwrap() == field);
+    }
+
+    #[test]
+    fn frames_half_a_turn_apart_are_those_of_the_mesh_as_it_is() {
+        // Squares of two triangles whose first edges are opposite, turned so that coordinates are rounded.
+        let (sin, cos) = 0.7f64.sin_cos();
+        let at = |i: u32, j: u32| 21 * i + j;
+        let squares = |n: u32| (0..n).flat_map(move |i| (0..n).map(move |j| (i, j)));
+        let points = squares(21).map(|(i, j)| {
+            let (x, y) = (f64::from(i), f64::from(j));
+            [cos * x - sin * y, sin * x + cos * y, 0.0]
+        });
+        let triangles = squares(20).flat_map(|(i, j)| {
+            let [a, b, c, d] = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
+            [[a, b, c], [c, d, a]]
+        });
+        let mesh = TriangleMesh::new(points.collect(), triangles.collect()).unwrap();
+        let (field, solution) = on_reordered(&mesh, &directions()).unwrap();
+        let half_turns = field.kappa().iter().filter(|kappa| kappa.abs() > 3.1);
+        assert!(half_turns.count() > 100);
+        let problem = FieldProblem::with_options(&mesh, &directions()).unwrap();
+        assert!(problem.field(&mesh, &solution).unwrap() == field);
+        let verdict = verify(problem.problem(), solution.values()).unwrap();
+        assert!((verdict.energy - solution.energy()).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_relaxation_is_solved_on_the_mesh_as_it_is() {
+        let mesh = shuffled(&by_name("torus", 33_000).unwrap());
+        let stop = |there: &TriangleMesh, _: &FieldOptions| {
+            assert_eq!(there.triangles(), mesh.triangles());
+            Err(Error::TimeLimit)
+        };
+        let options = FieldOptions::default();
+        let found = in_order(&mesh, &options, Strategy::Relax, Monitor::default(), stop);
+        assert_eq!(found.unwrap_err(), Error::TimeLimit);
     }
 
     #[test]

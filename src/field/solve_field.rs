@@ -247,12 +247,9 @@ pub fn solve_field<'a>(
         options,
         solver.strategy,
         monitor(),
-        |mesh, options| {
-            let decided = decide_jumps(mesh, options, solver, monitor)?;
-            match decided {
-                JumpsDecided::All(field, solution) => Ok((field, solution)),
-                JumpsDecided::WithoutDetails(_, left) => left.solve(mesh, options, solver, monitor),
-            }
+        |mesh, options| match decide_jumps(mesh, options, solver, monitor)? {
+            JumpsDecided::All(field, solution) => Ok((field, solution)),
+            JumpsDecided::WithoutDetails(_, left) => left.solve(mesh, options, solver, monitor),
         },
     )
 }

@@ -74,6 +74,9 @@ impl SeamlessProblem {
             copies.any(|copy| held[copy as usize] == [true; 2])
         };
         let points: Vec<usize> = (0..mesh.vertex_count()).filter(is_point).collect();
+        if points.is_empty() {
+            return Ok(Vec::new());
+        }
         let surface = Surface {
             problem: self,
             mesh,
