@@ -266,7 +266,7 @@ impl Guidance {
 #[cfg(test)]
 mod tests {
     use std::cell::Cell;
-    use std::f64::consts::FRAC_PI_2;
+    use std::f64::consts::{FRAC_PI_2, TAU};
 
     use super::*;
     use crate::field::{FieldProblem, smoothest_field, solve_field};
@@ -526,10 +526,20 @@ mod tests {
         });
         let mesh = TriangleMesh::new(points.collect(), triangles.collect()).unwrap();
         let (field, solution) = on_reordered(&mesh, &directions()).unwrap();
-        let half_turns = field.kappa().iter().filter(|kappa| kappa.abs() > 3.1);
-        assert!(half_turns.count() > 100);
         let problem = FieldProblem::with_options(&mesh, &directions()).unwrap();
         assert!(problem.field(&mesh, &solution).unwrap() == field);
+        // The same field, with half turns the other way round.
+        let kappas = field.kappa().iter().enumerate();
+        let half_turns: Vec<usize> = kappas.filter(|(_, k)| **k > 3.1).map(|(e, _)| e).collect();
+        assert!(half_turns.len() > 100);
+        let (mut other, mut kappa) = (field.clone(), field.kappa().to_vec());
+        for e in half_turns {
+            kappa[e] -= TAU;
+            other.period_jumps[e] += 4;
+        }
+        other.kappa = Arc::new(kappa);
+        let (found, values) = other.on_forest(&mesh, &directions()).unwrap();
+        assert!(found == field && values == solution.values());
         let verdict = verify(problem.problem(), solution.values()).unwrap();
         assert!((verdict.energy - solution.energy()).abs() < 1e-9);
     }
