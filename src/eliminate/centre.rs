@@ -111,13 +111,22 @@ impl Centre {
 
     /// The caller's unknowns at the step `y` from the point.
     pub fn expand(&self, y: &[f64]) -> Vec<TwoFold> {
+        self.expand_each(y, |_, x| x)
+    }
+
+    /// What `value` makes of the number of each of the caller's unknowns and of the unknown at the step `y`.
+    pub fn expand_each<T: Send>(
+        &self,
+        y: &[f64],
+        value: impl Fn(usize, TwoFold) -> T + Sync,
+    ) -> Vec<T> {
         let matrix = self.model.expansion.matrix();
         collect_in_parts(matrix.rows(), LEAST, |i| {
             let x = self.point[i];
             let mut sum = CompensatedSum::new(x.high);
             sum.add(x.low);
             matrix.row(i).for_each(|(a, t)| sum.add_product(t, y[a]));
-            sum.two_fold()
+            value(i, sum.two_fold())
         })
     }
 }
@@ -154,7 +163,7 @@ fn direction(reduced: &ReducedModel, y: &[f64]) -> Vec<TwoFold> {
         matrix.row(i).for_each(|(a, t)| sum.add_product(t, y[a]));
         sum.two_fold()
     };
-    (0..matrix.rows()).map(unknown).collect()
+    collect_in_parts(matrix.rows(), LEAST, unknown)
 }
 
 /// The caller's unknowns at `y`, up to the rounding errors of the expansion.

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::{Expansion, ReducedModel};
 use crate::error::Result;
-use crate::linalg::{DisjointSets, NO_PLACE, Sparse, principal_submatrix};
+use crate::linalg::{NO_PLACE, Sparse, joined_sets, principal_submatrix};
 use crate::monitor::{may_continue, may_continue_at};
 
 /// One component: some unknowns of a model, and the model in these alone.
@@ -17,24 +17,21 @@ pub struct Component {
     pub model: ReducedModel,
 }
 
-/// The sets of unknowns that the Hessian couples.
-fn coupled(model: &ReducedModel) -> Result<DisjointSets> {
-    let mut sets = DisjointSets::new(model.dim());
-    for (k, (i, j, v)) in model.hessian().entries().enumerate() {
-        may_continue_at(k)?;
-        if i != j && v != 0.0 {
-            sets.join(i as usize, j as usize);
-        }
-    }
-    may_continue()?;
-    Ok(sets)
+/// The sets of unknowns that the Hessian couples: the set of each unknown, and the number of sets.
+fn coupled(model: &ReducedModel) -> Result<(Vec<u32>, usize)> {
+    let before = |i: usize| {
+        let row = model.hessian().row(i);
+        let coupled = row.filter(move |&(j, v)| j != i && v != 0.0);
+        coupled.map(|(j, _)| j)
+    };
+    Ok(joined_sets(model.dim(), before, may_continue_at)?)
 }
 
 /// Whether integers are in different sets.
-fn divides(sets: &mut DisjointSets, integers: &[u32]) -> bool {
-    let mut roots = integers.iter().map(|&i| sets.root(i as usize));
-    let first = roots.next();
-    roots.any(|root| Some(root) != first)
+fn divides(set: &[u32], integers: &[u32]) -> bool {
+    let mut sets = integers.iter().map(|&i| set[i as usize]);
+    let first = sets.next();
+    sets.any(|other| Some(other) != first)
 }
 
 /// Whether `model` has several components that have integers.
@@ -42,7 +39,7 @@ fn divides(sets: &mut DisjointSets, integers: &[u32]) -> bool {
 /// # Errors
 /// For lack of memory.
 pub fn has_several_components(model: &ReducedModel) -> Result<bool> {
-    Ok(divides(&mut coupled(model)?, model.integers()))
+    Ok(divides(&coupled(model)?.0, model.integers()))
 }
 
 /// The components of `model` that have integers, in the order of their first unknowns. None if there is
@@ -51,15 +48,18 @@ pub fn has_several_components(model: &ReducedModel) -> Result<bool> {
 /// # Errors
 /// For lack of memory.
 pub fn components(model: &ReducedModel) -> Result<Option<Vec<Component>>> {
-    let mut sets = coupled(model)?;
-    if !divides(&mut sets, model.integers()) {
+    let (set_of, count) = coupled(model)?;
+    if !divides(&set_of, model.integers()) {
         return Ok(None);
     }
     let mut is_integer = vec![false; model.dim()];
     for &i in model.integers() {
         is_integer[i as usize] = true;
     }
-    let mut sets = sets.sets();
+    let mut sets: Vec<Vec<usize>> = vec![Vec::new(); count];
+    for (i, &set) in set_of.iter().enumerate() {
+        sets[set as usize].push(i);
+    }
     may_continue()?;
     sets.retain(|set| set.iter().any(|&i| is_integer[i]));
     let mut component = vec![NO_PLACE; model.dim()];

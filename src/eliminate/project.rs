@@ -7,6 +7,7 @@
 //! ```
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use super::Expansion;
 use crate::error::{Error, Result};
@@ -65,9 +66,13 @@ pub(super) fn hessian(lower: &Sparse, expansion: &Sparse, monitor: &mut Monitor)
     Ok(Sparse::from_parts(dim, h.offsets, h.indices, h.values))
 }
 
-/// The lower triangle with the same values, and with every diagonal entry stored.
-pub(super) fn with_diagonal(lower: &Sparse) -> Result<Sparse> {
+/// The lower triangle with the same values, and with every diagonal entry stored. Where it has them all, it is not
+/// copied.
+pub(super) fn with_diagonal(lower: Arc<Sparse>) -> Result<Arc<Sparse>> {
     let n = lower.rows();
+    if (0..n).all(|i| lower.row(i).next_back().is_some_and(|(j, _)| j == i)) {
+        return Ok(lower);
+    }
     let mut offsets = reserve(n + 1)?;
     let mut indices = reserve(lower.len() + n)?;
     let mut values = reserve(lower.len() + n)?;
@@ -84,7 +89,7 @@ pub(super) fn with_diagonal(lower: &Sparse) -> Result<Sparse> {
         }
         offsets.push(indices.len());
     }
-    Ok(Sparse::from_parts(n, offsets, indices, values))
+    Ok(Arc::new(Sparse::from_parts(n, offsets, indices, values)))
 }
 
 /// The linear term and the constant. Both cancel badly on real problems, so both sums are compensated.

@@ -81,11 +81,11 @@ impl Elimination {
         may_continue()?;
         let pins = model.pinned().iter().flatten().count();
         let hessian = if tableau.stack.len() == 0 {
-            project::with_diagonal(model.hessian())?
+            project::with_diagonal(Arc::clone(model.shared_hessian()))?
         } else if tableau.stack.len() == pins {
-            project::with_diagonal(&principal_submatrix(model.hessian(), &free)?)?
+            project::with_diagonal(Arc::new(principal_submatrix(model.hessian(), &free)?))?
         } else {
-            project::hessian(model.hessian(), &matrix, monitor)?
+            Arc::new(project::hessian(model.hessian(), &matrix, monitor)?)
         };
         may_continue()?;
         let mut in_constraints = vec![false; model.variables()];
@@ -105,7 +105,7 @@ impl Elimination {
             in_constraints,
             free,
             matrix: Arc::new(matrix),
-            hessian: Arc::new(hessian),
+            hessian,
             curvature: OnceLock::new(),
         })
     }
@@ -231,6 +231,30 @@ fn eliminate_row(tableau: &mut Tableau, r: usize) -> Result<()> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn without_constraints_a_hessian_with_its_diagonal_is_not_copied() {
+        for diagonal in [3, 2] {
+            let mut problem = Problem::new(3).unwrap();
+            problem
+                .add_least_squares(&[0, 1], &[1.0, -0.3], 1.0, 1.0)
+                .unwrap();
+            if diagonal == 3 {
+                problem.add_least_squares(&[2], &[1.0], 1.0, 1.0).unwrap();
+            }
+            let model = Model::new(&problem).unwrap();
+            let mut monitor = Monitor::default();
+            let elimination =
+                Elimination::new(&model, Ordering::FillReducing, &mut monitor).unwrap();
+            let is_shared = Arc::ptr_eq(&elimination.hessian, model.shared_hessian());
+            assert_eq!(is_shared, diagonal == 3);
+            assert_eq!(
+                elimination.hessian.diagonal(2),
+                f64::from(diagonal - 2) * 2.0
+            );
+            assert_eq!(elimination.hessian.len(), 4);
+        }
+    }
 
     #[test]
     fn the_bound_of_the_hessian_is_made_once_unless_unknowns_are_held() {

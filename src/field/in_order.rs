@@ -97,7 +97,7 @@ impl OrientationField {
         let named = self.constrained.iter().zip(&guided);
         let is_rooted: Vec<bool> = named.map(|(&is, guide)| is || guide.is_some()).collect();
         may_continue()?;
-        let in_forest = spanning_forest(mesh, &is_rooted);
+        let in_forest = spanning_forest(mesh, &is_rooted)?;
         may_continue()?;
         let step = self.step();
         let before = std::mem::replace(&mut self.kappa, Arc::new(mesh.transports()));

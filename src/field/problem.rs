@@ -82,7 +82,7 @@ impl FieldProblem {
         let is_named = (0..mesh.face_count()).map(|f| fixed[f].is_some() || guided[f].is_some());
         may_continue()?;
         let is_named = is_named.collect::<Vec<_>>();
-        let (jumps, kappa) = jumps(mesh, step, &fixed, &spanning_forest(mesh, &is_named))?;
+        let (jumps, kappa) = jumps(mesh, step, &fixed, &spanning_forest(mesh, &is_named)?)?;
         let ignored = detail(mesh, options)?;
         let unknown = |j: &&Jump| matches!(j, Jump::Unknown(_));
         let faces = mesh.face_count();

@@ -7,12 +7,16 @@
 use std::collections::VecDeque;
 
 use crate::mesh::TriangleMesh;
+use crate::monitor::{Stop, may_continue_at};
 
 /// Whether each edge of the mesh belongs to the forest.
 ///
 /// The search is breadth-first from the `rooted` faces, those with a given direction, and visits faces
 /// and neighbours in increasing order. A component without such a face grows from its lowest face.
-pub(super) fn spanning_forest(mesh: &TriangleMesh, rooted: &[bool]) -> Vec<bool> {
+///
+/// # Errors
+/// The end of the call.
+pub(super) fn spanning_forest(mesh: &TriangleMesh, rooted: &[bool]) -> Result<Vec<bool>, Stop> {
     let mut in_forest = vec![false; mesh.edge_count()];
     let mut reached = rooted.to_vec();
     let roots = (0..mesh.face_count()).filter(|&f| rooted[f]);
@@ -20,6 +24,7 @@ pub(super) fn spanning_forest(mesh: &TriangleMesh, rooted: &[bool]) -> Vec<bool>
     let mut lowest = 0;
     loop {
         while let Some(face) = queue.pop_front() {
+            may_continue_at(face)?;
             let across = |k| Some((mesh.neighbor(face, k)?.0, mesh.edge_of(face, k)));
             let mut next = [0, 1, 2].map(across);
             next.sort_unstable();
@@ -37,7 +42,7 @@ pub(super) fn spanning_forest(mesh: &TriangleMesh, rooted: &[bool]) -> Vec<bool>
                 lowest = face + 1;
                 queue.push_back(face);
             }
-            None => return in_forest,
+            None => return Ok(in_forest),
         }
     }
 }

@@ -194,10 +194,7 @@ impl Cholesky {
             r[(column - first) * m + row - first] = value;
             size[column - first] = size[column - first].max((entry * pivot).abs());
         };
-        self.for_each_column(|k, pivot, entries| {
-            if k < first {
-                return;
-            }
+        self.for_each_column_from(first, |k, pivot, entries| {
             if pivot == NULL_PIVOT {
                 null.push(k - first);
                 return;
@@ -220,14 +217,27 @@ impl Cholesky {
     /// Calls `visit` with each position, its pivot, and its column of L below the diagonal.
     pub(super) fn for_each_column(
         &self,
+        visit: impl FnMut(usize, f64, &mut dyn Iterator<Item = (usize, f64)>),
+    ) {
+        self.for_each_column_from(0, visit);
+    }
+
+    /// As [`for_each_column`](Self::for_each_column), from position `first` on.
+    fn for_each_column_from(
+        &self,
+        first: usize,
         mut visit: impl FnMut(usize, f64, &mut dyn Iterator<Item = (usize, f64)>),
     ) {
         let supernodes = &self.pattern.supernodes;
         for s in 0..supernodes.count() {
             let (columns, rows) = (supernodes.columns(s), supernodes.rows(s));
+            if columns.end <= first {
+                continue;
+            }
             let (start, width) = (columns.start, columns.len());
             let block = &self.values[supernodes.values(s)];
-            for (k, column) in block.chunks_exact(width + rows.len()).enumerate() {
+            let columns = block.chunks_exact(width + rows.len()).enumerate();
+            for (k, column) in columns.skip(first.saturating_sub(start)) {
                 let row = |i: usize| match i.checked_sub(width) {
                     None => start + i,
                     Some(below) => rows[below] as usize,

@@ -42,7 +42,7 @@ pub use analysis::Analysis;
 pub use cholesky::Cholesky;
 pub use compensated::{CompensatedSum, TwoFold, sum_below};
 pub use conjugate_gradient::{Effort, conjugate_gradient};
-pub(crate) use disjoint_sets::DisjointSets;
+pub(crate) use disjoint_sets::{DisjointSets, joined_sets};
 pub use fix::FixedSolve;
 pub use gauss_seidel::{LocalSolve, Wave};
 pub use ldl::Ldl;

@@ -27,6 +27,8 @@ pub struct RelaxedFactor {
     curvature: Vec<f64>,
     /// The couplings of the local integers to the others, one row for each local integer.
     coupling: Sparse,
+    /// The same couplings, one row for each of the others.
+    by_unknown: Sparse,
     /// Lower triangle of the Schur complement on the other unknowns.
     schur: Sparse,
     factor: Cholesky,
@@ -58,12 +60,16 @@ impl RelaxedFactor {
         let all = 0..n as u32;
         let (local, rest): (Vec<u32>, Vec<u32>) = all.partition(|&i| is_local[i as usize]);
         let curvature: Vec<f64> = local.iter().map(|&p| lower.diagonal(p as usize)).collect();
+        may_continue()?;
         let coupling = coupling(lower, &local, &rest)?;
+        may_continue()?;
+        let by_unknown = coupling.transpose();
+        may_continue()?;
         let place = places(n, &rest);
         let schur = if local.is_empty() {
             lower.clone()
         } else {
-            schur(lower, &place, &rest, &coupling, &curvature)?
+            schur(lower, &place, &rest, [&coupling, &by_unknown], &curvature)?
         };
         Ok(RelaxedFactor {
             factor: Cholesky::ordered(&schur, ordering)?,
@@ -72,6 +78,7 @@ impl RelaxedFactor {
             local,
             curvature,
             coupling,
+            by_unknown,
             schur,
         })
     }
@@ -137,14 +144,14 @@ impl RelaxedFactor {
 
     /// The right side of the Schur complement: `b_r - A_rp A_pp^-1 b_p`.
     fn condense(&self, b: &[f64]) -> Vec<f64> {
-        let mut inner: Vec<f64> = self.rest.iter().map(|&i| b[i as usize]).collect();
-        for (k, &p) in self.local.iter().enumerate() {
-            let pull = b[p as usize] / self.curvature[k];
-            for (i, v) in self.coupling.row(k) {
-                inner[i] -= v * pull;
-            }
-        }
-        inner
+        let pull = collect_in_parts(self.local.len(), LEAST, |k| {
+            b[self.local[k] as usize] / self.curvature[k]
+        });
+        collect_in_parts(self.rest.len(), LEAST, |i| {
+            let own = b[self.rest[i] as usize];
+            let couplings = self.by_unknown.row(i);
+            couplings.fold(own, |sum, (k, v)| sum - v * pull[k])
+        })
     }
 
     /// The rounding error of the condensed gradient: that of `gradient` itself and that of the condensation.
@@ -180,11 +187,10 @@ fn schur(
     lower: &Sparse,
     place: &[u32],
     rest: &[u32],
-    coupling: &Sparse,
+    [coupling, by_unknown]: [&Sparse; 2],
     curvature: &[f64],
 ) -> Result<Sparse> {
     let dim = rest.len();
-    let by_unknown = coupling.transpose();
     let size = collect_in_parts(dim, LEAST, |a| lower.diagonal(rest[a] as usize).abs());
     let tolerance = pivot_tolerance(dim);
     let is_cancelled =

@@ -5,7 +5,9 @@
 //! keys; on matrices of meshes that is several times slower than the counting sort below.
 
 use crate::error::{Error, Result};
-use crate::monitor::{for_each_part, may_continue, parts_of};
+use crate::monitor::{
+    collect_in_parts, for_each_part, in_parts, may_continue, may_continue_at, parts_of,
+};
 
 /// The least number of rows that are worth a thread.
 const LEAST: usize = 1 << 14;
@@ -87,9 +89,10 @@ impl Sparse {
     ) -> Result<Self> {
         // A stable counting sort by row, and a stable sort of each row by column.
         let mut offsets = vec![0usize; rows + 1];
-        let counted = entries.clone();
-        counted.for_each(|(i, _, _)| offsets[i as usize + 1] += 1);
-        may_continue()?;
+        entries.clone().enumerate().try_for_each(|(k, (i, _, _))| {
+            offsets[i as usize + 1] += 1;
+            may_continue_at(k)
+        })?;
         for i in 0..rows {
             offsets[i + 1] += offsets[i];
         }
@@ -102,12 +105,13 @@ impl Sparse {
         indices.resize(count, 0);
         let mut values: Vec<f64> = reserve(count)?;
         values.resize(count, 0.0);
-        entries.for_each(|(i, j, v)| {
+        entries.enumerate().try_for_each(|(k, (i, j, v))| {
             let at = &mut next[i as usize];
             indices[*at] = j;
             values[*at] = v;
             *at += 1;
-        });
+            may_continue_at(k)
+        })?;
         drop(next);
         may_continue()?;
         let mut result = Sparse {
@@ -249,7 +253,10 @@ impl Sparse {
     }
 
     /// The entries `(column, value)` of row `i`.
-    pub fn row(&self, i: usize) -> impl ExactSizeIterator<Item = (usize, f64)> + Clone + '_ {
+    pub fn row(
+        &self,
+        i: usize,
+    ) -> impl ExactSizeIterator<Item = (usize, f64)> + DoubleEndedIterator + Clone + '_ {
         let range = self.offsets[i]..self.offsets[i + 1];
         self.indices[range.clone()]
             .iter()
@@ -300,25 +307,40 @@ impl Sparse {
 
     /// `A x`.
     pub fn mul(&self, x: &[f64]) -> Vec<f64> {
-        (0..self.rows())
-            .map(|i| self.row(i).map(|(j, v)| v * x[j]).sum())
-            .collect()
+        collect_in_parts(self.rows(), LEAST, |i| {
+            self.row(i).map(|(j, v)| v * x[j]).sum()
+        })
     }
 
     /// `A x` where `self` is the lower triangle of a symmetric `A`.
     pub fn mul_symmetric(&self, x: &[f64]) -> Vec<f64> {
-        let mut y = vec![0.0; self.rows()];
-        for i in 0..self.rows() {
-            let mut sum = 0.0;
-            for (j, v) in self.row(i) {
-                sum += v * x[j];
-                if j != i {
-                    y[j] += v * x[i];
+        // By symmetry a row adds to entries of lower number. Those of another part get it after the rows of that part,
+        // as they do where there is one part.
+        let parts = in_parts(self.rows(), LEAST, |rows| {
+            let start = rows.start;
+            let (mut y, mut below) = (vec![0.0; rows.len()], Vec::new());
+            for i in rows {
+                let mut sum = 0.0;
+                for (j, v) in self.row(i) {
+                    sum += v * x[j];
+                    match j.checked_sub(start) {
+                        _ if i == j => {}
+                        Some(at) => y[at] += v * x[i],
+                        None => below.push((j as u32, v * x[i])),
+                    }
                 }
+                y[i - start] += sum;
             }
-            y[i] += sum;
+            (y, below)
+        });
+        let mut all = Vec::with_capacity(self.rows());
+        for (mut y, below) in parts {
+            all.append(&mut y);
+            for (j, term) in below {
+                all[j as usize] += term;
+            }
         }
-        y
+        all
     }
 }
 
@@ -426,6 +448,34 @@ mod tests {
             assert_eq!(with_threads(3, three), one);
         });
         assert_eq!(started, 2);
+    }
+
+    #[test]
+    fn any_number_of_threads_gives_products_the_same_bits() {
+        // Each row has entries near the diagonal and far before it, and all rows have one with the first unknown.
+        let n = 3 * LEAST as u32;
+        let row = |i: u32| [(i, 0), (i, i), (i, i - i % 2), (i, i / 3)];
+        let entries = (1..n)
+            .flat_map(row)
+            .map(|(i, j)| (i, j, f64::from(i).sin()));
+        let a = Sparse::from_triplets(n as usize, n as usize, entries).unwrap();
+        let x: Vec<f64> = (0..n).map(|i| f64::from(i).cos()).collect();
+        // The textbook's product, row after row.
+        let mut expected = vec![0.0; x.len()];
+        for i in 0..x.len() {
+            let own: f64 = a.row(i).map(|(j, v)| v * x[j]).sum();
+            expected[i] += own;
+            for (j, v) in a.row(i).filter(|&(j, _)| j < i) {
+                expected[j] += v * x[i];
+            }
+        }
+        let products = || (a.mul_symmetric(&x), a.mul(&x));
+        let one = with_threads(1, products);
+        assert!(one.0 == expected);
+        for threads in [2, 3] {
+            let started = spawned(|| assert!(with_threads(threads, products) == one));
+            assert_eq!(started, 2 * (threads - 1));
+        }
     }
 
     #[test]

@@ -15,13 +15,13 @@ use super::shared_float::SharedFloat;
 use super::sparse::reserve;
 use super::unknown::{DETERMINED, INTEGER, LOCAL, MOST_ACTIVE, Unknown};
 use crate::error::{Error, Result};
-use crate::monitor::{both, collect_in_turn, may_continue, may_continue_at};
+use crate::monitor::{both, collect_in_parts, collect_in_turn, may_continue, may_continue_at};
 
 /// The rows that a thread takes at a time: those of local integers take less time than the others, which precede
 /// them.
 const ROWS: usize = 1 << 13;
 
-/// The transpose of a matrix with so many rows is worth a thread.
+/// So many rows are worth a thread.
 const LARGE: usize = 1 << 14;
 
 /// The blocks of rows that are condensed before they are appended to the others.
@@ -200,7 +200,7 @@ impl StaticCondensation {
             || local_integers(lower, integer),
             || lower.transpose(),
         );
-        let diagonal: Vec<f64> = (0..n).map(|i| lower.diagonal(i)).collect();
+        let diagonal = collect_in_parts(n, LARGE, |i| lower.diagonal(i));
         may_continue()?;
         let all = Uncondensed {
             triangles: [lower, &upper],

@@ -61,7 +61,8 @@ impl TriangleMesh {
 
     /// Area of the surface. It is measured when it is first asked for.
     pub fn surface_area(&self) -> f64 {
-        let measure = || (0..self.face_count()).map(|f| self.area(f)).sum();
+        let areas = || collect_in_parts(self.face_count(), LEAST, |f| self.area(f));
+        let measure = || areas().into_iter().sum();
         *self.area.get_or_init(measure)
     }
 

@@ -1,7 +1,10 @@
 //! Boundary loops, components, Euler characteristic and genus.
 
+use std::convert::Infallible;
+
 use super::TriangleMesh;
 use super::connectivity::NONE;
+use crate::linalg::joined_sets;
 
 /// The connected components of a mesh.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -50,30 +53,16 @@ impl TriangleMesh {
 
     /// The connected components, two faces being connected across an edge.
     pub fn components(&self) -> Components {
-        let mut of_face = vec![NONE; self.face_count()];
-        let mut count = 0;
-        let mut open = Vec::new();
-        for seed in 0..self.face_count() {
-            if of_face[seed] != NONE {
-                continue;
-            }
-            of_face[seed] = count;
-            open.push(seed);
-            while let Some(face) = open.pop() {
-                for half in [3 * face, 3 * face + 1, 3 * face + 2] {
-                    let across = self.twin[half];
-                    if across != NONE && of_face[across as usize / 3] == NONE {
-                        of_face[across as usize / 3] = count;
-                        open.push(across as usize / 3);
-                    }
-                }
-            }
-            count += 1;
-        }
-        Components {
-            count: count as usize,
-            of_face,
-        }
+        let before = |face: usize| {
+            let across = self.twin[3 * face..3 * face + 3].iter();
+            let across = across.filter(|&&half| half != NONE);
+            across
+                .map(|&half| half as usize / 3)
+                .filter(move |&other| other < face)
+        };
+        let Ok((of_face, count)) =
+            joined_sets(self.face_count(), before, |_| Ok::<_, Infallible>(()));
+        Components { count, of_face }
     }
 
     /// Vertices minus edges plus faces.

@@ -137,6 +137,10 @@ impl Model {
         &self.hessian
     }
 
+    pub(crate) fn shared_hessian(&self) -> &Arc<Sparse> {
+        &self.hessian
+    }
+
     /// q, least-squares rows included.
     pub fn gradient(&self) -> &[f64] {
         &self.gradient

@@ -25,7 +25,10 @@ pub(super) fn aim(
 ) -> Result<f64> {
     let solution = solver.solve_with(&relaxation(), monitor)?;
     may_continue()?;
-    let squares = area(mesh, &problem.map(mesh, &solution)?);
+    let map = problem.map(mesh, &solution)?;
+    may_continue()?;
+    let squares = area(mesh, &map);
+    may_continue()?;
     let Some(wanted) = sizing.quads() else {
         return Ok(solution.energy());
     };

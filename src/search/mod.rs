@@ -42,7 +42,7 @@ pub(crate) const LARGEST_INTEGER: f64 = 9_007_199_254_740_992.0;
 const JUDGED: f64 = 1e-12;
 
 /// The exact energy of a point in the unknowns of the model, rounded once.
-type Exact<'s> = Box<dyn Fn(&[f64]) -> f64 + 's>;
+type Exact<'s> = Box<dyn Fn(&[f64]) -> Result<f64> + 's>;
 
 /// The incumbent, the lower bound, the work spent and the monitor.
 pub(crate) struct Search<'s, 'm> {
@@ -98,7 +98,7 @@ impl<'s, 'm> Search<'s, 'm> {
     }
 
     /// The same search, with a judge for energies that differ by less than the rounding errors of the model.
-    pub fn judged_by(mut self, exact: impl Fn(&[f64]) -> f64 + 's) -> Self {
+    pub fn judged_by(mut self, exact: impl Fn(&[f64]) -> Result<f64> + 's) -> Self {
         self.exact = Some(Box::new(exact));
         self
     }
@@ -211,7 +211,7 @@ impl<'s, 'm> Search<'s, 'm> {
             .as_ref()
             .filter(|_| error > JUDGED * energy.abs())
         {
-            energy = exact(&point);
+            energy = exact(&point)?;
         }
         let best = self.incumbent.as_ref();
         let better = best.is_none_or(|best| energy < best.energy);

@@ -52,7 +52,7 @@ pub(super) fn by_components(
     drop(watch);
     let Some(parts) = parts else {
         let search = Search::new(whole, relaxation.point, relaxation.lower_bound, monitor)
-            .judged_by(|step| whole.constant() + exact.difference(step));
+            .judged_by(|step| Ok(whole.constant() + exact.difference(step)?));
         return run(of.model, whole, options, start, of.factors, search, false);
     };
     let mut order: Vec<usize> = (0..parts.len()).collect();
@@ -229,20 +229,21 @@ struct Exact<'a> {
 
 impl Exact<'_> {
     /// The energy at the step `y` from the centre, minus the energy at the centre.
-    fn difference(&self, y: &[f64]) -> f64 {
+    fn difference(&self, y: &[f64]) -> Result<f64> {
         let x = self.centre.expand(y);
+        may_continue()?;
         let before = self.centre.energy();
-        let (there, returned) = (
-            self.objective.energy(|i| x[i]).value,
-            self.objective.energy(|i| TwoFold::from(x[i].high)).value,
-        );
+        let there = self.objective.energy(|i| x[i]).value;
+        may_continue()?;
+        let returned = self.objective.energy(|i| TwoFold::from(x[i].high)).value;
+        may_continue()?;
         let spoiled = returned.high - there.high > SPOILED * there.high.abs();
         let energy = if spoiled { returned } else { there };
-        (energy.high - before.high) + (energy.low - before.low)
+        Ok((energy.high - before.high) + (energy.low - before.low))
     }
 
     /// The same for the step `y` in the unknowns `members` alone.
-    fn difference_of(&self, members: &[u32], y: &[f64]) -> f64 {
+    fn difference_of(&self, members: &[u32], y: &[f64]) -> Result<f64> {
         let mut whole = vec![0.0; self.centre.model().dim()];
         for (&i, y) in members.iter().zip(y) {
             whole[i as usize] = *y;

@@ -11,23 +11,23 @@ pub(super) fn expand(
     strategy: Strategy,
     point: &[f64],
 ) -> Vec<f64> {
-    let exact = centre.expand(point).into_iter();
-    let mut values: Vec<f64> = exact.map(|x| x.high).collect();
-    // They are collected where both parts of each were.
-    values.shrink_to_fit();
-    clean(&mut values, model, strategy);
-    values
+    centre.expand_each(point, |i, x| cleaned(x.high, i, model, strategy))
 }
 
 /// Restores pins and integers, which the expansion may have rounded.
 pub(super) fn clean(values: &mut [f64], model: &Model, strategy: Strategy) {
     for (i, x) in values.iter_mut().enumerate() {
-        if let Some(pin) = model.pinned().get(i) {
-            *x = pin;
-        } else if model.integer()[i] && strategy != Strategy::Relax {
-            *x = x.round();
-        }
-        // The output contains no minus zero.
-        *x += 0.0;
+        *x = cleaned(*x, i, model, strategy);
     }
+}
+
+/// The value of unknown `i`, which is `x` but for rounding.
+fn cleaned(x: f64, i: usize, model: &Model, strategy: Strategy) -> f64 {
+    let value = match model.pinned().get(i) {
+        Some(pin) => pin,
+        None if model.integer()[i] && strategy != Strategy::Relax => x.round(),
+        None => x,
+    };
+    // The output contains no minus zero.
+    value + 0.0
 }

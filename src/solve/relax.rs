@@ -3,7 +3,7 @@
 use crate::eliminate::ReducedModel;
 use crate::error::{Error, Result};
 use crate::linalg::{Lowest, Minimum, sum_below};
-use crate::monitor::may_continue;
+use crate::monitor::{in_blocks, may_continue};
 use crate::problem::Model;
 use crate::search::{Factors, Strategy};
 
@@ -50,11 +50,13 @@ pub(crate) fn relax(
 
 /// A diagonal entry that is negative by more than the rounding errors of its row.
 fn negative_diagonal(model: &ReducedModel) -> Option<usize> {
-    (0..model.dim()).find(|&i| {
+    let is_negative = |&i: &usize| {
         let diagonal = model.hessian().diagonal(i);
         let size = || model.hessian().row(i).map(|(_, v)| v.abs()).sum::<f64>();
         diagonal < 0.0 && diagonal < -1e-9 * size()
-    })
+    };
+    let firsts = in_blocks(model.dim(), |mut block| block.find(is_negative));
+    firsts.into_iter().flatten().next()
 }
 
 /// The error for a reduced direction along which the objective decreases without limit.

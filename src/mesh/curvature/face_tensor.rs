@@ -42,8 +42,8 @@ impl Tensor {
     }
 }
 
-pub(super) fn face_tensors(mesh: &TriangleMesh) -> Vec<Tensor> {
-    let normals = vertex_normals(mesh);
+/// The tensors of all faces from the normals at vertices.
+pub(super) fn face_tensors(mesh: &TriangleMesh, normals: &[Vec3]) -> Vec<Tensor> {
     collect_in_parts(mesh.face_count(), LEAST, |face| {
         let [x, y] = mesh.frame(face);
         let (p, n) = (
@@ -93,7 +93,11 @@ fn fit(rows: &[[f64; 4]; 3]) -> Tensor {
     }
 }
 
-fn vertex_normals(mesh: &TriangleMesh) -> Vec<Vec3> {
+/// The normals at vertices, as long as `go_on` does not end it.
+pub(super) fn vertex_normals<E>(
+    mesh: &TriangleMesh,
+    go_on: impl Fn() -> Result<(), E>,
+) -> Result<Vec<Vec3>, E> {
     let at_corners = collect_in_parts(mesh.face_count(), LEAST, |face| {
         let p = mesh.corner_positions(face);
         [0, 1, 2].map(|k| {
@@ -102,11 +106,15 @@ fn vertex_normals(mesh: &TriangleMesh) -> Vec<Vec3> {
             scale(cross(to_next, to_last), weight)
         })
     });
+    go_on()?;
     let mut normals = vec![[0.0; 3]; mesh.vertex_count()];
     for (face, at_corners) in at_corners.into_iter().enumerate() {
         for (v, normal) in mesh.corners(face).into_iter().zip(at_corners) {
             normals[v] = add(normals[v], normal);
         }
     }
-    collect_in_parts(normals.len(), LEAST, |v| normalize(normals[v]))
+    go_on()?;
+    Ok(collect_in_parts(normals.len(), LEAST, |v| {
+        normalize(normals[v])
+    }))
 }

@@ -11,7 +11,7 @@ use std::convert::Infallible;
 
 use super::TriangleMesh;
 use crate::monitor::{Stop, collect_in_parts, may_continue, span};
-use face_tensor::{Tensor, face_tensors};
+use face_tensor::{Tensor, face_tensors, vertex_normals};
 
 /// The least number of faces or edges that are worth a thread.
 const LEAST: usize = 1 << 12;
@@ -79,7 +79,8 @@ fn smoothed<E>(
 ) -> Result<Curvature, E> {
     let _span = span("curvature");
     go_on()?;
-    let tensors = face_tensors(mesh);
+    let normals = vertex_normals(mesh, &go_on)?;
+    let tensors = face_tensors(mesh, &normals);
     go_on()?;
     let tensors = smooth(mesh, tensors, rounds, &go_on)?;
     let mut found = Curvature {
@@ -107,7 +108,9 @@ fn smooth<E>(
     }
     let area = collect_in_parts(mesh.face_count(), LEAST, |face| mesh.area(face));
     // What a deviator is multiplied by over an edge: cosine and sine of twice the turn.
+    go_on()?;
     let transports = mesh.transports();
+    go_on()?;
     let turn = collect_in_parts(mesh.edge_count(), LEAST, |e| {
         let (sin, cos) = (-2.0 * transports[e]).sin_cos();
         [cos, sin]
