@@ -84,6 +84,14 @@ struct IntegerRow {
 
 /// The continuous block and the rows of the integers. None if an integer is not local.
 fn split(model: &ReducedModel) -> Option<(Rest, Vec<IntegerRow>)> {
+    // Most other problems are told apart by their first integers: a local one has three entries at most.
+    let is_local = |&p: &u32| {
+        let entries = model.hessian().row(p as usize);
+        entries.filter(|&(_, v)| v != 0.0).count() <= 3
+    };
+    if !model.integers().iter().all(is_local) {
+        return None;
+    }
     let n = model.continuous().len();
     let place = places(model);
     let mut rows = vec![IntegerRow::default(); model.integers().len()];

@@ -12,7 +12,9 @@ use super::rounding::roundings_of_expansion;
 use super::{Elimination, Expansion, ReducedModel, Rounding, right_sides};
 use crate::error::Result;
 use crate::linalg::{CompensatedSum, TwoFold};
-use crate::monitor::{Monitor, collect_in_parts, in_parts, joined, may_continue, span};
+use crate::monitor::{
+    Monitor, collect_if_wanted, collect_in_parts, in_parts, joined, may_continue, span,
+};
 use crate::problem::{Model, Objective, Problem};
 
 /// The rounding error of a null direction, for each unknown.
@@ -44,7 +46,7 @@ impl Centre {
         y: &[f64],
     ) -> Result<Self> {
         let _span = span("centre");
-        let mut point = expand(reduced, y);
+        let mut point = expand(reduced, y)?;
         may_continue()?;
         if model.constraints().rows() > 0 {
             satisfy(&mut point, model, elimination);
@@ -59,6 +61,9 @@ impl Centre {
         let guess = reduced.guess.iter().zip(y).map(|(g, y)| g - y).collect();
         may_continue()?;
         let origin = (0..y.len()).map(|a| reduced.origin(a) + y[a]).collect();
+        may_continue()?;
+        let curvature = elimination.curvature(problem, model, reduced);
+        may_continue()?;
         let moved = ReducedModel {
             hessian: Arc::clone(&reduced.hessian),
             gradient,
@@ -68,7 +73,7 @@ impl Centre {
             guess,
             origin,
             rounding: Rounding {
-                curvature: elimination.curvature(problem, model, reduced),
+                curvature,
                 slope,
                 constant: energy.error + energy.value.low.abs(),
             },
@@ -167,14 +172,18 @@ fn direction(reduced: &ReducedModel, y: &[f64]) -> Vec<TwoFold> {
 }
 
 /// The caller's unknowns at `y`, up to the rounding errors of the expansion.
-fn expand(reduced: &ReducedModel, y: &[f64]) -> Vec<TwoFold> {
+///
+/// # Errors
+/// The end of the call.
+fn expand(reduced: &ReducedModel, y: &[f64]) -> Result<Vec<TwoFold>> {
     let matrix = reduced.expansion.matrix();
     let offset = reduced.expansion.offset();
-    collect_in_parts(offset.len(), LEAST, |i| {
+    let expanded = collect_if_wanted(offset.len(), LEAST, |i| {
         let mut sum = CompensatedSum::new(offset[i]);
         matrix.row(i).for_each(|(a, t)| sum.add_product(t, y[a]));
         sum.two_fold()
-    })
+    });
+    Ok(expanded?)
 }
 
 /// Moves `point` by the solution of the constraints for its own remainders, as iterative refinement does. A

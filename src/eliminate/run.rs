@@ -77,13 +77,16 @@ impl Elimination {
             subtree::shorten(&mut tableau, r, monitor)?;
             eliminate_row(&mut tableau, r)?;
         }
+        may_continue()?;
         let (matrix, free) = back::substitute_back(&tableau, monitor)?;
         may_continue()?;
         let pins = model.pinned().iter().flatten().count();
         let hessian = if tableau.stack.len() == 0 {
             project::with_diagonal(Arc::clone(model.shared_hessian()))?
         } else if tableau.stack.len() == pins {
-            project::with_diagonal(Arc::new(principal_submatrix(model.hessian(), &free)?))?
+            let of_free = principal_submatrix(model.hessian(), &free)?;
+            may_continue()?;
+            project::with_diagonal(Arc::new(of_free))?
         } else {
             Arc::new(project::hessian(model.hessian(), &matrix, monitor)?)
         };

@@ -122,7 +122,7 @@ impl Sparse {
         };
         result.sort_rows();
         may_continue()?;
-        result.sum_duplicates();
+        result.sum_duplicates()?;
         Ok(result)
     }
 
@@ -188,10 +188,11 @@ impl Sparse {
         });
     }
 
-    fn sum_duplicates(&mut self) {
+    fn sum_duplicates(&mut self) -> Result<()> {
         let mut kept = 0;
         let mut start = 0;
         for i in 0..self.rows() {
+            may_continue_at(i)?;
             let end = self.offsets[i + 1];
             let first = kept;
             for k in start..end {
@@ -210,6 +211,7 @@ impl Sparse {
         self.indices.shrink_to_fit();
         self.values.truncate(kept);
         self.values.shrink_to_fit();
+        Ok(())
     }
 
     /// Number of rows.

@@ -15,7 +15,7 @@ use super::ordering::{NONE, inverse, parents, permute_pattern, post_order};
 use super::sparse::reserve;
 use super::{DisjointSets, Sparse};
 use crate::error::Result;
-use crate::monitor::may_continue_at;
+use crate::monitor::{may_continue, may_continue_at};
 
 /// A supernode with at most so many columns may store zeros up to this part of its block, one after the other.
 const RELAXED: [(usize, f64); 4] = [(4, 1.0), (16, 0.8), (48, 0.1), (usize::MAX, 0.05)];
@@ -43,7 +43,9 @@ impl Supernodes {
         let pattern = permute_pattern(lower, place)?;
         let parent = parents(&pattern.0, &pattern.1)?;
         let counts = column_counts(&pattern, &parent)?;
+        may_continue()?;
         let supernodes = relaxed(&fundamental(&parent, &counts)?);
+        may_continue()?;
         Self::with_rows(&supernodes, &pattern, &parent)
     }
 

@@ -325,6 +325,7 @@ impl SeamlessProblem {
         let energy = self.dirichlet(mesh)?;
         may_continue()?;
         energy.add_to(&mut self.problem)?;
+        may_continue()?;
         let translations: Vec<usize> =
             (self.translation(0)..self.translation(self.seams.len())).collect();
         let weights = vec![2.0 * TRANSLATION_WEIGHT; translations.len()];
@@ -369,6 +370,7 @@ impl SeamlessProblem {
     /// The quarter turns of a map around every interior vertex; none at the boundary.
     pub(crate) fn quarters(&self, mesh: &TriangleMesh) -> Result<Vec<Option<i32>>> {
         let steps = self.field.vertex_index_steps(mesh);
+        may_continue()?;
         let quarters = |(v, steps)| (!mesh.is_boundary_vertex(v)).then_some(4 - steps);
         Ok(steps.into_iter().enumerate().map(quarters).collect())
     }

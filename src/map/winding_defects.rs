@@ -25,6 +25,7 @@ impl SeamlessProblem {
     pub fn winding_defects(&self, mesh: &TriangleMesh, map: &SeamlessMap) -> Result<Vec<usize>> {
         self.check_map(mesh, map)?;
         let _memory = mesh.watch_memory();
+        may_continue()?;
         let quarters = self.quarters(mesh)?;
         may_continue()?;
         winding_defects(mesh, &quarters, |face| map.uv(face))

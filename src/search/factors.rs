@@ -364,7 +364,9 @@ impl Factors {
 impl ContinuousBlock {
     fn new(model: &ReducedModel, ordering: Ordering) -> Result<Self> {
         let hessian = principal_submatrix(model.hessian(), model.continuous())?;
+        may_continue()?;
         let coupling = coupling(model.hessian(), model.continuous(), model.integers())?;
+        may_continue()?;
         let factor = Cholesky::ordered(&hessian, ordering)?;
         Ok(ContinuousBlock {
             hessian,

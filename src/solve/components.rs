@@ -59,8 +59,11 @@ pub(super) fn by_components(
     order.sort_by_key(|&k| parts[k].model.integers().len());
     let relaxed: Vec<Relaxed> = parts
         .iter()
-        .map(|part| Relaxed::of(part, &relaxation))
-        .collect();
+        .map(|part| {
+            may_continue()?;
+            Ok(Relaxed::of(part, &relaxation))
+        })
+        .collect::<Result<_>>()?;
 
     let mut always = ALWAYS;
     let mut pending: f64 = relaxed.iter().map(|r| r.energy).sum();

@@ -11,6 +11,7 @@ use std::ops::Range;
 use self::domains::eliminated_in_domains;
 use self::quotient_graph::QuotientGraph;
 use crate::error::Result;
+use crate::monitor::may_continue;
 
 /// The order of elimination of the symmetric matrix with this pattern: entry k is the unknown that is eliminated
 /// k-th. The off-diagonal entries of row `i` of the lower triangle are among
@@ -25,6 +26,7 @@ pub(super) fn minimum_degree(offsets: &[usize], columns: &[u32]) -> Result<Vec<u
         None => QuotientGraph::new(pattern, 0..pattern.unknowns(), &[])?,
     };
     graph.eliminate_up_to(usize::MAX)?;
+    may_continue()?;
     Ok(graph.order())
 }
 

@@ -11,7 +11,7 @@ use super::super::ordering::{NONE, too_many_entries};
 use super::super::sparse::reserve;
 use super::Pattern;
 use crate::error::Result;
-use crate::monitor::is_wanted;
+use crate::monitor::{is_wanted, may_continue};
 
 /// A variable with more neighbours than this many times the root of their number is eliminated last.
 const DENSE: f64 = 10.0;
@@ -132,6 +132,7 @@ impl QuotientGraph {
         let mut nodes = reserve(n)?;
         nodes.resize(n, Node::default());
         pairs().flatten().for_each(|v| nodes[v].len += 1);
+        may_continue()?;
         let mut entries = 0u32;
         for node in &mut nodes {
             (node.start, node.degree) = (entries, node.len);
@@ -153,6 +154,7 @@ impl QuotientGraph {
                 node.elements += 1;
             }
         }
+        may_continue()?;
         let dense = LEAST_DENSE.max((DENSE * (pattern.unknowns() as f64).sqrt()) as usize) as u32;
         for node in &mut nodes {
             node.elements = 0;
