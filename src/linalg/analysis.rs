@@ -71,14 +71,15 @@ impl Analysis {
         let supernodes = Supernodes::new(lower, &place)?;
         is_wanted()?;
         let tree = AssemblyTree::new(&supernodes);
-        let solve = SolveParts::new(&tree, &supernodes);
+        let is_shared = lower.rows() >= least;
+        let solve = SolveParts::new(&tree, &supernodes, is_shared);
         let pattern = FactorPattern {
             order,
             place,
             supernodes,
             tree,
             solve,
-            is_shared: lower.rows() >= least,
+            is_shared,
         };
         Ok(Analysis {
             pattern: Arc::new(pattern),

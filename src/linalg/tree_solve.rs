@@ -62,7 +62,9 @@ pub(super) struct Factor<'a> {
 }
 
 impl SolveParts {
-    pub fn new(tree: &AssemblyTree, supernodes: &Supernodes) -> Self {
+    /// The parts of a factor. One that threads do not share has no small subtrees: they are steps above the large ones,
+    /// with the same result.
+    pub fn new(tree: &AssemblyTree, supernodes: &Supernodes, is_shared: bool) -> Self {
         let least = supernodes.value_count() / PARTS;
         let mut parts = SolveParts {
             subtrees: Vec::new(),
@@ -75,7 +77,9 @@ impl SolveParts {
         for (task, waits) in tree.tasks().iter().zip(tree.waits()) {
             let [first, last] = [task.start, task.end - 1].map(|s| supernodes.columns(s));
             let positions = first.start..last.end;
-            if *waits > 0 {
+            let values = supernodes.values_of(task.clone()).len();
+            let (number, is_large) = (parts.subtrees.len(), values >= least);
+            if *waits > 0 || !is_large && !is_shared {
                 parts
                     .above
                     .extend(task.clone().map(|s| Step::Supernode(s as u32)));
@@ -85,8 +89,6 @@ impl SolveParts {
                 }
                 continue;
             }
-            let values = supernodes.values_of(task.clone()).len();
-            let (number, is_large) = (parts.subtrees.len(), values >= least);
             match parts.parts.last_mut() {
                 Some(last) if values_of_last + values <= least => {
                     last.end += 1;
@@ -393,7 +395,7 @@ mod tests {
         for ((a, order), many_large, many_small) in [(of_grid(), 8, 0), (band_of_chains(), 0, 100)]
         {
             let n = a.rows();
-            let analysis = Analysis::shared_from(0, &a, order).unwrap();
+            let analysis = Analysis::shared_from(0, &a, order.clone()).unwrap();
             let parts = &analysis.pattern.solve;
             let (large, small): (Vec<&Subtree>, Vec<&Subtree>) =
                 parts.subtrees.iter().partition(|subtree| subtree.is_large);
@@ -424,6 +426,14 @@ mod tests {
                 assert!((b - x).abs() < 1e-11, "{b} {x}");
             }
             assert!(spawned(|| assert!(solved(3) == one)) >= 4);
+            // Without small subtrees.
+            let alone = Analysis::shared_from(usize::MAX, &a, order).unwrap();
+            let subtrees = &alone.pattern.solve.subtrees;
+            assert!(subtrees.len() == large.len());
+            let mut b = product.clone();
+            let factor = Cholesky::with(&alone, &a).unwrap();
+            factor.solve(&mut b).unwrap();
+            assert!(b == one);
         }
     }
 
