@@ -9,7 +9,7 @@
 //! require. The integers become a dense block in any order. This factor is therefore efficient if
 //! there are few integers.
 
-use super::{Analysis, Cholesky, EliminationTree, Sparse, minimum_degree, principal_submatrix};
+use super::{Analysis, Cholesky, Sparse, minimum_degree, principal_submatrix};
 use crate::error::Result;
 use crate::monitor::may_continue;
 
@@ -40,10 +40,8 @@ impl SchurFactor {
         let block = principal_submatrix(lower, continuous)?;
         let order = minimum_degree(&block)?;
         may_continue()?;
-        let tree = EliminationTree::new(&block, &order)?;
-        may_continue()?;
-        let mut order: Vec<u32> = tree.order.iter().map(|&k| continuous[k as usize]).collect();
-        order.extend(integers);
+        let unknowns = order.into_iter().map(|k| continuous[k as usize]);
+        let order = unknowns.chain(integers.iter().copied()).collect();
         Analysis::in_order(lower, order)
     }
 
