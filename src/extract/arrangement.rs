@@ -6,6 +6,7 @@ use super::crossings::Crossings;
 use super::graph::{Graph, Place};
 use super::refined::{NONE, Refined};
 use crate::error::Result;
+use crate::monitor::may_continue_at;
 
 /// Flag of a chord's end that is the start of a ray and not a crossing of an edge.
 pub(super) const RAY: u32 = 1 << 31;
@@ -45,6 +46,7 @@ impl Arrangement {
         };
         let is_bounding = mesh.regular_boundary_vertices();
         for h in 0..mesh.twin.len() {
+            may_continue_at(h)?;
             let side = u32::from(mesh.twin[h] < h as u32);
             let mut sides = crossings.of(mesh, h).map(|(c, _)| 2 * c + side);
             let first = sides.next();
@@ -57,6 +59,7 @@ impl Arrangement {
         }
         let mut triangle = Triangle::default();
         for face in 0..mesh.face_count() {
+            may_continue_at(face)?;
             triangle.load(mesh, &crossings, face);
             this.add_triangle(face, &triangle);
         }

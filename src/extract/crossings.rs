@@ -10,6 +10,7 @@ use super::grid_map::ONE;
 use super::refined::{NONE, Refined, next};
 use crate::error::{Error, Result};
 use crate::mesh::turned;
+use crate::monitor::may_continue_at;
 
 /// An integer line through an edge, in the coordinates of one of its faces.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -38,6 +39,7 @@ impl Crossings {
         };
         check_size(mesh)?;
         for h in 0..halves {
+            may_continue_at(h)?;
             let g = mesh.twin[h];
             if g != NONE && (g as usize) < h {
                 continue;
