@@ -230,6 +230,7 @@ fn schur(
 mod tests {
     use super::super::minimise_bounded;
     use super::*;
+    use crate::monitor::{spawned, with_threads};
 
     /// Squares of rows `x_i - x_(i+1) + 1.5 p_i` on a path, where every third row has no integer. The angles
     /// are tied weakly to the ground.
@@ -252,6 +253,24 @@ mod tests {
         let n = 2 * n as usize;
         let a = Sparse::from_triplets(n, n, entries.into_iter()).unwrap();
         (a, integers)
+    }
+
+    #[test]
+    fn threads_condense_right_sides_as_one_does() {
+        let (a, integers) = path(4 * LEAST as u32);
+        let factor = RelaxedFactor::new(&a, &integers).unwrap();
+        let b: Vec<f64> = (0..a.rows()).map(|i| (i as f64).sin()).collect();
+        // The textbook's sums, one local integer after the other.
+        let mut expected: Vec<f64> = factor.rest.iter().map(|&i| b[i as usize]).collect();
+        for (k, &p) in factor.local.iter().enumerate() {
+            let pull = b[p as usize] / factor.curvature[k];
+            for (i, v) in factor.coupling.row(k) {
+                expected[i] -= v * pull;
+            }
+        }
+        let condensed = |threads| with_threads(threads, || factor.condense(&b));
+        assert!(factor.local.len() > LEAST && condensed(1) == expected);
+        assert!(spawned(|| assert!(condensed(3) == expected)) >= 2);
     }
 
     #[test]

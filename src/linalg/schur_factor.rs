@@ -5,9 +5,8 @@
 //! form in the integers that remains after minimisation over the continuous unknowns (`golub2013`, section
 //! 4.2). The complement itself is never formed, so no accuracy is lost by squaring.
 //!
-//! The continuous unknowns are in a post-ordered minimum-degree order of their own block, as supernodes
-//! require. The integers become a dense block in any order. This factor is therefore efficient if
-//! there are few integers.
+//! The continuous unknowns are in the minimum-degree order of their own block. The integers become a dense block in any
+//! order. This factor is therefore efficient if there are few integers.
 
 use super::{Analysis, Cholesky, Sparse, minimum_degree, principal_submatrix};
 use crate::error::Result;

@@ -137,6 +137,7 @@ impl Model {
         &self.hessian
     }
 
+    /// The same, to be shared.
     pub(crate) fn shared_hessian(&self) -> &Arc<Sparse> {
         &self.hessian
     }
