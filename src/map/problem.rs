@@ -26,6 +26,7 @@ use super::{Combing, CutGraph, Sizing};
 use crate::error::{Error, Result};
 use crate::field::OrientationField;
 use crate::mesh::features::FeatureGraph;
+use crate::mesh::vector::norm;
 use crate::mesh::{TriangleMesh, turned};
 use crate::monitor::{may_continue, span};
 use crate::problem::{Problem, Triangle};
@@ -308,6 +309,12 @@ impl SeamlessProblem {
             _ => elongation.recip(),
         };
         [first.map(|x| x / longer), second.map(|x| x * longer)]
+    }
+
+    /// The length of an edge of quads, in units of the mesh: the mean over faces.
+    pub(crate) fn edge_length(&self, mesh: &TriangleMesh) -> f64 {
+        let length = |face| 1.0 / norm(self.targets(mesh, face)[0]);
+        (0..mesh.face_count()).map(length).sum::<f64>() / mesh.face_count() as f64
     }
 
     /// The unknown that is `s` of a seam; `t` is the next.

@@ -4,6 +4,7 @@
 //! map         integers are decided
 //! separation  integers are decided anew where they miss separation rows
 //! untangling  folds and winding defects are removed, with the integers fixed
+//! mending     integers around the faults of the first map are changed, one difference at a time
 //! next try    separation of elements farther apart; a finer map; one that is finer only around the faults of
 //!             the last
 //! ```
@@ -34,6 +35,16 @@ const FIRST: f64 = 0.5;
 
 /// The number of times that a map with folds is made finer around them alone.
 const GRADINGS: usize = 4;
+
+/// The most faults of a map whose integers are changed around them: where there are more, the quads are too large.
+const MENDED: usize = 20;
+
+/// The most maps that are tried for it, and the most faces that these may have together.
+const MENDINGS: usize = 24;
+const FACES_OF_MENDINGS: usize = 2_000_000;
+
+/// The passes of untangling in each of them.
+const PASSES_OF_MENDING: usize = 12;
 
 /// The most faces that untangling may visit while a finer map may be made.
 const FACES_BEFORE_REFINING: usize = 500_000;
@@ -79,7 +90,8 @@ impl FoldFreeMap {
 }
 
 /// Solves the problem, adds the separation rows that its integers miss and solves again, at most
-/// `effort.rounds` times, and untangles the map. If folds or winding defects remain, the same is done with rows
+/// `effort.rounds` times, and untangles the map. Where few faults remain, integers around them are changed, one
+/// difference at a time. If folds or winding defects remain, the same is done with rows
 /// between elements farther apart, then for a finer map, at most `effort.refinements` times, and then with smaller
 /// quads around the faults alone.
 /// Among all maps with the fewest faults the first is kept. `monitor` watches each solve and each
@@ -124,7 +136,10 @@ pub fn solve_fold_free<'a>(
         0 => 1,
         refinements => 1 + refinements + GRADINGS,
     };
-    let mut best = run.with_share(share_of(0, most), || driver.attempt(current))?;
+    let mut best = run.with_share(share_of(0, most), || {
+        let first = driver.attempt(current)?;
+        driver.mended(first)
+    })?;
     let mut others = 0;
     while let Some(next) = driver.next(current, &best) {
         current = next;
@@ -212,6 +227,28 @@ impl<'m, M: Fn() -> Monitor<'m>> Driver<'_, M> {
             gradings: last.gradings + 1,
             ..last
         })
+    }
+
+    /// The map with fewer faults, if it has few and other integers around them leave fewer.
+    fn mended(&mut self, mut first: FoldFreeMap) -> Result<FoldFreeMap> {
+        let is_worth_trying = (1..=MENDED).contains(&first.untangled.faults());
+        if self.effort.rounds == 0 || !is_worth_trying {
+            return Ok(first);
+        }
+        let effort = UntangleOptions {
+            passes: self.effort.passes.min(PASSES_OF_MENDING),
+            ..*self.effort
+        };
+        let most = MENDINGS.min(FACES_OF_MENDINGS / self.mesh.face_count().max(1));
+        let (maps, untangled) = (&mut self.maps, &first.untangled);
+        let mended = optional(self.monitor, || maps.mend(untangled, &effort, most))?;
+        let (tries, better) = mended.unwrap_or_default();
+        first.rounds += tries;
+        if let Some((solved, untangled)) = better {
+            first.solution = solved.solution;
+            first.untangled = untangled;
+        }
+        Ok(first)
     }
 
     /// Changes to the size of a try.

@@ -11,7 +11,7 @@ use crate::mesh::TriangleMesh;
 use crate::monitor::{Monitor, optional};
 use crate::search::{Options, Strategy, WarmStart};
 use crate::solve::{SoftRow, Solution, Solver};
-use crate::untangle::{Structure, UntangleOptions, Untangled};
+use crate::untangle::{FAR, Structure, UntangleOptions, Untangled, faulty};
 
 /// The most unknowns for which a proof is tried with [`Strategy::Auto`].
 const PROVED: usize = 50_000;
@@ -211,6 +211,49 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> MapSolver<'a, M> {
             }
         }
         Ok(Separated { better, rounds })
+    }
+
+    /// Changes the integers around the faults of a map, with the rows that there are and one more at a time, which is
+    /// kept if fewer faults remain. At most `most` maps are tried. The number of those, and the best of them, if it is
+    /// better than `before`.
+    pub(super) fn mend(
+        &mut self,
+        before: &Untangled,
+        effort: &UntangleOptions,
+        most: usize,
+    ) -> Result<(usize, Option<(Solved, Untangled)>)> {
+        let structure = self.structure(&before.map)?;
+        let monitor = (self.monitor)();
+        let elements = structure.held_elements(self.mesh, &self.problem, FAR, &monitor)?;
+        drop(monitor);
+        let quad = self.problem.edge_length(self.mesh);
+        let (mut tries, mut better) = (0, None::<(Solved, Untangled)>);
+        let mut refused: Vec<SoftRow> = Vec::new();
+        while tries < most {
+            let last = better.as_ref().map_or(before, |(_, untangled)| untangled);
+            let faults: Vec<usize> = faulty(self.mesh, last).collect();
+            let steps = elements.steps_around(self.mesh, &last.map, &faults, quad);
+            let is_new = |row: &SoftRow| !refused.contains(row) && !self.separation.contains(row);
+            let Some(step) = steps.into_iter().find(is_new) else {
+                break;
+            };
+            let outcome = Outcome::of_map(last);
+            self.separation.push(step);
+            tries += 1;
+            let solved = self.solve_again()?;
+            let untangled = self.untangle(&solved.map, effort)?;
+            if Outcome::of_map(&untangled) < outcome {
+                let is_mended = untangled.faults() == 0;
+                better = Some((solved, untangled));
+                refused.clear();
+                if is_mended {
+                    break;
+                }
+            } else {
+                refused.extend(self.separation.pop());
+            }
+        }
+        Ok((tries, better))
     }
 
     /// A map that is left as it is.

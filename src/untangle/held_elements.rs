@@ -5,16 +5,23 @@
 //! must not be collinear. Otherwise the faces between them have no area, wherever the other vertices move.
 
 use super::isoline_triangles::IsolineTriangle;
+use super::near_cones::Near;
 use crate::error::Result;
 use crate::map::{SeamlessMap, SeamlessProblem, apart, row};
 use crate::mesh::TriangleMesh;
 use crate::mesh::orientation;
-use crate::mesh::vector::{dot, sub};
+use crate::mesh::vector::{dot, norm, sub};
 use crate::solve::SoftRow;
+
+/// How far from a fault one of two elements may lie whose difference is changed, in quads.
+const AROUND: f64 = 2.5;
+
+/// The least deviation of a difference that is changed.
+const DEVIATION: f64 = 0.2;
 
 /// The elements that integers may collapse, the same for all maps of one problem.
 pub(crate) struct HeldElements {
-    near: Vec<SoftRow>,
+    near: Near,
     /// Faces of three cones or corners.
     faces: Vec<usize>,
     isoline_triangles: Vec<IsolineTriangle>,
@@ -35,7 +42,7 @@ impl HeldElements {
         let copies = &problem.sectors.copy;
         let is_held = |&face: &usize| copies[face].iter().all(|&c| held[c as usize] == [true; 2]);
         Ok(HeldElements {
-            near: problem.near_rows(mesh, held, reach)?,
+            near: problem.near(mesh, held, reach)?,
             faces: (0..mesh.face_count()).filter(is_held).collect(),
             isoline_triangles: problem.isoline_triangles(mesh, held),
         })
@@ -49,7 +56,11 @@ impl HeldElements {
         problem: &SeamlessProblem,
         map: &SeamlessMap,
     ) -> Vec<SoftRow> {
-        let near = self.near.iter().filter(|row| row.is_missed(map.values()));
+        let near = self
+            .near
+            .rows
+            .iter()
+            .filter(|row| row.is_missed(map.values()));
         let mut found: Vec<SoftRow> = near.cloned().collect();
         for triangle in &self.isoline_triangles {
             if let Some((ends, aim)) = triangle.wrong(map) {
@@ -66,6 +77,43 @@ impl HeldElements {
             found.extend(lost.flat_map(|&face| problem.upright(mesh, face)));
         }
         found
+    }
+
+    /// The rows each of which brings the difference of two elements around these vertices, in a map, one nearer to
+    /// the one that it should have: those that deviate most, and nearest to a vertex, first. `quad` is the length of an
+    /// edge of quads.
+    pub(crate) fn steps_around(
+        &self,
+        mesh: &TriangleMesh,
+        map: &SeamlessMap,
+        faults: &[usize],
+        quad: f64,
+    ) -> Vec<SoftRow> {
+        let at = |v: usize| mesh.vertices()[v];
+        let distance = |v: usize| {
+            let from = faults.iter().map(|&fault| norm(sub(at(v), at(fault))));
+            from.fold(f64::INFINITY, f64::min) / quad
+        };
+        let mut found: Vec<(f64, SoftRow)> = Vec::new();
+        for pair in &self.near.pairs {
+            let nearest = pair
+                .vertices
+                .map(distance)
+                .into_iter()
+                .fold(AROUND, f64::min);
+            if nearest >= AROUND {
+                continue;
+            }
+            for axis in 0..2 {
+                let deviation = pair.deviation(axis, map.values()).abs();
+                if deviation >= DEVIATION {
+                    let step = pair.step(axis, map.values());
+                    found.push((deviation / (1.0 + nearest), step));
+                }
+            }
+        }
+        found.sort_by(|a, b| b.0.total_cmp(&a.0));
+        found.into_iter().map(|(_, row)| row).collect()
     }
 }
 

@@ -57,17 +57,12 @@ struct Chart {
 }
 
 impl SeamlessProblem {
-    /// The rows of all elements within `reach` quads of each other. `held` says which coordinates of every copy
+    /// The pairs and the rows of all elements within `reach` quads of each other. `held` says which coordinates of every copy
     /// integers decide.
     ///
     /// # Errors
     /// The reason to end the current step.
-    pub(super) fn near_rows(
-        &self,
-        mesh: &TriangleMesh,
-        held: &[[bool; 2]],
-        reach: f64,
-    ) -> Result<Vec<SoftRow>> {
+    pub(super) fn near(&self, mesh: &TriangleMesh, held: &[[bool; 2]], reach: f64) -> Result<Near> {
         let first = &self.sectors.first;
         let is_point = |&v: &usize| {
             let mut copies = first[v]..first[v + 1];
@@ -75,7 +70,7 @@ impl SeamlessProblem {
         };
         let points: Vec<usize> = (0..mesh.vertex_count()).filter(is_point).collect();
         if points.is_empty() {
-            return Ok(Vec::new());
+            return Ok(Near::default());
         }
         let surface = Surface {
             problem: self,
@@ -84,11 +79,16 @@ impl SeamlessProblem {
             lines: self.lines(),
             sides: (0..mesh.face_count()).map(|_| OnceLock::new()).collect(),
         };
-        let rows = collect_in_turn(points.len(), |k| {
-            Search::new(&surface, points[k], reach).rows()
+        let found = collect_in_turn(points.len(), |k| {
+            Search::new(&surface, points[k], reach).near()
         });
-        let rows = rows.into_iter().collect::<Result<Vec<_>>>()?;
-        Ok(rows.into_iter().flatten().collect())
+        let mut all = Near::default();
+        for near in found {
+            let near = near?;
+            all.rows.extend(near.rows);
+            all.pairs.extend(near.pairs);
+        }
+        Ok(all)
     }
 }
 
@@ -122,7 +122,43 @@ struct Search<'a> {
     /// By the bits of the length, then by number.
     heap: BinaryHeap<Reverse<(u64, usize)>>,
     states: Vec<Reached>,
-    rows: Vec<SoftRow>,
+    found: Near,
+}
+
+/// The elements near each other.
+#[derive(Debug, Default)]
+pub(super) struct Near {
+    pub(super) rows: Vec<SoftRow>,
+    pub(super) pairs: Vec<NearPair>,
+}
+
+/// Two cones or corners near each other.
+#[derive(Debug)]
+pub(super) struct NearPair {
+    pub(super) vertices: [usize; 2],
+    /// The difference between them, u and v, that a map should have.
+    pub(super) aim: [f64; 2],
+    /// The terms of the difference that a map has.
+    terms: [Vec<(usize, f64)>; 2],
+}
+
+impl NearPair {
+    /// By how much the difference that a map should have is larger than the one that it has.
+    pub(super) fn deviation(&self, axis: usize, values: &[f64]) -> f64 {
+        self.aim[axis] - value(&self.terms[axis], values)
+    }
+
+    /// The row that brings the difference of a map one nearer to the one that it should have.
+    pub(super) fn step(&self, axis: usize, values: &[f64]) -> SoftRow {
+        let by = 1f64.copysign(self.deviation(axis, values));
+        let terms: Vec<_> = self.terms[axis].iter().map(|&(i, c)| (i, by * c)).collect();
+        let least = value(&terms, values).round() + 1.0;
+        row(terms, least, self.aim[0].hypot(self.aim[1]))
+    }
+}
+
+fn value(terms: &[(usize, f64)], values: &[f64]) -> f64 {
+    terms.iter().map(|&(i, c)| c * values[i]).sum()
 }
 
 impl<'a> Search<'a> {
@@ -134,7 +170,7 @@ impl<'a> Search<'a> {
             charts: Vec::new(),
             heap: BinaryHeap::new(),
             states: Vec::new(),
-            rows: Vec::new(),
+            found: Near::default(),
         }
     }
 
@@ -148,7 +184,7 @@ impl<'a> Search<'a> {
 
     /// The rows between the vertex, with all its copies, and what is found around it. A path ends at the first cone
     /// or corner.
-    fn rows(mut self) -> Result<Vec<SoftRow>> {
+    fn near(mut self) -> Result<Near> {
         let (surface, start) = (self.surface, self.start);
         let first = &surface.problem.sectors.first;
         for copy in first[start]..first[start + 1] {
@@ -196,7 +232,7 @@ impl<'a> Search<'a> {
             }
             self.go_on(f64::from_bits(bits), &state);
         }
-        Ok(self.rows)
+        Ok(self.found)
     }
 
     fn go_on(&mut self, length: f64, state: &Reached) {
@@ -267,14 +303,19 @@ impl<'a> Search<'a> {
         };
         let mut by = [0.0; 2];
         by[axis] = 1f64.copysign(state.aim[axis]);
-        self.rows
-            .push(row(self.terms(state, by), 1.0, state.aim[axis]));
+        let row = row(self.terms(state, by), 1.0, state.aim[axis]);
+        self.found.rows.push(row);
     }
 
     /// The rows for the direction of one cone from another, to the nearest eighth of a turn: along an axis it
     /// deviates by an eighth at most, and along a diagonal it stays in the quadrant. Far apart, it need only have a
     /// part in this direction.
     fn separate_points(&mut self, state: &Reached) {
+        self.found.pairs.push(NearPair {
+            vertices: [self.start, state.vertex],
+            aim: state.aim,
+            terms: [[1.0, 0.0], [0.0, 1.0]].map(|by| self.terms(state, by)),
+        });
         let [u, v] = state.aim;
         let distance = u.hypot(v);
         let eighths = (v.atan2(u) / FRAC_PI_4).round() as i32;
@@ -293,11 +334,11 @@ impl<'a> Search<'a> {
             }
             false => (signs, [[signs[0], 0.0], [0.0, signs[1]]]),
         };
-        self.rows
-            .push(row(self.terms(state, direction), 1.0, distance));
+        let row_along = row(self.terms(state, direction), 1.0, distance);
+        self.found.rows.push(row_along);
         if distance <= NEAR {
             let limits = limits.map(|by| row(self.terms(state, by), 0.0, distance));
-            self.rows.extend(limits);
+            self.found.rows.extend(limits);
         }
     }
 

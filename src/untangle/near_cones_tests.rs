@@ -1,6 +1,7 @@
 //! Rows between cones near each other: on flat meshes, where coordinates are positions and the tests name the
 //! cones, because a flat field has none; and over the cut of curved ones.
 
+use super::NearPair;
 use crate::error::Error;
 use crate::field::{Constraint, FieldProblem, solve_field};
 use crate::map::{SeamlessMap, SeamlessOptions, SeamlessProblem, Sizing};
@@ -55,7 +56,7 @@ impl Grid {
                 .for_each(|&end| held[end as usize][isoline.axis] = true);
         }
         cones.iter().for_each(|&[i, j]| held[7 * i + j] = [true; 2]);
-        self.problem.near_rows(&self.mesh, &held, reach).unwrap()
+        self.problem.near(&self.mesh, &held, reach).unwrap().rows
     }
 
     /// How many of the rows a map of the positions misses.
@@ -141,8 +142,8 @@ fn searches_are_made_at_once_and_can_be_cancelled() {
     token.cancel();
     let _watch = Monitor::default().cancel_token(token).watch();
     let held = vec![[true; 2]; grid.mesh.vertex_count()];
-    let rows = grid.problem.near_rows(&grid.mesh, &held, NEAR);
-    assert_eq!(rows, Err(Error::Cancelled));
+    let near = grid.problem.near(&grid.mesh, &held, NEAR);
+    assert_eq!(near.map(|near| near.rows), Err(Error::Cancelled));
 }
 
 #[test]
@@ -163,7 +164,7 @@ fn integers_decide_rows_over_the_cut() {
         let mut monitor = Monitor::default();
         let structure = Structure::new(&mesh, &problem, &map, &mut monitor).unwrap();
         let held = structure.freedom.held();
-        for row in problem.near_rows(&mesh, &held, NEAR).unwrap() {
+        for row in problem.near(&mesh, &held, NEAR).unwrap().rows {
             let value: f64 = row.terms.iter().map(|&(i, c)| c * map.values()[i]).sum();
             assert!(
                 (value - value.round()).abs() < 1e-6,
@@ -173,4 +174,24 @@ fn integers_decide_rows_over_the_cut() {
         }
     }
     assert!(crossing > 10, "{crossing}");
+}
+
+#[test]
+fn steps_bring_a_difference_one_nearer_to_its_aim() {
+    let pair = NearPair {
+        vertices: [0, 1],
+        aim: [2.3, -0.4],
+        terms: [vec![(2, 1.0), (0, -1.0)], vec![(3, 1.0), (1, -1.0)]],
+    };
+    let values = [1.0, 1.0, 2.0, 2.0];
+    for (axis, deviation) in [(0, 1.3), (1, -1.4)] {
+        assert!((pair.deviation(axis, &values) - deviation).abs() < 1e-12);
+        let step = pair.step(axis, &values);
+        assert!(step.is_missed(&values));
+        let mut moved = values;
+        moved[2 + axis] += f64::signum(deviation);
+        assert!(!step.is_missed(&moved), "one step is enough");
+        moved[2 + axis] = values[2 + axis] - f64::signum(deviation);
+        assert!(step.is_missed(&moved));
+    }
 }
