@@ -19,6 +19,9 @@ const PROVED: usize = 50_000;
 /// The most nodes that this proof may visit, so that a map does not wait for it.
 const NODES: usize = 30_000_000;
 
+/// So many maps that leave no fewer faults, one after another, end the mending of faults.
+const REFUSED: usize = 8;
+
 /// These options, changed so that a map does not wait for a proof with [`Strategy::Auto`].
 pub(super) fn without_long_proof(options: &Options, variables: usize) -> Options {
     let mut options = options.clone();
@@ -229,7 +232,7 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> MapSolver<'a, M> {
         let quad = self.problem.edge_length(self.mesh);
         let (mut tries, mut better) = (0, None::<(Solved, Untangled)>);
         let mut refused: Vec<SoftRow> = Vec::new();
-        while tries < most {
+        while tries < most && refused.len() < REFUSED {
             let last = better.as_ref().map_or(before, |(_, untangled)| untangled);
             let faults: Vec<usize> = faulty(self.mesh, last).collect();
             let steps = elements.steps_around(self.mesh, &last.map, &faults, quad);
