@@ -91,9 +91,9 @@ impl FoldFreeMap {
 
 /// Solves the problem, adds the separation rows that its integers miss and solves again, at most
 /// `effort.rounds` times, and untangles the map. Where few faults remain, integers around them are changed, one
-/// difference at a time. If folds or winding defects remain, the same is done with rows
-/// between elements farther apart, then for a finer map, at most `effort.refinements` times, and then with smaller
-/// quads around the faults alone.
+/// difference at a time. If folds or winding defects still remain, the same is done with rows between elements
+/// farther apart, then for a finer map, at most `effort.refinements` times, and then with smaller quads around the
+/// faults alone.
 /// Among all maps with the fewest faults the first is kept. `monitor` watches each solve and each
 /// untangling.
 ///

@@ -216,9 +216,9 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> MapSolver<'a, M> {
         Ok(Separated { better, rounds })
     }
 
-    /// Changes the integers around the faults of a map, with the rows that there are and one more at a time, which is
-    /// kept if fewer faults remain. At most `most` maps are tried. The number of those, and the best of them, if it is
-    /// better than `before`.
+    /// Changes the integers around the faults of a map. Each of at most `most` tries adds one row to those that there
+    /// are, and keeps it if fewer faults remain. Gives the number of tries and the best map, if it is better than
+    /// `before`; a caller who finishes the run gets the best so far.
     pub(super) fn mend(
         &mut self,
         before: &Untangled,
@@ -243,8 +243,15 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> MapSolver<'a, M> {
             let outcome = Outcome::of_map(last);
             self.separation.push(step);
             tries += 1;
-            let solved = self.solve_again()?;
-            let untangled = self.untangle(&solved.map, effort)?;
+            let watched = self.monitor;
+            let tried = optional(watched, || {
+                let solved = self.solve_again()?;
+                let untangled = self.untangle(&solved.map, effort)?;
+                Ok((solved, untangled))
+            });
+            let Some((solved, untangled)) = tried? else {
+                break;
+            };
             if Outcome::of_map(&untangled) < outcome {
                 let is_mended = untangled.faults() == 0;
                 better = Some((solved, untangled));

@@ -57,8 +57,8 @@ struct Chart {
 }
 
 impl SeamlessProblem {
-    /// The pairs and the rows of all elements within `reach` quads of each other. `held` says which coordinates of every copy
-    /// integers decide.
+    /// The pairs and the rows of all elements within `reach` quads of each other. `held` says which coordinates of
+    /// every copy integers decide.
     ///
     /// # Errors
     /// The reason to end the current step.
@@ -182,8 +182,8 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// The rows between the vertex, with all its copies, and what is found around it. A path ends at the first cone
-    /// or corner.
+    /// The pairs and the rows between the vertex, with all its copies, and what is found around it. A path ends at
+    /// the first cone or corner.
     fn near(mut self) -> Result<Near> {
         let (surface, start) = (self.surface, self.start);
         let first = &surface.problem.sectors.first;
