@@ -38,8 +38,8 @@ pub(super) enum Ended {
         rows: Vec<Active>,
         work: u64,
     },
-    /// No point is within all limits.
-    Empty,
+    /// No point is within all limits: these rows contradict each other within the boxes.
+    Empty(Vec<(u32, f64)>),
     /// Because the call is to end.
     Stopped,
     /// Without a result.
@@ -123,7 +123,7 @@ pub(super) fn solve(form: &Form, limits: &[Interval], boxes: &[Interval]) -> End
             let rows = (0..).zip(reduced.multipliers(form, &found.z));
             let rows: Vec<(u32, f64)> = rows.filter(|(_, m)| *m != 0.0).collect();
             return match is_contradiction(form, boxes, &rows) {
-                true => Ended::Empty,
+                true => Ended::Empty(rows),
                 false => Ended::Failed,
             };
         }

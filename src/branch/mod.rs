@@ -20,7 +20,7 @@
 //! | `safe_bound` | lower bounds that rounding errors cannot make false |
 //! | `pseudo_costs`, `branching`, `node`, `tree` | the search |
 //! | `rounds` | several nodes at the same time |
-//! | `record` | what a proof is made from |
+//! | `recorded`, `record` | a search for a proof; what the proof is made from |
 //! | `primal`, `exchange`, `anneal` | points with integers: rounding, exchanges, annealing, smaller problems |
 //! | `dive` | a first point where rounding finds none |
 //! | `lazy` | rows that the caller adds during the search |
@@ -49,6 +49,7 @@ mod primal;
 mod propagate;
 mod pseudo_costs;
 mod record;
+mod recorded;
 mod refine;
 mod relaxation;
 mod rounds;
@@ -268,22 +269,24 @@ fn search_part(
     record: Option<&mut Derivation>,
     monitor: &mut Monitor,
 ) -> Result<tree::Found> {
-    // A proof is in the rows of the problem, and knows no symmetry.
-    if record.is_none() {
-        let found = match hull::project(&part.form)? {
-            Some(projected) => search_projected(&projected, start, limits, monitor),
-            None => search_ordered(&part.form, start, limits, monitor),
-        };
-        return with_point(problem, parts, part, found, monitor);
-    }
-    let mut found = tree::search(&part.form, start, limits, monitor);
-    if let (Some(record), Ok(found)) = (record, &mut found) {
-        let nodes = std::mem::take(&mut found.visited);
-        let constraints = problem.constraints();
-        let searched = record::of_whole(&part.form, &part.members, constraints, nodes);
-        record.parts.push(searched);
-    }
+    let found = match record {
+        Some(record) => recorded::search(problem, part, start, limits, record, monitor),
+        None => search_alone(&part.form, start, limits, monitor),
+    };
     with_point(problem, parts, part, found, monitor)
+}
+
+/// Searches the form of a part.
+fn search_alone(
+    form: &Form,
+    start: Option<Vec<f64>>,
+    limits: Limits,
+    monitor: &mut Monitor,
+) -> Result<tree::Found> {
+    match hull::project(form)? {
+        Some(projected) => search_projected(&projected, start, limits, monitor),
+        None => search_ordered(form, start, limits, monitor),
+    }
 }
 
 /// Searches a form in one order of the choices that may change places.
@@ -345,7 +348,7 @@ fn search_strengthened(
     monitor: &mut Monitor,
 ) -> Result<tree::Found> {
     let perspective = perspective::strengthened(form, monitor)?;
-    let form = perspective.as_ref().unwrap_or(form);
+    let form = perspective.as_ref().map_or(form, |of| &of.form);
     let implied = implied_bounds::strengthened(form, monitor)?;
     let cut = match limits.first {
         true => None,

@@ -67,13 +67,31 @@ struct Link {
     weight: f64,
 }
 
+/// An unknown that a binary switches on, and what the objective has gained: `product (x - x z)` and
+/// `square (z^2 - z)`.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Switched {
+    pub unknown: u32,
+    pub binary: u32,
+    /// The rows that make the unknown zero where the binary is, for each side.
+    pub rows: [Option<u32>; 2],
+    pub product: f64,
+    pub square: f64,
+}
+
+/// A form with the same energies at all points with integers.
+pub(super) struct Reformulated {
+    pub form: Form,
+    pub switches: Vec<Switched>,
+}
+
 /// A form with the same energies at all points with integers and a larger bound, if some unknowns are linked to
 /// binaries and the bound rises.
 ///
 /// # Errors
 /// [`Error::OutOfMemory`](crate::Error::OutOfMemory), [`Error::NotConvex`](crate::Error::NotConvex), the end of the
 /// call.
-pub(super) fn strengthened(form: &Form, monitor: &mut Monitor) -> Result<Option<Form>> {
+pub(super) fn strengthened(form: &Form, monitor: &mut Monitor) -> Result<Option<Reformulated>> {
     let links = links(form)?;
     if links.is_empty() {
         return Ok(None);
@@ -81,7 +99,7 @@ pub(super) fn strengthened(form: &Form, monitor: &mut Monitor) -> Result<Option<
     let _watch = monitor.watch_search();
     let mut slopes = vec![0.0; links.len()];
     let mut first = None;
-    let mut best: Option<(f64, Form)> = None;
+    let mut best: Option<(f64, Reformulated)> = None;
     let mut active: Vec<Active> = Vec::new();
     let mut most = u64::MAX;
     for round in 0..ROUNDS {
@@ -89,15 +107,16 @@ pub(super) fn strengthened(form: &Form, monitor: &mut Monitor) -> Result<Option<
             break;
         }
         let next = reformulated(form, &links, &slopes)?;
-        let shared = match Shared::new(&next, &regularization(&next)) {
+        let of = &next.form;
+        let shared = match Shared::new(of, &regularization(of)) {
             // By rounding errors.
             Err(Error::NotConvex { .. }) => break,
             shared => shared?,
         };
-        let mut relaxation = Relaxation::new(&next, &shared);
+        let mut relaxation = Relaxation::new(of, &shared);
         relaxation.start_from(&active);
         relaxation.most = relaxation.most.min(most);
-        let Relaxed::Solved { bound } = relaxation.solve(f64::INFINITY, &next.boxes) else {
+        let Relaxed::Solved { bound } = relaxation.solve(f64::INFINITY, &of.boxes) else {
             break;
         };
         slopes = next_slopes(form, &links, relaxation.solver.point(), relaxation.active());
@@ -220,8 +239,9 @@ fn largest_eigenvalue(block: &[f64], scales: &[f64]) -> f64 {
 }
 
 /// The form with `2 c t (x - x z) + c t^2 (z^2 - z)` added for each link.
-fn reformulated(form: &Form, links: &[Link], slopes: &[f64]) -> Result<Form> {
+fn reformulated(form: &Form, links: &[Link], slopes: &[f64]) -> Result<Reformulated> {
     let mut next = form.clone();
+    let mut switches = Vec::new();
     let mut entries: Vec<(u32, u32, f64)> = form.hessian.entries().collect();
     let mut of_binaries: Vec<f64> = vec![0.0; form.dim()];
     let mut lost = 0.0;
@@ -240,7 +260,15 @@ fn reformulated(form: &Form, links: &[Link], slopes: &[f64]) -> Result<Form> {
             link.unknown.min(link.binary),
             -2.0 * a,
         ));
-        of_binaries[z] += a * t * (1.0 + MARGIN);
+        let square = a * t * (1.0 + MARGIN);
+        of_binaries[z] += square;
+        switches.push(Switched {
+            unknown: link.unknown,
+            binary: link.binary,
+            rows: link.rows,
+            product: 2.0 * a,
+            square,
+        });
     }
     for (z, &b) in of_binaries.iter().enumerate().filter(|(_, b)| **b > 0.0) {
         let (sum, error) = two_sum(next.gradient[z], -b);
@@ -253,7 +281,10 @@ fn reformulated(form: &Form, links: &[Link], slopes: &[f64]) -> Result<Form> {
     next.hessian = Sparse::from_triplets(form.dim(), form.dim(), entries.into_iter())?;
     // No point has more energy than before.
     next.constant -= 2.0 * lost;
-    Ok(next)
+    Ok(Reformulated {
+        form: next,
+        switches,
+    })
 }
 
 /// `t` for the next round, from the minimiser of the last one and the multipliers of its rows.

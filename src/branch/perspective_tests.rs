@@ -85,9 +85,8 @@ fn bound(form: &Form) -> f64 {
 
 fn of(form: &Form) -> Form {
     let monitor = &mut Monitor::default();
-    strengthened(form, monitor)
-        .unwrap()
-        .expect("a larger bound")
+    let found = strengthened(form, monitor).unwrap();
+    found.expect("a larger bound").form
 }
 
 #[test]

@@ -3,8 +3,10 @@
 //! Rows and unknowns are those of the form until the search ends; [`of_whole`] names those of the whole problem.
 
 use super::form::Form;
+use super::perspective::Switched;
+use super::relaxation::Kept;
 use crate::error::Conflicting;
-use crate::proof::{Ending, Multiplied, Searched, Step, Visited};
+use crate::proof::{Ending, Searched, Step, Switch, Visited};
 
 /// The nodes of a tree.
 #[derive(Debug)]
@@ -31,16 +33,25 @@ impl Record {
         }
     }
 
-    /// A bound was found. It is of use where it is above that of the parent.
-    pub fn bounded(&mut self, node: usize, parent: f64, (bound, kept): (f64, Multiplied)) {
+    /// A relaxation was solved. Its bound is of use where it is above that of the parent.
+    pub fn solved(&mut self, node: usize, parent: f64, kept: Kept, unknowns: usize) {
         let is_root = parent == f64::NEG_INFINITY;
-        if !kept.point.is_empty() && (bound > parent || is_root) {
-            self.0[node].certificate = Some(kept);
+        let own = &mut self.0[node];
+        own.steps.extend(kept.steps);
+        if !kept.certificate.point.is_empty() && (kept.bound > parent || is_root) {
+            own.certificate = Some(kept.certificate);
         }
+        if let Some(row) = kept.missed {
+            own.ending = Ending::Missed(row as u32);
+        }
+        self.contradiction(node, &kept.contradiction, unknowns);
     }
 
-    /// Rows with these multipliers contradict each other. They are numbered after the unknowns.
+    /// Rows with these multipliers, if there are any, contradict each other. They are numbered after the unknowns.
     pub fn contradiction(&mut self, node: usize, rows: &[(u32, f64)], unknowns: usize) {
+        if rows.is_empty() {
+            return;
+        }
         let rows = rows.iter();
         let rows = rows.filter_map(|&(row, by)| Some((row.checked_sub(unknowns as u32)?, by)));
         self.0[node].ending = Ending::Contradiction(rows.collect());
@@ -65,6 +76,7 @@ pub(super) fn of_whole(
     form: &Form,
     members: &[u32],
     constraints: usize,
+    switches: &[Switched],
     mut nodes: Vec<Visited>,
 ) -> Searched {
     let row_of = |row: u32| match form.origins[row as usize] {
@@ -95,7 +107,21 @@ pub(super) fn of_whole(
             Ending::Missed(row) => *row = row_of(*row),
         }
     }
+    let switches = switches.iter().map(|switched| {
+        let unknown = unknown_of(switched.unknown);
+        let [below, above] = switched.rows.map(|row| row.map(row_of));
+        let below = below.map(|row| Step::Lower(row, unknown, 0.0));
+        let above = above.map(|row| Step::Upper(row, unknown, 0.0));
+        Switch {
+            unknown,
+            binary: unknown_of(switched.binary),
+            steps: below.into_iter().chain(above).collect(),
+            product: switched.product,
+            square: switched.square,
+        }
+    });
     Searched {
+        switches: switches.collect(),
         unknowns: members.to_vec(),
         nodes,
     }

@@ -12,7 +12,7 @@ use super::propagate::Propagator;
 use super::safe_bound::safe_bound;
 use super::shared::Shared;
 use super::working_set::Ldl;
-use crate::proof::Multiplied;
+use crate::proof::{Multiplied, Step};
 
 /// The diagonal added to a singular block, relative to the size of the objective. A smaller one takes fewer proximal
 /// steps; below 1e-6, rounding errors of the active rows take the bounds of `watercontamination0202r` away.
@@ -40,6 +40,19 @@ const ROUNDS: usize = 5;
 /// Iterations of one solve of the dual active-set method, for each unknown and row.
 const ITERATIONS: usize = 20;
 
+/// What a solve tells a proof.
+#[derive(Debug, Default)]
+pub(super) struct Kept {
+    /// The best bound, with its point and multipliers.
+    pub bound: f64,
+    pub certificate: Multiplied,
+    /// The bounds that were tightened before, until a row was missed.
+    pub steps: Vec<Step>,
+    pub missed: Option<usize>,
+    /// The rows that contradict each other within the tightened bounds.
+    pub contradiction: Vec<(u32, f64)>,
+}
+
 /// The relaxation of a form whose bounds change from node to node.
 #[derive(Debug)]
 pub(super) struct Relaxation<'a> {
@@ -50,8 +63,8 @@ pub(super) struct Relaxation<'a> {
     pub most: u64,
     /// What tightens the bounds of real unknowns, where an interior-point method solves the relaxations.
     pub interior: Option<Propagator>,
-    /// The best bound of a solve with its point and multipliers, for a proof.
-    pub kept: Option<(f64, Multiplied)>,
+    /// What a proof is made from.
+    pub kept: Option<Kept>,
 }
 
 /// What a solve of a relaxation has found.
@@ -125,15 +138,16 @@ impl<'a> Relaxation<'a> {
         self.solver.work += (form.hessian.len() + form.rows.len()) as u64 * 3;
         let (point, active) = (self.solver.point(), self.solver.active());
         let bound = safe_bound(form, self.solver.inverse(), boxes, point, active);
-        if let Some((best, kept)) = &mut self.kept
-            && (kept.point.is_empty() || bound > *best)
+        if let Some(kept) = &mut self.kept
+            && (kept.certificate.point.is_empty() || bound > kept.bound)
         {
             let rows = active.iter().filter_map(|held| {
                 let row = held.row.checked_sub(form.dim() as u32)?;
                 Some((row, held.multiplier))
             });
             let (point, multipliers) = (point.to_vec(), rows.collect());
-            (*best, *kept) = (bound, Multiplied { point, multipliers });
+            kept.bound = bound;
+            kept.certificate = Multiplied { point, multipliers };
         }
         bound
     }
@@ -238,7 +252,13 @@ impl<'a> Relaxation<'a> {
         let form = self.solver.form();
         let propagator = self.interior.as_mut()?;
         let mut tight = boxes.to_vec();
-        if propagator.all(form, &mut tight, true, ROUNDS).is_err() {
+        propagator.steps = self.kept.as_ref().map(|_| Vec::new());
+        let tightened = propagator.all(form, &mut tight, true, ROUNDS);
+        if let Some((kept, steps)) = self.kept.as_mut().zip(propagator.steps.take()) {
+            kept.steps = steps;
+            kept.missed = tightened.as_ref().err().copied();
+        }
+        if tightened.is_err() {
             return Some(Relaxed::Infeasible(Vec::new()));
         }
         match interior::solve(form, self.solver.limits(), &tight) {
@@ -251,7 +271,12 @@ impl<'a> Relaxation<'a> {
                     false => Relaxed::Solved { bound },
                 })
             }
-            Ended::Empty => Some(Relaxed::Infeasible(Vec::new())),
+            Ended::Empty(rows) => {
+                if let Some(kept) = &mut self.kept {
+                    kept.contradiction = rows;
+                }
+                Some(Relaxed::Infeasible(Vec::new()))
+            }
             Ended::Stopped => Some(Relaxed::Stopped {
                 bound: f64::NEG_INFINITY,
             }),

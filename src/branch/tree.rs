@@ -159,8 +159,9 @@ pub(super) fn search_in_rounds(
     let shared = Shared::new(form, &regularization(form))?;
     let _watch = monitor.watch_search();
     let mut tree = Tree::new(form, &shared, limits, monitor);
-    if limits.inner || limits.recorded {
-        // The certificate of the dual active-set method names few rows, and is more precise for a proof.
+    // A proof needs slopes of exactly zero where an unknown has no bound, which the interior-point method seldom finds.
+    let is_open = || form.boxes.iter().any(|limits| !limits.width().is_finite());
+    if limits.inner || (limits.recorded && is_open()) {
         tree.relaxation.interior = None;
     }
     if let Some(start) = start {
@@ -404,7 +405,7 @@ impl<'a, 'm, 'e> Tree<'a, 'm, 'e> {
         let solved = self.solve(cutoff, &boxes);
         let parent = node.bound;
         if let (Some(record), Some(kept)) = (&mut self.record, self.relaxation.kept.take()) {
-            record.bounded(node.visited, parent, kept);
+            record.solved(node.visited, parent, kept, self.form.dim());
         }
         match solved {
             Relaxed::Infeasible(rows) => {

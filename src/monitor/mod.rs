@@ -149,6 +149,19 @@ impl<'a> Monitor<'a> {
         }
     }
 
+    /// A step that may take half of the time that is left.
+    pub(crate) fn in_half_of_the_time<T>(&mut self, step: impl FnOnce(&mut Self) -> T) -> T {
+        let limit = self.limit;
+        let spent = self.started.elapsed();
+        self.limit = limit.map(|limit| spent + limit.saturating_sub(spent) / 2);
+        let result = step(self);
+        self.limit = limit;
+        if self.stopped == Some(Stop::TimeLimit) {
+            self.stopped = None;
+        }
+        result
+    }
+
     pub(crate) fn seconds(&self) -> f64 {
         self.started.elapsed().as_secs_f64()
     }

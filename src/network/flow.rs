@@ -26,10 +26,18 @@ pub(super) struct Halves {
     pub potential: Vec<i128>,
 }
 
+impl Halves {
+    /// The flow of each edge, rounded down.
+    pub fn base(&self) -> Vec<i64> {
+        self.twice.iter().map(|x| x.div_euclid(2)).collect()
+    }
+}
+
 #[derive(Debug, PartialEq, Eq)]
 pub(super) enum Failure {
-    /// No flow, not even a fractional one.
-    Infeasible,
+    /// No flow, not even a fractional one, as multipliers of the vertices show: whatever the flow, the sum of what
+    /// they make of the demands is more than what they make of it.
+    Infeasible(Vec<i128>),
     /// An edge may be without limit, or has huge values.
     Unsuited,
     Stopped,
@@ -57,9 +65,17 @@ pub(super) fn half_integral(
     network: &Network,
     ends: &mut dyn FnMut(u64) -> bool,
 ) -> Result<Halves, Failure> {
-    let first = ascend(network);
+    half_integral_from(network, &ascend(network), ends)
+}
+
+/// Finds the optimum from multipliers near those of it, in multiples of [`UNITS`].
+pub(super) fn half_integral_from(
+    network: &Network,
+    first: &[i128],
+    ends: &mut dyn FnMut(u64) -> bool,
+) -> Result<Halves, Failure> {
     let zero = vec![0; network.demand.len()];
-    let cover = Cover::new(network, &first).or_else(|| Cover::new(network, &zero));
+    let cover = Cover::new(network, first).or_else(|| Cover::new(network, &zero));
     let mut cover = cover.ok_or(Failure::Unsuited)?;
     let nodes = cover.missing.len();
     let mut distance: Vec<Option<i128>> = vec![None; nodes];
@@ -67,13 +83,12 @@ pub(super) fn half_integral(
     for direction in [1, -1] {
         for source in 0..nodes as u32 {
             while cover.missing[source as usize] * direction > 0 && !cover.is_root(source) {
-                let found = cover.augment(source, direction, &mut distance, &mut by);
-                let (work, reached) = found;
+                let (work, closed) = cover.augment(source, direction, &mut distance, &mut by);
                 if ends(work) {
                     return Err(Failure::Stopped);
                 }
-                if !reached {
-                    return Err(Failure::Infeasible);
+                if !closed.is_empty() {
+                    return Err(Failure::Infeasible(cover.cut(&closed, direction)));
                 }
             }
         }
@@ -144,15 +159,26 @@ impl<'a> Cover<'a> {
         node / 2 == self.network.root()
     }
 
+    /// Multipliers of the vertices that show that these nodes lack flow, or have too much of it, and can get no more.
+    fn cut(&self, nodes: &[u32], direction: i64) -> Vec<i128> {
+        let mut multipliers = vec![0; self.network.demand.len()];
+        for node in nodes {
+            let sign = if node % 2 == 0 { 1 } else { -1 };
+            multipliers[*node as usize / 2] += sign * i128::from(direction);
+        }
+        multipliers
+    }
+
     /// Moves one unit from `source` to the nearest node that lacks it or to the root. In direction 1, the
-    /// source lacks flow and the path ends where there is too much.
+    /// source lacks flow and the path ends where there is too much. Gives the work, and if there is no path, all nodes
+    /// that can be reached.
     fn augment(
         &mut self,
         source: u32,
         direction: i64,
         distance: &mut [Option<i128>],
         by: &mut [u32],
-    ) -> (u64, bool) {
+    ) -> (u64, Vec<u32>) {
         let mut heap = BinaryHeap::new();
         let mut seen = vec![source];
         let mut work = 0;
@@ -199,10 +225,13 @@ impl<'a> Cover<'a> {
                 node = arc.plus + arc.minus - node;
             }
         }
-        for node in seen {
+        for &node in &seen {
             distance[node as usize] = None;
         }
-        (work, end.is_some())
+        if end.is_some() {
+            seen.clear();
+        }
+        (work, seen)
     }
 
     /// The node that an arc leads to from `node`, and the reduced cost of one step.

@@ -6,6 +6,7 @@ use super::graph::{Edge, End, LARGEST, Network, common_exponent, in_units};
 use crate::error::Result;
 use crate::linalg::Sparse;
 use crate::problem::{Model, Problem};
+use crate::proof::Step;
 
 /// A problem as a network.
 #[derive(Debug)]
@@ -15,6 +16,10 @@ pub(super) struct Form {
     pub columns: Vec<Option<u32>>,
     /// Unknowns in no row, each with its value and its cost.
     pub alone: Vec<(u32, i64, i128)>,
+    /// By what each row was divided.
+    pub units: Vec<f64>,
+    /// The sides of rows that integers cannot reach, rounded.
+    pub rounded: Vec<Step>,
 }
 
 /// Integers from the first to the second. None does not limit.
@@ -43,24 +48,34 @@ impl Form {
         let mut ends: Vec<Vec<(End, f64)>> = vec![Vec::new(); n];
         let mut demand = Vec::new();
         let mut slacks = Vec::new();
+        let (mut units, mut rounded) = (Vec::new(), Vec::new());
         let limits = problem.inequality_rows();
         let equalities = model.constraints();
         for (matrix, is_equality) in [(equalities, true), (two_sided, false)] {
             for row in 0..matrix.rows() {
                 let vertex = demand.len() as u32;
                 let unit = add_row(matrix, row, vertex, &mut ends)?;
+                units.push(unit);
                 if is_equality {
                     let rhs = model.constraint_rhs()[row];
-                    let units = (rhs / unit).round();
-                    if units * unit != rhs || units.abs() > LARGEST as f64 {
+                    let wanted = (rhs / unit).round();
+                    if wanted * unit != rhs || wanted.abs() > LARGEST as f64 {
                         return None;
                     }
-                    demand.push(units as i64);
+                    demand.push(wanted as i64);
                 } else {
                     let [lower, upper] = [limits.lower()[row], limits.upper()[row]];
                     // A quotient by another number than a power of two is rounded.
                     if unit.to_bits() << 12 != 0 {
                         return None;
+                    }
+                    let [least, most] =
+                        [(lower / unit).ceil() * unit, (upper / unit).floor() * unit];
+                    if least != lower {
+                        rounded.push(Step::RowLower(vertex, least));
+                    }
+                    if most != upper {
+                        rounded.push(Step::RowUpper(vertex, most));
                     }
                     slacks.push((vertex, within(lower / unit, upper / unit)?));
                     demand.push(0);
@@ -87,6 +102,8 @@ impl Form {
             },
             columns: Vec::new(),
             alone: Vec::new(),
+            units,
+            rounded,
         };
         for (j, ends) in ends.iter().enumerate() {
             let (lower, upper) = problem.limits_of(j);

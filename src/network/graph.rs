@@ -61,6 +61,12 @@ impl Edge {
         UNITS / 2 * x * (self.curvature * x + 2 * self.slope)
     }
 
+    /// What a unit of the edge is worth with these multipliers of the vertices.
+    pub fn price(&self, potential: &[i128]) -> i128 {
+        let worth = |end: &End| i128::from(end.sign) * potential[end.vertex as usize];
+        self.ends.iter().map(worth).sum()
+    }
+
     /// A minimiser of f(x) - price x between the bounds. None if there is none, or a huge one.
     pub fn minimiser(&self, price: i128) -> Option<i64> {
         let first = self.step(0);

@@ -17,9 +17,11 @@
 //! | `units` | the steps that lead to integers, as a perfect matching |
 //! | `matching`, `blossoms` | the matching of least weight, from the multipliers of the flow |
 //! | `certificate` | the lower bound that the multipliers prove |
+//! | `derivation` | what a proof for strangers is made from |
 
 mod blossoms;
 mod certificate;
+mod derivation;
 mod flow;
 mod form;
 mod graph;
@@ -30,6 +32,7 @@ use crate::error::Result;
 use crate::linalg::sum_below;
 use crate::monitor::Monitor;
 use crate::problem::{Model, Problem};
+use crate::proof::Derivation;
 use form::Form;
 use graph::UNITS;
 
@@ -47,13 +50,14 @@ pub(crate) struct Optimum {
 }
 
 /// Solves a problem of this form. None if it has another form, if it has no solution, which others can tell
-/// why, and if the caller or a limit ends the search.
+/// why, and if the caller or a limit ends the search. `record` receives what a proof is made from.
 ///
 /// # Errors
 /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
 pub(crate) fn solve(
     problem: &Problem,
     model: &Model,
+    record: Option<&mut Derivation>,
     monitor: &mut Monitor,
 ) -> Result<Option<Optimum>> {
     let Some(form) = Form::of(problem, model)? else {
@@ -71,6 +75,9 @@ pub(crate) fn solve(
     let Ok(optimum) = units::integral(network, &halves, &mut ends) else {
         return Ok(None);
     };
+    if let Some(record) = record {
+        *record = derivation::derivation(&form, &halves, &optimum.x, &mut ends);
+    }
     let mut bound = optimum.bound;
     let mut values = vec![0.0; model.variables()];
     for (&column, &x) in form.columns.iter().zip(&optimum.x) {

@@ -70,7 +70,7 @@ pub(super) fn integral(
     halves: &Halves,
     ends: &mut dyn FnMut(u64) -> bool,
 ) -> Result<Optimum, Failure> {
-    let base: Vec<i64> = halves.twice.iter().map(|x| x.div_euclid(2)).collect();
+    let base = halves.base();
     if !network.fits(&base, &halves.potential) {
         return Err(Failure::TooLarge);
     }

@@ -9,6 +9,7 @@ use super::format::{Claim, Line, Part, Root, Statement, VERSION};
 use super::minorant::{Minorant, Split};
 use super::problem::{ExactProblem, ExactRow, Limits, Side, product};
 use super::steps::take;
+use super::switch;
 use super::tree::Tree;
 
 /// The point of a proof may miss rows and bounds by this, relative to the sizes of the terms.
@@ -269,6 +270,9 @@ fn check_parts<R: BufRead>(
         return Err(lines.fault((FaultKind::Parts, text)));
     }
     for (part, objective) in parts.iter().zip(&mut split.parts) {
+        for added in &part.switches {
+            lines.at(switch::add(problem, limits, objective, added))?;
+        }
         lines.at(objective.set_curvature(&part.curvature))?;
         lines.at(convex::check(objective, &|| true))?;
     }

@@ -126,6 +126,14 @@ impl Block {
         (0..self.members.len()).map(entry).collect()
     }
 
+    /// The positive curvature of a block of one unknown, if it is a float.
+    pub fn whole_curvature(&self) -> Option<f64> {
+        let entry = self.entries.get(&(0, 0))?;
+        let near = entry.near();
+        let is_exact = Exact::of(near).is_some_and(|near| near == *entry);
+        (self.members.len() == 1 && is_exact && near > 0.0).then_some(near)
+    }
+
     /// Whether the block minus a diagonal is positive semi-definite. No means that it could not be shown.
     pub fn has_curvature(&self, curvature: &[Exact], goes_on: GoesOn) -> bool {
         if !self.has_quadratic && curvature.iter().all(Exact::is_zero) {

@@ -1,7 +1,8 @@
 //! The choice of a curvature.
 //!
 //! A positive one makes bounds of unknowns without limits, whose slopes are rounding errors. A small negative one
-//! covers a block that is singular up to the rounding of its entries; it needs limits.
+//! covers a block that is singular up to the rounding of its entries; it needs limits. Integers that Q couples with
+//! nothing get all the curvature that they have: a bound over integers is better for it.
 
 use super::convex::{Block, GoesOn, blocks};
 use super::exact::Exact;
@@ -12,11 +13,18 @@ use super::problem::{Limits, Side};
 const POSITIVE: [i32; 4] = [-4, -10, -20, -30];
 const NEGATIVE: [i32; 3] = [-36, -32, -28];
 
-/// A curvature of the objective: a power of two or its negative for each unknown of a block that has one, else
-/// zero.
+/// A curvature of the objective: a power of two or its negative for each unknown of a block that has one, and that of
+/// an integer alone, else zero.
 pub(super) fn choose(part: &PartObjective, limits: &Limits, goes_on: GoesOn) -> Vec<f64> {
     let mut chosen = vec![0.0; part.members.len()];
     for block in blocks(part) {
+        if let [k] = block.members[..]
+            && part.integer[k]
+            && let Some(own) = block.whole_curvature()
+        {
+            chosen[k] = own;
+            continue;
+        }
         let is_bounded = block.members.iter().all(|&k| {
             let side = |side| limits.side(part.members[k], side).is_some();
             side(Side::Lower) && side(Side::Upper)

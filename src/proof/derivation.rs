@@ -2,7 +2,7 @@
 //!
 //! Nothing here is believed: what is not so in exact numbers is left out of the proof, which then proves less.
 
-use super::format::Step;
+use super::format::{Step, Switch};
 
 /// A point and multipliers of rows, in floats.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -39,10 +39,11 @@ pub(crate) struct Visited {
     pub ending: Ending,
 }
 
-/// The search of a part: its unknowns, and its nodes, of which the first is the root.
+/// The search of a part: its unknowns, what its objective gains, and its nodes, of which the first is the root.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Searched {
     pub unknowns: Vec<u32>,
+    pub switches: Vec<Switch>,
     pub nodes: Vec<Visited>,
 }
 

@@ -11,6 +11,9 @@ use super::problem::{ExactProblem, Limits, Side};
 /// Half a unit in the last place of 1, and a little more.
 const UNIT: f64 = 0.5 * f64::EPSILON * (1.0 + 1e-6);
 
+/// Integers up to this, and halves between them, are floats.
+const LARGEST_INTEGER: f64 = (1u64 << 51) as f64;
+
 /// All numbers within `radius` of `middle`.
 #[derive(Debug, Clone, Copy, Default)]
 struct Ball {
@@ -64,6 +67,10 @@ impl Ball {
             middle: -self.middle,
             ..self
         }
+    }
+
+    fn least(self) -> f64 {
+        (self.middle - self.radius).next_down()
     }
 
     fn largest(self) -> f64 {
@@ -193,8 +200,15 @@ impl Estimate {
                     return f64::NEG_INFINITY;
                 };
                 let [a, b] = [lower, upper].map(|end| self.term_at(k, Ball::around(end), floats));
-                let least = |ball: Ball| ball.middle - ball.radius;
-                sum = sum.plus(if least(a) < least(b) { a } else { b });
+                sum = sum.plus(if a.least() < b.least() { a } else { b });
+                continue;
+            }
+            if curvature > 0.0
+                && part.integer[k]
+                && let Some(term) =
+                    self.least_of_integer(k, [Side::Lower, Side::Upper].map(end), floats)
+            {
+                sum = sum.plus(term);
                 continue;
             }
             if slope.middle == 0.0 && slope.radius == 0.0 {
@@ -220,12 +234,47 @@ impl Estimate {
             };
             sum = sum.plus(term);
         }
-        let least = (sum.middle - sum.radius).next_down();
+        let least = sum.least();
         if least.is_nan() {
             f64::NEG_INFINITY
         } else {
             least
         }
+    }
+
+    /// What the terms of an integer with a positive curvature are nowhere below, unless rounding errors hide where they
+    /// are least.
+    fn least_of_integer(
+        &self,
+        k: usize,
+        ends: [Option<&Exact>; 2],
+        floats: &Floats,
+    ) -> Option<Ball> {
+        let (slope, curvature) = (self.slopes[k], floats.curvature[k]);
+        let [lower, upper] = ends.map(|end| end.map(Exact::near));
+        let free = (self.point[k].middle - slope.middle / curvature.middle).round();
+        let at = free.max(lower.unwrap_or(free));
+        let at = at.min(upper.unwrap_or(at));
+        if at.abs() > LARGEST_INTEGER {
+            return None;
+        }
+        // What the terms gain from one integer to the next, at most by rounding errors less than nothing. The next gain
+        // is larger by the curvature.
+        let gain = |from: f64| {
+            let middle = Ball::float(from + 0.5).plus(self.point[k].minus());
+            slope.plus(curvature.times(middle))
+        };
+        let up = match upper == Some(at) {
+            true => 0.0,
+            false => gain(at).least(),
+        };
+        let down = match lower == Some(at) {
+            true => 0.0,
+            false => gain(at - 1.0).minus().least(),
+        };
+        let lost = up.min(down).min(0.0);
+        let term = self.term_at(k, Ball::float(at), floats);
+        (-lost <= 0.5 * curvature.middle).then(|| term.plus(Ball::float(lost)))
     }
 
     /// The terms of one unknown at a value.

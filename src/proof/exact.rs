@@ -115,11 +115,16 @@ impl Exact {
         &self.floor() == self
     }
 
-    /// `floor(self / by) by` for a positive `by` without a denominator.
-    pub fn floor_to_multiple(&self, by: &Exact) -> Self {
+    /// `floor(self / by)` for a positive `by` without a denominator.
+    pub fn floor_of_quotient(&self, by: &Exact) -> Self {
         let inverse = Exact::fraction(BigInt::from(1), by.mantissa.clone());
         let quotient = inverse.map(|inverse| (self * &inverse).shifted(-by.exponent));
-        quotient.map_or_else(Exact::zero, |quotient| &quotient.floor() * by)
+        quotient.map_or_else(Exact::zero, |quotient| quotient.floor())
+    }
+
+    /// `floor(self / by) by` for a positive `by` without a denominator.
+    pub fn floor_to_multiple(&self, by: &Exact) -> Self {
+        &self.floor_of_quotient(by) * by
     }
 
     /// The largest number of which both are integer multiples, zero if both are zero. Neither has a

@@ -18,6 +18,8 @@ pub enum FaultKind {
     Step,
     /// Parts that do not hold all free unknowns once, or that the objective or a row couples.
     Parts,
+    /// A switch that is no binary, or that leaves more than zero of its unknown where it is zero.
+    Switch,
     /// The objective may curve downwards.
     NotConvex,
     /// A branch that is on no integer.
@@ -45,6 +47,7 @@ impl FaultKind {
             FaultKind::Energy => "energy",
             FaultKind::Step => "step",
             FaultKind::Parts => "parts",
+            FaultKind::Switch => "switch",
             FaultKind::NotConvex => "not_convex",
             FaultKind::Branch => "branch",
             FaultKind::Certificate => "certificate",

@@ -118,11 +118,28 @@ pub(crate) enum Step {
 #[serde(deny_unknown_fields)]
 pub(super) struct Part {
     pub unknowns: Vec<u32>,
-    /// For each unknown zero, a power of two or the negative of one. The objective minus half of the sum of these times the squares
-    /// of the unknowns is convex.
+    /// What is added to the objective before anything else.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub switches: Vec<Switch>,
+    /// For each unknown zero, a power of two or the negative of one, or any number for an integer. The objective minus
+    /// half of the sum of these times the squares of the unknowns is convex.
     pub curvature: Vec<f64>,
     /// No point has less energy in this part. Without a bound there is no point.
     pub lower_bound: Option<f64>,
+}
+
+/// An unknown that is zero where a binary is, and what its part of the objective gains: `product (x - x z)` and
+/// `square (z^2 - z)`, which are zero at all points with integers.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Switch {
+    pub unknown: u32,
+    pub binary: u32,
+    /// What leads from a binary that is zero to an unknown that is.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub steps: Vec<Step>,
+    pub product: f64,
+    pub square: f64,
 }
 
 /// Rows with their multipliers: positive ones hold upper sides, negative ones lower sides.

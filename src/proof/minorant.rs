@@ -8,8 +8,8 @@
 //! ```
 //!
 //! where a positive multiplier belongs to the upper side and a negative one to the lower side. The right side is
-//! a sum of functions of one unknown each, so that its minimum over a box is known. Without the objective, a
-//! minimum above zero shows that no point is within the rows and the box.
+//! a sum of functions of one unknown each, so that its minimum over a box is known; that of an integer over the
+//! integers in it. Without the objective, a minimum above zero shows that no point is within the rows and the box.
 
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
@@ -31,16 +31,18 @@ type Places = Vec<(usize, usize)>;
 /// are counted within the part.
 #[derive(Debug)]
 pub(super) struct PartObjective {
-    /// The unknowns of the whole.
+    /// The unknowns of the whole, and which of them are integers.
     pub members: Vec<usize>,
+    pub integer: Vec<bool>,
     number: usize,
     places: Rc<Places>,
     /// The lower triangle of Q.
     pub quadratic: Vec<(usize, usize, Exact)>,
     pub linear: Vec<Exact>,
     pub squares: Vec<ExactSquare>,
-    /// Zero, a power of two or the negative of one for each unknown.
+    /// Zero, a power of two or the negative of one for each unknown; any number for an integer.
     pub curvature: Vec<Exact>,
+    /// The inverse, which for an integer may be rounded.
     pub inverse_curvature: Vec<Exact>,
 }
 
@@ -123,6 +125,10 @@ impl Split {
         let sum = Summed::of(problem, &expanded);
         let of_part = |(number, members): (usize, &Vec<u32>)| PartObjective {
             members: members.iter().map(|&j| j as usize).collect(),
+            integer: members
+                .iter()
+                .map(|&j| problem.integer[j as usize])
+                .collect(),
             number,
             places: Rc::clone(&places),
             quadratic: Vec::new(),
@@ -219,9 +225,11 @@ impl Split {
 
 impl PartObjective {
     /// All unknowns, without an objective.
-    pub fn all(unknowns: usize) -> Self {
+    pub fn all(integer: &[bool]) -> Self {
+        let unknowns = integer.len();
         PartObjective {
             members: (0..unknowns).collect(),
+            integer: integer.to_vec(),
             number: 0,
             places: Rc::new((0..unknowns).map(|j| (0, j)).collect()),
             quadratic: Vec::new(),
@@ -241,7 +249,8 @@ impl PartObjective {
     /// Sets the curvature. Whether the objective has it is not checked here.
     ///
     /// # Errors
-    /// [`FaultKind::Certificate`] for numbers that are not zero, powers of two or their negatives.
+    /// [`FaultKind::Certificate`] for numbers that are not finite, and for those of reals that are not zero, powers of
+    /// two or their negatives.
     pub fn set_curvature(&mut self, curvature: &[f64]) -> Checked<()> {
         if curvature.len() != self.members.len() {
             let text = format!(
@@ -253,11 +262,11 @@ impl PartObjective {
         }
         self.curvature.clear();
         self.inverse_curvature.clear();
-        for &d in curvature {
+        for (&d, &is_integer) in curvature.iter().zip(&self.integer) {
             let inverse = if d == 0.0 { 0.0 } else { 1.0 / d };
             let is_power = d == 0.0 || (d.is_normal() && d.to_bits() << 12 == 0);
             match (Exact::of(d), Exact::of(inverse)) {
-                (Some(d), Some(inverse)) if is_power => {
+                (Some(d), Some(inverse)) if is_power || is_integer => {
                     self.curvature.push(d);
                     self.inverse_curvature.push(inverse);
                 }
@@ -405,7 +414,7 @@ impl Minorant {
         limits: &Limits,
         multipliers: &Multipliers,
     ) -> Checked<Option<Exact>> {
-        let all = PartObjective::all(problem.integer.len());
+        let all = PartObjective::all(&problem.integer);
         let rows = Minorant::of_rows(problem, limits, &all, multipliers)?;
         Ok(rows.least(limits, &all).ok())
     }
@@ -438,14 +447,20 @@ impl Minorant {
             };
             return Ok(at(Side::Lower)?.min(at(Side::Upper)?));
         }
+        let centre = self.point.get(k);
+        let curved = centre.filter(|_| !part.curvature[k].is_zero());
+        if let Some(centre) = curved
+            && part.integer[k]
+        {
+            let at = least_integer(slope, centre, &part.curvature[k], limits, unknown);
+            return Ok(term_at(slope, &at, centre, &part.curvature[k]));
+        }
         let side = match slope.sign() {
             Ordering::Equal => return Ok(Exact::zero()),
             Ordering::Greater => Side::Lower,
             Ordering::Less => Side::Upper,
         };
         let end = limits.side(unknown, side).as_ref();
-        let centre = self.point.get(k);
-        let curved = centre.filter(|_| !part.curvature[k].is_zero());
         let Some(centre) = curved else {
             let end = end.ok_or(Open(unknown))?;
             return Ok(slope * end);
@@ -471,6 +486,27 @@ fn least_product(factor: &Exact, unknown: usize, limits: &Limits) -> Option<Exac
     };
     let end = limits.side(unknown, side).as_ref()?;
     Some(factor * end)
+}
+
+/// The integer within the limits at which the terms of one unknown with a positive curvature are least.
+fn least_integer(
+    slope: &Exact,
+    centre: &Exact,
+    curvature: &Exact,
+    limits: &Limits,
+    unknown: usize,
+) -> Exact {
+    // The step from z to z + 1 is slope + curvature (z + 1/2 - centre): the least z for which it is not negative.
+    let step = &(slope + &curvature.shifted(-1)) - &(curvature * centre);
+    let free = -&step.floor_of_quotient(curvature);
+    match (
+        limits.side(unknown, Side::Lower),
+        limits.side(unknown, Side::Upper),
+    ) {
+        (Some(lower), _) if *lower > free => lower.clone(),
+        (_, Some(upper)) if *upper < free => upper.clone(),
+        _ => free,
+    }
 }
 
 /// The terms of one unknown at a value.

@@ -13,6 +13,7 @@
 //! | `exact` | exact numbers |
 //! | `format`, `statement` | the lines of a proof; the statement of a problem |
 //! | `problem`, `steps` | the problem in exact numbers, and bounds that its rows imply |
+//! | `switch` | the perspective reformulation of the objective |
 //! | `minorant`, `estimate`, `held`, `convex` | a bound from a point and multipliers; its estimate in floats; convexity |
 //! | `tree`, `check`, `fault` | the checker |
 //! | `derivation`, `curvature`, `repair`, `seal` | the writer |
@@ -32,6 +33,7 @@ mod repair;
 mod seal;
 mod statement;
 mod steps;
+mod switch;
 mod tree;
 
 use std::io::{self, BufRead, Write};
@@ -41,8 +43,8 @@ use crate::problem::Problem;
 pub use check::{TOLERANCE, Verdict};
 pub(crate) use derivation::{Derivation, Ending, Multiplied, Searched, Visited};
 pub use fault::{Fault, FaultKind};
-pub(crate) use format::Step;
 use format::{Claim, Line, Statement};
+pub(crate) use format::{Step, Switch};
 
 /// A proof of a bound on the energy of all points, or that there is no point.
 #[derive(Debug, Clone, PartialEq)]

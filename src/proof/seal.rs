@@ -17,6 +17,7 @@ use super::minorant::{Minorant, Open, PartObjective, Split};
 use super::problem::{ExactProblem, Limits, Side};
 use super::repair::Place;
 use super::steps::take;
+use super::switch;
 use crate::error::{Error, Result};
 
 /// Whether to go on, asked at every node and in every long loop. Its error ends the writer.
@@ -129,6 +130,8 @@ fn seal_part(
     objective: &mut PartObjective,
     ask: Ask,
 ) -> Result<(Part, Vec<Node>)> {
+    let mut switches = searched.switches.clone();
+    switches.retain(|added| switch::add(problem, limits, objective, added).is_ok());
     let goes_on = || ask().is_ok();
     let curvature = curvature::choose(objective, limits, &goes_on);
     ask()?;
@@ -153,6 +156,7 @@ fn seal_part(
     sealed?;
     let part = Part {
         unknowns: searched.unknowns.clone(),
+        switches,
         curvature,
         lower_bound: sealer.least.map(|least| least.below()),
     };
@@ -224,7 +228,7 @@ fn contradiction(
         return Some(Vec::new());
     }
     let ending = derivation.contradiction.as_ref()?;
-    let all = PartObjective::all(problem.integer.len());
+    let all = PartObjective::all(&problem.integer);
     candidates(ending)
         .into_iter()
         .find_map(|multipliers| contradicting(problem, limits, &all, multipliers))
@@ -333,6 +337,7 @@ fn alone(unknown: usize, value: f64) -> Searched {
             certificate: Some(certificate),
             ..Default::default()
         }],
+        ..Searched::default()
     }
 }
 

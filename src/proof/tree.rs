@@ -167,8 +167,15 @@ impl<'a> Tree<'a> {
     }
 }
 
-/// Takes a step of a node. Sides of rows belong to the root, as nothing takes them back.
-fn take_in_tree(problem: &mut ExactProblem, limits: &mut Limits, step: Step) -> Checked<()> {
+/// Takes a step below the root. Sides of rows belong to the root, as nothing takes them back.
+///
+/// # Errors
+/// Those of [`take`], and [`FaultKind::Step`] for a side of a row.
+pub(super) fn take_in_tree(
+    problem: &mut ExactProblem,
+    limits: &mut Limits,
+    step: Step,
+) -> Checked<()> {
     if matches!(step, Step::RowLower(..) | Step::RowUpper(..)) {
         let text = "a side of a row changes within a tree";
         return wrong(FaultKind::Step, text);

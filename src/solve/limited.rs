@@ -20,7 +20,7 @@ use crate::search::{LazyProblem, Options, SolveStatus, StoppedBy, Strategy, Warm
 const WITHIN: f64 = 1e-9;
 
 /// Solves a problem with inequalities or bounds. `earlier` is the start of a warm start. `record` receives what a
-/// proof is made from, if branch and bound searches.
+/// proof is made from, if branch and bound searches, or the method for flows.
 ///
 /// # Errors
 /// Those of [`solve`](crate::solve()).
@@ -29,10 +29,10 @@ pub(super) fn solve_limited(
     model: &Model,
     options: &Options,
     earlier: &[f64],
-    record: Option<&mut Derivation>,
+    mut record: Option<&mut Derivation>,
     monitor: &mut Monitor,
 ) -> Result<Solution> {
-    let found = match as_network(problem, model, options, monitor)? {
+    let found = match as_network(problem, model, options, record.as_deref_mut(), monitor)? {
         Some(found) => found,
         None => {
             if let Some(solution) = without_limits(problem, model, options, earlier, monitor)? {
@@ -124,6 +124,7 @@ fn as_network(
     problem: &Problem,
     model: &Model,
     options: &Options,
+    record: Option<&mut Derivation>,
     monitor: &mut Monitor,
 ) -> Result<Option<branch::Found>> {
     let is_exact = matches!(
@@ -133,7 +134,7 @@ fn as_network(
     if !is_exact {
         return Ok(None);
     }
-    let Some(optimum) = network::solve(problem, model, monitor)? else {
+    let Some(optimum) = network::solve(problem, model, record, monitor)? else {
         return Ok(None);
     };
     let energy = verify(problem, &optimum.values)?.energy;

@@ -7,7 +7,7 @@ use super::random::Random;
 pub type Kind = fn(u64) -> Instance;
 
 /// All kinds, by name.
-pub const KINDS: [(&str, Kind); 13] = [
+pub const KINDS: [(&str, Kind); 15] = [
     ("bounds", bounds),
     ("ranges", ranges),
     ("equalities", equalities),
@@ -21,6 +21,8 @@ pub const KINDS: [(&str, Kind); 13] = [
     ("large", large),
     ("pinned", pinned),
     ("not convex", not_convex),
+    ("flows", flows),
+    ("switches", switches),
 ];
 
 fn whole(random: &mut Random, most: i32) -> f64 {
@@ -468,5 +470,70 @@ pub fn not_convex(seed: u64) -> Instance {
         draft.of.hessian[j][i] -= 8.0;
     }
     draft.range(random, 3);
+    draft.done()
+}
+
+/// Integers with squares of their own, each in at most two rows: flows in a graph with signs at both ends.
+pub fn flows(seed: u64) -> Instance {
+    let random = &mut Random::new(seed);
+    let integers = 3 + random.below(3);
+    let mut draft = unknowns(random, integers, 0);
+    draft.definite(random);
+    let mut rows = vec![vec![0.0; integers]; 1 + random.below(3)];
+    for j in 0..integers {
+        for _ in 0..2 {
+            let at = random.below(rows.len() + 1);
+            if let Some(row) = rows.get_mut(at) {
+                row[j] += [1.0, -1.0][random.below(2)];
+            }
+        }
+    }
+    for mut row in rows {
+        let factor = [1.0, 1.0, 2.0, 0.5][random.below(4)];
+        row.iter_mut().for_each(|a| *a *= factor);
+        let at = draft.value(&row);
+        match random.below(4) {
+            0 => draft.row(row, at - whole(random, 3).abs() / 4.0, NONE),
+            1 => draft.row(row, at - 0.25, at + random.below(3) as f64 / 2.0),
+            _ => draft.equality(row),
+        }
+    }
+    draft.done()
+}
+
+/// Reals that are zero where a binary is, and rows that hold sums of them.
+pub fn switches(seed: u64) -> Instance {
+    let random = &mut Random::new(seed);
+    let (binaries, reals) = (1 + random.below(3), 2 + random.below(2));
+    let mut draft = unknowns(random, binaries, reals);
+    for z in 0..binaries {
+        (draft.of.lower[z], draft.of.upper[z]) = (0.0, 1.0);
+        draft.point[z] = random.below(2) as f64;
+        draft.of.linear[z] = random.below(9) as f64 / 2.0;
+    }
+    draft.definite(random);
+    for x in binaries..binaries + reals {
+        let z = random.below(binaries);
+        draft.point[x] *= draft.point[z];
+        (draft.of.lower[x], draft.of.upper[x]) = (-NONE, NONE);
+        for side in [1.0, -1.0] {
+            let size = (side * draft.point[x]).max(0.0) + random.below(3) as f64 / 2.0;
+            if side < 0.0 && size == 0.0 && chance(random, 50) {
+                draft.of.lower[x] = 0.0;
+                continue;
+            }
+            let mut row = vec![0.0; binaries + reals];
+            (row[x], row[z]) = (side, -size);
+            draft.row(row, -NONE, 0.0);
+        }
+    }
+    if chance(random, 50) {
+        draft.squares(random, 1);
+    }
+    let sum = (0..binaries + reals).map(|j| f64::from(u8::from(j >= binaries)));
+    draft.equality(sum.collect());
+    if chance(random, 50) {
+        draft = draft.summed();
+    }
     draft.done()
 }

@@ -27,6 +27,11 @@ pub fn part(lines: &mut Lines, number: usize) -> &mut Value {
     &mut lines[PARTS]["parts"][number]
 }
 
+/// The first switch.
+pub fn switch(lines: &mut Lines) -> &mut Value {
+    &mut part(lines, 0)["switches"][0]
+}
+
 pub fn nodes(lines: &mut Lines) -> impl Iterator<Item = &mut Value> {
     let count = lines.len();
     lines[NODES..count - 1]

@@ -85,3 +85,64 @@ pub fn many_nodes() -> Problem {
     problem.set_binaries(&all).unwrap();
     problem
 }
+
+/// Three customers, each with a share of two places: x0 to x5, which the binaries x6 and x7 open. The share of the
+/// second place may be negative, so that it has a row for each side.
+pub fn switched() -> Problem {
+    let mut problem = Problem::new(8).unwrap();
+    for customer in 0..3 {
+        let [first, second] = [2 * customer, 2 * customer + 1];
+        let weights = [1.0 + 0.3 * customer as f64, 1.4 - 0.2 * customer as f64];
+        for (x, weight) in [first, second].into_iter().zip(weights) {
+            problem
+                .add_least_squares(&[x], &[1.0], 0.0, weight)
+                .unwrap();
+        }
+        problem
+            .add_constraint(&[first, second], &[1.0, 1.0], 1.0)
+            .unwrap();
+        problem
+            .add_inequality(&[first, 6], &[1.0, -1.0], -NONE, 0.0)
+            .unwrap();
+        problem
+            .add_inequality(&[second, 7], &[2.0, -3.0], -NONE, 0.0)
+            .unwrap();
+        problem
+            .add_inequality(&[second, 7], &[1.0, 0.5], 0.0, NONE)
+            .unwrap();
+        problem
+            .set_bounds(&[first, second], &[0.0, -NONE], &[NONE, NONE])
+            .unwrap();
+    }
+    problem
+        .add_linear(&[0.1, 0.0, -0.1, 0.2, 0.0, 0.0, 1.1, 1.3])
+        .unwrap();
+    problem.set_binaries(&[6, 7]).unwrap();
+    problem
+}
+
+/// Subdivisions of seven arcs around a triangle, whose sums at its corners are odd: halves are best, and the tree
+/// branches.
+pub fn odd_cycle() -> Problem {
+    let mut problem = Problem::new(7).unwrap();
+    let weights = [0.3, 0.7, 1.1, 0.9, 1.3, 0.6, 0.55];
+    let targets = [0.5, 0.5, 0.5, 2.0, 2.0, 2.0, 1.4];
+    for (j, (weight, target)) in weights.into_iter().zip(targets).enumerate() {
+        problem
+            .add_least_squares(&[j], &[1.0], target, weight)
+            .unwrap();
+    }
+    for corner in 0..3 {
+        let row = [corner, (corner + 1) % 3, 3 + corner];
+        problem
+            .add_constraint(&row, &[1.0, 1.0, -1.0], -1.0)
+            .unwrap();
+    }
+    problem
+        .add_inequality(&[3, 4, 6], &[1.0, -1.0, 1.0], -3.0, 3.0)
+        .unwrap();
+    let all: Vec<usize> = (0..7).collect();
+    problem.set_bounds(&all, &[0.0; 7], &[9.0; 7]).unwrap();
+    problem.set_integers(&all).unwrap();
+    problem
+}

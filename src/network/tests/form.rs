@@ -125,7 +125,7 @@ fn problems_of_this_form_are_solved_and_proved() {
         let problem = case.problem();
         let model = Model::new(&problem).unwrap();
         let known = case.least();
-        let found = solve(&problem, &model, &mut Monitor::default()).unwrap();
+        let found = solve(&problem, &model, None, &mut Monitor::default()).unwrap();
         match (known, found) {
             (Some(least), Some(found)) => {
                 assert_eq!(case.energy(&found.values), Some(least), "round {round}");
