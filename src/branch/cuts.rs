@@ -28,11 +28,21 @@ const PARALLEL: f64 = 0.9;
 /// The multiplications of a round that look for cuts.
 const WORK: u64 = 50_000_000;
 
+/// A form with cuts as its last rows.
+pub(super) struct Strengthened {
+    pub form: Form,
+    /// The cuts that these rows are, and before each of them those that it was made from. Rows of splits are those of
+    /// the form without cuts, and then these.
+    pub cuts: Vec<Cut>,
+    /// For each of the last rows, its cut.
+    pub rows: Vec<usize>,
+}
+
 /// A form with cuts, if they raise its bound.
 ///
 /// # Errors
 /// [`Error::OutOfMemory`](crate::Error::OutOfMemory), [`Error::NotConvex`](crate::Error::NotConvex).
-pub(super) fn strengthened(form: &Form, monitor: &mut Monitor) -> Result<Option<Form>> {
+pub(super) fn strengthened(form: &Form, monitor: &mut Monitor) -> Result<Option<Strengthened>> {
     let is_open = |j: usize| form.integer[j] && !form.limits[j].is_point();
     if !(0..form.dim()).any(is_open) {
         return Ok(None);
@@ -43,7 +53,9 @@ pub(super) fn strengthened(form: &Form, monitor: &mut Monitor) -> Result<Option<
     };
     let start = first.bound;
     let mut best = (start, Vec::new());
-    let mut cuts: Vec<Cut> = Vec::new();
+    // All cuts, those that are rows, and those that stay rows.
+    let mut all: Vec<Cut> = Vec::new();
+    let (mut rows, mut cuts): (Vec<usize>, Vec<usize>) = (Vec::new(), Vec::new());
     let (mut next, mut last) = (form.clone(), first);
     for _ in 0..ROUNDS {
         if monitor.ends() {
@@ -53,15 +65,25 @@ pub(super) fn strengthened(form: &Form, monitor: &mut Monitor) -> Result<Option<
         if added.is_empty() {
             break;
         }
-        cuts.extend(added);
-        next = with_cuts(form, &cuts)?;
+        let (own, before) = (form.rows.rows(), all.len());
+        for mut cut in added {
+            for (row, _) in &mut cut.split.rows {
+                if let Some(k) = (*row as usize).checked_sub(own) {
+                    *row = (own + rows[k]) as u32;
+                }
+            }
+            all.push(cut);
+        }
+        cuts.extend(before..all.len());
+        next = with_cuts(form, &all, &cuts)?;
+        rows.clone_from(&cuts);
         let (_, of_form) = last.split(form);
         let Some(solved) = relaxed(&next, &of_form)? else {
             break;
         };
         // Cuts that hold nothing go.
         let (held, _) = solved.split(form);
-        cuts = held.iter().map(|&k| cuts[k].clone()).collect();
+        cuts = held.iter().map(|&k| cuts[k]).collect();
         let rise = solved.bound - best.0;
         if rise > 0.0 {
             best = (solved.bound, cuts.clone());
@@ -71,11 +93,46 @@ pub(super) fn strengthened(form: &Form, monitor: &mut Monitor) -> Result<Option<
         }
         last = solved;
     }
-    let (bound, cuts) = best;
+    let (bound, best) = best;
     if bound <= start + WORTH * start.abs() {
         return Ok(None);
     }
-    with_cuts(form, &cuts).map(Some)
+    let (cuts, rows) = needed(all, &best, form.rows.rows());
+    Ok(Some(Strengthened {
+        form: with_cuts(form, &cuts, &rows)?,
+        cuts,
+        rows,
+    }))
+}
+
+/// The cuts that are rows, those that they were made from, and no others. The form without cuts has `own` rows.
+fn needed(all: Vec<Cut>, rows: &[usize], own: usize) -> (Vec<Cut>, Vec<usize>) {
+    let mut is_needed = vec![false; all.len()];
+    rows.iter().for_each(|&k| is_needed[k] = true);
+    for k in (0..all.len()).rev() {
+        if !is_needed[k] {
+            continue;
+        }
+        let of_cuts = all[k].split.rows.iter();
+        let of_cuts = of_cuts.filter_map(|(row, _)| (*row as usize).checked_sub(own));
+        of_cuts.for_each(|earlier| is_needed[earlier] = true);
+    }
+    let mut place = Vec::with_capacity(all.len());
+    let mut cuts: Vec<Cut> = Vec::new();
+    for (mut cut, is_needed) in all.into_iter().zip(is_needed) {
+        place.push(cuts.len());
+        if !is_needed {
+            continue;
+        }
+        for (row, _) in &mut cut.split.rows {
+            if let Some(earlier) = (*row as usize).checked_sub(own) {
+                *row = (own + place[earlier]) as u32;
+            }
+        }
+        cuts.push(cut);
+    }
+    let rows = rows.iter().map(|&k| place[k]).collect();
+    (cuts, rows)
 }
 
 /// The minimiser of a relaxation.
@@ -153,9 +210,10 @@ fn cosine(a: &Cut, b: &Cut) -> f64 {
     product / (square(a) * square(b)).sqrt()
 }
 
-/// The form with cuts as its last rows.
-fn with_cuts(form: &Form, cuts: &[Cut]) -> Result<Form> {
-    let rows = cuts.iter().map(|cut| {
+/// The form with some of the cuts as its last rows.
+fn with_cuts(form: &Form, all: &[Cut], rows: &[usize]) -> Result<Form> {
+    let rows = rows.iter().map(|&k| {
+        let cut = &all[k];
         let negated = cut.row.iter().map(|&(j, a)| (j, -a)).collect();
         (negated, -cut.side)
     });

@@ -54,6 +54,19 @@ pub(super) struct Cut {
     pub side: f64,
     /// How far the minimiser is from it.
     pub distance: f64,
+    pub split: Split,
+}
+
+/// Why a cut holds: `terms . x` is an integer, at most `at` or at least one more, and in both cases the cut is at most
+/// a sum of that and of rows.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Split {
+    pub terms: Vec<(u32, f64)>,
+    pub at: f64,
+    /// The multiples of the two cases.
+    pub by: [f64; 2],
+    /// Rows of the form with their multipliers in both cases; positive ones hold upper sides.
+    pub rows: Vec<(u32, [f64; 2])>,
 }
 
 /// Makes rows that cut off the minimiser of a relaxation.
@@ -266,7 +279,7 @@ impl<'a> Rounding<'a> {
                 (terms, side) = next;
             }
         }
-        (best > 0.0).then(|| self.in_unknowns(&rounded, right))?
+        (best > 0.0).then(|| self.in_unknowns(&rounded, right, (&terms, side, scale)))?
     }
 
     /// An inequality in the distances from the limits that are closest to the minimiser.
@@ -318,8 +331,14 @@ impl<'a> Rounding<'a> {
         Some((terms, right.sum + right.error()))
     }
 
-    /// The row in the unknowns, scaled by a power of two, if the minimiser is far enough from it.
-    fn in_unknowns(&mut self, terms: &[Term], right: f64) -> Option<Cut> {
+    /// The row in the unknowns, scaled by a power of two, if the minimiser is far enough from it. `before` are the terms,
+    /// the side and the scale that were rounded.
+    fn in_unknowns(
+        &mut self,
+        terms: &[Term],
+        right: f64,
+        before: (&[Term], f64, f64),
+    ) -> Option<Cut> {
         let form = self.form;
         let n = form.dim();
         let mut side = Sized::default();
@@ -365,11 +384,63 @@ impl<'a> Rounding<'a> {
         let taken: f64 = row.iter().map(|&(j, a)| a * self.values[j as usize]).sum();
         let len = row.iter().map(|(_, a)| a * a).sum::<f64>().sqrt();
         let distance = (taken - side) / len;
-        (distance > FAR).then_some(Cut {
+        (distance > FAR).then(|| Cut {
             row,
             side,
             distance,
+            split: self.split(before, scale),
         })
+    }
+
+    /// Why the cut holds that was made of these terms, and then divided by `divisor`.
+    ///
+    /// With the names of the module, integers are split by `sum_j p_j z_j`, where `p_j` is `a_j / d` rounded down, or up
+    /// where its fraction is larger than `f`. In the first case, the reals with a negative coefficient hold the cut, in
+    /// the second one, the others and `f / (1 - f)` times the case.
+    fn split(&self, (terms, side, scale): (&[Term], f64, f64), divisor: f64) -> Split {
+        let n = self.form.dim();
+        let right = side / scale;
+        let fraction = right - right.floor();
+        let rest = 1.0 - fraction;
+        let mut split = Split {
+            terms: Vec::new(),
+            at: right.floor(),
+            by: [1.0, fraction / rest].map(|by| by / divisor),
+            rows: Vec::new(),
+        };
+        for term in terms {
+            let v = term.of as usize;
+            let (limits, a) = (self.limits[v], term.coefficient / scale);
+            let (limit, sign) = match term.is_from_upper {
+                true => (limits.upper, -1.0),
+                false => (limits.lower, 1.0),
+            };
+            if term.is_integer {
+                let down = a.floor();
+                let p = if a - down > fraction {
+                    down + 1.0
+                } else {
+                    down
+                };
+                split.terms.push((term.of, sign * p));
+                split.at += sign * p * limit;
+            } else if let Some(row) = v.checked_sub(n) {
+                let sides = self.form.row_limits[row];
+                let own = if term.is_from_upper {
+                    sides.upper
+                } else {
+                    sides.lower
+                };
+                // Other limits follow from those of the unknowns.
+                if limit == own {
+                    let held = [(-a).max(0.0), a.max(0.0)];
+                    let by = held.map(|held| -sign * held / (rest * divisor));
+                    split.rows.push((row as u32, by));
+                }
+            }
+        }
+        split.terms.retain(|(_, p)| *p != 0.0);
+        split
     }
 }
 

@@ -354,7 +354,7 @@ fn search_strengthened(
         true => None,
         false => cuts::strengthened(implied.as_ref().unwrap_or(form), monitor)?,
     };
-    let Some(form) = cut.or(implied) else {
+    let Some(form) = cut.map(|cut| cut.form).or(implied) else {
         return tree::search(form, start, limits, monitor);
     };
     let mut found = tree::search(&form, start, limits, monitor)?;

@@ -3,10 +3,11 @@
 //! Rows and unknowns are those of the form until the search ends; [`of_whole`] names those of the whole problem.
 
 use super::form::Form;
+use super::mir::Cut;
 use super::perspective::Switched;
 use super::relaxation::Kept;
 use crate::error::Conflicting;
-use crate::proof::{Ending, Searched, Step, Switch, Visited};
+use crate::proof::{self, Case, Ending, Searched, Step, Switch, Visited};
 
 /// The nodes of a tree.
 #[derive(Debug)]
@@ -71,19 +72,30 @@ impl Record {
     }
 }
 
-/// The search of a part in the rows and unknowns of the whole, which has this many equality constraints.
+/// What was added to the form of a part, and where its rows are in the whole.
+#[derive(Clone, Copy)]
+pub(super) struct Added<'a> {
+    /// The numbers of equality constraints and of inequalities of the whole. Cuts come after both.
+    pub constraints: usize,
+    pub inequalities: usize,
+    pub switches: &'a [Switched],
+    pub cuts: &'a [Cut],
+    /// The cuts that the last rows of the form are.
+    pub rows: &'a [usize],
+}
+
+/// The search of a part in the rows and unknowns of the whole.
 pub(super) fn of_whole(
     form: &Form,
     members: &[u32],
-    constraints: usize,
-    switches: &[Switched],
+    added: Added,
     mut nodes: Vec<Visited>,
 ) -> Searched {
-    let row_of = |row: u32| match form.origins[row as usize] {
-        Conflicting::Constraint(k) => k as u32,
-        Conflicting::Inequality(k) => (constraints + k) as u32,
-        // No row of a form comes from bounds.
-        Conflicting::Bounds(_) => u32::MAX,
+    let own = form.rows.rows() - added.rows.len();
+    let cut_of = |cut: usize| (added.constraints + added.inequalities + cut) as u32;
+    let row_of = |row: u32| match (row as usize).checked_sub(own) {
+        Some(k) => cut_of(added.rows[k]),
+        None => row_of_whole(form, added.constraints, row),
     };
     let unknown_of = |unknown: u32| members[unknown as usize];
     for node in &mut nodes {
@@ -107,7 +119,7 @@ pub(super) fn of_whole(
             Ending::Missed(row) => *row = row_of(*row),
         }
     }
-    let switches = switches.iter().map(|switched| {
+    let switches = added.switches.iter().map(|switched| {
         let unknown = unknown_of(switched.unknown);
         let [below, above] = switched.rows.map(|row| row.map(row_of));
         let below = below.map(|row| Step::Lower(row, unknown, 0.0));
@@ -120,9 +132,47 @@ pub(super) fn of_whole(
             square: switched.square,
         }
     });
+    let terms = |terms: &[(u32, f64)], sign: f64| -> Vec<(u32, f64)> {
+        let of_whole = terms.iter().map(|&(j, a)| (unknown_of(j), sign * a));
+        of_whole.collect()
+    };
+    let cuts = added.cuts.iter().map(|cut| {
+        let split = &cut.split;
+        let case = |which: usize| {
+            let rows = split.rows.iter().map(|&(row, by)| {
+                let row = match (row as usize).checked_sub(own) {
+                    Some(cut) => cut_of(cut),
+                    None => row_of(row),
+                };
+                (row, by[which])
+            });
+            Case {
+                by: split.by[which],
+                multipliers: rows.filter(|(_, by)| *by != 0.0).collect(),
+            }
+        };
+        proof::Cut {
+            terms: terms(&cut.row, -1.0),
+            lower: -cut.side,
+            split: terms(&split.terms, 1.0),
+            at: split.at,
+            cases: [case(0), case(1)],
+        }
+    });
     Searched {
+        cuts: cuts.collect(),
         switches: switches.collect(),
         unknowns: members.to_vec(),
         nodes,
+    }
+}
+
+/// The number of a row of the form in the whole.
+fn row_of_whole(form: &Form, constraints: usize, row: u32) -> u32 {
+    match form.origins[row as usize] {
+        Conflicting::Constraint(k) => k as u32,
+        Conflicting::Inequality(k) => (constraints + k) as u32,
+        // No row of a form comes from bounds.
+        Conflicting::Bounds(_) => u32::MAX,
     }
 }

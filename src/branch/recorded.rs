@@ -2,8 +2,9 @@
 
 use super::form::Form;
 use super::presolve::Part;
+use super::record::{self, Added};
 use super::tree::{self, Limits};
-use super::{cuts, hull, interior, perspective, record, search_alone, symmetry};
+use super::{cuts, hull, interior, perspective, search_alone, symmetry};
 use crate::error::{Error, Result};
 use crate::monitor::Monitor;
 use crate::problem::Problem;
@@ -14,9 +15,9 @@ use crate::search::StoppedBy;
 /// minute or so.
 const NUMBERS: usize = 50_000_000;
 
-/// Searches a part for a proof. It is in the rows and unknowns of the problem and knows no symmetry and no cuts: where
-/// a search with all of that may be faster, it comes first, and the tree of the proof is that of another one, from the
-/// point that was found.
+/// Searches a part for a proof. It is in the rows and unknowns of the problem, and knows no symmetry: where a search with
+/// all of that may be faster, it comes first, and the tree of the proof is that of another one, from the point that was
+/// found.
 pub(super) fn search(
     problem: &Problem,
     part: &Part,
@@ -28,8 +29,10 @@ pub(super) fn search(
     let perspective = perspective::strengthened(&part.form, monitor)?;
     let form = perspective.as_ref().map_or(&part.form, |of| &of.form);
     let switches = perspective.as_ref().map_or(&[][..], |of| &of.switches);
+    let cut = cuts::strengthened(form, monitor)?;
+    let form = cut.as_ref().map_or(form, |of| &of.form);
     let (mut start, mut limits, mut first) = (start, limits, None);
-    if !limits.first && has_shortcut(&part.form, form, monitor)? {
+    if has_shortcut(&part.form)? {
         let all = Limits {
             recorded: false,
             ..limits
@@ -47,8 +50,14 @@ pub(super) fn search(
     }
     let mut found = tree::search(form, start, limits, monitor)?;
     let nodes = std::mem::take(&mut found.visited);
-    let constraints = problem.constraints();
-    let searched = record::of_whole(form, &part.members, constraints, switches, nodes);
+    let added = Added {
+        constraints: problem.constraints(),
+        inequalities: problem.inequalities(),
+        switches,
+        cuts: cut.as_ref().map_or(&[], |of| &of.cuts),
+        rows: cut.as_ref().map_or(&[], |of| &of.rows),
+    };
+    let searched = record::of_whole(form, &part.members, added, nodes);
     record.parts.push(searched);
     Ok(match first {
         Some(first) => of_both(first, found),
@@ -56,12 +65,10 @@ pub(super) fn search(
     })
 }
 
-/// Whether a search may use what a proof cannot tell. `strengthened` is the form after the perspective reformulation.
-fn has_shortcut(form: &Form, strengthened: &Form, monitor: &mut Monitor) -> Result<bool> {
+/// Whether a search may use what a proof cannot tell.
+fn has_shortcut(form: &Form) -> Result<bool> {
     let is_simpler = interior::is_for(form) || hull::project(form)?.is_some();
-    Ok(is_simpler
-        || symmetry::ordered(form, None).is_some()
-        || cuts::strengthened(strengthened, monitor)?.is_some())
+    Ok(is_simpler || symmetry::ordered(form, None).is_some())
 }
 
 /// What two searches of the same form have found.

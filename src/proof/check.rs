@@ -3,6 +3,7 @@
 use std::io::BufRead;
 
 use super::convex;
+use super::cut;
 use super::exact::Exact;
 use super::fault::{Checked, Fault, FaultKind, Wrong, wrong};
 use super::format::{Claim, Line, Part, Root, Statement, VERSION};
@@ -269,7 +270,13 @@ fn check_parts<R: BufRead>(
         let text = format!("x{j} is not fixed, and in no part");
         return Err(lines.fault((FaultKind::Parts, text)));
     }
+    let given = problem.rows.len();
+    let mut cuts = Vec::with_capacity(parts.len());
     for (part, objective) in parts.iter().zip(&mut split.parts) {
+        for added in &part.cuts {
+            lines.at(cut::add(problem, limits, added))?;
+        }
+        cuts.push(problem.rows.split_off(given));
         for added in &part.switches {
             lines.at(switch::add(problem, limits, objective, added))?;
         }
@@ -277,7 +284,10 @@ fn check_parts<R: BufRead>(
         lines.at(convex::check(objective, &|| true))?;
     }
     let mut proved = Some(split.constant);
-    for (Part { lower_bound, .. }, objective) in parts.iter().zip(&split.parts) {
+    let of_parts = parts.iter().zip(&split.parts).zip(cuts);
+    for ((Part { lower_bound, .. }, objective), cuts) in of_parts {
+        problem.rows.truncate(given);
+        problem.rows.extend(cuts);
         let bound = lower_bound.and_then(Exact::of);
         let mut tree = Tree::new(objective, bound.clone(), limits);
         while tree.wanted() > 0 {

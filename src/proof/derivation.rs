@@ -2,7 +2,7 @@
 //!
 //! Nothing here is believed: what is not so in exact numbers is left out of the proof, which then proves less.
 
-use super::format::{Step, Switch};
+use super::format::{Cut, Step, Switch};
 
 /// A point and multipliers of rows, in floats.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -39,12 +39,41 @@ pub(crate) struct Visited {
     pub ending: Ending,
 }
 
-/// The search of a part: its unknowns, what its objective gains, and its nodes, of which the first is the root.
+/// The search of a part: its unknowns, the rows and what the objective has gained, and its nodes, of which the first is
+/// the root.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Searched {
     pub unknowns: Vec<u32>,
+    /// Rows of this part, numbered after those of the problem.
+    pub cuts: Vec<Cut>,
     pub switches: Vec<Switch>,
     pub nodes: Vec<Visited>,
+}
+
+impl Searched {
+    /// Gives rows other numbers. Those that get none are left out.
+    pub fn renumber(&mut self, number: impl Fn(u32) -> Option<u32>) {
+        let rows = |rows: &mut Vec<(u32, f64)>| {
+            rows.retain_mut(|(row, _)| number(*row).map(|to| *row = to).is_some());
+        };
+        for node in &mut self.nodes {
+            node.steps.retain_mut(|step| {
+                let row = step.row_mut();
+                number(*row).map(|to| *row = to).is_some()
+            });
+            if let Some(certificate) = &mut node.certificate {
+                rows(&mut certificate.multipliers);
+            }
+            match &mut node.ending {
+                Ending::Contradiction(contradicting) => rows(contradicting),
+                Ending::Missed(row) => match number(*row) {
+                    Some(to) => *row = to,
+                    None => node.ending = Ending::Bounded,
+                },
+                Ending::Bounded | Ending::Branched { .. } => {}
+            }
+        }
+    }
 }
 
 /// A whole search.

@@ -18,6 +18,8 @@ pub enum FaultKind {
     Step,
     /// Parts that do not hold all free unknowns once, or that the objective or a row couples.
     Parts,
+    /// A row that does not follow from others in both cases of a split.
+    Cut,
     /// A switch that is no binary, or that leaves more than zero of its unknown where it is zero.
     Switch,
     /// The objective may curve downwards.
@@ -47,6 +49,7 @@ impl FaultKind {
             FaultKind::Energy => "energy",
             FaultKind::Step => "step",
             FaultKind::Parts => "parts",
+            FaultKind::Cut => "cut",
             FaultKind::Switch => "switch",
             FaultKind::NotConvex => "not_convex",
             FaultKind::Branch => "branch",

@@ -113,11 +113,24 @@ pub(crate) enum Step {
     RowUpper(u32, f64),
 }
 
+impl Step {
+    /// The number of its row.
+    pub fn row_mut(&mut self) -> &mut u32 {
+        match self {
+            Step::Lower(row, ..) | Step::Upper(row, ..) => row,
+            Step::RowLower(row, _) | Step::RowUpper(row, _) => row,
+        }
+    }
+}
+
 /// Unknowns that share no term of the objective with other unknowns that are not fixed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Part {
     pub unknowns: Vec<u32>,
+    /// Rows of this part that follow from others, numbered after those of the problem.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub cuts: Vec<Cut>,
     /// What is added to the objective before anything else.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub switches: Vec<Switch>,
@@ -140,6 +153,27 @@ pub(crate) struct Switch {
     pub steps: Vec<Step>,
     pub product: f64,
     pub square: f64,
+}
+
+/// The row `terms . x >= lower`, which follows in both cases of a split: `split . x` is an integer at all points with
+/// integers, and so it is at most `at` or at least `at + 1`.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Cut {
+    pub terms: Terms,
+    pub lower: f64,
+    pub split: Terms,
+    pub at: f64,
+    /// The case of at most `at`, and that of more.
+    pub cases: [Case; 2],
+}
+
+/// Why a row follows in a case: by this multiple of the case, and by rows with multipliers.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Case {
+    pub by: f64,
+    pub multipliers: Vec<(u32, f64)>,
 }
 
 /// Rows with their multipliers: positive ones hold upper sides, negative ones lower sides.

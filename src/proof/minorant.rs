@@ -405,6 +405,14 @@ impl Minorant {
         Ok(())
     }
 
+    /// Adds `factor (terms . x - side)`.
+    pub fn add(&mut self, terms: &ExactTerms, side: &Exact, factor: &Exact) {
+        self.constant = &self.constant - &(factor * side);
+        for (j, a) in terms {
+            self.slopes[*j] = &self.slopes[*j] + &(factor * a);
+        }
+    }
+
     /// The least value of rows with multipliers within the limits, if there is one.
     ///
     /// # Errors

@@ -13,14 +13,16 @@
 //! | `exact` | exact numbers |
 //! | `format`, `statement` | the lines of a proof; the statement of a problem |
 //! | `problem`, `steps` | the problem in exact numbers, and bounds that its rows imply |
+//! | `cut` | rows that follow in both cases of a split |
 //! | `switch` | the perspective reformulation of the objective |
 //! | `minorant`, `estimate`, `held`, `convex` | a bound from a point and multipliers; its estimate in floats; convexity |
 //! | `tree`, `check`, `fault` | the checker |
-//! | `derivation`, `curvature`, `repair`, `seal` | the writer |
+//! | `derivation`, `curvature`, `numbers`, `repair`, `seal` | the writer |
 
 mod check;
 mod convex;
 mod curvature;
+mod cut;
 mod derivation;
 mod estimate;
 mod exact;
@@ -28,6 +30,7 @@ mod fault;
 mod format;
 mod held;
 mod minorant;
+mod numbers;
 mod problem;
 mod repair;
 mod seal;
@@ -43,8 +46,8 @@ use crate::problem::Problem;
 pub use check::{TOLERANCE, Verdict};
 pub(crate) use derivation::{Derivation, Ending, Multiplied, Searched, Visited};
 pub use fault::{Fault, FaultKind};
+pub(crate) use format::{Case, Cut, Step, Switch};
 use format::{Claim, Line, Statement};
-pub(crate) use format::{Step, Switch};
 
 /// A proof of a bound on the energy of all points, or that there is no point.
 #[derive(Debug, Clone, PartialEq)]

@@ -10,10 +10,12 @@ use super::estimate::Floats;
 use super::exact::Exact;
 use super::fault::Wrong;
 use super::format::{
-    Certificate, Claim, End, Line, Multipliers, Node, Number, Part, Root, Statement, Step, VERSION,
+    Certificate, Claim, Cut, End, Line, Multipliers, Node, Number, Part, Root, Statement, Step,
+    VERSION,
 };
 use super::held::Held;
 use super::minorant::{Minorant, Open, PartObjective, Split};
+use super::numbers::Numbers;
 use super::problem::{ExactProblem, Limits, Side};
 use super::repair::Place;
 use super::steps::take;
@@ -100,8 +102,14 @@ fn seal_parts(
         bound: Some(split.constant),
     };
     let mut failed = None;
+    let given = problem.rows.len();
     for (searched, objective) in searched.iter().zip(&mut split.parts) {
-        let (part, mut nodes) = match seal_part(problem, limits, searched, objective, ask) {
+        let (numbers, cuts) = Numbers::with_cuts(problem, limits, &searched.cuts, ask)?;
+        let mut searched = searched.clone();
+        searched.renumber(|row| numbers.of_row(row));
+        let sealed = seal_part(problem, limits, &searched, (objective, cuts), ask);
+        problem.rows.truncate(given);
+        let (part, mut nodes) = match sealed {
             Ok(sealed) => sealed,
             Err(error) => {
                 failed = failed.or(Some(error));
@@ -127,7 +135,7 @@ fn seal_part(
     problem: &mut ExactProblem,
     limits: &mut Limits,
     searched: &Searched,
-    objective: &mut PartObjective,
+    (objective, cuts): (&mut PartObjective, Vec<Cut>),
     ask: Ask,
 ) -> Result<(Part, Vec<Node>)> {
     let mut switches = searched.switches.clone();
@@ -156,6 +164,7 @@ fn seal_part(
     sealed?;
     let part = Part {
         unknowns: searched.unknowns.clone(),
+        cuts,
         switches,
         curvature,
         lower_bound: sealer.least.map(|least| least.below()),

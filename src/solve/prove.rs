@@ -1,7 +1,7 @@
 //! A solve with a proof that code which shares nothing with the search can check.
 //!
-//! The proof is the tree of branch and bound. Where other methods have solved the problem, branch and bound
-//! searches once more from their solution. Then the proof is written, as long as the caller lets it.
+//! The proof is the tree of branch and bound, or that of a flow. Where other methods have solved the problem, branch
+//! and bound searches once more from their solution. Then the proof is written, as long as the caller lets it.
 
 use super::limited::{conclude, solve_limited};
 use super::run::{begin, solve_unlimited};

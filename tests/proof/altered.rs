@@ -27,6 +27,11 @@ pub fn part(lines: &mut Lines, number: usize) -> &mut Value {
     &mut lines[PARTS]["parts"][number]
 }
 
+/// The first cut.
+pub fn cut(lines: &mut Lines) -> &mut Value {
+    &mut part(lines, 0)["cuts"][0]
+}
+
 /// The first switch.
 pub fn switch(lines: &mut Lines) -> &mut Value {
     &mut part(lines, 0)["switches"][0]

@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 
 use crate::altered::{Lines, add, statement};
 use crate::planted::{LIES, Of};
-use crate::stated::{empty, odd_cycle, small, switched};
+use crate::stated::{empty, lots, odd_cycle, small, switched};
 use crate::{prove, text};
 
 /// The lines of the proof of a problem.
@@ -32,6 +32,7 @@ fn every_planted_lie_is_refused_for_its_fault() {
         (Of::Empty, lines_of(&empty())),
         (Of::Switched, lines_of(&switched())),
         (Of::OddCycle, lines_of(&odd_cycle())),
+        (Of::Lots, lines_of(&lots(1))),
     ];
     for (_, lines) in &proofs {
         check(joined(lines).as_bytes()).unwrap();

@@ -4,8 +4,8 @@ use roundel::proof::FaultKind;
 use serde_json::{Value, json};
 
 use crate::altered::{
-    CLAIM, Lines, PARTS, ROOT, add, certificates, claim, empty_by_rows, multipliers, node_with,
-    nodes, part, recount, root_steps, statement, step_of, switch,
+    CLAIM, Lines, PARTS, ROOT, add, certificates, claim, cut, empty_by_rows, multipliers,
+    node_with, nodes, part, recount, root_steps, statement, step_of, switch,
 };
 
 /// Which proof is altered.
@@ -19,12 +19,14 @@ pub enum Of {
     Switched,
     /// A tree from the multipliers of a flow.
     OddCycle,
+    /// A tree with cuts.
+    Lots,
 }
 
 /// What is altered, the fault that must be found, and the alteration.
 pub type Lie = (&'static str, Of, FaultKind, fn(&mut Lines));
 
-pub const LIES: [Lie; 78] = [
+pub const LIES: [Lie; 88] = [
     // The file.
     ("the end is missing", Of::Small, FaultKind::Format, |l| {
         l.pop();
@@ -653,6 +655,73 @@ pub const LIES: [Lie; 78] = [
         FaultKind::Bound,
         |l| {
             part(l, 0)["curvature"] = json!(vec![0.0; 7]);
+        },
+    ),
+    // Cuts.
+    ("a cut that goes too far", Of::Lots, FaultKind::Cut, |l| {
+        add(&mut cut(l)["lower"], 1e-3);
+    }),
+    (
+        "a cut whose case is held with the wrong sign",
+        Of::Lots,
+        FaultKind::Cut,
+        |l| {
+            let by = &mut cut(l)["cases"][0]["by"];
+            *by = json!(-by.as_f64().unwrap());
+        },
+    ),
+    ("a cut of other cases", Of::Lots, FaultKind::Cut, |l| {
+        add(&mut cut(l)["at"], 1.0);
+    }),
+    (
+        "a cut whose cases leave a gap",
+        Of::Lots,
+        FaultKind::Cut,
+        |l| {
+            add(&mut cut(l)["at"], 0.5);
+        },
+    ),
+    ("a cut that splits a real", Of::Lots, FaultKind::Cut, |l| {
+        cut(l)["split"] = json!([[0, 1.0]]);
+    }),
+    (
+        "a cut that splits what is no integer",
+        Of::Lots,
+        FaultKind::Cut,
+        |l| {
+            add(&mut cut(l)["split"][0][1], 0.5);
+        },
+    ),
+    (
+        "a cut by a row that is not there",
+        Of::Lots,
+        FaultKind::Reference,
+        |l| {
+            cut(l)["cases"][0]["multipliers"] = json!([[99, 1.0]]);
+        },
+    ),
+    (
+        "a cut by a side that is not there",
+        Of::Lots,
+        FaultKind::Certificate,
+        |l| {
+            cut(l)["cases"][0]["multipliers"] = json!([[3, -1.0]]);
+        },
+    ),
+    (
+        "a cut of an unknown that is not there",
+        Of::Lots,
+        FaultKind::Reference,
+        |l| {
+            cut(l)["terms"][0][0] = json!(99);
+        },
+    ),
+    (
+        "the cuts are left out",
+        Of::Lots,
+        FaultKind::Reference,
+        |l| {
+            part(l, 0)["cuts"] = json!([]);
         },
     ),
 ];

@@ -69,9 +69,9 @@ pub fn empty() -> Problem {
     problem
 }
 
-/// A knapsack of twelve binaries.
+/// A knapsack of sixteen binaries with three limits.
 pub fn many_nodes() -> Problem {
-    let n = 12;
+    let n = 16;
     let mut problem = Problem::new(n).unwrap();
     let all: Vec<usize> = (0..n).collect();
     let number = |k: usize, of: usize| ((k * k * 31 + 7 * k) % of) as f64;
@@ -82,6 +82,10 @@ pub fn many_nodes() -> Problem {
         problem.add_least_squares(&[k], &[1.0], 0.5, 0.25).unwrap();
     }
     problem.add_inequality(&all, &sizes, -NONE, 150.5).unwrap();
+    for of in [23, 29] {
+        let sizes: Vec<f64> = all.iter().map(|&k| 20.0 + number(k + of, of)).collect();
+        problem.add_inequality(&all, &sizes, -NONE, 163.5).unwrap();
+    }
     problem.set_binaries(&all).unwrap();
     problem
 }
@@ -144,5 +148,34 @@ pub fn odd_cycle() -> Problem {
     let all: Vec<usize> = (0..7).collect();
     problem.set_bounds(&all, &[0.0; 7], &[9.0; 7]).unwrap();
     problem.set_integers(&all).unwrap();
+    problem
+}
+
+/// For each of so many goods, demands of three times, from what is stored and from what is made where a binary allows
+/// it. The unknowns of a time are what is made, what is stored after it, and the binary. Cuts raise the bound.
+pub fn lots(goods: usize) -> Problem {
+    let mut problem = Problem::new(9 * goods).unwrap();
+    let costs = [0.5, 0.0, 6.0, 0.25, 0.0, 4.0, 0.0, 0.0, 5.0];
+    let of_all: Vec<f64> = (0..9 * goods).map(|j| costs[j % 9]).collect();
+    problem.add_linear(&of_all).unwrap();
+    for k in 0..3 * goods {
+        let (made, stored, is_made) = (3 * k, 3 * k + 1, 3 * k + 2);
+        for (unknown, square) in [(made, 0.25), (stored, 1.0)] {
+            problem
+                .add_quadratic_triplets(Triangle::Lower, &[unknown], &[unknown], &[square])
+                .unwrap();
+            problem.set_bounds(&[unknown], &[0.0], &[NONE]).unwrap();
+        }
+        let row = [made, stored, stored.saturating_sub(3)];
+        let terms = if k % 3 > 0 { 3 } else { 2 };
+        let demand = [3.0, 2.0, 4.0][k % 3];
+        problem
+            .add_constraint(&row[..terms], &[1.0, -1.0, 1.0][..terms], demand)
+            .unwrap();
+        problem
+            .add_inequality(&[made, is_made], &[1.0, -8.0], -NONE, 0.0)
+            .unwrap();
+        problem.set_binaries(&[is_made]).unwrap();
+    }
     problem
 }
