@@ -62,7 +62,7 @@ pub(super) fn seal(
         return Ok(lines);
     }
     let searched = all_free(&problem, &limits, &derivation.parts, values);
-    let sealed = seal_parts(&mut problem, &mut limits, &searched, ask)?;
+    let sealed = seal_parts(&mut problem, &mut limits, searched, ask)?;
     // A point that misses rows by rounding errors may have less energy than all points.
     let most = claim.energy.unwrap_or(f64::INFINITY);
     claim.lower_bound = sealed.bound.map(|bound| bound.below().min(most));
@@ -90,7 +90,7 @@ struct Sealed {
 fn seal_parts(
     problem: &mut ExactProblem,
     limits: &mut Limits,
-    searched: &[Searched],
+    searched: Vec<Searched>,
     ask: Ask,
 ) -> Result<Sealed> {
     let members: Vec<Vec<u32>> = searched.iter().map(|part| part.unknowns.clone()).collect();
@@ -103,9 +103,8 @@ fn seal_parts(
     };
     let mut failed = None;
     let given = problem.rows.len();
-    for (searched, objective) in searched.iter().zip(&mut split.parts) {
+    for (mut searched, objective) in searched.into_iter().zip(&mut split.parts) {
         let (numbers, cuts) = Numbers::with_cuts(problem, limits, &searched.cuts, ask)?;
-        let mut searched = searched.clone();
         searched.renumber(|row| numbers.of_row(row));
         let sealed = seal_part(problem, limits, &searched, (objective, cuts), ask);
         problem.rows.truncate(given);
