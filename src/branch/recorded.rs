@@ -11,8 +11,8 @@ use crate::problem::Problem;
 use crate::proof::Derivation;
 use crate::search::StoppedBy;
 
-/// The most numbers that the bounds of all nodes are made from, in a tree that repeats a search. Exact ones take half a
-/// minute or so.
+/// The most numbers that the bounds of all nodes are made from, in a tree that repeats a search: the proof computes with
+/// them exactly.
 const NUMBERS: usize = 50_000_000;
 
 /// Searches a part for a proof. It is in the rows and unknowns of the problem, and knows no symmetry: where a search with

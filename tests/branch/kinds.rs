@@ -46,21 +46,27 @@ struct Draft {
     point: Vec<f64>,
 }
 
+/// Unknowns without bounds, with a constant alone.
+fn free(random: &mut Random, integer: Vec<bool>) -> Instance {
+    let n = integer.len();
+    Instance {
+        integer,
+        lower: vec![-NONE; n],
+        upper: vec![NONE; n],
+        pins: vec![None; n],
+        squares: Vec::new(),
+        hessian: vec![vec![0.0; n]; n],
+        linear: vec![0.0; n],
+        constant: whole(random, 5),
+        rows: Vec::new(),
+    }
+}
+
 /// Unknowns with bounds, `integers` of them integer, and no rows and no objective.
 fn unknowns(random: &mut Random, integers: usize, reals: usize) -> Draft {
     let n = integers + reals;
     let mut draft = Draft {
-        of: Instance {
-            integer: (0..n).map(|j| j < integers).collect(),
-            lower: vec![-NONE; n],
-            upper: vec![NONE; n],
-            pins: vec![None; n],
-            squares: Vec::new(),
-            hessian: vec![vec![0.0; n]; n],
-            linear: vec![0.0; n],
-            constant: whole(random, 5),
-            rows: Vec::new(),
-        },
+        of: free(random, (0..n).map(|j| j < integers).collect()),
         point: Vec::new(),
     };
     for j in 0..n {
@@ -546,19 +552,11 @@ pub fn lots(seed: u64) -> Instance {
     let times = 2 + random.below(2);
     let n = 3 * times;
     let most = 6.0 + random.below(4) as f64;
-    let mut of = Instance {
-        integer: (0..n).map(|j| j % 3 == 2).collect(),
-        lower: vec![0.0; n],
-        upper: (0..n)
-            .map(|j| if j % 3 == 2 { 1.0 } else { NONE })
-            .collect(),
-        pins: vec![None; n],
-        squares: Vec::new(),
-        hessian: vec![vec![0.0; n]; n],
-        linear: vec![0.0; n],
-        constant: whole(random, 5),
-        rows: Vec::new(),
-    };
+    let mut of = free(random, (0..n).map(|j| j % 3 == 2).collect());
+    of.lower.fill(0.0);
+    for is_made in (2..n).step_by(3) {
+        of.upper[is_made] = 1.0;
+    }
     for time in 0..times {
         let (made, stored, is_made) = (3 * time, 3 * time + 1, 3 * time + 2);
         of.linear[made] = random.below(5) as f64 / 4.0;

@@ -16,12 +16,14 @@ mod lies;
 #[allow(dead_code)] // What real unknowns alone allow.
 mod oracle;
 mod planted;
+mod planted_gains;
 #[path = "../common/random.rs"]
 #[allow(dead_code)] // Generators of other tests.
 mod random;
 #[path = "../certificate/rational.rs"]
 #[allow(dead_code)] // The search for the least energy, which has no rows.
 mod rational;
+mod reach;
 mod stated;
 
 use instance::Instance;

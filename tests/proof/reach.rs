@@ -1,0 +1,136 @@
+//! Proofs of problems that are too large for brute force reach the optimum, in the few nodes that their kind allows.
+
+use roundel::proof::{Verdict, check_of};
+use roundel::{Options, Problem, SolveStatus};
+
+use crate::random::Random;
+use crate::{made, prove, text};
+
+const NONE: f64 = f64::INFINITY;
+
+/// What the proof of a problem proves, and its text.
+fn proved(problem: &Problem) -> (Verdict, String) {
+    let proof = text(made(&prove(problem).unwrap()));
+    let verdict = check_of(problem, proof.as_slice()).unwrap();
+    (verdict, String::from_utf8(proof).unwrap())
+}
+
+/// The part of the energy that is missing to the bound.
+fn gap(verdict: &Verdict) -> f64 {
+    let energy = verdict.energy.unwrap();
+    (energy - verdict.lower_bound.unwrap()) / energy.abs()
+}
+
+/// The multipliers of a flow are a proof without a tree. Those of the relaxation over reals leave a gap.
+#[test]
+fn the_flow_of_a_grid_is_proved_without_a_branch() {
+    const SIDE: usize = 12;
+    let random = &mut Random::new(5);
+    let at = |row: usize, column: usize| SIDE * row + column;
+    let right = (0..SIDE).flat_map(|i| (1..SIDE).map(move |j| [at(i, j - 1), at(i, j)]));
+    let down = (1..SIDE).flat_map(|i| (0..SIDE).map(move |j| [at(i - 1, j), at(i, j)]));
+    let edges: Vec<[usize; 2]> = right.chain(down).collect();
+    let all: Vec<usize> = (0..edges.len()).collect();
+    let mut problem = Problem::new(edges.len()).unwrap();
+    let mut rows = vec![(Vec::new(), Vec::new(), 0.0); SIDE * SIDE];
+    for (edge, ends) in edges.iter().enumerate() {
+        let (target, weight) = (
+            9.0 * random.below(1000) as f64 / 1000.0,
+            0.1 + random.below(9) as f64 / 7.0,
+        );
+        problem
+            .add_least_squares(&[edge], &[1.0], target, weight)
+            .unwrap();
+        let flow = random.below(10) as f64;
+        for (end, sign) in ends.iter().zip([-1.0, 1.0]) {
+            let (unknowns, signs, demand) = &mut rows[*end];
+            unknowns.push(edge);
+            signs.push(sign);
+            *demand += sign * flow;
+        }
+    }
+    for (unknowns, signs, demand) in &rows {
+        problem.add_constraint(unknowns, signs, *demand).unwrap();
+    }
+    let (lower, upper) = (vec![0.0; edges.len()], vec![9.0; edges.len()]);
+    problem.set_bounds(&all, &lower, &upper).unwrap();
+    problem.set_integers(&all).unwrap();
+    let (verdict, _) = proved(&problem);
+    assert_eq!(verdict.nodes, 1);
+    assert!(gap(&verdict) <= 1e-12, "{verdict:?}");
+}
+
+/// Facility location with squares, of as many rows as are left to the interior-point method.
+#[test]
+fn places_for_customers_are_proved_in_a_few_nodes() {
+    const CUSTOMERS: usize = 45;
+    const PLACES: usize = 12;
+    let random = &mut Random::new(6);
+    let n = CUSTOMERS * PLACES;
+    let mut problem = Problem::new(n + PLACES).unwrap();
+    for customer in 0..CUSTOMERS {
+        let shares: Vec<usize> = (0..PLACES).map(|place| PLACES * customer + place).collect();
+        for (place, &share) in shares.iter().enumerate() {
+            let weight = 0.5 + random.below(400) as f64 / 100.0;
+            problem
+                .add_least_squares(&[share], &[1.0], 0.0, weight)
+                .unwrap();
+            problem
+                .add_inequality(&[share, n + place], &[1.0, -1.0], -NONE, 0.0)
+                .unwrap();
+        }
+        problem
+            .add_constraint(&shares, &[1.0; PLACES], 1.0)
+            .unwrap();
+        problem
+            .set_bounds(&shares, &[0.0; PLACES], &[1.0; PLACES])
+            .unwrap();
+    }
+    let places: Vec<usize> = (n..n + PLACES).collect();
+    problem.set_binaries(&places).unwrap();
+    let costs = (0..n + PLACES).map(|j| {
+        if j < n {
+            0.0
+        } else {
+            2.0 + random.below(30) as f64 / 10.0
+        }
+    });
+    problem.add_linear(&costs.collect::<Vec<f64>>()).unwrap();
+    let (verdict, lines) = proved(&problem);
+    assert!(lines.contains("\"switches\""));
+    assert!(
+        gap(&verdict) <= 1e-8 && verdict.nodes < 200,
+        "{} {}",
+        gap(&verdict),
+        verdict.nodes
+    );
+}
+
+/// Machines are alike, which the search uses and a proof cannot tell: the solution is optimal all the same.
+#[test]
+fn what_only_the_search_proves_is_solved() {
+    const MACHINES: usize = 4;
+    let sizes = [7.0, 6.0, 5.5, 5.0, 4.0, 3.5, 3.0, 2.0, 1.5];
+    let n = sizes.len() * MACHINES;
+    let all: Vec<usize> = (0..n).collect();
+    let mut problem = Problem::new(n).unwrap();
+    for machine in 0..MACHINES {
+        let own: Vec<usize> = (0..sizes.len())
+            .map(|thing| MACHINES * thing + machine)
+            .collect();
+        problem.add_least_squares(&own, &sizes, 0.0, 1.0).unwrap();
+    }
+    for thing in 0..sizes.len() {
+        let own = &all[MACHINES * thing..][..MACHINES];
+        problem.add_constraint(own, &[1.0; MACHINES], 1.0).unwrap();
+    }
+    problem.set_binaries(&all).unwrap();
+    let plain = roundel::solve(&problem, &Options::default()).unwrap();
+    assert_eq!(plain.status(), SolveStatus::Optimal);
+    let found = prove(&problem).unwrap();
+    let verdict = check_of(&problem, text(made(&found)).as_slice()).unwrap();
+    let outcome = found.outcome.unwrap();
+    assert_eq!(outcome.status(), SolveStatus::Optimal);
+    assert!((outcome.energy() - plain.energy()).abs() <= 1e-9 * plain.energy());
+    assert!(verdict.lower_bound.unwrap() <= plain.energy());
+}
