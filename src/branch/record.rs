@@ -164,6 +164,7 @@ pub(super) fn of_whole(
         switches: switches.collect(),
         unknowns: members.to_vec(),
         nodes,
+        condensed: None,
     }
 }
 

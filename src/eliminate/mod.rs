@@ -55,4 +55,5 @@ pub use components::{Component, components, has_several_components};
 pub use expansion::Expansion;
 pub use reduced::ReducedModel;
 pub use rounding::Rounding;
+pub(crate) use run::Equations;
 pub use run::{Elimination, eliminate};

@@ -71,6 +71,12 @@ impl ReducedModel {
         &self.continuous
     }
 
+    /// The number of each reduced unknown among the caller's, after which those that the elimination introduced are
+    /// counted.
+    pub(crate) fn unknowns(&self) -> &[u32] {
+        &self.free
+    }
+
     /// The values that reduced unknowns keep if the objective does not determine them.
     pub fn guess(&self) -> &[f64] {
         &self.guess

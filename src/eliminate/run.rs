@@ -4,6 +4,7 @@ use std::sync::{Arc, OnceLock};
 
 use super::record::Record;
 use super::steps::{Definitions, Step};
+use super::substitution::Substitution;
 use super::tableau::Tableau;
 use super::{
     Expansion, ReducedModel, Rounding, back, continuous, hold, integral, project, right_sides,
@@ -28,6 +29,18 @@ const LEAST: usize = 1 << 14;
 /// As [`Elimination::new`] and [`Elimination::reduce`].
 pub fn eliminate(model: &Model, monitor: &mut Monitor) -> Result<ReducedModel> {
     Elimination::new(model, Ordering::FillReducing, monitor)?.reduce(model, monitor)
+}
+
+/// The equations of an elimination: the constraints, and those that define the unknowns that it introduced.
+#[derive(Debug)]
+pub(crate) struct Equations {
+    /// Which one was solved for which unknown, in their order. Definitions are counted after the constraints.
+    pub solved: Vec<(u32, u32)>,
+    /// Each introduced unknown as a sum of terms of unknowns with lower numbers.
+    pub defined: Vec<Vec<(u32, f64)>>,
+    /// The numbers of all unknowns here: those of the caller are their own, and the introduced ones follow in the order of
+    /// their definitions.
+    pub numbers: Vec<u32>,
 }
 
 /// Everything in the reduced model except its linear part. It depends only on the coefficients of the
@@ -191,6 +204,41 @@ impl Elimination {
             true => Arc::clone(self.curvature.get_or_init(made)),
             false => made(),
         }
+    }
+
+    /// The equations of the elimination, as a proof tells them.
+    pub(crate) fn equations(&self) -> Equations {
+        let (stack, definitions) = (&self.record.stack, &self.definitions);
+        let rows = self.record.scales.len() as u32;
+        let numbers = definitions.numbers(self.record.pinned.len());
+        let by_first = definitions.by_first();
+        let steps = self.record.steps.iter();
+        let solves = steps.filter(|step| matches!(step, Step::Solve { .. } | Step::Introduce));
+        let all = (0..stack.len()).map(|k| stack.get(k).0);
+        let of_rows = all.filter(|by| by.constraint != Substitution::NO_CONSTRAINT);
+        let solved = solves.zip(of_rows).map(|(step, by)| {
+            let row = match step {
+                Step::Introduce => rows + by_first.get(&by.pivot).map_or(0, |&k| k as u32),
+                _ => by.constraint,
+            };
+            (row, numbers[by.pivot as usize])
+        });
+        Equations {
+            solved: solved.collect(),
+            defined: definitions.sums(&numbers),
+            numbers,
+        }
+    }
+
+    /// The values of the caller's unknowns and of those that the elimination introduced, by the
+    /// [numbers](Equations::numbers) of equations.
+    pub(crate) fn with_introduced(&self, equations: &Equations, x: &[f64]) -> Vec<f64> {
+        let all = self.definitions.evaluate(x);
+        let mut values = vec![0.0; all.len()];
+        for (number, value) in equations.numbers.iter().zip(all) {
+            values[*number as usize] = value;
+        }
+        values
     }
 
     /// Whether `unknown` was pinned when the constraints were eliminated.

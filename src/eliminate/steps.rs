@@ -4,6 +4,8 @@
 //! therefore works on coefficients and keeps this list. `right_sides` applies the list to the right sides, in
 //! the first solve and in every later one with other data.
 
+use std::collections::BTreeMap;
+
 /// One step on the right side of one row, or of the next substitution on the stack.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Step {
@@ -52,16 +54,47 @@ impl Definitions {
         self.ends.push(self.terms.len());
     }
 
+    /// The terms of definition `k`.
+    fn terms_of(&self, k: usize) -> &[(u32, f64)] {
+        let start = if k == 0 { 0 } else { self.ends[k - 1] };
+        &self.terms[start..self.ends[k]]
+    }
+
+    /// The numbers of all unknowns, where the introduced ones are counted after the caller's `n` in the order of their
+    /// definitions.
+    pub fn numbers(&self, n: usize) -> Vec<u32> {
+        let mut numbers: Vec<u32> = (0..(n + self.list.len()) as u32).collect();
+        for (k, &(unknown, _)) in self.list.iter().enumerate() {
+            numbers[unknown as usize] = (n + k) as u32;
+        }
+        numbers
+    }
+
+    /// Which definition begins with which unknown. None begin with the same one.
+    pub fn by_first(&self) -> BTreeMap<u32, usize> {
+        let first = |k: usize| Some((self.terms_of(k).first()?.0, k));
+        (0..self.list.len()).filter_map(first).collect()
+    }
+
+    /// The sums that define the introduced unknowns, in numbers of [`numbers`](Self::numbers).
+    pub fn sums(&self, numbers: &[u32]) -> Vec<Vec<(u32, f64)>> {
+        let sum = |k: usize| {
+            let (terms, divisor) = (self.terms_of(k).iter(), self.list[k].1);
+            terms
+                .map(|&(j, c)| (numbers[j as usize], c / divisor))
+                .collect()
+        };
+        (0..self.list.len()).map(sum).collect()
+    }
+
     /// The values of all unknowns if the caller's unknowns are `x`.
     pub fn evaluate(&self, x: &[f64]) -> Vec<f64> {
         let mut all = x.to_vec();
         all.resize(x.len() + self.list.len(), 0.0);
-        let mut start = 0;
-        for (&(unknown, divisor), &end) in self.list.iter().zip(&self.ends) {
-            let terms = self.terms[start..end].iter();
+        for (k, &(unknown, divisor)) in self.list.iter().enumerate() {
+            let terms = self.terms_of(k).iter();
             let sum: f64 = terms.map(|&(j, c)| c * all[j as usize]).sum();
             all[unknown as usize] = sum / divisor;
-            start = end;
         }
         all
     }

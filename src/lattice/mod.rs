@@ -37,7 +37,7 @@ pub(crate) use lll::lll;
 pub(crate) use near_points::NEARER;
 pub(crate) use nearest_plane::nearest_plane;
 pub(crate) use pieces::{Piece, assemble, pieces};
-pub(crate) use prove::predicted_nodes;
+pub(crate) use prove::{predicted_nodes, radius_for};
 pub(crate) use split_tree::enumerate_split;
 pub(crate) use splits::Splits;
 pub(crate) use strategy::{exact, lattice};

@@ -7,7 +7,8 @@ use super::cut;
 use super::exact::Exact;
 use super::fault::{Checked, Fault, FaultKind, Wrong, wrong};
 use super::format::{Claim, Line, Part, Root, Statement, VERSION};
-use super::minorant::{Minorant, Split};
+use super::lattice;
+use super::minorant::{Minorant, PartObjective, Split};
 use super::problem::{ExactProblem, ExactRow, Limits, Side, product};
 use super::steps::take;
 use super::switch;
@@ -223,6 +224,9 @@ fn check_root(problem: &mut ExactProblem, limits: &mut Limits, root: &Root) -> C
     for &step in &root.steps {
         take(problem, limits, step)?;
     }
+    for sum in &root.defined {
+        problem.define(limits, sum)?;
+    }
     let is_empty = limits.are_empty() || has_empty_row(problem);
     let Some(multipliers) = &root.empty else {
         if is_empty {
@@ -251,6 +255,28 @@ pub(super) fn has_empty_row(problem: &ExactProblem) -> bool {
     problem.rows.iter().any(is_empty)
 }
 
+/// Checks what a part says of its objective. Returns its bound if a lattice shows it.
+fn shown_at_once(
+    problem: &ExactProblem,
+    limits: &Limits,
+    objective: &mut PartObjective,
+    part: &Part,
+) -> Checked<Option<Exact>> {
+    let Some(of) = &part.lattice else {
+        objective.set_curvature(&part.curvature)?;
+        convex::check(objective, &|| true)?;
+        return Ok(None);
+    };
+    let shown = lattice::bound(problem, limits, objective, (of, &part.curvature))?;
+    match part.lower_bound.and_then(Exact::of) {
+        Some(bound) if bound <= shown => Ok(Some(bound)),
+        _ => {
+            let text = format!("the lattice of the part proves {} alone", shown.below());
+            wrong(FaultKind::Bound, text)
+        }
+    }
+}
+
 /// Checks the parts and their trees. Returns the bound that they prove together, or nothing if there is no
 /// point.
 fn check_parts<R: BufRead>(
@@ -272,6 +298,7 @@ fn check_parts<R: BufRead>(
     }
     let given = problem.rows.len();
     let mut cuts = Vec::with_capacity(parts.len());
+    let mut of_lattice = Vec::with_capacity(parts.len());
     for (part, objective) in parts.iter().zip(&mut split.parts) {
         for added in &part.cuts {
             lines.at(cut::add(problem, limits, added))?;
@@ -280,15 +307,21 @@ fn check_parts<R: BufRead>(
         for added in &part.switches {
             lines.at(switch::add(problem, limits, objective, added))?;
         }
-        lines.at(objective.set_curvature(&part.curvature))?;
-        lines.at(convex::check(objective, &|| true))?;
+        let shown = lines.at(shown_at_once(problem, limits, objective, part))?;
+        of_lattice.push(shown);
     }
     let mut proved = Some(split.constant);
-    let of_parts = parts.iter().zip(&split.parts).zip(cuts);
-    for ((Part { lower_bound, .. }, objective), cuts) in of_parts {
+    let of_parts = parts.iter().zip(&split.parts).zip(cuts).zip(of_lattice);
+    for (((part, objective), cuts), shown) in of_parts {
         problem.rows.truncate(given);
         problem.rows.extend(cuts);
-        let bound = lower_bound.and_then(Exact::of);
+        let bound = part.lower_bound.and_then(Exact::of);
+        verdict.parts += 1;
+        if let Some(shown) = shown {
+            verdict.nodes += part.enumerated();
+            proved = proved.map(|sum| &sum + &shown);
+            continue;
+        }
         let mut tree = Tree::new(objective, bound.clone(), limits);
         while tree.wanted() > 0 {
             let Line::Node(node) = lines.next("a node")? else {
@@ -297,7 +330,6 @@ fn check_parts<R: BufRead>(
             lines.at(tree.visit(problem, limits, &node))?;
             verdict.nodes += 1;
         }
-        verdict.parts += 1;
         proved = proved.zip(bound).map(|(sum, bound)| &sum + &bound);
     }
     Ok(proved)

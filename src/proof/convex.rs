@@ -6,13 +6,15 @@
 //! 2. if its diagonal dominates, decided exactly;
 //! 3. if a factor L in floats leaves a rest `H - LL'` that its diagonal dominates, all rounding errors counted
 //!    (`rump2006`);
-//! 4. if elimination in exact integers (`bareiss1968`) has no negative pivot; for small blocks.
+//! 4. as before, with a sparse factor in the order in which the unknowns stand (`sparse_factor`); for lattices;
+//! 5. if elimination in exact integers (`bareiss1968`) has no negative pivot; for small blocks.
 
 use std::collections::BTreeMap;
 
 use super::exact::Exact;
 use super::fault::{Checked, FaultKind, wrong};
 use super::minorant::PartObjective;
+use super::sparse_factor;
 
 /// The largest block that is eliminated exactly.
 const SMALL: usize = 40;
@@ -27,7 +29,7 @@ const UNIT: f64 = 0.5 * f64::EPSILON;
 pub(super) type GoesOn<'a> = &'a dyn Fn() -> bool;
 
 /// Entries of a lower triangle.
-type Entries = BTreeMap<(usize, usize), Exact>;
+pub(super) type Entries = BTreeMap<(usize, usize), Exact>;
 
 /// A block: its unknowns, and the entries of its lower triangle by places in it.
 pub(super) struct Block {
@@ -151,6 +153,13 @@ impl Block {
     /// As [`has_curvature`](Self::has_curvature), by what takes little time.
     pub fn has_curvature_at_once(&self, curvature: &[Exact], goes_on: GoesOn) -> bool {
         goes_on() && self.is_shown(&self.minus(curvature), goes_on)
+    }
+
+    /// As [`has_curvature`](Self::has_curvature), by a sparse factor in the order of the unknowns.
+    pub fn has_curvature_in_order(&self, curvature: &[Exact], goes_on: GoesOn) -> bool {
+        let entries = self.minus(curvature);
+        let n = self.members.len();
+        dominates(&entries, n) || sparse_factor::has_factor(&entries, n, goes_on)
     }
 
     fn is_shown(&self, entries: &Entries, goes_on: GoesOn) -> bool {

@@ -2,7 +2,7 @@
 //!
 //! Nothing here is believed: what is not so in exact numbers is left out of the proof, which then proves less.
 
-use super::format::{Cut, Step, Switch};
+use super::format::{Cut, Step, Switch, Terms};
 
 /// A point and multipliers of rows, in floats.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -39,6 +39,26 @@ pub(crate) struct Visited {
     pub ending: Ending,
 }
 
+/// What is left of the objective of a part in its integers, in floats.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(crate) struct Condensed {
+    /// Equations, and the unknown that each one gives after those before it.
+    pub solved: Vec<(u32, u32)>,
+    /// The minimiser of the part where integers are real.
+    pub point: Vec<f64>,
+    pub forms: Vec<Distances>,
+}
+
+/// `1/2 |R (y - t)|^2`, where y are combinations of integers, and t those of the minimiser.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(crate) struct Distances {
+    pub combinations: Vec<Terms>,
+    /// The rows of R, each from its diagonal on.
+    pub rows: Vec<Vec<f64>>,
+    /// Integers with a value of `|R (y - t)|^2` below this are looked for.
+    pub square: f64,
+}
+
 /// The search of a part: its unknowns, the rows and what the objective has gained, and its nodes, of which the first is
 /// the root.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -48,6 +68,8 @@ pub(crate) struct Searched {
     pub cuts: Vec<Cut>,
     pub switches: Vec<Switch>,
     pub nodes: Vec<Visited>,
+    /// What bounds the part without a tree.
+    pub condensed: Option<Condensed>,
 }
 
 impl Searched {
@@ -83,6 +105,9 @@ pub(crate) struct Derivation {
     pub is_begun: bool,
     /// The steps before any branch.
     pub steps: Vec<Step>,
+    /// Further unknowns, numbered after those of the problem, each the sum of terms of unknowns before it. They are
+    /// equations, numbered after the rows of the problem.
+    pub defined: Vec<Terms>,
     /// The contradiction that these have found.
     pub contradiction: Option<Ending>,
     pub parts: Vec<Searched>,

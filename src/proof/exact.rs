@@ -86,6 +86,14 @@ impl Exact {
         }
     }
 
+    /// One divided by the number, if that is a power of two or the negative of one.
+    pub fn inverse_of_power(&self) -> Option<Self> {
+        let zeros = self.mantissa.trailing_zeros()?;
+        let is_power = self.denominator.is_none() && self.mantissa.bits() == zeros + 1;
+        let one = BigInt::from(if self.sign().is_lt() { -1 } else { 1 });
+        is_power.then(|| Exact::whole(one, -self.exponent - zeros as i64))
+    }
+
     /// The number times `2^by`.
     pub fn shifted(&self, by: i64) -> Self {
         Exact {
@@ -374,6 +382,19 @@ mod tests {
         let sum = (0..12).fold(exact(1.0), |sum, _| &sum + &third);
         assert!(sum.is_zero());
         assert!(Exact::fraction(BigInt::from(1), BigInt::ZERO).is_none());
+    }
+
+    #[test]
+    fn powers_of_two_alone_have_an_inverse() {
+        for (x, inverse) in [(1.0, 1.0), (-0.25, -4.0), (2f64.powi(70), 2f64.powi(-70))] {
+            assert_eq!(exact(x).inverse_of_power(), Some(exact(inverse)));
+        }
+        let sum = &exact(3.0) + &exact(5.0);
+        assert_eq!(sum.inverse_of_power(), Some(exact(0.125)));
+        let third = Exact::fraction(BigInt::from(1), BigInt::from(3)).unwrap();
+        for x in [exact(0.0), exact(3.0), third] {
+            assert_eq!(x.inverse_of_power(), None);
+        }
     }
 
     #[test]

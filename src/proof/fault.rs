@@ -22,6 +22,8 @@ pub enum FaultKind {
     Cut,
     /// A switch that is no binary, or that leaves more than zero of its unknown where it is zero.
     Switch,
+    /// An equation that does not give its unknown, a combination that is no integer, or a form that is not triangular.
+    Lattice,
     /// The objective may curve downwards.
     NotConvex,
     /// A branch that is on no integer.
@@ -51,6 +53,7 @@ impl FaultKind {
             FaultKind::Parts => "parts",
             FaultKind::Cut => "cut",
             FaultKind::Switch => "switch",
+            FaultKind::Lattice => "lattice",
             FaultKind::NotConvex => "not_convex",
             FaultKind::Branch => "branch",
             FaultKind::Certificate => "certificate",

@@ -1,7 +1,7 @@
 //! The lines of a proof, as they stand in its file: one JSON object a line.
 //!
 //! ```text
-//! proof, statement, claim, root, parts, the nodes of each part's tree in preorder, end
+//! proof, statement, claim, root, parts, the nodes of each part's tree (if it has one) in preorder, end
 //! ```
 //!
 //! Floats are written so that they are read back bit for bit. Rows are numbered with the equality
@@ -94,6 +94,10 @@ pub(super) struct Claim {
 #[serde(deny_unknown_fields)]
 pub(super) struct Root {
     pub steps: Vec<Step>,
+    /// Further unknowns, numbered after those of the problem, each the sum of terms of unknowns before it. They are
+    /// equations, numbered after the rows of the problem.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub defined: Vec<Terms>,
     /// Multipliers of rows that contradict each other: there is no point, and no parts follow.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub empty: Option<Multipliers>,
@@ -137,8 +141,45 @@ pub(super) struct Part {
     /// For each unknown zero, a power of two or the negative of one, or any number for an integer. The objective minus
     /// half of the sum of these times the squares of the unknowns is convex.
     pub curvature: Vec<f64>,
+    /// What shows the bound without a tree.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub lattice: Option<Lattice>,
     /// No point has less energy in this part. Without a bound there is no point.
     pub lower_bound: Option<f64>,
+}
+
+impl Part {
+    /// The nodes of the enumerations of its lattice.
+    pub fn enumerated(&self) -> usize {
+        let forms = self.lattice.iter().flat_map(|lattice| &lattice.forms);
+        forms.map(|form| form.nodes as usize).sum()
+    }
+}
+
+/// What is left of the objective of a part in its integers.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Lattice {
+    /// Equations, and the unknown that each one gives after those before it.
+    pub solved: Vec<(u32, u32)>,
+    /// One value for each unknown of the part.
+    pub point: Vec<f64>,
+    pub forms: Vec<Form>,
+}
+
+/// `weight |R (y - t)|^2`, where y are combinations of integers, and t those of the point.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Form {
+    pub combinations: Vec<Terms>,
+    /// The rows of R, each from its diagonal on.
+    pub rows: Vec<Vec<f64>>,
+    pub weight: f64,
+    /// No integers y have a value of `|R (y - t)|^2` below this.
+    pub square: f64,
+    /// Where the enumeration that shows it goes: no further from t than this in any coordinate, and to so many nodes.
+    pub reach: f64,
+    pub nodes: u64,
 }
 
 /// An unknown that is zero where a binary is, and what its part of the objective gains: `product (x - x z)` and

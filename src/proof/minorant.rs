@@ -240,9 +240,9 @@ impl PartObjective {
         }
     }
 
-    /// The place of an unknown of the whole in this part.
+    /// The place of an unknown of the whole in this part. Other numbers have none.
     pub fn place_of(&self, unknown: usize) -> Option<usize> {
-        let (number, place) = self.places[unknown];
+        let (number, place) = *self.places.get(unknown)?;
         (number == self.number).then_some(place)
     }
 

@@ -16,6 +16,7 @@
 //! | `cut` | rows that follow in both cases of a split |
 //! | `switch` | the perspective reformulation of the objective |
 //! | `minorant`, `estimate`, `held`, `convex` | a bound from a point and multipliers; its estimate in floats; convexity |
+//! | `lattice`, `substitution`, `sparse_factor`, `enumeration` | a bound by the closest point of a lattice |
 //! | `tree`, `check`, `fault` | the checker |
 //! | `derivation`, `curvature`, `numbers`, `repair`, `seal` | the writer |
 
@@ -24,18 +25,22 @@ mod convex;
 mod curvature;
 mod cut;
 mod derivation;
+mod enumeration;
 mod estimate;
 mod exact;
 mod fault;
 mod format;
 mod held;
+mod lattice;
 mod minorant;
 mod numbers;
 mod problem;
 mod repair;
 mod seal;
+mod sparse_factor;
 mod statement;
 mod steps;
+mod substitution;
 mod switch;
 mod tree;
 
@@ -44,10 +49,12 @@ use std::io::{self, BufRead, Write};
 use crate::error::Result;
 use crate::problem::Problem;
 pub use check::{TOLERANCE, Verdict};
-pub(crate) use derivation::{Derivation, Ending, Multiplied, Searched, Visited};
+pub(crate) use derivation::{
+    Condensed, Derivation, Distances, Ending, Multiplied, Searched, Visited,
+};
 pub use fault::{Fault, FaultKind};
 pub(crate) use format::{Case, Cut, Step, Switch};
-use format::{Claim, Line, Statement};
+use format::{Claim, Line, Part, Statement};
 
 /// A proof of a bound on the energy of all points, or that there is no point.
 #[derive(Debug, Clone, PartialEq)]
@@ -88,10 +95,14 @@ impl Proof {
         self.claim()?.energy
     }
 
-    /// The number of nodes.
+    /// The number of nodes, with those that the checker enumerates.
     pub fn nodes(&self) -> usize {
-        let is_node = |line: &&Line| matches!(line, Line::Node(_));
-        self.lines.iter().filter(is_node).count()
+        let of_line = |line: &Line| match line {
+            Line::Node(_) => 1,
+            Line::Parts(parts) => parts.iter().map(Part::enumerated).sum(),
+            _ => 0,
+        };
+        self.lines.iter().map(of_line).sum()
     }
 
     /// Writes the proof, one JSON object a line.

@@ -81,6 +81,28 @@ fn finite(x: f64) -> Checked<Exact> {
     )
 }
 
+/// The number of an unknown.
+fn in_range(j: u32, n: usize) -> Checked<usize> {
+    match (j as usize) < n {
+        true => Ok(j as usize),
+        false => wrong(
+            FaultKind::Reference,
+            format!("there is no unknown {j} of {n}"),
+        ),
+    }
+}
+
+/// The terms of a row of n unknowns, summed.
+fn terms(given: &[(u32, f64)], n: usize) -> Checked<ExactTerms> {
+    let mut sums: BTreeMap<usize, Exact> = BTreeMap::new();
+    for &(j, a) in given {
+        let sum = sums.entry(in_range(j, n)?).or_insert_with(Exact::zero);
+        *sum = &*sum + &finite(a)?;
+    }
+    sums.retain(|_, sum| !sum.is_zero());
+    Ok(sums.into_iter().collect())
+}
+
 impl ExactProblem {
     /// The problem and its bounds, those of integers rounded.
     ///
@@ -92,22 +114,8 @@ impl ExactProblem {
             let text = format!("{n} unknowns are more than {MOST}");
             return wrong(FaultKind::Statement, text);
         }
-        let in_range = |j: u32| match (j as usize) < n {
-            true => Ok(j as usize),
-            false => wrong(
-                FaultKind::Reference,
-                format!("there is no unknown {j} of {n}"),
-            ),
-        };
-        let terms = |given: &[(u32, f64)]| -> Checked<ExactTerms> {
-            let mut sums: BTreeMap<usize, Exact> = BTreeMap::new();
-            for &(j, a) in given {
-                let sum = sums.entry(in_range(j)?).or_insert_with(Exact::zero);
-                *sum = &*sum + &finite(a)?;
-            }
-            sums.retain(|_, sum| !sum.is_zero());
-            Ok(sums.into_iter().collect())
-        };
+        let in_range = |j: u32| in_range(j, n);
+        let terms = |given: &[(u32, f64)]| terms(given, n);
         let mut quadratic: BTreeMap<(usize, usize), Exact> = BTreeMap::new();
         for &(i, j, v) in &statement.quadratic {
             if i < j {
@@ -179,6 +187,27 @@ impl ExactProblem {
             }
         }
         Ok((problem, limits))
+    }
+
+    /// Adds an unknown that is the sum of terms of others, and the equation that says so. It is an integer if that is sure.
+    ///
+    /// # Errors
+    /// [`FaultKind::Reference`], [`FaultKind::Statement`].
+    pub fn define(&mut self, limits: &mut Limits, sum: &[(u32, f64)]) -> Checked<()> {
+        let own = self.integer.len();
+        let mut terms = terms(sum, own)?;
+        let is_whole = |(j, a): &(usize, Exact)| self.integer[*j] && a.is_integer();
+        self.integer.push(terms.iter().all(is_whole));
+        self.linear.push(Exact::zero());
+        limits.lower.push(None);
+        limits.upper.push(None);
+        terms.push((own, finite(-1.0)?));
+        self.rows.push(ExactRow {
+            terms,
+            lower: Some(Exact::zero()),
+            upper: Some(Exact::zero()),
+        });
+        Ok(())
     }
 
     /// The objective at a point.

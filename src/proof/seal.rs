@@ -14,6 +14,7 @@ use super::format::{
     VERSION,
 };
 use super::held::Held;
+use super::lattice;
 use super::minorant::{Minorant, Open, PartObjective, Split};
 use super::numbers::Numbers;
 use super::problem::{ExactProblem, Limits, Side};
@@ -52,8 +53,12 @@ pub(super) fn seal(
     ask()?;
     let root = Root {
         steps: taken(&mut problem, &mut limits, &derivation.steps, ask)?,
+        defined: derivation.defined.clone(),
         empty: None,
     };
+    for sum in &root.defined {
+        problem.define(&mut limits, sum).map_err(unproved)?;
+    }
     let mut lines = vec![Line::RoundelProof(VERSION), Line::Statement(statement)];
     if let Some(empty) = contradiction(&problem, &limits, derivation) {
         let empty = Some(empty);
@@ -140,6 +145,20 @@ fn seal_part(
     let mut switches = searched.switches.clone();
     switches.retain(|added| switch::add(problem, limits, objective, added).is_ok());
     let goes_on = || ask().is_ok();
+    if let Some(condensed) = &searched.condensed {
+        let found = lattice::strongest(problem, limits, objective, condensed, &goes_on);
+        ask()?;
+        let (lattice, curvature, bound) = found.map_err(unproved)?;
+        let part = Part {
+            unknowns: searched.unknowns.clone(),
+            cuts,
+            switches,
+            curvature,
+            lattice: Some(lattice),
+            lower_bound: Some(bound.below()),
+        };
+        return Ok((part, Vec::new()));
+    }
     let curvature = curvature::choose(objective, limits, &goes_on);
     ask()?;
     objective.set_curvature(&curvature).map_err(unproved)?;
@@ -166,6 +185,7 @@ fn seal_part(
         cuts,
         switches,
         curvature,
+        lattice: None,
         lower_bound: sealer.least.map(|least| least.below()),
     };
     Ok((part, sealer.nodes))
@@ -311,9 +331,9 @@ fn all_free(
             continue;
         }
         let value = match (values, limits.side(j, Side::Lower)) {
-            (Some(values), _) => values[j],
-            (None, Some(lower)) => lower.near(),
-            (None, None) => 0.0,
+            (Some(values), _) if j < values.len() => values[j],
+            (_, Some(lower)) => lower.near(),
+            (_, None) => 0.0,
         };
         let other = coupled(problem, j).find(|&k| part_of[k] != usize::MAX);
         part_of[j] = other.map_or(parts.len(), |k| part_of[k]);

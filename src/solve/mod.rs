@@ -3,6 +3,7 @@
 mod around;
 mod candidate;
 mod components;
+mod condense;
 mod dispatch;
 mod eliminated;
 mod expand;

@@ -3,6 +3,7 @@
 //! The proof is the tree of branch and bound, or that of a flow. Where other methods have solved the problem, branch
 //! and bound searches once more from their solution. Then the proof is written, as long as the caller lets it.
 
+use super::condense::condense;
 use super::limited::{conclude, solve_limited};
 use super::run::{begin, solve_unlimited};
 use super::solution::Solution;
@@ -22,6 +23,9 @@ const NODES: usize = 200_000;
 
 /// The part of the time limit that searches may take. What they leave is for the proof.
 const SEARCH: f64 = 0.5;
+
+/// A proof by a lattice whose bound is below that of the search by no more than this part of it is the best there is.
+const REACHED: f64 = 1e-7;
 
 /// The outcome of a solve, with its proof.
 #[derive(Debug, Clone)]
@@ -72,6 +76,17 @@ fn prove(problem: &Problem, options: &Options, mut monitor: Monitor) -> Result<P
         solve_unlimited(problem, &model, options, guess, &mut monitor)
     };
     may_have_proof(&outcome)?;
+    let of_lattice = match derivation.is_begun {
+        true => None,
+        false => by_lattice(problem, &model, options, &outcome, &mut monitor)?,
+    };
+    let weaker = match of_lattice {
+        Some(proof) if reaches(&proof, &outcome) || fits(&model).is_err() => {
+            let proof = Ok(proof);
+            return Ok(Proved { outcome, proof });
+        }
+        other => other,
+    };
     if !derivation.is_begun {
         fits(&model)?;
         let start = outcome.as_ref().ok().map(Solution::values);
@@ -92,10 +107,8 @@ fn prove(problem: &Problem, options: &Options, mut monitor: Monitor) -> Result<P
         let found = branch::solve(problem, &model, options, start, None, record, &mut monitor);
         let again = found.and_then(|found| conclude(problem, &model, options, found, &monitor));
         if let Some(stopped) = again.as_ref().err().and_then(stopped_by) {
-            return Ok(Proved {
-                outcome,
-                proof: Err(stopped),
-            });
+            let proof = weaker.ok_or(stopped);
+            return Ok(Proved { outcome, proof });
         }
         may_have_proof(&again)?;
         outcome = better(outcome, again)?;
@@ -107,9 +120,10 @@ fn prove(problem: &Problem, options: &Options, mut monitor: Monitor) -> Result<P
         let _watch = monitor.watch();
         Proof::new(problem, &derivation, values, &|| Ok(may_continue()?))
     });
-    let proof = match made {
-        Ok(proof) => Ok(proof),
-        Err(error) => {
+    let proof = match (made, weaker) {
+        (Ok(proof), Some(weaker)) if weaker.lower_bound() > proof.lower_bound() => Ok(weaker),
+        (Ok(proof), _) | (Err(_), Some(proof)) => Ok(proof),
+        (Err(error), None) => {
             // A search that was stopped may have no bound yet.
             let ended = search_ended.filter(|_| matches!(error, Error::NotSupported { .. }));
             let stopped = stopped_by(&error).or_else(|| ended.as_ref().and_then(stopped_by));
@@ -117,6 +131,39 @@ fn prove(problem: &Problem, options: &Options, mut monitor: Monitor) -> Result<P
         }
     };
     Ok(Proved { outcome, proof })
+}
+
+/// The proof by the closest point of a lattice, of a problem that has a solution. None if there is no such proof, or
+/// whatever told the solve to end came first.
+fn by_lattice(
+    problem: &Problem,
+    model: &Model,
+    options: &Options,
+    outcome: &Result<Solution>,
+    monitor: &mut Monitor,
+) -> Result<Option<Proof>> {
+    let Ok(solution) = outcome else {
+        return Ok(None);
+    };
+    let made = condense(problem, model, options, solution.values(), monitor).and_then(|derived| {
+        let Some(derived) = derived else {
+            return Ok(None);
+        };
+        let _watch = monitor.watch();
+        let ask = || Ok(may_continue()?);
+        Proof::new(problem, &derived, Some(solution.values()), &ask).map(Some)
+    });
+    match made {
+        Err(error @ Error::OutOfMemory { .. }) => Err(error),
+        made => Ok(made.unwrap_or_default()),
+    }
+}
+
+/// Whether a proof has the bound of the solution, but for rounding errors.
+fn reaches(proof: &Proof, outcome: &Result<Solution>) -> bool {
+    let bound = |solution: &Solution| solution.lower_bound.zip(proof.lower_bound());
+    let bounds = outcome.as_ref().ok().and_then(bound);
+    bounds.is_some_and(|(own, proved)| proved >= own - REACHED * own.abs().max(1.0))
 }
 
 /// What ended a step with this error, if the step was told to end.

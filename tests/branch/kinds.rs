@@ -7,7 +7,7 @@ use super::random::Random;
 pub type Kind = fn(u64) -> Instance;
 
 /// All kinds, by name.
-pub const KINDS: [(&str, Kind); 16] = [
+pub const KINDS: [(&str, Kind); 17] = [
     ("bounds", bounds),
     ("ranges", ranges),
     ("equalities", equalities),
@@ -24,6 +24,7 @@ pub const KINDS: [(&str, Kind); 16] = [
     ("flows", flows),
     ("switches", switches),
     ("lots", lots),
+    ("lattices", lattices),
 ];
 
 fn whole(random: &mut Random, most: i32) -> f64 {
@@ -271,6 +272,21 @@ pub fn free_integers(seed: u64) -> Instance {
     }
     if chance(random, 20) {
         let row = draft.coefficients(random, 5);
+        draft.equality(row);
+    }
+    draft.done()
+}
+
+/// Unknowns without bounds, and constraints alone.
+pub fn lattices(seed: u64) -> Instance {
+    let random = &mut Random::new(seed);
+    let (integers, reals) = (1 + random.below(3), random.below(2));
+    let mut draft = unknowns(random, integers, reals);
+    (draft.of.lower, draft.of.upper) = (vec![-NONE; draft.dim()], vec![NONE; draft.dim()]);
+    draft.definite(random);
+    draft.squares(random, 1);
+    for _ in 0..random.below(3) {
+        let row = draft.coefficients(random, 4);
         draft.equality(row);
     }
     draft.done()

@@ -103,6 +103,7 @@ kinds! {
     flows_are_decided: "flows", |t| t.optimal > 300;
     switches_are_decided: "switches", |t| t.optimal > 300;
     lots_are_decided: "lots", |t| t.optimal > 300;
+    lattices_are_decided: "lattices", |t| t.optimal > 300;
 }
 
 /// `2 x0 - 2 x1 + 4 x2` is even, and a real number between 1/2 and 3/2 is to be the same.

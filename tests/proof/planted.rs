@@ -21,6 +21,8 @@ pub enum Of {
     OddCycle,
     /// A tree with cuts.
     Lots,
+    /// The closest points of two lattices.
+    Lattice,
 }
 
 /// What is altered, the fault that must be found, and the alteration.

@@ -106,6 +106,34 @@ fn places_for_customers_are_proved_in_a_few_nodes() {
     );
 }
 
+/// More unknowns than a dense factor takes: a path of reals, on which integers have a place and a wish.
+#[test]
+fn integers_of_many_reals_are_proved_by_their_closest_point() {
+    const INTEGERS: usize = 12;
+    const EACH: usize = 400;
+    let random = &mut Random::new(7);
+    let n = INTEGERS * EACH;
+    let mut problem = Problem::new(n + INTEGERS).unwrap();
+    let mut square = |unknowns: &[usize], terms: &[f64], rhs: f64, weight: f64| {
+        problem
+            .add_least_squares(unknowns, terms, rhs, weight)
+            .unwrap();
+    };
+    let mut wish = |most: usize| random.below(1000) as f64 / 1000.0 * most as f64;
+    for i in 1..n {
+        square(&[i - 1, i], &[1.0, -1.0], wish(1), 1.0);
+    }
+    for k in 0..INTEGERS {
+        square(&[k * EACH, n + k], &[1.0, -0.8], wish(3), 0.1);
+        square(&[n + k], &[1.0], wish(9), 0.01);
+    }
+    let integers: Vec<usize> = (n..n + INTEGERS).collect();
+    problem.set_integers(&integers).unwrap();
+    let (verdict, lines) = proved(&problem);
+    assert!(lines.contains("\"lattice\"") && !lines.contains("\"node\""));
+    assert!(gap(&verdict) <= 1e-8, "{} {}", gap(&verdict), verdict.nodes);
+}
+
 /// Machines are alike, which the search uses and a proof cannot tell: the solution is optimal all the same.
 #[test]
 fn what_only_the_search_proves_is_solved() {

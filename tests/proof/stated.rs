@@ -179,3 +179,29 @@ pub fn lots(goods: usize) -> Problem {
     }
     problem
 }
+
+/// Four integers and four reals on a cycle, with two equations: one gives a real, and one, of integers, has no coefficient
+/// of one, so that an integer is defined before it is solved. x8 is pinned, and x9 is a part of its own.
+pub fn lattice() -> Problem {
+    let mut problem = Problem::new(10).unwrap();
+    for j in 0..8 {
+        let next = (j + 1) % 8;
+        let (slope, weight) = (0.7 + 0.1 * j as f64, 1.0 + 0.3 * (j % 3) as f64);
+        problem
+            .add_least_squares(&[j, next], &[1.0, -slope], 0.4 + 0.7 * j as f64, weight)
+            .unwrap();
+    }
+    problem
+        .add_least_squares(&[0, 8], &[1.0, 0.5], 1.9, 0.4)
+        .unwrap();
+    problem.add_least_squares(&[9], &[2.0], 2.3, 0.7).unwrap();
+    problem
+        .add_constraint(&[0, 4, 5], &[1.0, 1.0, -1.0], 0.5)
+        .unwrap();
+    problem
+        .add_constraint(&[0, 1, 2], &[4.0, 6.0, -10.0], 2.0)
+        .unwrap();
+    problem.set_integers(&[0, 1, 2, 3, 9]).unwrap();
+    problem.pin(8, 1.5).unwrap();
+    problem
+}

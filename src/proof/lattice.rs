@@ -1,0 +1,326 @@
+//! A bound without a tree: what is left of the objective in integers is a lattice, whose closest point is found by
+//! enumeration.
+//!
+//! With the unknowns that equations give replaced, `D` a diagonal, R triangular and `y = W z` combinations of integers
+//! with integers, `E - 1/2 z'Dz - w |R W z|^2` is convex. So every point `x` gives for all points `z` within the rows
+//!
+//! ```text
+//! E(z) >= E(x) + E'(x)(z - x) + 1/2 (z - x)'D(z - x) + w |R W (z - x)|^2
+//! ```
+//!
+//! At the minimiser where integers are real, the second term is a rounding error, which the third one makes harmless. The
+//! last one is at least w times its least value over all integers y. Where R is the factor of the Schur complement of the
+//! integers, this is all that there is, but for the part of R's square that w leaves out for rounding errors.
+
+use super::convex::{self, GoesOn};
+use super::derivation::{Condensed, Distances};
+use super::enumeration::{Allowed, Ended, Form as Distance};
+use super::exact::Exact;
+use super::fault::{Checked, FaultKind, wrong};
+use super::format::{Certificate, Form, Lattice, Number, Terms};
+use super::minorant::{Minorant, PartObjective};
+use super::problem::{ExactProblem, ExactTerms, Limits, product};
+use super::substitution::Substitution;
+
+/// The parts of R's square that are left out, of which the first one that is enough is taken, as powers of two.
+const LEFT_OUT: [i32; 7] = [-40, -36, -32, -28, -24, -20, -14];
+
+/// The curvature, as a part of the diagonal and of what is left out, as a power of two.
+const CURVATURE: i32 = -24;
+
+/// How far the enumeration may go from the point, in turn.
+const REACHES: [f64; 4] = [8.0, 64.0, 4096.0, 1e6];
+
+/// The most nodes of an enumeration.
+const NODES: u64 = 1_000_000_000;
+
+/// Entries of a lower triangle.
+type Triangle = Vec<(usize, usize, Exact)>;
+
+/// A form in exact numbers.
+struct ExactForm {
+    /// `W'R'RW`.
+    gram: Triangle,
+    distance: Distance,
+}
+
+/// The bound that a lattice proves. Replaces unknowns in the objective.
+///
+/// # Errors
+/// [`FaultKind::Lattice`], [`FaultKind::NotConvex`], [`FaultKind::Certificate`], [`FaultKind::Bound`],
+/// [`FaultKind::Reference`], [`FaultKind::Parts`].
+pub(super) fn bound(
+    problem: &ExactProblem,
+    limits: &Limits,
+    part: &mut PartObjective,
+    (lattice, curvature): (&Lattice, &[f64]),
+) -> Checked<Exact> {
+    let solved = Substitution::of(problem, limits, part, &lattice.solved)?;
+    let constant = solved.apply(part);
+    part.set_curvature(curvature)?;
+    let point = exact(&lattice.point, part)?;
+    let mut forms = Vec::with_capacity(lattice.forms.len());
+    for form in &lattice.forms {
+        forms.push(ExactForm::of(
+            part,
+            &solved,
+            &form.combinations,
+            &form.rows,
+            &point,
+        )?);
+    }
+    let weights: Vec<f64> = lattice.forms.iter().map(|form| form.weight).collect();
+    if !is_convex(part, &forms, &weights, &|| true)? {
+        let text = "the objective is not shown to be as large as its lattice";
+        return wrong(FaultKind::NotConvex, text);
+    }
+    for (form, of) in lattice.forms.iter().zip(&forms) {
+        let allowed = Allowed {
+            limit: of.distance.limit_of(form.square),
+            reach: form.reach,
+            nodes: form.nodes,
+        };
+        let (ended, _) = of.distance.enumerate(allowed, &|| true);
+        if ended != Ended::Least(allowed.limit) {
+            let text = format!(
+                "integers may be nearer than the square root of {}",
+                form.square
+            );
+            return wrong(FaultKind::Bound, text);
+        }
+    }
+    Ok(&constant + &least(problem, limits, part, lattice)?)
+}
+
+/// The lattice that proves the most, its curvature and its bound. Replaces unknowns in the objective.
+///
+/// # Errors
+/// Those of [`bound`]; [`FaultKind::Bound`] if it was not to go on.
+pub(super) fn strongest(
+    problem: &ExactProblem,
+    limits: &Limits,
+    part: &mut PartObjective,
+    condensed: &Condensed,
+    goes_on: GoesOn,
+) -> Checked<(Lattice, Vec<f64>, Exact)> {
+    let solved = Substitution::of(problem, limits, part, &condensed.solved)?;
+    let constant = solved.apply(part);
+    let point = exact(&condensed.point, part)?;
+    let mut forms = Vec::with_capacity(condensed.forms.len());
+    let mut found = Vec::with_capacity(condensed.forms.len());
+    for given in &condensed.forms {
+        let form = ExactForm::of(part, &solved, &given.combinations, &given.rows, &point)?;
+        found.push(enumerated(&form.distance, given, goes_on)?);
+        forms.push(form);
+    }
+    let diagonal = diagonal(part);
+    for power in LEFT_OUT {
+        let weight = 0.5 * (1.0 - 2f64.powi(power));
+        let curvature: Vec<f64> = diagonal
+            .iter()
+            .map(|&d| power_below(d) * 2f64.powi(power + CURVATURE))
+            .collect();
+        part.set_curvature(&curvature)?;
+        if is_convex(part, &forms, &vec![weight; forms.len()], goes_on)? {
+            found.iter_mut().for_each(|form| form.weight = weight);
+            let lattice = Lattice {
+                solved: condensed.solved.clone(),
+                point: condensed.point.clone(),
+                forms: found,
+            };
+            let bound = &constant + &least(problem, limits, part, &lattice)?;
+            return Ok((lattice, curvature, bound));
+        }
+    }
+    let text = "the objective is not shown to be as large as its lattice";
+    wrong(FaultKind::NotConvex, text)
+}
+
+/// The largest power of two that is not above a number, or zero.
+fn power_below(x: f64) -> f64 {
+    match (1e-150..1e150).contains(&x) {
+        true => 2f64.powi(x.log2().floor() as i32),
+        false => 0.0,
+    }
+}
+
+/// The diagonal of the part's Hessian.
+fn diagonal(part: &PartObjective) -> Vec<f64> {
+    let mut all = vec![0.0; part.members.len()];
+    for block in convex::blocks(part) {
+        for (&k, d) in block.members.iter().zip(block.diagonal()) {
+            all[k] = d;
+        }
+    }
+    all
+}
+
+/// The form with the least value that an enumeration finds, or with all that it was to look for.
+fn enumerated(distance: &Distance, given: &Distances, goes_on: GoesOn) -> Checked<Form> {
+    for reach in REACHES {
+        let allowed = Allowed {
+            limit: given.square,
+            reach,
+            nodes: NODES,
+        };
+        match distance.enumerate(allowed, goes_on) {
+            (Ended::Least(limit), nodes) => {
+                return Ok(Form {
+                    combinations: given.combinations.clone(),
+                    rows: given.rows.clone(),
+                    weight: 0.0,
+                    square: distance.square_of(limit),
+                    reach,
+                    nodes,
+                });
+            }
+            (Ended::Beyond, _) => {}
+            (Ended::Stopped, _) => return wrong(FaultKind::Bound, "the enumeration was stopped"),
+        }
+    }
+    wrong(FaultKind::Bound, "integers are too far away")
+}
+
+/// One value for each unknown, exactly.
+fn exact(point: &[f64], part: &PartObjective) -> Checked<Vec<Exact>> {
+    let values: Option<Vec<Exact>> = point.iter().map(|&x| Exact::of(x)).collect();
+    match values {
+        Some(values) if values.len() == part.members.len() => Ok(values),
+        _ => wrong(
+            FaultKind::Certificate,
+            "a point needs a finite value for each unknown",
+        ),
+    }
+}
+
+impl ExactForm {
+    fn of(
+        part: &PartObjective,
+        solved: &Substitution,
+        combinations: &[Terms],
+        rows: &[Vec<f64>],
+        point: &[Exact],
+    ) -> Checked<Self> {
+        let mut t = Vec::with_capacity(combinations.len());
+        let mut w = Vec::with_capacity(combinations.len());
+        for terms in combinations {
+            let (terms, offset) = solved.replaced(&integer(part, terms)?);
+            t.push(&product(&terms, point) + &offset);
+            w.push(terms);
+        }
+        let Some(distance) = Distance::new(rows, &t) else {
+            return wrong(FaultKind::Lattice, "a form that is not triangular");
+        };
+        Ok(ExactForm {
+            gram: gram(rows, &w),
+            distance,
+        })
+    }
+}
+
+/// A combination of integers, by places in the part.
+fn integer(part: &PartObjective, terms: &Terms) -> Checked<ExactTerms> {
+    let mut all: ExactTerms = Vec::with_capacity(terms.len());
+    for &(unknown, a) in terms {
+        let place = part.place_of(unknown as usize);
+        let a = Exact::of(a).filter(Exact::is_integer);
+        match (place.filter(|&place| part.integer[place]), a) {
+            (Some(place), Some(a)) => all.push((place, a)),
+            _ => {
+                let text = format!("a combination with x{unknown} that is no integer of the part");
+                return wrong(FaultKind::Lattice, text);
+            }
+        }
+    }
+    Ok(all)
+}
+
+/// `W'R'RW`.
+fn gram(rows: &[Vec<f64>], w: &[ExactTerms]) -> Triangle {
+    let mut places: Vec<usize> = w.iter().flatten().map(|(place, _)| *place).collect();
+    places.sort_unstable();
+    places.dedup();
+    let n = places.len();
+    let mut sums = vec![Exact::zero(); n * n];
+    for (k, row) in rows.iter().enumerate() {
+        let mut own = vec![Exact::zero(); n];
+        for (a, terms) in row.iter().zip(&w[k..]) {
+            let Some(a) = Exact::of(*a).filter(|a| !a.is_zero()) else {
+                continue;
+            };
+            for (place, by) in terms {
+                if let Ok(at) = places.binary_search(place) {
+                    own[at] = &own[at] + &(&a * by);
+                }
+            }
+        }
+        for i in (0..n).filter(|&i| !own[i].is_zero()) {
+            for j in (0..=i).filter(|&j| !own[j].is_zero()) {
+                let sum = &mut sums[i * n + j];
+                *sum = &*sum + &(&own[i] * &own[j]);
+            }
+        }
+    }
+    let mut all = Vec::new();
+    for (i, &p) in places.iter().enumerate() {
+        for (j, &q) in places[..=i].iter().enumerate() {
+            let sum = std::mem::replace(&mut sums[i * n + j], Exact::zero());
+            if !sum.is_zero() {
+                all.push((p, q, sum));
+            }
+        }
+    }
+    all
+}
+
+/// Whether the objective minus its curvature and the forms with their weights is shown to be convex.
+fn is_convex(
+    part: &mut PartObjective,
+    forms: &[ExactForm],
+    weights: &[f64],
+    goes_on: GoesOn,
+) -> Checked<bool> {
+    let given = part.quadratic.len();
+    for (form, &weight) in forms.iter().zip(weights) {
+        let Some(weight) = Exact::of(weight).filter(|weight| weight.sign().is_ge()) else {
+            return wrong(FaultKind::Lattice, "a weight that is negative or no number");
+        };
+        let twice = -&weight.shifted(1);
+        let taken_off = form.gram.iter().map(|(i, j, v)| (*i, *j, &twice * v));
+        part.quadratic.extend(taken_off);
+    }
+    let blocks = convex::blocks(part);
+    part.quadratic.truncate(given);
+    Ok(blocks.iter().all(|block| {
+        let own = block.members.iter().map(|&k| part.curvature[k].clone());
+        block.has_curvature_in_order(&own.collect::<Vec<_>>(), goes_on)
+    }))
+}
+
+/// The least value of all but the constant that the substitution has left.
+fn least(
+    problem: &ExactProblem,
+    limits: &Limits,
+    part: &PartObjective,
+    lattice: &Lattice,
+) -> Checked<Exact> {
+    let certificate = Certificate {
+        point: lattice.point.iter().map(|&x| Number::Float(x)).collect(),
+        multipliers: Vec::new(),
+    };
+    let minorant = Minorant::of(problem, limits, part, &certificate)?;
+    let Ok(mut sum) = minorant.least(limits, part) else {
+        return wrong(FaultKind::Bound, "a bound that falls for ever");
+    };
+    for form in &lattice.forms {
+        let (weight, square) = (Exact::of(form.weight), Exact::of(form.square));
+        let Some((weight, square)) = weight.zip(square) else {
+            return wrong(
+                FaultKind::Lattice,
+                "a form with a number that is not finite",
+            );
+        };
+        sum = &sum + &(&weight * &square);
+    }
+    Ok(sum)
+}
