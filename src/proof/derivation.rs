@@ -55,6 +55,8 @@ pub(crate) struct Distances {
     pub combinations: Vec<Terms>,
     /// The rows of R, each from its diagonal on.
     pub rows: Vec<Vec<f64>>,
+    /// Diagonals below the leading blocks of `R'R`: of one unknown, of two, and so on. There may be none.
+    pub diagonals: Vec<Vec<f64>>,
     /// Integers with a value of `|R (y - t)|^2` below this are looked for.
     pub square: f64,
 }

@@ -174,6 +174,9 @@ pub(super) struct Form {
     pub combinations: Vec<Terms>,
     /// The rows of R, each from its diagonal on.
     pub rows: Vec<Vec<f64>>,
+    /// Diagonals below the leading blocks of `R'R`: of one unknown, of two, and so on. There may be none.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub diagonals: Vec<Vec<f64>>,
     pub weight: f64,
     /// No integers y have a value of `|R (y - t)|^2` below this.
     pub square: f64,

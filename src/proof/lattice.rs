@@ -12,7 +12,7 @@
 //! last one is at least w times its least value over all integers y. Where R is the factor of the Schur complement of the
 //! integers, this is all that there is, but for the part of R's square that w leaves out for rounding errors.
 
-use super::convex::{self, GoesOn};
+use super::convex::{self, Entries, GoesOn};
 use super::derivation::{Condensed, Distances};
 use super::enumeration::{Allowed, Ended, Form as Distance};
 use super::exact::Exact;
@@ -20,6 +20,7 @@ use super::fault::{Checked, FaultKind, wrong};
 use super::format::{Certificate, Form, Lattice, Number, Terms};
 use super::minorant::{Minorant, PartObjective};
 use super::problem::{ExactProblem, ExactTerms, Limits, product};
+use super::sparse_factor;
 use super::substitution::Substitution;
 
 /// The parts of R's square that are left out, of which the first one that is enough is taken, as powers of two.
@@ -27,6 +28,9 @@ const LEFT_OUT: [i32; 7] = [-40, -36, -32, -28, -24, -20, -14];
 
 /// The curvature, as a part of the diagonal and of what is left out, as a power of two.
 const CURVATURE: i32 = -24;
+
+/// The digits of the numbers of a diagonal that are left out, in bits.
+const DIGITS: u32 = 38;
 
 /// How far the enumeration may go from the point, in turn.
 const REACHES: [f64; 4] = [8.0, 64.0, 4096.0, 1e6];
@@ -61,13 +65,12 @@ pub(super) fn bound(
     let point = exact(&lattice.point, part)?;
     let mut forms = Vec::with_capacity(lattice.forms.len());
     for form in &lattice.forms {
-        forms.push(ExactForm::of(
-            part,
-            &solved,
-            &form.combinations,
-            &form.rows,
-            &point,
-        )?);
+        let given = (&form.combinations[..], &form.rows[..], &form.diagonals[..]);
+        forms.push(ExactForm::of(part, &solved, given, &point)?);
+        if !are_below(&form.rows, &form.diagonals) {
+            let text = "a diagonal that is not shown to be below its block";
+            return wrong(FaultKind::Lattice, text);
+        }
     }
     let weights: Vec<f64> = lattice.forms.iter().map(|form| form.weight).collect();
     if !is_convex(part, &forms, &weights, &|| true)? {
@@ -109,8 +112,14 @@ pub(super) fn strongest(
     let mut forms = Vec::with_capacity(condensed.forms.len());
     let mut found = Vec::with_capacity(condensed.forms.len());
     for given in &condensed.forms {
-        let form = ExactForm::of(part, &solved, &given.combinations, &given.rows, &point)?;
-        found.push(enumerated(&form.distance, given, goes_on)?);
+        let diagonals: Vec<Vec<f64>> = given.diagonals.iter().map(|d| shortened(d)).collect();
+        let diagonals = match goes_on() && are_below(&given.rows, &diagonals) {
+            true => diagonals,
+            false => Vec::new(),
+        };
+        let of = (&given.combinations[..], &given.rows[..], &diagonals[..]);
+        let form = ExactForm::of(part, &solved, of, &point)?;
+        found.push(enumerated(&form.distance, given, diagonals, goes_on)?);
         forms.push(form);
     }
     let diagonal = diagonal(part);
@@ -155,8 +164,48 @@ fn diagonal(part: &PartObjective) -> Vec<f64> {
     all
 }
 
+/// Numbers near those of a diagonal and below them, of few digits.
+fn shortened(diagonal: &[f64]) -> Vec<f64> {
+    let short = |d: &f64| f64::from_bits(d.max(0.0).to_bits() >> DIGITS << DIGITS);
+    diagonal.iter().map(short).collect()
+}
+
+/// Whether each diagonal is shown to be below the leading block of `R'R` of its size.
+fn are_below(rows: &[Vec<f64>], diagonals: &[Vec<f64>]) -> bool {
+    let mut gram = Entries::new();
+    for (k, diagonal) in (1..).zip(diagonals) {
+        // The row of the block's last unknown.
+        let last = k - 1;
+        for j in 0..k {
+            let entry = |i: usize, at: usize| Exact::of(*rows.get(i)?.get(at - i)?);
+            let sum = (0..=j).try_fold(Exact::zero(), |sum, i| {
+                Some(&sum + &(&entry(i, last)? * &entry(i, j)?))
+            });
+            let Some(sum) = sum else {
+                return false;
+            };
+            gram.insert((last, j), sum);
+        }
+        let mut left = gram.clone();
+        for (at, d) in diagonal.iter().enumerate().take(k) {
+            if let (Some(entry), Some(d)) = (left.get_mut(&(at, at)), Exact::of(*d)) {
+                *entry = &*entry - &d;
+            }
+        }
+        if !sparse_factor::has_factor(&left, k, &|| true) {
+            return false;
+        }
+    }
+    true
+}
+
 /// The form with the least value that an enumeration finds, or with all that it was to look for.
-fn enumerated(distance: &Distance, given: &Distances, goes_on: GoesOn) -> Checked<Form> {
+fn enumerated(
+    distance: &Distance,
+    given: &Distances,
+    diagonals: Vec<Vec<f64>>,
+    goes_on: GoesOn,
+) -> Checked<Form> {
     for reach in REACHES {
         let allowed = Allowed {
             limit: given.square,
@@ -168,6 +217,7 @@ fn enumerated(distance: &Distance, given: &Distances, goes_on: GoesOn) -> Checke
                 return Ok(Form {
                     combinations: given.combinations.clone(),
                     rows: given.rows.clone(),
+                    diagonals,
                     weight: 0.0,
                     square: distance.square_of(limit),
                     reach,
@@ -197,8 +247,7 @@ impl ExactForm {
     fn of(
         part: &PartObjective,
         solved: &Substitution,
-        combinations: &[Terms],
-        rows: &[Vec<f64>],
+        (combinations, rows, diagonals): (&[Terms], &[Vec<f64>], &[Vec<f64>]),
         point: &[Exact],
     ) -> Checked<Self> {
         let mut t = Vec::with_capacity(combinations.len());
@@ -208,7 +257,7 @@ impl ExactForm {
             t.push(&product(&terms, point) + &offset);
             w.push(terms);
         }
-        let Some(distance) = Distance::new(rows, &t) else {
+        let Some(distance) = Distance::new(rows, &t, diagonals) else {
             return wrong(FaultKind::Lattice, "a form that is not triangular");
         };
         Ok(ExactForm {

@@ -8,7 +8,7 @@ use super::around::around_relaxation;
 use super::eliminated::EliminatedProblem;
 use crate::eliminate::{Elimination, Equations, ReducedModel};
 use crate::error::Result;
-use crate::lattice::{Piece, pieces, radius_for};
+use crate::lattice::{Diagonals, Piece, pieces, radius_for};
 use crate::linalg::{SchurFactor, joined_sets, minimum_degree, principal_submatrix};
 use crate::monitor::{Monitor, may_continue, may_continue_at};
 use crate::problem::{Model, Problem};
@@ -18,8 +18,11 @@ use crate::search::{Factors, Options, Strategy};
 /// The most integers of a part. Their forms are made in exact numbers.
 const LARGEST: usize = 400;
 
+/// The most integers of a form with diagonals. They take `m^4` steps.
+const WIDEST: usize = 160;
+
 /// The nodes that are predicted for the enumeration of a form. Fewer integers are looked at where a proof needs more.
-const NODES: f64 = 1e8;
+const NODES: f64 = 3e7;
 
 /// Where a solution with rounding errors is looked for, relative to its squared distance.
 const BEYOND: f64 = 1.0 + 1e-6;
@@ -198,10 +201,23 @@ fn distances(piece: &mut Piece, numbers: &[u32], solution: &[f64]) -> Result<Dis
             }
         }
     }
+    let diagonals = match m <= WIDEST {
+        true => Diagonals::new(&piece.basis, &mut || may_continue().is_err()),
+        false => None,
+    };
+    may_continue()?;
     let row = |i: usize| (i..m).map(|j| piece.basis.r(i, j)).collect();
     Ok(Distances {
         combinations,
         rows: (0..m).map(row).collect(),
-        square: radius_for(&piece.basis, None, NODES, piece.value * BEYOND),
+        square: radius_for(
+            &piece.basis,
+            diagonals.as_ref(),
+            NODES,
+            piece.value * BEYOND,
+        ),
+        diagonals: diagonals.map_or_else(Vec::new, |all| {
+            (1..m).map(|k| all.level(k).to_vec()).collect()
+        }),
     })
 }

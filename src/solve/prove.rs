@@ -76,19 +76,26 @@ fn prove(problem: &Problem, options: &Options, mut monitor: Monitor) -> Result<P
         solve_unlimited(problem, &model, options, guess, &mut monitor)
     };
     may_have_proof(&outcome)?;
-    let of_lattice = match derivation.is_begun {
-        true => None,
-        false => by_lattice(problem, &model, options, &outcome, &mut monitor)?,
-    };
-    let weaker = match of_lattice {
-        Some(proof) if reaches(&proof, &outcome) || fits(&model).is_err() => {
-            let proof = Ok(proof);
+    let mut weaker = None;
+    if !derivation.is_begun {
+        let search_ended = monitor.stopped();
+        if search_ended.is_some() {
+            monitor.extend(limit);
+        }
+        let of_lattice = by_lattice(problem, &model, options, &outcome, &mut monitor)?;
+        let is_last = search_ended.is_some() || fits(&model).is_err();
+        match of_lattice {
+            Some(proof) if is_last || reaches(&proof, &outcome) => {
+                let proof = Ok(proof);
+                return Ok(Proved { outcome, proof });
+            }
+            other => weaker = other,
+        }
+        fits(&model)?;
+        if let Some(stopped) = search_ended.and_then(|stop| stopped_by(&stop.into())) {
+            let proof = Err(stopped);
             return Ok(Proved { outcome, proof });
         }
-        other => other,
-    };
-    if !derivation.is_begun {
-        fits(&model)?;
         let start = outcome.as_ref().ok().map(Solution::values);
         let record = Some(&mut derivation);
         // What is known to be optimal shall be proved so, whatever `auto` would spend on finding it.

@@ -21,7 +21,7 @@ fn times(number: &mut Value, by: f64) {
     *number = json!(by * number.as_f64().unwrap());
 }
 
-pub const LIES: [Lie; 26] = [
+pub const LIES: [Lie; 28] = [
     // Unknowns that are defined.
     (
         "an unknown is defined by one that is not there",
@@ -183,6 +183,23 @@ pub const LIES: [Lie; 26] = [
         FaultKind::Lattice,
         |l| {
             times(&mut form(l)["weight"], -1.0);
+        },
+    ),
+    (
+        "a diagonal that is not below its block",
+        Of::Lattice,
+        FaultKind::Lattice,
+        |l| {
+            times(&mut form(l)["diagonals"][1][0], 4.0);
+        },
+    ),
+    (
+        "a diagonal too many",
+        Of::Lattice,
+        FaultKind::Lattice,
+        |l| {
+            let diagonals = form(l)["diagonals"].as_array_mut().unwrap();
+            diagonals.push(json!([0.0]));
         },
     ),
     ("a point is nearer", Of::Lattice, FaultKind::Bound, |l| {
