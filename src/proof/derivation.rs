@@ -2,7 +2,7 @@
 //!
 //! Nothing here is believed: what is not so in exact numbers is left out of the proof, which then proves less.
 
-use super::format::{Cut, Step, Switch, Terms};
+use super::format::{Cut, Split, Step, Switch, Terms};
 
 /// A point and multipliers of rows, in floats.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -57,6 +57,9 @@ pub(crate) struct Distances {
     pub rows: Vec<Vec<f64>>,
     /// Diagonals below the leading blocks of `R'R`: of one unknown, of two, and so on. There may be none.
     pub diagonals: Vec<Vec<f64>>,
+    /// What shows a least value without an enumeration, with a number that is taken off. There may be none.
+    pub splits: Vec<Split>,
+    pub level: f64,
     /// Integers with a value of `|R (y - t)|^2` below this are looked for.
     pub square: f64,
 }

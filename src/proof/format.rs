@@ -178,11 +178,30 @@ pub(super) struct Form {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub diagonals: Vec<Vec<f64>>,
     pub weight: f64,
+    /// What shows the least value without an enumeration, with a number that is taken off.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub splits: Vec<Split>,
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub level: f64,
     /// No integers y have a value of `|R (y - t)|^2` below this.
     pub square: f64,
     /// Where the enumeration that shows it goes: no further from t than this in any coordinate, and to so many nodes.
     pub reach: f64,
     pub nodes: u64,
+}
+
+fn is_zero(x: &f64) -> bool {
+    *x == 0.0
+}
+
+/// `vector . y` is an integer, and so it is at most `at` or at least `at + 1`. `by` is its multiplier.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Split {
+    /// Coordinates, and the entries there.
+    pub vector: Vec<(u32, i32)>,
+    pub at: f64,
+    pub by: f64,
 }
 
 /// An unknown that is zero where a binary is, and what its part of the objective gains: `product (x - x z)` and

@@ -17,10 +17,11 @@ use super::derivation::{Condensed, Distances};
 use super::enumeration::{Allowed, Ended, Form as Distance};
 use super::exact::Exact;
 use super::fault::{Checked, FaultKind, wrong};
-use super::format::{Certificate, Form, Lattice, Number, Terms};
+use super::format::{Certificate, Form, Lattice, Number, Split, Terms};
 use super::minorant::{Minorant, PartObjective};
 use super::problem::{ExactProblem, ExactTerms, Limits, product};
 use super::sparse_factor;
+use super::splits;
 use super::substitution::Substitution;
 
 /// The parts of R's square that are left out, of which the first one that is enough is taken, as powers of two.
@@ -35,6 +36,9 @@ const DIGITS: u32 = 38;
 /// How far the enumeration may go from the point, in turn.
 const REACHES: [f64; 4] = [8.0, 64.0, 4096.0, 1e6];
 
+/// The parts of the multipliers of splits, of which the first one that is shown is taken.
+const SMALLER: [f64; 4] = [1.0, 1.0 - 1e-7, 1.0 - 1e-3, 0.9];
+
 /// The most nodes of an enumeration.
 const NODES: u64 = 1_000_000_000;
 
@@ -44,7 +48,9 @@ type Triangle = Vec<(usize, usize, Exact)>;
 /// A form in exact numbers.
 struct ExactForm {
     /// `W'R'RW`.
-    gram: Triangle,
+    condensed: Triangle,
+    /// The combinations of the point.
+    t: Vec<Exact>,
     distance: Distance,
 }
 
@@ -67,7 +73,7 @@ pub(super) fn bound(
     for form in &lattice.forms {
         let given = (&form.combinations[..], &form.rows[..], &form.diagonals[..]);
         forms.push(ExactForm::of(part, &solved, given, &point)?);
-        if !are_below(&form.rows, &form.diagonals) {
+        if !are_below(&form.rows, &form.diagonals, &|| true) {
             let text = "a diagonal that is not shown to be below its block";
             return wrong(FaultKind::Lattice, text);
         }
@@ -78,6 +84,14 @@ pub(super) fn bound(
         return wrong(FaultKind::NotConvex, text);
     }
     for (form, of) in lattice.forms.iter().zip(&forms) {
+        if !form.splits.is_empty() {
+            let shown = of.by_splits(&form.rows, (&form.splits, form.level))?;
+            if Exact::of(form.square).is_none_or(|square| square > shown) {
+                let text = format!("splits show {} alone", shown.below());
+                return wrong(FaultKind::Bound, text);
+            }
+            continue;
+        }
         let allowed = Allowed {
             limit: of.distance.limit_of(form.square),
             reach: form.reach,
@@ -113,13 +127,16 @@ pub(super) fn strongest(
     let mut found = Vec::with_capacity(condensed.forms.len());
     for given in &condensed.forms {
         let diagonals: Vec<Vec<f64>> = given.diagonals.iter().map(|d| shortened(d)).collect();
-        let diagonals = match goes_on() && are_below(&given.rows, &diagonals) {
+        let diagonals = match are_below(&given.rows, &diagonals, goes_on) {
             true => diagonals,
             false => Vec::new(),
         };
         let of = (&given.combinations[..], &given.rows[..], &diagonals[..]);
         let form = ExactForm::of(part, &solved, of, &point)?;
-        found.push(enumerated(&form.distance, given, diagonals, goes_on)?);
+        found.push(match form.split(given) {
+            Some(split) => split,
+            None => enumerated(&form.distance, given, diagonals, goes_on)?,
+        });
         forms.push(form);
     }
     let diagonal = diagonal(part);
@@ -170,33 +187,39 @@ fn shortened(diagonal: &[f64]) -> Vec<f64> {
     diagonal.iter().map(short).collect()
 }
 
-/// Whether each diagonal is shown to be below the leading block of `R'R` of its size.
-fn are_below(rows: &[Vec<f64>], diagonals: &[Vec<f64>]) -> bool {
+/// `R'R`. Nothing for rows that are too short.
+fn gram_of(rows: &[Vec<f64>]) -> Option<Entries> {
+    let entry = |i: usize, at: usize| Exact::of(*rows.get(i)?.get(at - i)?);
     let mut gram = Entries::new();
-    for (k, diagonal) in (1..).zip(diagonals) {
-        // The row of the block's last unknown.
-        let last = k - 1;
-        for j in 0..k {
-            let entry = |i: usize, at: usize| Exact::of(*rows.get(i)?.get(at - i)?);
-            let sum = (0..=j).try_fold(Exact::zero(), |sum, i| {
-                Some(&sum + &(&entry(i, last)? * &entry(i, j)?))
-            });
-            let Some(sum) = sum else {
-                return false;
-            };
-            gram.insert((last, j), sum);
+    for i in 0..rows.len() {
+        for j in 0..=i {
+            let sum = (0..=j).try_fold(Exact::zero(), |sum, k| {
+                Some(&sum + &(&entry(k, i)? * &entry(k, j)?))
+            })?;
+            gram.insert((i, j), sum);
         }
-        let mut left = gram.clone();
+    }
+    Some(gram)
+}
+
+/// Whether each diagonal is shown to be below the leading block of `R'R` of its size.
+fn are_below(rows: &[Vec<f64>], diagonals: &[Vec<f64>], goes_on: GoesOn) -> bool {
+    if diagonals.is_empty() {
+        return true;
+    }
+    let Some(gram) = gram_of(rows) else {
+        return false;
+    };
+    (1..).zip(diagonals).all(|(k, diagonal)| {
+        let block = gram.range(..(k, 0)).map(|(at, v)| (*at, v.clone()));
+        let mut left: Entries = block.collect();
         for (at, d) in diagonal.iter().enumerate().take(k) {
             if let (Some(entry), Some(d)) = (left.get_mut(&(at, at)), Exact::of(*d)) {
                 *entry = &*entry - &d;
             }
         }
-        if !sparse_factor::has_factor(&left, k, &|| true) {
-            return false;
-        }
-    }
-    true
+        sparse_factor::has_factor(&left, k, goes_on)
+    })
 }
 
 /// The form with the least value that an enumeration finds, or with all that it was to look for.
@@ -219,6 +242,8 @@ fn enumerated(
                     rows: given.rows.clone(),
                     diagonals,
                     weight: 0.0,
+                    splits: Vec::new(),
+                    level: 0.0,
                     square: distance.square_of(limit),
                     reach,
                     nodes,
@@ -261,8 +286,44 @@ impl ExactForm {
             return wrong(FaultKind::Lattice, "a form that is not triangular");
         };
         Ok(ExactForm {
-            gram: gram(rows, &w),
+            condensed: condensed(rows, &w),
+            t,
             distance,
+        })
+    }
+
+    /// The least value that splits show.
+    fn by_splits(&self, rows: &[Vec<f64>], given: (&[Split], f64)) -> Checked<Exact> {
+        match gram_of(rows) {
+            Some(gram) => splits::square(&gram, &self.t, given),
+            None => wrong(FaultKind::Lattice, "a form that is not triangular"),
+        }
+    }
+
+    /// The form with what its splits show, if there are some and they show anything.
+    fn split(&self, given: &Distances) -> Option<Form> {
+        if given.splits.is_empty() {
+            return None;
+        }
+        SMALLER.into_iter().find_map(|by| {
+            let smaller = given.splits.iter().map(|split| Split {
+                by: split.by * by,
+                ..split.clone()
+            });
+            let splits: Vec<Split> = smaller.collect();
+            let shown = self.by_splits(&given.rows, (&splits, given.level));
+            let square = shown.ok().filter(|square| square.sign().is_gt())?;
+            Some(Form {
+                combinations: given.combinations.clone(),
+                rows: given.rows.clone(),
+                diagonals: Vec::new(),
+                weight: 0.0,
+                splits,
+                level: given.level,
+                square: square.below(),
+                reach: 0.0,
+                nodes: 0,
+            })
         })
     }
 }
@@ -285,7 +346,7 @@ fn integer(part: &PartObjective, terms: &Terms) -> Checked<ExactTerms> {
 }
 
 /// `W'R'RW`.
-fn gram(rows: &[Vec<f64>], w: &[ExactTerms]) -> Triangle {
+fn condensed(rows: &[Vec<f64>], w: &[ExactTerms]) -> Triangle {
     let mut places: Vec<usize> = w.iter().flatten().map(|(place, _)| *place).collect();
     places.sort_unstable();
     places.dedup();
@@ -335,7 +396,7 @@ fn is_convex(
             return wrong(FaultKind::Lattice, "a weight that is negative or no number");
         };
         let twice = -&weight.shifted(1);
-        let taken_off = form.gram.iter().map(|(i, j, v)| (*i, *j, &twice * v));
+        let taken_off = form.condensed.iter().map(|(i, j, v)| (*i, *j, &twice * v));
         part.quadratic.extend(taken_off);
     }
     let blocks = convex::blocks(part);

@@ -16,7 +16,7 @@
 //! | `cut` | rows that follow in both cases of a split |
 //! | `switch` | the perspective reformulation of the objective |
 //! | `minorant`, `estimate`, `held`, `convex` | a bound from a point and multipliers; its estimate in floats; convexity |
-//! | `lattice`, `substitution`, `sparse_factor`, `enumeration` | a bound by the closest point of a lattice |
+//! | `lattice`, `substitution`, `sparse_factor`, `enumeration`, `splits` | a bound by the closest point of a lattice |
 //! | `tree`, `check`, `fault` | the checker |
 //! | `derivation`, `curvature`, `numbers`, `repair`, `seal` | the writer |
 
@@ -38,6 +38,7 @@ mod problem;
 mod repair;
 mod seal;
 mod sparse_factor;
+mod splits;
 mod statement;
 mod steps;
 mod substitution;
@@ -53,7 +54,7 @@ pub(crate) use derivation::{
     Condensed, Derivation, Distances, Ending, Multiplied, Searched, Visited,
 };
 pub use fault::{Fault, FaultKind};
-pub(crate) use format::{Case, Cut, Step, Switch};
+pub(crate) use format::{Case, Cut, Split, Step, Switch};
 use format::{Claim, Line, Part, Statement};
 
 /// A proof of a bound on the energy of all points, or that there is no point.

@@ -8,21 +8,24 @@ use super::around::around_relaxation;
 use super::eliminated::EliminatedProblem;
 use crate::eliminate::{Elimination, Equations, ReducedModel};
 use crate::error::Result;
-use crate::lattice::{Diagonals, Piece, pieces, radius_for};
+use crate::lattice::{Diagonals, Piece, Splits, pieces, radius_for};
 use crate::linalg::{SchurFactor, joined_sets, minimum_degree, principal_submatrix};
 use crate::monitor::{Monitor, may_continue, may_continue_at};
 use crate::problem::{Model, Problem};
-use crate::proof::{Condensed, Derivation, Distances, Searched};
+use crate::proof::{Condensed, Derivation, Distances, Searched, Split};
 use crate::search::{Factors, Options, Strategy};
 
 /// The most integers of a part. Their forms are made in exact numbers.
-const LARGEST: usize = 400;
+const LARGEST: usize = 512;
 
 /// The most integers of a form with diagonals. They take `m^4` steps.
 const WIDEST: usize = 160;
 
 /// The nodes that are predicted for the enumeration of a form. Fewer integers are looked at where a proof needs more.
 const NODES: f64 = 3e7;
+
+/// The most multiplications for the splits of a form.
+const WORK: u64 = 40_000_000_000;
 
 /// Where a solution with rounding errors is looked for, relative to its squared distance.
 const BEYOND: f64 = 1.0 + 1e-6;
@@ -207,17 +210,47 @@ fn distances(piece: &mut Piece, numbers: &[u32], solution: &[f64]) -> Result<Dis
     };
     may_continue()?;
     let row = |i: usize| (i..m).map(|j| piece.basis.r(i, j)).collect();
+    let whole = piece.value * BEYOND;
+    let square = radius_for(&piece.basis, diagonals.as_ref(), NODES, whole);
+    let (splits, level) = match square < whole {
+        true => splits(piece, square)?,
+        false => (Vec::new(), 0.0),
+    };
     Ok(Distances {
         combinations,
         rows: (0..m).map(row).collect(),
-        square: radius_for(
-            &piece.basis,
-            diagonals.as_ref(),
-            NODES,
-            piece.value * BEYOND,
-        ),
         diagonals: diagonals.map_or_else(Vec::new, |all| {
             (1..m).map(|k| all.level(k).to_vec()).collect()
         }),
+        splits,
+        level,
+        square,
     })
+}
+
+/// The splits that show more than an enumeration up to a squared distance, and the number that is taken off; none if
+/// there are no such.
+fn splits(piece: &Piece, square: f64) -> Result<(Vec<Split>, f64)> {
+    let mut spent = 0;
+    let mut stop = |work: u64| {
+        spent += work;
+        spent > WORK || may_continue().is_err()
+    };
+    let found = Splits::new(&piece.basis, &piece.target, piece.value, &mut stop);
+    may_continue()?;
+    let Some(found) = found.filter(|found| found.bound > square) else {
+        return Ok((Vec::new(), 0.0));
+    };
+    let all = found.splits.iter().map(|split| {
+        let whole = |&(k, entry): &(usize, i32)| f64::from(entry) * piece.target.whole[k] as f64;
+        let vector = split.vector.iter();
+        Split {
+            at: split.floor + vector.clone().map(whole).sum::<f64>(),
+            vector: vector.map(|&(k, entry)| (k as u32, entry)).collect(),
+            by: split.multiplier,
+        }
+    });
+    let all: Vec<Split> = all.collect();
+    let quarters: f64 = all.iter().map(|split| 0.25 * split.by).sum();
+    Ok((all, (quarters - found.constant).max(0.0)))
 }
