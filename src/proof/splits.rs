@@ -64,3 +64,86 @@ pub(super) fn square(
         ),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn exact(x: f64) -> Exact {
+        Exact::of(x).unwrap()
+    }
+
+    fn split(vector: &[(u32, i32)], at: f64, by: f64) -> Split {
+        Split {
+            vector: vector.to_vec(),
+            at,
+            by,
+        }
+    }
+
+    /// `3 y0^2 + 2 y0 y1 + 3 y1^2` around a point.
+    fn gram() -> Entries {
+        [((0, 0), 3.0), ((1, 0), 1.0), ((1, 1), 3.0)]
+            .map(|(at, v)| (at, exact(v)))
+            .into_iter()
+            .collect()
+    }
+
+    fn value(t: [f64; 2], y: [i32; 2]) -> f64 {
+        let [a, b] = [0, 1].map(|k| f64::from(y[k]) - t[k]);
+        3.0 * a * a + 2.0 * a * b + 3.0 * b * b
+    }
+
+    #[test]
+    fn what_splits_show_is_below_all_integers() {
+        let mut best: f64 = 0.0;
+        for (x, y) in [
+            (0.5, 0.5),
+            (0.5, -0.5),
+            (0.25, 7.75),
+            (-3.0, 2.5),
+            (0.125, 0.25),
+        ] {
+            let t = [exact(x), exact(y)];
+            let near = |of: f64| (of.floor() as i32 - 2)..(of.floor() as i32 + 4);
+            let all = near(x).flat_map(|a| near(y).map(move |b| value([x, y], [a, b])));
+            let least = all.fold(f64::INFINITY, f64::min);
+            for level in [0.0001, 0.25, 0.5, 1.0] {
+                for by in [[1.9, 1.9, 0.0], [1.0, 1.0, 0.9], [0.5, 1.5, 0.0]] {
+                    let splits = [
+                        split(&[(0, 1)], x.floor(), by[0]),
+                        split(&[(1, 1)], y.floor(), by[1]),
+                        split(&[(0, 1), (1, 1)], (x + y).floor(), by[2]),
+                    ];
+                    if let Ok(shown) = square(&gram(), &t, (&splits, level)) {
+                        assert!(shown <= exact(least), "{shown:?} {least}");
+                        best = best.max(shown.near() / least);
+                    }
+                }
+            }
+        }
+        assert!(best > 0.9, "{best}");
+    }
+
+    #[test]
+    fn lies_about_splits_are_refused() {
+        let t = [exact(0.5), exact(0.5)];
+        let all = |by: f64| [split(&[(0, 1)], 0.0, by), split(&[(1, 1)], 0.0, by)];
+        let of = |splits: &[Split], level: f64| square(&gram(), &t, (splits, level));
+        assert!(of(&all(1.9), 1e-3).is_ok());
+        // No split at t, more than the form, no such coordinate, no integer, negative numbers.
+        let lies = [
+            (all(1.9).map(|of| split(&of.vector, 3.0, of.by)), 1e-3),
+            (all(2.1), 1e-3),
+            (all(1.9).map(|of| split(&[(2, 1)], of.at, of.by)), 1e-3),
+            (all(1.9).map(|of| split(&of.vector, 0.25, of.by)), 1e-3),
+            (all(1.9).map(|of| split(&of.vector, of.at, f64::NAN)), 1e-3),
+            (all(-1.9), 1e-3),
+            (all(1.9), -1e-3),
+        ];
+        for (splits, level) in lies {
+            let refused = of(&splits, level).map_err(|(kind, _)| kind);
+            assert_eq!(refused.unwrap_err(), FaultKind::Lattice, "{splits:?}");
+        }
+    }
+}

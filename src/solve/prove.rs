@@ -21,6 +21,9 @@ const LARGEST: usize = 3000;
 /// The nodes of a search after other methods. It may never close a tree of integers without bounds.
 const NODES: usize = 200_000;
 
+/// The most integers for a tree where the closest point of a lattice falls short. With more, its bound is lower still.
+const OF_TREE: usize = 60;
+
 /// The part of the time limit that searches may take. What they leave is for the proof.
 const SEARCH: f64 = 0.5;
 
@@ -83,7 +86,10 @@ fn prove(problem: &Problem, options: &Options, mut monitor: Monitor) -> Result<P
             monitor.extend(limit);
         }
         let of_lattice = by_lattice(problem, &model, options, &outcome, &mut monitor)?;
-        let is_last = search_ended.is_some() || fits(&model).is_err();
+        let integers = |solution: &Solution| solution.counts().reduced_integers;
+        let is_last = search_ended.is_some()
+            || fits(&model).is_err()
+            || outcome.as_ref().map_or(0, integers) > OF_TREE;
         match of_lattice {
             Some(proof) if is_last || reaches(&proof, &outcome) => {
                 let proof = Ok(proof);

@@ -134,6 +134,41 @@ fn integers_of_many_reals_are_proved_by_their_closest_point() {
     assert!(gap(&verdict) <= 1e-8, "{} {}", gap(&verdict), verdict.nodes);
 }
 
+/// Integers on a grid, each to be near its neighbours and a wish: too many for an enumeration.
+#[test]
+fn many_integers_are_proved_by_splits() {
+    const SIDE: usize = 11;
+    let random = &mut Random::new(8);
+    let mut problem = Problem::new(SIDE * SIDE).unwrap();
+    let mut wish = || random.below(1000) as f64 / 1000.0;
+    for at in 0..SIDE * SIDE {
+        problem
+            .add_least_squares(&[at], &[1.0], 3.0 * wish(), 0.3)
+            .unwrap();
+        let right = (at % SIDE + 1 < SIDE).then_some(at + 1);
+        let below = (at + SIDE < SIDE * SIDE).then_some(at + SIDE);
+        for other in right.into_iter().chain(below) {
+            problem
+                .add_least_squares(&[at, other], &[1.0, -1.0], wish(), 1.0)
+                .unwrap();
+        }
+    }
+    let all: Vec<usize> = (0..SIDE * SIDE).collect();
+    problem.set_integers(&all).unwrap();
+    let relaxed = roundel::solve(
+        &problem,
+        &Options {
+            strategy: roundel::Strategy::Relax,
+            ..Options::default()
+        },
+    );
+    let (verdict, lines) = proved(&problem);
+    assert!(lines.contains("\"splits\""));
+    let whole = verdict.energy.unwrap() - relaxed.unwrap().energy();
+    let shown = gap(&verdict) * verdict.energy.unwrap();
+    assert!(shown <= 0.2 * whole, "{shown} of {whole}");
+}
+
 /// Machines are alike, which the search uses and a proof cannot tell: the solution is optimal all the same.
 #[test]
 fn what_only_the_search_proves_is_solved() {
