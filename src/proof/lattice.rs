@@ -1,5 +1,5 @@
-//! A bound without a tree: what is left of the objective in integers is a lattice, whose closest point is found by
-//! enumeration.
+//! A bound without a tree: what is left of the objective in integers is a lattice, whose closest point is bounded by
+//! enumeration or by splits.
 //!
 //! With the unknowns that equations give replaced, `D` a diagonal, R triangular and `y = W z` combinations of integers
 //! with integers, `E - 1/2 z'Dz - w |R W z|^2` is convex. So every point `x` gives for all points `z` within the rows
@@ -13,45 +13,26 @@
 //! integers, this is all that there is, but for the part of R's square that w leaves out for rounding errors.
 
 use super::convex::{self, Entries, GoesOn};
-use super::derivation::{Condensed, Distances};
 use super::enumeration::{Allowed, Ended, Form as Distance};
 use super::exact::Exact;
 use super::fault::{Checked, FaultKind, wrong};
-use super::format::{Certificate, Form, Lattice, Number, Split, Terms};
+use super::format::{Certificate, Lattice, Number, Split, Terms};
 use super::minorant::{Minorant, PartObjective};
 use super::problem::{ExactProblem, ExactTerms, Limits, product};
 use super::sparse_factor;
 use super::splits;
 use super::substitution::Substitution;
 
-/// The parts of R's square that are left out, of which the first one that is enough is taken, as powers of two.
-const LEFT_OUT: [i32; 7] = [-40, -36, -32, -28, -24, -20, -14];
-
-/// The curvature, as a part of the diagonal and of what is left out, as a power of two.
-const CURVATURE: i32 = -24;
-
-/// The digits of the numbers of a diagonal that are left out, in bits.
-const DIGITS: u32 = 38;
-
-/// How far the enumeration may go from the point, in turn.
-const REACHES: [f64; 4] = [8.0, 64.0, 4096.0, 1e6];
-
-/// The parts of the multipliers of splits, of which the first one that is shown is taken.
-const SMALLER: [f64; 4] = [1.0, 1.0 - 1e-7, 1.0 - 1e-3, 0.9];
-
-/// The most nodes of an enumeration.
-const NODES: u64 = 1_000_000_000;
-
 /// Entries of a lower triangle.
 type Triangle = Vec<(usize, usize, Exact)>;
 
 /// A form in exact numbers.
-struct ExactForm {
+pub(super) struct ExactForm {
     /// `W'R'RW`.
     condensed: Triangle,
     /// The combinations of the point.
     t: Vec<Exact>,
-    distance: Distance,
+    pub distance: Distance,
 }
 
 /// The bound that a lattice proves. Replaces unknowns in the objective.
@@ -109,84 +90,6 @@ pub(super) fn bound(
     Ok(&constant + &least(problem, limits, part, lattice)?)
 }
 
-/// The lattice that proves the most, its curvature and its bound. Replaces unknowns in the objective.
-///
-/// # Errors
-/// Those of [`bound`]; [`FaultKind::Bound`] if it was not to go on.
-pub(super) fn strongest(
-    problem: &ExactProblem,
-    limits: &Limits,
-    part: &mut PartObjective,
-    condensed: &Condensed,
-    goes_on: GoesOn,
-) -> Checked<(Lattice, Vec<f64>, Exact)> {
-    let solved = Substitution::of(problem, limits, part, &condensed.solved)?;
-    let constant = solved.apply(part);
-    let point = exact(&condensed.point, part)?;
-    let mut forms = Vec::with_capacity(condensed.forms.len());
-    let mut found = Vec::with_capacity(condensed.forms.len());
-    for given in &condensed.forms {
-        let diagonals: Vec<Vec<f64>> = given.diagonals.iter().map(|d| shortened(d)).collect();
-        let diagonals = match are_below(&given.rows, &diagonals, goes_on) {
-            true => diagonals,
-            false => Vec::new(),
-        };
-        let of = (&given.combinations[..], &given.rows[..], &diagonals[..]);
-        let form = ExactForm::of(part, &solved, of, &point)?;
-        found.push(match form.split(given) {
-            Some(split) => split,
-            None => enumerated(&form.distance, given, diagonals, goes_on)?,
-        });
-        forms.push(form);
-    }
-    let diagonal = diagonal(part);
-    for power in LEFT_OUT {
-        let weight = 0.5 * (1.0 - 2f64.powi(power));
-        let curvature: Vec<f64> = diagonal
-            .iter()
-            .map(|&d| power_below(d) * 2f64.powi(power + CURVATURE))
-            .collect();
-        part.set_curvature(&curvature)?;
-        if is_convex(part, &forms, &vec![weight; forms.len()], goes_on)? {
-            found.iter_mut().for_each(|form| form.weight = weight);
-            let lattice = Lattice {
-                solved: condensed.solved.clone(),
-                point: condensed.point.clone(),
-                forms: found,
-            };
-            let bound = &constant + &least(problem, limits, part, &lattice)?;
-            return Ok((lattice, curvature, bound));
-        }
-    }
-    let text = "the objective is not shown to be as large as its lattice";
-    wrong(FaultKind::NotConvex, text)
-}
-
-/// The largest power of two that is not above a number, or zero.
-fn power_below(x: f64) -> f64 {
-    match (1e-150..1e150).contains(&x) {
-        true => 2f64.powi(x.log2().floor() as i32),
-        false => 0.0,
-    }
-}
-
-/// The diagonal of the part's Hessian.
-fn diagonal(part: &PartObjective) -> Vec<f64> {
-    let mut all = vec![0.0; part.members.len()];
-    for block in convex::blocks(part) {
-        for (&k, d) in block.members.iter().zip(block.diagonal()) {
-            all[k] = d;
-        }
-    }
-    all
-}
-
-/// Numbers near those of a diagonal and below them, of few digits.
-fn shortened(diagonal: &[f64]) -> Vec<f64> {
-    let short = |d: &f64| f64::from_bits(d.max(0.0).to_bits() >> DIGITS << DIGITS);
-    diagonal.iter().map(short).collect()
-}
-
 /// `R'R`. Nothing for rows that are too short.
 fn gram_of(rows: &[Vec<f64>]) -> Option<Entries> {
     let entry = |i: usize, at: usize| Exact::of(*rows.get(i)?.get(at - i)?);
@@ -203,7 +106,7 @@ fn gram_of(rows: &[Vec<f64>]) -> Option<Entries> {
 }
 
 /// Whether each diagonal is shown to be below the leading block of `R'R` of its size.
-fn are_below(rows: &[Vec<f64>], diagonals: &[Vec<f64>], goes_on: GoesOn) -> bool {
+pub(super) fn are_below(rows: &[Vec<f64>], diagonals: &[Vec<f64>], goes_on: GoesOn) -> bool {
     if diagonals.is_empty() {
         return true;
     }
@@ -222,42 +125,11 @@ fn are_below(rows: &[Vec<f64>], diagonals: &[Vec<f64>], goes_on: GoesOn) -> bool
     })
 }
 
-/// The form with the least value that an enumeration finds, or with all that it was to look for.
-fn enumerated(
-    distance: &Distance,
-    given: &Distances,
-    diagonals: Vec<Vec<f64>>,
-    goes_on: GoesOn,
-) -> Checked<Form> {
-    for reach in REACHES {
-        let allowed = Allowed {
-            limit: given.square,
-            reach,
-            nodes: NODES,
-        };
-        match distance.enumerate(allowed, goes_on) {
-            (Ended::Least(limit), nodes) => {
-                return Ok(Form {
-                    combinations: given.combinations.clone(),
-                    rows: given.rows.clone(),
-                    diagonals,
-                    weight: 0.0,
-                    splits: Vec::new(),
-                    level: 0.0,
-                    square: distance.square_of(limit),
-                    reach,
-                    nodes,
-                });
-            }
-            (Ended::Beyond, _) => {}
-            (Ended::Stopped, _) => return wrong(FaultKind::Bound, "the enumeration was stopped"),
-        }
-    }
-    wrong(FaultKind::Bound, "integers are too far away")
-}
-
 /// One value for each unknown, exactly.
-fn exact(point: &[f64], part: &PartObjective) -> Checked<Vec<Exact>> {
+///
+/// # Errors
+/// [`FaultKind::Certificate`].
+pub(super) fn exact(point: &[f64], part: &PartObjective) -> Checked<Vec<Exact>> {
     let values: Option<Vec<Exact>> = point.iter().map(|&x| Exact::of(x)).collect();
     match values {
         Some(values) if values.len() == part.members.len() => Ok(values),
@@ -269,7 +141,11 @@ fn exact(point: &[f64], part: &PartObjective) -> Checked<Vec<Exact>> {
 }
 
 impl ExactForm {
-    fn of(
+    /// The form of combinations, rows and diagonals around a point.
+    ///
+    /// # Errors
+    /// [`FaultKind::Lattice`].
+    pub fn of(
         part: &PartObjective,
         solved: &Substitution,
         (combinations, rows, diagonals): (&[Terms], &[Vec<f64>], &[Vec<f64>]),
@@ -293,38 +169,14 @@ impl ExactForm {
     }
 
     /// The least value that splits show.
-    fn by_splits(&self, rows: &[Vec<f64>], given: (&[Split], f64)) -> Checked<Exact> {
+    ///
+    /// # Errors
+    /// [`FaultKind::Lattice`].
+    pub fn by_splits(&self, rows: &[Vec<f64>], given: (&[Split], f64)) -> Checked<Exact> {
         match gram_of(rows) {
             Some(gram) => splits::square(&gram, &self.t, given),
             None => wrong(FaultKind::Lattice, "a form that is not triangular"),
         }
-    }
-
-    /// The form with what its splits show, if there are some and they show anything.
-    fn split(&self, given: &Distances) -> Option<Form> {
-        if given.splits.is_empty() {
-            return None;
-        }
-        SMALLER.into_iter().find_map(|by| {
-            let smaller = given.splits.iter().map(|split| Split {
-                by: split.by * by,
-                ..split.clone()
-            });
-            let splits: Vec<Split> = smaller.collect();
-            let shown = self.by_splits(&given.rows, (&splits, given.level));
-            let square = shown.ok().filter(|square| square.sign().is_gt())?;
-            Some(Form {
-                combinations: given.combinations.clone(),
-                rows: given.rows.clone(),
-                diagonals: Vec::new(),
-                weight: 0.0,
-                splits,
-                level: given.level,
-                square: square.below(),
-                reach: 0.0,
-                nodes: 0,
-            })
-        })
     }
 }
 
@@ -384,7 +236,10 @@ fn condensed(rows: &[Vec<f64>], w: &[ExactTerms]) -> Triangle {
 }
 
 /// Whether the objective minus its curvature and the forms with their weights is shown to be convex.
-fn is_convex(
+///
+/// # Errors
+/// [`FaultKind::Lattice`].
+pub(super) fn is_convex(
     part: &mut PartObjective,
     forms: &[ExactForm],
     weights: &[f64],
@@ -408,7 +263,10 @@ fn is_convex(
 }
 
 /// The least value of all but the constant that the substitution has left.
-fn least(
+///
+/// # Errors
+/// [`FaultKind::Lattice`], [`FaultKind::Bound`], [`FaultKind::Certificate`].
+pub(super) fn least(
     problem: &ExactProblem,
     limits: &Limits,
     part: &PartObjective,

@@ -18,9 +18,10 @@
 //! | `minorant`, `estimate`, `held`, `convex` | a bound from a point and multipliers; its estimate in floats; convexity |
 //! | `lattice`, `substitution`, `sparse_factor`, `enumeration`, `splits` | a bound by the closest point of a lattice |
 //! | `tree`, `check`, `fault` | the checker |
-//! | `derivation`, `curvature`, `numbers`, `repair`, `seal` | the writer |
+//! | `derivation`, `condensed`, `curvature`, `numbers`, `repair`, `seal` | the writer |
 
 mod check;
+mod condensed;
 mod convex;
 mod curvature;
 mod cut;

@@ -4,6 +4,7 @@
 //! not empty in exact numbers keeps the bound of the node above.
 
 use super::check::{check_point, has_empty_row};
+use super::condensed;
 use super::curvature;
 use super::derivation::{Derivation, Ending, Multiplied, Searched};
 use super::estimate::Floats;
@@ -14,7 +15,6 @@ use super::format::{
     VERSION,
 };
 use super::held::Held;
-use super::lattice;
 use super::minorant::{Minorant, Open, PartObjective, Split};
 use super::numbers::Numbers;
 use super::problem::{ExactProblem, Limits, Side};
@@ -145,8 +145,8 @@ fn seal_part(
     let mut switches = searched.switches.clone();
     switches.retain(|added| switch::add(problem, limits, objective, added).is_ok());
     let goes_on = || ask().is_ok();
-    if let Some(condensed) = &searched.condensed {
-        let found = lattice::strongest(problem, limits, objective, condensed, &goes_on);
+    if let Some(given) = &searched.condensed {
+        let found = condensed::strongest(problem, limits, objective, given, &goes_on);
         ask()?;
         let (lattice, curvature, bound) = found.map_err(unproved)?;
         let part = Part {

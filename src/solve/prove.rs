@@ -85,12 +85,12 @@ fn prove(problem: &Problem, options: &Options, mut monitor: Monitor) -> Result<P
         if search_ended.is_some() {
             monitor.extend(limit);
         }
-        let of_lattice = by_lattice(problem, &model, options, &outcome, &mut monitor)?;
         let integers = |solution: &Solution| solution.counts().reduced_integers;
         let is_last = search_ended.is_some()
             || fits(&model).is_err()
             || outcome.as_ref().map_or(0, integers) > OF_TREE;
-        match of_lattice {
+        let limit = is_last.then_some(limit);
+        match by_lattice(problem, &model, options, &outcome, limit, &mut monitor)? {
             Some(proof) if is_last || reaches(&proof, &outcome) => {
                 let proof = Ok(proof);
                 return Ok(Proved { outcome, proof });
@@ -147,12 +147,13 @@ fn prove(problem: &Problem, options: &Options, mut monitor: Monitor) -> Result<P
 }
 
 /// The proof by the closest point of a lattice, of a problem that has a solution. None if there is no such proof, or
-/// whatever told the solve to end came first.
+/// whatever told the solve to end came first. If no tree may follow, it may take the time up to this limit.
 fn by_lattice(
     problem: &Problem,
     model: &Model,
     options: &Options,
     outcome: &Result<Solution>,
+    last: Option<f64>,
     monitor: &mut Monitor,
 ) -> Result<Option<Proof>> {
     let Ok(solution) = outcome else {
@@ -162,10 +163,16 @@ fn by_lattice(
         let Some(derived) = derived else {
             return Ok(None);
         };
+        if let Some(limit) = last {
+            monitor.extend(limit);
+        }
         let _watch = monitor.watch();
         let ask = || Ok(may_continue()?);
         Proof::new(problem, &derived, Some(solution.values()), &ask).map(Some)
     });
+    if made.is_err() {
+        monitor.extend(options.time_limit);
+    }
     match made {
         Err(error @ Error::OutOfMemory { .. }) => Err(error),
         made => Ok(made.unwrap_or_default()),
