@@ -27,7 +27,7 @@ const REACHES: [f64; 4] = [8.0, 64.0, 4096.0, 1e6];
 const SMALLER: [f64; 4] = [1.0, 1.0 - 1e-7, 1.0 - 1e-3, 0.9];
 
 /// The most nodes of an enumeration.
-const NODES: u64 = 1_000_000_000;
+const NODES: u64 = 2_000_000_000;
 
 /// The lattice that proves the most, its curvature and its bound. Replaces unknowns in the objective.
 ///

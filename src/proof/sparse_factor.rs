@@ -62,19 +62,27 @@ impl Twofold {
     }
 }
 
-/// A column of the factor below its diagonal: rows, increasing, and values.
-type Column = (Vec<u32>, Vec<f64>);
+/// Entries of a column of the matrix, scaled, by row.
+type Given = Vec<(usize, Twofold)>;
 
-/// The factor by columns, each of which waits at its next row.
+const NONE: usize = usize::MAX;
+
+/// The factor so far, by columns, each of which waits at its next row.
 struct Factor {
-    columns: Vec<Column>,
+    /// Below the diagonal: rows, increasing, and values.
+    columns: Vec<(Vec<u32>, Vec<f64>)>,
     next: Vec<usize>,
     /// The first column that waits at each row, and the next one there after each column.
     first_at: Vec<usize>,
     after: Vec<usize>,
+    /// By row: what is left of its entry in the current column, and the last column that has one.
+    left: Vec<Twofold>,
+    met: Vec<usize>,
+    /// By row: how many entries it has so far, the sum of their squares, and that of the rest's absolute values.
+    counts: Vec<u32>,
+    squares: Vec<f64>,
+    rests: Vec<f64>,
 }
-
-const NONE: usize = usize::MAX;
 
 impl Factor {
     fn new(n: usize) -> Self {
@@ -83,6 +91,11 @@ impl Factor {
             next: vec![0; n],
             first_at: vec![NONE; n],
             after: vec![NONE; n],
+            left: vec![Twofold::ZERO; n],
+            met: vec![NONE; n],
+            counts: vec![0; n],
+            squares: vec![0.0; n],
+            rests: vec![0.0; n],
         }
     }
 
@@ -94,17 +107,104 @@ impl Factor {
             self.first_at[row] = k;
         }
     }
+
+    /// Column j of the matrix minus the products of the columns before it. Returns its rows, increasing.
+    fn gather(&mut self, j: usize, given: &Given) -> Vec<u32> {
+        let mut rows = vec![j as u32];
+        (self.met[j], self.left[j]) = (j, Twofold::ZERO);
+        for &(i, v) in given {
+            if self.met[i] != j {
+                self.met[i] = j;
+                rows.push(i as u32);
+            }
+            self.left[i] = v;
+        }
+        let mut k = std::mem::replace(&mut self.first_at[j], NONE);
+        while k != NONE {
+            let (at, values) = &self.columns[k];
+            let from = self.next[k];
+            for (&row, &l) in at[from..].iter().zip(&values[from..]) {
+                let i = row as usize;
+                if self.met[i] != j {
+                    (self.met[i], self.left[i]) = (j, Twofold::ZERO);
+                    rows.push(row);
+                }
+                self.left[i].subtract_product(values[from], l);
+            }
+            let waiting = self.after[k];
+            self.next[k] += 1;
+            self.wait(k);
+            k = waiting;
+        }
+        rows.sort_unstable();
+        rows
+    }
+
+    /// What sums in twice the working precision may be off by, in row i of column j (`ogita2005`, proposition 5.5, with
+    /// the sum of the terms' sizes by Cauchy's inequality).
+    fn off(&self, i: usize, j: usize, given: &Given) -> f64 {
+        let at = given.binary_search_by_key(&i, |&(row, _)| row);
+        let entry = at.map_or(0.0, |at| given[at].1.high.abs());
+        let count = f64::from(self.counts[j]) + 4.0;
+        let size = entry + (self.squares[i] * self.squares[j]).sqrt() * (1.0 + 1e-9) + 1.0;
+        16.0 * count * count * UNIT * UNIT * size + TINY
+    }
+
+    /// The next column from what is left of that of the matrix. Nothing if what its rounding leaves is more than the
+    /// diagonal can bear.
+    fn close(&mut self, j: usize, rows: &[u32], given: &Given) -> Option<()> {
+        let diagonal = self.left[j].value();
+        let (mut sizes, mut off) = (0.0, self.off(j, j, given));
+        for &row in &rows[1..] {
+            sizes += self.left[row as usize].value().abs();
+            off += self.off(row as usize, j, given);
+        }
+        // Half as much again as the rest of the row so far, and what this column will be rounded by.
+        let rounded = self.rests[j] + 2.0 * UNIT * sizes + 2.0 * off;
+        let taken_off = 1.5 * rounded + 4.0 * UNIT * diagonal.abs();
+        // Comparisons with what is no number are false.
+        let has_pivot = diagonal > 4.0 * taken_off;
+        has_pivot.then_some(())?;
+        let pivot = (diagonal - taken_off).sqrt();
+        let mut values = Vec::with_capacity(rows.len() - 1);
+        for &row in &rows[1..] {
+            let i = row as usize;
+            let l = self.left[i].value() / pivot;
+            self.left[i].subtract_product(l, pivot);
+            let rest = self.left[i].value().abs() * (1.0 + 1e-9) + self.off(i, j, given);
+            self.rests[i] += rest;
+            self.rests[j] += rest;
+            self.squares[i] += l * l;
+            self.counts[i] += 1;
+            values.push(l);
+        }
+        self.left[j].subtract_product(pivot, pivot);
+        let rest = self.left[j].value() * (1.0 - 1e-9) - self.off(j, j, given);
+        // Sums of positive floats are off by less than this part.
+        let dominates = rest >= self.rests[j] * (1.0 + 1e-6);
+        dominates.then_some(())?;
+        self.columns.push((rows[1..].to_vec(), values));
+        self.wait(j);
+        Some(())
+    }
 }
 
 /// Whether the matrix with these entries of its lower triangle is shown to be positive semi-definite. The factor is
-/// computed in the order of the unknowns.
+/// computed in the order of the unknowns, as long as it may go on.
 pub(super) fn has_factor(entries: &Entries, n: usize, goes_on: GoesOn) -> bool {
-    factored(entries, n, goes_on).is_some()
+    let Some(given) = scaled(entries, n) else {
+        return false;
+    };
+    let mut factor = Factor::new(n);
+    given.iter().enumerate().all(|(j, given)| {
+        let rows = factor.gather(j, given);
+        goes_on() && factor.close(j, &rows, given).is_some()
+    })
 }
 
-/// Nothing if there is no factor with a rest that is small enough, or it was not to go on.
-fn factored(entries: &Entries, n: usize, goes_on: GoesOn) -> Option<()> {
-    // Powers of two bring the diagonal near one, and change nothing else.
+/// The columns of the matrix, scaled by powers of two, which bring the diagonal near one and change nothing else. Nothing
+/// for a diagonal that is not positive, and for numbers of sizes for which the errors here are not bounded.
+fn scaled(entries: &Entries, n: usize) -> Option<Vec<Given>> {
     let mut scale = vec![0.0; n];
     for (k, scale) in scale.iter_mut().enumerate() {
         let entry = entries.get(&(k, k))?.near();
@@ -113,108 +213,15 @@ fn factored(entries: &Entries, n: usize, goes_on: GoesOn) -> Option<()> {
         }
         *scale = 2f64.powi(-(entry.log2() / 2.0).round() as i32);
     }
-    let mut given: Vec<Vec<(usize, Twofold)>> = vec![Vec::new(); n];
+    let mut columns: Vec<Given> = vec![Vec::new(); n];
     for (&(i, j), v) in entries {
         let v = Twofold::of(v).scaled(scale[i]).scaled(scale[j]);
-        // An entry that is not a sum of two floats with a small second one has no place here.
         if v.high != 0.0 && v.high.abs() < TINY {
             return None;
         }
-        given[j].push((i, v));
+        columns[j].push((i, v));
     }
-    let mut factor = Factor::new(n);
-    let mut sums = vec![Twofold::ZERO; n];
-    let mut is_met = vec![NONE; n];
-    // By row: the sum of the squares so far, how many they are, and the sum of the rest's absolute values.
-    let mut squares = vec![0.0; n];
-    let mut counts = vec![0u32; n];
-    let mut rests = vec![0.0; n];
-    for j in 0..n {
-        goes_on().then_some(())?;
-        let mut rows: Vec<u32> = Vec::new();
-        let mut meet = |i: usize, is_met: &mut [usize], sums: &mut [Twofold]| {
-            if is_met[i] != j {
-                (is_met[i], sums[i]) = (j, Twofold::ZERO);
-                rows.push(i as u32);
-            }
-        };
-        meet(j, &mut is_met, &mut sums);
-        for &(i, v) in &given[j] {
-            meet(i, &mut is_met, &mut sums);
-            sums[i] = v;
-        }
-        let mut size_of_entries = std::mem::take(&mut given[j]);
-        let mut k = std::mem::replace(&mut factor.first_at[j], NONE);
-        while k != NONE {
-            let waiting = factor.after[k];
-            let (at, values) = (&factor.columns[k].0, &factor.columns[k].1);
-            let from = factor.next[k];
-            let own = values[from];
-            for (&i, &l) in at[from..].iter().zip(&values[from..]) {
-                meet(i as usize, &mut is_met, &mut sums);
-                sums[i as usize].subtract_product(own, l);
-            }
-            factor.next[k] += 1;
-            factor.wait(k);
-            k = waiting;
-        }
-        rows.sort_unstable();
-        // The part of the entry's size that sums in twice the precision may be off by.
-        let count = f64::from(counts[j]) + 4.0;
-        let off = 16.0 * count * count * UNIT * UNIT;
-        let near = |i: usize, squares: &[f64], entry: f64| {
-            off * (entry.abs() + (squares[i] * squares[j]).sqrt() * (1.0 + 1e-9) + 1.0) + TINY
-        };
-        size_of_entries.sort_unstable_by_key(|&(i, _)| i);
-        let entry = |i: usize| {
-            let at = size_of_entries.binary_search_by_key(&i, |&(i, _)| i);
-            at.map_or(0.0, |at| size_of_entries[at].1.high)
-        };
-        let below: f64 = rows[1..]
-            .iter()
-            .map(|&i| sums[i as usize].value().abs())
-            .sum();
-        let errors: f64 = rows
-            .iter()
-            .map(|&i| near(i as usize, &squares, entry(i as usize)))
-            .sum();
-        // Half as much again as the rest of the row so far and what this column will be rounded by.
-        let diagonal = sums[j].value();
-        let rounded = rests[j] + 2.0 * UNIT * below + 2.0 * errors;
-        let taken_off = 1.5 * rounded + 4.0 * UNIT * diagonal.abs();
-        if diagonal.is_nan() || diagonal <= 4.0 * taken_off {
-            return None;
-        }
-        let pivot = (diagonal - taken_off).sqrt();
-        let mut column = (
-            Vec::with_capacity(rows.len() - 1),
-            Vec::with_capacity(rows.len() - 1),
-        );
-        for &row in &rows[1..] {
-            let i = row as usize;
-            let l = sums[i].value() / pivot;
-            let mut rest = sums[i];
-            rest.subtract_product(l, pivot);
-            let rest = rest.value().abs() * (1.0 + 1e-9) + near(i, &squares, entry(i));
-            rests[i] += rest;
-            rests[j] += rest;
-            squares[i] += l * l;
-            counts[i] += 1;
-            column.0.push(row);
-            column.1.push(l);
-        }
-        let mut rest = sums[j];
-        rest.subtract_product(pivot, pivot);
-        let left = rest.value() * (1.0 - 1e-9) - near(j, &squares, entry(j));
-        // Sums of positive floats are off by less than this part.
-        if left.is_nan() || left < rests[j] * (1.0 + 1e-6) {
-            return None;
-        }
-        squares[j] += pivot * pivot;
-        factor.columns.push(column);
-        factor.wait(j);
-    }
-    Some(())
+    Some(columns)
 }
 
 #[cfg(test)]
@@ -305,6 +312,17 @@ mod tests {
                 *entry = &*entry - &Exact::of(2f64.powi(-40)).unwrap();
             }
             assert!(!has_factor(&entries, n, &|| true));
+        }
+    }
+
+    #[test]
+    fn numbers_that_overflow_show_nothing() {
+        for far in [1e90, 1e150, 1e200, 1e308] {
+            for n in [2, 3] {
+                let row = |i: usize| (0..n).map(move |j| if i == j { 1.0 } else { far });
+                let rows: Vec<Vec<f64>> = (0..n).map(|i| row(i).collect()).collect();
+                assert!(!shows(&rows), "{far} {n}");
+            }
         }
     }
 

@@ -22,7 +22,7 @@ const LARGEST: usize = 512;
 const WIDEST: usize = 160;
 
 /// The nodes that are predicted for the enumeration of a form. Fewer integers are looked at where a proof needs more.
-const NODES: f64 = 3e7;
+const NODES: f64 = 2e8;
 
 /// The most multiplications for the splits of a form.
 const WORK: u64 = 40_000_000_000;
