@@ -1,7 +1,7 @@
 //! Proofs of problems that are too large for brute force reach the optimum, in the few nodes that their kind allows.
 
-use roundel::proof::{Verdict, check_of};
-use roundel::{Options, Problem, SolveStatus};
+use roundel::proof::{FaultKind, Verdict, check, check_of};
+use roundel::{Monitor, Options, Problem, SolveStatus, solve_with_proof};
 
 use crate::random::Random;
 use crate::{made, prove, text};
@@ -162,8 +162,25 @@ fn many_integers_are_proved_by_splits() {
             ..Options::default()
         },
     );
-    let (verdict, lines) = proved(&problem);
+    let found = solve_with_proof(&problem, &Options::default(), Monitor::default()).unwrap();
+    let lines = String::from_utf8(text(made(&found))).unwrap();
+    let verdict = check_of(&problem, lines.as_bytes()).unwrap();
     assert!(lines.contains("\"splits\""));
+    // Splits that are left out, and more than they show.
+    let lies = [
+        (
+            r#""splits":["#,
+            r#""splits":[],"left":["#,
+            FaultKind::Format,
+        ),
+        (r#""square":"#, r#""square":9"#, FaultKind::Bound),
+        (r#""level":"#, r#""level":-"#, FaultKind::Lattice),
+    ];
+    for (word, lie, kind) in lies {
+        assert!(lines.contains(word), "{word}");
+        let fault = check(lines.replacen(word, lie, 1).as_bytes()).unwrap_err();
+        assert_eq!(fault.kind, kind, "{fault}");
+    }
     let whole = verdict.energy.unwrap() - relaxed.unwrap().energy();
     let shown = gap(&verdict) * verdict.energy.unwrap();
     assert!(shown <= 0.2 * whole, "{shown} of {whole}");
