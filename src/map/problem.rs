@@ -22,7 +22,7 @@ use super::isolines::{Isoline, isolines};
 use super::seams::{Seam, seams};
 use super::sectors::Sectors;
 use super::sizing::Density;
-use super::{Combing, CutGraph, Sizing};
+use super::{Combing, CutGraph, SeamlessMap, Sizing, gradient};
 use crate::error::{Error, Result};
 use crate::field::OrientationField;
 use crate::mesh::features::FeatureGraph;
@@ -71,6 +71,8 @@ pub struct SeamlessProblem {
     /// By what factor lengths are larger than that along the arm that the field stores, and smaller across, in every
     /// face; empty where they are neither.
     elongations: Vec<f64>,
+    /// The gradients of another map, which this one should have in place of the target gradients; empty without it.
+    guides: Vec<[[f64; 3]; 2]>,
 }
 
 impl SeamlessProblem {
@@ -143,6 +145,7 @@ impl SeamlessProblem {
             isolines,
             density,
             elongations: Vec::new(),
+            guides: Vec::new(),
         };
         this.state(mesh)?;
         Ok(this)
@@ -258,6 +261,29 @@ impl SeamlessProblem {
         self.with_density(mesh, self.density.graded(factors), solver)
     }
 
+    /// As [`refined`](Self::refined), with the gradients of a finer map in place of the target gradients. They are
+    /// made smaller by as much as lengths of `finer`, the problem of that map, are larger.
+    pub(crate) fn guided(
+        &self,
+        mesh: &TriangleMesh,
+        factor: f64,
+        (finer, map): (&Self, &SeamlessMap),
+        solver: &mut Solver,
+    ) -> Result<Self> {
+        let mut this = self.clone();
+        this.density = self.density.scaled(factor);
+        let guide = |face: usize| {
+            let lengths = [&this, finer].map(|of| norm(of.targets(mesh, face)[0]));
+            let uv = map.uv(face);
+            let smaller = |axis: usize| uv.map(|corner| lengths[0] / lengths[1] * corner[axis]);
+            [0, 1].map(|axis| gradient(mesh, face, smaller(axis)))
+        };
+        this.guides = (0..mesh.face_count()).map(guide).collect();
+        let energy = this.dirichlet(mesh)?;
+        this.tell(&energy, solver)?;
+        Ok(this)
+    }
+
     fn with_density(
         &self,
         mesh: &TriangleMesh,
@@ -298,6 +324,14 @@ impl SeamlessProblem {
         [0, 1].map(|axis| arms[axis].map(|x| density[axis] * x))
     }
 
+    /// The gradients that the coordinates of a face should have: those of another map, if there is one.
+    pub(crate) fn wanted(&self, mesh: &TriangleMesh, face: usize) -> [[f64; 3]; 2] {
+        match self.guides.get(face) {
+            Some(&guide) => guide,
+            None => self.targets(mesh, face),
+        }
+    }
+
     /// The combed arms of a face, of length 1 but where quads are stretched: there in inverse proportion to lengths.
     pub(crate) fn proportions(&self, mesh: &TriangleMesh, face: usize) -> [[f64; 3]; 2] {
         let [first, second] = self.combing.arms(mesh, &self.field, face);
@@ -324,8 +358,8 @@ impl SeamlessProblem {
 
     fn dirichlet(&self, mesh: &TriangleMesh) -> Result<Dirichlet> {
         let unknowns = self.translation(self.seams.len());
-        let targets = |face| self.targets(mesh, face);
-        Dirichlet::new(mesh, &self.sectors, &self.cut, unknowns, targets)
+        let wanted = |face| self.wanted(mesh, face);
+        Dirichlet::new(mesh, &self.sectors, &self.cut, unknowns, wanted)
     }
 
     fn add_energy(&mut self, mesh: &TriangleMesh) -> Result<()> {

@@ -205,7 +205,7 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> FieldMap<'a, M> {
     /// mesh; `None` if no constraints separate them.
     pub(super) fn cones_apart(&mut self, passes: usize) -> Result<Option<(Solution, Untangled)>> {
         let rounds = self.effort.rounds;
-        let separated = self.maps.separate_cones(&self.at_hand, NEAR, rounds)?;
+        let separated = (self.maps).separate_cones(&self.at_hand, NEAR, false, rounds)?;
         let Some(Solved { solution, map }) = separated.better else {
             return Ok(None);
         };

@@ -7,6 +7,8 @@
 //! mending     integers around the faults of the first map are changed, one difference at a time
 //! next try    separation of elements farther apart; a finer map; one that is finer only around the faults of
 //!             the last
+//! way back    a map of the size asked for with the gradients of a finer one: the finer one tells in which order
+//!             elements lie, where the relaxation has folds
 //! ```
 //!
 //! [`MapSolver`] keeps what later tries use again, and [`Driver::next`] decides what is tried next. Among
@@ -34,7 +36,7 @@ const REFINEMENTS_TO_UNWIND: usize = 2;
 const FIRST: f64 = 0.5;
 
 /// The number of times that a map with folds is made finer around them alone.
-const GRADINGS: usize = 4;
+const GRADINGS: usize = 6;
 
 /// The most faults of a map whose integers are changed around them: where there are more, the quads are too large.
 const MENDED: usize = 20;
@@ -69,6 +71,12 @@ pub struct FoldFreeMap {
 }
 
 impl FoldFreeMap {
+    /// Less is better: fewer faults, then fewer quads.
+    fn rank(&self) -> (Outcome, usize, usize) {
+        let outcome = Outcome::of_map(&self.untangled);
+        (outcome, self.refinements, self.gradings)
+    }
+
     /// A map that is left as it is.
     ///
     /// # Errors
@@ -93,9 +101,10 @@ impl FoldFreeMap {
 /// `effort.rounds` times, and untangles the map. Where few faults remain, integers around them are changed, one
 /// difference at a time. If folds or winding defects still remain, the same is done with rows between elements
 /// farther apart, then for a finer map, at most `effort.refinements` times, and then with smaller quads around the
-/// faults alone.
-/// Among all maps with the fewest faults the first is kept. `monitor` watches each solve and each
-/// untangling.
+/// faults alone. The best of the finer maps leads back: integers are decided anew for the size that was asked for, or
+/// for the next finer ones, so that gradients are those of the finer map.
+/// Among all maps with the fewest faults the coarsest is kept, and among these the first. `monitor` watches each solve
+/// and each untangling.
 ///
 /// With [`Strategy::Auto`] a proof of optimality is tried only if it does not take long: for at most
 /// fifty thousand unknowns and thirty million nodes. [`Strategy::Exact`] has no such limits. With
@@ -126,6 +135,7 @@ pub fn solve_fold_free<'a>(
         maps: MapSolver::new(mesh, stated, solver, &options, &monitor),
         monitor: &monitor,
         lengths: Vec::new(),
+        finer: None,
     };
     if options.strategy == Strategy::Relax {
         let relaxed = driver.maps.solve()?;
@@ -146,14 +156,22 @@ pub fn solve_fold_free<'a>(
         others += 1;
         let found = optional(&monitor, || {
             run.with_share(share_of(others, most), || {
+                if current.is_guided {
+                    return driver.guided(current, &best);
+                }
                 driver.resize(current, &best)?;
-                driver.attempt(current)
+                let found = driver.attempt(current)?;
+                match found.rank() < best.rank() {
+                    true => driver.mended(found),
+                    false => Ok(found),
+                }
             })
         });
         let Some(found) = found? else {
             break;
         };
-        if Outcome::of_map(&found.untangled) < Outcome::of_map(&best.untangled) {
+        if found.rank() < best.rank() {
+            driver.keep_problem(current);
             best = found;
         }
     }
@@ -183,6 +201,23 @@ struct Try {
     is_far: bool,
     refinements: usize,
     gradings: usize,
+    /// Whether the map has the gradients of a finer one.
+    is_guided: bool,
+}
+
+/// The next try on the way back: with elements far apart kept apart, too, and then with smaller quads.
+fn back(last: Try) -> Try {
+    let guided = |is_far, refinements| Try {
+        is_far,
+        refinements,
+        gradings: 0,
+        is_guided: true,
+    };
+    match (last.is_guided, last.is_far) {
+        (false, _) => guided(false, 0),
+        (true, false) => guided(true, last.refinements),
+        (true, true) => guided(false, last.refinements + 1),
+    }
 }
 
 /// The data that all tries share.
@@ -195,14 +230,25 @@ struct Driver<'a, M> {
     monitor: &'a M,
     /// The factor of each face's size, once maps are made finer around faults.
     lengths: Vec<f64>,
+    /// The problem of the best of the finer maps.
+    finer: Option<SeamlessProblem>,
 }
 
 impl<'m, M: Fn() -> Monitor<'m>> Driver<'_, M> {
     /// What to try next, if there is anything.
     fn next(&self, last: Try, best: &FoldFreeMap) -> Option<Try> {
-        if best.untangled.faults() == 0 {
-            return None;
-        }
+        let finer = match best.untangled.faults() > 0 && !last.is_guided {
+            true => self.finer_than(last, best),
+            false => None,
+        };
+        finer.or_else(|| {
+            let next = back(last);
+            ((next.refinements, 0) < (best.refinements, best.gradings)).then_some(next)
+        })
+    }
+
+    /// A try that may have fewer faults than the last, in general because it is finer.
+    fn finer_than(&self, last: Try, best: &FoldFreeMap) -> Option<Try> {
         if !last.is_far {
             return Some(Try {
                 is_far: true,
@@ -227,6 +273,13 @@ impl<'m, M: Fn() -> Monitor<'m>> Driver<'_, M> {
             gradings: last.gradings + 1,
             ..last
         })
+    }
+
+    /// Keeps the problem of a map that may lead back.
+    fn keep_problem(&mut self, of: Try) {
+        if !of.is_guided {
+            self.finer = Some(self.maps.problem().clone());
+        }
     }
 
     /// The map with fewer faults, if it has few and other integers around them leave fewer.
@@ -266,13 +319,40 @@ impl<'m, M: Fn() -> Monitor<'m>> Driver<'_, M> {
         })
     }
 
+    /// A map of this size with the gradients of `finer`. Where untangling removes its faults as
+    /// well, it is the map with these integers and the least energy.
+    fn guided(&mut self, next: Try, finer: &FoldFreeMap) -> Result<FoldFreeMap> {
+        let (mesh, problem, map) = (self.mesh, self.problem, &finer.untangled.map);
+        let factor = REFINEMENT.powi(next.refinements as i32);
+        let of_finer = self.finer.as_ref().unwrap_or(problem);
+        self.maps
+            .resize(|solver| problem.guided(mesh, factor, (of_finer, map), solver))?;
+        let found = self.attempt(next)?;
+        let mut found = self.mended(found)?;
+        if found.untangled.faults() > 0 {
+            return Ok(found);
+        }
+        self.maps
+            .resize(|solver| problem.refined(mesh, factor, solver))?;
+        let solved = self.maps.with_integers_of(&found.untangled.map)?;
+        let untangled = self.maps.untangle(&solved.map, self.effort)?;
+        found.solution = solved.solution;
+        if untangled.faults() == 0 {
+            found.untangled = untangled;
+        }
+        Ok(found)
+    }
+
     /// A map of the current size.
     fn attempt(&mut self, current: Try) -> Result<FoldFreeMap> {
         let first = self.maps.solve()?;
         let (maps, monitor) = (&mut self.maps, self.monitor);
-        let reach = if current.is_far { FAR } else { NEAR };
         let rounds = self.effort.rounds;
-        let separated = optional(monitor, || maps.separate_cones(&first, reach, rounds))?;
+        let reach = if current.is_far { FAR } else { NEAR };
+        let with_all = current.is_guided || current.refinements + current.gradings == 0;
+        let separated = optional(monitor, || {
+            maps.separate_cones(&first, reach, with_all, rounds)
+        })?;
         let mut effort = *self.effort;
         if current.gradings > 0 || current.refinements < effort.refinements {
             let faces = self.mesh.face_count().max(1);

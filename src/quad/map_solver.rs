@@ -10,7 +10,7 @@ use crate::map::{SeamlessMap, SeamlessProblem};
 use crate::mesh::TriangleMesh;
 use crate::monitor::{Monitor, optional};
 use crate::search::{Options, Strategy, WarmStart};
-use crate::solve::{SoftRow, Solution, Solver};
+use crate::solve::{SoftRow, Solution, Solver, has_many_integers};
 use crate::untangle::{FAR, Structure, UntangleOptions, Untangled, faulty};
 
 /// The most unknowns for which a proof is tried with [`Strategy::Auto`].
@@ -137,6 +137,12 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> MapSolver<'a, M> {
         self.solved(named_limit(solution, &options))
     }
 
+    /// Solves with the integers of this map, which may be that of other gradients.
+    pub(super) fn with_integers_of(&mut self, map: &SeamlessMap) -> Result<Solved> {
+        self.solver.set_guess(map.values())?;
+        self.keep_integers()
+    }
+
     /// Solves with the integers of the last solution.
     pub(super) fn keep_integers(&mut self) -> Result<Solved> {
         let options = Options {
@@ -155,62 +161,79 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> MapSolver<'a, M> {
     /// Separates feature curves that the integers put on one line, in at most this many rounds.
     pub(super) fn separate_features(&mut self, first: &Solved, rounds: usize) -> Result<Separated> {
         let strips = self.problem.feature_strips(self.mesh)?;
-        self.separate(first, rounds, |_, map| {
+        self.separate(first, rounds, &[], |_, map| {
             let missed = strips.iter().filter(|strip| strip.is_missed(map.values()));
             missed.cloned().collect()
         })
     }
 
     /// Separates cones and corners within `reach` quads of each other that the integers collapse, in at most this
-    /// many rounds.
+    /// many rounds. If that does not suffice and `with_all` is set, rows between all of them are added. Many integers
+    /// have these rows from the start.
     pub(super) fn separate_cones(
         &mut self,
         first: &Solved,
         reach: f64,
+        with_all: bool,
         rounds: usize,
     ) -> Result<Separated> {
         let structure = self.structure(&first.map)?;
         let monitor = (self.monitor)();
         let elements = structure.held_elements(self.mesh, &self.problem, reach, &monitor)?;
-        self.separate(first, rounds, |this, map| {
+        let known = match with_all || has_many_integers(&first.solution) {
+            true => elements.rows(),
+            false => &[],
+        };
+        self.separate(first, rounds, known, |this, map| {
             elements.missed(this.mesh, &this.problem, map)
         })
     }
 
-    /// Adds the rows that `missed` finds for a map, and decides the integers anew, at most this many times.
+    /// Adds the rows that `missed` finds for a map, and decides the integers anew, at most this many times. If some are
+    /// missed all the same, all `known` rows are added at once, and it begins again; with many integers, that comes first.
     fn separate(
         &mut self,
         first: &Solved,
         most_rounds: usize,
+        known: &[SoftRow],
         missed: impl Fn(&Self, &SeamlessMap) -> Vec<SoftRow>,
     ) -> Result<Separated> {
         let options = without_long_proof(self.options, self.problem.problem().variables());
         let mut wanted = missed(self, &first.map);
         let mut outcome = Outcome::of_integers(wanted.len());
         let (mut better, mut rounds) = (None, 0);
-        while rounds < most_rounds {
-            let before = self.separation.len();
-            for row in wanted {
-                if !self.separation.contains(&row) {
-                    self.separation.push(row);
+        let are_many = has_many_integers(&first.solution);
+        let at_first: Option<&[SoftRow]> = (!are_many).then_some(&[]);
+        for all in at_first.into_iter().chain([known]) {
+            if wanted.is_empty() {
+                break;
+            }
+            wanted.extend_from_slice(all);
+            for _ in 0..most_rounds {
+                let before = self.separation.len();
+                for row in std::mem::take(&mut wanted) {
+                    if !self.separation.contains(&row) {
+                        self.separation.push(row);
+                    }
                 }
-            }
-            if self.separation.len() == before {
-                break;
-            }
-            let (solver, separation, monitor) = (&mut self.solver, &self.separation, self.monitor);
-            let solved = optional(monitor, || {
-                solver.solve_softly(separation, &options, monitor())
-            });
-            let Some(solution) = solved? else {
-                break;
-            };
-            rounds += 1;
-            let found = self.solved(named_limit(solution, &options))?;
-            wanted = missed(self, &found.map);
-            let of_found = Outcome::of_integers(wanted.len());
-            if of_found < outcome {
-                (better, outcome) = (Some(found), of_found);
+                if self.separation.len() == before {
+                    break;
+                }
+                let (solver, separation, monitor) =
+                    (&mut self.solver, &self.separation, self.monitor);
+                let solved = optional(monitor, || {
+                    solver.solve_softly(separation, &options, monitor())
+                });
+                let Some(solution) = solved? else {
+                    return Ok(Separated { better, rounds });
+                };
+                rounds += 1;
+                let found = self.solved(named_limit(solution, &options))?;
+                wanted = missed(self, &found.map);
+                let of_found = Outcome::of_integers(wanted.len());
+                if of_found < outcome {
+                    (better, outcome) = (Some(found), of_found);
+                }
             }
         }
         Ok(Separated { better, rounds })

@@ -2,6 +2,7 @@
 
 mod around;
 mod candidate;
+mod cascades;
 mod components;
 mod condense;
 mod dispatch;
@@ -21,7 +22,7 @@ mod verify;
 
 pub use prove::{Proved, solve_with_proof};
 pub use run::{solve, solve_with, solve_with_lazy_rows};
-pub(crate) use soft_rows::SoftRow;
+pub(crate) use soft_rows::{SoftRow, has_many_integers};
 pub use solution::{Counts, Seconds, Solution};
 pub use solver::Solver;
 pub use verify::{Verdict, verify};

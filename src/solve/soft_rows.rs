@@ -13,11 +13,16 @@
 //! The slacks `s_k` leave every integer point feasible, so that rows which contradict each other need no
 //! search for those at fault. The search starts at the lattice point for which the rows are springs of rest
 //! length `l_k`, and goes on by branch and bound in a reduced basis, where each unknown has an influence of
-//! its own.
+//! its own. Many integers start at the nearest ones to `z*` instead, and move by one, alone and in cascades
+//! ([`super::cascades`]).
 
 use std::collections::BTreeSet;
 
+use faer::linalg::matmul::triangular::{BlockStructure, matmul};
+use faer::{Accum, MatMut, MatRef, Par};
+
 use super::Solution;
+use super::cascades;
 use super::eliminated::{EliminatedProblem, SearchResult, sizes};
 use super::expand::clean;
 use super::relax::{Relaxation, relax};
@@ -26,18 +31,27 @@ use crate::branch;
 use crate::eliminate::{Elimination, ReducedModel};
 use crate::error::Result;
 use crate::lattice::{Basis, lll};
+use crate::linalg::with_wide_registers;
 use crate::monitor::Monitor;
 use crate::problem::{Model, Problem};
 use crate::search::{Factors, Options, Search, SolveStatus, Strategy, of_relaxation};
 
 /// The most integers for which the problem in them is solved as a dense one.
-const DENSE: usize = 600;
+const DENSE: usize = 2000;
+
+/// The most integers for which branch and bound is tried.
+const SEARCHED: usize = 600;
 
 /// The nodes of branch and bound.
 const NODES: u64 = 200;
 
 /// The multiplications of branch and bound.
 const WORK: u64 = 2_000_000_000;
+
+/// Whether a problem has too many integers for branch and bound under soft rows: then rows cost little.
+pub(crate) fn has_many_integers(solution: &Solution) -> bool {
+    solution.counts().reduced_integers > SEARCHED
+}
 
 /// Smaller sums of coefficients are rounding errors of zero.
 const NOTHING: f64 = 1e-9;
@@ -60,8 +74,12 @@ impl SoftRow {
 
     /// By how much a point misses the row.
     fn missed_by(&self, values: &[f64]) -> f64 {
-        let value: f64 = self.terms.iter().map(|&(i, c)| c * values[i]).sum();
-        (self.least - value).max(0.0)
+        (self.least - self.value(values)).max(0.0)
+    }
+
+    /// The left side at a point.
+    pub(super) fn value(&self, values: &[f64]) -> f64 {
+        self.terms.iter().map(|&(i, c)| c * values[i]).sum()
     }
 }
 
@@ -79,7 +97,8 @@ pub(super) fn solve_softly(
     monitor: &mut Monitor,
 ) -> Result<Option<Solution>> {
     let (reduced, clock) = of.reduce(monitor)?;
-    if reduced.integers().len() > DENSE {
+    let m = reduced.integers().len();
+    if m > DENSE {
         return Ok(None);
     }
     let rows = between_integers(&reduced, rows);
@@ -97,9 +116,19 @@ pub(super) fn solve_softly(
         strategy: Strategy::Lattice,
         ..options.clone()
     };
-    let (start, mut work) = dense.start(&options, &mut monitor.silent())?;
-    let (decided, searched) = dense.better(start, &mut monitor.silent())?;
-    work += searched;
+    let (decided, work) = match m <= SEARCHED {
+        true => dense.searched(&options, &mut monitor.silent())?,
+        false => {
+            let nearest = wanted.iter().map(|x| x.round()).collect();
+            cascades::descend(
+                &rows,
+                &dense.gram(),
+                &wanted,
+                nearest,
+                &mut monitor.silent(),
+            )
+        }
+    };
     let Relaxation {
         point, lower_bound, ..
     } = relaxation;
@@ -176,6 +205,32 @@ struct Dense<'a> {
 }
 
 impl Dense<'_> {
+    /// `G = R'R` by columns.
+    fn gram(&self) -> Vec<f64> {
+        let m = self.wanted.len();
+        let factor = MatRef::from_column_major_slice(self.factor.0, m, m);
+        let mut gram = vec![0.0; m * m];
+        let product = MatMut::from_column_major_slice_mut(&mut gram, m, m);
+        with_wide_registers(|| {
+            let (whole, lower, upper) = (
+                BlockStructure::Rectangular,
+                BlockStructure::TriangularLower,
+                BlockStructure::TriangularUpper,
+            );
+            let (left, right) = (factor.transpose(), factor);
+            let (to, how) = (Accum::Replace, Par::Seq);
+            matmul(product, whole, to, left, lower, right, upper, 1.0, how);
+        });
+        gram
+    }
+
+    /// The best point that branch and bound finds, and the work.
+    fn searched(&self, options: &Options, monitor: &mut Monitor) -> Result<(Vec<f64>, u64)> {
+        let (start, work) = self.start(options, monitor)?;
+        let (better, searched) = self.better(start, monitor)?;
+        Ok((better, work + searched))
+    }
+
     /// The lattice point for which all rows are springs, and the work.
     fn start(&self, options: &Options, monitor: &mut Monitor) -> Result<(Vec<f64>, u64)> {
         let m = self.wanted.len();

@@ -48,6 +48,11 @@ impl HeldElements {
         })
     }
 
+    /// The rows that the integers of a map should keep, whatever else they do.
+    pub(crate) fn rows(&self) -> &[SoftRow] {
+        &self.near.rows
+    }
+
     /// The rows that the integers of a map miss, and those that open the faces which they collapse or turn
     /// over.
     pub(crate) fn missed(
@@ -142,7 +147,7 @@ impl SeamlessProblem {
     pub(super) fn aim(&self, mesh: &TriangleMesh, face: usize, from: usize, to: usize) -> [f64; 2] {
         let corners = mesh.corner_positions(face);
         let step = sub(corners[to], corners[from]);
-        self.targets(mesh, face).map(|target| dot(target, step))
+        self.wanted(mesh, face).map(|gradient| dot(gradient, step))
     }
 }
 

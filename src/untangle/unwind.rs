@@ -26,7 +26,16 @@ const MOST_FACES: usize = 4000;
 const ROUNDS: usize = 8;
 
 /// The work limit: how many faces all layouts and steps together may visit, as a multiple of the mesh's faces.
-const PASSES: usize = 20;
+const PASSES: usize = 40;
+
+/// Meshes of fewer faces count as if they had so many: disks are not smaller there.
+const LEAST_FACES: usize = 10_000;
+
+/// The share of the work that one layout may take.
+const SHARE: usize = 24;
+
+/// A disk of which so large a part is folded after untangling is too small, whatever the first eps.
+const LARGE_PART: usize = 8;
 
 /// The first eps of the barrier, attempt after attempt. A large eps removes more folds. A small one keeps
 /// the winding that the layout has corrected.
@@ -82,22 +91,26 @@ impl Untangling<'_> {
     /// Removes as many folds and winding defects at cones as it can in at most so many passes over the mesh.
     pub(super) fn unwind(&mut self, passes: usize, monitor: &mut Monitor) -> Result<()> {
         let whole = self.budget;
-        self.budget = PASSES.min(passes).saturating_mul(self.mesh.face_count());
+        self.budget = PASSES.min(passes) * self.mesh.face_count().max(LEAST_FACES);
+        let share = self.budget / SHARE;
         let mut faults = self.faults()?;
         let mut left_behind = BTreeSet::new();
         let is_cone = |v: &usize| self.quarters[*v] != Some(4);
-        let cones = |faults: &Faults| -> BTreeSet<usize> {
-            faults
-                .vertices(self.mesh)
-                .into_iter()
-                .filter(is_cone)
-                .collect()
-        };
         for _ in 0..ROUNDS {
             let before = faults.clone();
-            for cone in cones(&before) {
-                if cones(&faults).contains(&cone) {
-                    self.unwind_cone(cone, &mut faults, &mut left_behind, monitor)?;
+            // Folds may be there to stay. They come last, or they take all of the work.
+            let at_defects: BTreeSet<usize> = before.defects.iter().copied().collect();
+            let at_folds = before.vertices(self.mesh);
+            let others = at_folds.difference(&at_defects);
+            let cones: Vec<usize> = (at_defects.iter().chain(others).copied())
+                .filter(is_cone)
+                .collect();
+            for (k, &cone) in cones.iter().enumerate() {
+                if faults.vertices(self.mesh).contains(&cone) {
+                    let fair = self.budget / (cones.len() - k);
+                    self.within(fair, |this| {
+                        this.unwind_cone(cone, share, &mut faults, &mut left_behind, monitor)
+                    })?;
                 }
             }
             if faults.count() == 0 || faults == before {
@@ -108,13 +121,24 @@ impl Untangling<'_> {
         Ok(())
     }
 
-    /// Lays larger and larger disks around a cone out anew until fewer faults remain.
+    /// Works with at most this part of the budget.
+    fn within<T>(&mut self, most: usize, work: impl FnOnce(&mut Self) -> Result<T>) -> Result<T> {
+        let for_others = self.budget.saturating_sub(most);
+        self.budget -= for_others;
+        let done = work(self);
+        self.budget += for_others;
+        done
+    }
+
+    /// Lays larger and larger disks around a cone out anew until fewer faults remain. Each may take this share of the
+    /// work.
     ///
     /// If no disk reduces their number, the first one is kept that moves the defect to a cone that
     /// was not `left_behind` before: that cone may have more room around it.
     fn unwind_cone(
         &mut self,
         cone: usize,
+        share: usize,
         faults: &mut Faults,
         left_behind: &mut BTreeSet<usize>,
         monitor: &mut Monitor,
@@ -136,9 +160,11 @@ impl Untangling<'_> {
             };
             for first_eps in FIRST_EPS {
                 let before = self.values.clone();
-                self.lay(&layout);
-                self.budget = self.budget.saturating_sub(faces);
-                let was_folded = self.untangle_disk(&disk, first_eps, monitor)?;
+                let was_folded = self.within(share, |this| {
+                    this.lay(&layout);
+                    this.budget = this.budget.saturating_sub(faces);
+                    this.untangle_disk(&disk, first_eps, monitor)
+                })?;
                 let left = self.faults_after_move(&before, faults);
                 let now = std::mem::replace(&mut self.values, before);
                 let folds_no_more = left.folded.len() <= faults.folded.len();
@@ -146,6 +172,7 @@ impl Untangling<'_> {
                     (self.values, *faults) = (now, left);
                     return Ok(());
                 }
+                let is_too_small = left.folded.len() > faults.folded.len() + faces / LARGE_PART;
                 let is_other = |v: &usize| !left_behind.contains(v);
                 let moves = folds_no_more
                     && left.count() == faults.count()
@@ -153,7 +180,7 @@ impl Untangling<'_> {
                 if instead.is_none() && moves && left.defects.iter().all(is_other) {
                     instead = Some((now, left));
                 }
-                if !was_folded {
+                if !was_folded || is_too_small {
                     // Another eps changes nothing.
                     break;
                 }

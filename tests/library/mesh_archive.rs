@@ -206,6 +206,22 @@ fn faults_that_neighbours_cannot_mend_are_mended() {
     }
 }
 
+/// Integers of `helmet` are right only once a finer map tells in which order cones lie. Disks of `mannequin-devil` are
+/// wound wrongly around six cones.
+#[test]
+fn maps_of_difficult_meshes_are_no_finer_than_asked_for() {
+    let Some(folder) = archive() else {
+        return crate::common::skip::skip_unless_ci(MISSING);
+    };
+    for name in ["helmet", "mannequin-devil"] {
+        let (found, is_valid) = fold_free_map(&load(&folder, name).unwrap());
+        assert!(is_valid, "{name}");
+        assert_eq!((found.refinements, found.gradings), (0, 0), "{name}");
+        let map = &found.untangled.map;
+        assert!(found.solution.energy() <= 1.0 + map.energy(), "{name}");
+    }
+}
+
 /// Edges of `anchor_dense` at which the surface turns lie so near each other that its needles can only be divided
 /// into more needles.
 #[test]
@@ -338,6 +354,8 @@ fn all_sound_meshes_get_valid_maps() {
             let seconds = started.elapsed().as_secs_f64();
             let untangled = &found.untangled;
             valid += usize::from(is_valid);
+            let is_finer = found.refinements + found.gradings > 0;
+            assert!(!is_finer || name == "femur", "{name}");
             println!(
                 "{name:<26}{faces:>7} cones {:>4} flipped {:>4} -> {:>3} refined {} graded {} {seconds:>6.1} s",
                 untangled.map.cones().len(),
