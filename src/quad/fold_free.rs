@@ -12,7 +12,7 @@
 //! ```
 //!
 //! [`MapSolver`] keeps what later tries use again, and [`Driver::next`] decides what is tried next. Among
-//! all maps with the best [`Outcome`] the first is kept.
+//! all maps with the best [`Outcome`] the coarsest is kept, and among these the first.
 
 use std::borrow::Cow;
 
@@ -319,8 +319,8 @@ impl<'m, M: Fn() -> Monitor<'m>> Driver<'_, M> {
         })
     }
 
-    /// A map of this size with the gradients of `finer`. Where untangling removes its faults as
-    /// well, it is the map with these integers and the least energy.
+    /// A map of this size with the gradients of `finer`. Where untangling removes its faults as well, it is the map with
+    /// the same integers and the least energy.
     fn guided(&mut self, next: Try, finer: &FoldFreeMap) -> Result<FoldFreeMap> {
         let (mesh, problem, map) = (self.mesh, self.problem, &finer.untangled.map);
         let factor = REFINEMENT.powi(next.refinements as i32);
@@ -329,16 +329,15 @@ impl<'m, M: Fn() -> Monitor<'m>> Driver<'_, M> {
             .resize(|solver| problem.guided(mesh, factor, (of_finer, map), solver))?;
         let found = self.attempt(next)?;
         let mut found = self.mended(found)?;
-        if found.untangled.faults() > 0 {
-            return Ok(found);
-        }
         self.maps
             .resize(|solver| problem.refined(mesh, factor, solver))?;
-        let solved = self.maps.with_integers_of(&found.untangled.map)?;
-        let untangled = self.maps.untangle(&solved.map, self.effort)?;
-        found.solution = solved.solution;
-        if untangled.faults() == 0 {
-            found.untangled = untangled;
+        let unguided = self.maps.with_integers_of(&found.untangled.map)?;
+        found.solution = unguided.solution;
+        if found.untangled.faults() == 0 {
+            let untangled = self.maps.untangle(&unguided.map, self.effort)?;
+            if untangled.faults() == 0 {
+                found.untangled = untangled;
+            }
         }
         Ok(found)
     }

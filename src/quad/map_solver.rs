@@ -53,6 +53,8 @@ pub(super) struct Solved {
 
 /// The result of a separation.
 pub(super) struct Separated {
+    /// The rows that the best solution misses.
+    missed: Vec<SoftRow>,
     /// The best solution, if it is better than the one without separation.
     pub(super) better: Option<Solved>,
     /// How often the integers were decided anew.
@@ -198,45 +200,56 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> MapSolver<'a, M> {
         known: &[SoftRow],
         missed: impl Fn(&Self, &SeamlessMap) -> Vec<SoftRow>,
     ) -> Result<Separated> {
+        let mut so_far = Separated {
+            missed: missed(self, &first.map),
+            better: None,
+            rounds: 0,
+        };
+        if known.is_empty() || !has_many_integers(&first.solution) {
+            self.keep(&[], most_rounds, &missed, &mut so_far)?;
+        }
+        if !known.is_empty() && !so_far.missed.is_empty() {
+            self.keep(known, most_rounds, &missed, &mut so_far)?;
+        }
+        Ok(so_far)
+    }
+
+    /// Adds these rows and those that are missed, and decides the integers anew, at most this many times.
+    fn keep(
+        &mut self,
+        rows: &[SoftRow],
+        most_rounds: usize,
+        missed: &impl Fn(&Self, &SeamlessMap) -> Vec<SoftRow>,
+        so_far: &mut Separated,
+    ) -> Result<()> {
         let options = without_long_proof(self.options, self.problem.problem().variables());
-        let mut wanted = missed(self, &first.map);
-        let mut outcome = Outcome::of_integers(wanted.len());
-        let (mut better, mut rounds) = (None, 0);
-        let are_many = has_many_integers(&first.solution);
-        let at_first: Option<&[SoftRow]> = (!are_many).then_some(&[]);
-        for all in at_first.into_iter().chain([known]) {
-            if wanted.is_empty() {
+        let mut new: Vec<SoftRow> = so_far.missed.iter().chain(rows).cloned().collect();
+        for _ in 0..most_rounds {
+            let before = self.separation.len();
+            for row in new {
+                if !self.separation.contains(&row) {
+                    self.separation.push(row);
+                }
+            }
+            if self.separation.len() == before {
                 break;
             }
-            wanted.extend_from_slice(all);
-            for _ in 0..most_rounds {
-                let before = self.separation.len();
-                for row in std::mem::take(&mut wanted) {
-                    if !self.separation.contains(&row) {
-                        self.separation.push(row);
-                    }
-                }
-                if self.separation.len() == before {
-                    break;
-                }
-                let (solver, separation, monitor) =
-                    (&mut self.solver, &self.separation, self.monitor);
-                let solved = optional(monitor, || {
-                    solver.solve_softly(separation, &options, monitor())
-                });
-                let Some(solution) = solved? else {
-                    return Ok(Separated { better, rounds });
-                };
-                rounds += 1;
-                let found = self.solved(named_limit(solution, &options))?;
-                wanted = missed(self, &found.map);
-                let of_found = Outcome::of_integers(wanted.len());
-                if of_found < outcome {
-                    (better, outcome) = (Some(found), of_found);
-                }
+            let (solver, separation, monitor) = (&mut self.solver, &self.separation, self.monitor);
+            let solved = optional(monitor, || {
+                solver.solve_softly(separation, &options, monitor())
+            });
+            let Some(solution) = solved? else {
+                break;
+            };
+            so_far.rounds += 1;
+            let found = self.solved(named_limit(solution, &options))?;
+            new = missed(self, &found.map);
+            if new.len() < so_far.missed.len() {
+                so_far.missed = new.clone();
+                so_far.better = Some(found);
             }
         }
-        Ok(Separated { better, rounds })
+        Ok(())
     }
 
     /// Changes the integers around the faults of a map. Each of at most `most` tries adds one row to those that there

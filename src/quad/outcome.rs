@@ -1,8 +1,8 @@
 //! The one ordering of all results on the way from a mesh to quads.
 //!
 //! The members are compared from first to last, and less is better. Each step fills in the members that
-//! it knows: the relaxation of a map its distortion, integers the elements that they collapse, a map its
-//! folds and winding defects, quads their remaining faults. Only outcomes of one step are compared.
+//! it knows: the relaxation of a map its distortion, a map its folds and winding defects, quads their remaining
+//! faults. Only outcomes of one step are compared.
 //!
 //! Missed features count more than faults, because extraction repairs nearly all folds of a map, but
 //! cannot restore a missed feature. But quads that are many more than were asked for, and miss features all the
@@ -27,7 +27,7 @@ pub(super) struct Outcome {
     is_off: bool,
     /// Features that no edge of a quad follows.
     missed_features: usize,
-    /// Elements that integers collapse, folds and winding defects of a map, or the repairs that
+    /// Folds and winding defects of a map, or the repairs that
     /// extraction made because of them.
     faults: usize,
     /// Vertices with other than four quads.
@@ -42,14 +42,6 @@ impl Outcome {
     pub(super) fn of_relaxation(energy: f64, cones: usize) -> Self {
         Outcome {
             distortion: energy + CONE_COST * cones as f64,
-            ..Outcome::default()
-        }
-    }
-
-    /// The outcome of integers that collapse this many elements.
-    pub(super) fn of_integers(collapsed: usize) -> Self {
-        Outcome {
-            faults: collapsed,
             ..Outcome::default()
         }
     }

@@ -98,7 +98,7 @@ impl Untangling<'_> {
         let is_cone = |v: &usize| self.quarters[*v] != Some(4);
         for _ in 0..ROUNDS {
             let before = faults.clone();
-            // Folds may be there to stay. They come last, or they take all of the work.
+            // Some folds cannot be removed. They come last, so that they do not take the work of the others.
             let at_defects: BTreeSet<usize> = before.defects.iter().copied().collect();
             let at_folds = before.vertices(self.mesh);
             let others = at_folds.difference(&at_defects);

@@ -206,14 +206,15 @@ fn faults_that_neighbours_cannot_mend_are_mended() {
     }
 }
 
-/// Integers of `helmet` are right only once a finer map tells in which order cones lie. Disks of `mannequin-devil` are
-/// wound wrongly around six cones.
+/// `helmet` needs all rows between cones near each other. Disks of `mannequin-devil` are wound wrongly around cones, and
+/// a fold beside them stays. Integers of `elephant-with-holes`, more than 1,200, are right only once a finer map tells in
+/// which order holes lie.
 #[test]
 fn maps_of_difficult_meshes_are_no_finer_than_asked_for() {
     let Some(folder) = archive() else {
         return crate::common::skip::skip_unless_ci(MISSING);
     };
-    for name in ["helmet", "mannequin-devil"] {
+    for name in ["helmet", "mannequin-devil", "elephant-with-holes"] {
         let (found, is_valid) = fold_free_map(&load(&folder, name).unwrap());
         assert!(is_valid, "{name}");
         assert_eq!((found.refinements, found.gradings), (0, 0), "{name}");
