@@ -38,6 +38,9 @@ const FIRST: f64 = 0.5;
 /// The number of times that a map with folds is made finer around them alone.
 const GRADINGS: usize = 6;
 
+/// The number of tries for each size on the way back.
+const TRIES_BACK: usize = 2;
+
 /// The most faults of a map whose integers are changed around them: where there are more, the quads are too large.
 const MENDED: usize = 20;
 
@@ -64,7 +67,7 @@ pub struct FoldFreeMap {
     pub untangled: Untangled,
     /// How often the integers were decided anew.
     pub rounds: usize,
-    /// How often the map was made finer, each time by the square root of two in length.
+    /// How much finer the map is than asked for, in steps of the square root of two in length.
     pub refinements: usize,
     /// How often, after that, the map was made finer around its faults alone.
     pub gradings: usize,
@@ -144,7 +147,7 @@ pub fn solve_fold_free<'a>(
     let mut current = Try::default();
     let most = match effort.refinements {
         0 => 1,
-        refinements => 1 + refinements + GRADINGS,
+        refinements => 1 + refinements + GRADINGS + TRIES_BACK * (1 + refinements),
     };
     let mut best = run.with_share(share_of(0, most), || {
         let first = driver.attempt(current)?;

@@ -141,7 +141,7 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> MapSolver<'a, M> {
 
     /// Solves with the integers of this map, which may be that of other gradients.
     pub(super) fn with_integers_of(&mut self, map: &SeamlessMap) -> Result<Solved> {
-        self.solver.set_guess(map.values())?;
+        self.solver.continue_from(map.values());
         self.keep_integers()
     }
 

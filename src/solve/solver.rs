@@ -186,6 +186,11 @@ impl Solver {
         Ok(())
     }
 
+    /// Makes these values those of the last integer solution, which a warm start begins with.
+    pub(crate) fn continue_from(&mut self, values: &[f64]) {
+        self.earlier = Some(values.to_vec());
+    }
+
     fn change(&mut self, change: impl FnOnce(&mut Problem) -> Result<()>) -> Result<()> {
         change(&mut self.problem)?;
         self.stale = true;
