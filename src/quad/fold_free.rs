@@ -4,7 +4,8 @@
 //! map         integers are decided
 //! separation  integers are decided anew where they miss separation rows
 //! untangling  folds and winding defects are removed, with the integers fixed
-//! mending     integers around the faults of the first map are changed, one difference at a time
+//! mending     integers around the few faults that remain are changed, one difference at a time: of the first map,
+//!             of those that are better, and on the way back
 //! next try    separation of elements farther apart; a finer map; one that is finer only around the faults of
 //!             the last
 //! way back    a map of the size asked for with the gradients of a finer one: the finer one tells in which order

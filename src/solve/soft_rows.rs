@@ -48,13 +48,13 @@ const NODES: u64 = 200;
 /// The multiplications of branch and bound.
 const WORK: u64 = 2_000_000_000;
 
+/// Smaller sums of coefficients are rounding errors of zero.
+const NOTHING: f64 = 1e-9;
+
 /// Whether a problem has too many integers for branch and bound under soft rows: then rows cost little.
 pub(crate) fn has_many_integers(solution: &Solution) -> bool {
     solution.counts().reduced_integers > SEARCHED
 }
-
-/// Smaller sums of coefficients are rounding errors of zero.
-const NOTHING: f64 = 1e-9;
 
 /// `a . x >= least` for unknowns that integers decide. A point that misses it by `s` costs
 /// `weight / 2 s^2`.

@@ -272,7 +272,7 @@ impl Solver {
         })
     }
 
-    /// [`solve_softly`](Self::solve_softly) for many integers: every row is a spring in the objective.
+    /// [`solve_softly`](Self::solve_softly) for more integers than that solves for: every row is a spring in the objective.
     pub(super) fn solve_with_springs(
         &mut self,
         rows: &[SoftRow],
