@@ -296,7 +296,8 @@ pub(crate) fn side_by_side<'m, T: Send>(
 }
 
 /// Does `count` tasks on the threads that are allowed, and gives their results in the order of the tasks. A task
-/// gets its number and a monitor.
+/// gets its number and a monitor. Tasks at the same time share the threads; where no task is left, those that are not
+/// done get them.
 pub(crate) fn tasks<T: Send>(
     count: usize,
     monitor: &mut Monitor,
@@ -306,10 +307,12 @@ pub(crate) fn tasks<T: Send>(
     if threads <= 1 {
         return (0..count).map(|k| task(k, monitor)).collect();
     }
+    let each_has = allowed_threads() / threads;
     if trace::is_simulated() {
-        let each = |k: usize| with_threads(1, || task(k, monitor));
-        return trace::simulate(count, threads, 1, each);
+        let each = |k: usize| with_threads(each_has, || task(k, monitor));
+        return trace::simulate(count, threads, each_has, each);
     }
+    let shared = SharedThreads::among(threads);
     let next = AtomicUsize::new(0);
     let share = |monitor: &mut Monitor| {
         let mut done = Vec::new();
@@ -325,9 +328,12 @@ pub(crate) fn tasks<T: Send>(
     let mut done = std::thread::scope(|scope| {
         // Each has a token of its own, which ends it when nobody waits for it any more.
         let others: Vec<_> = (1..threads)
-            .map(|number| monitor.worker().start(scope, number, share))
+            .map(|number| {
+                let worker = monitor.worker().with_threads(each_has, &shared);
+                worker.start(scope, number * each_has, share)
+            })
             .collect();
-        let mut done = with_threads(1, || share(monitor));
+        let mut done = shared.task(each_has, || share(monitor));
         for other in others {
             done.extend(other.wait(monitor));
         }

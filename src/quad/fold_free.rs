@@ -9,7 +9,7 @@
 //! next try    separation of elements farther apart; a finer map; one that is finer only around the faults of
 //!             the last
 //! way back    a map of the size asked for with the gradients of a finer one: the finer one tells in which order
-//!             elements lie, where the relaxation has folds
+//!             elements lie, where the relaxation has folds. One that comes back part of the way leads on
 //! ```
 //!
 //! [`MapSolver`] keeps what later tries use again, and [`Driver::next`] decides what is tried next. Among
@@ -139,13 +139,13 @@ pub fn solve_fold_free<'a>(
         maps: MapSolver::new(mesh, stated, solver, &options, &monitor),
         monitor: &monitor,
         lengths: Vec::new(),
-        finer: None,
+        guide: None,
     };
     if options.strategy == Strategy::Relax {
         let relaxed = driver.maps.solve()?;
         return FoldFreeMap::untouched(mesh, problem, relaxed.solution, relaxed.map);
     }
-    let mut current = Try::default();
+    let (mut current, mut is_best) = (Try::default(), true);
     let most = match effort.refinements {
         0 => 1,
         refinements => 1 + refinements + GRADINGS + TRIES_BACK * (1 + refinements),
@@ -155,7 +155,7 @@ pub fn solve_fold_free<'a>(
         driver.mended(first)
     })?;
     let mut others = 0;
-    while let Some(next) = driver.next(current, &best) {
+    while let Some(next) = driver.next(current, is_best, &best) {
         current = next;
         others += 1;
         let found = optional(&monitor, || {
@@ -174,8 +174,9 @@ pub fn solve_fold_free<'a>(
         let Some(found) = found? else {
             break;
         };
-        if found.rank() < best.rank() {
-            driver.keep_problem(current);
+        is_best = found.rank() < best.rank();
+        if is_best {
+            driver.guide = Some(driver.maps.problem().clone());
             best = found;
         }
     }
@@ -209,15 +210,16 @@ struct Try {
     is_guided: bool,
 }
 
-/// The next try on the way back: with elements far apart kept apart, too, and then with smaller quads.
-fn back(last: Try) -> Try {
+/// The next try on the way back: with elements far apart kept apart, too, and then with smaller quads. A new guide
+/// leads back from the start.
+fn back(last: Try, is_best: bool) -> Try {
     let guided = |is_far, refinements| Try {
         is_far,
         refinements,
         gradings: 0,
         is_guided: true,
     };
-    match (last.is_guided, last.is_far) {
+    match (last.is_guided && !is_best, last.is_far) {
         (false, _) => guided(false, 0),
         (true, false) => guided(true, last.refinements),
         (true, true) => guided(false, last.refinements + 1),
@@ -234,19 +236,19 @@ struct Driver<'a, M> {
     monitor: &'a M,
     /// The factor of each face's size, once maps are made finer around faults.
     lengths: Vec<f64>,
-    /// The problem of the best of the finer maps.
-    finer: Option<SeamlessProblem>,
+    /// The problem of the best map, if it is not the first.
+    guide: Option<SeamlessProblem>,
 }
 
 impl<'m, M: Fn() -> Monitor<'m>> Driver<'_, M> {
-    /// What to try next, if there is anything.
-    fn next(&self, last: Try, best: &FoldFreeMap) -> Option<Try> {
+    /// What to try next, if there is anything. `is_best` says whether the last try gave the best map.
+    fn next(&self, last: Try, is_best: bool, best: &FoldFreeMap) -> Option<Try> {
         let finer = match best.untangled.faults() > 0 && !last.is_guided {
             true => self.finer_than(last, best),
             false => None,
         };
         finer.or_else(|| {
-            let next = back(last);
+            let next = back(last, is_best);
             ((next.refinements, 0) < (best.refinements, best.gradings)).then_some(next)
         })
     }
@@ -277,13 +279,6 @@ impl<'m, M: Fn() -> Monitor<'m>> Driver<'_, M> {
             gradings: last.gradings + 1,
             ..last
         })
-    }
-
-    /// Keeps the problem of a map that may lead back.
-    fn keep_problem(&mut self, of: Try) {
-        if !of.is_guided {
-            self.finer = Some(self.maps.problem().clone());
-        }
     }
 
     /// The map with fewer faults, if it has few and other integers around them leave fewer.
@@ -328,7 +323,7 @@ impl<'m, M: Fn() -> Monitor<'m>> Driver<'_, M> {
     fn guided(&mut self, next: Try, finer: &FoldFreeMap) -> Result<FoldFreeMap> {
         let (mesh, problem, map) = (self.mesh, self.problem, &finer.untangled.map);
         let factor = REFINEMENT.powi(next.refinements as i32);
-        let of_finer = self.finer.as_ref().unwrap_or(problem);
+        let of_finer = self.guide.as_ref().unwrap_or(problem);
         self.maps
             .resize(|solver| problem.guided(mesh, factor, (of_finer, map), solver))?;
         let found = self.attempt(next)?;

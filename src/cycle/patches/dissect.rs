@@ -5,11 +5,13 @@
 //! So several bisections are tried, with edges weighted by the incumbent's residuals, and the one is kept
 //! that loses the least energy of the incumbent.
 
+use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
+
 use super::bisect::{Measure, bisect};
 use super::coarsen::Weighted;
 use crate::cycle::graph::Graph;
 use crate::linalg::Random;
-use crate::monitor::is_wanted;
+use crate::monitor::{both, collect_in_turn, is_wanted, may_continue, with_threads};
 
 /// No parent.
 pub(super) const NO_PATCH: usize = usize::MAX;
@@ -22,6 +24,9 @@ const STEPS: usize = 25;
 
 /// The time of a bisection and of its estimate, in multiplications for each edge.
 const PER_EDGE: u64 = 200;
+
+/// Both halves of a patch are divided at the same time if it has so many edges: a bisection takes a millisecond then.
+const WORTH_A_THREAD: usize = 4_000;
 
 /// How a tree is made.
 #[derive(Debug, Clone)]
@@ -48,32 +53,49 @@ pub(super) struct Patch {
     pub edges: Vec<u32>,
 }
 
-/// The patches of a tree, every child before its parent. `residuals` are those of the incumbent, by edge.
-/// `stop` gets the multiplications; once it says so, patches are not divided.
+/// The patches of a tree, every child before its parent. `residuals` are those of the incumbent, by edge. None if that
+/// takes `most` multiplications or the call ends. Besides, the multiplications.
 pub(super) fn dissect(
     graph: &Graph,
     residuals: &[f64],
     recipe: &Recipe,
-    stop: &mut dyn FnMut(u64) -> bool,
-) -> Vec<Patch> {
+    most: u64,
+) -> (Option<Vec<Patch>>, u64) {
     let energies = graph.edges.iter().zip(residuals);
     let energy: Vec<f64> = energies.map(|(e, r)| e.weight * r * r).collect();
     let mean = energy.iter().sum::<f64>() / energy.len().max(1) as f64;
-    let mut dissection = Dissection {
+    let dissection = Dissection {
         graph,
         residuals,
         mean: if mean > 0.0 { mean } else { 1.0 },
         energy,
         recipe,
-        random: Random::new(recipe.seed),
-        place: vec![u32::MAX; graph.nodes()],
-        patches: Vec::new(),
-        stop,
+        most,
+        work: AtomicU64::new(0),
     };
-    let nodes: Vec<u32> = (0..graph.ground()).collect();
-    let edges: Vec<u32> = (0..graph.edges.len() as u32).collect();
-    dissection.divide(nodes, edges);
-    dissection.patches
+    let ground = graph.ground();
+    let place = |i: u32| if i == ground { GROUND } else { i };
+    let edges = graph.edges.iter().zip(0..);
+    let whole = Part {
+        nodes: ground as usize,
+        edges: edges
+            .map(|(e, number)| ([e.tail, e.head].map(place), number))
+            .collect(),
+    };
+    let patches = dissection.divide(whole, recipe.seed);
+    let work = dissection.work.into_inner().min(most);
+    (patches.filter(|_| work < most), work)
+}
+
+/// The place of the ground, which is no node of a part.
+const GROUND: u32 = u32::MAX;
+
+/// A part of the graph.
+struct Part {
+    /// How many nodes it has besides the ground.
+    nodes: usize,
+    /// The places of the ends of each edge among the nodes, and its number.
+    edges: Vec<([u32; 2], u32)>,
 }
 
 struct Dissection<'a> {
@@ -82,154 +104,128 @@ struct Dissection<'a> {
     energy: Vec<f64>,
     mean: f64,
     recipe: &'a Recipe,
-    random: Random,
-    /// By node: its place in the patch at hand.
-    place: Vec<u32>,
-    patches: Vec<Patch>,
-    stop: &'a mut dyn FnMut(u64) -> bool,
+    /// The multiplications that there may be, and those so far.
+    most: u64,
+    work: AtomicU64,
 }
 
 /// A bisection and what it loses.
 struct Halving {
     value: f64,
-    nodes: [Vec<u32>; 2],
-    /// The edges of the halves, and those between them.
-    edges: [Vec<u32>; 3],
+    halves: [Part; 2],
+    /// The edges between the halves.
+    between: Vec<u32>,
 }
 
 impl Dissection<'_> {
-    /// Adds the patch of `nodes` and `edges` after its halves. Returns its place.
-    fn divide(&mut self, nodes: Vec<u32>, edges: Vec<u32>) -> usize {
-        let cycles = edges.len().saturating_sub(nodes.len());
-        let divides = cycles > self.recipe.leaf && nodes.len() >= LEAST_NODES;
-        let best = if divides {
-            self.best(&nodes, &edges)
-        } else {
-            None
+    /// The patches of a part, the last of which is the part itself. None if the dissection ends.
+    fn divide(&self, part: Part, seed: u64) -> Option<Vec<Patch>> {
+        let cycles = part.edges.len().saturating_sub(part.nodes);
+        let divides = cycles > self.recipe.leaf && part.nodes >= LEAST_NODES;
+        let mut random = Random::new(seed);
+        let best = match divides {
+            true => self.best(&part, &mut random)?,
+            false => None,
         };
-        let (children, edges) = match best {
-            None => (None, edges),
-            Some(Halving {
-                nodes: [a, b],
-                edges: [of_a, of_b, between],
-                ..
-            }) => {
-                drop((nodes, edges));
-                let children = [self.divide(a, of_a), self.divide(b, of_b)];
-                (Some(children), between)
-            }
+        let Some(Halving {
+            halves: [a, b],
+            between,
+            ..
+        }) = best
+        else {
+            let edges = part.edges.iter().map(|&(_, number)| number).collect();
+            return Some(vec![Patch {
+                parent: NO_PATCH,
+                children: None,
+                edges,
+            }]);
         };
-        let at = self.patches.len();
-        for child in children.into_iter().flatten() {
-            self.patches[child].parent = at;
-        }
-        self.patches.push(Patch {
-            parent: NO_PATCH,
-            children,
-            edges,
-        });
-        at
+        let is_worth_a_thread = part.edges.len() >= WORTH_A_THREAD;
+        drop(part);
+        let [seed_a, seed_b] = [random.next(), random.next()];
+        let (a, b) = both(
+            is_worth_a_thread,
+            || self.divide(a, seed_a),
+            || self.divide(b, seed_b),
+        );
+        Some(joined(a?, b?, between))
     }
 
-    /// The bisection that loses the least.
-    fn best(&mut self, nodes: &[u32], edges: &[u32]) -> Option<Halving> {
-        if (self.stop)(0) {
+    /// The bisection that loses the least, if there is one. None if the dissection ends.
+    fn best(&self, part: &Part, random: &mut Random) -> Option<Option<Halving>> {
+        let tries = self.recipe.floors.len() * self.recipe.tries;
+        let work = PER_EDGE * (tries * part.edges.len()) as u64;
+        let before = self.work.fetch_add(work, Relaxed);
+        if before.saturating_add(work) >= self.most || may_continue().is_err() {
             return None;
         }
-        let whole = self.least_energy(nodes, edges);
-        let mut best: Option<Halving> = None;
+        let seeds: Vec<u64> = (0..tries).map(|_| random.next()).collect();
         let measure = Measure {
             balance: self.recipe.balance,
         };
-        for at in 0..self.recipe.floors.len() {
-            let graph = self.weighted(nodes, edges, self.recipe.floors[at]);
-            for _ in 0..self.recipe.tries {
-                if (self.stop)(PER_EDGE * edges.len() as u64) {
-                    return None;
-                }
-                let side = bisect(&graph, measure, &mut self.random).ok()?;
-                let Some(mut halving) = self.halve(nodes, edges, &side) else {
-                    continue;
-                };
-                let [a, b] =
-                    [0, 1].map(|k| self.least_energy(&halving.nodes[k], &halving.edges[k]));
-                let cut = halving.edges[2].len() as f64;
-                let loss = (whole - a - b).max(0.0) + self.recipe.price * self.mean * cut;
-                let smaller = halving.nodes.iter().map(Vec::len).min().unwrap_or(0);
-                halving.value = measure.of(loss, smaller as f64 / nodes.len() as f64);
-                if best.as_ref().is_none_or(|b| halving.value < b.value) {
-                    best = Some(halving);
-                }
+        // Each bisection with the energy of its halves, and then the energy of the part.
+        let task = |k: usize| -> Option<(Option<Halving>, f64)> {
+            let Some(&seed) = seeds.get(k) else {
+                return Some((None, self.least_energy(part)));
+            };
+            let graph = self.weighted(part, self.recipe.floors[k / self.recipe.tries]);
+            let side = bisect(&graph, measure, &mut Random::new(seed)).ok()?;
+            let halving = halved(part, &side);
+            let halves = halving.iter().flat_map(|halving| &halving.halves);
+            let energy = halves.map(|half| self.least_energy(half)).sum();
+            Some((halving, energy))
+        };
+        let threads = match part.edges.len() >= WORTH_A_THREAD {
+            true => 0,
+            false => 1,
+        };
+        let mut done = with_threads(threads, || collect_in_turn(tries + 1, task));
+        let (_, whole) = done.pop()??;
+        let mut best: Option<Halving> = None;
+        for halving in done {
+            let (Some(mut halving), energy) = halving? else {
+                continue;
+            };
+            let cut = halving.between.len() as f64;
+            let loss = (whole - energy).max(0.0) + self.recipe.price * self.mean * cut;
+            let smaller = halving.halves.iter().map(|half| half.nodes).min();
+            let share = smaller.unwrap_or(0) as f64 / part.nodes as f64;
+            halving.value = measure.of(loss, share);
+            if best.as_ref().is_none_or(|b| halving.value < b.value) {
+                best = Some(halving);
             }
         }
-        best
+        Some(best)
     }
 
-    fn number(&mut self, nodes: &[u32]) {
-        for (k, &i) in nodes.iter().enumerate() {
-            self.place[i as usize] = k as u32;
-        }
-    }
-
-    fn weighted(&mut self, nodes: &[u32], edges: &[u32], floor: f64) -> Weighted {
-        self.number(nodes);
-        let ground = self.graph.ground();
-        let inner = edges.iter().filter_map(|&e| {
-            let edge = &self.graph.edges[e as usize];
-            let weight = self.energy[e as usize] / self.mean + floor;
-            let [i, j] = [edge.tail, edge.head].map(|i| self.place[i as usize]);
-            (edge.tail != ground && edge.head != ground).then_some((i, j, weight))
+    fn weighted(&self, part: &Part, floor: f64) -> Weighted {
+        let inner = part.edges.iter().filter_map(|&([i, j], number)| {
+            let weight = self.energy[number as usize] / self.mean + floor;
+            (i != GROUND && j != GROUND).then_some((i, j, weight))
         });
-        Weighted::new(vec![1.0; nodes.len()], inner)
+        Weighted::new(vec![1.0; part.nodes], inner)
     }
 
-    /// The halves with their edges. None if one of them is empty.
-    fn halve(&mut self, nodes: &[u32], edges: &[u32], side: &[bool]) -> Option<Halving> {
-        self.number(nodes);
-        let mut halving = Halving {
-            value: 0.0,
-            nodes: [Vec::new(), Vec::new()],
-            edges: [Vec::new(), Vec::new(), Vec::new()],
-        };
-        for (&i, &second) in nodes.iter().zip(side) {
-            halving.nodes[usize::from(second)].push(i);
-        }
-        let ground = self.graph.ground();
-        for &e in edges {
-            let edge = &self.graph.edges[e as usize];
-            let half =
-                |i: u32| (i != ground).then(|| usize::from(side[self.place[i as usize] as usize]));
-            let at = match (half(edge.tail), half(edge.head)) {
-                (Some(a), Some(b)) if a != b => 2,
-                (Some(a), _) | (None, Some(a)) => a,
-                (None, None) => 2,
-            };
-            halving.edges[at].push(e);
-        }
-        (!halving.nodes.iter().any(Vec::is_empty)).then_some(halving)
-    }
-
-    /// About the least energy of the patch with the incumbent's integers: some steps of conjugate gradients
+    /// About the least energy of the part with the incumbent's integers: some steps of conjugate gradients
     /// from its residuals, preconditioned with the diagonal.
-    fn least_energy(&mut self, nodes: &[u32], edges: &[u32]) -> f64 {
-        self.number(nodes);
-        let n = nodes.len();
-        let ground = self.graph.ground();
+    fn least_energy(&self, part: &Part) -> f64 {
+        let n = part.nodes;
         // The ground has the last place, and stays.
-        let place = |i: u32| match i == ground {
-            true => n,
-            false => self.place[i as usize] as usize,
-        };
-        let own: Vec<(usize, usize, f64)> = edges
+        let place = |i: u32| if i == GROUND { n } else { i as usize };
+        let own: Vec<(usize, usize, f64)> = part
+            .edges
             .iter()
-            .map(|&e| &self.graph.edges[e as usize])
-            .map(|e| (place(e.tail), place(e.head), e.weight))
+            .map(|&([i, j], number)| {
+                let weight = self.graph.edges[number as usize].weight;
+                (place(i), place(j), weight)
+            })
             .collect();
-        let mut energy: f64 = edges.iter().map(|&e| self.energy[e as usize]).sum();
+        let numbers = || part.edges.iter().map(|&(_, number)| number as usize);
+        let mut energy: f64 = numbers().map(|e| self.energy[e]).sum();
         let mut inverse = vec![0.0; n + 1];
         let mut force = vec![0.0; n + 1];
-        for (&(i, j, w), &e) in own.iter().zip(edges) {
-            let flow = w * self.residuals[e as usize];
+        for (&(i, j, w), e) in own.iter().zip(numbers()) {
+            let flow = w * self.residuals[e];
             force[i] -= flow;
             force[j] += flow;
             inverse[i] += w;
@@ -268,4 +264,76 @@ impl Dissection<'_> {
         }
         energy
     }
+}
+
+/// The halves of a part and the edges between them. None if one of the halves is empty.
+fn halved(part: &Part, side: &[bool]) -> Option<Halving> {
+    let mut nodes = [0u32; 2];
+    let place: Vec<u32> = side
+        .iter()
+        .map(|&second| {
+            let count = &mut nodes[usize::from(second)];
+            *count += 1;
+            *count - 1
+        })
+        .collect();
+    if nodes.contains(&0) {
+        return None;
+    }
+    let mut edges = [Vec::new(), Vec::new()];
+    let mut between = Vec::new();
+    for &(ends, number) in &part.edges {
+        let half = |i: u32| (i != GROUND).then(|| usize::from(side[i as usize]));
+        let at = match ends.map(half) {
+            [Some(a), Some(b)] if a == b => Some(a),
+            [Some(a), None] | [None, Some(a)] => Some(a),
+            _ => None,
+        };
+        match at {
+            None => between.push(number),
+            Some(at) => {
+                let place = |i: u32| {
+                    if i == GROUND {
+                        GROUND
+                    } else {
+                        place[i as usize]
+                    }
+                };
+                edges[at].push((ends.map(place), number));
+            }
+        }
+    }
+    let mut counts = nodes.into_iter();
+    let halves = edges.map(|edges| Part {
+        nodes: counts.next().unwrap_or(0) as usize,
+        edges,
+    });
+    Some(Halving {
+        value: 0.0,
+        halves,
+        between,
+    })
+}
+
+/// The patches of both halves, and the one that has these.
+fn joined(mut patches: Vec<Patch>, second: Vec<Patch>, between: Vec<u32>) -> Vec<Patch> {
+    let first = patches.len();
+    patches.extend(second.into_iter().map(|mut patch| {
+        if patch.parent != NO_PATCH {
+            patch.parent += first;
+        }
+        patch.children = patch.children.map(|both| both.map(|child| child + first));
+        patch
+    }));
+    let at = patches.len();
+    let children = [first - 1, at - 1];
+    for child in children {
+        patches[child].parent = at;
+    }
+    patches.push(Patch {
+        parent: NO_PATCH,
+        children: Some(children),
+        edges: between,
+    });
+    patches
 }

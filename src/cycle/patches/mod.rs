@@ -8,7 +8,7 @@
 //!
 //! ```text
 //! incumbent --dissect (bisect, coarsen)--> patches --nested, factor, local--> PatchTree
-//!     --schedule (join, list)--> bounds, lists --account--> proved bounds;    prove: all of this
+//!     --schedule (subtree, join, list)--> bounds, lists --account--> proved bounds;    prove: all of this
 //! ```
 
 mod account;
@@ -24,7 +24,9 @@ mod local;
 mod nested;
 mod prove;
 mod schedule;
+mod subtree;
 mod tree;
+mod watch;
 
 pub(super) use effort::Proof;
 pub(super) use prove::prove;

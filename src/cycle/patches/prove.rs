@@ -5,8 +5,9 @@ use super::account::Account;
 use super::conditions::conditions;
 use super::dissect::Recipe;
 use super::effort::Proof;
-use super::schedule::{Rounds, Standing, Watch};
+use super::schedule::{Rounds, Standing};
 use super::tree::{PatchTree, System};
+use super::watch::{Counted, Task, Watch, counted};
 use crate::cycle::space::CycleSpace;
 use crate::eliminate::ReducedModel;
 use crate::error::Result;
@@ -42,12 +43,18 @@ impl Watch for Watched<'_, '_, '_> {
         self.left == 0 || is_enough || self.search.monitor.ends()
     }
 
+    fn left(&self) -> u64 {
+        self.left
+    }
+
     fn nodes(&self) -> u64 {
         self.nodes
     }
 
     fn visited(&mut self, nodes: u64) {
-        self.nodes -= nodes;
+        if self.nodes != u64::MAX {
+            self.nodes = self.nodes.saturating_sub(nodes);
+        }
     }
 
     fn raised(&mut self, bound: f64) {
@@ -57,6 +64,11 @@ impl Watch for Watched<'_, '_, '_> {
             let most = self.search.best().map_or(f64::INFINITY, |b| b.at_least);
             self.search.raise_bound(bound.min(most));
         }
+    }
+
+    fn at_once(&mut self, count: usize, task: &Task) -> bool {
+        let done = Counted::tasks(count, (self.left, self.nodes), self.search.monitor, task);
+        counted(self, &done)
     }
 }
 
@@ -147,32 +159,6 @@ pub(in crate::cycle) fn prove(
     Ok(rivals <= CANDIDATES)
 }
 
-/// The watch of a trial on another thread, which counts what it takes.
-struct Counted<'a, 'm> {
-    monitor: &'a mut Monitor<'m>,
-    /// What the proof may spend in all.
-    most: (u64, u64),
-    work: u64,
-    nodes: u64,
-}
-
-impl Watch for Counted<'_, '_> {
-    fn ends(&mut self, work: u64) -> bool {
-        self.work += work;
-        self.work >= self.most.0 || self.monitor.ends()
-    }
-
-    fn nodes(&self) -> u64 {
-        self.most.1 - self.nodes
-    }
-
-    fn visited(&mut self, nodes: u64) {
-        self.nodes += nodes;
-    }
-
-    fn raised(&mut self, _: f64) {}
-}
-
 /// The trees that are tried.
 #[derive(Clone, Copy)]
 struct Trials<'a> {
@@ -201,8 +187,7 @@ struct Tried {
 impl Trials<'_> {
     /// A tree. `None` if the watch ends it.
     fn tree(&self, recipe: &Recipe, watch: &mut dyn Watch) -> Result<Option<(PatchTree, Account)>> {
-        let stop = &mut |work| watch.ends(work);
-        let Some(tree) = PatchTree::new(self.system, self.residuals, recipe, stop)? else {
+        let Some(tree) = PatchTree::new(self.system, self.residuals, recipe, watch)? else {
             return Ok(None);
         };
         let account = Account::new(self.system, &tree, 2.0 * self.energy, self.offsets)?;
@@ -211,12 +196,7 @@ impl Trials<'_> {
 
     /// The first rounds on the tree of a recipe, with at most so much work and so many nodes.
     fn run(&self, recipe: &Recipe, most: (u64, u64), monitor: &mut Monitor) -> Result<Tried> {
-        let mut watch = Counted {
-            monitor,
-            most,
-            work: 0,
-            nodes: 0,
-        };
+        let mut watch = Counted::new(monitor, most);
         let mut trial = None;
         if let Some((tree, account)) = self.tree(recipe, &mut watch)?
             && let Some(cap) = account.upper(self.energy)

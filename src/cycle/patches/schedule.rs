@@ -7,48 +7,29 @@
 //! the root holds at any moment, and the first list of the root that is not empty holds the optimum.
 //!
 //! In each round the thresholds of all patches rise, the small patches' first, until their lists are no
-//! longer empty or exceed the limits. Without the rounds, one hard patch would take all the time.
+//! longer empty or exceed the limits. Without the rounds, one hard patch would take all the time. Some patches at a
+//! time, of which none is part of another, rise at once, with caps and limits from before.
+
+use std::sync::{Mutex, PoisonError};
 
 use super::conditions::Conditions;
 use super::dissect::NO_PATCH;
-use super::join::{Limits, Overflow, Targets, enumerate, join};
-use super::list::{List, PatchData};
 use super::local::dot;
+use super::subtree::{State, Subtree};
 use super::tree::PatchTree;
-use crate::monitor::{is_room_for, room_up_to, span};
+use super::watch::Watch;
 
 /// The largest number of entries of a list, by round.
 const ENTRIES: [usize; 7] = [300, 2_000, 10_000, 40_000, 150_000, 500_000, 1_500_000];
 
-/// Conditions of optimality drop most entries, so this many times more are enumerated.
-const RAW: usize = 4;
-
-/// While a list is made, its entries take so many times their memory: as they are found, valued and sorted.
-const MADE: usize = 4;
-
-/// The multiplications for one list, for each entry of the limit.
-const WORK_PER_ENTRY: u64 = 40_000;
-
 /// The first rise of a threshold, in squared steps times weight.
 const FIRST: f64 = 0.008;
-
-/// The growth of the rises.
-const GROWTH: f64 = 1.5;
 
 /// The memory of all lists, in bytes.
 const MEMORY: usize = 1 << 30;
 
-/// What a proof tells, and asks, while it goes on.
-pub(super) trait Watch {
-    /// Counts multiplications. Returns whether to end.
-    fn ends(&mut self, work: u64) -> bool;
-    /// The nodes that may still be visited.
-    fn nodes(&self) -> u64;
-    /// Counts nodes.
-    fn visited(&mut self, nodes: u64);
-    /// No charges have less energy.
-    fn raised(&mut self, bound: f64);
-}
+/// The most patches that rise at once.
+const AT_ONCE: usize = 16;
 
 /// How a proof stands after some rounds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -71,21 +52,9 @@ pub(super) struct Rounds<'a> {
     rise: f64,
     order: Vec<usize>,
     state: Vec<State>,
-    /// The patches whose bounds have changed since those above them were updated.
-    changed: Vec<usize>,
-    bytes: usize,
+    /// The memory that lists may still take, in bytes.
+    room: usize,
     round: usize,
-    entries: usize,
-}
-
-#[derive(Debug, Clone, Default)]
-struct State {
-    bound: f64,
-    /// The list is complete up to this threshold, which is negative without a list.
-    threshold: f64,
-    /// A threshold at which the list overflowed in this round.
-    overflow: f64,
-    list: List,
 }
 
 impl<'a> Rounds<'a> {
@@ -94,19 +63,13 @@ impl<'a> Rounds<'a> {
     pub fn new(tree: &'a PatchTree, cap: f64, unit: f64) -> Self {
         let mut order: Vec<usize> = (0..tree.patches.len()).collect();
         order.sort_by_key(|&at| (tree.cycles[at], at));
-        let state = State {
-            threshold: -1.0,
-            ..State::default()
-        };
         Rounds {
             cap,
             rise: FIRST * unit,
             order,
-            state: vec![state; tree.patches.len()],
-            changed: Vec::new(),
-            bytes: 0,
+            state: vec![State::default(); tree.patches.len()],
+            room: MEMORY,
             round: 0,
-            entries: 0,
             conditions: vec![None; tree.patches.len()],
             tree,
         }
@@ -129,24 +92,31 @@ impl<'a> Rounds<'a> {
 
     /// Completes the root's list up to `threshold`, or the cap.
     pub fn complete(&mut self, threshold: f64, watch: &mut dyn Watch) -> bool {
-        self.entries = ENTRIES[ENTRIES.len() - 1];
-        self.spread();
+        let entries = ENTRIES[ENTRIES.len() - 1];
         let most = threshold.min(self.cap);
-        self.ensure(self.tree.root(), most, watch).is_ok()
+        let all = (0, &mut self.state[..]);
+        let mut tree = Subtree::new(self.tree, &self.conditions, all, entries, self.room);
+        tree.complete(most, watch)
     }
 
     /// Runs rounds up to the one numbered `last`.
     pub fn run(&mut self, last: usize, watch: &mut dyn Watch) -> Standing {
         while self.round < ENTRIES.len().min(last) {
-            self.entries = ENTRIES[self.round];
             for state in &mut self.state {
                 state.overflow = f64::INFINITY;
             }
-            for k in 0..self.order.len() {
-                let at = self.order[k];
+            let mut next = 0;
+            while next < self.order.len() {
+                // The nodes of a proof that may visit so many are counted list by list.
+                let most = if watch.nodes() == u64::MAX {
+                    AT_ONCE
+                } else {
+                    1
+                };
+                let patches = self.rising(&mut next, most);
                 let before = self.bound();
-                let ended = self.raise(at, watch);
-                self.spread();
+                let ended = self.raise(&patches, watch);
+                patches.iter().for_each(|&at| self.spread(at));
                 if self.bound() > before {
                     watch.raised(self.bound());
                 }
@@ -162,44 +132,73 @@ impl<'a> Rounds<'a> {
         Standing::Open
     }
 
+    /// The patches that rise next, at most so many, from place `next` in the order on. None is part of another.
+    fn rising(&self, next: &mut usize, most: usize) -> Vec<usize> {
+        let mut patches: Vec<usize> = Vec::new();
+        while let Some(&at) = self.order.get(*next) {
+            let has_part = |part: &usize| (self.tree.first[at]..=at).contains(part);
+            if patches.len() == most || patches.iter().any(has_part) {
+                break;
+            }
+            let state = &self.state[at];
+            if state.list.len() == 0 && state.threshold < self.cap(at) {
+                patches.push(at);
+            }
+            *next += 1;
+        }
+        patches
+    }
+
+    /// Raises the thresholds of patches. Returns whether the watch ended it.
+    fn raise(&mut self, patches: &[usize], watch: &mut dyn Watch) -> bool {
+        let caps: Vec<f64> = patches.iter().map(|&at| self.cap(at)).collect();
+        let (rise, entries) = (self.rise, ENTRIES[self.round]);
+        let room = self.room / patches.len().max(1);
+        let mut parts: Vec<usize> = (0..patches.len()).collect();
+        parts.sort_unstable_by_key(|&k| patches[k]);
+        let mut subtrees: Vec<Option<Mutex<Subtree>>> = patches.iter().map(|_| None).collect();
+        let (mut rest, mut done) = (&mut self.state[..], 0);
+        for k in parts {
+            let (first, after) = (self.tree.first[patches[k]], patches[k] + 1);
+            let (states, others) =
+                std::mem::take(&mut rest)[first - done..].split_at_mut(after - first);
+            (rest, done) = (others, after);
+            let subtree = Subtree::new(self.tree, &self.conditions, (first, states), entries, room);
+            subtrees[k] = Some(Mutex::new(subtree));
+        }
+        let subtrees: Vec<Mutex<Subtree>> = subtrees.into_iter().flatten().collect();
+        let raise = |k: usize, watch: &mut dyn Watch| {
+            let mut subtree = subtrees[k].lock().unwrap_or_else(PoisonError::into_inner);
+            subtree.raise(rise, caps[k], watch)
+        };
+        let ended = match patches.len() {
+            0 => false,
+            1 => raise(0, watch),
+            count => watch.at_once(count, &|k, watch| raise(k, watch)),
+        };
+        for subtree in subtrees {
+            let subtree = subtree.into_inner().unwrap_or_else(PoisonError::into_inner);
+            self.room = self.room.saturating_add_signed(subtree.freed());
+        }
+        ended
+    }
+
     fn is_decided(&self) -> bool {
         let root = &self.state[self.tree.root()];
         root.list.len() > 0 || root.bound >= self.cap
     }
 
-    /// Raises the threshold of a patch until its list is not empty, or it reaches the cap or the limits.
-    /// Returns whether the watch ended it.
-    fn raise(&mut self, at: usize, watch: &mut dyn Watch) -> bool {
-        let mut rise = self.rise;
-        loop {
-            self.spread();
-            let (state, cap) = (&self.state[at], self.cap(at));
-            if state.list.len() > 0 || state.threshold >= cap {
-                return false;
+    /// Updates the bounds of all patches above one.
+    fn spread(&mut self, at: usize) {
+        let mut parent = self.tree.patches[at].parent;
+        while parent != NO_PATCH {
+            let children = self.tree.patches[parent].children.iter().flatten();
+            let sum = children.map(|&child| self.state[child].bound).sum();
+            if self.state[parent].bound >= sum {
+                break;
             }
-            let threshold = (state.bound + rise).min(cap);
-            match self.ensure(at, threshold, watch) {
-                Err(Overflow::Ended) => return true,
-                Err(Overflow::Full) => return false,
-                Ok(()) => {}
-            }
-            rise *= GROWTH;
-        }
-    }
-
-    /// Updates the bounds of all patches above those whose bounds have changed.
-    fn spread(&mut self) {
-        for at in std::mem::take(&mut self.changed) {
-            let mut parent = self.tree.patches[at].parent;
-            while parent != NO_PATCH {
-                let children = self.tree.patches[parent].children.iter().flatten();
-                let sum = children.map(|&child| self.state[child].bound).sum();
-                if self.state[parent].bound >= sum {
-                    break;
-                }
-                self.state[parent].bound = sum;
-                parent = self.tree.patches[parent].parent;
-            }
+            self.state[parent].bound = sum;
+            parent = self.tree.patches[parent].parent;
         }
     }
 
@@ -208,148 +207,6 @@ impl<'a> Rounds<'a> {
         match self.tree.sibling(at) {
             None => self.cap,
             Some(other) => self.cap(self.tree.patches[at].parent) - self.state[other].bound,
-        }
-    }
-
-    /// Completes the list of a patch up to a threshold.
-    fn ensure(&mut self, at: usize, threshold: f64, watch: &mut dyn Watch) -> Result<(), Overflow> {
-        if self.state[at].threshold >= threshold {
-            return Ok(());
-        }
-        if threshold >= self.state[at].overflow {
-            return Err(Overflow::Full);
-        }
-        let made = self.make(at, threshold, watch);
-        let list = match made {
-            Ok(list) => list,
-            Err(why) => {
-                if why == Overflow::Full {
-                    self.state[at].overflow = threshold;
-                }
-                return Err(why);
-            }
-        };
-        let data = self.data(at);
-        let (before, after) = (
-            data.bytes(self.state[at].list.len()),
-            data.bytes(list.len()),
-        );
-        self.bytes = self.bytes - before + after;
-        let state = &mut self.state[at];
-        let least = list.worth.first().copied().unwrap_or(threshold);
-        state.bound = state.bound.max(least.min(threshold));
-        self.changed.push(at);
-        (state.list, state.threshold) = (list, threshold);
-        Ok(())
-    }
-
-    fn make(&mut self, at: usize, threshold: f64, watch: &mut dyn Watch) -> Result<List, Overflow> {
-        let tree = self.tree;
-        let (front, local) = (&tree.fronts[at], &tree.locals[at]);
-        let held = self.data(at).bytes(1);
-        let room = MEMORY.saturating_sub(self.bytes) / held;
-        let entries = room_up_to((RAW * self.entries).min(room), MADE * held);
-        let work = self.entries as u64 * WORK_PER_ENTRY;
-        let Some([a, b]) = self.tree.patches[at].children else {
-            let mut limits = Limits {
-                entries,
-                work,
-                nodes: watch.nodes(),
-                stop: &mut |work, nodes| {
-                    watch.visited(nodes);
-                    watch.ends(work)
-                },
-            };
-            let _leaf = span("leaf");
-            let found = enumerate(local, threshold, &mut limits)?;
-            let list = List::new(&found, threshold, &self.data(at), &[]);
-            return self.within_limit(list);
-        };
-        self.ensure(a, threshold - self.state[b].bound, watch)?;
-        self.ensure(b, threshold - self.state[a].bound, watch)?;
-        let bounds = [a, b].map(|c| self.state[c].bound);
-        let targets = [0, 1].map(|k| {
-            let child = [a, b][k];
-            self.targets(at, k, child, threshold - bounds[1 - k])
-        });
-        let prepared: usize = targets.iter().map(|t| t.image.len()).sum();
-        if watch.ends(prepared as u64 * 8) {
-            return Err(Overflow::Ended);
-        }
-        let mut limits = Limits {
-            entries,
-            work,
-            nodes: watch.nodes(),
-            stop: &mut |work, nodes| {
-                watch.visited(nodes);
-                watch.ends(work)
-            },
-        };
-        let both = [&targets[0], &targets[1]];
-        let joined = span("join");
-        let found = join(local, both, threshold, &mut limits)?;
-        drop(joined);
-        let tested = self.conditions[at]
-            .as_ref()
-            .map_or(0, |c| c.len() * (local.own + 16));
-        let each = local.own * local.own + front.below.len() + front.above.len() + tested;
-        if watch.ends((found.energy.len() * each) as u64) {
-            return Err(Overflow::Ended);
-        }
-        if !is_room_for(found.energy.len(), MADE * held) {
-            return Err(Overflow::Full);
-        }
-        let lists = [&self.state[a].list, &self.state[b].list];
-        let _list = span("list");
-        let list = List::new(&found, threshold, &self.data(at), &lists);
-        self.within_limit(list)
-    }
-
-    fn within_limit(&self, list: List) -> Result<List, Overflow> {
-        match list.len() > self.entries {
-            true => Err(Overflow::Full),
-            false => Ok(list),
-        }
-    }
-
-    fn data(&self, at: usize) -> PatchData<'_> {
-        let parent = self.tree.patches[at].parent;
-        PatchData {
-            front: &self.tree.fronts[at],
-            local: &self.tree.locals[at],
-            conditions: self.conditions[at].as_ref(),
-            passes_flows: parent != NO_PATCH && self.conditions[parent].is_some(),
-        }
-    }
-
-    /// The entries of a child up to a threshold, as targets of the patch.
-    fn targets(&self, at: usize, place: usize, child: usize, threshold: f64) -> Targets {
-        let local = &self.tree.locals[at];
-        let n = local.own;
-        let list = &self.state[child].list;
-        let count = list.worth.partition_point(|&e| e <= threshold);
-        let places = &self.tree.fronts[at].places[place];
-        let width = places.len();
-        let own = places.partition_point(|&p| (p as usize) < n);
-        // The columns of M that the child sends to, by rows.
-        let columns: Vec<f64> = (0..n)
-            .flat_map(|i| {
-                places[..own]
-                    .iter()
-                    .map(move |&p| local.map[i * n + p as usize])
-            })
-            .collect();
-        let mut image = vec![0.0; count * n];
-        for (k, image) in image.chunks_exact_mut(n.max(1)).enumerate() {
-            let sent = &list.sent[k * width..k * width + own];
-            for (i, value) in image.iter_mut().enumerate() {
-                *value = dot(&columns[i * own..(i + 1) * own], sent);
-            }
-        }
-        Targets {
-            worth: list.worth[..count].to_vec(),
-            energy: list.energy[..count].to_vec(),
-            image,
         }
     }
 

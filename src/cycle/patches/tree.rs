@@ -4,6 +4,7 @@ use super::dissect::{NO_PATCH, Patch, Recipe, dissect};
 use super::factor::{Front, factor};
 use super::local::Local;
 use super::nested::NestedBasis;
+use super::watch::Watch;
 use crate::cycle::graph::Graph;
 use crate::error::Result;
 use crate::monitor::{may_continue, span};
@@ -26,13 +27,15 @@ pub(super) struct PatchTree {
     pub locals: Vec<Local>,
     /// By patch: the number of cycles of the patch and its descendants.
     pub cycles: Vec<usize>,
+    /// By patch: the number of its first descendant, which all others but itself follow.
+    pub first: Vec<usize>,
     /// By patch: the number of the ancestors' cycles.
     above_rows: Vec<usize>,
 }
 
 impl PatchTree {
-    /// The tree of `recipe`, for an incumbent with these residuals. None if `stop`, which gets the
-    /// multiplications, says so, or if the tree does not fit into memory.
+    /// The tree of `recipe`, for an incumbent with these residuals. None if `watch` ends it, or if the tree does not
+    /// fit into memory.
     ///
     /// # Errors
     /// For integers too large to be exact.
@@ -40,15 +43,15 @@ impl PatchTree {
         system: System,
         residuals: &[f64],
         recipe: &Recipe,
-        stop: &mut dyn FnMut(u64) -> bool,
+        watch: &mut dyn Watch,
     ) -> Result<Option<Self>> {
-        let stop = &mut |work| stop(work) || may_continue().is_err();
         let dissected = span("dissect");
-        let patches = dissect(system.graph, residuals, recipe, stop);
+        let (patches, work) = dissect(system.graph, residuals, recipe, watch.left());
         drop(dissected);
-        if stop(0) {
+        let stop = &mut |work| watch.ends(work) || may_continue().is_err();
+        let Some(patches) = patches.filter(|_| !stop(work)) else {
             return Ok(None);
-        }
+        };
         let Ok(basis) = NestedBasis::new(system.graph, &patches) else {
             return Ok(None);
         };
@@ -78,7 +81,12 @@ impl PatchTree {
                 above_rows[at] = above_rows[parent] + fronts[parent].own;
             }
         }
+        let mut first: Vec<usize> = Vec::with_capacity(patches.len());
+        for (at, patch) in patches.iter().enumerate() {
+            first.push(patch.children.map_or(at, |[child, _]| first[child]));
+        }
         Ok(Some(PatchTree {
+            first,
             above_rows,
             patches,
             basis,
