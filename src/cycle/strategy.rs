@@ -270,26 +270,34 @@ mod tests {
     use crate::solve::solve;
 
     #[test]
-    fn both_starts_and_the_trees_of_a_proof_have_threads_if_they_are_allowed() {
+    fn starts_trees_and_lists_of_a_proof_have_threads_and_change_no_bit() {
         let mesh = jitter(&by_name("genus-2", 1_500).unwrap(), 1e-3, 3).unwrap();
         let constraints = curvature_constraints(&mesh, 0.05).unwrap();
         let field = FieldProblem::new(&mesh, &constraints).unwrap();
-        let started = |strategy: Strategy, threads: usize| {
+        let solved = |strategy: Strategy, nodes: usize, threads: usize| {
             let options = Options {
                 strategy,
                 threads,
-                nodes: 10_000_000,
+                nodes,
                 ..Options::default()
             };
-            spawned(|| {
-                solve(field.problem(), &options).unwrap();
-            })
+            let mut bits = [0; 2];
+            let started = spawned(|| {
+                let solution = solve(field.problem(), &options).unwrap();
+                let bound = solution.lower_bound().unwrap();
+                bits = [solution.energy(), bound].map(f64::to_bits);
+            });
+            (started, bits)
         };
-        assert_eq!(started(Strategy::Exact, 1), 0);
-        let of_starts = started(Strategy::Auto, 2);
-        assert!(of_starts >= 1);
-        // Trees are tried after the first.
-        let of_all = started(Strategy::Exact, 2);
-        assert!(of_all > of_starts, "{of_all} {of_starts}");
+        let all = Options::default().nodes;
+        for (strategy, nodes) in [(Strategy::Auto, all), (Strategy::Exact, 10_000_000)] {
+            let alone = solved(strategy, nodes, 1);
+            assert_eq!(alone.0, 0);
+            for threads in [2, 5] {
+                let together = solved(strategy, nodes, threads);
+                assert!(together.0 > 1, "{}", together.0);
+                assert_eq!(together.1, alone.1);
+            }
+        }
     }
 }

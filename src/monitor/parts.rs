@@ -137,9 +137,22 @@ pub(crate) fn change_in_parts<T: Send>(
 
 /// Sorts values in increasing order. Each thread has at least `least` of them.
 pub(crate) fn sort_in_parts<T: Ord + Send>(values: &mut [T], least: usize) {
-    for_each_part(split(values, least), |(_, part)| part.sort_unstable());
-    // This finds the parts, which are in order, and merges them.
-    values.sort();
+    sort_in_parts_by(values, least, T::cmp);
+}
+
+/// The same by an order that tells all values apart.
+pub(crate) fn sort_in_parts_by<T: Send>(
+    values: &mut [T],
+    least: usize,
+    order: impl Fn(&T, &T) -> std::cmp::Ordering + Sync,
+) {
+    let parts = split(values, least);
+    let is_whole = parts.len() == 1;
+    for_each_part(parts, |(_, part)| part.sort_unstable_by(&order));
+    if !is_whole {
+        // This finds the parts, which are in order, and merges them.
+        values.sort_by(order);
+    }
 }
 
 /// The values of each part, and their numbers.

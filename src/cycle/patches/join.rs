@@ -12,8 +12,9 @@ use crate::monitor::{allowed_threads, in_parts};
 /// The pairs tested at a time.
 const BLOCK: usize = 256;
 
-/// The pairs after which a chunk ends.
+/// The pairs after which a chunk ends, times the square of the own charges. It ends after no fewer than the others.
 const CHUNK: usize = 1 << 18;
+const LEAST_CHUNK: usize = 1 << 12;
 
 /// The most chunks that each thread computes before they are joined.
 const AHEAD: usize = 8;
@@ -155,7 +156,8 @@ impl Pairs<'_> {
             return Vec::new();
         };
         let mut chunks: Vec<Chunk> = Vec::new();
-        let (mut end, mut pairs) = (b.energy.len(), CHUNK);
+        let most = (CHUNK / self.local.own.pow(2).max(1)).max(LEAST_CHUNK);
+        let (mut end, mut pairs) = (b.energy.len(), most);
         for (i, &worth) in a.worth.iter().enumerate() {
             let left = self.threshold - worth;
             if left < least {
@@ -164,7 +166,7 @@ impl Pairs<'_> {
             while end > 0 && b.worth[end - 1] > left {
                 end -= 1;
             }
-            if pairs >= CHUNK {
+            if pairs >= most {
                 pairs = 0;
                 let ends = Vec::new();
                 chunks.push(Chunk { first: i, ends });

@@ -5,11 +5,15 @@ use std::ops::Range;
 use super::conditions::Conditions;
 use super::factor::Front;
 use super::local::{Local, dot};
-use crate::monitor::{in_parts, joined};
+use crate::monitor::{for_each_part, parts_of, sort_in_parts_by};
 
-/// The least number of multiplications for which entries are divided among threads: they take about a
+/// The least number of multiplications for which entries are divided among threads: they take about half a
 /// millisecond.
-const WORTH_A_THREAD: usize = 1 << 20;
+const WORTH_A_THREAD: usize = 1 << 19;
+
+/// The least number of entries to sort, and that of values to copy, for which another thread is worth it.
+const SORTED: usize = 1 << 13;
+const COPIED: usize = 1 << 18;
 
 /// The charges of a patch, sorted by what they are worth. An entry refers to entries of the children's
 /// lists. These are sorted in the same way however far they go, so the references stay valid when a list
@@ -63,30 +67,25 @@ impl List {
         let kept = (0..found.energy.len() as u32).filter(|&k| worth[k as usize] <= threshold);
         let mut order: Vec<u32> = kept.collect();
         let steps = |k: u32| &found.steps[k as usize * n..][..n];
-        order.sort_unstable_by(|&a, &b| {
+        sort_in_parts_by(&mut order, SORTED, |&a, &b| {
             let (i, j) = (a as usize, b as usize);
             (worth[i].total_cmp(&worth[j]))
                 .then_with(|| found.from[i].cmp(&found.from[j]))
                 .then_with(|| steps(a).cmp(steps(b)))
         });
         let width = front.above.len();
-        let edges = patch.kept_flows();
         let mut list = List {
             worth: order.iter().map(|&k| worth[k as usize]).collect(),
             energy: order.iter().map(|&k| found.energy[k as usize]).collect(),
             from: order.iter().map(|&k| found.from[k as usize]).collect(),
-            steps: order.iter().flat_map(|&k| steps(k)).copied().collect(),
+            steps: in_order(&order, &found.steps, n),
             sent: Vec::new(),
-            flows: Vec::with_capacity(order.len() * edges),
+            flows: in_order(&order, &flows, patch.kept_flows()),
         };
-        for &k in &order {
-            let own = k as usize * edges;
-            list.flows.extend_from_slice(&flows[own..own + edges]);
-        }
-        let sent = |part: Range<usize>| {
-            let mut sent = vec![0.0; part.len() * width];
+        drop(flows);
+        let sent = |first: usize, sent: &mut [f64]| {
             let mut all = vec![0.0; n + width];
-            for (k, sent) in part.zip(sent.chunks_exact_mut(width.max(1))) {
+            for (k, sent) in (first..).zip(sent.chunks_exact_mut(width.max(1))) {
                 patch.receive(&mut all, list.from[k], children);
                 let (own, above) = all.split_at_mut(n);
                 patch.own_values(own, &list.steps[k * n..(k + 1) * n]);
@@ -94,11 +93,40 @@ impl List {
                     *sent = *before + dot(&front.below[i * n..(i + 1) * n], own);
                 }
             }
-            sent
         };
-        list.sent = joined(in_parts(order.len(), patch.worth_a_thread(), sent));
+        list.sent = filled(order.len(), width, patch.worth_a_thread(), sent);
         list
     }
+}
+
+/// `width` values of each of so many items, which `fill` sets for some of them from a first one on. Each thread has at
+/// least `least` items.
+fn filled<T: Copy + Default + Send>(
+    count: usize,
+    width: usize,
+    least: usize,
+    fill: impl Fn(usize, &mut [T]) + Sync,
+) -> Vec<T> {
+    let mut values = vec![T::default(); count * width];
+    let mut rest = &mut values[..];
+    let part = |range: Range<usize>| {
+        let part = rest.split_off_mut(..width * range.len());
+        (range.start, part.unwrap_or_default())
+    };
+    let parts = parts_of(count, least).into_iter().map(part).collect();
+    for_each_part(parts, |(first, part)| fill(first, part));
+    values
+}
+
+/// The `width` values of each of these items.
+fn in_order<T: Copy + Default + Send + Sync>(order: &[u32], values: &[T], width: usize) -> Vec<T> {
+    let least = COPIED / width.max(1);
+    filled(order.len(), width, least, |first, part| {
+        let items = part.chunks_exact_mut(width.max(1));
+        for (to, &k) in items.zip(&order[first..]) {
+            to.copy_from_slice(&values[k as usize * width..][..width]);
+        }
+    })
 }
 
 /// What the entries of a patch are computed with.
@@ -132,12 +160,21 @@ impl PatchData<'_> {
 
     /// By entry, what it is worth, and its flows if the parent needs them.
     fn worths(&self, found: &Found, children: &[&List]) -> (Vec<f64>, Vec<f32>) {
-        let count = found.energy.len();
-        let parts = in_parts(count, self.worth_a_thread(), |part| {
-            self.worths_of(found, part, children)
+        let (count, edges) = (found.energy.len(), self.kept_flows());
+        let (mut worth, mut flows) = (vec![0.0; count], vec![0.0; count * edges]);
+        let (mut worths, mut kept) = (&mut worth[..], &mut flows[..]);
+        let part = |range: Range<usize>| {
+            let worth = worths.split_off_mut(..range.len()).unwrap_or_default();
+            let kept = kept
+                .split_off_mut(..edges * range.len())
+                .unwrap_or_default();
+            (range, worth, kept)
+        };
+        let parts = parts_of(count, self.worth_a_thread()).into_iter().map(part);
+        for_each_part(parts.collect(), |(range, worth, kept)| {
+            self.worths_of(found, range, children, (worth, kept));
         });
-        let (worth, kept): (Vec<_>, Vec<_>) = parts.into_iter().unzip();
-        (joined(worth), joined(kept))
+        (worth, flows)
     }
 
     /// The same of some entries.
@@ -146,13 +183,13 @@ impl PatchData<'_> {
         found: &Found,
         part: Range<usize>,
         children: &[&List],
-    ) -> (Vec<f64>, Vec<f32>) {
+        (worth, kept): (&mut [f64], &mut [f32]),
+    ) {
         let n = self.local.own;
-        let mut worth = Vec::with_capacity(part.len());
-        let mut kept = Vec::with_capacity(part.len() * self.kept_flows());
+        let edges = self.kept_flows();
         let mut all = vec![0.0; n + self.front.above.len()];
         let mut flows: Vec<f32> = Vec::new();
-        for k in part {
+        for (place, (k, worth)) in part.zip(worth).enumerate() {
             let from = found.from[k];
             let of_children = children.iter().zip(from);
             let below: f64 = of_children.map(|(c, at)| c.worth[at as usize]).sum();
@@ -168,13 +205,10 @@ impl PatchData<'_> {
                 flows.resize(conditions.len(), 0.0);
                 conditions.add_flows(&all[..n], &mut flows);
                 own += conditions.price(&flows);
-                if self.passes_flows {
-                    kept.extend_from_slice(&flows);
-                }
+                kept[place * edges..][..edges].copy_from_slice(&flows[..edges]);
             }
-            worth.push(own.max(below));
+            *worth = own.max(below);
         }
-        (worth, kept)
     }
 
     /// Sums up what the children's entries send, to the own cycles first.

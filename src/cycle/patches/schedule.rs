@@ -96,7 +96,7 @@ impl<'a> Rounds<'a> {
         let most = threshold.min(self.cap);
         let all = (0, &mut self.state[..]);
         let mut tree = Subtree::new(self.tree, &self.conditions, all, entries, self.room);
-        tree.complete(most, watch)
+        tree.complete(most, watch).is_ok()
     }
 
     /// Runs rounds up to the one numbered `last`.

@@ -1,5 +1,7 @@
 //! The lists of a patch and of all patches below it, which change together.
 
+use std::sync::{Mutex, PoisonError};
+
 use super::conditions::Conditions;
 use super::dissect::NO_PATCH;
 use super::join::{Limits, Overflow, Targets, enumerate, join};
@@ -17,6 +19,9 @@ const MADE: usize = 4;
 
 /// The multiplications for one list, for each entry of the limit.
 const WORK_PER_ENTRY: u64 = 40_000;
+
+/// Lists of both children of a patch that have so many entries grow at the same time.
+const WORTH_A_THREAD: usize = 500;
 
 /// The growth of the rises.
 const GROWTH: f64 = 1.5;
@@ -116,9 +121,9 @@ impl<'t, 's> Subtree<'t, 's> {
         }
     }
 
-    /// Completes the list of the patch up to a threshold. Returns whether it could.
-    pub fn complete(&mut self, threshold: f64, watch: &mut dyn Watch) -> bool {
-        self.ensure(self.top(), threshold, watch).is_ok()
+    /// Completes the list of the patch up to a threshold.
+    pub fn complete(&mut self, threshold: f64, watch: &mut dyn Watch) -> Result<(), Overflow> {
+        self.ensure(self.top(), threshold, watch)
     }
 
     /// Updates the bounds of all patches above those whose bounds have changed.
@@ -171,6 +176,50 @@ impl<'t, 's> Subtree<'t, 's> {
         Ok(())
     }
 
+    /// Completes the lists of both children of a patch as far as its own list up to a threshold needs them.
+    fn ensure_both(
+        &mut self,
+        [a, b]: [usize; 2],
+        threshold: f64,
+        watch: &mut dyn Watch,
+    ) -> Result<(), Overflow> {
+        let limits = [b, a].map(|other| threshold - self.state(other).bound);
+        // The list of the first child can raise its bound, which the second one needs, only while it is empty.
+        let is_settled = self.state(a).list.len() > 0;
+        let is_long = |(at, limit)| {
+            let state = self.state(at);
+            state.list.len() >= WORTH_A_THREAD && state.threshold < limit && limit < state.overflow
+        };
+        let at_once = is_settled && watch.nodes() == u64::MAX;
+        if !(at_once && is_long((a, limits[0])) && is_long((b, limits[1]))) {
+            self.ensure(a, limits[0], watch)?;
+            return self.ensure(b, threshold - self.state(a).bound, watch);
+        }
+        let room = (self.room + self.freed).max(0) as usize / 2;
+        let begin = self.tree.first[a];
+        let states = &mut self.states[begin - self.first..=b - self.first];
+        let (of_a, of_b) = states.split_at_mut(a + 1 - begin);
+        let subtrees = [(begin, of_a), (a + 1, of_b)].map(|states| {
+            let subtree = Subtree::new(self.tree, self.conditions, states, self.entries, room);
+            Mutex::new((subtree, Ok(())))
+        });
+        let ended = watch.at_once(2, &|k, watch| {
+            let mut both = subtrees[k].lock().unwrap_or_else(PoisonError::into_inner);
+            both.1 = both.0.complete(limits[k], watch);
+            both.1 == Err(Overflow::Ended)
+        });
+        let done = subtrees.map(|both| both.into_inner().unwrap_or_else(PoisonError::into_inner));
+        let found = done.map(|(subtree, result)| (subtree.freed, subtree.changed, result));
+        for (freed, changed, _) in &found {
+            self.freed += freed;
+            self.changed.extend(changed);
+        }
+        if ended {
+            return Err(Overflow::Ended);
+        }
+        found.into_iter().try_for_each(|(_, _, result)| result)
+    }
+
     fn make(&mut self, at: usize, threshold: f64, watch: &mut dyn Watch) -> Result<List, Overflow> {
         let tree = self.tree;
         let (front, local) = (&tree.fronts[at], &tree.locals[at]);
@@ -193,8 +242,7 @@ impl<'t, 's> Subtree<'t, 's> {
             let list = List::new(&found, threshold, &self.data(at), &[]);
             return self.within_limit(list);
         };
-        self.ensure(a, threshold - self.state(b).bound, watch)?;
-        self.ensure(b, threshold - self.state(a).bound, watch)?;
+        self.ensure_both([a, b], threshold, watch)?;
         let bounds = [a, b].map(|c| self.state(c).bound);
         let targets = [0, 1].map(|k| {
             let child = [a, b][k];
