@@ -5,7 +5,10 @@ use std::sync::Arc;
 use super::{CycleHint, Pins, Problem, RowList};
 use crate::error::{Error, Result};
 use crate::linalg::Sparse;
-use crate::monitor::{may_continue, may_continue_at, span};
+use crate::monitor::{both, may_continue, may_continue_at, span};
+
+/// The least number of unknowns for which a part of the assembly is worth a thread.
+const WORTH_A_THREAD: usize = 10_000;
 
 /// A problem that was checked and assembled. It does not change afterwards.
 ///
@@ -51,7 +54,22 @@ impl Model {
             })
         });
         let entries = problem.quadratic.iter().copied().chain(products);
-        let hessian = Sparse::from_triplets(n, n, entries)?;
+        let others = || {
+            let linear = linear_part(problem)?;
+            may_continue()?;
+            let fault = problem
+                .cycles
+                .fault(&problem.least_squares, &problem.integer);
+            may_continue()?;
+            let constraints = problem.constraints.to_sparse(n)?;
+            Ok::<_, Error>((linear, fault, constraints))
+        };
+        let (hessian, others) = both(
+            n >= WORTH_A_THREAD,
+            || Sparse::from_triplets(n, n, entries),
+            others,
+        );
+        let hessian = hessian?;
         may_continue()?;
         if let Some(at) = hessian.values().iter().position(|v| !v.is_finite()) {
             let i = hessian.offsets().partition_point(|&start| start <= at) - 1;
@@ -62,13 +80,7 @@ impl Model {
             });
         }
         may_continue()?;
-        let (gradient, constant) = linear_part(problem)?;
-        may_continue()?;
-        let ignored_hint = problem
-            .cycles
-            .fault(&problem.least_squares, &problem.integer);
-        may_continue()?;
-        let constraints = problem.constraints.to_sparse(n)?;
+        let ((gradient, constant), ignored_hint, constraints) = others?;
         if let Some((i, j, _)) = constraints.entries().find(|(_, _, v)| !v.is_finite()) {
             return Err(Error::Overflow {
                 what: format!("constraint {i}: the sum of coefficients of variable {j} overflows"),

@@ -10,12 +10,16 @@ use super::region::{Moved, Region};
 use crate::error::{Error, Result};
 use crate::linalg::Sparse;
 use crate::mesh::orientation;
+use crate::monitor::{allowed_threads, collect_in_parts};
 
 /// The most halvings of a step before it is given up.
 const HALVINGS: usize = 24;
 
 /// The fraction of the decrease predicted by the slope that a step must reach (Armijo).
 const DECREASE: f64 = 1e-4;
+
+/// The faces whose forms are worth a thread: it takes a quarter of a millisecond for them.
+const WORTH_A_THREAD: usize = 1000;
 
 /// One region, ready to be solved.
 pub(super) struct System<'a> {
@@ -75,7 +79,11 @@ impl<'a> System<'a> {
 
     /// The energy at coordinates `x`.
     pub fn energy(&self, x: &[f64], eps: f64) -> f64 {
-        self.shapes(x).map(|(rest, uv)| rest.energy(&uv, eps)).sum()
+        let energy = |k: usize| self.rests[k].energy(&self.uv(x, k), eps);
+        match self.threads_compute() {
+            true => self.in_parts(energy).sum(),
+            false => (0..self.rests.len()).map(energy).sum(),
+        }
     }
 
     /// The least determinant.
@@ -171,17 +179,47 @@ impl<'a> System<'a> {
     }
 
     fn shapes<'b>(&'b self, x: &'b [f64]) -> impl Iterator<Item = (&'b Rest, [[f64; 2]; 3])> + 'b {
-        let faces = self.region.faces.iter().zip(&self.rests);
-        faces.map(|(&face, rest)| (rest, self.freedom.uv(x, face as usize)))
+        let rests = self.rests.iter().enumerate();
+        rests.map(|(k, rest)| (rest, self.uv(x, k)))
+    }
+
+    /// The coordinates of face `k` of the region.
+    fn uv(&self, x: &[f64], k: usize) -> [[f64; 2]; 3] {
+        self.freedom.uv(x, self.region.faces[k] as usize)
+    }
+
+    /// Whether several threads compute what belongs to faces.
+    fn threads_compute(&self) -> bool {
+        allowed_threads() > 1 && self.rests.len() >= 2 * WORTH_A_THREAD
+    }
+
+    /// The values of all faces in order, computed by several threads.
+    fn in_parts<T: Send>(&self, value: impl Fn(usize) -> T + Sync) -> impl Iterator<Item = T> {
+        collect_in_parts(self.rests.len(), WORTH_A_THREAD, value).into_iter()
     }
 
     /// Energy and slope in the region's unknowns; `hessian` becomes the projected one.
     fn quadratic(&self, x: &[f64], eps: f64, hessian: &mut Hessian) -> (f64, Vec<f64>) {
+        let of_face = |k: usize| {
+            let (rest, uv) = (&self.rests[k], self.uv(x, k));
+            (rest.energy(&uv, eps), rest.quadratic(&uv, eps))
+        };
+        match self.threads_compute() {
+            true => self.summed(self.in_parts(of_face), hessian),
+            false => self.summed((0..self.rests.len()).map(of_face), hessian),
+        }
+    }
+
+    /// The sum of the energies and that of the slopes of all faces; `hessian` becomes that of the Hessians.
+    fn summed(
+        &self,
+        all: impl Iterator<Item = (f64, Quadratic)>,
+        hessian: &mut Hessian,
+    ) -> (f64, Vec<f64>) {
         let mut slope = vec![0.0; self.region.unknowns.len()];
         let mut energy = 0.0;
-        let forms = self.shapes(x).enumerate().map(|(k, (rest, uv))| {
-            energy += rest.energy(&uv, eps);
-            let local = rest.quadratic(&uv, eps);
+        let forms = all.enumerate().map(|(k, (of_face, local))| {
+            energy += of_face;
             for a in 0..6 {
                 for (i, u) in self.corners.row(6 * k + a) {
                     slope[i] += u * local.slope[a];
