@@ -145,18 +145,17 @@ pub fn solve_fold_free<'a>(
         let relaxed = driver.maps.solve()?;
         return FoldFreeMap::untouched(mesh, problem, relaxed.solution, relaxed.map);
     }
-    let (mut current, mut is_best) = (Try::default(), true);
+    let mut last = Tried::default();
     let most = match effort.refinements {
         0 => 1,
         refinements => 1 + refinements + GRADINGS + TRIES_BACK * (1 + refinements),
     };
     let mut best = run.with_share(share_of(0, most), || {
-        let first = driver.attempt(current)?;
+        let first = driver.attempt(last.how)?;
         driver.mended(first)
     })?;
     let mut others = 0;
-    while let Some(next) = driver.next(current, is_best, &best) {
-        current = next;
+    while let Some(current) = driver.next(last, &best) {
         others += 1;
         let found = optional(&monitor, || {
             run.with_share(share_of(others, most), || {
@@ -174,8 +173,12 @@ pub fn solve_fold_free<'a>(
         let Some(found) = found? else {
             break;
         };
-        is_best = found.rank() < best.rank();
-        if is_best {
+        last = Tried {
+            how: current,
+            is_best: found.rank() < best.rank(),
+            faults: found.untangled.faults(),
+        };
+        if last.is_best {
             driver.guide = Some(driver.maps.problem().clone());
             best = found;
         }
@@ -210,16 +213,31 @@ struct Try {
     is_guided: bool,
 }
 
-/// The next try on the way back: with elements far apart kept apart, too, and then with smaller quads. A new guide
-/// leads back from the start.
-fn back(last: Try, is_best: bool) -> Try {
+/// A try that has been made.
+#[derive(Debug, Clone, Copy, Default)]
+struct Tried {
+    how: Try,
+    /// Whether it gave the best map.
+    is_best: bool,
+    faults: usize,
+}
+
+/// The next try on the way back: with elements far apart kept apart, too, if few faults remain, and then with smaller
+/// quads. A new guide leads back from the start.
+fn back(
+    Tried {
+        how: last,
+        is_best,
+        faults,
+    }: Tried,
+) -> Try {
     let guided = |is_far, refinements| Try {
         is_far,
         refinements,
         gradings: 0,
         is_guided: true,
     };
-    match (last.is_guided && !is_best, last.is_far) {
+    match (last.is_guided && !is_best, last.is_far || faults > MENDED) {
         (false, _) => guided(false, 0),
         (true, false) => guided(true, last.refinements),
         (true, true) => guided(false, last.refinements + 1),
@@ -241,15 +259,17 @@ struct Driver<'a, M> {
 }
 
 impl<'m, M: Fn() -> Monitor<'m>> Driver<'_, M> {
-    /// What to try next, if there is anything. `is_best` says whether the last try gave the best map.
-    fn next(&self, last: Try, is_best: bool, best: &FoldFreeMap) -> Option<Try> {
-        let finer = match best.untangled.faults() > 0 && !last.is_guided {
-            true => self.finer_than(last, best),
+    /// What to try next, if there is anything.
+    fn next(&self, last: Tried, best: &FoldFreeMap) -> Option<Try> {
+        let faults = best.untangled.faults();
+        let finer = match faults > 0 && !last.how.is_guided {
+            true => self.finer_than(last.how, best),
             false => None,
         };
         finer.or_else(|| {
-            let next = back(last, is_best);
-            ((next.refinements, 0) < (best.refinements, best.gradings)).then_some(next)
+            let next = back(last);
+            let is_coarser = (next.refinements, 0) < (best.refinements, best.gradings);
+            (is_coarser && faults <= MENDED).then_some(next)
         })
     }
 
@@ -376,5 +396,44 @@ impl<'m, M: Fn() -> Monitor<'m>> Driver<'_, M> {
             refinements: current.refinements,
             gradings: current.gradings,
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn guided(is_far: bool, refinements: usize) -> Try {
+        Try {
+            is_far,
+            refinements,
+            gradings: 0,
+            is_guided: true,
+        }
+    }
+
+    #[test]
+    fn the_way_back_leads_to_finer_maps_and_begins_again_with_a_better_guide() {
+        let finer = Tried {
+            how: Try {
+                is_far: true,
+                refinements: 2,
+                gradings: 1,
+                is_guided: false,
+            },
+            is_best: true,
+            faults: 0,
+        };
+        assert_eq!(back(finer), guided(false, 0));
+        let tried = |how: Try, is_best: bool, faults: usize| Tried {
+            how,
+            is_best,
+            faults,
+        };
+        let near = guided(false, 1);
+        assert_eq!(back(tried(near, false, MENDED)), guided(true, 1));
+        assert_eq!(back(tried(near, false, MENDED + 1)), guided(false, 2));
+        assert_eq!(back(tried(guided(true, 1), false, 1)), guided(false, 2));
+        assert_eq!(back(tried(near, true, 0)), guided(false, 0));
     }
 }

@@ -22,6 +22,12 @@ const NODES: usize = 30_000_000;
 /// So many maps that leave no fewer faults, one after another, end the mending of faults.
 const REFUSED: usize = 8;
 
+/// Where more rows are missed, the quads are too large for them, and other integers help little.
+const MISSED: usize = 100;
+
+/// A round ends these unless it leaves at most so large a part of them.
+const LEFT: f64 = 0.9;
+
 /// These options, changed so that a map does not wait for a proof with [`Strategy::Auto`].
 pub(super) fn without_long_proof(options: &Options, variables: usize) -> Options {
     let mut options = options.clone();
@@ -193,6 +199,7 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> MapSolver<'a, M> {
 
     /// Adds the rows that `missed` finds for a map, and decides the integers anew, at most this many times. If some are
     /// missed all the same, all `known` rows are added at once, and it begins again; with many integers, that comes first.
+    /// Where a great many are missed, it ends earlier.
     fn separate(
         &mut self,
         first: &Solved,
@@ -208,7 +215,8 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> MapSolver<'a, M> {
         if known.is_empty() || !has_many_integers(&first.solution) {
             self.keep(&[], most_rounds, &missed, &mut so_far)?;
         }
-        if !known.is_empty() && !so_far.missed.is_empty() {
+        let is_hopeless = so_far.rounds > 0 && so_far.missed.len() > MISSED;
+        if !known.is_empty() && !so_far.missed.is_empty() && !is_hopeless {
             self.keep(known, most_rounds, &missed, &mut so_far)?;
         }
         Ok(so_far)
@@ -244,9 +252,14 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> MapSolver<'a, M> {
             so_far.rounds += 1;
             let found = self.solved(named_limit(solution, &options))?;
             new = missed(self, &found.map);
+            let enough = LEFT * so_far.missed.len() as f64;
+            let is_hopeless = new.len() > MISSED && new.len() as f64 > enough;
             if new.len() < so_far.missed.len() {
                 so_far.missed = new.clone();
                 so_far.better = Some(found);
+            }
+            if is_hopeless {
+                break;
             }
         }
         Ok(())
