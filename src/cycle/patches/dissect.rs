@@ -82,10 +82,13 @@ pub(super) fn dissect(
             .map(|(e, number)| ([e.tail, e.head].map(place), number))
             .collect(),
     };
-    let patches = dissection.divide(whole, recipe.seed);
+    let patches = dissection.divide(whole, recipe.seed).ok();
     let work = dissection.work.into_inner().min(most);
     (patches.filter(|_| work < most), work)
 }
+
+/// The dissection has taken all that it may, or nobody wants it any more.
+struct Ended;
 
 /// The place of the ground, which is no node of a part.
 const GROUND: u32 = u32::MAX;
@@ -118,8 +121,8 @@ struct Halving {
 }
 
 impl Dissection<'_> {
-    /// The patches of a part, the last of which is the part itself. None if the dissection ends.
-    fn divide(&self, part: Part, seed: u64) -> Option<Vec<Patch>> {
+    /// The patches of a part, the last of which is the part itself.
+    fn divide(&self, part: Part, seed: u64) -> Result<Vec<Patch>, Ended> {
         let cycles = part.edges.len().saturating_sub(part.nodes);
         let divides = cycles > self.recipe.leaf && part.nodes >= LEAST_NODES;
         let mut random = Random::new(seed);
@@ -134,7 +137,7 @@ impl Dissection<'_> {
         }) = best
         else {
             let edges = part.edges.iter().map(|&(_, number)| number).collect();
-            return Some(vec![Patch {
+            return Ok(vec![Patch {
                 parent: NO_PATCH,
                 children: None,
                 edges,
@@ -148,39 +151,39 @@ impl Dissection<'_> {
             || self.divide(a, seed_a),
             || self.divide(b, seed_b),
         );
-        Some(joined(a?, b?, between))
+        Ok(joined(a?, b?, between))
     }
 
-    /// The bisection that loses the least, if there is one. None if the dissection ends.
-    fn best(&self, part: &Part, random: &mut Random) -> Option<Option<Halving>> {
+    /// The bisection that loses the least, if there is one.
+    fn best(&self, part: &Part, random: &mut Random) -> Result<Option<Halving>, Ended> {
         let tries = self.recipe.floors.len() * self.recipe.tries;
         let work = PER_EDGE * (tries * part.edges.len()) as u64;
         let before = self.work.fetch_add(work, Relaxed);
         if before.saturating_add(work) >= self.most || may_continue().is_err() {
-            return None;
+            return Err(Ended);
         }
         let seeds: Vec<u64> = (0..tries).map(|_| random.next()).collect();
         let measure = Measure {
             balance: self.recipe.balance,
         };
         // Each bisection with the energy of its halves, and then the energy of the part.
-        let task = |k: usize| -> Option<(Option<Halving>, f64)> {
+        let task = |k: usize| -> Result<(Option<Halving>, f64), Ended> {
             let Some(&seed) = seeds.get(k) else {
-                return Some((None, self.least_energy(part)));
+                return Ok((None, self.least_energy(part)));
             };
             let graph = self.weighted(part, self.recipe.floors[k / self.recipe.tries]);
-            let side = bisect(&graph, measure, &mut Random::new(seed)).ok()?;
+            let side = bisect(&graph, measure, &mut Random::new(seed)).map_err(|_| Ended)?;
             let halving = halved(part, &side);
             let halves = halving.iter().flat_map(|halving| &halving.halves);
             let energy = halves.map(|half| self.least_energy(half)).sum();
-            Some((halving, energy))
+            Ok((halving, energy))
         };
         let threads = match part.edges.len() >= WORTH_A_THREAD {
             true => 0,
             false => 1,
         };
         let mut done = with_threads(threads, || collect_in_turn(tries + 1, task));
-        let (_, whole) = done.pop()??;
+        let (_, whole) = done.pop().ok_or(Ended)??;
         let mut best: Option<Halving> = None;
         for halving in done {
             let (Some(mut halving), energy) = halving? else {
@@ -195,7 +198,7 @@ impl Dissection<'_> {
                 best = Some(halving);
             }
         }
-        Some(best)
+        Ok(best)
     }
 
     fn weighted(&self, part: &Part, floor: f64) -> Weighted {

@@ -28,7 +28,7 @@ const TRIAL_ROUNDS: usize = 2;
 struct Watched<'a, 's, 'm> {
     search: &'a mut Search<'s, 'm>,
     left: u64,
-    /// The nodes that may still be visited.
+    /// The nodes that may still be visited: `u64::MAX` without a limit.
     nodes: u64,
     base: f64,
     gap: f64,

@@ -43,7 +43,7 @@ impl Default for State {
         State {
             bound: 0.0,
             threshold: -1.0,
-            overflow: 0.0,
+            overflow: f64::INFINITY,
             list: List::default(),
         }
     }
@@ -51,15 +51,15 @@ impl Default for State {
 
 /// A patch with all below it.
 pub(super) struct Subtree<'t, 's> {
-    pub tree: &'t PatchTree,
-    pub conditions: &'t [Option<Conditions>],
+    tree: &'t PatchTree,
+    conditions: &'t [Option<Conditions>],
     /// The number of the first patch.
-    pub first: usize,
-    pub states: &'s mut [State],
+    first: usize,
+    states: &'s mut [State],
     /// The patches whose bounds have changed since those above them were updated.
     changed: Vec<usize>,
     /// The most entries of a list.
-    pub entries: usize,
+    entries: usize,
     /// The memory that lists may take besides those that there are, in bytes.
     room: isize,
     /// The memory that they take less than at first.
@@ -106,13 +106,14 @@ impl<'t, 's> Subtree<'t, 's> {
     pub fn raise(&mut self, mut rise: f64, cap: f64, watch: &mut dyn Watch) -> bool {
         let top = self.top();
         loop {
-            self.spread();
             let state = self.state(top);
             if state.list.len() > 0 || state.threshold >= cap {
                 return false;
             }
             let threshold = (state.bound + rise).min(cap);
-            match self.ensure(top, threshold, watch) {
+            let ensured = self.ensure(top, threshold, watch);
+            self.spread();
+            match ensured {
                 Err(Overflow::Ended) => return true,
                 Err(Overflow::Full) => return false,
                 Ok(()) => {}
@@ -128,8 +129,7 @@ impl<'t, 's> Subtree<'t, 's> {
 
     /// Updates the bounds of all patches above those whose bounds have changed.
     fn spread(&mut self) {
-        for at in std::mem::take(&mut self.changed) {
-            let mut at = at;
+        for mut at in std::mem::take(&mut self.changed) {
             while at != self.top() {
                 let parent = self.tree.patches[at].parent;
                 let children = self.tree.patches[parent].children.iter().flatten();

@@ -1,4 +1,4 @@
-//! What a proof asks and tells while it goes on.
+//! The limits of a proof, those of tasks that are done at the same time, and who hears of its bounds.
 
 use crate::monitor::{Monitor, tasks};
 
@@ -42,27 +42,33 @@ impl<'a, 'm> Counted<'a, 'm> {
         }
     }
 
-    /// Does tasks at the same time, with what `watch` has left and its monitor.
-    pub fn tasks(
-        count: usize,
-        most: (u64, u64),
-        monitor: &mut Monitor,
-        task: &Task,
-    ) -> Vec<(u64, u64, bool)> {
+    /// Does tasks at the same time, each of which may take so many multiplications and nodes.
+    pub fn tasks(count: usize, most: (u64, u64), monitor: &mut Monitor, task: &Task) -> Vec<Took> {
         tasks(count, monitor, |k, monitor| {
             let mut watch = Counted::new(monitor, most);
             let ended = task(k, &mut watch);
-            (watch.work, watch.nodes, ended)
+            Took {
+                work: watch.work,
+                nodes: watch.nodes,
+                ended,
+            }
         })
     }
 }
 
+/// The multiplications and nodes of a task, and whether its watch ended it.
+pub(super) struct Took {
+    work: u64,
+    nodes: u64,
+    ended: bool,
+}
+
 /// Counts what tasks took. Returns whether to end.
-pub(super) fn counted(watch: &mut dyn Watch, done: &[(u64, u64, bool)]) -> bool {
+pub(super) fn counted(watch: &mut dyn Watch, tasks: &[Took]) -> bool {
     let mut ended = false;
-    for &(work, nodes, has_ended) in done {
-        watch.visited(nodes);
-        ended |= watch.ends(work) || has_ended;
+    for task in tasks {
+        watch.visited(task.nodes);
+        ended |= watch.ends(task.work) || task.ended;
     }
     ended
 }
