@@ -265,7 +265,7 @@ mod tests {
     use crate::field::{FieldProblem, curvature_constraints};
     use crate::mesh::jitter;
     use crate::mesh::shape::by_name;
-    use crate::monitor::spawned;
+    use crate::monitor::{spawned, traced};
     use crate::search::{Options, Strategy};
     use crate::solve::solve;
 
@@ -299,5 +299,8 @@ mod tests {
                 assert_eq!(together.1, alone.1);
             }
         }
+        let (_, trace) = traced(false, || solved(Strategy::Auto, all, 2));
+        let mut leaves = trace.spans.iter().filter(|span| span.name == "leaf");
+        assert!(leaves.any(|leaf| leaf.thread > 0), "lists grow one by one");
     }
 }

@@ -7,6 +7,7 @@
 
 use super::list::Found;
 use super::local::Local;
+use super::watch::Watch;
 use crate::monitor::{allowed_threads, in_parts};
 
 /// The pairs tested at a time.
@@ -42,10 +43,16 @@ pub(super) struct Limits<'a> {
     pub entries: usize,
     /// Multiplications, about.
     pub work: u64,
-    /// The nodes that may be visited.
-    pub nodes: u64,
-    /// Gets the multiplications and the nodes since the last call, and says whether to end.
-    pub stop: &'a mut dyn FnMut(u64, u64) -> bool,
+    /// Hears the multiplications and the nodes, and says whether to end.
+    pub watch: &'a mut dyn Watch,
+}
+
+impl Limits<'_> {
+    /// Counts them. Returns whether to end.
+    fn count(&mut self, work: u64, nodes: u64) -> bool {
+        self.watch.visited(nodes);
+        self.watch.ends(work)
+    }
 }
 
 /// All entries with at most this energy, of pairs that are worth at most as much.
@@ -71,7 +78,7 @@ pub(super) fn join(
     let mut left = Left {
         entries: limits.entries,
         work: limits.work,
-        nodes: limits.nodes,
+        nodes: limits.watch.nodes(),
     };
     let (mut first, mut window) = (0, 1);
     while first < chunks.len() {
@@ -90,7 +97,7 @@ pub(super) fn join(
                 joined = pairs.join(chunk, left);
             }
             let is_covered = left.covers(&joined);
-            if (limits.stop)(joined.work, joined.nodes) || joined.nodes >= left.nodes {
+            if limits.count(joined.work, joined.nodes) || joined.nodes >= left.nodes {
                 return Err(Overflow::Ended);
             }
             if !is_covered {
@@ -394,14 +401,14 @@ pub(super) fn enumerate(
     limits: &mut Limits,
 ) -> Result<Found, Overflow> {
     let mut found = Found::default();
-    let mut walk = Walk::new(local, limits.nodes);
+    let mut walk = Walk::new(local, limits.watch.nodes());
     let none = vec![0.0; local.own];
     let (entries, most) = (limits.entries, limits.work);
     let work = walk.run(&local.target, &none, threshold, most, &mut |z, distance| {
         found.push(distance, [0, 0], z);
         found.energy.len() <= entries
     });
-    let ended = (limits.stop)(work, walk.take_nodes());
+    let ended = limits.count(work, walk.take_nodes());
     match (
         ended || walk.left == 0,
         found.energy.len() > entries || work > most,

@@ -231,11 +231,7 @@ impl<'t, 's> Subtree<'t, 's> {
             let mut limits = Limits {
                 entries,
                 work,
-                nodes: watch.nodes(),
-                stop: &mut |work, nodes| {
-                    watch.visited(nodes);
-                    watch.ends(work)
-                },
+                watch,
             };
             let _leaf = span("leaf");
             let found = enumerate(local, threshold, &mut limits)?;
@@ -255,11 +251,7 @@ impl<'t, 's> Subtree<'t, 's> {
         let mut limits = Limits {
             entries,
             work,
-            nodes: watch.nodes(),
-            stop: &mut |work, nodes| {
-                watch.visited(nodes);
-                watch.ends(work)
-            },
+            watch,
         };
         let both = [&targets[0], &targets[1]];
         let joined = span("join");

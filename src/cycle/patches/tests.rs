@@ -2,7 +2,7 @@
 
 use super::bisect::{Measure, bisect};
 use super::coarsen::Weighted;
-use super::dissect::Recipe;
+use super::dissect::{Recipe, dissect};
 use super::effort::Proof;
 use super::factor::eliminate;
 use super::local::inverse;
@@ -13,7 +13,7 @@ use crate::eliminate::ReducedModel;
 use crate::error::Error;
 use crate::lattice;
 use crate::linalg::{self, Lowest, Minimum, Ordering};
-use crate::monitor::{CancelToken, Monitor, Stop};
+use crate::monitor::{CancelToken, Monitor, Stop, spawned, with_threads};
 use crate::problem::Problem;
 use crate::round::nearest;
 use crate::search::{Factors, Options, Search, Strategy};
@@ -225,4 +225,34 @@ fn the_steps_of_a_tree_end_with_their_call() {
     assert_eq!(halved(), Err(Stop::Cancelled));
     assert_eq!(eliminated(), None);
     assert_eq!(inverse(&[2.0], 1), Err(Error::Cancelled));
+}
+
+#[test]
+fn threads_dissect_a_graph_as_one_does() {
+    let problem = Sketch::torus(48, &[0]).problem(&mut Random::new(5));
+    let (_, space) = space(&problem).unwrap();
+    let graph = &space.system.graph;
+    let mut random = Random::new(6);
+    let residuals: Vec<f64> = graph.edges.iter().map(|_| random.unit() - 0.5).collect();
+    let recipe = &proof(16, UNLIMITED, 7, false).recipes[0];
+    let dissected = |threads: usize, most: u64| {
+        with_threads(threads, || dissect(graph, &residuals, recipe, most))
+    };
+    let (alone, work) = dissected(1, UNLIMITED);
+    let alone = alone.unwrap();
+    let of_all: usize = alone.iter().map(|patch| patch.edges.len()).sum();
+    assert!(alone.len() > 50 && of_all == graph.edges.len());
+    for threads in [2, 5] {
+        let started = spawned(|| {
+            let (together, work_together) = dissected(threads, UNLIMITED);
+            let same =
+                together.unwrap().into_iter().zip(&alone).all(|(a, b)| {
+                    (a.parent, a.children, &a.edges) == (b.parent, b.children, &b.edges)
+                });
+            assert!(same && work_together == work);
+        });
+        assert!(started > 0);
+        let (ended, taken) = dissected(threads, work);
+        assert!(ended.is_none() && taken == work);
+    }
 }
