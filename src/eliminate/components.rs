@@ -1,11 +1,13 @@
 //! The independent parts of a reduced model: integers that its Hessian does not couple, directly or through
 //! other unknowns, are in different components.
+//!
+//! What depends on the Hessian alone is a [`Part`], which can be made before the model's other numbers are known.
 
 use std::sync::Arc;
 
 use super::{Expansion, ReducedModel};
 use crate::error::Result;
-use crate::linalg::{NO_PLACE, Sparse, joined_sets, principal_submatrix};
+use crate::linalg::{NO_PLACE, Sparse, columns, joined_sets, principal_submatrix};
 use crate::monitor::{may_continue, may_continue_at};
 
 /// One component: some unknowns of a model, and the model in these alone.
@@ -15,6 +17,60 @@ pub struct Component {
     pub members: Vec<u32>,
     /// The model, without the constant of the whole one.
     pub model: ReducedModel,
+}
+
+/// What a component has of the Hessian of a model, around whatever point that is stated.
+#[derive(Debug)]
+pub struct Part {
+    /// The unknowns in the whole model, increasing.
+    members: Vec<u32>,
+    hessian: Arc<Sparse>,
+    integers: Vec<u32>,
+    continuous: Vec<u32>,
+    /// The columns of the expansion, if the component is large; else no rows.
+    expansion: Arc<Sparse>,
+}
+
+impl Part {
+    /// Lower triangle of the Hessian, every diagonal entry stored.
+    pub fn hessian(&self) -> &Sparse {
+        &self.hessian
+    }
+
+    /// The integers, by their places among the members.
+    pub fn integers(&self) -> &[u32] {
+        &self.integers
+    }
+
+    /// The other unknowns, by their places among the members.
+    pub fn continuous(&self) -> &[u32] {
+        &self.continuous
+    }
+
+    /// The component of `model`, which has this Hessian.
+    pub fn of(&self, model: &ReducedModel) -> Component {
+        let members = &self.members;
+        let pick = |v: &[f64]| -> Vec<f64> { members.iter().map(|&i| v[i as usize]).collect() };
+        let offset = match self.expansion.rows() {
+            0 => Vec::new(),
+            _ => model.expansion.offset().to_vec(),
+        };
+        Component {
+            members: members.clone(),
+            model: ReducedModel {
+                hessian: Arc::clone(&self.hessian),
+                gradient: pick(&model.gradient),
+                constant: 0.0,
+                integers: self.integers.clone(),
+                continuous: self.continuous.clone(),
+                guess: pick(&model.guess),
+                origin: members.iter().map(|&i| model.origin(i as usize)).collect(),
+                rounding: model.rounding.of(members),
+                free: members.iter().map(|&i| model.free[i as usize]).collect(),
+                expansion: Expansion::new(Arc::clone(&self.expansion), offset),
+            },
+        }
+    }
 }
 
 /// The sets of unknowns that the Hessian couples: the set of each unknown, and the number of sets.
@@ -34,23 +90,15 @@ fn divides(set: &[u32], integers: &[u32]) -> bool {
     sets.any(|other| Some(other) != first)
 }
 
-/// Whether `model` has several components that have integers.
+/// The components of `model` that have integers, in the order of their first unknowns. No part at all
+/// if there is only one.
 ///
 /// # Errors
 /// For lack of memory.
-pub fn has_several_components(model: &ReducedModel) -> Result<bool> {
-    Ok(divides(&coupled(model)?.0, model.integers()))
-}
-
-/// The components of `model` that have integers, in the order of their first unknowns. None if there is
-/// only one.
-///
-/// # Errors
-/// For lack of memory.
-pub fn components(model: &ReducedModel) -> Result<Option<Vec<Component>>> {
+pub fn parts(model: &ReducedModel) -> Result<Vec<Part>> {
     let (set_of, count) = coupled(model)?;
     if !divides(&set_of, model.integers()) {
-        return Ok(None);
+        return Ok(Vec::new());
     }
     let mut is_integer = vec![false; model.dim()];
     for &i in model.integers() {
@@ -84,36 +132,28 @@ pub fn components(model: &ReducedModel) -> Result<Option<Vec<Component>>> {
     }
     let made = sets.iter().zip(entries).map(|(set, entries)| {
         let members: Vec<u32> = set.iter().map(|&i| i as u32).collect();
-        let pick = |v: &[f64]| -> Vec<f64> { set.iter().map(|&i| v[i]).collect() };
         let of_part = 0..members.len() as u32;
         let (integers, continuous) = of_part.partition(|&at| is_integer[set[at as usize]]);
         let n = members.len();
-        let expansion = if n > large {
-            model.expansion.of_columns(&members)?
-        } else {
-            Expansion::new(Arc::new(Sparse::zeros(0, n)), Vec::new())
+        let (hessian, expansion) = match n > large {
+            true => (
+                principal_submatrix(model.hessian(), &members)?,
+                columns(model.expansion.matrix(), &members)?,
+            ),
+            false => (
+                Sparse::from_triplets(n, n, entries.into_iter())?,
+                Sparse::zeros(0, n),
+            ),
         };
-        let part = ReducedModel {
-            hessian: Arc::new(match n > large {
-                true => principal_submatrix(model.hessian(), &members)?,
-                false => Sparse::from_triplets(n, n, entries.into_iter())?,
-            }),
-            gradient: pick(&model.gradient),
-            constant: 0.0,
+        Ok(Part {
+            members,
+            hessian: Arc::new(hessian),
             integers,
             continuous,
-            guess: pick(&model.guess),
-            origin: set.iter().map(|&i| model.origin(i)).collect(),
-            rounding: model.rounding.of(&members),
-            free: set.iter().map(|&i| model.free[i]).collect(),
-            expansion,
-        };
-        Ok(Component {
-            members,
-            model: part,
+            expansion: Arc::new(expansion),
         })
     });
-    made.collect::<Result<_>>().map(Some)
+    made.collect()
 }
 
 /// A component with more than one in so many unknowns is large: its entries are copied by themselves, and it has its part
@@ -123,10 +163,16 @@ const LARGE: usize = 64;
 
 #[cfg(test)]
 mod tests {
-    use crate::eliminate::eliminate;
+    use super::{Component, parts};
+    use crate::eliminate::{ReducedModel, eliminate};
     use crate::linalg::principal_submatrix;
     use crate::monitor::Monitor;
     use crate::problem::{Model, Problem};
+
+    fn components(model: &ReducedModel) -> Vec<Component> {
+        let parts = parts(model).unwrap();
+        parts.iter().map(|part| part.of(model)).collect()
+    }
 
     #[test]
     fn the_energy_is_the_sum_of_the_components_energies() {
@@ -145,7 +191,7 @@ mod tests {
         problem.set_integers(&[1, 2]).unwrap();
         let model = Model::new(&problem).unwrap();
         let reduced = eliminate(&model, &mut Monitor::default()).unwrap();
-        let parts = super::components(&reduced).unwrap().unwrap();
+        let parts = components(&reduced);
         assert_eq!(parts[0].members, [0, 2, 5]);
         assert_eq!(parts[1].members, [1, 3]);
         assert_eq!(parts[0].model.integers(), [1]);
@@ -175,7 +221,7 @@ mod tests {
         problem.set_integers(&[5, 200]).unwrap();
         let model = Model::new(&problem).unwrap();
         let reduced = eliminate(&model, &mut Monitor::default()).unwrap();
-        let parts = super::components(&reduced).unwrap().unwrap();
+        let parts = components(&reduced);
         assert_eq!(
             parts.iter().map(|p| p.members.len()).collect::<Vec<_>>(),
             [298, 2]

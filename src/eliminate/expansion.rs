@@ -2,8 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::error::Result;
-use crate::linalg::{NO_PLACE, Sparse, places};
+use crate::linalg::Sparse;
 
 /// The affine map `x = T y + t`, whose values are exactly the solutions of the constraints.
 ///
@@ -23,16 +22,6 @@ impl Expansion {
     /// The matrix `T`: one row for each of the caller's unknowns, one column for each reduced unknown.
     pub fn matrix(&self) -> &Sparse {
         &self.matrix
-    }
-
-    /// The map of the reduced unknowns `members` alone, with the others at zero.
-    pub(super) fn of_columns(&self, members: &[u32]) -> Result<Expansion> {
-        let place = places(self.matrix.cols(), members);
-        let entries = self.matrix.entries();
-        let inner = entries.filter(|&(_, y, _)| place[y as usize] != NO_PLACE);
-        let moved = inner.map(|(i, y, t)| (i, place[y as usize], t));
-        let matrix = Sparse::from_triplets(self.matrix.rows(), members.len(), moved)?;
-        Ok(Expansion::new(Arc::new(matrix), self.offset.clone()))
     }
 
     pub(super) fn shared_matrix(&self) -> &Arc<Sparse> {

@@ -51,7 +51,7 @@ mod tolerance;
 mod unknowns;
 
 pub use centre::Centre;
-pub use components::{Component, components, has_several_components};
+pub use components::{Component, Part, parts};
 pub use expansion::Expansion;
 pub use reduced::ReducedModel;
 pub use rounding::Rounding;

@@ -56,6 +56,6 @@ pub use relaxed::RelaxedFactor;
 pub use scaling::equilibrate;
 pub use schur_factor::SchurFactor;
 pub use sparse::Sparse;
-pub use submatrix::{NO_PLACE, coupling, places, principal_submatrix};
+pub use submatrix::{NO_PLACE, columns, coupling, places, principal_submatrix};
 pub use unpreconditioned_cg::unpreconditioned_conjugate_gradient;
 pub(crate) use wide_registers::with_wide_registers;

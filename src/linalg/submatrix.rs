@@ -1,4 +1,4 @@
-//! Submatrices of a symmetric matrix that is given by its lower triangle.
+//! Submatrices, most of them of a symmetric matrix that is given by its lower triangle.
 
 use std::ops::Range;
 
@@ -31,6 +31,16 @@ pub fn principal_submatrix(lower: &Sparse, members: &[u32]) -> Result<Sparse> {
     rows_of(lower, members, &place, members.len())
 }
 
+/// The columns `members`, which must increase, of any matrix.
+///
+/// # Errors
+/// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+pub fn columns(matrix: &Sparse, members: &[u32]) -> Result<Sparse> {
+    let all: Vec<u32> = (0..matrix.rows() as u32).collect();
+    let place = places(matrix.cols(), members);
+    rows_of(matrix, &all, &place, members.len())
+}
+
 /// The block with the rows `rows` and the columns `cols`, both of which must increase and have no member in common.
 ///
 /// # Errors
@@ -47,20 +57,20 @@ pub fn coupling(lower: &Sparse, rows: &[u32], cols: &[u32]) -> Result<Sparse> {
     }
 }
 
-/// The rows `members` of a lower triangle, which must increase, with those of its entries that have a place among so
-/// many columns.
-fn rows_of(lower: &Sparse, members: &[u32], place: &[u32], columns: usize) -> Result<Sparse> {
+/// The rows `members` of a matrix, which must increase, with those of its entries that have a place among so many
+/// columns.
+fn rows_of(matrix: &Sparse, members: &[u32], place: &[u32], columns: usize) -> Result<Sparse> {
     let of_rows = |part: Range<usize>| {
         let rows = &members[part];
         let most = match (rows.first(), rows.last()) {
-            (Some(&a), Some(&b)) => lower.offsets()[b as usize + 1] - lower.offsets()[a as usize],
+            (Some(&a), Some(&b)) => matrix.offsets()[b as usize + 1] - matrix.offsets()[a as usize],
             _ => 0,
         };
         let mut offsets = reserve(rows.len() + 1)?;
         let (mut indices, mut values) = (reserve(most)?, reserve(most)?);
         offsets.push(0);
         for &i in rows {
-            for (j, v) in lower.row(i as usize) {
+            for (j, v) in matrix.row(i as usize) {
                 if place[j] != NO_PLACE {
                     indices.push(place[j]);
                     values.push(v);

@@ -7,7 +7,7 @@
 use std::time::Instant;
 
 use super::Strategy;
-use crate::eliminate::{Component, ReducedModel, components, has_several_components};
+use crate::eliminate::{Component, Part, ReducedModel, parts};
 use crate::error::Result;
 use crate::linalg::{
     Analysis, Cholesky, Ldl, Minimum, Ordering, RelaxedFactor, SchurFactor, Sparse, coupling,
@@ -34,8 +34,8 @@ pub(crate) struct Factors {
     schur_factor: Option<SchurFactor>,
     /// The order and the pattern of that factor, until it is made.
     schur_analysis: Option<Analysis>,
-    /// Whether all integers of the model are in one component, once that is known.
-    is_connected: Option<bool>,
+    /// The parts of the model that are searched apart, once they are known; none if all integers are in one component.
+    parts: Option<Vec<Part>>,
     /// By component: its own factors.
     components: Vec<Factors>,
     seconds: f64,
@@ -62,27 +62,52 @@ struct ContinuousBlock {
     factor: Cholesky,
 }
 
-/// The factor of the continuous block, made before the search asks for it.
+/// The components of a model, and the factors of the large continuous blocks among them, made before the search asks
+/// for them.
 pub(crate) struct MadeAhead {
-    block: ContinuousBlock,
+    parts: Vec<Part>,
+    /// Each with the number of its component. Without components it is that of the whole model.
+    blocks: Vec<(usize, ContinuousBlock)>,
     /// The seconds from the end of the other task to that of the factorization.
     waited: f64,
 }
 
 impl MadeAhead {
-    /// Does a task, and makes the factor of the continuous block of `model` on other threads meanwhile.
+    /// Does a task, and makes what the search in `model` needs on other threads meanwhile.
     pub fn during<T>(
         model: &ReducedModel,
         ordering: Ordering,
         task: impl FnOnce() -> T,
     ) -> (T, Result<Self>) {
-        let ((done, ended), block) = both(
-            true,
-            || (task(), Instant::now()),
-            || ContinuousBlock::new(model, ordering),
-        );
+        let ahead = || Self::new(model, ordering);
+        let ((done, ended), ahead) = both(true, || (task(), Instant::now()), ahead);
         let waited = ended.elapsed().as_secs_f64();
-        (done, block.map(|block| MadeAhead { block, waited }))
+        (done, ahead.map(|ahead| MadeAhead { waited, ..ahead }))
+    }
+
+    fn new(model: &ReducedModel, ordering: Ordering) -> Result<Self> {
+        let parts = parts(model)?;
+        let whole = (model.hessian(), model.continuous(), model.integers());
+        let systems: Vec<_> = match parts.is_empty() {
+            true => vec![whole],
+            false => parts
+                .iter()
+                .map(|part| (part.hessian(), part.continuous(), part.integers()))
+                .collect(),
+        };
+        let mut blocks = Vec::new();
+        for (k, (hessian, continuous, integers)) in systems.into_iter().enumerate() {
+            let is_used = !is_schur_factor_cheapest(hessian, integers, ordering);
+            if is_used && hessian.rows() >= WORTH_A_THREAD {
+                let block = ContinuousBlock::new(hessian, continuous, integers, ordering)?;
+                blocks.push((k, block));
+            }
+        }
+        Ok(MadeAhead {
+            parts,
+            blocks,
+            waited: 0.0,
+        })
     }
 }
 
@@ -156,40 +181,39 @@ impl Factors {
         }
     }
 
-    /// Whether the factor of the continuous block, which the search needs later, is worth a thread of its own while
-    /// the relaxation is solved. A model of several components is searched with factors of their own.
-    pub fn is_worth_making_ahead(
-        &mut self,
-        model: &ReducedModel,
-        strategy: Strategy,
-    ) -> Result<bool> {
+    /// Whether what the search needs later is worth a thread of its own while the relaxation is solved.
+    pub fn is_worth_making_ahead(&self, model: &ReducedModel, strategy: Strategy) -> bool {
         let is_large = allowed_threads() > 1 && model.dim() >= WORTH_A_THREAD;
-        let is_known = self.relaxed.is_some() || self.continuous.is_some();
+        let has_block = |factors: &Factors| factors.continuous.is_some();
+        let is_known = has_block(self) || self.components.iter().any(has_block);
         let is_used = self.is_searched(strategy) && !model.integers().is_empty();
-        if !is_large || is_known || !is_used || self.has_schur_factor(model) {
-            return Ok(false);
+        is_large && is_used && self.relaxed.is_none() && !is_known && !self.has_schur_factor(model)
+    }
+
+    /// The components of the model, or none if all its integers are in one.
+    pub fn split(&mut self, model: &ReducedModel) -> Result<Vec<Component>> {
+        let parts = match self.parts.take() {
+            Some(parts) => parts,
+            None => parts(model)?,
+        };
+        let components = parts.iter().map(|part| part.of(model)).collect();
+        if self.keep {
+            self.parts = Some(parts);
         }
-        let is_connected = match self.is_connected {
-            Some(known) => known,
-            None => !has_several_components(model)?,
-        };
-        Ok(*self.is_connected.insert(is_connected))
+        Ok(components)
     }
 
-    /// The components of the model, or `None` if all its integers are in one.
-    pub fn split(&mut self, model: &ReducedModel) -> Result<Option<Vec<Component>>> {
-        let parts = match self.is_connected {
-            Some(true) => None,
-            _ => components(model)?,
-        };
-        self.is_connected = Some(parts.is_none());
-        Ok(parts)
-    }
-
-    /// Keeps a factor that was [made ahead](MadeAhead::during).
+    /// Keeps what was [made ahead](MadeAhead::during).
     pub fn keep(&mut self, ahead: MadeAhead) {
         self.seconds += ahead.waited;
-        self.continuous = Some(ahead.block);
+        for (k, block) in ahead.blocks {
+            let of = match ahead.parts.is_empty() {
+                true => &mut *self,
+                false => self.of_component(k),
+            };
+            of.continuous = Some(block);
+        }
+        self.parts = Some(ahead.parts);
     }
 
     /// Whether a search follows.
@@ -282,8 +306,7 @@ impl Factors {
     /// Whether a single factor with the integers last is the cheapest choice: the block of the integers has
     /// fewer entries than the model.
     pub fn has_schur_factor(&self, model: &ReducedModel) -> bool {
-        let m = model.integers().len();
-        self.ordering == Ordering::FillReducing && m * m <= model.hessian().len()
+        is_schur_factor_cheapest(model.hessian(), model.integers(), self.ordering)
     }
 
     /// The factor of the whole reduced Hessian with the integers last.
@@ -354,7 +377,8 @@ impl Factors {
         let block = match self.continuous.take() {
             Some(block) => block,
             None => timed(&mut self.seconds, || {
-                ContinuousBlock::new(model, self.ordering)
+                let (continuous, integers) = (model.continuous(), model.integers());
+                ContinuousBlock::new(model.hessian(), continuous, integers, self.ordering)
             })?,
         };
         Ok(self.continuous.insert(block))
@@ -362,10 +386,15 @@ impl Factors {
 }
 
 impl ContinuousBlock {
-    fn new(model: &ReducedModel, ordering: Ordering) -> Result<Self> {
-        let hessian = principal_submatrix(model.hessian(), model.continuous())?;
+    fn new(
+        whole: &Sparse,
+        continuous: &[u32],
+        integers: &[u32],
+        ordering: Ordering,
+    ) -> Result<Self> {
+        let hessian = principal_submatrix(whole, continuous)?;
         may_continue()?;
-        let coupling = coupling(model.hessian(), model.continuous(), model.integers())?;
+        let coupling = coupling(whole, continuous, integers)?;
         may_continue()?;
         let factor = Cholesky::ordered(&hessian, ordering)?;
         Ok(ContinuousBlock {
@@ -392,6 +421,12 @@ impl ContinuousBlock {
         }
         Ok(whole)
     }
+}
+
+/// [`Factors::has_schur_factor`] for a Hessian and the integers among its unknowns.
+fn is_schur_factor_cheapest(hessian: &Sparse, integers: &[u32], ordering: Ordering) -> bool {
+    let m = integers.len();
+    ordering == Ordering::FillReducing && m * m <= hessian.len()
 }
 
 /// [`Factors::follow`] with the leading part of a definite factor and one step of refinement, as in

@@ -50,11 +50,11 @@ pub(super) fn by_components(
     may_continue()?;
     let parts = of.factors.split(whole)?;
     drop(watch);
-    let Some(parts) = parts else {
+    if parts.is_empty() {
         let search = Search::new(whole, relaxation.point, relaxation.lower_bound, monitor)
             .judged_by(|step| Ok(whole.constant() + exact.difference(step)?));
         return run(of.model, whole, options, start, of.factors, search, false);
-    };
+    }
     let mut order: Vec<usize> = (0..parts.len()).collect();
     order.sort_by_key(|&k| parts[k].model.integers().len());
     let relaxed: Vec<Relaxed> = parts

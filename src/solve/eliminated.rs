@@ -144,15 +144,15 @@ pub(super) struct SearchResult {
     pub work: u64,
 }
 
-/// The model around the relaxation's minimiser, and the relaxation of this model, while a factor for the search is
-/// made on other threads where that is worth while.
+/// The model around the relaxation's minimiser, and the relaxation of this model, while what the search needs is made
+/// on other threads where that is worth while.
 fn relaxation(
     of: &mut EliminatedProblem,
     reduced: &ReducedModel,
     options: &Options,
 ) -> Result<(Centre, Relaxation)> {
     let (strategy, ordering) = (options.strategy, options.ordering);
-    if !of.factors.is_worth_making_ahead(reduced, strategy)? {
+    if !of.factors.is_worth_making_ahead(reduced, strategy) {
         return around_relaxation(of, reduced, strategy);
     }
     let task = || around_relaxation(of, reduced, strategy);
