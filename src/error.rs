@@ -242,6 +242,17 @@ impl Error {
         }
     }
 
+    /// Whether this tells how the run ended, and so names no element.
+    pub(crate) fn is_end_of_run(&self) -> bool {
+        matches!(
+            self,
+            Error::Cancelled
+                | Error::TimeLimit
+                | Error::SearchLimit { .. }
+                | Error::OutOfMemory { .. }
+        )
+    }
+
     /// The element at fault: position in the array, constraint, or variable.
     pub fn index(&self) -> Option<usize> {
         match self {

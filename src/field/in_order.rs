@@ -65,21 +65,13 @@ fn solve_on(
             let (field, values) = field.on_forest(given, options)?;
             Ok((field, solution.with_values(values)))
         }
-        Err(error) if names_no_element(&error) => Err(error),
+        Err(error) if error.is_end_of_run() => Err(error),
         // The same error of the mesh as it is names an element that the caller knows.
         Err(_) => {
             drop(reordered);
             solve(given, options)
         }
     }
-}
-
-/// Whether an error tells how the run ended, and so is the same in every order.
-fn names_no_element(error: &Error) -> bool {
-    matches!(
-        error,
-        Error::Cancelled | Error::TimeLimit | Error::SearchLimit { .. } | Error::OutOfMemory { .. }
-    )
 }
 
 impl OrientationField {

@@ -62,22 +62,54 @@ impl OrientationField {
     pub(crate) fn on_given(&self, reordered: &Reordered, given: &TriangleMesh) -> Self {
         let of_edge = |edge: usize| {
             let (place, is_turned) = reordered.place_of_edge(given, edge);
-            let (jump, kappa) = (self.period_jumps[place], self.kappa[place]);
-            match is_turned {
-                // The angle from the other side would be -pi.
-                true if kappa == PI => (-jump - i32::from(self.symmetry), PI),
-                true => (-jump, 0.0 - kappa),
-                false => (jump, kappa),
-            }
+            self.over(place, is_turned)
         };
-        let of_edges = collect_in_parts(given.edge_count(), LEAST, of_edge);
+        self.with_sides(
+            reordered.of_given_faces(&self.angles),
+            reordered.of_given_faces(&self.constrained),
+            of_edge,
+        )
+    }
+
+    /// The field of `given` on the mesh in another order.
+    pub(crate) fn in_order(&self, given: &TriangleMesh, reordered: &Reordered) -> Self {
+        let of_edge = |place: usize| {
+            let edge = reordered.edge(given, place);
+            self.over(edge, reordered.place_of_edge(given, edge).1)
+        };
+        self.with_sides(
+            reordered.of_faces(&self.angles),
+            reordered.of_faces(&self.constrained),
+            of_edge,
+        )
+    }
+
+    /// The jump over an edge and the angle between its frames, from its second side if it is turned.
+    fn over(&self, edge: usize, is_turned: bool) -> (i32, f64) {
+        let (jump, kappa) = (self.period_jumps[edge], self.kappa[edge]);
+        match is_turned {
+            // The angle from the other side would be -pi.
+            true if kappa == PI => (-jump - i32::from(self.symmetry), PI),
+            true => (-jump, 0.0 - kappa),
+            false => (jump, kappa),
+        }
+    }
+
+    /// The same crosses of faces and edges with other numbers.
+    fn with_sides(
+        &self,
+        angles: Vec<f64>,
+        constrained: Vec<bool>,
+        of_edge: impl Fn(usize) -> (i32, f64) + Sync,
+    ) -> Self {
+        let of_edges = collect_in_parts(self.kappa.len(), LEAST, of_edge);
         let (period_jumps, kappa): (_, Vec<f64>) = of_edges.into_iter().unzip();
         OrientationField {
             symmetry: self.symmetry,
-            angles: reordered.of_given_faces(&self.angles),
+            angles,
             period_jumps,
             kappa: Arc::new(kappa),
-            constrained: reordered.of_given_faces(&self.constrained),
+            constrained,
         }
     }
 

@@ -16,8 +16,8 @@ use crate::mesh::vector::{Vec3, add, cross, scale};
 /// The quarter turns that comb a field over a cut surface.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Combing {
-    quarters: Vec<u8>,
-    transitions: Vec<u8>,
+    pub(super) quarters: Vec<u8>,
+    pub(super) transitions: Vec<u8>,
 }
 
 impl Combing {

@@ -21,7 +21,7 @@ const LEAST: usize = 1 << 14;
 /// cones is opened along one edge.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct CutGraph {
-    is_cut: Vec<bool>,
+    pub(super) is_cut: Vec<bool>,
 }
 
 impl CutGraph {

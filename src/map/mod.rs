@@ -10,6 +10,7 @@ mod cut_graph;
 mod dirichlet;
 mod feature_strips;
 mod from_values;
+mod in_order;
 mod isolines;
 mod problem;
 mod seamless_map;
@@ -27,5 +28,6 @@ pub use seamless_map::{SeamlessMap, Transition};
 pub use sizing::Sizing;
 
 pub(crate) use from_values::gradient;
+pub(crate) use in_order::ReorderedProblem;
 pub(crate) use separation::{apart, constraints_of, row};
 pub(crate) use winding_defects::{has_winding_defect, winding_defects};

@@ -67,12 +67,12 @@ pub struct SeamlessProblem {
     pub(super) cones: Vec<usize>,
     pub(crate) isolines: Vec<Isoline>,
     /// The target lengths of the gradients.
-    density: Density,
+    pub(super) density: Density,
     /// By what factor lengths are larger than that along the arm that the field stores, and smaller across, in every
     /// face; empty where they are neither.
-    elongations: Vec<f64>,
+    pub(super) elongations: Vec<f64>,
     /// The gradients of another map, which this one should have in place of the target gradients; empty without it.
-    guides: Vec<[[f64; 3]; 2]>,
+    pub(super) guides: Vec<[[f64; 3]; 2]>,
 }
 
 impl SeamlessProblem {
@@ -153,6 +153,15 @@ impl SeamlessProblem {
 
     /// Adds the energy, constraints, integers and pins to the problem.
     fn state(&mut self, mesh: &TriangleMesh) -> Result<()> {
+        self.add_terms(mesh)?;
+        may_continue()?;
+        self.set_integers(mesh)?;
+        may_continue()?;
+        self.pin_origins(mesh)
+    }
+
+    /// Adds the energy and the constraints to the problem.
+    pub(super) fn add_terms(&mut self, mesh: &TriangleMesh) -> Result<()> {
         self.add_energy(mesh)?;
         for seam in 0..self.seams.len() {
             self.add_seam(mesh, seam)?;
@@ -161,10 +170,7 @@ impl SeamlessProblem {
             let row = isoline.unknowns();
             self.problem.add_constraint(&row, &[1.0, -1.0], 0.0)?;
         }
-        may_continue()?;
-        self.set_integers(mesh)?;
-        may_continue()?;
-        self.pin_origins(mesh)
+        Ok(())
     }
 
     /// Follows another field with the same period jumps instead. Only linear terms change, in `solver` too.

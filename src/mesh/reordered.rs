@@ -162,6 +162,14 @@ impl Reordered {
         picked(values, &self.vertices)
     }
 
+    /// Values of faces as they were, in the order of this mesh; none if there are none.
+    pub fn of_faces<T: Clone>(&self, values: &[T]) -> Vec<T> {
+        match values.is_empty() {
+            true => Vec::new(),
+            false => picked(values, &self.faces),
+        }
+    }
+
     /// Values of the faces of this mesh, in the order in which they were.
     pub fn of_given_faces<T: Clone>(&self, values: &[T]) -> Vec<T> {
         picked(values, &self.place_of_face)

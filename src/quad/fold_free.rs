@@ -20,9 +20,9 @@ use std::borrow::Cow;
 use super::map_solver::{MapSolver, Solved, without_long_proof};
 use super::outcome::Outcome;
 use crate::error::Result;
-use crate::map::{SeamlessMap, SeamlessProblem};
+use crate::map::{ReorderedProblem, SeamlessMap, SeamlessProblem};
 use crate::mesh::TriangleMesh;
-use crate::monitor::{Monitor, Phase, Stage, optional};
+use crate::monitor::{Monitor, Phase, Run, Stage, optional};
 use crate::search::{Options, Strategy};
 use crate::solve::{Solution, Solver};
 use crate::untangle::{FAR, NEAR, UntangleOptions, Untangled, faulty, grow_around};
@@ -81,6 +81,22 @@ impl FoldFreeMap {
         (outcome, self.refinements, self.gradings)
     }
 
+    /// The same for the problem that was given, and its mesh, instead of the problem in another order.
+    fn of_given(
+        self,
+        there: ReorderedProblem,
+        mesh: &TriangleMesh,
+        given: &SeamlessProblem,
+    ) -> Self {
+        let map = there.given_map(&self.untangled.map, mesh, given);
+        let values = there.given_values(self.solution.values());
+        FoldFreeMap {
+            solution: self.solution.with_values(values),
+            untangled: self.untangled.on_given(&there.reordered, mesh, map),
+            ..self
+        }
+    }
+
     /// A map that is left as it is.
     ///
     /// # Errors
@@ -128,7 +144,32 @@ pub fn solve_fold_free<'a>(
 ) -> Result<FoldFreeMap> {
     let run = monitor().run();
     run.name_stage(Stage::Map);
-    let monitor = || monitor().of_run(&run);
+    let in_order = {
+        let _watch = monitor().of_run(&run).watch();
+        ReorderedProblem::if_scattered(mesh, problem)?
+    };
+    let there = in_order.map(|there| -> Result<_> {
+        let ordered = &there.reordered.mesh;
+        let made = fold_free(ordered, &there.problem, options, effort, (&run, &monitor))?;
+        Ok(made.of_given(there, mesh, problem))
+    });
+    match there {
+        Some(Ok(made)) => Ok(made),
+        Some(Err(error)) if error.is_end_of_run() => Err(error),
+        // The same error of the mesh as it is names an element that the caller knows.
+        Some(Err(_)) | None => fold_free(mesh, problem, options, effort, (&run, &monitor)),
+    }
+}
+
+/// [`solve_fold_free`] on the mesh as it is.
+fn fold_free<'a>(
+    mesh: &TriangleMesh,
+    problem: &SeamlessProblem,
+    options: &Options,
+    effort: &UntangleOptions,
+    (run, monitor): (&Run, &impl Fn() -> Monitor<'a>),
+) -> Result<FoldFreeMap> {
+    let monitor = || monitor().of_run(run);
     let options = without_long_proof(options, problem.problem().variables());
     let solver = Solver::new(problem.problem())?;
     let stated = Cow::Borrowed(problem);

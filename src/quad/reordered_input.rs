@@ -8,7 +8,6 @@ use crate::mesh::features::FeatureGraph;
 use crate::mesh::{Reordered, TriangleMesh};
 use crate::monitor::both;
 use crate::smooth::SmoothOptions;
-use crate::untangle::Untangled;
 
 /// A mesh in another order, and everything that was given for it.
 pub(super) struct ReorderedInput {
@@ -95,13 +94,7 @@ impl ReorderedInput {
                 ..quads
             },
             field,
-            untangled: Untangled {
-                map,
-                winding_defects: (self.reordered).given_vertices(&untangled.winding_defects),
-                stuck_faces: faces(&untangled.stuck_faces),
-                collapsed_edges: edges(&untangled.collapsed_edges),
-                ..untangled
-            },
+            untangled: untangled.on_given(&self.reordered, given, map),
             features: edges(&made.features),
             missed_features: edges(&made.missed_features),
             ..made

@@ -48,9 +48,8 @@ pub(crate) use patchwork::Patchwork;
 
 use crate::error::Result;
 use crate::map::{SeamlessMap, SeamlessProblem};
-use crate::mesh::TriangleMesh;
-use crate::mesh::orientation;
 use crate::mesh::vector::{dot, sub};
+use crate::mesh::{Reordered, TriangleMesh, orientation};
 use crate::monitor::Phase;
 use crate::monitor::{Monitor, may_continue, span};
 use energy::Rest;
@@ -122,6 +121,22 @@ impl Untangled {
     /// The number of faces and vertices where the map is not locally injective; zero for a good map.
     pub fn faults(&self) -> usize {
         self.flipped_after + self.winding_defects.len()
+    }
+
+    /// The same on `given`, the mesh as it was before it was reordered, with the map there.
+    pub(crate) fn on_given(
+        self,
+        reordered: &Reordered,
+        given: &TriangleMesh,
+        map: SeamlessMap,
+    ) -> Self {
+        Untangled {
+            map,
+            winding_defects: reordered.given_vertices(&self.winding_defects),
+            stuck_faces: reordered.given_faces(&self.stuck_faces),
+            collapsed_edges: reordered.given_edges(given, &self.collapsed_edges),
+            ..self
+        }
     }
 
     /// The outcome for a map that is left as it is.
