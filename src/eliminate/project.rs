@@ -13,7 +13,7 @@ use super::Expansion;
 use crate::error::{Error, Result};
 use crate::linalg::sparse::reserve;
 use crate::linalg::{Accumulator, CompensatedSum, Sparse, TwoFold};
-use crate::monitor::{Monitor, both, in_parts, may_continue, may_continue_at};
+use crate::monitor::{Monitor, both, in_parts, joined, may_continue, may_continue_at};
 use crate::problem::Model;
 
 /// The least number of rows that are worth a thread.
@@ -100,20 +100,31 @@ pub(super) fn linear(model: &Model, expansion: &Expansion) -> Result<(Vec<f64>, 
         false => model.hessian().mul_symmetric(offset),
     };
     may_continue()?;
-    let mut gradient = vec![CompensatedSum::new(0.0); expansion.matrix().cols()];
-    let mut constant = CompensatedSum::new(model.constant());
-    for (i, (&q, &qt)) in model.gradient().iter().zip(&pulled).enumerate() {
-        may_continue_at(i)?;
-        for (a, t) in expansion.matrix().row(i) {
-            gradient[a].add_product(t, q);
-            gradient[a].add_product(t, qt);
+    let terms = || model.gradient().iter().zip(&pulled).enumerate();
+    let matrix = expansion.matrix();
+    let parts = in_parts(matrix.cols(), LEAST, |part| {
+        // Each part looks at all terms and adds those of its own unknowns.
+        let mut sums = vec![CompensatedSum::new(0.0); part.len()];
+        for (i, (&q, &qt)) in terms() {
+            may_continue_at(i)?;
+            for (a, t) in matrix.row(i) {
+                if let Some(sum) = sums.get_mut(a.wrapping_sub(part.start)) {
+                    sum.add_product(t, q);
+                    sum.add_product(t, qt);
+                }
+            }
         }
+        Ok(sums.iter().map(CompensatedSum::value).collect())
+    });
+    let gradient = joined(parts.into_iter().collect::<Result<Vec<_>>>()?);
+    let mut constant = CompensatedSum::new(model.constant());
+    for (i, (&q, &qt)) in terms().filter(|(i, _)| offset[*i] != 0.0) {
+        may_continue_at(i)?;
         constant.add_product(offset[i], q);
         constant.add_product(offset[i], 0.5 * qt);
     }
-    let gradient: Vec<f64> = gradient.iter().map(CompensatedSum::value).collect();
     let constant = constant.value();
-    if !constant.is_finite() || gradient.iter().any(|g| !g.is_finite()) {
+    if !constant.is_finite() || gradient.iter().any(|g: &f64| !g.is_finite()) {
         return Err(overflow());
     }
     Ok((gradient, constant))

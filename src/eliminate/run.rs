@@ -165,18 +165,16 @@ impl Elimination {
     ) -> Result<ReducedModel> {
         let expansion = Expansion::new(Arc::clone(matrix), offset);
         let is_integer = |&y: &u32| self.record.unknowns.integer[free[y as usize] as usize];
-        let (linear, (integers, continuous, guess)) = both(
+        let (gradient, constant) = project::linear(model, &expansion)?;
+        may_continue()?;
+        let ((integers, continuous), guess) = both(
             free.len() >= LEAST,
-            || project::linear(model, &expansion),
+            || (0..free.len() as u32).partition(is_integer),
             || {
-                let (integers, continuous) = (0..free.len() as u32).partition(is_integer);
                 let guess = self.definitions.evaluate(model.guess());
-                let guess = free.iter().map(|&u| guess[u as usize]).collect();
-                (integers, continuous, guess)
+                free.iter().map(|&u| guess[u as usize]).collect()
             },
         );
-        let (gradient, constant) = linear?;
-        may_continue()?;
         Ok(ReducedModel {
             hessian: Arc::clone(hessian),
             gradient,

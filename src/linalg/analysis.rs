@@ -12,7 +12,7 @@ use crate::error::Result;
 use crate::monitor::{is_wanted, span, with_threads};
 
 /// A factor of at least so many unknowns is computed and used by several threads. Smaller ones take a millisecond.
-const SHARED: usize = 8_000;
+const SHARED: usize = 4_000;
 
 /// The order of elimination and the pattern of the factor, for all matrices of one pattern.
 #[derive(Debug, Clone)]

@@ -1,8 +1,9 @@
 //! The assembly tree of a supernodal factor, and its division into tasks that several threads can do.
 //!
 //! A supernode needs the supernodes of its subtree only (`liu1990`, section 5). Subtrees with a fixed part of
-//! the work are one task each; a supernode above them is a task of its own, which waits for its children. The
-//! tasks depend on the pattern alone, so the number of threads changes no result.
+//! the work are one task each; a supernode above them is a task of its own, which waits for its children. Near the
+//! root there are fewer tasks than threads, and they are large: these are done one after another, each by all threads.
+//! The tasks depend on the pattern alone, so the number of threads changes no result.
 
 use std::collections::BinaryHeap;
 use std::ops::Range;
@@ -16,6 +17,12 @@ use crate::monitor::{allowed_threads, in_parts, is_simulated, simulate_graph};
 /// A task has at most one in so many parts of the work, unless it is a single supernode.
 const PARTS: u64 = 32;
 
+/// All threads share a supernode above the subtrees with at least one in so many parts of the work, ...
+const SHARED_PARTS: u64 = 64;
+
+/// ... and at least this much, about a millisecond's.
+const SHARED: u64 = 1 << 23;
+
 /// The tree and its tasks.
 #[derive(Debug)]
 pub(super) struct AssemblyTree {
@@ -26,12 +33,47 @@ pub(super) struct AssemblyTree {
     first_child: Vec<u32>,
     /// The supernodes of each task. A task comes after all that it needs.
     tasks: Vec<Range<usize>>,
-    /// How many tasks each one waits for, and which ones wait for it.
+    /// How many tasks each one waits for.
+    waits: Vec<u32>,
+    /// The tasks that are done at the same time.
+    apart: TaskGraph,
+    /// The tasks that all threads share, after these, increasing.
+    shared: Vec<usize>,
+}
+
+/// Some tasks, and what they need of each other.
+#[derive(Debug)]
+struct TaskGraph {
+    tasks: Vec<usize>,
+    /// How many of these tasks each one waits for, and which ones wait for it, by their places in the list.
     waits: Vec<u32>,
     followers: Vec<Vec<u32>>,
     /// The work of each task and of those that wait for it, along the longest path. Of the tasks that are ready,
     /// the one with the longest path is done first.
     path: Vec<u64>,
+}
+
+impl TaskGraph {
+    fn new(tasks: Vec<usize>, of_all: &[Vec<u32>], work: impl Fn(usize) -> u64) -> Self {
+        let mut place = vec![NONE; of_all.len()];
+        (tasks.iter().zip(0..)).for_each(|(&task, at)| place[task] = at);
+        let mut waits = vec![0; tasks.len()];
+        let mut path = vec![0; tasks.len()];
+        let mut followers = vec![Vec::new(); tasks.len()];
+        for (k, &task) in tasks.iter().enumerate().rev() {
+            let others = of_all[task].iter().map(|&f| place[f as usize]);
+            followers[k] = others.filter(|&at| at != NONE).collect();
+            let longest = followers[k].iter().map(|&f| path[f as usize]).max();
+            path[k] = work(task) + longest.unwrap_or(0);
+            followers[k].iter().for_each(|&f| waits[f as usize] += 1);
+        }
+        TaskGraph {
+            tasks,
+            waits,
+            followers,
+            path,
+        }
+    }
 }
 
 impl AssemblyTree {
@@ -59,19 +101,24 @@ impl AssemblyTree {
         let (children, first_child) = children(&parent);
         let tasks = tasks(&parent, work.to_vec());
         let (waits, followers) = dependencies(&parent, &tasks);
-        let mut path: Vec<u64> = vec![0; tasks.len()];
-        for (k, task) in tasks.iter().enumerate().rev() {
-            let longest = followers[k].iter().map(|&f| path[f as usize]).max();
-            path[k] = work[task.clone()].iter().sum::<u64>() + longest.unwrap_or(0);
+        let of_task = |k: usize| work[tasks[k].clone()].iter().sum::<u64>();
+        let least = SHARED.max(work.iter().sum::<u64>() / SHARED_PARTS);
+        let mut is_shared = vec![false; tasks.len()];
+        for k in 0..tasks.len() {
+            is_shared[k] |= waits[k] > 0 && of_task(k) >= least;
+            if is_shared[k] {
+                (followers[k].iter()).for_each(|&f| is_shared[f as usize] = true);
+            }
         }
+        let (shared, apart) = (0..tasks.len()).partition(|&k| is_shared[k]);
         AssemblyTree {
+            apart: TaskGraph::new(apart, &followers, of_task),
+            shared,
             parent,
             children,
             first_child,
             tasks,
             waits,
-            followers,
-            path,
         }
     }
 
@@ -93,7 +140,7 @@ impl AssemblyTree {
     }
 
     /// Does all tasks on the threads that are allowed, each after those that it needs. Every thread has its own
-    /// `scratch`.
+    /// `scratch`. The last tasks are done on the thread of the call, and may use all threads.
     ///
     /// # Errors
     /// The first error of a task or of `scratch`, and the reason to end the current step.
@@ -102,15 +149,31 @@ impl AssemblyTree {
         scratch: impl Fn() -> Result<S> + Sync,
         task: impl Fn(&mut S, usize) -> Result<()> + Sync,
     ) -> Result<()> {
+        if allowed_threads() <= 1 {
+            let mut scratch = scratch()?;
+            return (0..self.tasks.len()).try_for_each(|k| task(&mut scratch, k));
+        }
+        self.apart.work(&scratch, &task)?;
+        if !self.shared.is_empty() {
+            let mut scratch = scratch()?;
+            (self.shared.iter()).try_for_each(|&k| task(&mut scratch, k))?;
+        }
+        Ok(())
+    }
+}
+
+impl TaskGraph {
+    /// Does the tasks on the threads that are allowed.
+    fn work<S>(
+        &self,
+        scratch: &(impl Fn() -> Result<S> + Sync),
+        task: &(impl Fn(&mut S, usize) -> Result<()> + Sync),
+    ) -> Result<()> {
         let count = self.tasks.len();
         let threads = allowed_threads().min(count);
-        if threads <= 1 {
+        if threads > 1 && is_simulated() {
             let mut scratch = scratch()?;
-            return (0..count).try_for_each(|k| task(&mut scratch, k));
-        }
-        if is_simulated() {
-            let mut scratch = scratch()?;
-            let task = |k: usize| task(&mut scratch, k);
+            let task = |k: usize| task(&mut scratch, self.tasks[k]);
             return simulate_graph(threads, &self.waits, &self.followers, task);
         }
         let first = (0..count).filter(|&k| self.waits[k] == 0);
@@ -130,7 +193,7 @@ impl AssemblyTree {
                 Err(error) => queue.end(error),
                 Ok(mut scratch) => {
                     while let Some(k) = queue.take() {
-                        match task(&mut scratch, k) {
+                        match task(&mut scratch, self.tasks[k]) {
                             Ok(()) => queue.done(&self.followers[k]),
                             Err(error) => queue.end(error),
                         }

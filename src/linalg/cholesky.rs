@@ -288,7 +288,7 @@ impl Cholesky {
 }
 
 /// So many zeros. The system makes the zeros of a large array page by page, for the thread that uses a page first.
-fn zeros(len: usize) -> Result<Vec<f64>> {
+pub(super) fn zeros(len: usize) -> Result<Vec<f64>> {
     // The macro would end the process if there is no memory.
     super::sparse::reserve::<f64>(len)?;
     Ok(vec![0.0; len])

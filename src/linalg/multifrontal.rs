@@ -19,20 +19,23 @@ use faer::{Accum, MatMut, MatRef, Par};
 
 use super::Sparse;
 use super::assembly_tree::AssemblyTree;
-use super::cholesky::{NULL_PIVOT, out_of_memory, overflow};
+use super::cholesky::{NULL_PIVOT, out_of_memory, overflow, zeros};
 use super::ordering::NONE;
 use super::sparse::reserve;
 use super::supernodes::Supernodes;
 use super::wide_registers::with_wide_registers;
 use crate::error::Result;
-use crate::monitor::is_wanted;
+use crate::monitor::{for_each_part, is_wanted, of_each_part};
 
 /// The columns of a front with less work, in multiplications, are eliminated without faer's kernels, whose calls
 /// would take longer.
 const SMALL: usize = 1000;
 
-/// The columns of a large update matrix that are computed at a time. Between them a call can end.
-const COLUMNS: usize = 256;
+/// The rows or columns of a large front that are computed at a time. Between them a call can end.
+const BLOCK: usize = 128;
+
+/// A front of at least so many entries is worth several threads.
+const LARGE: usize = 1 << 16;
 
 /// The entries of the largest update matrix that is kept for another one.
 const SPARE: usize = 1 << 16;
@@ -170,12 +173,7 @@ impl Fronts<'_> {
     fn eliminate(&self, s: usize, front: &mut [f64], scratch: &mut Scratch) -> Result<()> {
         let (width, rows) = (self.factor.width(s), self.factor.rows(s));
         let below = rows.len();
-        let mut update = scratch.spare.pop().unwrap_or_default();
-        update.clear();
-        update
-            .try_reserve_exact(below * below)
-            .map_err(|_| out_of_memory())?;
-        update.resize(below * below, 0.0);
+        let mut update = Self::zero_update(below, scratch)?;
         self.assemble(s, front, &mut update, scratch);
         let is_finite = if width * width * (width + below) < SMALL {
             self.eliminate_small(width, front, &mut update)
@@ -194,6 +192,23 @@ impl Fronts<'_> {
         Ok(())
     }
 
+    /// An update matrix of zeros.
+    fn zero_update(below: usize, scratch: &mut Scratch) -> Result<Vec<f64>> {
+        let len = below * below;
+        if len >= LARGE {
+            let mut update = zeros(len)?;
+            let columns = update.chunks_exact_mut(below).collect();
+            // See `assemble` for the reason to write zeros.
+            for_each_part(columns, |column: &mut [f64]| column.fill(0.0));
+            return Ok(update);
+        }
+        let mut update = scratch.spare.pop().unwrap_or_default();
+        update.clear();
+        update.try_reserve_exact(len).map_err(|_| out_of_memory())?;
+        update.resize(len, 0.0);
+        Ok(update)
+    }
+
     /// Adds up the columns of the matrix and the update matrices of the children, in their order.
     fn assemble(&self, s: usize, front: &mut [f64], update: &mut [f64], scratch: &mut Scratch) {
         let (width, rows) = (self.factor.width(s), self.factor.rows(s));
@@ -205,12 +220,19 @@ impl Fronts<'_> {
         for (k, &row) in (width as u32..).zip(rows) {
             scratch.place[row as usize] = k;
         }
-        for (k, column) in front.chunks_exact_mut(height).enumerate() {
+        let place = &scratch.place;
+        let own = |(k, column): (usize, &mut [f64])| {
             // These are zeros already, but a page that is read before it is written costs the system twice the time.
             column.fill(0.0);
             for &(row, value) in self.columns.column(start + k) {
-                column[scratch.place[row as usize] as usize] += value;
+                column[place[row as usize] as usize] += value;
             }
+        };
+        let is_large = height * height >= LARGE;
+        let columns = front.chunks_exact_mut(height).enumerate();
+        match is_large {
+            true => for_each_part(columns.collect(), own),
+            false => columns.for_each(own),
         }
         for &child in self.tree.children(s) {
             let child = child as usize;
@@ -222,16 +244,32 @@ impl Fronts<'_> {
                 .rows
                 .extend(rows.map(|&row| scratch.place[row as usize]));
             let rows = &scratch.rows;
-            for (k, &at) in rows.iter().enumerate() {
-                let at = at as usize;
+            let add_column = |k: usize, column: &mut [f64], first: usize| {
                 let source = &of_child[k * rows.len() + k..(k + 1) * rows.len()];
-                let (column, first) = if at < width {
-                    (&mut front[at * height..(at + 1) * height], 0)
-                } else {
-                    let at = at - width;
-                    (&mut update[at * below..(at + 1) * below], width)
-                };
                 add(column, first, &rows[k..], source);
+            };
+            if is_large && of_child.len() >= LARGE {
+                let of_front = front.chunks_exact_mut(height).map(|column| (column, 0));
+                let of_update = update.chunks_exact_mut(below.max(1));
+                let of_update = of_update.map(|column| (column, width));
+                let mut columns: Vec<_> = of_front.chain(of_update).map(Some).collect();
+                let pairs = rows.iter().enumerate();
+                let pairs = pairs.filter_map(|(k, &at)| Some((k, columns[at as usize].take()?)));
+                for_each_part(pairs.collect(), |(k, (column, first))| {
+                    add_column(k, column, first);
+                });
+            } else {
+                for (k, &at) in rows.iter().enumerate() {
+                    match (at as usize).checked_sub(width) {
+                        None => {
+                            let at = at as usize;
+                            add_column(k, &mut front[at * height..(at + 1) * height], 0);
+                        }
+                        Some(at) => {
+                            add_column(k, &mut update[at * below..(at + 1) * below], width);
+                        }
+                    }
+                }
             }
             if of_child.capacity() <= SPARE {
                 scratch.spare.push(of_child);
@@ -294,7 +332,7 @@ impl Fronts<'_> {
         let height = front.len() / width;
         let below = height - width;
         let block = MatMut::from_column_major_slice_mut(front, height, width);
-        let (mut top, mut bottom) = block.split_at_row_mut(width);
+        let (mut top, bottom) = block.split_at_row_mut(width);
         let regularization = LdltRegularization {
             dynamic_regularization_signs: Some(&scratch.signs[..width]),
             dynamic_regularization_delta: NULL_PIVOT,
@@ -303,38 +341,86 @@ impl Fronts<'_> {
         let stack = MemStack::new(&mut scratch.memory);
         let params = Default::default();
         let done = with_wide_registers(|| {
-            let done = cholesky_in_place(top.rb_mut(), regularization, Par::Seq, stack, params);
-            if done.is_ok() {
-                let bottom = bottom.rb_mut().transpose_mut();
-                solve_unit_lower_triangular_in_place(top.rb(), bottom, Par::Seq);
-            }
-            done
+            cholesky_in_place(top.rb_mut(), regularization, Par::Seq, stack, params)
         });
         match done {
             Ok(info) if info.dynamic_regularization_count == 0 => {}
             Ok(_) => self.has_null.store(true, Ordering::Relaxed),
             Err(_) => return Ok(false),
         }
+        in_blocks(
+            bottom,
+            MatMut::nrows,
+            MatMut::split_at_row_mut,
+            |_, rows| {
+                let (top, rows) = (top.rb(), rows.transpose_mut());
+                with_wide_registers(|| solve_unit_lower_triangular_in_place(top, rows, Par::Seq));
+            },
+        )?;
         scratch.scaled.clear();
-        for (k, column) in front.chunks_exact_mut(height).enumerate() {
+        scratch.scaled.resize(width * below, 0.0);
+        let scale = |k: usize, column: &mut [f64], scaled: &mut [f64]| {
             column[..k].fill(0.0);
             let inverse = 1.0 / column[k];
-            scratch.scaled.extend_from_slice(&column[width..]);
+            scaled.copy_from_slice(&column[width..]);
             column[width..].iter_mut().for_each(|v| *v *= inverse);
+        };
+        let scaled = scratch.scaled.chunks_exact_mut(below.max(1));
+        let columns = front.chunks_exact_mut(height).zip(scaled).enumerate();
+        if width * below >= LARGE {
+            for_each_part(columns.collect(), |(k, (column, scaled))| {
+                scale(k, column, scaled)
+            });
+        } else {
+            columns.for_each(|(k, (column, scaled))| scale(k, column, scaled));
         }
         let lower = MatRef::from_column_major_slice(front, height, width).subrows(width, below);
         let scaled = MatRef::from_column_major_slice(&scratch.scaled, below, width);
-        let mut update = MatMut::from_column_major_slice_mut(update, below, below);
-        for first in (0..below).step_by(COLUMNS) {
-            is_wanted()?;
-            let (rows, columns) = (below - first, COLUMNS.min(below - first));
-            let part = update.rb_mut().submatrix_mut(first, first, rows, columns);
-            let lower = lower.subrows(first, rows);
-            let scaled = scaled.subrows(first, columns).transpose();
-            with_wide_registers(|| matmul(part, Accum::Add, lower, scaled, -1.0, Par::Seq));
-        }
+        let update = MatMut::from_column_major_slice_mut(update, below, below);
+        in_blocks(
+            update,
+            MatMut::ncols,
+            MatMut::split_at_col_mut,
+            |first, block| {
+                let columns = block.ncols();
+                let part = block.subrows_mut(first, below - first);
+                let lower = lower.subrows(first, below - first);
+                let scaled = scaled.subrows(first, columns).transpose();
+                with_wide_registers(|| matmul(part, Accum::Add, lower, scaled, -1.0, Par::Seq));
+            },
+        )?;
         Ok(true)
     }
+}
+
+/// Calls `task` with blocks of the rows or columns of a matrix, each with the number of its first one, on the threads
+/// that are allowed.
+///
+/// # Errors
+/// The reason to end the current step.
+fn in_blocks<'a>(
+    matrix: MatMut<'a, f64>,
+    count: impl Fn(&MatMut<'a, f64>) -> usize,
+    split_at: impl Fn(MatMut<'a, f64>, usize) -> (MatMut<'a, f64>, MatMut<'a, f64>),
+    task: impl Fn(usize, MatMut<'a, f64>) + Sync,
+) -> Result<()> {
+    let (mut blocks, mut rest, mut first) = (Vec::new(), matrix, 0);
+    while count(&rest) > BLOCK {
+        let (block, others) = split_at(rest, BLOCK);
+        blocks.push((first, block));
+        (rest, first) = (others, first + BLOCK);
+    }
+    if blocks.is_empty() {
+        task(0, rest);
+        return Ok(());
+    }
+    blocks.push((first, rest));
+    let done = of_each_part(blocks, |(first, block)| {
+        is_wanted()?;
+        task(first, block);
+        Ok(())
+    });
+    done.into_iter().collect()
 }
 
 /// `x -= factor y`.

@@ -24,7 +24,8 @@ pub(crate) use cancel::Stop;
 pub use event::{Event, EventKind, Flow, Phase, Stage};
 pub(crate) use parts::{
     both, change_in_parts, collect_if_wanted, collect_in_parts, collect_in_turn, filter_in_parts,
-    for_each_part, in_blocks, joined, parts_of, sort_in_parts, sort_in_parts_by, write_lines,
+    for_each_part, in_blocks, joined, of_each_part, parts_of, sort_in_parts, sort_in_parts_by,
+    write_lines,
 };
 pub use run::Run;
 pub(crate) use threads::SharedThreads;

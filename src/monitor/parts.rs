@@ -108,20 +108,28 @@ pub(crate) fn parts_of(count: usize, least: usize) -> Vec<Range<usize>> {
     (0..parts).map(range).collect()
 }
 
-/// Does a task with each of these parts at the same time, the first one on the thread of the call.
+/// Does a task with each of these parts at the same time. Each thread takes the next part when it has done one.
 pub(crate) fn for_each_part<P: Send>(parts: Vec<P>, task: impl Fn(P) + Sync) {
+    of_each_part(parts, task);
+}
+
+/// The same with the results, in order.
+pub(crate) fn of_each_part<P: Send, T: Send>(
+    parts: Vec<P>,
+    task: impl Fn(P) -> T + Sync,
+) -> Vec<T> {
+    if parts.len() < 2 || allowed_threads() < 2 {
+        return parts.into_iter().map(task).collect();
+    }
     let parts: Vec<_> = parts
         .into_iter()
         .map(|part| Mutex::new(Some(part)))
         .collect();
-    in_parts(parts.len(), 1, |numbers| {
-        for part in &parts[numbers] {
-            // Nobody else asks for this lock.
-            if let Some(part) = part.lock().ok().and_then(|mut part| part.take()) {
-                task(part);
-            }
-        }
-    });
+    collect_in_turn(parts.len(), |k| {
+        // Nobody else asks for this lock.
+        let part = parts[k].lock().ok().and_then(|mut part| part.take());
+        task(part.unwrap_or_else(|| unreachable!("each part is taken once")))
+    })
 }
 
 /// Changes each value, which gets its number. Each thread has at least `least` of them.
