@@ -8,9 +8,12 @@ use super::spanning_forest::spanning_forest;
 use super::{Constraint, FieldOptions, Guidance, Guide, OrientationField, PrescribedIndex};
 use crate::error::{Error, Result};
 use crate::mesh::{Reordered, TriangleMesh};
-use crate::monitor::{Monitor, may_continue, may_continue_at, span};
+use crate::monitor::{Monitor, both, may_continue, may_continue_at, span};
 use crate::search::Strategy;
 use crate::solve::Solution;
+
+/// The least number of faces that are worth a thread.
+const LEAST: usize = 1 << 14;
 
 /// Solves on the mesh in a [better order](Reordered::if_scattered), if it needs one, else as it is. Field and solution
 /// are those of the mesh as it is.
@@ -89,14 +92,13 @@ impl OrientationField {
         let named = self.constrained.iter().zip(&guided);
         let is_rooted: Vec<bool> = named.map(|(&is, guide)| is || guide.is_some()).collect();
         may_continue()?;
-        let in_forest = spanning_forest(mesh, &is_rooted)?;
-        may_continue()?;
         let step = self.step();
-        let before = std::mem::replace(&mut self.kappa, Arc::new(mesh.transports()));
-        let kappas = before.iter().zip(self.kappa.iter());
-        for (jump, (before, kappa)) in self.period_jumps.iter_mut().zip(kappas) {
-            *jump = jump.saturating_add(((before - kappa) / step).round() as i32);
-        }
+        let ((), in_forest) = both(
+            mesh.face_count() >= LEAST,
+            || self.take_transports(mesh),
+            || spanning_forest(mesh, &is_rooted),
+        );
+        let in_forest = in_forest?;
         may_continue()?;
         let turns = self.turns_onto(mesh, &in_forest, &is_rooted);
         may_continue()?;
@@ -120,6 +122,16 @@ impl OrientationField {
             }
         }
         Ok((self, values))
+    }
+
+    /// The same crosses with the angles between frames of the mesh.
+    fn take_transports(&mut self, mesh: &TriangleMesh) {
+        let step = self.step();
+        let before = std::mem::replace(&mut self.kappa, Arc::new(mesh.transports()));
+        let kappas = before.iter().zip(self.kappa.iter());
+        for (jump, (before, kappa)) in self.period_jumps.iter_mut().zip(kappas) {
+            *jump = jump.saturating_add(((before - kappa) / step).round() as i32);
+        }
     }
 
     /// By how many arms each face has to turn so that jumps on the forest are zero. Its roots stay.

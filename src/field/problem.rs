@@ -19,8 +19,10 @@ use super::prescribed_indices::{ring_sum, steps};
 use super::spanning_forest::spanning_forest;
 use super::{Constraint, FieldOptions, Guide, OrientationField};
 use crate::error::{Error, Result};
+use crate::linalg::sparse::reserve;
 use crate::mesh::TriangleMesh;
-use crate::monitor::{in_parts, may_continue, may_continue_at, span};
+
+use crate::monitor::{both, in_parts, may_continue, may_continue_at, span};
 use crate::problem::{Layout, MatrixRef, Problem};
 use crate::solve::Solution;
 
@@ -82,10 +84,15 @@ impl FieldProblem {
         let is_named = (0..mesh.face_count()).map(|f| fixed[f].is_some() || guided[f].is_some());
         may_continue()?;
         let is_named = is_named.collect::<Vec<_>>();
-        let (jumps, kappa) = jumps(mesh, step, &fixed, &spanning_forest(mesh, &is_named)?)?;
+        let faces = mesh.face_count();
+        let (in_forest, kappa) = both(
+            faces >= LEAST,
+            || spanning_forest(mesh, &is_named),
+            || mesh.transports(),
+        );
+        let jumps = jumps(mesh, step, &fixed, &in_forest?, &kappa)?;
         let ignored = detail(mesh, options)?;
         let unknown = |j: &&Jump| matches!(j, Jump::Unknown(_));
-        let faces = mesh.face_count();
         let mut this = FieldProblem {
             problem: Problem::new(faces + jumps.iter().filter(unknown).count())?,
             symmetry: options.symmetry,
@@ -124,8 +131,11 @@ impl FieldProblem {
         ignored: &[f64],
     ) -> Result<Vec<Option<usize>>> {
         let mut row_of_edge = vec![None; mesh.edge_count()];
-        let (mut offsets, mut indices, mut values) = (vec![0], Vec::new(), Vec::new());
-        let (mut rhs, mut integers) = (Vec::new(), Vec::new());
+        let edges = mesh.edge_count();
+        let (mut offsets, mut rhs) = (reserve(edges + 1)?, reserve(edges)?);
+        let (mut indices, mut values) = (reserve(3 * edges)?, reserve(3 * edges)?);
+        let mut integers = Vec::new();
+        offsets.push(0);
         for (e, edge) in mesh.edges().enumerate() {
             may_continue_at(e)?;
             let Some((j, _)) = edge.second else { continue };
@@ -270,8 +280,8 @@ fn jumps(
     step: f64,
     fixed: &[Option<f64>],
     in_forest: &[bool],
-) -> Result<(Vec<Jump>, Vec<f64>)> {
-    let kappa = mesh.transports();
+    kappa: &[f64],
+) -> Result<Vec<Jump>> {
     // A mesh has fewer than 2^32 half-edges, and so fewer faces and edges together.
     let mut unknowns = mesh.face_count() as u32..;
     let jumps = mesh.edges().enumerate().map(|(e, edge)| {
@@ -286,7 +296,7 @@ fn jumps(
             _ => unknowns.next().map_or(Jump::Known(0), Jump::Unknown),
         })
     });
-    Ok((jumps.collect::<Result<_>>()?, kappa))
+    jumps.collect()
 }
 
 /// Gives the rings of interior vertices to the solver as short cycles. They are a basis but for one

@@ -41,13 +41,14 @@ impl Curvature {
     /// The `count` faces with the most reliable directions, or all if there are fewer; of equals the lower ones. In
     /// increasing order.
     pub fn most_reliable(&self, count: usize) -> Vec<usize> {
-        let mut faces: Vec<usize> = (0..self.k1.len()).collect();
-        if count < faces.len() {
-            let key = |face: usize| self.reliability(face);
-            faces.select_nth_unstable_by(count, |&a, &b| key(b).total_cmp(&key(a)).then(a.cmp(&b)));
-            faces.truncate(count);
-            faces.sort_unstable();
+        let all = 0..self.k1.len();
+        if count >= all.len() {
+            return all.collect();
         }
+        let mut faces: Vec<(f64, usize)> = all.map(|face| (self.reliability(face), face)).collect();
+        faces.select_nth_unstable_by(count, |a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+        let mut faces: Vec<usize> = faces[..count].iter().map(|&(_, face)| face).collect();
+        faces.sort_unstable();
         faces
     }
 }
