@@ -25,7 +25,7 @@ use super::sparse::reserve;
 use super::supernodes::Supernodes;
 use super::wide_registers::with_wide_registers;
 use crate::error::Result;
-use crate::monitor::{for_each_part, is_wanted, of_each_part};
+use crate::monitor::{for_each_part, in_parts, is_wanted, of_each_part};
 
 /// The columns of a front with less work, in multiplications, are eliminated without faer's kernels, whose calls
 /// would take longer.
@@ -33,6 +33,9 @@ const SMALL: usize = 1000;
 
 /// The rows or columns of a large front that are computed at a time. Between them a call can end.
 const BLOCK: usize = 128;
+
+/// The least number of columns of the matrix that are worth a thread.
+const LEAST: usize = 1 << 14;
 
 /// A front of at least so many entries is worth several threads.
 const LARGE: usize = 1 << 16;
@@ -48,32 +51,55 @@ pub(super) struct Columns {
 
 impl Columns {
     /// The columns of the matrix with lower triangle `lower`, with unknown i at `position(i)`.
-    pub fn new(lower: &Sparse, scale: &[f64], position: impl Fn(usize) -> u32) -> Result<Self> {
-        let n = lower.rows();
-        let mut offsets = vec![0u32; n + 1];
+    pub fn new(
+        lower: &Sparse,
+        scale: &[f64],
+        position: impl Fn(usize) -> u32 + Sync,
+    ) -> Result<Self> {
         let place = |i: usize, j: usize| {
             let (a, b) = (position(i), position(j));
             (a.min(b) as usize, a.max(b))
         };
-        for i in 0..n {
-            for (j, _) in lower.row(i) {
-                offsets[place(i, j).0 + 1] += 1;
-            }
-        }
-        for k in 0..n {
-            offsets[k + 1] += offsets[k];
-        }
-        let mut next = offsets.clone();
-        let mut entries = reserve(lower.len())?;
-        entries.resize(lower.len(), (0, 0.0));
-        for i in 0..n {
-            for (j, v) in lower.row(i) {
+        // Each part looks at all entries and takes those of its own columns.
+        let parts = in_parts(lower.rows(), LEAST, |part| -> Result<_> {
+            let mut offsets = vec![0u32; part.len() + 1];
+            let of_part = |i: usize, j: usize| {
                 let (column, row) = place(i, j);
-                entries[next[column] as usize] = (row, v * scale[i] * scale[j]);
-                next[column] += 1;
+                let column = column.wrapping_sub(part.start);
+                (column < part.len()).then_some((column, row))
+            };
+            for i in 0..lower.rows() {
+                let columns = lower.row(i).filter_map(|(j, _)| of_part(i, j));
+                columns.for_each(|(column, _)| offsets[column + 1] += 1);
             }
+            for k in 0..part.len() {
+                offsets[k + 1] += offsets[k];
+            }
+            let mut next = offsets.clone();
+            let count = offsets[part.len()] as usize;
+            let mut entries = reserve(count)?;
+            entries.resize(count, (0, 0.0));
+            for i in 0..lower.rows() {
+                for (j, v) in lower.row(i) {
+                    if let Some((column, row)) = of_part(i, j) {
+                        entries[next[column] as usize] = (row, v * scale[i] * scale[j]);
+                        next[column] += 1;
+                    }
+                }
+            }
+            Ok(Columns { offsets, entries })
+        });
+        let mut parts = parts.into_iter();
+        let mut all = parts
+            .next()
+            .unwrap_or_else(|| unreachable!("there is one"))?;
+        for part in parts {
+            let mut part = part?;
+            let before = all.entries.len() as u32;
+            (all.offsets).extend(part.offsets[1..].iter().map(|at| before + at));
+            all.entries.append(&mut part.entries);
         }
-        Ok(Columns { offsets, entries })
+        Ok(all)
     }
 
     fn column(&self, k: usize) -> &[(u32, f64)] {

@@ -332,12 +332,9 @@ impl<'a> Untangling<'a> {
             let mut system = this.system(&regions[k])?;
             schedule::undo_folds(&mut system, values, steps, first_eps, monitor)
         };
-        let done = at_once(
-            &self.values,
-            regions.len(),
-            monitor,
-            |k, values, monitor| undone(self, k, steps[k], values, monitor),
-        )?;
+        let done = at_once(&self.values, regions, monitor, |k, values, monitor| {
+            undone(self, k, steps[k], values, monitor)
+        })?;
         for (k, mut outcome) in done.into_iter().enumerate() {
             // The budget is spent in the order of the regions.
             let left = self.steps_for(&regions[k]);

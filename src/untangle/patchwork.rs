@@ -149,7 +149,7 @@ impl Patchwork {
                 break;
             }
             let regions = regions(&self.freedom, &folded, rings);
-            let done = at_once(values, regions.len(), monitor, |k, values, monitor| {
+            let done = at_once(values, &regions, monitor, |k, values, monitor| {
                 let mut system = self.system(&regions[k])?;
                 undo_folds(&mut system, values, STEPS_OF_REGION, FIRST_EPS, monitor)
             })?;

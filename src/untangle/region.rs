@@ -2,11 +2,12 @@
 //!
 //! A fold only affects its neighbourhood, and a small system is cheap. Regions that touch are merged.
 
+use std::cmp::Reverse;
 use std::sync::Mutex;
 
 use super::freedom::Freedom;
 use crate::error::Result;
-use crate::monitor::{Monitor, tasks};
+use crate::monitor::{Monitor, span, tasks};
 
 /// A connected set of free unknowns and all faces that they move, both increasing.
 pub(super) struct Region {
@@ -62,26 +63,31 @@ impl Moved {
     }
 }
 
-/// Works on `count` regions at the same time, and gives the results in order. Every work gets these values of all
-/// coordinates, reads and changes none but those of its region, and leaves them as they were: no two regions have a
-/// face in common.
+/// Works on regions at the same time, the largest first, and gives the results in order. Every work gets the number of
+/// its region and these values of all coordinates, reads and changes none but those of its region, and leaves them as
+/// they were: no two regions have a face in common.
 pub(super) fn at_once<T: Send>(
     values: &[f64],
-    count: usize,
+    regions: &[Region],
     monitor: &mut Monitor,
     work: impl Fn(usize, &mut [f64], &mut Monitor) -> Result<T> + Sync,
 ) -> Result<Vec<T>> {
+    let mut order: Vec<usize> = (0..regions.len()).collect();
+    order.sort_by_key(|&k| Reverse(regions[k].faces.len()));
     let copies: Mutex<Vec<Vec<f64>>> = Mutex::default();
-    let done = tasks(count, monitor, |k, monitor| {
+    let done = tasks(regions.len(), monitor, |place, monitor| {
+        let _span = span("region");
         let spare = copies.lock().ok().and_then(|mut copies| copies.pop());
         let mut copy = spare.unwrap_or_else(|| values.to_vec());
-        let result = work(k, &mut copy, monitor);
+        let result = work(order[place], &mut copy, monitor);
         if let Ok(mut copies) = copies.lock() {
             copies.push(copy);
         }
         result
     });
-    done.into_iter().collect()
+    let mut done: Vec<_> = order.into_iter().zip(done).collect();
+    done.sort_unstable_by_key(|(k, _)| *k);
+    done.into_iter().map(|(_, result)| result).collect()
 }
 
 /// The region of a free unknown; its unknowns are removed from `is_free`.

@@ -38,15 +38,10 @@ impl Untangling<'_> {
     /// the state with the fewest folds.
     pub(super) fn stiffen(&mut self, times: usize, monitor: &mut Monitor) -> Result<()> {
         let regions = regions(self.freedom, &self.folded(), RINGS);
-        let stiffened = at_once(
-            &self.values,
-            regions.len(),
-            monitor,
-            |k, values, monitor| {
-                monitor.progress(Phase::Untangle, 0.0)?;
-                monitor.watching(|| self.stiffened(&regions[k], times, values))
-            },
-        )?;
+        let stiffened = at_once(&self.values, &regions, monitor, |k, values, monitor| {
+            monitor.progress(Phase::Untangle, 0.0)?;
+            monitor.watching(|| self.stiffened(&regions[k], times, values))
+        })?;
         let all = stiffened.iter();
         all.for_each(|moved| moved.put(&mut self.values));
         Ok(())
