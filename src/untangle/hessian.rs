@@ -59,10 +59,24 @@ impl Hessian {
 /// Calls `term` with two coordinates a and b of a face, the unknowns `i >= j` that move them, and the
 /// product of the two coefficients.
 fn each_term(corners: &Sparse, face: usize, mut term: impl FnMut(usize, usize, usize, usize, f64)) {
+    let rows: [_; 6] = std::array::from_fn(|a| corners.row(6 * face + a));
+    if rows.iter().all(|row| row.len() <= 1) {
+        // Most faces are such: their terms need no search.
+        let entries = rows.map(|mut row| row.next());
+        for (a, first) in entries.iter().enumerate() {
+            let Some((i, u)) = *first else { continue };
+            for (b, second) in entries.iter().enumerate() {
+                if let Some((j, v)) = second.filter(|&(j, _)| j <= i) {
+                    term(a, b, i, j, u * v);
+                }
+            }
+        }
+        return;
+    }
     for a in 0..6 {
-        for (i, u) in corners.row(6 * face + a) {
+        for (i, u) in rows[a].clone() {
             for b in 0..6 {
-                for (j, v) in corners.row(6 * face + b).filter(|&(j, _)| j <= i) {
+                for (j, v) in rows[b].clone().filter(|&(j, _)| j <= i) {
                     term(a, b, i, j, u * v);
                 }
             }
