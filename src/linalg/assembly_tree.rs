@@ -17,7 +17,7 @@ use crate::monitor::{allowed_threads, in_parts, is_simulated, simulate_graph};
 /// A task has at most one in so many parts of the work, unless it is a single supernode.
 const PARTS: u64 = 32;
 
-/// All threads share a supernode above the subtrees with at least one in so many parts of the work, ...
+/// All threads share a supernode with at least one in so many parts of the work, ...
 const SHARED_PARTS: u64 = 64;
 
 /// ... and at least this much, about a millisecond's.
@@ -105,7 +105,7 @@ impl AssemblyTree {
         let least = SHARED.max(work.iter().sum::<u64>() / SHARED_PARTS);
         let mut is_shared = vec![false; tasks.len()];
         for k in 0..tasks.len() {
-            is_shared[k] |= waits[k] > 0 && of_task(k) >= least;
+            is_shared[k] |= tasks[k].len() == 1 && of_task(k) >= least;
             if is_shared[k] {
                 (followers[k].iter()).for_each(|&f| is_shared[f as usize] = true);
             }
@@ -380,6 +380,7 @@ mod tests {
         let alone = vec![NONE; 300];
         for tree in [
             binary(9),
+            binary_with_large_top(9),
             tree(chain.collect()),
             tree(alone),
             tree(shuffled.collect()),
@@ -401,6 +402,34 @@ mod tests {
                 assert!(done.iter().all(|d| d.load(SeqCst) == 1));
             }
         }
+    }
+
+    /// The same, where the last 20 supernodes of the order, not all of which are near the root, take most of the work.
+    fn binary_with_large_top(depth: u32) -> AssemblyTree {
+        let parent = binary(depth).parent;
+        let first = parent.len() - 20;
+        let work: Vec<u64> = (0..parent.len())
+            .map(|s| if s < first { 1000 } else { SHARED })
+            .collect();
+        AssemblyTree::of_work(parent, &work)
+    }
+
+    #[test]
+    fn all_threads_share_the_large_tasks_and_those_that_wait_for_them() {
+        assert!(binary(9).shared.is_empty());
+        let tree = binary_with_large_top(9);
+        assert!(tree.shared.len() >= 20 && !tree.apart.tasks.is_empty());
+        let shared: Vec<usize> = tree.shared.iter().map(|&k| tree.tasks[k].start).collect();
+        for &s in &shared {
+            let parent = tree.parent(s);
+            assert!(parent == NONE || shared.contains(&(parent as usize)));
+        }
+        let task = |_: &mut (), k: usize| {
+            let is_shared = tree.shared.contains(&k);
+            assert_eq!(allowed_threads(), if is_shared { 3 } else { 1 });
+            Ok(())
+        };
+        with_threads(3, || tree.work(|| Ok(()), task)).unwrap();
     }
 
     #[test]

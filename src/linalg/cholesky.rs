@@ -14,8 +14,9 @@ use std::sync::Arc;
 
 use super::Sparse;
 use super::analysis::{Analysis, FactorPattern};
-use super::multifrontal::{Columns, factorize};
+use super::multifrontal::factorize;
 use super::ordering::Ordering;
+use super::scaled_columns::Columns;
 use super::scaling::equilibrate;
 use super::tree_solve::Factor;
 use super::wide_registers::leave_wide_registers;

@@ -23,6 +23,7 @@ mod queue_gauss_seidel;
 mod random;
 mod relaxed;
 mod ring;
+mod scaled_columns;
 mod scaling;
 mod schur_factor;
 mod shared_float;

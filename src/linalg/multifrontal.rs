@@ -17,15 +17,15 @@ use faer::linalg::triangular_solve::solve_unit_lower_triangular_in_place;
 use faer::reborrow::{Reborrow, ReborrowMut};
 use faer::{Accum, MatMut, MatRef, Par};
 
-use super::Sparse;
 use super::assembly_tree::AssemblyTree;
 use super::cholesky::{NULL_PIVOT, out_of_memory, overflow, zeros};
 use super::ordering::NONE;
+use super::scaled_columns::Columns;
 use super::sparse::reserve;
 use super::supernodes::Supernodes;
 use super::wide_registers::with_wide_registers;
 use crate::error::Result;
-use crate::monitor::{for_each_part, in_parts, is_wanted, of_each_part};
+use crate::monitor::{for_each_part, is_wanted, of_each_part};
 
 /// The columns of a front with less work, in multiplications, are eliminated without faer's kernels, whose calls
 /// would take longer.
@@ -34,78 +34,11 @@ const SMALL: usize = 1000;
 /// The rows or columns of a large front that are computed at a time. Between them a call can end.
 const BLOCK: usize = 128;
 
-/// The least number of columns of the matrix that are worth a thread.
-const LEAST: usize = 1 << 14;
-
 /// A front of at least so many entries is worth several threads.
 const LARGE: usize = 1 << 16;
 
 /// The entries of the largest update matrix that is kept for another one.
 const SPARE: usize = 1 << 16;
-
-/// The scaled matrix by columns, in the order of elimination: of each column the entries from the diagonal on.
-pub(super) struct Columns {
-    offsets: Vec<u32>,
-    entries: Vec<(u32, f64)>,
-}
-
-impl Columns {
-    /// The columns of the matrix with lower triangle `lower`, with unknown i at `position(i)`.
-    pub fn new(
-        lower: &Sparse,
-        scale: &[f64],
-        position: impl Fn(usize) -> u32 + Sync,
-    ) -> Result<Self> {
-        let place = |i: usize, j: usize| {
-            let (a, b) = (position(i), position(j));
-            (a.min(b) as usize, a.max(b))
-        };
-        // Each part looks at all entries and takes those of its own columns.
-        let parts = in_parts(lower.rows(), LEAST, |part| -> Result<_> {
-            let mut offsets = vec![0u32; part.len() + 1];
-            let of_part = |i: usize, j: usize| {
-                let (column, row) = place(i, j);
-                let column = column.wrapping_sub(part.start);
-                (column < part.len()).then_some((column, row))
-            };
-            for i in 0..lower.rows() {
-                let columns = lower.row(i).filter_map(|(j, _)| of_part(i, j));
-                columns.for_each(|(column, _)| offsets[column + 1] += 1);
-            }
-            for k in 0..part.len() {
-                offsets[k + 1] += offsets[k];
-            }
-            let mut next = offsets.clone();
-            let count = offsets[part.len()] as usize;
-            let mut entries = reserve(count)?;
-            entries.resize(count, (0, 0.0));
-            for i in 0..lower.rows() {
-                for (j, v) in lower.row(i) {
-                    if let Some((column, row)) = of_part(i, j) {
-                        entries[next[column] as usize] = (row, v * scale[i] * scale[j]);
-                        next[column] += 1;
-                    }
-                }
-            }
-            Ok(Columns { offsets, entries })
-        });
-        let mut parts = parts.into_iter();
-        let mut all = parts
-            .next()
-            .unwrap_or_else(|| unreachable!("there is one"))?;
-        for part in parts {
-            let mut part = part?;
-            let before = all.entries.len() as u32;
-            (all.offsets).extend(part.offsets[1..].iter().map(|at| before + at));
-            all.entries.append(&mut part.entries);
-        }
-        Ok(all)
-    }
-
-    fn column(&self, k: usize) -> &[(u32, f64)] {
-        &self.entries[self.offsets[k] as usize..self.offsets[k + 1] as usize]
-    }
-}
 
 /// Computes the factor into `values`, which are zero. The result says whether a pivot vanished.
 ///
@@ -473,10 +406,10 @@ fn add(column: &mut [f64], first: usize, rows: &[u32], source: &[f64]) {
 #[cfg(test)]
 mod tests {
     use super::super::analysis::Analysis;
-    use super::super::{Cholesky, Random, minimum_degree};
+    use super::super::{Cholesky, Random, Sparse, minimum_degree};
     use super::*;
     use crate::error::Error;
-    use crate::monitor::{CancelToken, Monitor, with_threads};
+    use crate::monitor::{CancelToken, Monitor, spawned, with_threads};
 
     /// Springs between neighbours of a grid, of which some are missing or very soft. A grid that is not tied to the
     /// ground has null unknowns.
@@ -562,10 +495,34 @@ mod tests {
         }
     }
 
+    /// Three sets of unknowns. Those of a set are coupled to each other, and those of the last to all.
+    fn cliques(size: u32) -> Sparse {
+        let pairs = (0..3 * size).flat_map(|i| (0..i).map(move |j| (i, j)));
+        let coupled = pairs.filter(|&(i, j)| i >= 2 * size || i / size == j / size);
+        let springs = coupled.flat_map(|(i, j)| {
+            let stiffness = 1.0 + f64::from(i * j % 7);
+            [(i, i, stiffness), (j, j, stiffness), (i, j, -stiffness)]
+        });
+        let n = 3 * size as usize;
+        let ground = (0..3 * size).map(|i| (i, i, 1.0));
+        Sparse::from_triplets(n, n, springs.chain(ground)).unwrap()
+    }
+
+    #[test]
+    fn all_threads_share_large_fronts() {
+        let a = cliques(260);
+        let order = minimum_degree(&a).unwrap();
+        let analysis = Analysis::shared_from(0, &a, order).unwrap();
+        let factor = || drop(Cholesky::with(&analysis, &a).unwrap());
+        assert!(spawned(|| with_threads(3, factor)) > 10);
+    }
+
     #[test]
     fn solutions_have_no_residual_and_the_same_bits_for_every_number_of_threads() {
-        for (seed, is_grounded) in [(1, true), (2, false)] {
-            let a = grid(80, 90, is_grounded, &mut Random::new(seed));
+        let grids = [(1, true), (2, false)];
+        let grids =
+            grids.map(|(seed, is_grounded)| grid(80, 90, is_grounded, &mut Random::new(seed)));
+        for a in grids.into_iter().chain([cliques(260)]) {
             let x: Vec<f64> = (0..a.rows()).map(|i| (i as f64).sin()).collect();
             let b = a.mul_symmetric(&x);
             let of = |threads: usize| {

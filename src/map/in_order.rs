@@ -33,7 +33,11 @@ impl ReorderedProblem {
         }
     }
 
-    fn new(mesh: &TriangleMesh, given: &SeamlessProblem, reordered: Reordered) -> Result<Self> {
+    /// The problem `given` for its mesh in that order.
+    ///
+    /// # Errors
+    /// Those of a new problem.
+    pub fn new(mesh: &TriangleMesh, given: &SeamlessProblem, reordered: Reordered) -> Result<Self> {
         let (sectors, copies) = given.sectors.in_order(&reordered);
         let isolines = given.isolines.iter().map(|isoline| Isoline {
             edge: reordered.place_of_edge(mesh, isoline.edge).0,
@@ -161,6 +165,91 @@ impl Density {
         match self {
             Density::Uniform(density) => Density::Uniform(*density),
             Density::Faces(faces) => Density::Faces(reordered.of_faces(faces)),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::field::{Guidance, smoothest_field};
+    use crate::map::Sizing;
+    use crate::mesh::shape::by_name;
+    use crate::mesh::shuffled;
+    use crate::monitor::Monitor;
+    use crate::search::{Options, Strategy};
+    use crate::solve::{Solver, solve, verify};
+
+    /// A problem with cones, features and sizes for every face, or one of a plane without cones.
+    fn problem_of(name: &str) -> (TriangleMesh, SeamlessProblem) {
+        let mesh = shuffled(&by_name(name, 1_500).unwrap());
+        let guidance = Guidance {
+            feature_angle: Some(0.6),
+            ..Guidance::default()
+        };
+        let features = guidance.features(&mesh).unwrap();
+        let options = guidance.field_options(&mesh, &features).unwrap();
+        let adaptive = Options {
+            strategy: Strategy::Adaptive,
+            ..Options::default()
+        };
+        let (field, _) = smoothest_field(&mesh, &options, &adaptive, Monitor::default).unwrap();
+        let length = |f: usize| 0.1 + 0.05 * mesh.corner_positions(f)[0][0].abs();
+        let lengths = (0..mesh.face_count()).map(|f| [length(f), 1.1 * length(f)]);
+        let sizing = Sizing::Lengths(lengths.collect());
+        let problem = SeamlessProblem::with_features(&mesh, &field, &sizing, &features).unwrap();
+        (mesh, problem)
+    }
+
+    #[test]
+    fn solutions_in_another_order_are_solutions_of_the_problem_as_it_is() {
+        for name in ["gear", "plane", "genus-2"] {
+            let (mesh, given) = problem_of(name);
+            let reordered = Reordered::new(&mesh).unwrap();
+            let there = ReorderedProblem::new(&mesh, &given, reordered).unwrap();
+            let ordered = &there.reordered.mesh;
+            assert_ne!(mesh.triangles(), ordered.triangles());
+            let solution = solve(there.problem.problem(), &Options::default()).unwrap();
+            let values = there.given_values(solution.values());
+            let verdict = verify(given.problem(), &values).unwrap();
+            let error = verdict.energy - solution.energy();
+            assert!(error.abs() < 1e-9 * solution.energy(), "{name} {error}");
+            assert_eq!(verdict.integrality_violation, 0.0, "{name}");
+            assert!(verdict.constraint_violation < 1e-9, "{name}");
+            let of_problem = there.problem.map(ordered, &solution).unwrap();
+            let map = there.given_map(&of_problem, &mesh, &given);
+            let expected = SeamlessMap::new(&given, &mesh, &values).unwrap();
+            let error = map.energy - expected.energy;
+            assert!(error.abs() < 1e-9 * map.energy, "{name} {error}");
+            let energy = expected.energy;
+            assert!(SeamlessMap { energy, ..map } == expected, "{name}");
+        }
+    }
+
+    #[test]
+    fn gradients_of_another_map_are_kept() {
+        let (mesh, mut given) = problem_of("gear");
+        let mut solver = Solver::new(given.problem()).unwrap();
+        let solution = solver.solve(&Options::default()).unwrap();
+        let map = given.map(&mesh, &solution).unwrap();
+        let elongations = (0..mesh.face_count()).map(|f| 1.0 + 0.1 * (f as f64).sin());
+        given.elongate(&mesh, elongations.collect()).unwrap();
+        let finer = (&given, &map);
+        let guided = given.guided(&mesh, 1.5, finer, &mut solver).unwrap();
+        for given in [given.clone(), guided] {
+            let reordered = Reordered::new(&mesh).unwrap();
+            let there = ReorderedProblem::new(&mesh, &given, reordered).unwrap();
+            let ordered = &there.reordered.mesh;
+            for place in 0..ordered.face_count() {
+                let face = there.reordered.face(place);
+                let [here, wanted] = [
+                    there.problem.wanted(ordered, place),
+                    given.wanted(&mesh, face),
+                ];
+                assert_eq!(here, wanted);
+            }
+            let field = &there.problem.field;
+            assert!(field.on_given(&there.reordered, &mesh) == given.field);
         }
     }
 }

@@ -443,6 +443,13 @@ impl<'m, M: Fn() -> Monitor<'m>> Driver<'_, M> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::check::{CheckOptions, check_map};
+    use crate::field::{Constraint, FieldOptions, OrientationField, smoothest_field};
+    use crate::map::SeamlessOptions;
+    use crate::mesh::shape::by_name;
+    use crate::mesh::{Reordered, shuffled};
+    use crate::monitor::traced;
+    use crate::solve::verify;
 
     fn guided(is_far: bool, refinements: usize) -> Try {
         Try {
@@ -451,6 +458,89 @@ mod tests {
             gradings: 0,
             is_guided: true,
         }
+    }
+
+    /// A mesh in no order with a field on it.
+    fn scattered(name: &str, faces: usize) -> (TriangleMesh, OrientationField) {
+        let mesh = shuffled(&by_name(name, faces).unwrap());
+        // Most faces have a direction: the field is found soon.
+        let direction = |face: usize| Constraint {
+            face,
+            angle: {
+                let [x, y] = mesh.frame(face);
+                -y[0].atan2(x[0])
+            },
+        };
+        let constraints: Vec<_> = (0..mesh.face_count()).map(direction).collect();
+        let options = FieldOptions {
+            constraints,
+            ..FieldOptions::default()
+        };
+        let adaptive = adaptive();
+        let (field, _) = smoothest_field(&mesh, &options, &adaptive, Monitor::default).unwrap();
+        (mesh, field)
+    }
+
+    fn adaptive() -> Options {
+        Options {
+            strategy: Strategy::Adaptive,
+            ..Options::default()
+        }
+    }
+
+    #[test]
+    fn maps_of_meshes_in_no_order_are_those_of_the_mesh_as_it_is() {
+        let mesh = shuffled(&by_name("rounded-cube", 1_200).unwrap());
+        let none = FieldOptions::default();
+        let (field, _) = smoothest_field(&mesh, &none, &adaptive(), Monitor::default).unwrap();
+        let size = SeamlessOptions { quads: 150 };
+        let problem = SeamlessProblem::new(&mesh, &field, &size).unwrap();
+        let reordered = Reordered::new(&mesh).unwrap();
+        let there = ReorderedProblem::new(&mesh, &problem, reordered).unwrap();
+        let (run, effort) = (Run::new(), UntangleOptions::default());
+        let work = (&run, &Monitor::default);
+        let options = Options::default();
+        let made = fold_free(
+            &there.reordered.mesh,
+            &there.problem,
+            &options,
+            &effort,
+            work,
+        );
+        let made = made.unwrap().of_given(there, &mesh, &problem);
+        assert_eq!(made.untangled.faults(), 0);
+        let map = &made.untangled.map;
+        problem.check_map(&mesh, map).unwrap();
+        let check = check_map(&mesh, &map.corner_uvs(), &CheckOptions::default()).unwrap();
+        assert!(check.is_valid());
+        let verdict = verify(problem.problem(), made.solution.values()).unwrap();
+        assert!((verdict.energy - made.solution.energy()).abs() < 1e-9 * verdict.energy);
+    }
+
+    #[test]
+    fn large_meshes_in_no_order_are_put_into_one() {
+        let (mesh, field) = scattered("plane", 33_000);
+        let size = SeamlessOptions { quads: 150 };
+        let problem = SeamlessProblem::new(&mesh, &field, &size).unwrap();
+        let effort = UntangleOptions::default();
+        let relax = Options {
+            strategy: Strategy::Relax,
+            ..Options::default()
+        };
+        let solve = || solve_fold_free(&mesh, &problem, &relax, &effort, Monitor::default);
+        let (made, trace) = traced(false, solve);
+        assert!(trace.spans.iter().any(|span| span.name == "order mesh"));
+        let run = Run::new();
+        let work = (&run, &Monitor::default);
+        let as_it_is = fold_free(&mesh, &problem, &relax, &effort, work).unwrap();
+        let (found, wanted) = (made.unwrap().solution, as_it_is.solution);
+        for (x, y) in found.values().iter().zip(wanted.values()) {
+            assert!((x - y).abs() < 1e-8, "{x} {y}");
+        }
+        // Its error is that of the mesh as it is.
+        let other = by_name("torus", 1_000).unwrap();
+        let error = solve_fold_free(&other, &problem, &relax, &effort, Monitor::default);
+        assert_eq!(error.unwrap_err().code(), "length_mismatch");
     }
 
     #[test]

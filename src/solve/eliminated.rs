@@ -239,6 +239,7 @@ fn counts(model: &Model, [integers, continuous]: [usize; 2], factors: &Factors) 
 mod tests {
     use super::*;
     use crate::field::{FieldProblem, curvature_constraints};
+    use crate::mesh::TriangleMesh;
     use crate::mesh::shape::by_name;
     use crate::monitor::{spawned, traced};
     use crate::solve::{Solver, solve};
@@ -346,5 +347,44 @@ mod tests {
         assert!(spawned(other) > 0);
         let relaxed = || drop(of(Strategy::Relax, 2));
         assert_eq!(spawned(relaxed), 0, "no search follows");
+    }
+
+    #[test]
+    fn the_factors_of_components_are_made_beside_the_relaxation_too() {
+        // Two meshes in one, with directions that cut off small parts.
+        let torus = by_name("torus", 3_000).unwrap();
+        let count = torus.vertex_count() as u32;
+        let apart = torus.vertices().iter().map(|p| [p[0] + 9.0, p[1], p[2]]);
+        let vertices = torus.vertices().iter().copied().chain(apart);
+        let others = torus.triangles().iter().map(|t| t.map(|v| v + count));
+        let triangles = torus.triangles().iter().copied().chain(others);
+        let mesh = TriangleMesh::new(vertices.collect(), triangles.collect()).unwrap();
+        let directions = curvature_constraints(&mesh, 0.02).unwrap();
+        let field = FieldProblem::new(&mesh, &directions).unwrap();
+        let solved = |threads| {
+            let options = Options {
+                strategy: Strategy::Adaptive,
+                threads,
+                ..Options::default()
+            };
+            let (solution, trace) = traced(false, || solve(field.problem(), &options).unwrap());
+            let rounding = trace
+                .spans
+                .iter()
+                .filter(|span| span.name == "adaptive rounding");
+            let begins = rounding
+                .map(|span| span.start)
+                .fold(f64::INFINITY, f64::min);
+            let factors = trace.spans.iter().filter(|span| span.name == "factor");
+            let later = factors.filter(|span| span.start >= begins).count();
+            (solution, later)
+        };
+        let (one, later) = solved(1);
+        assert_eq!(later, 2);
+        let (two, later) = solved(2);
+        assert_eq!(later, 0);
+        assert_eq!(one.values(), two.values());
+        assert_eq!(one.energy().to_bits(), two.energy().to_bits());
+        assert_eq!(one.lower_bound(), two.lower_bound());
     }
 }
