@@ -80,10 +80,11 @@ mod tests {
     #[test]
     fn columns_hold_the_scaled_entries_in_the_order_of_rows() {
         let n = 3 * LEAST;
-        let entries = (0..n).flat_map(|i| {
-            let near = (i.saturating_sub(2)..=i).map(move |j| (i as u32, j as u32, j as f64 + 0.5));
-            near
-        });
+        let near = |i: usize| {
+            let columns = i.saturating_sub(2)..=i;
+            columns.map(move |j| (i as u32, j as u32, j as f64 + 0.5))
+        };
+        let entries = (0..n).flat_map(near);
         let a = Sparse::from_triplets(n, n, entries).unwrap();
         let scale: Vec<f64> = (0..n).map(|i| 1.0 + (i % 3) as f64).collect();
         let position = |i: usize| (i * 5 % n) as u32;
