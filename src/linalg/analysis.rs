@@ -11,7 +11,7 @@ use super::tree_solve::SolveParts;
 use crate::error::Result;
 use crate::monitor::{is_wanted, span, with_threads};
 
-/// A factor of at least so many unknowns is computed and used by several threads. Smaller ones take about a millisecond.
+/// A factor of at least so many unknowns is computed and used by several threads. Smaller ones take a millisecond.
 const SHARED: usize = 4_000;
 
 /// The order of elimination and the pattern of the factor, for all matrices of one pattern.

@@ -18,6 +18,9 @@ use crate::monitor::{allowed_threads, both, may_continue};
 /// The least number of unknowns for which a factor gets a thread of its own.
 const WORTH_A_THREAD: usize = 4_096;
 
+/// The most unknowns for which it is made beside the relaxation: both factors are then in memory at the same time.
+const MOST_AHEAD: usize = 1 << 20;
+
 /// The factors of one reduced model.
 #[derive(Debug, Default)]
 pub(crate) struct Factors {
@@ -183,11 +186,16 @@ impl Factors {
 
     /// Whether what the search needs later is worth a thread of its own while the relaxation is solved.
     pub fn is_worth_making_ahead(&self, model: &ReducedModel, strategy: Strategy) -> bool {
-        let is_large = allowed_threads() > 1 && model.dim() >= WORTH_A_THREAD;
+        let is_large = (WORTH_A_THREAD..=MOST_AHEAD).contains(&model.dim());
+        let is_worth_it = allowed_threads() > 1 && is_large;
         let has_block = |factors: &Factors| factors.continuous.is_some();
         let is_known = has_block(self) || self.components.iter().any(has_block);
         let is_used = self.is_searched(strategy) && !model.integers().is_empty();
-        is_large && is_used && self.relaxed.is_none() && !is_known && !self.has_schur_factor(model)
+        is_worth_it
+            && is_used
+            && self.relaxed.is_none()
+            && !is_known
+            && !self.has_schur_factor(model)
     }
 
     /// The components of the model, or none if all its integers are in one.
