@@ -132,6 +132,9 @@ impl FoldFreeMap {
 ///
 /// A caller who [finishes](crate::Flow::Finish) the run gets the best map so far, whose folds may remain.
 ///
+/// A large mesh whose neighbours are far apart in memory is solved on in another order. The map and the values of the
+/// solution are those of the problem and the mesh that were given.
+///
 /// # Errors
 /// Those of [`solve`](crate::solve()) for the first solve and of [`untangle`](crate::untangle::untangle); a later
 /// solve that fails because constraints contradict each other ends the rounds.
@@ -460,20 +463,20 @@ mod tests {
         }
     }
 
-    /// A mesh in no order with a field on it.
+    /// A mesh in no order with a field along its first axis.
     fn scattered(name: &str, faces: usize) -> (TriangleMesh, OrientationField) {
         let mesh = shuffled(&by_name(name, faces).unwrap());
-        // Most faces have a direction: the field is found soon.
-        let direction = |face: usize| Constraint {
-            face,
-            angle: {
-                let [x, y] = mesh.frame(face);
-                -y[0].atan2(x[0])
-            },
+        let angle = |face: usize| {
+            let [x, y] = mesh.frame(face).map(|axis| axis[0]);
+            y.atan2(x)
         };
-        let constraints: Vec<_> = (0..mesh.face_count()).map(direction).collect();
+        let faces = 0..mesh.face_count();
+        let constraints = faces.map(|face| Constraint {
+            face,
+            angle: angle(face),
+        });
         let options = FieldOptions {
-            constraints,
+            constraints: constraints.collect(),
             ..FieldOptions::default()
         };
         let adaptive = adaptive();
