@@ -59,6 +59,7 @@ impl Combing {
 
     /// The combed cross of a face: the chosen arm X, and Y a quarter turn counter-clockwise about
     /// the normal from it. Unit vectors in space.
+    #[inline]
     pub fn arms(&self, mesh: &TriangleMesh, field: &OrientationField, face: usize) -> [Vec3; 2] {
         let [x, y] = mesh.frame(face);
         let angle = field.angles()[face] + FRAC_PI_2 * f64::from(self.quarters[face]);

@@ -117,6 +117,7 @@ fn energy(problem: &SeamlessProblem, mesh: &TriangleMesh, map: &SeamlessMap) -> 
 }
 
 /// The gradient of the linear function with these values at the corners.
+#[inline]
 pub(crate) fn gradient(mesh: &TriangleMesh, face: usize, values: [f64; 3]) -> Vec3 {
     let corners = mesh.corner_positions(face);
     let normal = mesh.normal(face);

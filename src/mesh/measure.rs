@@ -9,11 +9,13 @@ const LEAST: usize = 1 << 12;
 
 impl TriangleMesh {
     /// Unit normal of a face.
+    #[inline]
     pub fn normal(&self, face: usize) -> Vec3 {
         normalize(self.doubled_area_vector(face))
     }
 
     /// Area of a face.
+    #[inline]
     pub fn area(&self, face: usize) -> f64 {
         0.5 * norm(self.doubled_area_vector(face))
     }
@@ -39,6 +41,7 @@ impl TriangleMesh {
     }
 
     /// Length of local edge `k` of a face.
+    #[inline]
     pub fn edge_length(&self, face: usize, k: usize) -> f64 {
         let p = self.corner_positions(face);
         norm(sub(p[(k + 1) % 3], p[k]))
@@ -88,6 +91,7 @@ impl TriangleMesh {
 
     /// Unit axes of the frame of a face: along its first edge, and a quarter turn
     /// counter-clockwise from there.
+    #[inline]
     pub fn frame(&self, face: usize) -> [Vec3; 2] {
         let [a, b, _] = self.corner_positions(face);
         let x = normalize(sub(b, a));

@@ -196,6 +196,7 @@ impl TriangleMesh {
     }
 
     /// Positions of the corners of a face.
+    #[inline]
     pub fn corner_positions(&self, face: usize) -> [Vec3; 3] {
         self.triangles[face].map(|v| self.vertices[v as usize])
     }
