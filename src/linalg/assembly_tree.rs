@@ -20,7 +20,7 @@ const PARTS: u64 = 32;
 /// All threads share a supernode with at least one in so many parts of the work, ...
 const SHARED_PARTS: u64 = 64;
 
-/// ... and at least this much, about a millisecond's.
+/// ... and at least this much: less is not worth their start.
 const SHARED: u64 = 1 << 23;
 
 /// The tree and its tasks.

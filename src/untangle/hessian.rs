@@ -90,20 +90,21 @@ mod tests {
 
     #[test]
     fn the_sum_is_that_of_all_products_whatever_was_summed_before() {
-        // Two faces over five unknowns; some coordinates are held, some moved by two unknowns.
-        let entries = (0..12u32).flat_map(|row| {
+        // Three faces over five unknowns. Some coordinates are held, and some of the first two faces are moved by two
+        // unknowns.
+        let entries = (0..18u32).flat_map(|row| {
             let one = (row % 4 != 3).then_some((row, row % 5, 1.0 + f64::from(row)));
-            let other = (row % 3 == 0).then_some((row, (row + 2) % 5, -0.5));
+            let other = (row % 3 == 0 && row < 12).then_some((row, (row + 2) % 5, -0.5));
             one.into_iter().chain(other)
         });
-        let corners = Sparse::from_triplets(12, 5, entries).unwrap();
+        let corners = Sparse::from_triplets(18, 5, entries).unwrap();
         let form = |face: usize| {
             let entry = |a: usize, b: usize| ((a * b + a + b + face) as f64).sin();
             std::array::from_fn(|a| std::array::from_fn(|b| entry(a, b)))
         };
         let mut hessian = Hessian::new(&corners).unwrap();
-        hessian.sum(&corners, [[[9.0; 6]; 6]; 2].into_iter());
-        hessian.sum(&corners, (0..2).map(form));
+        hessian.sum(&corners, [[[9.0; 6]; 6]; 3].into_iter());
+        hessian.sum(&corners, (0..3).map(form));
         let dense = |row: usize| {
             let mut dense = [0.0; 5];
             corners.row(row).for_each(|(i, u)| dense[i] = u);
@@ -112,7 +113,7 @@ mod tests {
         for i in 0..5 {
             for j in 0..=i {
                 let mut expected = 0.0;
-                for face in 0..2 {
+                for face in 0..3 {
                     let form: [[f64; 6]; 6] = form(face);
                     for a in 0..6 {
                         for b in 0..6 {

@@ -159,4 +159,26 @@ mod tests {
             }
         });
     }
+
+    #[test]
+    fn the_largest_region_is_the_first() {
+        with_work("genus-2", 80, |work, _| {
+            let regions = regions(work.freedom, &work.folded(), 3);
+            let begun = Mutex::new(Vec::new());
+            let size = |k: usize, _: &mut [f64], _: &mut Monitor| {
+                begun.lock().unwrap().push(regions[k].faces.len());
+                Ok(regions[k].faces.len())
+            };
+            let mut monitor = Monitor::default();
+            let sizes = with_threads(1, || at_once(&work.values, &regions, &mut monitor, size));
+            assert!(
+                sizes
+                    .unwrap()
+                    .into_iter()
+                    .eq(regions.iter().map(|of| of.faces.len()))
+            );
+            let begun = begun.into_inner().unwrap();
+            assert!(begun.is_sorted_by(|a, b| a >= b) && begun[0] > begun[begun.len() - 1]);
+        });
+    }
 }
