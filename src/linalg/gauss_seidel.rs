@@ -139,11 +139,11 @@ impl<'a> LocalSolve<'a> {
             for at in row {
                 let (j, value) = self.system.coupling(at);
                 let neighbour = self.system.unknown(j);
-                neighbour.pull(j as u32, value, step, &mut wave.queue);
+                neighbour.pull(j as u32, value, step, 0.0, &mut wave.queue);
             }
             self.system.release(k);
         } else {
-            self.spread(k, step, wave);
+            self.spread(k, step, 0.0, wave);
         }
     }
 
@@ -179,7 +179,7 @@ impl<'a> LocalSolve<'a> {
                 let step = -OVERRELAXATION * residual / curvature;
                 unknown.value.add(step);
                 unknown.residual.set(residual + curvature * step);
-                self.spread(i, step, wave);
+                self.spread(i, step, tolerance, wave);
                 done += 1;
             }
         }
@@ -225,13 +225,19 @@ impl<'a> LocalSolve<'a> {
     }
 
     /// Applies a step of unknown `i` to the slopes of its neighbours.
-    fn spread(&self, i: usize, step: f64, wave: &mut Wave) {
+    fn spread(&self, i: usize, step: f64, tolerance: f64, wave: &mut Wave) {
         self.mark_moved(i, wave);
         let row = self.system.active(i);
         wave.queue.reserve(row.len());
         for entry in row {
             let neighbour = self.system.unknown(entry.column() as usize);
-            neighbour.pull(entry.column(), entry.value(), step, &mut wave.queue);
+            neighbour.pull(
+                entry.column(),
+                entry.value(),
+                step,
+                tolerance,
+                &mut wave.queue,
+            );
         }
     }
 

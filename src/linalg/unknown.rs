@@ -74,14 +74,40 @@ impl Unknown {
         self.state.store(flags | (count as u32) << FLAGS, Relaxed);
     }
 
-    /// Changes the slope of unknown `i`, which is this one, by the step of a neighbour, and queues it unless it is
-    /// fixed, or the entry `coupling` between both vanishes. The queue must have room.
-    pub fn pull(&self, i: u32, coupling: f64, step: f64, queue: &mut Ring) {
-        self.residual.add(coupling * step);
+    /// Changes the slope of unknown `i`, which is this one, by the step of a neighbour, and queues it if its own step
+    /// would exceed `tolerance`, unless it is fixed. The queue must have room.
+    pub fn pull(&self, i: u32, coupling: f64, step: f64, tolerance: f64, queue: &mut Ring) {
+        let residual = self.residual.get() + coupling * step;
+        self.residual.set(residual);
         let state = self.state.load(Relaxed);
-        let enters = (coupling != 0.0) & (state & (QUEUED | FIXED) == 0);
+        let moves = residual.abs() > tolerance * self.curvature.get();
+        let enters = moves & (state & (QUEUED | FIXED) == 0);
         queue.push_if(i, enters);
         self.state
             .store(state | (u32::from(enters) * QUEUED), Relaxed);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_unknown_waits_once_and_only_for_a_step_beyond_the_tolerance() {
+        let unknown = Unknown::new(0.0, 4.0, 0, 0);
+        let mut queue = Ring::default();
+        let waiting = |coupling: f64, queue: &mut Ring| {
+            queue.reserve(1);
+            unknown.pull(7, coupling, 1.0, 0.5, queue);
+            queue.len()
+        };
+        assert_eq!(waiting(-1.5, &mut queue), 0);
+        assert_eq!(waiting(-0.5, &mut queue), 0);
+        assert_eq!(waiting(-0.5, &mut queue), 1);
+        assert_eq!(waiting(-9.0, &mut queue), 1);
+        assert_eq!((queue.pop(), unknown.residual.get()), (Some(7), -11.5));
+        unknown.clear(QUEUED);
+        unknown.set(FIXED);
+        assert_eq!(waiting(-9.0, &mut queue), 0);
     }
 }
