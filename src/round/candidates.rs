@@ -23,6 +23,8 @@ pub(crate) struct Candidates {
     heaps: Vec<BinaryHeap<Reverse<(u64, u32)>>>,
     /// All heaps before this one are empty.
     lowest: usize,
+    /// Deviations of a higher rank are left out.
+    highest: u64,
     /// By unknown: the least rank among its entries in the heaps.
     entered: Vec<u64>,
 }
@@ -30,9 +32,15 @@ pub(crate) struct Candidates {
 impl Candidates {
     /// An empty queue for unknowns below `dim`.
     pub fn new(dim: usize) -> Self {
+        Self::up_to(1.0, dim)
+    }
+
+    /// An empty queue for unknowns below `dim`, which leaves out those with a deviation above `ceiling`.
+    pub fn up_to(ceiling: f64, dim: usize) -> Self {
         Candidates {
             heaps: vec![BinaryHeap::new(); (dim / UNKNOWNS_OF_RANGE).clamp(1, RANGES)],
             lowest: 0,
+            highest: (ceiling / TIE) as u64,
             entered: vec![u64::MAX; dim],
         }
     }
@@ -44,7 +52,7 @@ impl Candidates {
 
     fn enter(&mut self, rank: u64, unknown: u32) {
         let entered = &mut self.entered[unknown as usize];
-        if rank < *entered {
+        if rank < *entered && rank <= self.highest {
             *entered = rank;
             let range = range_of(rank, self.heaps.len());
             self.heaps[range].push(Reverse((rank, unknown)));
@@ -64,23 +72,9 @@ impl Candidates {
     ///
     /// `value` gives the current value of an unknown, or none once it is decided.
     pub fn take(&mut self, threshold: f64, value: impl Fn(u32) -> Option<f64>) -> Vec<u32> {
-        self.take_up_to(1.0, threshold, value)
-    }
-
-    /// As [`take`](Self::take), but no deviation above `ceiling`.
-    pub fn take_up_to(
-        &mut self,
-        ceiling: f64,
-        threshold: f64,
-        value: impl Fn(u32) -> Option<f64>,
-    ) -> Vec<u32> {
-        let highest = (ceiling / TIE) as u64;
         let mut taken = Vec::new();
         let mut sum = 0.0;
         while let Some((range, stored, unknown)) = self.least() {
-            if stored > highest {
-                break;
-            }
             let stale = self.entered[unknown as usize] != stored;
             let current = value(unknown).filter(|_| !stale);
             if let Some(x) = current.filter(|&x| rank(x) == stored) {

@@ -217,7 +217,7 @@ impl Region<'_> {
         let solve = self.solve;
         let mut goes_on = self.relax(monitor);
         solve.take_moved(&mut self.wave, |_| {});
-        let mut candidates = Candidates::new(self.integers.len());
+        let mut candidates = Candidates::up_to(ceiling, self.integers.len());
         for (place, &i) in self.integers.iter().enumerate() {
             if !solve.is_fixed(i) {
                 candidates.push(place as u32, solve.value(i));
@@ -229,7 +229,7 @@ impl Region<'_> {
                 (!solve.is_fixed(i)).then(|| solve.value(i))
             };
             let threshold = self.options.rounding_threshold;
-            let batch = candidates.take_up_to(ceiling, threshold, undecided);
+            let batch = candidates.take(threshold, undecided);
             if batch.is_empty() {
                 return;
             }
