@@ -10,9 +10,9 @@ pub struct Summary<'a> {
     pub strategy: &'a str,
     /// Seconds that reading took.
     pub read: f64,
-    /// What was found.
     /// Whether the file maximises, so that its objective is minus the energy.
     pub maximise: bool,
+    /// What was found.
     pub solution: &'a Solution,
     /// Its proof, if one is wanted, or what stopped it.
     pub proof: Option<&'a Result<Proof, StoppedBy>>,
@@ -57,6 +57,19 @@ impl fmt::Display for Summary<'_> {
         let nodes = counted(proof.nodes(), "node");
         writeln!(f, "{:<10} bound {bound:.9}, {nodes}", "proof")
     }
+}
+
+/// A line for the sharp edges that are no features as they are too short for quads, if there are any.
+pub fn left_out(f: &mut fmt::Formatter, too_short: usize) -> fmt::Result {
+    if too_short == 0 {
+        return Ok(());
+    }
+    let short = counted(too_short, "sharp edge");
+    writeln!(
+        f,
+        "{:<10} {short} left out: too short for quads",
+        "features"
+    )
 }
 
 /// The status of a solve, the gap between energy and bound, and what stopped the search.

@@ -32,8 +32,8 @@ pub struct Directions {
     pub feature_lines: Option<PathBuf>,
 
     /// Leave sharp edges out (--features DEGREES) in curves that end somewhere and are shorter than this, in units
-    /// of the mesh, and around patches whose area is below a sixteenth of its square [default: 0; for quads, two
-    /// edges of theirs]
+    /// of the mesh, and around patches whose area is below a sixteenth of its square [default: 0; for a map or quads,
+    /// two edges of the quads]
     #[arg(long, value_name = "LENGTH", value_parser = weight)]
     #[arg(allow_negative_numbers = true)]
     pub feature_length: Option<f64>,

@@ -18,7 +18,7 @@ use roundel::{Options, Result, Solution};
 
 use crate::changes::Changes;
 use crate::exit::Exit;
-use crate::field::{CurveCounts, Followed};
+use crate::field::{CurveCounts, Followed, too_short};
 use crate::mesh::{Input, RepairCounts, Wanted};
 use crate::output;
 use crate::outputs::{MAP, Outputs, PAGE, PROBLEM, TRACE};
@@ -58,6 +58,8 @@ struct Solved {
     sizing: Sizing,
     /// Edges that are isolines.
     features: Vec<usize>,
+    /// How many sharp edges are too short to be among them.
+    too_short: usize,
     untangled: Untangled,
     /// The number of times that integers were decided anew.
     rounds: usize,
@@ -95,7 +97,10 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
         ..
     } = input;
     let read = started.elapsed().as_secs_f64();
-    let given = (arguments.directions).of_map(&mesh, by_attributes.as_ref(), None)?;
+    let sizing = arguments.sizing.of()?;
+    let edge_length = Some(sizing.edge_length(&mesh));
+    let given = (arguments.directions).of_map(&mesh, by_attributes.as_ref(), edge_length)?;
+    let too_short = too_short(&mesh, &given.0)?;
     let given_faces = mesh.face_count();
     let curves = &arguments.directions.curves;
     let Followed {
@@ -104,7 +109,7 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
         features,
         sizing,
         counts: curves,
-    } = curves.follow(&mesh, given, arguments.sizing.of()?)?;
+    } = curves.follow(&mesh, given, sizing)?;
     let (mesh, changes) = match cut {
         Some(cut) => (cut.mesh, changes.on_refined(&cut.face_origin)),
         None => (mesh, changes),
@@ -173,6 +178,7 @@ fn solve(arguments: &Arguments) -> Result<Solved> {
         field,
         sizing,
         features: features.edges().collect(),
+        too_short,
         untangled,
         rounds,
         refinements,

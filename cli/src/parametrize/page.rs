@@ -36,6 +36,10 @@ fn tables(solved: &Solved) -> Tables {
     let (field, untangled) = (&solved.field, &solved.untangled);
     let mut rows = mesh_rows(&solved.mesh, &solved.changes);
     rows.push(("feature edges", thousands(solved.features.len())));
+    if solved.too_short > 0 {
+        let short = thousands(solved.too_short);
+        rows.push(("sharp edges too short for quads", short));
+    }
     if let Some(refined) = &solved.refined {
         rows.push(("refined", refined.to_string()));
     }

@@ -25,6 +25,8 @@ pub struct MapReport<'a> {
     quads: Option<usize>,
     edge_length: Option<f64>,
     feature_edges: usize,
+    /// How many sharp edges are no features, as they are too short for quads.
+    short_features: usize,
     /// Where curves are followed.
     #[serde(skip_serializing_if = "Option::is_none")]
     curves: Option<CurveCounts>,
@@ -85,6 +87,7 @@ impl<'a> MapReport<'a> {
             },
             edge_length: arguments.sizing.edge_length,
             feature_edges: solved.features.len(),
+            short_features: solved.too_short,
             curves: solved.curves,
             irregular_vertices: map.cones().len(),
             cut_edges: map.transitions().len(),

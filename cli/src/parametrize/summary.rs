@@ -3,7 +3,7 @@
 use std::fmt;
 
 use super::{Arguments, Solved};
-use crate::summary::{counted, counted_vertices, energy, line, thousands, verdict};
+use crate::summary::{counted, counted_vertices, energy, left_out, line, thousands, verdict};
 
 /// Lines for the mesh, the field, the problem and the map.
 pub(super) struct MapSummary<'a> {
@@ -24,6 +24,7 @@ impl fmt::Display for MapSummary<'_> {
             field,
             sizing: _,
             features,
+            too_short,
             untangled,
             untangle_seconds,
             rounds,
@@ -39,6 +40,7 @@ impl fmt::Display for MapSummary<'_> {
         if let Some(curves) = curves {
             writeln!(f, "{:<10} {curves}", "curves")?;
         }
+        left_out(f, *too_short)?;
         if let Some(refined) = refined {
             writeln!(
                 f,

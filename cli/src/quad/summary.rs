@@ -7,7 +7,7 @@ use super::report::Distance;
 use super::steps::Solved;
 use super::{Arguments, words};
 use crate::refinement::Refinement;
-use crate::summary::{counted, counted_vertices, energy, line, verdict};
+use crate::summary::{counted, counted_vertices, energy, left_out, line, verdict};
 
 /// Lines for the field, the map and the quads.
 pub(super) struct QuadSummary<'a> {
@@ -24,14 +24,7 @@ impl fmt::Display for QuadSummary<'_> {
         if let Some(curves) = &solved.curves {
             writeln!(f, "{:<10} {curves}", "curves")?;
         }
-        if solved.too_short > 0 {
-            let short = counted(solved.too_short, "sharp edge");
-            writeln!(
-                f,
-                "{:<10} {short} left out: too short for quads",
-                "features"
-            )?;
-        }
+        left_out(f, solved.too_short)?;
         if let Some(mirrored) = &made.mirrored {
             writeln!(f, "{:<10} {}", "mirror", mirror_words(mirrored))?;
         }

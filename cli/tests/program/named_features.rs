@@ -75,13 +75,15 @@ fn sharp_edges_too_short_for_quads_are_left_out_and_counted() {
     let edges = field["feature_edges"].as_u64().unwrap();
     assert!(edges > 80, "those of the boundary, and more: {edges}");
     assert_eq!([&quad[..], &all, &sharp].map(short), [0, 0, edges - 80]);
-    let (code, output) = finish(program(&sharp));
-    let summary = String::from_utf8(output.stdout).unwrap();
-    assert_eq!(code, 0);
-    assert!(
-        summary.contains("left out: too short for quads"),
-        "{summary}"
-    );
+    let map = [&["parametrize"], &sharp[1..]].concat();
+    assert_eq!(short(&map), edges - 80);
+    for words in [sharp, map] {
+        let (code, output) = finish(program(&words));
+        let summary = String::from_utf8(output.stdout).unwrap();
+        assert_eq!(code, 0);
+        let told = "left out: too short for quads";
+        assert!(summary.contains(told), "{summary}");
+    }
 }
 
 #[test]
