@@ -52,6 +52,9 @@ const FACES_OF_MENDINGS: usize = 2_000_000;
 /// The passes of untangling in each of them.
 const PASSES_OF_MENDING: usize = 12;
 
+/// No further map is tried once all of them have taken so many multiplications: a minute or two.
+const WORK: u64 = 150_000_000_000;
+
 /// The most faces that untangling may visit while a finer map may be made.
 const FACES_BEFORE_REFINING: usize = 500_000;
 
@@ -126,6 +129,9 @@ impl FoldFreeMap {
 /// Among all maps with the fewest faults the coarsest is kept, and among these the first. `monitor` watches each solve
 /// and each untangling.
 ///
+/// No further map is tried once all of them have taken a budget of work, which is a minute or two. Then folds may
+/// remain.
+///
 /// With [`Strategy::Auto`] a proof of optimality is tried only if it does not take long: for at most
 /// fifty thousand unknowns and thirty million nodes. [`Strategy::Exact`] has no such limits. With
 /// [`Strategy::Relax`] no integers are decided, and the map is that of the relaxation.
@@ -153,24 +159,25 @@ pub fn solve_fold_free<'a>(
     };
     let there = in_order.map(|there| -> Result<_> {
         let ordered = &there.reordered.mesh;
-        let made = fold_free(ordered, &there.problem, options, effort, (&run, &monitor))?;
+        let work = (WORK, &run, &monitor);
+        let made = fold_free(ordered, &there.problem, options, effort, work)?;
         Ok(made.of_given(there, mesh, problem))
     });
     match there {
         Some(Ok(made)) => Ok(made),
         Some(Err(error)) if error.is_end_of_run() => Err(error),
         // The same error of the mesh as it is names an element that the caller knows.
-        Some(Err(_)) | None => fold_free(mesh, problem, options, effort, (&run, &monitor)),
+        Some(Err(_)) | None => fold_free(mesh, problem, options, effort, (WORK, &run, &monitor)),
     }
 }
 
-/// [`solve_fold_free`] on the mesh as it is.
+/// [`solve_fold_free`] on the mesh as it is, with so much work after which no further map is tried.
 fn fold_free<'a>(
     mesh: &TriangleMesh,
     problem: &SeamlessProblem,
     options: &Options,
     effort: &UntangleOptions,
-    (run, monitor): (&Run, &impl Fn() -> Monitor<'a>),
+    (most_work, run, monitor): (u64, &Run, &impl Fn() -> Monitor<'a>),
 ) -> Result<FoldFreeMap> {
     let monitor = || monitor().of_run(run);
     let options = without_long_proof(options, problem.problem().variables());
@@ -182,6 +189,7 @@ fn fold_free<'a>(
         effort,
         maps: MapSolver::new(mesh, stated, solver, &options, &monitor),
         monitor: &monitor,
+        most_work,
         lengths: Vec::new(),
         guide: None,
     };
@@ -296,6 +304,8 @@ struct Driver<'a, M> {
     effort: &'a UntangleOptions,
     maps: MapSolver<'a, M>,
     monitor: &'a M,
+    /// No further map is tried once all of them have taken so many multiplications.
+    most_work: u64,
     /// The factor of each face's size, once maps are made finer around faults.
     lengths: Vec<f64>,
     /// The problem of the best map, if it is not the first.
@@ -305,6 +315,9 @@ struct Driver<'a, M> {
 impl<'m, M: Fn() -> Monitor<'m>> Driver<'_, M> {
     /// What to try next, if there is anything.
     fn next(&self, last: Tried, best: &FoldFreeMap) -> Option<Try> {
+        if self.maps.work() >= self.most_work {
+            return None;
+        }
         let faults = best.untangled.faults();
         let finer = match faults > 0 && !last.how.is_guided {
             true => self.finer_than(last.how, best),
@@ -444,130 +457,5 @@ impl<'m, M: Fn() -> Monitor<'m>> Driver<'_, M> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::check::{CheckOptions, check_map};
-    use crate::field::{Constraint, FieldOptions, OrientationField, smoothest_field};
-    use crate::map::SeamlessOptions;
-    use crate::mesh::shape::by_name;
-    use crate::mesh::{Reordered, shuffled};
-    use crate::monitor::traced;
-    use crate::solve::verify;
-
-    fn guided(is_far: bool, refinements: usize) -> Try {
-        Try {
-            is_far,
-            refinements,
-            gradings: 0,
-            is_guided: true,
-        }
-    }
-
-    /// A mesh in no order with a field along its first axis.
-    fn scattered(name: &str, faces: usize) -> (TriangleMesh, OrientationField) {
-        let mesh = shuffled(&by_name(name, faces).unwrap());
-        let angle = |face: usize| {
-            let [x, y] = mesh.frame(face).map(|axis| axis[0]);
-            y.atan2(x)
-        };
-        let faces = 0..mesh.face_count();
-        let constraints = faces.map(|face| Constraint {
-            face,
-            angle: angle(face),
-        });
-        let options = FieldOptions {
-            constraints: constraints.collect(),
-            ..FieldOptions::default()
-        };
-        let adaptive = adaptive();
-        let (field, _) = smoothest_field(&mesh, &options, &adaptive, Monitor::default).unwrap();
-        (mesh, field)
-    }
-
-    fn adaptive() -> Options {
-        Options {
-            strategy: Strategy::Adaptive,
-            ..Options::default()
-        }
-    }
-
-    #[test]
-    fn maps_of_meshes_in_no_order_are_those_of_the_mesh_as_it_is() {
-        let mesh = shuffled(&by_name("rounded-cube", 1_200).unwrap());
-        let none = FieldOptions::default();
-        let (field, _) = smoothest_field(&mesh, &none, &adaptive(), Monitor::default).unwrap();
-        let size = SeamlessOptions { quads: 150 };
-        let problem = SeamlessProblem::new(&mesh, &field, &size).unwrap();
-        let reordered = Reordered::new(&mesh).unwrap();
-        let there = ReorderedProblem::new(&mesh, &problem, reordered).unwrap();
-        let (run, effort) = (Run::new(), UntangleOptions::default());
-        let work = (&run, &Monitor::default);
-        let options = Options::default();
-        let made = fold_free(
-            &there.reordered.mesh,
-            &there.problem,
-            &options,
-            &effort,
-            work,
-        );
-        let made = made.unwrap().of_given(there, &mesh, &problem);
-        assert_eq!(made.untangled.faults(), 0);
-        let map = &made.untangled.map;
-        problem.check_map(&mesh, map).unwrap();
-        let check = check_map(&mesh, &map.corner_uvs(), &CheckOptions::default()).unwrap();
-        assert!(check.is_valid());
-        let verdict = verify(problem.problem(), made.solution.values()).unwrap();
-        assert!((verdict.energy - made.solution.energy()).abs() < 1e-9 * verdict.energy);
-    }
-
-    #[test]
-    fn large_meshes_in_no_order_are_put_into_one() {
-        let (mesh, field) = scattered("plane", 33_000);
-        let size = SeamlessOptions { quads: 150 };
-        let problem = SeamlessProblem::new(&mesh, &field, &size).unwrap();
-        let effort = UntangleOptions::default();
-        let relax = Options {
-            strategy: Strategy::Relax,
-            ..Options::default()
-        };
-        let solve = || solve_fold_free(&mesh, &problem, &relax, &effort, Monitor::default);
-        let (made, trace) = traced(false, solve);
-        assert!(trace.spans.iter().any(|span| span.name == "order mesh"));
-        let run = Run::new();
-        let work = (&run, &Monitor::default);
-        let as_it_is = fold_free(&mesh, &problem, &relax, &effort, work).unwrap();
-        let (found, wanted) = (made.unwrap().solution, as_it_is.solution);
-        for (x, y) in found.values().iter().zip(wanted.values()) {
-            assert!((x - y).abs() < 1e-8, "{x} {y}");
-        }
-        // Its error is that of the mesh as it is.
-        let other = by_name("torus", 1_000).unwrap();
-        let error = solve_fold_free(&other, &problem, &relax, &effort, Monitor::default);
-        assert_eq!(error.unwrap_err().code(), "length_mismatch");
-    }
-
-    #[test]
-    fn the_way_back_leads_to_finer_maps_and_begins_again_with_a_better_guide() {
-        let finer = Tried {
-            how: Try {
-                is_far: true,
-                refinements: 2,
-                gradings: 1,
-                is_guided: false,
-            },
-            is_best: true,
-            faults: 0,
-        };
-        assert_eq!(back(finer), guided(false, 0));
-        let tried = |how: Try, is_best: bool, faults: usize| Tried {
-            how,
-            is_best,
-            faults,
-        };
-        let near = guided(false, 1);
-        assert_eq!(back(tried(near, false, MENDED)), guided(true, 1));
-        assert_eq!(back(tried(near, false, MENDED + 1)), guided(false, 2));
-        assert_eq!(back(tried(guided(true, 1), false, 1)), guided(false, 2));
-        assert_eq!(back(tried(near, true, 0)), guided(false, 0));
-    }
-}
+#[path = "fold_free_tests.rs"]
+mod tests;

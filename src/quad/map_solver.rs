@@ -40,6 +40,12 @@ pub(super) fn without_long_proof(options: &Options, variables: usize) -> Options
     options
 }
 
+/// The multiplications that take as long as untangling needs for a face.
+const VISIT: u64 = 3_000;
+
+/// No integers are changed around the faults of a map once that has taken so many multiplications: some ten seconds.
+const WORK_OF_MENDING: u64 = 25_000_000_000;
+
 /// A solution by options [`without_long_proof`]: where their limit of nodes is the library's, a budget has ended
 /// the proof, and no limit of the caller's.
 fn named_limit(solution: Solution, options: &Options) -> Solution {
@@ -79,6 +85,8 @@ pub(super) struct MapSolver<'a, M> {
     separation: Vec<SoftRow>,
     /// Known once there is a map; the same for every size.
     structure: Option<Rc<Structure>>,
+    /// What all solves and untangling have taken so far, in multiplications.
+    work: u64,
 }
 
 impl<'a, 'm, M: Fn() -> Monitor<'m>> MapSolver<'a, M> {
@@ -98,7 +106,13 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> MapSolver<'a, M> {
             monitor,
             separation: Vec::new(),
             structure: None,
+            work: 0,
         }
+    }
+
+    /// What all solves and untangling have taken so far, in multiplications.
+    pub(super) fn work(&self) -> u64 {
+        self.work
     }
 
     pub(super) fn problem(&self) -> &SeamlessProblem {
@@ -161,7 +175,8 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> MapSolver<'a, M> {
         self.solved(solution)
     }
 
-    fn solved(&self, solution: Solution) -> Result<Solved> {
+    fn solved(&mut self, solution: Solution) -> Result<Solved> {
+        self.work += solution.work();
         let map = self.problem.map(self.mesh, &solution)?;
         Ok(Solved { solution, map })
     }
@@ -266,8 +281,8 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> MapSolver<'a, M> {
     }
 
     /// Changes the integers around the faults of a map. Each of at most `most` tries adds one row to those that there
-    /// are, and keeps it if fewer faults remain. Gives the number of tries and the best map, if it is better than
-    /// `before`; a caller who finishes the run gets the best so far.
+    /// are, and keeps it if fewer faults remain, until they have taken [`WORK_OF_MENDING`]. Gives the number of tries
+    /// and the best map, if it is better than `before`; a caller who finishes the run gets the best so far.
     pub(super) fn mend(
         &mut self,
         before: &Untangled,
@@ -281,7 +296,8 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> MapSolver<'a, M> {
         let quad = self.problem.edge_length(self.mesh);
         let (mut tries, mut better) = (0, None::<(Solved, Untangled)>);
         let mut refused: Vec<SoftRow> = Vec::new();
-        while tries < most && refused.len() < REFUSED {
+        let end = self.work + WORK_OF_MENDING;
+        while tries < most && refused.len() < REFUSED && self.work < end {
             let last = better.as_ref().map_or(before, |(_, untangled)| untangled);
             let faults: Vec<usize> = faulty(self.mesh, last).collect();
             let steps = elements.steps_around(self.mesh, &last.map, &faults, quad);
@@ -328,7 +344,9 @@ impl<'a, 'm, M: Fn() -> Monitor<'m>> MapSolver<'a, M> {
     ) -> Result<Untangled> {
         let structure = self.structure(map)?;
         let mut monitor = (self.monitor)();
-        structure.untangle(self.mesh, &self.problem, map, effort, &mut monitor)
+        let untangled = structure.untangle(self.mesh, &self.problem, map, effort, &mut monitor)?;
+        self.work += VISIT * untangled.visited as u64;
+        Ok(untangled)
     }
 
     /// The structure that all maps of the problem share; `map` is one of them.
