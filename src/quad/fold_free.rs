@@ -129,10 +129,8 @@ impl FoldFreeMap {
 /// Among all maps with the fewest faults the coarsest is kept, and among these the first. `monitor` watches each solve
 /// and each untangling.
 ///
-/// No further map is tried once all of them have taken a budget of work, which is a minute or two. Then folds may
-/// remain.
-///
-/// With [`Strategy::Auto`] a proof of optimality is tried only if it does not take long: for at most
+/// No further map is tried once all of them have taken a budget of work, which is a minute or two; then folds may
+/// remain. With [`Strategy::Auto`] a proof of optimality is tried only if it does not take long: for at most
 /// fifty thousand unknowns and thirty million nodes. [`Strategy::Exact`] has no such limits. With
 /// [`Strategy::Relax`] no integers are decided, and the map is that of the relaxation.
 ///
@@ -189,7 +187,10 @@ fn fold_free<'a>(
         effort,
         maps: MapSolver::new(mesh, stated, solver, &options, &monitor),
         monitor: &monitor,
-        most_work,
+        most_work: match options.strategy {
+            Strategy::Exact => u64::MAX,
+            _ => most_work,
+        },
         lengths: Vec::new(),
         guide: None,
     };
