@@ -69,113 +69,149 @@ fn prove(problem: &Problem, options: &Options, mut monitor: Monitor) -> Result<P
         time_limit: SEARCH * limit,
         ..options.clone()
     };
-    let model = begin(problem, options, &mut monitor)?;
-    let mut derivation = Derivation::default();
-    let guess = model.guess();
-    let mut outcome = if problem.is_limited() {
-        let record = Some(&mut derivation);
-        solve_limited(problem, &model, options, guess, record, &mut monitor)
-    } else {
-        solve_unlimited(problem, &model, options, guess, &mut monitor)
+    let model = &begin(problem, options, &mut monitor)?;
+    let mut proving = Proving {
+        problem,
+        model,
+        options,
+        limit,
+        derivation: Derivation::default(),
+        monitor,
     };
+    let outcome = proving.solve();
     may_have_proof(&outcome)?;
-    let mut weaker = None;
-    if !derivation.is_begun {
-        let search_ended = monitor.stopped();
-        if search_ended.is_some() {
-            monitor.extend(limit);
-        }
-        let integers = |solution: &Solution| solution.counts().reduced_integers;
-        let is_last = search_ended.is_some()
-            || fits(&model).is_err()
-            || outcome.as_ref().map_or(0, integers) > OF_TREE;
-        let limit = is_last.then_some(limit);
-        match by_lattice(problem, &model, options, &outcome, limit, &mut monitor)? {
-            Some(proof) if is_last || reaches(&proof, &outcome) => {
-                let proof = Ok(proof);
-                return Ok(Proved { outcome, proof });
-            }
-            other => weaker = other,
-        }
-        fits(&model)?;
-        if let Some(stopped) = search_ended.and_then(|stop| stopped_by(&stop.into())) {
-            let proof = Err(stopped);
+    if proving.derivation.is_begun {
+        return proving.write(outcome, None);
+    }
+    let search_ended = proving.monitor.stopped();
+    if search_ended.is_some() {
+        proving.monitor.extend(limit);
+    }
+    let integers = |solution: &Solution| solution.counts().reduced_integers;
+    let is_last = search_ended.is_some()
+        || fits(model).is_err()
+        || outcome.as_ref().map_or(0, integers) > OF_TREE;
+    let of_lattice = match proving.by_lattice(&outcome, is_last)? {
+        Some(proof) if is_last || reaches(&proof, &outcome) => {
+            let proof = Ok(proof);
             return Ok(Proved { outcome, proof });
         }
+        other => other,
+    };
+    fits(model)?;
+    if let Some(stopped) = search_ended.and_then(|stop| stopped_by(&stop.into())) {
+        let proof = Err(stopped);
+        return Ok(Proved { outcome, proof });
+    }
+    let again = proving.search_again(&outcome);
+    if let Some(stopped) = again.as_ref().err().and_then(stopped_by) {
+        let proof = of_lattice.ok_or(stopped);
+        return Ok(Proved { outcome, proof });
+    }
+    may_have_proof(&again)?;
+    proving.write(better(outcome, again)?, of_lattice)
+}
+
+/// A proof while it is made.
+struct Proving<'a, 'm> {
+    problem: &'a Problem,
+    model: &'a Model,
+    /// Their time limit is that of the searches.
+    options: &'a Options,
+    /// The time limit of the caller.
+    limit: f64,
+    /// What branch and bound has recorded.
+    derivation: Derivation,
+    monitor: Monitor<'m>,
+}
+
+impl Proving<'_, '_> {
+    /// The outcome of the solve. Branch and bound records its tree; other methods record nothing.
+    fn solve(&mut self) -> Result<Solution> {
+        let (problem, model, options) = (self.problem, self.model, self.options);
+        let (guess, monitor) = (model.guess(), &mut self.monitor);
+        match problem.is_limited() {
+            true => {
+                let record = Some(&mut self.derivation);
+                solve_limited(problem, model, options, guess, record, monitor)
+            }
+            false => solve_unlimited(problem, model, options, guess, monitor),
+        }
+    }
+
+    /// The proof by the closest point of a lattice, of a problem that has a solution. None if there is no such proof,
+    /// or whatever told the solve to end came first. If it is the last one that is tried, it may take all the time.
+    fn by_lattice(&mut self, outcome: &Result<Solution>, is_last: bool) -> Result<Option<Proof>> {
+        let Ok(solution) = outcome else {
+            return Ok(None);
+        };
+        let (problem, values) = (self.problem, solution.values());
+        let monitor = &mut self.monitor;
+        let derived = condense(problem, self.model, self.options, values, monitor);
+        let made = derived.and_then(|derived| {
+            let Some(derived) = derived else {
+                return Ok(None);
+            };
+            if is_last {
+                monitor.extend(self.limit);
+            }
+            let _watch = monitor.watch();
+            let ask = || Ok(may_continue()?);
+            Proof::new(problem, &derived, Some(values), &ask).map(Some)
+        });
+        if made.is_err() {
+            monitor.extend(self.options.time_limit);
+        }
+        match made {
+            Err(error @ Error::OutOfMemory { .. }) => Err(error),
+            made => Ok(made.unwrap_or_default()),
+        }
+    }
+
+    /// The outcome of branch and bound from the solution of other methods. It records its tree.
+    fn search_again(&mut self, outcome: &Result<Solution>) -> Result<Solution> {
+        let (problem, model, monitor) = (self.problem, self.model, &mut self.monitor);
         let start = outcome.as_ref().ok().map(Solution::values);
-        let record = Some(&mut derivation);
+        let record = Some(&mut self.derivation);
         // What is known to be optimal shall be proved so, whatever `auto` would spend on finding it.
         let is_open = outcome
             .as_ref()
             .is_ok_and(|s| s.status != SolveStatus::Optimal);
         let options = &Options {
             strategy: if is_open {
-                options.strategy
+                self.options.strategy
             } else {
                 Strategy::Exact
             },
-            nodes: options.nodes.min(NODES),
-            ..options.clone()
+            nodes: self.options.nodes.min(NODES),
+            ..self.options.clone()
         };
-        let found = branch::solve(problem, &model, options, start, None, record, &mut monitor);
-        let again = found.and_then(|found| conclude(problem, &model, options, found, &monitor));
-        if let Some(stopped) = again.as_ref().err().and_then(stopped_by) {
-            let proof = weaker.ok_or(stopped);
-            return Ok(Proved { outcome, proof });
-        }
-        may_have_proof(&again)?;
-        outcome = better(outcome, again)?;
+        let found = branch::solve(problem, model, options, start, None, record, monitor)?;
+        conclude(problem, model, options, found, monitor)
     }
-    let values = outcome.as_ref().ok().map(Solution::values);
-    let search_ended = monitor.stopped().map(Error::from);
-    monitor.extend(limit);
-    let made = monitor.check().map_err(Error::from).and_then(|()| {
-        let _watch = monitor.watch();
-        Proof::new(problem, &derivation, values, &|| Ok(may_continue()?))
-    });
-    let proof = match (made, weaker) {
-        (Ok(proof), Some(weaker)) if weaker.lower_bound() > proof.lower_bound() => Ok(weaker),
-        (Ok(proof), _) | (Err(_), Some(proof)) => Ok(proof),
-        (Err(error), None) => {
-            // A search that was stopped may have no bound yet.
-            let ended = search_ended.filter(|_| matches!(error, Error::NotSupported { .. }));
-            let stopped = stopped_by(&error).or_else(|| ended.as_ref().and_then(stopped_by));
-            Err(stopped.ok_or(error)?)
-        }
-    };
-    Ok(Proved { outcome, proof })
-}
 
-/// The proof by the closest point of a lattice, of a problem that has a solution. None if there is no such proof, or
-/// whatever told the solve to end came first. If no tree may follow, it may take the time up to this limit.
-fn by_lattice(
-    problem: &Problem,
-    model: &Model,
-    options: &Options,
-    outcome: &Result<Solution>,
-    last: Option<f64>,
-    monitor: &mut Monitor,
-) -> Result<Option<Proof>> {
-    let Ok(solution) = outcome else {
-        return Ok(None);
-    };
-    let made = condense(problem, model, options, solution.values(), monitor).and_then(|derived| {
-        let Some(derived) = derived else {
-            return Ok(None);
+    /// Writes the proof that was recorded, or gives that of a lattice if it proves more.
+    fn write(mut self, outcome: Result<Solution>, of_lattice: Option<Proof>) -> Result<Proved> {
+        let values = outcome.as_ref().ok().map(Solution::values);
+        let search_ended = self.monitor.stopped().map(Error::from);
+        self.monitor.extend(self.limit);
+        let made = self.monitor.check().map_err(Error::from).and_then(|()| {
+            let _watch = self.monitor.watch();
+            Proof::new(self.problem, &self.derivation, values, &|| {
+                Ok(may_continue()?)
+            })
+        });
+        let proof = match (made, of_lattice) {
+            (Ok(proof), Some(other)) if other.lower_bound() > proof.lower_bound() => Ok(other),
+            (Ok(proof), _) | (Err(_), Some(proof)) => Ok(proof),
+            (Err(error), None) => {
+                // A search that was stopped may have no bound yet.
+                let ended = search_ended.filter(|_| matches!(error, Error::NotSupported { .. }));
+                let stopped = stopped_by(&error).or_else(|| ended.as_ref().and_then(stopped_by));
+                Err(stopped.ok_or(error)?)
+            }
         };
-        if let Some(limit) = last {
-            monitor.extend(limit);
-        }
-        let _watch = monitor.watch();
-        let ask = || Ok(may_continue()?);
-        Proof::new(problem, &derived, Some(solution.values()), &ask).map(Some)
-    });
-    if made.is_err() {
-        monitor.extend(options.time_limit);
-    }
-    match made {
-        Err(error @ Error::OutOfMemory { .. }) => Err(error),
-        made => Ok(made.unwrap_or_default()),
+        Ok(Proved { outcome, proof })
     }
 }
 
