@@ -177,6 +177,7 @@ impl<'a> Relaxation<'a> {
         let mut best = f64::NEG_INFINITY;
         let mut result = None;
         let mut mixing = Mixing::default();
+        let mut last = Vec::new();
         for _ in 0..STEPS {
             let gradient = form
                 .gradient
@@ -207,7 +208,10 @@ impl<'a> Relaxation<'a> {
             let moved = moved.map(|(x, y)| (x - y).abs() / x.abs().max(1.0));
             let moved = moved.fold(0.0, f64::max);
             let direction = self.solver.point().iter().zip(&centre).map(|(x, y)| x - y);
-            if let Some(ray) = ray(form, self.solver.limits(), direction.collect()) {
+            let direction: Vec<f64> = direction.collect();
+            let is_repeated = moved > SAME && is_same(&direction, &last);
+            last.clone_from(&direction);
+            if let Some(ray) = ray(form, self.solver.limits(), direction, is_repeated) {
                 result = Some(Relaxed::Unbounded(ray));
                 break;
             }
@@ -368,18 +372,34 @@ impl Mixing {
     }
 }
 
+/// Steps that differ by less than this part are the same.
+const SAME: f64 = 1e-9;
+
 /// A component of a direction below this part of the largest is zero.
 const STILL: f64 = 1e-7;
 
+/// Whether a step is the same as the last one. Along a curved direction, steps become shorter.
+fn is_same(step: &[f64], last: &[f64]) -> bool {
+    let differences = step.iter().zip(last).map(|(a, b)| (a - b).abs());
+    let largest = step.iter().fold(0.0, |m: f64, d| m.max(d.abs()));
+    !last.is_empty() && differences.fold(0.0, f64::max) <= SAME * largest
+}
+
 /// The direction, scaled to the largest absolute value 1, if the energy falls along it for ever: it has no
-/// curvature, a negative slope, and leaves no limits.
-fn ray(form: &Form, limits: &[Interval], mut direction: Vec<f64>) -> Option<Vec<f64>> {
+/// curvature, a negative slope, and leaves no limits. Its length must be larger than all widths of limits, or be that of
+/// the step before.
+fn ray(
+    form: &Form,
+    limits: &[Interval],
+    mut direction: Vec<f64>,
+    is_repeated: bool,
+) -> Option<Vec<f64>> {
     let largest = direction.iter().fold(0.0, |m: f64, d| m.max(d.abs()));
     let size = form.limits.iter().map(|l| match l.width() {
         width if width.is_finite() => width,
         _ => 0.0,
     });
-    if largest <= size.fold(1.0, f64::max) {
+    if largest <= size.fold(1.0, f64::max) && !is_repeated {
         return None;
     }
     direction.iter_mut().for_each(|d| {
@@ -420,7 +440,9 @@ fn ray(form: &Form, limits: &[Interval], mut direction: Vec<f64>) -> Option<Vec<
 #[cfg(test)]
 mod tests {
     use super::super::implied_bounds::tests::layout;
+    use super::super::safe_bound::is_contradiction;
     use super::*;
+    use crate::{Model, Problem};
 
     fn solved(form: &Form, cutoff: f64) -> (f64, u64) {
         let shared = Shared::new(form, &regularization(form)).unwrap();
@@ -429,6 +451,44 @@ mod tests {
             Relaxed::Solved { bound } => (bound, relaxation.solver.iterations),
             other => panic!("{other:?}"),
         }
+    }
+
+    fn of_problem(problem: &Problem) -> Form {
+        Form::of(problem, &Model::new(problem).unwrap()).unwrap()
+    }
+
+    /// The energy falls along `x2`, by steps that are short beside the width of `x0`.
+    #[test]
+    fn a_ray_is_found_beside_wide_bounds() {
+        let mut problem = Problem::new(3).unwrap();
+        let infinite = f64::INFINITY;
+        problem
+            .add_least_squares(&[0, 1], &[3.0, -1.0], 0.5, 1.0)
+            .unwrap();
+        problem.add_linear(&[0.0, 0.0, 1e-6]).unwrap();
+        problem
+            .set_bounds(&[0, 2], &[0.0, -infinite], &[400.0, infinite])
+            .unwrap();
+        let form = of_problem(&problem);
+        let shared = Shared::new(&form, &regularization(&form)).unwrap();
+        let found = Relaxation::new(&form, &shared).solve(infinite, &form.boxes);
+        assert_eq!(found, Relaxed::Unbounded(vec![0.0, 0.0, -1.0]));
+    }
+
+    /// Rounding errors leave `1e-12` of a row that has nothing to do with the contradiction, and a free unknown in it.
+    #[test]
+    fn a_negligible_multiplier_leaves_no_doubt() {
+        let mut problem = Problem::new(2).unwrap();
+        let infinite = f64::INFINITY;
+        for (row, side) in [([1.0, 0.0], 1.0), ([-1.0, 0.0], 0.0), ([0.0, 1.0], 0.0)] {
+            problem
+                .add_inequality(&[0, 1], &row, side, infinite)
+                .unwrap();
+        }
+        let form = of_problem(&problem);
+        let rows = |third| [(2, -1.0), (3, -1.0), (4, third)];
+        assert!(is_contradiction(&form, &form.boxes, &rows(-1e-12)));
+        assert!(!is_contradiction(&form, &form.boxes, &rows(-1e-3)));
     }
 
     #[test]

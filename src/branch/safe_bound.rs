@@ -42,9 +42,23 @@ impl Sized {
 /// An unknown without a limit, in no definite block, counts as limited to this many times its value.
 const FAR: f64 = 1e4;
 
-/// Whether rows with these multipliers have no point within `limits`: the least value of `r'z`, with
-/// `r = A' mu`, is above what their sides allow.
+/// A multiplier below this part of the largest may be a rounding error.
+const NEGLIGIBLE: f64 = 1e-9;
+
+/// Whether rows with these multipliers have no point within `limits`, or rows with all but negligible ones.
 pub(super) fn is_contradiction(form: &Form, limits: &[Interval], rows: &[(u32, f64)]) -> bool {
+    if have_no_point(form, limits, rows) {
+        return true;
+    }
+    let largest = rows.iter().fold(0.0, |m: f64, (_, v)| m.max(v.abs()));
+    let mut most = rows.to_vec();
+    most.retain(|(_, v)| v.abs() > NEGLIGIBLE * largest);
+    most.len() < rows.len() && have_no_point(form, limits, &most)
+}
+
+/// Whether the least value of `r'z` within `limits`, with `r = A' mu`, is above what the sides of rows with these
+/// multipliers `mu` allow.
+fn have_no_point(form: &Form, limits: &[Interval], rows: &[(u32, f64)]) -> bool {
     let n = form.dim();
     let mut slopes: Vec<Sized> = vec![Sized::default(); n];
     let mut total = Sized::default();
