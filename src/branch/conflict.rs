@@ -5,6 +5,7 @@
 //! solution (the deletion filter of `chinneck1991`).
 
 use super::form::{Form, Interval};
+use super::translations;
 use super::tree::{Limits, search};
 use crate::error::{Conflicting, Error, Result};
 use crate::linalg::Sparse;
@@ -79,12 +80,7 @@ pub(super) fn of_limits(
     members: &[u32],
     monitor: &Monitor,
 ) -> Result<Option<Vec<Conflicting>>> {
-    let n = form.dim();
-    let form = Form {
-        hessian: Sparse::from_triplets(n, n, std::iter::empty())?,
-        gradient: vec![0.0; n],
-        ..form.clone()
-    };
+    let form = without_objective(form)?;
     Ok(has_none(&form, monitor).then(|| of_form(&form, members, monitor)))
 }
 
@@ -95,7 +91,21 @@ pub(super) fn of_root(form: &Form, monitor: &Monitor) -> Vec<(u32, f64)> {
 
 /// Whether a small search shows that the form has no solution.
 fn has_none(form: &Form, monitor: &Monitor) -> bool {
+    let held = without_objective(form).and_then(|form| translations::held(&form));
+    let form = match &held {
+        Ok(Some(held)) => &held.form,
+        _ => form,
+    };
     none_within(form, NODES, WORK, monitor).is_some()
+}
+
+fn without_objective(form: &Form) -> Result<Form> {
+    let n = form.dim();
+    Ok(Form {
+        hessian: Sparse::from_triplets(n, n, std::iter::empty())?,
+        gradient: vec![0.0; n],
+        ..form.clone()
+    })
 }
 
 /// The last certificate of a search of so many nodes and multiplications, if it shows that there is no solution.

@@ -11,6 +11,7 @@
 //! | `presolve`, `propagate` | what is decided before the search; bounds tightened through rows |
 //! | `hull` | copies of unknowns that convex hulls of choices have, left out |
 //! | `symmetry`, `dominated` | choices that may change places, in one order |
+//! | `level`, `translations` | directions in which the energy is level; integers that may move for ever along them, held |
 //! | `perspective` | squares that a binary switches on, with a larger bound |
 //! | `implied_bounds` | rows for what choices imply of real unknowns |
 //! | `mir`, `cuts` | cuts at the root by mixed-integer rounding |
@@ -41,6 +42,7 @@ mod implied_bounds;
 mod interior;
 mod inverse;
 mod lazy;
+mod level;
 mod mir;
 mod node;
 mod perspective;
@@ -56,6 +58,7 @@ mod rounds;
 mod safe_bound;
 mod shared;
 mod symmetry;
+mod translations;
 mod tree;
 mod working_set;
 
@@ -71,6 +74,7 @@ use form::Form;
 use hull::Projected;
 use lazy::LazyRows;
 use presolve::{Contradiction, Part, Presolved};
+use translations::Held;
 use tree::Limits;
 
 /// The multiplications after which `auto` ends with the best point so far, if it has one.
@@ -269,11 +273,51 @@ fn search_part(
     record: Option<&mut Derivation>,
     monitor: &mut Monitor,
 ) -> Result<tree::Found> {
-    let found = match record {
-        Some(record) => recorded::search(problem, part, start, limits, record, monitor),
-        None => search_alone(&part.form, start, limits, monitor),
+    let found = match translations::held(&part.form)? {
+        Some(held) => search_held(problem, part, held, start, limits, record, monitor),
+        None => search_unheld(problem, part, start, limits, record, monitor),
     };
     with_point(problem, parts, part, found, monitor)
+}
+
+/// Searches a part in which integers are held that may move for ever. What is returned is within all limits.
+fn search_held(
+    problem: &Problem,
+    part: &Part,
+    held: Held,
+    start: Option<Vec<f64>>,
+    limits: Limits,
+    mut record: Option<&mut Derivation>,
+    monitor: &mut Monitor,
+) -> Result<tree::Found> {
+    if let Some(record) = record.as_deref_mut() {
+        record.translations.extend(held.of_whole(&part.members));
+    }
+    let start = start.map(|start| held.moved(start));
+    let (form, members) = (held.form.clone(), part.members.clone());
+    let own = Part { form, members };
+    let mut found = search_unheld(problem, &own, start, limits, record, monitor)?;
+    let best = found.best.take();
+    found.best = best.map(|(point, energy)| (held.moved_back(point), energy));
+    found.ray = found.ray.map(|ray| held.ray_moved_back(ray));
+    // The caller does not know the bounds of what is held.
+    found.conflict.clear();
+    Ok(found)
+}
+
+/// Searches a part as it is.
+fn search_unheld(
+    problem: &Problem,
+    part: &Part,
+    start: Option<Vec<f64>>,
+    limits: Limits,
+    record: Option<&mut Derivation>,
+    monitor: &mut Monitor,
+) -> Result<tree::Found> {
+    match record {
+        Some(record) => recorded::search(problem, part, start, limits, record, monitor),
+        None => search_alone(&part.form, start, limits, monitor),
+    }
 }
 
 /// Searches the form of a part.

@@ -12,6 +12,7 @@ use super::minorant::{Minorant, PartObjective, Split};
 use super::problem::{ExactProblem, ExactRow, Limits, Side, product};
 use super::steps::take;
 use super::switch;
+use super::translation;
 use super::tree::Tree;
 
 /// The point of a proof may miss rows and bounds by this, relative to the sizes of the terms.
@@ -223,6 +224,9 @@ fn missed(value: &Exact, [lower, upper]: [&Option<Exact>; 2]) -> f64 {
 fn check_root(problem: &mut ExactProblem, limits: &mut Limits, root: &Root) -> Checked<bool> {
     for &step in &root.steps {
         take(problem, limits, step)?;
+    }
+    for translation in &root.translations {
+        translation::hold(problem, limits, translation)?;
     }
     for sum in &root.defined {
         problem.define(limits, sum)?;

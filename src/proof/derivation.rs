@@ -2,7 +2,7 @@
 //!
 //! Nothing here is believed: what is not so in exact numbers is left out of the proof, which then proves less.
 
-use super::format::{Cut, Split, Step, Switch, Terms};
+use super::format::{Cut, Split, Step, Switch, Terms, Translation};
 
 /// A point and multipliers of rows, in floats.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -110,6 +110,8 @@ pub(crate) struct Derivation {
     pub is_begun: bool,
     /// The steps before any branch.
     pub steps: Vec<Step>,
+    /// What was left out and held after the steps.
+    pub translations: Vec<Translation>,
     /// Further unknowns, numbered after those of the problem, each the sum of terms of unknowns before it. They are
     /// equations, numbered after the rows of the problem.
     pub defined: Vec<Terms>,

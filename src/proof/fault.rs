@@ -14,7 +14,7 @@ pub enum FaultKind {
     Point,
     /// The energy is not that of the point.
     Energy,
-    /// A bound that the row does not imply.
+    /// A bound that the row does not imply, or a direction along which points may not move for ever.
     Step,
     /// Parts that do not hold all free unknowns once, or that the objective or a row couples.
     Parts,

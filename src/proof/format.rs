@@ -94,6 +94,9 @@ pub(super) struct Claim {
 #[serde(deny_unknown_fields)]
 pub(super) struct Root {
     pub steps: Vec<Step>,
+    /// What is left out and held after the steps, because all points may move.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub translations: Vec<Translation>,
     /// Further unknowns, numbered after those of the problem, each the sum of terms of unknowns before it. They are
     /// equations, numbered after the rows of the problem.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -101,6 +104,17 @@ pub(super) struct Root {
     /// Multipliers of rows that contradict each other: there is no point, and no parts follow.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub empty: Option<Multipliers>,
+}
+
+/// A direction along which all points may move for ever at the same energy. Limits that it leads away from are left out.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Translation {
+    /// Unknowns and how far they move.
+    pub direction: Vec<(u32, f64)>,
+    /// The integer that is held between zero and the values that it moves by.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub held: Option<u32>,
 }
 
 /// A bound that the sides of a row and the bounds of its other unknowns imply.

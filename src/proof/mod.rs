@@ -13,6 +13,7 @@
 //! | `exact` | exact numbers |
 //! | `format`, `statement` | the lines of a proof; the statement of a problem |
 //! | `problem`, `steps` | the problem in exact numbers, and bounds that its rows imply |
+//! | `translation` | integers held that may move for ever at the same energy |
 //! | `cut` | rows that follow in both cases of a split |
 //! | `switch` | the perspective reformulation of the objective |
 //! | `minorant`, `estimate`, `held`, `convex` | a bound from a point and multipliers; its estimate in floats; convexity |
@@ -44,6 +45,7 @@ mod statement;
 mod steps;
 mod substitution;
 mod switch;
+mod translation;
 mod tree;
 
 use std::io::{self, BufRead, Write};
@@ -55,7 +57,7 @@ pub(crate) use derivation::{
     Condensed, Derivation, Distances, Ending, Multiplied, Searched, Visited,
 };
 pub use fault::{Fault, FaultKind};
-pub(crate) use format::{Case, Cut, Split, Step, Switch};
+pub(crate) use format::{Case, Cut, Split, Step, Switch, Translation};
 use format::{Claim, Line, Part, Statement};
 
 /// A proof of a bound on the energy of all points, or that there is no point.

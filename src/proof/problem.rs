@@ -276,6 +276,15 @@ impl Limits {
         self.empty += usize::from(!was_empty && self.has_no_value(unknown));
     }
 
+    /// Takes both bounds of an unknown away.
+    pub fn release(&mut self, unknown: usize) {
+        self.empty -= usize::from(self.has_no_value(unknown));
+        for side in [Side::Lower, Side::Upper] {
+            let old = self.side_mut(unknown, side).take();
+            self.trail.push((unknown, side, old));
+        }
+    }
+
     fn has_no_value(&self, unknown: usize) -> bool {
         match (&self.lower[unknown], &self.upper[unknown]) {
             (Some(lower), Some(upper)) => lower > upper,

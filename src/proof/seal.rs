@@ -21,6 +21,7 @@ use super::problem::{ExactProblem, Limits, Side};
 use super::repair::Place;
 use super::steps::take;
 use super::switch;
+use super::translation;
 use crate::error::{Error, Result};
 
 /// Whether to go on, asked at every node and in every long loop. Its error ends the writer.
@@ -51,8 +52,12 @@ pub(super) fn seal(
     ask()?;
     check_point(&problem, &limits, &claim).map_err(unproved)?;
     ask()?;
+    let steps = taken(&mut problem, &mut limits, &derivation.steps, ask)?;
+    let mut translations = derivation.translations.clone();
+    translations.retain(|own| translation::hold(&mut problem, &mut limits, own).is_ok());
     let root = Root {
-        steps: taken(&mut problem, &mut limits, &derivation.steps, ask)?,
+        steps,
+        translations,
         defined: derivation.defined.clone(),
         empty: None,
     };
