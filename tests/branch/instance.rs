@@ -29,6 +29,8 @@ pub struct Instance {
     pub linear: Vec<f64>,
     pub constant: f64,
     pub rows: Vec<Row>,
+    /// An instance that the oracle decides, with the same truth. Its rows are the first of these.
+    pub origin: Option<Box<Instance>>,
 }
 
 impl Instance {
@@ -142,17 +144,19 @@ impl Instance {
             squares: Vec::new(),
             hessian: vec![vec![0.0; n]; n],
             linear: vec![0.0; n],
+            origin: self.origin.as_ref().map(|of| Box::new(of.only(elements))),
             ..self.clone()
         };
         let of_kind = |is_constraint: bool, k: usize| {
             let mut rows = self.rows.iter();
             let mut rows = rows.by_ref().filter(|r| r.is_constraint == is_constraint);
-            rows.nth(k).unwrap().clone()
+            rows.nth(k).cloned()
         };
         for element in elements {
             match *element {
-                Conflicting::Constraint(k) => kept.rows.push(of_kind(true, k)),
-                Conflicting::Inequality(k) => kept.rows.push(of_kind(false, k)),
+                Conflicting::Constraint(k) => kept.rows.extend(of_kind(true, k)),
+                Conflicting::Inequality(k) => kept.rows.extend(of_kind(false, k)),
+                Conflicting::Bounds(j) if j >= n => {}
                 Conflicting::Bounds(j) => {
                     kept.lower[j] = self.lower[j];
                     kept.upper[j] = self.upper[j];
@@ -197,6 +201,7 @@ impl Instance {
             linear: pick(&self.linear, factor),
             constant: factor * self.constant,
             rows,
+            origin: None,
         };
         (disguised, factor)
     }

@@ -1,13 +1,16 @@
 //! Random small problems, one function for each kind.
 
-use super::instance::{Instance, NONE, Row};
-use super::random::Random;
+#[path = "translated.rs"]
+mod translated;
+
+use super::instance::{self, Instance, NONE, Row};
+use super::random::{self, Random};
 
 /// Makes the problem of a seed.
 pub type Kind = fn(u64) -> Instance;
 
 /// All kinds, by name.
-pub const KINDS: [(&str, Kind); 17] = [
+pub const KINDS: [(&str, Kind); 18] = [
     ("bounds", bounds),
     ("ranges", ranges),
     ("equalities", equalities),
@@ -25,6 +28,7 @@ pub const KINDS: [(&str, Kind); 17] = [
     ("switches", switches),
     ("lots", lots),
     ("lattices", lattices),
+    ("translated", translated::translated),
 ];
 
 fn whole(random: &mut Random, most: i32) -> f64 {
@@ -60,6 +64,7 @@ fn free(random: &mut Random, integer: Vec<bool>) -> Instance {
         linear: vec![0.0; n],
         constant: whole(random, 5),
         rows: Vec::new(),
+        origin: None,
     }
 }
 

@@ -1,7 +1,7 @@
 //! Rows, bounds and integers against exact rational arithmetic: the status, the energy and the bound are
 //! right, and rows and bounds that are named as contradictory are so.
 //!
-//! Each kind of problem is tried a hundred times or more here, and 24,000 problems in a test that is ignored by
+//! Each kind of problem is tried a hundred times or more here, and 28,000 problems in a test that is ignored by
 //! default.
 
 mod check;
@@ -72,7 +72,7 @@ macro_rules! kinds {
             }
         )*
 
-        /// 24,000 problems, with a test for each kind, so that a fault in one does not hide the others.
+        /// 28,000 problems, with a test for each kind, so that a fault in one does not hide the others.
         mod many {
             $(
                 #[test]
@@ -104,6 +104,7 @@ kinds! {
     switches_are_decided: "switches", |t| t.optimal > 300;
     lots_are_decided: "lots", |t| t.optimal > 300;
     lattices_are_decided: "lattices", |t| t.optimal > 300;
+    what_may_move_for_ever_is_decided: "translated", |t| t.optimal > 200 && t.infeasible > 20;
 }
 
 /// `2 x0 - 2 x1 + 4 x2` is even, and a real number between 1/2 and 3/2 is to be the same.
@@ -202,7 +203,8 @@ fn sides_that_are_integers_but_for_rounding_errors_hold_these_integers() {
 #[test]
 fn rows_that_come_during_the_search_count_like_those_before_it() {
     let (mut solved, mut without, mut relaxed) = (0, 0, 0);
-    let is_tried = |name: &str| !matches!(name, "unbounded" | "not convex");
+    // What may move for ever does so until rows hold it, and which ones come is not known.
+    let is_tried = |name: &str| !matches!(name, "unbounded" | "not convex" | "translated");
     for (name, kind) in KINDS.iter().filter(|(name, _)| is_tried(name)) {
         for seed in 0..60 {
             let checked = lazy::check(&kind(seed), seed);

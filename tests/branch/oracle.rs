@@ -329,6 +329,7 @@ fn least(of: &Instance, box_of: Vec<(f64, f64)>, any: bool) -> Option<Option<Big
 
 /// The truth about a problem whose objective is convex.
 pub fn truth(of: &Instance) -> Truth {
+    let of = of.origin.as_deref().unwrap_or(of);
     decide(of).unwrap_or(Truth::TooLarge)
 }
 

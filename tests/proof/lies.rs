@@ -9,8 +9,8 @@ use serde_json::{Value, json};
 
 use crate::altered::{Lines, add, statement};
 use crate::planted::{LIES, Of};
-use crate::stated::{empty, lattice, lots, odd_cycle, small, switched};
-use crate::{planted_gains, planted_lattices};
+use crate::stated::{empty, lattice, lots, odd_cycle, small, switched, translated};
+use crate::{planted_gains, planted_lattices, planted_translations};
 use crate::{prove, text};
 
 /// The lines of the proof of a problem.
@@ -35,13 +35,15 @@ fn every_planted_lie_is_refused_for_its_fault() {
         (Of::OddCycle, lines_of(&odd_cycle())),
         (Of::Lots, lines_of(&lots(1))),
         (Of::Lattice, lines_of(&lattice())),
+        (Of::Translated, lines_of(&translated())),
     ];
     for (_, lines) in &proofs {
         check(joined(lines).as_bytes()).unwrap();
     }
     let mut missed = Vec::new();
     let lies = LIES.into_iter().chain(planted_gains::LIES);
-    for (name, of, kind, alter) in lies.chain(planted_lattices::LIES) {
+    let lies = lies.chain(planted_lattices::LIES);
+    for (name, of, kind, alter) in lies.chain(planted_translations::LIES) {
         let (_, lines) = proofs.iter().find(|(which, _)| *which == of).unwrap();
         let mut altered = lines.clone();
         alter(&mut altered);

@@ -23,6 +23,8 @@ pub enum Of {
     Lots,
     /// The closest points of two lattices.
     Lattice,
+    /// What may move for ever.
+    Translated,
 }
 
 /// What is altered, the fault that must be found, and the alteration.

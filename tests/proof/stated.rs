@@ -69,6 +69,34 @@ pub fn empty() -> Problem {
     problem
 }
 
+/// Differences of three integers and a real number, which moves by halves. A bound and a row hold them from some step
+/// on, and x4 moves apart.
+pub fn translated() -> Problem {
+    let mut problem = Problem::new(5).unwrap();
+    for (row, side) in [
+        ([-1.0, 1.0, 0.0, 0.0], 0.375),
+        ([0.0, -1.0, 1.0, 0.0], 0.625),
+        ([-0.5, 0.0, 0.0, 1.0], 0.25),
+        ([0.0, 0.5, -1.0, 1.0], 0.5),
+    ] {
+        problem
+            .add_least_squares(&[0, 1, 2, 3], &row, side, 1.0)
+            .unwrap();
+    }
+    problem.add_least_squares(&[4], &[1.0], 0.5, 1.0).unwrap();
+    problem
+        .add_inequality(&[0, 1, 2], &[2.0, 1.0, -3.0], -4.5, -0.5)
+        .unwrap();
+    problem
+        .add_inequality(&[0, 3], &[1.0, 1.0], 20.0, NONE)
+        .unwrap();
+    problem
+        .set_bounds(&[1, 4], &[7.0, 0.0], &[NONE, 9.0])
+        .unwrap();
+    problem.set_integers(&[0, 1, 2, 4]).unwrap();
+    problem
+}
+
 /// A knapsack of sixteen binaries with three limits.
 pub fn many_nodes() -> Problem {
     let n = 16;
