@@ -207,29 +207,40 @@ impl<'a> Relaxation<'a> {
             let moved = self.solver.point().iter().zip(&centre);
             let moved = moved.map(|(x, y)| (x - y).abs() / x.abs().max(1.0));
             let moved = moved.fold(0.0, f64::max);
-            let direction = self.solver.point().iter().zip(&centre).map(|(x, y)| x - y);
-            let direction: Vec<f64> = direction.collect();
-            let is_repeated = moved > SAME && is_same(&direction, &last);
-            last.clone_from(&direction);
-            if let Some(ray) = ray(form, self.solver.limits(), direction, is_repeated) {
+            let step = self.solver.point().iter().zip(&centre).map(|(x, y)| x - y);
+            let step: Vec<f64> = step.collect();
+            let is_repeated = moved > MOVED && is_same(&step, &last);
+            if let Some(ray) = ray(form, self.solver.limits(), step.clone(), is_repeated) {
                 result = Some(Relaxed::Unbounded(ray));
                 break;
             }
             if self.solver.iterations > before + 1 {
                 mixing = Mixing::default();
             }
-            mixing.next(
-                &mut centre,
-                self.solver.point(),
-                &self.solver.inverse().added,
-            );
+            let more = match is_repeated {
+                true => steps_within(form, self.solver.limits(), self.solver.point(), &step),
+                false => 0.0,
+            };
+            if more > 0.0 && more.is_finite() {
+                for ((y, x), d) in centre.iter_mut().zip(self.solver.point()).zip(&step) {
+                    *y = x + BEYOND * more * d;
+                }
+                mixing = Mixing::default();
+            } else {
+                mixing.next(
+                    &mut centre,
+                    self.solver.point(),
+                    &self.solver.inverse().added,
+                );
+            }
+            last = step;
             let mut close = CLOSE * energy.abs().max(1e-3);
             if cutoff.is_finite() && !self.is_integral() {
                 // The node is branched on whatever further steps find.
                 let missing = (PART * (cutoff - energy)).min(ROUGH * energy.abs());
                 close = close.max(missing);
             }
-            if energy - best <= close || moved <= 1e-10 {
+            if energy - best <= close || moved <= MOVED {
                 break;
             }
         }
@@ -372,8 +383,14 @@ impl Mixing {
     }
 }
 
-/// Steps that differ by less than this part are the same.
-const SAME: f64 = 1e-9;
+/// A step below this part of all values is none.
+const MOVED: f64 = 1e-10;
+
+/// Repeated steps go beyond the limit by this factor, so that it does not lie within the tolerance of its row.
+const BEYOND: f64 = 1.001;
+
+/// Steps that differ by less than this part are the same: mixing makes no use of their difference.
+const SAME: f64 = 1e-6;
 
 /// A component of a direction below this part of the largest is zero.
 const STILL: f64 = 1e-7;
@@ -383,6 +400,30 @@ fn is_same(step: &[f64], last: &[f64]) -> bool {
     let differences = step.iter().zip(last).map(|(a, b)| (a - b).abs());
     let largest = step.iter().fold(0.0, |m: f64, d| m.max(d.abs()));
     !last.is_empty() && differences.fold(0.0, f64::max) <= SAME * largest
+}
+
+/// How many more steps stay within the limits. Where steps are all the same, nothing else ends them.
+fn steps_within(form: &Form, limits: &[Interval], point: &[f64], step: &[f64]) -> f64 {
+    let within = |value: f64, rate: f64, size: f64, sides: Interval| {
+        let side = if rate > 0.0 { sides.upper } else { sides.lower };
+        match rate.abs() <= STILL * size {
+            true => f64::INFINITY,
+            false => ((side - value) / rate).max(0.0),
+        }
+    };
+    let largest = step.iter().fold(0.0, |m: f64, d| m.max(d.abs()));
+    let unknowns = point.iter().zip(step).zip(limits);
+    let unknowns = unknowns.map(|((&x, &d), &sides)| within(x, d, largest, sides));
+    let rows = (0..).zip(&form.row_limits).map(|(i, &sides)| {
+        let (mut value, mut rate, mut size) = (0.0, 0.0, 0.0);
+        for (j, a) in form.rows.row(i) {
+            value += a * point[j];
+            rate += a * step[j];
+            size += (a * step[j]).abs();
+        }
+        within(value, rate, size, sides)
+    });
+    unknowns.chain(rows).fold(f64::INFINITY, f64::min)
 }
 
 /// The direction, scaled to the largest absolute value 1, if the energy falls along it for ever: it has no
@@ -473,6 +514,29 @@ mod tests {
         let shared = Shared::new(&form, &regularization(&form)).unwrap();
         let found = Relaxation::new(&form, &shared).solve(infinite, &form.boxes);
         assert_eq!(found, Relaxed::Unbounded(vec![0.0, 0.0, -1.0]));
+    }
+
+    /// A slope that is small beside others in the objective makes steps short, and there are many to the limit.
+    #[test]
+    fn repeated_steps_are_made_at_once() {
+        let mut problem = Problem::new(3).unwrap();
+        problem
+            .add_least_squares(&[0, 1], &[300.0, -1.0], 0.5, 1.0)
+            .unwrap();
+        problem.add_linear(&[0.0, 0.0, 1e-3]).unwrap();
+        problem
+            .add_inequality(&[1, 2], &[1.0, 1.0], -1e6, f64::INFINITY)
+            .unwrap();
+        problem.set_bounds(&[0, 1], &[0.0; 2], &[9.0; 2]).unwrap();
+        let form = of_problem(&problem);
+        let shared = Shared::new(&form, &regularization(&form)).unwrap();
+        let mut relaxation = Relaxation::new(&form, &shared);
+        let Relaxed::Solved { bound } = relaxation.solve(f64::INFINITY, &form.boxes) else {
+            panic!("it has a minimum");
+        };
+        let least = -1e3 - 9e-3;
+        assert!(bound <= least, "{bound}");
+        assert!(form.energy(relaxation.solver.point()) < least + 1e-6);
     }
 
     /// Rounding errors leave `1e-12` of a row that has nothing to do with the contradiction, and a free unknown in it.

@@ -42,8 +42,18 @@ impl Sized {
 /// An unknown without a limit, in no definite block, counts as limited to this many times its value.
 const FAR: f64 = 1e4;
 
+/// Multipliers may miss each other by this part along an unknown without a limit.
+const UNEVEN: f64 = 1e-7;
+
 /// A multiplier below this part of the largest may be a rounding error.
 const NEGLIGIBLE: f64 = 1e-9;
+
+/// A slope beyond this part of the sizes of its terms, and ...
+const SLOPED: f64 = 1e-2;
+
+/// ... beyond this part of the sizes of the terms of any slope and of the pull of a proximal step to its centre, is no rest
+/// that a method leaves.
+const TINY: f64 = 1e-6;
 
 /// Whether rows with these multipliers have no point within `limits`, or rows with all but negligible ones.
 pub(super) fn is_contradiction(form: &Form, limits: &[Interval], rows: &[(u32, f64)]) -> bool {
@@ -83,7 +93,7 @@ fn have_no_point(form: &Form, limits: &[Interval], rows: &[(u32, f64)]) -> bool 
         let error = slope.error();
         let finite = |side: f64| side.clamp(-FAR.max(limits.lower), FAR.max(-limits.upper));
         let side = limits.side(-slope.sum);
-        let side = if side.is_finite() || slope.sum.abs() > 1e-9 * slope.size {
+        let side = if side.is_finite() || slope.sum.abs() > UNEVEN * slope.size {
             side
         } else {
             finite(side)
@@ -100,8 +110,8 @@ fn have_no_point(form: &Form, limits: &[Interval], rows: &[(u32, f64)]) -> bool 
 /// The bound for all points within `limits` and the rows' limits.
 ///
 /// In a block where Q is definite and an unknown without a limit has a slope, the quadratic itself gives a
-/// bound: `1/2 (z - x)'Q(z - x) + r'(z - x) >= -1/2 r'Q^-1 r`. Elsewhere an unknown without a limit counts as
-/// limited to [`FAR`] times its value.
+/// bound: `1/2 (z - x)'Q(z - x) + r'(z - x) >= -1/2 r'Q^-1 r`. Elsewhere an unknown without a limit that has more than
+/// the rest of a slope leaves no bound, and one with less counts as limited to [`FAR`] times its value.
 pub(super) fn safe_bound(
     form: &Form,
     inverse: &Inverse,
@@ -175,6 +185,7 @@ pub(super) fn safe_bound(
             lost += product * r;
         }
     }
+    let largest = slopes.iter().fold(0.0, |m: f64, slope| m.max(slope.size));
     for (j, (slope, limits)) in slopes.iter().zip(limits).enumerate() {
         if slope.size == 0.0 || is_done[j] {
             continue;
@@ -183,6 +194,11 @@ pub(super) fn safe_bound(
         let far = FAR * x[j].abs().max(1.0);
         let finite = |side: f64| side.clamp(-far.max(limits.lower), far.max(-limits.upper));
         let (side, other) = (limits.side(-slope.sum), limits.side(slope.sum));
+        let pull = inverse.added[j] * x[j].abs().max(1.0);
+        let rest = (SLOPED * slope.size).max(TINY * largest.max(pull));
+        if side.is_infinite() && slope.sum.abs() > rest {
+            return f64::NEG_INFINITY;
+        }
         let side = if side.is_finite() { side } else { finite(side) };
         let other = if other.is_finite() {
             other

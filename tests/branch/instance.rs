@@ -144,7 +144,7 @@ impl Instance {
             squares: Vec::new(),
             hessian: vec![vec![0.0; n]; n],
             linear: vec![0.0; n],
-            origin: self.origin.as_ref().map(|of| Box::new(of.only(elements))),
+            origin: self.origin_of(elements),
             ..self.clone()
         };
         let of_kind = |is_constraint: bool, k: usize| {
@@ -165,6 +165,13 @@ impl Instance {
             }
         }
         kept
+    }
+
+    /// The origin with only these, if it has all constraints.
+    fn origin_of(&self, elements: &[Conflicting]) -> Option<Box<Instance>> {
+        let constraints = |of: &Instance| of.rows.iter().filter(|row| row.is_constraint).count();
+        let origin = self.origin.as_ref()?;
+        (constraints(origin) == constraints(self)).then(|| Box::new(origin.only(elements)))
     }
 
     /// The same problem with its unknowns and rows in other orders, rows and the objective multiplied by

@@ -1,7 +1,9 @@
 //! Random small problems, one function for each kind.
 
-#[path = "translated.rs"]
-mod translated;
+#[path = "larger.rs"]
+mod larger;
+#[path = "transformed.rs"]
+mod transformed;
 
 use super::instance::{self, Instance, NONE, Row};
 use super::random::{self, Random};
@@ -10,7 +12,7 @@ use super::random::{self, Random};
 pub type Kind = fn(u64) -> Instance;
 
 /// All kinds, by name.
-pub const KINDS: [(&str, Kind); 18] = [
+pub const KINDS: [(&str, Kind); 23] = [
     ("bounds", bounds),
     ("ranges", ranges),
     ("equalities", equalities),
@@ -28,7 +30,12 @@ pub const KINDS: [(&str, Kind); 18] = [
     ("switches", switches),
     ("lots", lots),
     ("lattices", lattices),
-    ("translated", translated::translated),
+    ("translated", transformed::translated),
+    ("far", transformed::far),
+    ("units", transformed::units),
+    ("defined", transformed::defined),
+    ("binaries", larger::binaries),
+    ("pairs", larger::pairs),
 ];
 
 fn whole(random: &mut Random, most: i32) -> f64 {
